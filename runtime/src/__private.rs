@@ -5,7 +5,6 @@
 pub use crate::batch::{
     material::{Arguments, Properties},
     rows::Rows,
-    svd_tile::SvdTile,
 };
 pub use crate::lanes::Mask;
 pub use crate::material::constructor::*;

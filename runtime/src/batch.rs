@@ -83,7 +83,7 @@ mod quadrature;
 pub(crate) mod rows;
 mod sink;
 mod stage;
-pub(crate) mod svd_tile;
+mod svd_tile;
 mod tetrahedra;
 mod tile;
 mod workspace;

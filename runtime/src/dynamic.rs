@@ -6,7 +6,7 @@ use crate::lanes::Scalar;
 use crate::material::{Material, Response};
 
 /// A material of any type: the bound to write wherever one is taken or kept, except for
-/// [`contract`](crate::contract), which takes a [`Material`].
+/// [`contract`](mod@crate::contract), which takes a [`Material`].
 ///
 /// Every [`Material`] is one, in `f64` and `f32`, and `dyn DynMaterial<f64>` is one whose type is known at
 /// run time only. Points and batches take it by reference, bodies by value; a part of a body takes it in a

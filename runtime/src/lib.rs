@@ -32,8 +32,8 @@
 //! ```
 //!
 //! Code that takes or keeps a material of any type writes [`DynMaterial`]: `&dyn DynMaterial<f64>` for points
-//! and batches, `impl DynMaterial<f64> + 'static` or a `Box` for bodies. Only [`contract`](mod@contract) takes
-//! an `impl` [`Material`], because it computes with dual numbers and in single precision too.
+//! and batches, `impl DynMaterial<f64> + 'static` or a `Box` for bodies. Only [`contract`](mod@contract)
+//! takes an `impl` [`Material`], because it computes with dual numbers and in single precision too.
 //!
 //! From the bottom up, each module knowing only those above it:
 //!

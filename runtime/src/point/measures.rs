@@ -166,8 +166,8 @@
 //! **Filters.** The tangents are derivatives if the blocks are: those of
 //! [`Filter::None`](super::Filter::None). A filter breaks the relation ψj = a λj − b λi. A filtered dP/dF is
 //! no longer the sum of a part with S and one that E alone decides, and behind it is no dS/dE. Of filtered
-//! blocks these functions make symmetric matrices that are no derivative and need not be semidefinite; for a
-//! semidefinite element stiffness, [`assemble_blocks`](super::assemble_blocks) the filtered blocks instead.
+//! blocks these functions make symmetric matrices that are no derivative and need not be semidefinite; a
+//! semidefinite element stiffness is made of the filtered dP/dF instead.
 //!
 //! This module knows no particular material and no mesh.
 //!

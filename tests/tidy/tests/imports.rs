@@ -29,13 +29,13 @@ const RUNTIME: [&[&str]; 12] = [
     &["status"],
     &["quotient"],
     &["material"],
-    &["__private"],
     &["univariate"],
     &["interpreter", "point"],
     &["batch", "contract", "convert"],
     &["dynamic"],
     &["system"],
     &["step"],
+    &["__private"],
 ];
 
 #[test]
