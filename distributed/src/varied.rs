@@ -6,7 +6,7 @@ use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use piola::batch::TileMaterial;
-use piola::material::PerElement;
+use piola::material::PerPoint;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::options::{parameter, with_values};
 
@@ -96,7 +96,7 @@ impl Varied {
             material.interpreted().map_err(|error| in_line(error.to_string()))
         };
         let materials: Vec<_> = tags.map(of_element).collect::<Result<_, _>>()?;
-        Ok(Box::new(PerElement::new(materials).map_err(|error| wrong(error.to_string()))?))
+        Ok(Box::new(PerPoint::new(materials).map_err(|error| wrong(error.to_string()))?))
     }
 }
 

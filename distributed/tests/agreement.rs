@@ -8,7 +8,7 @@ mod common;
 use std::path::Path;
 
 use common::{TestResult, checkpoint_in, msh, state_after};
-use piola::material::{Moduli, PerElement};
+use piola::material::{Moduli, PerPoint};
 use piola::mesh::{Bounds, tetrahedral_box};
 use piola::point::Filter;
 use piola::step::{
@@ -351,7 +351,7 @@ fn parameters_of_each_element_are_those_of_one_machine() -> TestResult {
 
     let lower = mesh.tets.len() / 2;
     let materials = (0..lower).map(|tet| soft.clone().with_parameter("mu", [mu(tet)]).interpreted());
-    let lower = Box::new(PerElement::new(materials.collect::<Result<Vec<_>, _>>()?)?);
+    let lower = Box::new(PerPoint::new(materials.collect::<Result<Vec<_>, _>>()?)?);
     mesh.groups.push(piola::mesh::Group {
         name: "upper".to_owned(),
         dimension: 3,

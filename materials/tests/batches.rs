@@ -5,7 +5,7 @@
 
 use piola::batch::{Batch, Layout, MatrixForm, TileMaterial};
 use piola::lanes::Backend;
-use piola::material::{Graded, PerElement, PerPoint, PerPointError};
+use piola::material::{Graded, PerPoint, PerPointError};
 use piola::mesh::{Group, TetMesh, tetrahedral_box};
 use piola::point::Filter;
 use piola::system::{Body, BodyError, ElasticResponse, NodalStiffness, Part};
@@ -118,7 +118,7 @@ fn materials_must_fit_the_points_and_each_other() -> Outcome {
     let each = PerPoint::new(&three)?;
     let error = Batch::<f64>::new(&each).energies(&[1.0; 18], &mut [0.0; 2]).expect_err("two points");
     assert!(error.to_string().contains("materials"), "{error}");
-    assert_eq!(PerPoint::<NeoHookean>::new(&[]).err(), Some(PerPointError::NoMaterial));
+    assert_eq!(PerPoint::<NeoHookean, _>::new(&[]).err(), Some(PerPointError::NoMaterial));
     let mixed = [rubber, rubber.with_inversion(EXTEND)?];
     assert_eq!(PerPoint::new(&mixed).err(), Some(PerPointError::DifferentInversion { material: 1 }));
     Ok(())
@@ -159,7 +159,7 @@ fn each_element_of_a_part_has_its_material() -> Outcome {
     let name = "first".to_owned();
     mesh.groups = vec![Group { name, dimension: 3, nodes: Vec::new(), tets: (0..first.len()).collect() }];
     let part = |group: Option<&str>, materials: &[NeoHookean]| -> Result<Part, PerPointError> {
-        let material = Box::new(PerElement::new(materials.to_vec())?);
+        let material = Box::new(PerPoint::new(materials.to_vec())?);
         Ok(Part { group: group.map(str::to_owned), material, density: 1000.0 })
     };
     let body = Body::from_parts(&mesh, vec![part(Some("first"), first)?, part(None, second)?])?;
@@ -186,12 +186,12 @@ fn each_element_of_a_part_has_its_material() -> Outcome {
 #[test]
 fn a_part_has_a_material_for_all_elements_or_for_each() -> Outcome {
     let mesh = tetrahedral_box([1, 1, 1], [0.1; 3])?;
-    let five = || PerElement::new(vec![NeoHookean::new(1.0, 3.0).expect("moduli"); 5]);
+    let five = || PerPoint::new(vec![NeoHookean::new(1.0, 3.0).expect("moduli"); 5]);
     let refused = BodyError::MaterialsForPoints { materials: 5, elements: 6 };
     assert_eq!(Body::new(&mesh, five()?, 1.0).err(), Some(refused.clone()));
     let mut body = Body::new(&mesh, NeoHookean::new(1.0, 3.0)?, 1.0)?;
     assert_eq!(body.set_material(0, five()?).err(), Some(refused));
-    assert_eq!(PerElement::<NeoHookean>::new(Vec::new()).err(), Some(PerPointError::NoMaterial));
+    assert_eq!(PerPoint::<NeoHookean>::new(Vec::new()).err(), Some(PerPointError::NoMaterial));
     Ok(())
 }
 

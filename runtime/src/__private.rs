@@ -9,9 +9,11 @@ pub use crate::batch::{
 pub use crate::lanes::Mask;
 pub use crate::material::constructor::*;
 pub use crate::material::differences::by_values;
+pub use crate::material::mixed::Mixed;
+pub use crate::material::parameter::PerLane;
 pub use crate::material::{
     Blocks, Constraint, Curvature, Declared, Description, Fittable, Form, Graded, Inversion, Limit,
-    MaterialError, Mixed, Moduli, Parameter, ParameterValue, PerLane, Typical, Unit,
+    MaterialError, Moduli, Parameter, ParameterValue, Typical, Unit,
 };
 pub use crate::quotient::*;
 #[cfg(feature = "serde")]

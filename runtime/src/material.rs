@@ -24,8 +24,8 @@ mod description;
 pub(crate) mod differences;
 mod error;
 mod fittable;
-mod mixed;
-mod parameter;
+pub(crate) mod mixed;
+pub(crate) mod parameter;
 #[cfg(feature = "batch")]
 pub(crate) mod properties;
 mod response;
@@ -34,8 +34,7 @@ pub use combine::{Scaled, Sum};
 pub use description::{Description, Form, Parameter, Text, Typical, Unit};
 pub use error::{Argument, MaterialError};
 pub use fittable::{Constraint, Fittable, Limit};
-pub use mixed::Mixed;
-pub use parameter::{Graded, ParameterValue, PerElement, PerLane, PerPoint, PerPointError};
+pub use parameter::{Graded, ParameterValue, PerPoint, PerPointError};
 pub use response::Response;
 pub(crate) use response::{ResponseKind, Tile};
 

@@ -1,12 +1,12 @@
 //! Materials: energies with values for their parameters.
 
 use std::ffi::c_char;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use piola::Inversion;
 use piola::batch::{Stages, TileMaterial};
 use piola::interpreter::Interpreted;
-use piola::material::{Moduli, PerElement};
+use piola::material::{Moduli, PerPoint};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
 
 use crate::energy::Energy;
@@ -153,9 +153,9 @@ fn at(spec: MaterialSpec, given: &[Given<'_>], point: usize) -> MaterialSpec {
 fn varied(
     points: usize,
     material: impl Fn(usize) -> Result<Interpreted, Failure>,
-) -> Result<PerElement<Interpreted>, Failure> {
+) -> Result<PerPoint<Interpreted, Arc<[Interpreted]>>, Failure> {
     let material = |point| material(point).map_err(|failure| of_point(failure, point, points));
-    Ok(PerElement::new((0..points).map(material).collect::<Result<_, _>>()?)?)
+    Ok(PerPoint::new((0..points).map(material).collect::<Result<_, _>>()?)?)
 }
 
 /// The failure of a point, where there are several.
@@ -176,7 +176,7 @@ enum Kind {
         interpreted: OnceLock<Interpreted>,
     },
     /// One for each point.
-    Varied(PerElement<Interpreted>),
+    Varied(PerPoint<Interpreted, Arc<[Interpreted]>>),
 }
 
 impl Material {

@@ -1,12 +1,12 @@
 //! Materials: an energy with its parameters, by its name in the catalogue or declared by a text.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use numpy::{PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods};
 use piola::Inversion;
 use piola::batch::TileMaterial;
 use piola::interpreter::Interpreted;
-use piola::material::{Moduli, Parameter, PerElement};
+use piola::material::{Moduli, Parameter, PerPoint};
 use piola_declare::{Energy, FormulaOptions};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
 use pyo3::prelude::*;
@@ -40,7 +40,7 @@ pub(crate) struct Material {
     /// Its program for single precision, made when it is wanted first.
     single: OnceLock<Interpreted>,
     /// A material for each point, if they differ.
-    each: Option<PerElement<Interpreted>>,
+    each: Option<PerPoint<Interpreted, Arc<[Interpreted]>>>,
 }
 
 /// A number that has a value of its own at each point.
@@ -92,8 +92,8 @@ impl Material {
             let refused = |error| MaterialError::new_err(format!("point {point} (from 0): {error}"));
             spec.interpreted().map_err(refused)
         };
-        let materials: Vec<_> = (0..points).map(material).collect::<PyResult<_>>()?;
-        let each = PerElement::new(materials).map_err(|error| MaterialError::new_err(error.to_string()))?;
+        let materials: Arc<[_]> = (0..points).map(material).collect::<PyResult<_>>()?;
+        let each = PerPoint::new(materials).map_err(|error| MaterialError::new_err(error.to_string()))?;
         Ok(Self { each: Some(each), ..self })
     }
 
@@ -119,7 +119,7 @@ impl Material {
 
     /// The materials of the points, if they differ.
     pub(crate) fn each(&self) -> Option<&[Interpreted]> {
-        self.each.as_ref().map(|each| each.per_point().materials())
+        self.each.as_ref().map(|each| each.materials())
     }
 
     pub(crate) fn single(&self) -> PyResult<&dyn TileMaterial<f32>> {

@@ -4,7 +4,7 @@ use super::rows::{ROW, Rows, first_bits, for_each_group};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
 #[cfg(feature = "bodies")]
 use crate::material::properties::largest_rest_stiffness;
-use crate::material::{Blocks, Graded, Material, PerElement, PerPoint, ResponseKind, Tile};
+use crate::material::{Blocks, Graded, Material, PerPoint, ResponseKind, Tile};
 use crate::point::energy_is_finite;
 use crate::status::Status;
 
@@ -50,7 +50,7 @@ impl<M: Material> Points for M {
     }
 }
 
-impl<M: Graded> Points for PerPoint<'_, M> {
+impl<M: Graded, S: AsRef<[M]> + Send + Sync> Points for PerPoint<M, S> {
     type Material = M;
 
     #[inline(always)]
@@ -63,33 +63,11 @@ impl<M: Graded> Points for PerPoint<'_, M> {
     }
 
     fn count(&self) -> Option<usize> {
-        Some(PerPoint::materials(self).len())
-    }
-}
-
-impl<M: Graded> Points for PerElement<M> {
-    type Material = M;
-
-    #[inline(always)]
-    fn at(&self, point: usize) -> impl Material {
-        self.per_point().from(point)
-    }
-
-    fn materials(&self) -> &[M] {
-        self.per_point().materials()
-    }
-
-    fn count(&self) -> Option<usize> {
-        Some(self.per_point().materials().len())
+        self.properties.points
     }
 
     fn properties(&self) -> Properties {
         self.properties
-    }
-
-    #[cfg(feature = "bodies")]
-    fn rest_stiffness(&self) -> f64 {
-        self.rest_stiffness
     }
 }
 
@@ -116,8 +94,7 @@ macro_rules! tile_responses {
         $rows:literal rows by $to_rows:expr $(, without row $k:ident if $vanishes:expr)?;
         finite where |$at:pat_param, $result:pat_param| $finite:expr;
     )*) => {
-        /// A material over tiles of points: implemented for every [`Material`], for [`PerPoint`] and
-        /// for [`PerElement`].
+        /// A material over tiles of points: implemented for every [`Material`] and for [`PerPoint`].
         ///
         /// Its methods are internals of [`Batch`](super::Batch).
         pub trait TileMaterial<E: Scalar>: Send + Sync {

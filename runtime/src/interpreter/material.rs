@@ -9,7 +9,8 @@ use super::parameters::{Context, ParameterValues, Parameters};
 use super::program::{Program, Sizes};
 use super::registers::Registers;
 use crate::lanes::{Mask, Real, Scalar};
-use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Mixed, Moduli, ResponseKind, Tile};
+use crate::material::mixed::Mixed;
+use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Moduli, ResponseKind, Tile};
 use crate::univariate::Univariate;
 
 /// Programs of an energy and of all its responses.

@@ -4,9 +4,10 @@
 //! Every response is linear in the energy, so that a sum needs no derivative of its own and is as exact as
 //! its parts.
 
+use super::parameter::PerLane;
 use super::response::with_responses;
 use super::{
-    Argument, Blocks, Curvature, Graded, Inversion, Material, MaterialError, Moduli, ParameterValue, PerLane,
+    Argument, Blocks, Curvature, Graded, Inversion, Material, MaterialError, Moduli, ParameterValue,
 };
 use crate::lanes::Real;
 

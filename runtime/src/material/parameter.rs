@@ -5,6 +5,7 @@
 //! need.
 
 use std::fmt;
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 #[cfg(doc)]
@@ -12,8 +13,6 @@ use super::Inversion;
 use super::Material;
 #[cfg(feature = "batch")]
 use super::properties::Properties;
-#[cfg(feature = "bodies")]
-use super::properties::largest_rest_stiffness;
 use crate::lanes::Real;
 
 /// How a declared material keeps a parameter.
@@ -88,16 +87,19 @@ macro_rules! graded_by_pointee {
 }
 graded_by_pointee!(&M, Box<M>, Arc<M>);
 
-/// A material for each point of a batch, in their order.
+/// A material for each point of a batch, or for each element of a part of a body, in their order.
 ///
-/// Where many points have the same material, the slice may hold references, `&M` or `Arc<M>`.
+/// `S` holds the list: `Vec<M>`, `&[M]`, `Arc<[M]>` or any other type that gives a slice. Where many points
+/// have the same material, the list may hold references, `&M` or `Arc<M>`.
 ///
 /// ```
-/// # #[cfg(feature = "batch")]
+/// # #[cfg(feature = "bodies")]
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// use piola::batch::Batch;
 /// use piola::material;
 /// use piola::material::PerPoint;
+/// use piola::mesh::tetrahedral_box;
+/// use piola::system::Body;
 ///
 /// /// μ/2 Σ(λ − 1)².
 /// #[material]
@@ -110,100 +112,58 @@ graded_by_pointee!(&M, Box<M>, Arc<M>);
 /// let mut energies = [0.0; 2];
 /// Batch::new(&PerPoint::new(&springs)?).energies(&[stretch, stretch].concat(), &mut energies)?;
 /// assert_eq!(energies, [0.5, 1.0]);
-/// # Ok(())
-/// # }
-/// # #[cfg(not(feature = "batch"))]
-/// # fn main() {}
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct PerPoint<'a, M>(&'a [M]);
-
-impl<'a, M: Graded> PerPoint<'a, M> {
-    /// A material for each point; all must do the same outside their domain.
-    ///
-    /// # Errors
-    /// [`PerPointError`] if there is no material, or if two differ in their [`Inversion`].
-    pub fn new(materials: &'a [M]) -> Result<Self, PerPointError> {
-        let first = materials.first().ok_or(PerPointError::NoMaterial)?.inversion();
-        match materials.iter().position(|material| material.inversion() != first) {
-            None => Ok(Self(materials)),
-            Some(material) => Err(PerPointError::DifferentInversion { material }),
-        }
-    }
-
-    /// The materials, one for each point.
-    #[must_use]
-    pub fn materials(&self) -> &'a [M] {
-        self.0
-    }
-
-    /// The materials of the points from `start` on; the last one serves for lanes beyond.
-    #[cfg(feature = "batch")]
-    #[inline(always)]
-    pub(crate) fn from(&self, start: usize) -> M::OnLanes<'a> {
-        let rest = &self.0[start..];
-        M::on_lanes(|lane| &rest[lane.min(rest.len() - 1)])
-    }
-}
-
-/// A material for each element of a part of a body, in the order of the mesh: what varies over it, such as
-/// stiffness, is constant in each element.
 ///
-/// ```
-/// # #[cfg(feature = "bodies")]
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// use piola::material;
-/// use piola::material::PerElement;
-/// use piola::mesh::tetrahedral_box;
-/// use piola::system::Body;
-///
-/// /// μ/2 Σ(λ − 1)².
-/// #[material]
-/// fn Springs([l1, l2, l3]: [f64; 3], /** Stiffness, Pa. */ mu: f64) -> f64 {
-///     mu / 2.0 * ((l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2))
-/// }
-///
+/// // A body that is the stiffer, the further along x.
 /// let mesh = tetrahedral_box([4, 1, 1], [0.4, 0.1, 0.1])?;
-/// // The stiffer, the further along x.
 /// let middle = |tet: &[usize; 4]| tet.iter().map(|&node| mesh.positions[node][0]).sum::<f64>() / 4.0;
 /// let materials: Result<Vec<_>, _> = mesh.tets.iter().map(|tet| Springs::new(1e5 * (1.0 + middle(tet)))).collect();
-/// let body = Body::new(&mesh, PerElement::new(materials?)?, 1000.0)?;
+/// let body = Body::new(&mesh, PerPoint::new(materials?)?, 1000.0)?;
 /// # assert_eq!(body.elements().len(), 24);
 /// # Ok(())
 /// # }
 /// # #[cfg(not(feature = "bodies"))]
 /// # fn main() {}
 /// ```
-#[derive(Clone, Debug)]
-pub struct PerElement<M> {
-    materials: Arc<[M]>,
-    /// Properties of all materials together, kept because each group of elements asks for them.
+#[derive(Clone, Copy, Debug)]
+pub struct PerPoint<M, S = Vec<M>> {
+    materials: S,
+    /// Properties of all materials together, kept because each group of elements reads them.
     #[cfg(feature = "batch")]
     pub(crate) properties: Properties,
-    #[cfg(feature = "bodies")]
-    pub(crate) rest_stiffness: f64,
+    material: PhantomData<M>,
 }
 
-impl<M: Graded> PerElement<M> {
-    /// A material for each element; all must do the same outside their domain.
+impl<M: Graded, S: AsRef<[M]>> PerPoint<M, S> {
+    /// A material for each point; all must do the same outside their domain.
     ///
     /// # Errors
     /// [`PerPointError`] if there is no material, or if two differ in their [`Inversion`].
-    pub fn new(materials: Vec<M>) -> Result<Self, PerPointError> {
-        PerPoint::new(&materials)?;
-        Ok(Self {
-            #[cfg(feature = "batch")]
-            properties: Properties::of(&materials, Some(materials.len())),
-            #[cfg(feature = "bodies")]
-            rest_stiffness: largest_rest_stiffness(&materials),
-            materials: materials.into(),
-        })
+    pub fn new(materials: S) -> Result<Self, PerPointError> {
+        let list = materials.as_ref();
+        let first = list.first().ok_or(PerPointError::NoMaterial)?.inversion();
+        match list.iter().position(|material| material.inversion() != first) {
+            None => Ok(Self {
+                #[cfg(feature = "batch")]
+                properties: Properties::of(list, Some(list.len())),
+                materials,
+                material: PhantomData,
+            }),
+            Some(material) => Err(PerPointError::DifferentInversion { material }),
+        }
     }
 
-    /// The materials as those of the points of a batch.
+    /// The materials, one for each point.
     #[must_use]
-    pub fn per_point(&self) -> PerPoint<'_, M> {
-        PerPoint(&self.materials)
+    pub fn materials(&self) -> &[M] {
+        self.materials.as_ref()
+    }
+
+    /// The materials of the points from `start` on; the last one serves for lanes beyond.
+    #[cfg(feature = "batch")]
+    #[inline(always)]
+    pub(crate) fn from(&self, start: usize) -> M::OnLanes<'_> {
+        let rest = &self.materials.as_ref()[start..];
+        M::on_lanes(|lane| &rest[lane.min(rest.len() - 1)])
     }
 }
 

@@ -15,7 +15,7 @@ pub struct Part {
     /// Name of the group of tetrahedra; `None` for all that no other part names.
     pub group: Option<String>,
     /// Anything that implements [`Material`](crate::Material), or a
-    /// [`PerElement`](crate::material::PerElement) of them.
+    /// [`PerPoint`](crate::material::PerPoint) of them.
     pub material: Box<dyn TileMaterial<f64>>,
     /// Mass density at rest, kg/m³.
     pub density: f64,
