@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use piola_scenes::options::{SceneOptions, StepOptions, scenes};
-use piola_scenes::run::{Existing, Output};
+use piola_scenes::run::Output;
 use piola_scenes::settings::{Files, Settings};
 use piola_viewer::state::State;
 
@@ -69,19 +69,15 @@ pub(crate) struct Run {
 
     /// Folder for frame_NNNN.ply, frames.png, summary.json and state.json [default: out/SCENE].
     ///
-    /// A run replaces or removes only files that earlier runs have written, which are listed in
-    /// piola-files.txt there, and an earlier run only by a complete one. The folder is refused if it holds
-    /// other files with names of results. Ctrl-C ends a run with the frames that it has.
+    /// A run replaces the earlier one there, and only its files, which are listed in piola-files.txt. The
+    /// folder is refused if it holds others with names of results. Ctrl-C ends a run with the frames that it
+    /// has.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Replace files in the folder that no run has written, where they have the names of results.
-    #[arg(long)]
-    force: bool,
-
     /// Go on with the run in the folder, to the last bit as if it had not been interrupted; needs the options
     /// that it was begun with, but for --frames and --threads.
-    #[arg(long, conflicts_with = "force")]
+    #[arg(long)]
     resume: bool,
 
     /// Write the tetrahedra as well, frame_NNNN.vtu with fields and frames.pvd with times, for ParaView.
@@ -134,12 +130,7 @@ impl Run {
         settings.frames = self.frames.unwrap_or(settings.frames);
         let name = settings.scene.name;
         let folder = self.out.unwrap_or_else(|| PathBuf::from("out").join(name));
-        let existing = match (self.force, self.resume) {
-            (_, true) => Existing::Resume,
-            (true, false) => Existing::Replace,
-            (false, false) => Existing::Keep,
-        };
-        Ok((settings, Output::new(folder).with_vtu(self.vtu).with_existing(existing)))
+        Ok((settings, Output::new(folder).with_vtu(self.vtu).with_resume(self.resume)))
     }
 }
 

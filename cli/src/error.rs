@@ -156,7 +156,6 @@ impl Error {
             | Self::Scene(
                 SceneError::Threads(_)
                 | SceneError::Write { .. }
-                | SceneError::Exchange { .. }
                 | SceneError::Interrupted
                 | SceneError::Equilibrium(_)
                 | SceneError::Step { .. },
@@ -199,13 +198,11 @@ impl Error {
             }
             SceneError::Pin { .. } => "; choose a place with --pin".into(),
             SceneError::Folder { .. } => "; name another one with --out".into(),
-            SceneError::ForeignFiles { .. } => {
-                "; name another folder with --out, or let the run replace what has the names of its own files \
-                 with --force"
-                    .into()
-            }
+            SceneError::ForeignFiles { .. } => "; move them away, or name another folder with --out".into(),
             SceneError::Busy { .. } => ", or name another one with --out".into(),
-            SceneError::NothingToResume { .. } => "; leave out --resume, or name another one with --out".into(),
+            SceneError::NothingToResume { .. } => {
+                "; leave out --resume, or name another one with --out".into()
+            }
             SceneError::Resume { .. } => {
                 "; give the options that it was begun with, or leave out --resume to begin anew".into()
             }

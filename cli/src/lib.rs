@@ -25,8 +25,8 @@ use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use piola::__private::message::printable;
 use piola_scenes::error::Error as SceneError;
-use piola_scenes::output::Ended;
-use piola_scenes::run::{Closed, run};
+use piola_scenes::output::{Ended, Summary};
+use piola_scenes::run::run;
 use piola_scenes::watch::Watch;
 
 use command::{Cli, Command, Run, View};
@@ -83,28 +83,15 @@ fn play(arguments: Run) -> Result<ExitCode, Error> {
         (result, _) => result?,
     };
     picture::add(&mut finished, &settings);
-    report(finished.close()?, &output.folder, signals.exit_code())
+    report(&finished.close()?, &output.folder, signals.exit_code())
 }
 
 /// Says what a run has left, and returns the exit status.
-fn report(closed: Closed, wanted: &Path, signal: Option<u8>) -> Result<ExitCode, Error> {
-    let Closed { summary, folder, leftovers } = closed;
+fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCode, Error> {
     let place = folder.display();
     say(format_args!("{summary}\n  surfaces, frames.png and summary.json are in {place}"))?;
     for warning in &summary.warnings {
         warn(format_args!("warning: {warning}"));
-    }
-    for leftover in leftovers {
-        let leftover = leftover.display();
-        warn(format_args!(
-            "note: {leftover} holds files of a run that was cut off; go on with it by --out {leftover} --resume, or delete it"
-        ));
-    }
-    if folder != wanted {
-        warn(format_args!(
-            "note: the earlier run in {} is as it was; this one is in {place}",
-            wanted.display()
-        ));
     }
     let again = format!("; the same command with --out {place} --resume goes on from there");
     let frames = summary.frames;

@@ -59,35 +59,16 @@ fn files_of_others_are_refused_before_the_first_step() {
     // So many steps would take minutes.
     let output = run(scratch.path(), &["--frames", "100000"]);
     assert_code(&output, 2);
-    for word in ["`frame_0001.ply`", "`frames.png`", "--force", "--out"] {
+    for word in ["`frame_0001.ply`", "`frames.png`", "--out"] {
         assert!(stderr(&output).contains(word), "{word}: {}", stderr(&output));
     }
     assert_eq!(content(&out), before);
 
-    assert_code(&run(scratch.path(), &["--frames", "2", "--force"]), 0);
-    let after = content(&out);
-    for name in ["frame_0042.ply", "frame_20240101.vtu", "README"] {
-        assert_eq!(after[name], b"mine", "{name} is no file of this run");
+    for name in ["frame_0001.ply", "frame_0042.ply", "frame_20240101.vtu", "frames.png"] {
+        fs::remove_file(out.join(name)).expect("a file");
     }
-    assert!(after["frame_0001.ply"].starts_with(b"ply\n") && after["frames.png"].starts_with(b"\x89PNG"));
-}
-
-#[test]
-fn what_is_no_file_is_in_the_way_of_runs_that_reach_it() {
-    let scratch = tempfile::tempdir().expect("a scratch folder");
-    let out = scratch.path().join("out");
-    fs::create_dir_all(out.join("frame_0009.ply")).expect("a folder");
-    let output = run(scratch.path(), &["--frames", "100000", "--force"]);
-    assert_code(&output, 2);
-    assert!(stderr(&output).contains("frame_0009.ply") && content(&out).is_empty(), "{}", stderr(&output));
     assert_code(&run(scratch.path(), &["--frames", "2"]), 0);
-
-    fs::create_dir(out.join("summary.json.d")).expect("a folder with another name");
-    fs::remove_file(out.join("summary.json")).expect("a file");
-    fs::create_dir(out.join("summary.json")).expect("a folder");
-    let before = content(&out);
-    assert_code(&run(scratch.path(), &["--frames", "1"]), 2);
-    assert_eq!(content(&out), before);
+    assert_eq!(content(&out)["README"], b"mine");
 }
 
 #[test]
@@ -104,23 +85,6 @@ fn a_run_replaces_an_earlier_one_without_a_trace() {
     let names = |folder: &Path| content(folder).into_keys().collect::<Vec<_>>();
     assert_eq!(names(&out), names(&fresh));
     assert_eq!(fs::read_dir(&out).expect("a folder").count(), names(&out).len(), "no folders are left");
-}
-
-#[test]
-fn an_input_is_no_output() {
-    let scratch = tempfile::tempdir().expect("a scratch folder");
-    fs::write(scratch.path().join("frame_0001.ply"), "v 0 0 0\n").expect("a file");
-    let node = "4 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
-    fs::write(scratch.path().join("one.node"), node).expect("a file");
-    fs::write(scratch.path().join("one.ele"), "1 4\n1 1 2 3 4\n").expect("a file");
-    let surface = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    fs::write(scratch.path().join("frame_0000.ply"), surface).expect("a file");
-    let arguments =
-        ["run", "point", "--mesh", "one.ele", "--surface", "frame_0000.ply", "--out", ".", "--force"];
-    let output = piola(scratch.path(), &arguments);
-    assert_code(&output, 2);
-    assert!(stderr(&output).contains("frame_0000.ply is to be read"), "{}", stderr(&output));
-    assert_eq!(fs::read_to_string(scratch.path().join("frame_0000.ply")).expect("a file"), surface);
 }
 
 /// Whether two runs have the same frames, picture and results, times of solving apart.
@@ -180,7 +144,6 @@ fn only_the_same_run_goes_on() {
     refused(&["--frames", "4", "--resume", "--gravity", "1"], &["`gravity`"]);
     refused(&["--frames", "4", "--resume", "--vtu"], &["--vtu"]);
     refused(&["--frames", "2", "--resume"], &["3 frames already", "2 are wanted"]);
-    refused(&["--resume", "--force"], &["--force"]);
     assert_eq!(content(&scratch.path().join("out")), before);
 
     // A state that was changed by a bit, and a frame that is missing.

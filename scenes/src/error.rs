@@ -165,37 +165,11 @@ pub enum Error {
         /// Names of the files.
         names: Vec<String>,
     },
-    /// Something that is no file has the name of a file to be written.
-    #[error("{} is not a regular file, and a file of that name is to be written; move it away", path.display())]
-    InTheWay {
-        /// Path of what is in the way.
-        path: PathBuf,
-    },
     /// Another run is writing to the folder.
     #[error("another run is writing to the folder {}; wait until it has ended", folder.display())]
     Busy {
         /// The folder.
         folder: PathBuf,
-    },
-    /// A file that is read would be written, too.
-    #[error("{} is to be read, and the run would write a file of that name", path.display())]
-    InputAsOutput {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The files of an earlier run cannot be replaced.
-    #[error(
-        "the earlier run in {} cannot be replaced and is as it was: {source}; the new one is in {}",
-        folder.display(),
-        kept.display()
-    )]
-    Exchange {
-        /// The folder of the earlier run.
-        folder: PathBuf,
-        /// The folder of the new run.
-        kept: PathBuf,
-        /// Error of the system.
-        source: io::Error,
     },
     /// There is no run to go on with.
     #[error("the folder {} holds no run that could go on", folder.display())]

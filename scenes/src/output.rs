@@ -46,26 +46,6 @@ const RESERVE: &str = ".piola-reserve";
 /// Name of a file that is being written.
 const PARTIAL: &str = ".piola-partial";
 
-/// Names of the files of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Names {
-    /// Number of the last frame.
-    pub last_frame: usize,
-    /// Whether tetrahedra are written, too.
-    pub vtu: bool,
-}
-
-impl Names {
-    /// Whether the run writes a file of this name.
-    #[must_use]
-    pub fn contain(self, name: &str) -> bool {
-        match frame_number(name) {
-            Some((frame, is_cage)) => frame <= self.last_frame && (self.vtu || !is_cage),
-            None => is_result(name) && (self.vtu || name != CAGES_FILE),
-        }
-    }
-}
-
 /// Whether any run could have written a file of this name.
 fn is_result(name: &str) -> bool {
     [CAGES_FILE, PICTURE_FILE, STATE_FILE, SUMMARY_FILE, RESERVE, PARTIAL].contains(&name) || is_frame(name)
@@ -73,24 +53,11 @@ fn is_result(name: &str) -> bool {
 
 /// Whether it is a name that [`frame_file`] or [`cage_file`] gives.
 fn is_frame(name: &str) -> bool {
-    frame_number(name).is_some()
-}
-
-/// Number of a frame, and whether the file holds its tetrahedra.
-fn frame_number(name: &str) -> Option<(usize, bool)> {
-    let (digits, extension) = name.strip_prefix("frame_")?.split_once('.')?;
-    // As frame_file writes it: at least four digits, and no zero in front of more.
+    let Some((digits, extension)) = name.strip_prefix("frame_").and_then(|rest| rest.split_once('.')) else {
+        return false;
+    };
+    // At least four digits, and no zero in front of more.
     let is_number = digits.bytes().all(|byte| byte.is_ascii_digit())
         && (digits.len() == 4 || digits.len() > 4 && !digits.starts_with('0'));
-    let is_cage = match extension {
-        "ply" => false,
-        "vtu" => true,
-        _ => return None,
-    };
-    digits.parse().ok().filter(|_| is_number).map(|number| (number, is_cage))
-}
-
-/// Orders names as a run writes the files.
-fn rank(name: &str) -> usize {
-    frame_number(name).map_or(usize::MAX, |(frame, _)| frame)
+    is_number && ["ply", "vtu"].contains(&extension)
 }

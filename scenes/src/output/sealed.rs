@@ -8,15 +8,10 @@
 //! accidents, not against malice.
 
 use piola::__private::message::printable;
-use piola_declare::LARGEST_TEXT;
 use serde::de::{DeserializeOwned, IgnoredAny};
-use serde::ser::Error as _;
 use serde::{Deserialize, Serialize};
 use serde_json::value::{RawValue, to_raw_value};
 
-/// The longest text in a file, in bytes as it is written: that of an energy, of which ends of lines and
-/// quotation marks take two each.
-const MAX_TEXT: usize = 2 * LARGEST_TEXT;
 /// The longest message about a line that is not as expected, in characters: it may repeat a text of the file.
 const MAX_MESSAGE: usize = 1024;
 
@@ -32,12 +27,9 @@ struct Line<'a> {
 /// A content as a line with its checksum and its end.
 ///
 /// # Errors
-/// If JSON cannot say it, or a text in it is too long to be read again.
+/// If it has no form in JSON.
 pub fn seal(content: &impl Serialize) -> serde_json::Result<Vec<u8>> {
     let content = to_raw_value(content)?;
-    if longest_text(content.get()) > MAX_TEXT {
-        return Err(serde_json::Error::custom(SealError::LongText));
-    }
     let mut line = serde_json::to_vec(&Line { crc32: &checksum(&content), content: &content })?;
     line.push(b'\n');
     Ok(line)
@@ -53,9 +45,6 @@ pub fn unseal<T: DeserializeOwned>(text: &str) -> Result<T, SealError> {
     if checksum(line.content) != line.crc32 {
         return Err(SealError::Checksum);
     }
-    if longest_text(line.content.get()) > MAX_TEXT {
-        return Err(SealError::LongText);
-    }
     serde_json::from_str(line.content.get()).map_err(SealError::NotJson)
 }
 
@@ -69,9 +58,6 @@ pub enum SealError {
     /// The checksum belongs to another content.
     #[error("the checksum is wrong: the file has been changed or cut off")]
     Checksum,
-    /// A text in the content is absurdly long.
-    #[error("a text in it is longer than {MAX_TEXT} bytes")]
-    LongText,
 }
 
 /// A message, cut where it is long.
@@ -98,24 +84,6 @@ fn unsealed<T: DeserializeOwned>(text: &str, error: serde_json::Error) -> serde_
         (Ok(Probe { crc32: None }), Err(meaning)) => meaning,
         _ => error,
     }
-}
-
-/// Length of the longest string of JSON, in bytes as it is written.
-fn longest_text(json: &str) -> usize {
-    let (mut longest, mut start, mut is_escaped) = (0, None, false);
-    for (at, byte) in json.bytes().enumerate() {
-        match (start, byte) {
-            (Some(_), _) if is_escaped => is_escaped = false,
-            (Some(_), b'\\') => is_escaped = true,
-            (Some(first), b'"') => {
-                longest = longest.max(at - first);
-                start = None;
-            }
-            (None, b'"') => start = Some(at + 1),
-            _ => {}
-        }
-    }
-    longest
 }
 
 #[cfg(test)]
@@ -152,12 +120,8 @@ mod tests {
     }
 
     #[test]
-    fn long_texts_are_neither_written_nor_read() {
-        let text = |length| "é\\\"".repeat(length);
-        assert!(seal(&text(MAX_TEXT / 8)).is_ok());
-        assert!(seal(&text(MAX_TEXT)).is_err());
-        assert_eq!(longest_text(r#"{"a":["b\\","","\"cd"],"ef":1}"#), 4);
-        let name = format!("{{\"{}\":1}}", "y".repeat(MAX_TEXT));
+    fn messages_are_short() {
+        let name = format!("{{\"{}\":1}}", "y".repeat(1 << 20));
         let message = unseal::<Vec<f64>>(&name).expect_err("no list").to_string();
         assert!(message.chars().count() <= MAX_MESSAGE + 1, "{message}");
     }

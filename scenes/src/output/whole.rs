@@ -1,16 +1,15 @@
 //! Files that appear whole or not at all.
 
-use std::fs::{self, File, Metadata};
+use std::fs::{self, File, Permissions};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::error::Error;
 
 /// Writes a file that replaces an earlier one of the same name only once it is complete and on the disk.
 ///
-/// A replaced file keeps its permissions, and its owner where the system allows it. A symbolic link stays,
-/// and the file that it leads to is replaced. A device, a pipe or a file descriptor, such as /dev/stdout, is
-/// written into.
+/// A replaced file keeps its permissions. A symbolic link stays, and the file that it leads to is replaced. A
+/// device, a pipe or a file descriptor, such as /dev/stdout, is written into.
 ///
 /// # Errors
 /// [`Error::Write`]; an earlier file is then as it was.
@@ -19,23 +18,15 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
 }
 
 fn write(path: &Path, content: &[u8]) -> io::Result<()> {
-    match fs::canonicalize(path) {
-        Ok(real) => {
-            let earlier = fs::metadata(&real)?;
-            if earlier.is_file() && !is_descriptor(path) {
-                replace(&real, content, Some(&earlier))
-            } else {
-                File::options().append(true).open(path)?.write_all(content)
-            }
+    match fs::metadata(path) {
+        Ok(earlier) if earlier.is_file() && !is_descriptor(path) => {
+            replace(&fs::canonicalize(path)?, content, Some(earlier.permissions()))
         }
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        // A link to a file that does not exist yet; what is begun through it can only be finished through it.
-        Err(_) if path.is_symlink() => {
-            let mut file = File::create(path)?;
-            file.write_all(content)?;
-            file.sync_all()
+        Err(error) if error.kind() == io::ErrorKind::NotFound && !path.is_symlink() => {
+            replace(path, content, None)
         }
-        Err(_) => replace(path, content, None),
+        // What is begun through a link to no file can only be finished through it.
+        _ => File::options().append(true).create(true).open(path)?.write_all(content),
     }
 }
 
@@ -45,61 +36,26 @@ fn is_descriptor(path: &Path) -> bool {
 }
 
 /// Writes a file beside its place, and moves it there.
-fn replace(path: &Path, content: &[u8], earlier: Option<&Metadata>) -> io::Result<()> {
+fn replace(path: &Path, content: &[u8], earlier: Option<Permissions>) -> io::Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    let mut aside = new_file().tempfile_in(folder).map_err(unnamed)?;
-    if let Some(earlier) = earlier {
-        keep_owner(aside.path(), earlier);
-        aside.as_file().set_permissions(earlier.permissions())?;
-    }
-    aside.write_all(content)?;
-    aside.as_file().sync_all()?;
-    aside.persist(path).map_err(|error| error.error)?;
-    sync_folder(folder);
-    Ok(())
-}
-
-/// An error without the name of a temporary file, which nobody has given.
-fn unnamed(error: io::Error) -> io::Error {
-    error.kind().into()
-}
-
-/// Temporary files with the permissions that new files have.
-pub(super) fn new_file() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".piola-");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder
-}
-
-/// Gives a file the owner of an earlier one; only root can, and everybody else is the owner in most cases.
-#[cfg_attr(not(unix), expect(unused_variables, reason = "files have no numeric owners there"))]
-fn keep_owner(path: &Path, earlier: &Metadata) {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::{MetadataExt, chown};
-        let _ = chown(path, Some(earlier.uid()), Some(earlier.gid()));
+    // Nobody has given the name of a temporary file that such an error has.
+    let mut aside = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
+    if let Some(earlier) = earlier {
+        aside.as_file().set_permissions(earlier)?;
     }
-}
-
-/// Makes the names in a folder as durable as the files; systems that cannot do so do it in their own time.
-pub(super) fn sync_folder(folder: &Path) {
+    aside.write_all(content)?;
+    aside.as_file().sync_all()?;
+    aside.persist(path).map_err(|error| error.error)?;
+    // Makes the name as durable as the file; systems that cannot do so do it in their own time.
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
-}
-
-/// A new folder in another one, with a name that nobody else has.
-pub(super) fn new_folder(inside: &Path, prefix: &str) -> io::Result<PathBuf> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(prefix);
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-    let folder = builder.tempdir_in(inside).map_err(unnamed)?.keep();
-    // As it was given, not from the root on.
-    Ok(folder.file_name().map_or(folder.clone(), |name| inside.join(name)))
+    Ok(())
 }
 
 #[cfg(test)]
@@ -145,7 +101,7 @@ mod tests {
         let [file, link, hanging, pipe] =
             ["file", "link", "hanging", "pipe"].map(|name| scratch.path().join(name));
         fs::write(&file, "old")?;
-        fs::set_permissions(&file, fs::Permissions::from_mode(0o600))?;
+        fs::set_permissions(&file, Permissions::from_mode(0o600))?;
         symlink("file", &link)?;
         write_whole(&link, b"new")?;
         assert_eq!(fs::read_to_string(&file)?, "new");
