@@ -7,7 +7,7 @@ use piola::__private::message::number;
 use piola::Inversion;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
-use piola_laboratory::fit::{self, Candidate, Difference, FitSettings, Standing, Warning};
+use piola_laboratory::fit::{self, Candidate, FitSettings, Standing, Warning};
 use piola_scenes::error::Error as SceneError;
 
 use super::{
@@ -28,15 +28,6 @@ pub(crate) struct Fit {
     /// Keep a parameter, all entries of a list, or one as NAME_1; may be repeated.
     #[arg(long = "hold", value_name = "NAME")]
     held: Vec<String>,
-
-    /// Minimise differences relative to the measured stress, so that small strains count as much as large
-    /// ones: the default.
-    #[arg(long)]
-    relative: bool,
-
-    /// Minimise differences relative to the greatest stress of all, so that large stresses decide.
-    #[arg(long, conflicts_with = "relative")]
-    absolute: bool,
 
     /// Keep the volume, whatever the bulk modulus: the default unless the data have a volumetric test.
     #[arg(long)]
@@ -72,13 +63,8 @@ impl Fit {
             true => Volume::Free,
             false => Volume::Kept,
         };
-        let (difference, kind) = match self.absolute {
-            true => (Difference::Absolute, "differences by the greatest stress"),
-            false => (Difference::Relative, "relative differences"),
-        };
         let settings = FitSettings::default()
             .with_volume(volume)
-            .with_difference(difference)
             .with_held(self.held)
             .with_restarts(self.starts)
             .with_seed(self.seed);
@@ -91,7 +77,7 @@ impl Fit {
         };
 
         let title = titled(&material, volume);
-        let mut text = format!("{title}, fitted to {} by {kind}\n", self.data.display());
+        let mut text = format!("{title}, fitted to {} by relative differences\n", self.data.display());
         text += &format!("  {}\n", options(&fit.values));
         for component in &fit.numbers {
             text += &format!("  {:12} {:<14}", component.name, number(rounded(component.value)));

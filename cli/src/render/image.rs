@@ -17,18 +17,6 @@ impl Image {
         Self { width, height, pixels: vec![colour; width * height] }
     }
 
-    /// Width and height in pixels.
-    #[must_use]
-    pub fn size(&self) -> [usize; 2] {
-        [self.width, self.height]
-    }
-
-    /// The pixels, row by row from the top.
-    #[must_use]
-    pub fn pixels(&self) -> &[[u8; 3]] {
-        &self.pixels
-    }
-
     /// The rows from the top, each as long as the picture is wide.
     pub(super) fn rows_mut(&mut self) -> std::slice::ChunksExactMut<'_, [u8; 3]> {
         self.pixels.chunks_exact_mut(self.width.max(1))
