@@ -14,7 +14,7 @@ use piola::material::Response;
 use piola::point::{Filter, Matrix3, Point};
 use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
 use piola_tests::energies::{ENERGIES, Subject};
-use piola_tests::soundness::check;
+use piola_tests::soundness::{check, check_single_accuracy};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -248,6 +248,20 @@ impl Property for Filters {
 #[test]
 fn filters_are_semidefinite_and_ordered() {
     for_every_energy(Filters);
+}
+
+struct SinglePrecision;
+
+impl Property for SinglePrecision {
+    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
+        let F = sample.F().map(|row| row.map(|x| x as f32));
+        check_single_accuracy(subject, &F).map_err(|fault| fault.to_string())
+    }
+}
+
+#[test]
+fn single_precision_is_close_to_double() {
+    for_every_energy(SinglePrecision);
 }
 
 struct Infection;
