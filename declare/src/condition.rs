@@ -105,7 +105,7 @@ fn literal(value: f64) -> Term {
     Box::new(move |_, _| value)
 }
 
-/// An expression as Rust evaluates it, with parameters by their places; NaN where the parser lets none through.
+/// An expression as Rust evaluates it, with parameters by their places; NaN for what the parser refuses.
 fn term(expression: &Expr, place: &impl Fn(&dyn ToString) -> Option<usize>) -> Term {
     let one = |expression: &Expr, function: fn(f64) -> f64| -> Term {
         let term = term(expression, place);

@@ -37,7 +37,7 @@ const WAVE: usize = 64;
 pub struct NodalStiffness {
     shape: Arc<Shape>,
     matrix: SymmetricBlocks<f64, 3>,
-    /// Of a wave, or of the whole body.
+    /// Stiffnesses of the elements of a wave, or of the whole body.
     elements: ElementStiffnesses,
 }
 
@@ -141,7 +141,7 @@ impl NodalStiffness {
         Self::of_tiles(body, pairs, WAVE)
     }
 
-    /// The same as [`NodalStiffness::new`], which keeps the stiffness of each element as well.
+    /// Like [`NodalStiffness::new`], but keeps the stiffness of each element.
     ///
     /// # Errors
     /// [`LinearError::OutOfMemory`].

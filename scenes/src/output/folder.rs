@@ -35,9 +35,9 @@ impl Folder {
     /// earlier run.
     ///
     /// # Errors
-    /// [`Error::ForeignFiles`] if the folder holds something that no run has written and that has the name of
-    /// a frame or a result, [`Error::Busy`] if another run writes there, and [`Error::Folder`] if files cannot
-    /// be removed or written there.
+    /// [`Error::ForeignFiles`] if the folder holds something with the name of a frame or a result that no run
+    /// has written, [`Error::Busy`] if another run writes there, and [`Error::Folder`] if files cannot be
+    /// removed or written there.
     pub fn prepare(path: &Path) -> Result<Self, Error> {
         let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created: Vec<_> = path.ancestors().take_while(is_new).map(PathBuf::from).collect();
