@@ -1,5 +1,6 @@
 //! Stress, tangent and filters against dense algebra, finite differences and a 9×9 eigensolver.
 
+use super::tangent::assemble_blocks;
 use super::*;
 use crate::hand_written::{NeoHookean, RotatedLinear, SaintVenantKirchhoff};
 use crate::material::Material;
