@@ -97,8 +97,6 @@ pub use tetrahedra::Tetrahedra;
 
 #[cfg(all(test, feature = "bodies"))]
 pub(crate) use form::MAX_STIFFNESS_RATIO;
-#[cfg(test)]
-use form::PACKED_12;
 use jobs::{Job, Work};
 use sink::Source;
 use stage::{Deform, StiffnessForm};
@@ -429,6 +427,3 @@ impl fmt::Display for LengthError {
 }
 
 impl std::error::Error for LengthError {}
-
-#[cfg(test)]
-mod tests;

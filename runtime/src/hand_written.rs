@@ -1,11 +1,11 @@
 //! Energies with derivatives by hand, for tests: the only ones in the workspace.
 //!
 //! The point and the contract must be testable without the code generator, and against something it has not
-//! written.
+//! written. Integration tests include this file, too.
 
-use crate::lanes::{Mask, Real};
-use crate::material::{Blocks, Inversion, Material, PAIRS};
-use crate::quotient::{Pair, pole_floor};
+use piola::__private::{Pair, pole_floor};
+use piola::lanes::{Mask, Real};
+use piola::material::{Blocks, Inversion, Material, PAIRS};
 
 const MU: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
@@ -107,10 +107,10 @@ impl Material for NeoHookean {
 }
 
 /// [`NeoHookean`] as μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
-#[cfg(feature = "batch")]
+#[cfg(feature = "bodies")]
 pub(crate) struct NeoHookeanByInvariants;
 
-#[cfg(feature = "batch")]
+#[cfg(feature = "bodies")]
 impl Material for NeoHookeanByInvariants {
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
         NeoHookean.energy(stretches)
@@ -130,7 +130,7 @@ impl Material for NeoHookeanByInvariants {
 
     const HAS_INVARIANTS: bool = true;
     const HAS_SECOND_INVARIANT: bool = false;
-    const CURVATURE_BY_INVARIANTS: crate::material::Curvature = crate::material::Curvature::Volume;
+    const CURVATURE_BY_INVARIANTS: piola::material::Curvature = piola::material::Curvature::Volume;
 
     fn energy_by_invariants<R: Real>(&self, [i1, _, j]: [R; 3]) -> R {
         let log = j.ln();

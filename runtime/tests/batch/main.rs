@@ -1,13 +1,20 @@
 //! Batches of every format, back end and layout against the points of scalars, and against themselves in
-//! other places.
+//! other places. Not among the unit tests, which are spared the kernels in `f32`.
+#![cfg(feature = "batch")]
+#![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
-use super::*;
-use crate::hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};
-use crate::lanes::{Real, Scalar};
-use crate::material::{Inversion, Material};
-use crate::point::{Matrix3, Point, evaluate, evaluate_energy};
-use crate::random::Random;
-use piola::material;
+use piola::__private::random::Random;
+use piola::batch::{Batch, Layout, MatrixForm, REST, Stages, TileMaterial};
+use piola::lanes::{Backend, Real, Scalar};
+use piola::point::{Filter, Matrix3, Point, evaluate, evaluate_energy};
+use piola::{Inversion, Material, StatusCell, Survey, material};
+
+#[path = "../../src/hand_written.rs"]
+mod hand_written;
+mod quadrature;
+mod tetrahedra;
+
+use hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};
 
 const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
 
@@ -117,6 +124,11 @@ fn number<E: Number>(layout: Layout, slice: &[E], numbers: usize, p: usize, k: u
     slice[layout.index::<E>(p, numbers, k)]
 }
 
+/// Index of an entry among those on and above the diagonal of a matrix, row by row.
+fn packed(size: usize, row: usize, column: usize) -> usize {
+    size * row - row * (row + 1) / 2 + column
+}
+
 /// Everything that a batch gives.
 #[derive(Debug, PartialEq)]
 struct All<E> {
@@ -131,10 +143,11 @@ struct All<E> {
     packed_stiffnesses: Vec<E>,
 }
 
-fn all<E: Number>(batch: &Batch<'_, E>, sample: &Sample<E>) -> All<E> {
+fn all<E: Number>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> All<E> {
+    let batch = batch.with_layout(layout);
     let count = sample.F.len();
-    let F = lay(batch.layout, &sample.F);
-    let rest = lay(batch.layout, &sample.rest);
+    let F = lay(layout, &sample.F);
+    let rest = lay(layout, &sample.rest);
     let zero = |numbers: usize| vec![E::of(0.0); numbers * count];
     let mut all = All {
         surveys: [Survey::default(); 6],
@@ -188,7 +201,7 @@ fn check_against_points<E: Number, M: Material>(material: &M, skip: impl Fn(usiz
     for backend in Backend::available() {
         for filter in FILTERS {
             let batch = Batch::new(material).with_filter(filter).with_backend(backend);
-            let found = all(&batch, &sample);
+            let found = all(&batch, Layout::Points, &sample);
             let mut worst = Worst::default();
             let mut refused = 0;
             for (p, F) in sample.F.iter().enumerate() {
@@ -229,7 +242,7 @@ fn check_point<E: Number>(
         for l in 0..9 {
             worst.see(found.full[81 * p + 9 * k + l], dP_dF[k][l], stiff * size * size);
             if l >= k {
-                let entry = number(layout, &found.packed, 45, p, form::PACKED_9[k][l]);
+                let entry = number(layout, &found.packed, 45, p, packed(9, k, l));
                 assert!(entry == found.full[81 * p + 9 * k + l]);
             }
         }
@@ -259,7 +272,7 @@ fn check_point<E: Number>(
             let mine = found.stiffnesses[144 * p + 12 * row + column];
             worst.see(mine, entry, shape * shape * stiff * size * size);
             if column >= row {
-                assert!(mine == found.packed_stiffnesses[78 * p + PACKED_12[row][column]]);
+                assert!(mine == found.packed_stiffnesses[78 * p + packed(12, row, column)]);
             }
         }
     }
@@ -320,23 +333,23 @@ fn check_bits<E: Number>(energy: &dyn TileMaterial<E>, filter: Filter) {
     let two_threads = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool of threads");
     for backend in Backend::available() {
         let batch = Batch::new(energy).with_filter(filter).with_backend(backend);
-        let points = all(&batch, &sample);
+        let points = all(&batch, Layout::Points, &sample);
         let expected = bits(Layout::Points, &points, COUNT);
-        for variant in [
-            batch.with_layout(Layout::Lines),
-            batch.with_streams(true),
-            batch.with_layout(Layout::Lines).with_streams(true),
-            batch.with_layout(Layout::Lines).with_streams(true).with_threads(true),
-            batch.with_threads(true),
-            batch.with_threads(true).with_layout(Layout::Lines),
+        for (layout, variant) in [
+            (Layout::Lines, batch),
+            (Layout::Points, batch.with_streams(true)),
+            (Layout::Lines, batch.with_streams(true)),
+            (Layout::Lines, batch.with_streams(true).with_threads(true)),
+            (Layout::Points, batch.with_threads(true)),
+            (Layout::Lines, batch.with_threads(true)),
         ] {
-            let found = two_threads.install(|| all(&variant, &sample));
+            let found = two_threads.install(|| all(&variant, layout, &sample));
             assert_eq!(found.surveys, points.surveys, "{backend}");
-            assert!(bits(variant.layout, &found, COUNT) == expected, "{backend}, {:?}", variant.layout);
+            assert!(bits(layout, &found, COUNT) == expected, "{backend}, {layout:?}");
         }
         // Another place in the tile, other neighbours, another number of points.
         let shifted = Sample { F: sample.F[37..300].to_vec(), rest: sample.rest[37..300].to_vec() };
-        let found = bits(Layout::Points, &all(&batch, &shifted), 263);
+        let found = bits(Layout::Points, &all(&batch, Layout::Points, &shifted), 263);
         let per_point = expected.len() / COUNT;
         assert!(found == expected[37 * per_point..300 * per_point], "{backend}, shifted");
     }

@@ -1,0 +1,177 @@
+//! Elements from the positions of their nodes beside those from deformation gradients.
+
+use piola::__private::random::Random;
+use piola::NoSuchNode;
+use piola::batch::{Batch, Layout, LengthError, MatrixForm, REST, Stages, Tetrahedra, TileMaterial};
+use piola::lanes::{Backend, Real, Scalar};
+use piola::point::Filter;
+
+use crate::Logarithmic;
+#[cfg(feature = "bodies")]
+use crate::hand_written::NeoHookeanByInvariants;
+use crate::hand_written::{NeoHookean, SaintVenantKirchhoff};
+
+/// Nodes, corners and shapes at rest of a mesh whose tetrahedra share nodes.
+struct Mesh<E> {
+    positions: Vec<[E; 3]>,
+    corners: Vec<[usize; 4]>,
+    rest: Vec<[E; REST]>,
+}
+
+/// Four nodes in a row are near the corners of a regular tetrahedron, and F is near 1.1 times the unit
+/// matrix.
+fn mesh<E: Scalar>(tetrahedra: usize) -> Mesh<E> {
+    let regular = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+    let mut random = Random::new(9);
+    let mut near = |x: f64, by: f64| E::splat(x + random.uniform(-by, by));
+    let positions: Vec<[E; 3]> =
+        (0..tetrahedra + 3).map(|node| regular[node % 4].map(|x| near(x, 0.1))).collect();
+    // Every other one has its last nodes swapped, so that all have a positive volume.
+    let corners: Vec<[usize; 4]> = (0..tetrahedra)
+        .map(|t| if t % 2 == 0 { [t, t + 1, t + 3, t + 2] } else { [t, t + 1, t + 2, t + 3] })
+        .collect();
+    let rest = corners.iter().map(|&corners| {
+        let Ds = edges(&positions, corners);
+        let minor = |i: usize, j: usize| {
+            let [p, q, r, s] = [(i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3];
+            Ds[r][p] * Ds[s][q] - Ds[r][q] * Ds[s][p]
+        };
+        let det = Ds[0][0] * minor(0, 0) + Ds[1][0] * minor(0, 1) + Ds[2][0] * minor(0, 2);
+        let mut shape = [near(0.5, 0.4); REST];
+        for j in 0..3 {
+            let F: [E; 3] = std::array::from_fn(|i| near(if i == j { 1.1 } else { 0.0 }, 0.05));
+            for i in 0..3 {
+                shape[3 * i + j] = (0..3).fold(E::splat(0.0), |sum, k| sum + minor(i, k) * F[k]) / det;
+            }
+        }
+        shape
+    });
+    Mesh { rest: rest.collect(), positions, corners }
+}
+
+fn edges<E: Scalar>(positions: &[[E; 3]], corners: [usize; 4]) -> [[E; 3]; 3] {
+    let [x0, x1, x2, x3] = corners.map(|node| positions[node]);
+    std::array::from_fn(|a| [x1[a] - x0[a], x2[a] - x0[a], x3[a] - x0[a]])
+}
+
+fn lay<E: Scalar, const N: usize>(layout: Layout, points: &[[E; N]], padding: [E; N]) -> Vec<E> {
+    let count = match layout {
+        Layout::Points => points.len(),
+        Layout::Lines => points.len().next_multiple_of(E::LINE),
+    };
+    let mut slice = vec![E::splat(0.0); N * count];
+    for p in 0..count {
+        let numbers = points.get(p).unwrap_or(&padding);
+        for k in 0..N {
+            slice[layout.index::<E>(p, N, k)] = numbers[k];
+        }
+    }
+    slice
+}
+
+/// The outputs at positions are those at the deformation gradients that these make.
+fn check<E: Stages>(material: &dyn TileMaterial<E>, filter: Filter)
+where
+    f64: From<E>,
+{
+    // Two tiles, the last line of which is not full.
+    let Mesh { positions, corners, rest } = mesh::<E>(64 + 13);
+    let tetrahedra = Tetrahedra::new(positions.len(), &corners).expect("nodes that exist");
+    let unit = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0].map(E::splat);
+    let F: Vec<[E; 9]> = corners
+        .iter()
+        .zip(&rest)
+        .map(|(&corners, rest)| {
+            let Ds = edges(&positions, corners);
+            std::array::from_fn(|k| {
+                (0..3).fold(E::splat(0.0), |sum, m| sum + Ds[k / 3][m] * rest[3 * m + k % 3])
+            })
+        })
+        .collect();
+    let unit_F = unit[..9].try_into().expect("nine of ten");
+    for backend in Backend::available() {
+        for layout in [Layout::Points, Layout::Lines] {
+            let batch = Batch::new(material).with_filter(filter).with_backend(backend).with_layout(layout);
+            let (F, rest) = (lay(layout, &F, unit_F), lay(layout, &rest, unit));
+            let count = rest.len() / REST;
+            let zeros = |numbers: usize| vec![E::splat(0.0); numbers * count];
+            let (mut gradients, mut full, mut packed) = (zeros(12), zeros(144), zeros(78));
+            let (mut expected_gradients, mut expected, mut expected_packed) =
+                (zeros(12), zeros(144), zeros(78));
+            let at = batch.stiffnesses_at(
+                MatrixForm::Full,
+                tetrahedra,
+                &positions,
+                &rest,
+                &mut gradients,
+                &mut full,
+            );
+            let from = batch.stiffnesses(MatrixForm::Full, &F, &rest, &mut expected_gradients, &mut expected);
+            assert_eq!(at, from);
+            assert!(at.expect("lengths fit").is_clean());
+            close(&gradients, &expected_gradients);
+            close(&full, &expected);
+            batch
+                .stiffnesses_at(
+                    MatrixForm::Packed,
+                    tetrahedra,
+                    &positions,
+                    &rest,
+                    &mut gradients,
+                    &mut packed,
+                )
+                .expect("lengths fit");
+            batch
+                .stiffnesses(MatrixForm::Packed, &F, &rest, &mut expected_gradients, &mut expected_packed)
+                .expect("lengths fit");
+            close(&packed, &expected_packed);
+        }
+    }
+}
+
+/// Beside the largest entry of all: F is made with other roundings, and derivatives of the energies are
+/// of the order of 1.
+fn close<E: Scalar>(found: &[E], expected: &[E])
+where
+    f64: From<E>,
+{
+    let largest = expected.iter().fold(0.0, |largest: f64, &x| largest.max(f64::from(x).abs()));
+    assert!(largest > 0.0);
+    for (&found, &expected) in found.iter().zip(expected) {
+        let error = (f64::from(found) - f64::from(expected)).abs();
+        assert!(error <= 200.0 * <E as Real>::UNIT_ROUNDOFF * largest, "{found:?} for {expected:?}");
+    }
+}
+
+#[test]
+fn stiffnesses_at_positions_are_those_of_their_gradients() {
+    check::<f64>(&SaintVenantKirchhoff, Filter::None);
+    #[cfg(feature = "f32")]
+    check::<f32>(&SaintVenantKirchhoff, Filter::None);
+    check::<f64>(&NeoHookean, Filter::Clamp);
+    let logarithmic = Logarithmic::new(1.0, 1.5).expect("admissible");
+    check::<f64>(&logarithmic, Filter::None);
+    #[cfg(feature = "bodies")]
+    check::<f64>(&NeoHookeanByInvariants, Filter::None);
+    #[cfg(feature = "f32")]
+    check::<f32>(&logarithmic, Filter::None);
+}
+
+#[test]
+fn nodes_that_do_not_exist_and_lengths_that_do_not_fit_are_errors() {
+    let corners = [[0, 1, 2, 3], [1, 2, 3, 4]];
+    let error = Tetrahedra::new(4, &corners).expect_err("node 4");
+    assert_eq!(error, NoSuchNode { element: Some(1), node: 4, nodes: 4 });
+    assert_eq!(error.to_string(), "element 1 names node 4: the 4 nodes are numbered from 0");
+    let tetrahedra = Tetrahedra::new(5, &corners).expect("nodes that exist");
+    let batch = Batch::<f64>::new(&SaintVenantKirchhoff);
+    let call = |positions: usize, rest: usize| {
+        let (positions, rest) = (vec![[0.0; 3]; positions], vec![0.0; rest]);
+        batch.stiffnesses_at(MatrixForm::Full, tetrahedra, &positions, &rest, &mut [0.0; 24], &mut [0.0; 288])
+    };
+    let wrong =
+        |slice, found, components, points| Err(LengthError { slice, found, components, points, group: 1 });
+    assert_eq!(call(4, 20), wrong("positions", 12, 3, 5));
+    assert_eq!(call(5, 30), wrong("rest", 30, 10, 2));
+    assert!(call(5, 20).is_ok());
+}
