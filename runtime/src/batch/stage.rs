@@ -402,6 +402,9 @@ where
 }
 
 /// Runs a kernel for a form, with or without terms in I2.
+///
+/// Each of the four kernels pays: with those of all terms instead, tangents of Saint Venant–Kirchhoff take
+/// 14 % more instructions, and those of energies in I1 and J 27 %.
 fn shape_by_invariants<E, F, const REST: usize, const N: usize>(
     backend: Backend,
     kernel: RespondByInvariants<'_, E, REST>,

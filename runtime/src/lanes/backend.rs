@@ -182,7 +182,8 @@ impl InstructionSet for Avx2 {
     type F32 = F32x8;
 }
 
-/// The lanes of every processor.
+/// The lanes of every processor: pairs, which compilers turn into registers of 16 bytes. One lane at a time
+/// takes 1.3 to 3.6 times the instructions on x86-64.
 struct Portable;
 
 impl InstructionSet for Portable {
