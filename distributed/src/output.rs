@@ -150,7 +150,8 @@ pub fn write_frame(team: &Team, folder: &Path, frame: usize, simulation: &Simula
         Field { name: "velocity", components: 3, values: v.as_flattened() },
     ];
     let elemental = [Field { name: "rank", components: 1, values: &rank }];
-    let written = write(folder.join(piece(team.rank())), |file| write_vtu(file, x, &tets, &nodal, &elemental));
+    let written =
+        write(folder.join(piece(team.rank())), |file| write_vtu(file, x, &tets, &nodal, &elemental));
     team.agree(written)?;
     let pieces = (0..team.size()).map(piece);
     write_once(team, folder.join(frame_file(frame)), |file| write_pvtu(file, pieces))
