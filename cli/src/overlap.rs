@@ -1,6 +1,7 @@
 //! Files that a command line names twice, once of them to be written.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
@@ -32,9 +33,14 @@ pub(crate) fn refuse_overlaps(
 fn place(path: &Path) -> Option<PathBuf> {
     match fs::canonicalize(path) {
         Ok(place) => place.is_file().then_some(place),
-        Err(_) => {
+        Err(error) => {
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-            Some(fs::canonicalize(folder.unwrap_or(Path::new("."))).ok()?.join(path.file_name()?))
+            let folder = folder.unwrap_or(Path::new("."));
+            match fs::read_link(path) {
+                // Links that lead in a circle are another error.
+                Ok(target) if error.kind() == ErrorKind::NotFound => place(&folder.join(target)),
+                _ => Some(fs::canonicalize(folder).ok()?.join(path.file_name()?)),
+            }
         }
     }
 }
@@ -71,7 +77,11 @@ mod tests {
         let at = |name: &str| folder.path().join(name);
         fs::write(at("data.csv"), "data").expect("a scratch file");
         symlink("data.csv", at("soft")).expect("a link");
+        symlink("new.csv", at("hanging")).expect("a link");
+        symlink("round", at("round")).expect("a link");
         assert!(place(&at("soft")) == place(&at("data.csv")));
+        assert!(place(&at("hanging")) == place(&at("new.csv")));
+        assert!(place(&at("round")).is_some(), "a link to itself ends");
         assert_eq!(place(Path::new("/dev/null")), None);
     }
 }

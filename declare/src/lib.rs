@@ -42,7 +42,6 @@ mod text;
 pub use energy::Energy;
 pub use formula::FormulaOptions;
 pub use mistakes::{Mistake, Mistakes, Place};
-pub use rust::LARGEST_TEXT;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

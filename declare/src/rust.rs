@@ -12,7 +12,7 @@ use crate::mistakes::Mistakes;
 pub(crate) const TOO_LARGE: &str = "this energy is too large: fewer operations, or a list with a sum instead of many terms, keep within the limits";
 
 /// The longest text of an energy, in bytes.
-pub const LARGEST_TEXT: usize = 1 << 16;
+const LARGEST_TEXT: usize = 1 << 16;
 
 /// The most different expressions of an energy, derivatives included: some forty times as many as those of
 /// the catalogue have, and compiled within seconds.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A node that does not exist is named.
+/// The error of a node number beyond the number of nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoSuchNode {
     /// The tetrahedron that names it, if one does: its tag in a mesh with tags, else its index from 0.

@@ -4,7 +4,7 @@
 //! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`stress()`]) and dP/dF
 //! as a block-diagonal map between the frames ([`Tangent`]; `point/tangent.rs` derives it), made
 //! semidefinite on request ([`project()`]). [`evaluate_dense`] gives its 81 entries, by a shorter way where
-//! there is one. A [`DisplacementGradient`] F − I in the place of F keeps the digits of bodies that hardly
+//! there is one. A [`DisplacementGradient`] F − I instead of F keeps the digits of bodies that hardly
 //! deform, and codes that have their own elements find other [`measures`] of stress here, with their
 //! tangents, and points in the [`plane`]. Everything is generic over the real type, and what cannot be
 //! computed is reported in a [`Status`] instead of an error, because a point may be one of many in a batch.

@@ -43,7 +43,7 @@ impl Output {
         self
     }
 
-    /// Goes on with the run in the folder, or not.
+    /// Chooses whether the run in the folder is resumed.
     #[must_use]
     pub fn with_resume(mut self, resume: bool) -> Self {
         self.resume = resume;

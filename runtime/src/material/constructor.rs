@@ -171,7 +171,7 @@ pub fn stress_free_at_rest<M: Material>(material: M) -> Result<M, MaterialError>
 pub struct Values<'a> {
     parameters: Cow<'a, [Parameter]>,
     values: &'a [&'a [f64]],
-    /// How many have been read.
+    /// Number of parameters that have been read.
     read: usize,
 }
 

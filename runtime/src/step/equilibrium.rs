@@ -184,7 +184,7 @@ fn unit_force(body: &Body) -> f64 {
 
 /// The stiffness over the unknowns, and the rigid motions that are left out of it.
 struct Spectrum<'a> {
-    /// K.
+    /// Stiffness K of the unknowns.
     stiffness: LowerTriangle,
     /// Mass of each unknown.
     masses: Vec<f64>,

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// All of it. What is not finite is `null`.
+/// All results of the report. A value that is not finite is `null` in JSON.
 #[derive(Serialize)]
 pub(crate) struct Report {
     pub(crate) machine: String,
@@ -51,7 +51,7 @@ pub(crate) struct StepRow {
     pub(crate) linear_iterations: usize,
     /// Largest distance of a node from the reference after any frame, body heights.
     pub(crate) error: f64,
-    /// The same after the last frame.
+    /// Largest distance of a node from the reference after the last frame, body heights.
     pub(crate) final_error: f64,
 }
 

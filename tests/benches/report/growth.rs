@@ -23,10 +23,10 @@ const MOST_OF_FACTOR: usize = 25;
 
 const TIME_STEP: f64 = 0.01;
 
-/// How many steps are counted after a first one, which finds cold caches.
+/// Number of timed steps, after a first one that finds cold caches.
 const STEPS: usize = 3;
 
-/// What is solved: its name, Newton's method and the linear solver, the number of threads.
+/// A way to solve: its name, the settings of Newton's method, and the number of threads.
 type Way = (&'static str, NewtonSettings, usize);
 
 const EQUILIBRIUM: &str = "equilibrium, conjugate gradients";

@@ -56,7 +56,7 @@ enum Section {
     Growth,
 }
 
-/// The page.
+/// Name of the page in its folder.
 const PAGE: &str = "report.md";
 
 /// Where the report goes.

@@ -22,13 +22,13 @@ use piola_scenes::settings::Settings;
 
 use crate::data::StepRow;
 
-/// Frames in a second.
+/// Frames per second.
 const RATE: f64 = 30.0;
 
-/// Steps that the reference makes in a frame.
+/// Steps per frame of the reference.
 const FINE: f64 = 32.0;
 
-/// How often a way is gone; the least time counts. Ways that take longer than [`LONG`], s, are gone once.
+/// Number of runs of each way, of which the least time counts. Ways longer than [`LONG`], s, run once.
 const REPEATS: usize = 5;
 const LONG: f64 = 3.0;
 
@@ -119,7 +119,7 @@ fn ways(is_quick: bool) -> Vec<Way> {
 
 /// The body in equilibrium, its head drawn sideways by half its height, and the height, m.
 fn drawn() -> Result<(Simulation, f64), Box<dyn Error + Send + Sync>> {
-    /// So that each equilibrium is near the one before.
+    /// The head is drawn in parts, so that each equilibrium is near the previous one.
     const PARTS: usize = 10;
     let mesh = Geometry::load(&Settings::new(&DINOSAUR))?.mesh;
     let bounds = mesh.bounds();
@@ -144,7 +144,7 @@ fn drawn() -> Result<(Simulation, f64), Box<dyn Error + Send + Sync>> {
     Ok((simulation, height))
 }
 
-/// Lets the body go, and follows it for so many frames. The errors of the row are yet to be found.
+/// Releases the body and follows it for `frames` frames. Leaves the errors of the row to [`StepRow::judged`].
 fn follow(
     drawn: &Simulation,
     way: &Way,
@@ -179,7 +179,7 @@ fn follow(
 }
 
 impl StepRow {
-    /// With its errors, body heights.
+    /// The row with its errors against the reference, body heights.
     fn judged(self, track: &Track, exact: &Track, height: f64) -> Self {
         // Of a track with longer steps each frame is one of several of the reference.
         let stride = exact.len() / track.len();

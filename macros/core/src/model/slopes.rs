@@ -6,7 +6,7 @@ use crate::read::parse::Declaration;
 /// Derivatives of expressions by each number among the parameters.
 #[derive(Clone, Debug)]
 pub struct Slopes {
-    /// Those by formulas: by numbers, and by the entries of lists of one length.
+    /// Derivatives by formulas, a group for the numbers and one for the lists of each length.
     pub groups: Vec<Group>,
     /// Parameters by which no formula differentiates: functions, and what would need a third derivative of
     /// one.

@@ -22,7 +22,7 @@ const TOLERANCE: f64 = 1e-3;
 pub(super) struct Assembled<S> {
     stiffness: NodalStiffness,
     matrix: LowerTriangle,
-    /// The nodes that are not pinned: those of the matrix but for the ones that are held.
+    /// Free nodes: nodes of the matrix without those in `held`.
     free: Vec<usize>,
     /// Whether each free node of the matrix is pinned all the same, since it was not when that was made;
     /// empty where no node is.

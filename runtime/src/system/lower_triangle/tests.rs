@@ -19,7 +19,7 @@ fn stiffness(body: &Body, amplitude: f64) -> NodalStiffness {
     stiffness
 }
 
-/// Both triangles.
+/// The whole matrix, both triangles of it.
 fn dense(matrix: &LowerTriangle) -> Vec<Vec<f64>> {
     let unknowns = 3 * matrix.free_nodes().len();
     let mut dense = vec![vec![0.0; unknowns]; unknowns];
