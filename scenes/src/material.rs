@@ -89,6 +89,12 @@ impl MaterialSpec {
         Self { energy: Some(energy), parameters, ..spec }
     }
 
+    /// The specification with another name in messages; a name of the catalogue also chooses the energy.
+    #[must_use]
+    pub fn with_name(self, name: impl Into<String>) -> Self {
+        Self { material: name.into(), ..self }
+    }
+
     /// The energy, if it was declared at run time.
     #[must_use]
     pub fn energy(&self) -> Option<&Energy> {
@@ -189,7 +195,7 @@ impl MaterialSpec {
         self.resolve(|origin, values, inversion| {
             let names = origin.description().parameters.iter().map(|parameter| parameter.name.clone());
             Ok(MaterialInfo {
-                name: origin.name(),
+                name: self.name(origin),
                 parameters: names.zip(values).map(|(name, values)| (name, values.to_vec())).collect(),
                 elements: origin.elements(values, inversion)?,
                 moduli: origin.moduli(values, inversion)?,
@@ -232,7 +238,17 @@ impl MaterialSpec {
             Some(energy) => Origin::Declared(energy),
             None => find(&self.material)?,
         };
-        let refused = |source| Error::Inadmissible { material: origin.name(), source };
+        let refused = |mut source| {
+            // Its declaration has a name that says nothing, where it is a formula.
+            if let (
+                Origin::Declared(_),
+                MaterialError::NoExtension { material, .. } | MaterialError::NotFittable { material },
+            ) = (&origin, &mut source)
+            {
+                *material = "the energy".into();
+            }
+            Error::Inadmissible { material: self.name(&origin), source }
+        };
         let matched;
         let values = match self.lame {
             Some([mu, lambda]) if self.parameters.is_empty() => {
@@ -241,7 +257,7 @@ impl MaterialSpec {
                 matched = piola_materials::matching(origin.description(), moduli, wanted).map_err(refused)?;
                 matched.iter().map(Vec::as_slice).collect()
             }
-            _ => self.values(origin.name(), origin.description())?,
+            _ => self.values(self.name(&origin), origin.description())?,
         };
         let inversion = match self.inversion {
             Some(StoredInversion::Extend(epsilon)) => Inversion::Extend { epsilon },
@@ -249,6 +265,14 @@ impl MaterialSpec {
             _ => Inversion::Refuse,
         };
         make(&origin, &values, inversion).map_err(refused)
+    }
+
+    /// The name in messages, which for an energy of the catalogue is the one there.
+    fn name(&self, origin: &Origin<'_>) -> Text {
+        match origin {
+            Origin::Catalogue(_) => origin.name(),
+            Origin::Declared(_) => self.material.clone().into(),
+        }
     }
 
     /// The values in the order of the declaration.
@@ -383,6 +407,23 @@ mod tests {
             message(MaterialSpec::new("gent").with_parameter("mu", [1.0])).as_deref(),
             Some("gent needs a value for `jm`")
         );
+    }
+
+    #[test]
+    fn a_declared_energy_is_called_by_its_name() -> Result<(), Box<dyn std::error::Error>> {
+        let energy = Energy::from_formula("mu/2*(I1 - 3) - mu*(J - 1) + mu*(J - 1)^2")?;
+        let gel = MaterialSpec::declared(energy).with_name("gel");
+        let stored: MaterialSpec = serde_json::from_str(&serde_json::to_string(&gel)?)?;
+        for gel in [gel, stored] {
+            let message = |gel: MaterialSpec| gel.build().err().map(|error| error.to_string());
+            assert_eq!(message(gel.clone()).as_deref(), Some("gel needs a value for `mu`"));
+            let gel = gel.with_parameter("mu", [1.0]);
+            let extended = gel.clone().with_inversion(Inversion::Extend { epsilon: 0.1 });
+            let refused = message(extended).unwrap_or_default();
+            assert!(refused.starts_with("gel: the energy has no extension"), "{refused}");
+            assert_eq!(gel.build()?.name, "gel");
+        }
+        Ok(())
     }
 
     #[test]
