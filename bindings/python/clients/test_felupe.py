@@ -102,6 +102,17 @@ def test_results_are_written_where_felupe_wants():
     assert umat.function([F])[0].shape == F.shape[2:]
 
 
+def test_parameters_may_differ_from_cell_to_cell():
+    F = solids.deformations(5)
+    mu = np.linspace(0.5, 2, 5)
+    umat = piola.felupe.Umat(piola.Material("neo_hookean", mu=mu, lambda_=solids.LAMBDA))
+    x = [F, None]
+    for k in range(5):
+        one = felupe.NeoHookeCompressible(mu=mu[k], lmbda=solids.LAMBDA)
+        assert solids.difference(umat.gradient(x)[0][..., k], one.gradient([F[..., k], None])[0]) < 1e-12
+        assert solids.difference(umat.hessian(x)[0][..., k], one.hessian([F[..., k], None])[0]) < 1e-11
+
+
 def test_a_point_outside_the_domain_is_no_silent_number():
     umat = piola.felupe.Umat(solids.yeoh())
     F = solids.deformations(5)

@@ -53,6 +53,16 @@ def test_single_precision_stays_so():
     assert F.grad.dtype == torch.float32
 
 
+def test_parameters_are_broadcast_with_the_points():
+    F, mu = points(2)[:3].requires_grad_(), [0.5, 1.0, 2.0, 4.0]
+    material = piola.Material("neo_hookean", mu=np.array(mu)[:, None], lambda_=solids.LAMBDA)
+    psi = piola.torch.energy(material, F)
+    assert psi.shape == (4, 3)
+    (found,) = torch.autograd.grad(psi.sum(), F)
+    (expected,) = torch.autograd.grad(sum(neo_hooke(F, value).sum() for value in mu), F)
+    assert solids.difference(found.numpy(), expected.numpy()) < 1e-12
+
+
 def test_parameters_are_fitted_through_a_body_at_rest():
     """A bar hangs by its end; its moduli are found from where its nodes are."""
     points, tets = piola.box_mesh((4, 1, 1), (4.0, 1.0, 1.0))
@@ -79,9 +89,9 @@ def test_parameters_are_fitted_through_a_body_at_rest():
         simulation = piola.Simulation(body, pins=np.flatnonzero(points[:, 0] == 0), newton={"tolerance": 1e-13})
         simulation.set_forces(loads.numpy())
         simulation.equilibrate()
-        x = simulation.positions
+        x = simulation.positions.copy()
         K = np.zeros((len(points), 3, len(points), 3))
-        rows, columns, blocks = body.stiffness(x)
+        rows, columns, blocks = body.stiffness_blocks(x)
         K[rows, :, columns, :] = blocks
         K = torch.from_numpy(K[np.ix_(free, range(3), free, range(3))].reshape(3 * len(free), -1))
         x = torch.from_numpy(x)

@@ -1,16 +1,18 @@
 //! Arrays that are taken, and those that results go to.
 //!
-//! Points are along the leading axes of an array, F of shape (..., 3, 3), which is what `Batch` takes:
-//! nothing is copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to these.
+//! Whatever `numpy.asarray` makes an array of numbers of is taken; float32 stays what it is, all else becomes
+//! float64. Points are along the leading axes of an array, F of shape (..., 3, 3), which is what `Batch`
+//! takes: nothing is copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to these.
 
 use numpy::{
     Element, IntoPyArray, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
-    PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
+    PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods, dtype,
 };
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::PyFloat;
 
 use crate::errors::{type_error, type_name, value_error};
+use crate::shape;
 
 /// The axes along which the points of an array lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +45,47 @@ impl Axes {
     }
 }
 
+/// Numbers that a caller gives, in the precision that they have.
+pub(crate) enum Numbers<'py> {
+    Double(Bound<'py, PyArrayDyn<f64>>),
+    Single(Bound<'py, PyArrayDyn<f32>>),
+}
+
+impl<'py> Numbers<'py> {
+    /// Reads an array of float64 or float32 where it is, and makes one of everything else.
+    pub(crate) fn new(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Self> {
+        if let Ok(array) = given.cast() {
+            return Ok(Self::Double(array.clone()));
+        }
+        if let Ok(array) = given.cast() {
+            return Ok(Self::Single(array.clone()));
+        }
+        let array = as_array(name, given)?;
+        let dtype = array.dtype();
+        match (dtype.kind(), dtype.itemsize()) {
+            (b'f', 4) => Ok(Self::Single(converted(&array)?)),
+            (b'f' | b'i' | b'u' | b'b', _) => Ok(Self::Double(converted(&array)?)),
+            // Objects that are numbers to Python, such as fractions.
+            (b'O', _) => {
+                let numpy = given.py().import("numpy")?;
+                let float = numpy.call_method1("frompyfunc", (given.py().get_type::<PyFloat>(), 1, 1))?;
+                let floats = float.call1((array,)).map_err(|cause| no_numbers(name, given, Some(cause)))?;
+                Ok(Self::Double(converted(&as_array(name, &floats)?)?))
+            }
+            _ => Err(no_numbers(name, given, None)),
+        }
+    }
+
+    /// The numbers in double precision, in the order of C.
+    pub(crate) fn doubles(self) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        match self {
+            Self::Double(array) if array.is_c_contiguous() => Ok(array),
+            Self::Double(array) => converted(array.as_untyped()),
+            Self::Single(array) => converted(array.as_untyped()),
+        }
+    }
+}
+
 /// Deformation gradients, contiguous.
 pub(crate) struct Input<'py, E: Element> {
     array: PyReadonlyArrayDyn<'py, E>,
@@ -50,14 +93,25 @@ pub(crate) struct Input<'py, E: Element> {
 }
 
 impl<'py, E: Element> Input<'py, E> {
-    /// Reads the array where it is, or a contiguous copy of it.
-    pub(crate) fn new(array: &Bound<'py, PyArrayDyn<E>>, axes: Axes) -> PyResult<Self> {
-        if axes.points(array.shape()).is_none() {
+    /// Reads the array where it is, or a contiguous copy of it, broadcast to the shape that its points have
+    /// together with the parameters of a material.
+    pub(crate) fn new(array: &Bound<'py, PyArrayDyn<E>>, axes: Axes, parameters: &[usize]) -> PyResult<Self> {
+        let Some(points) = axes.points(array.shape()) else {
             let wanted = if axes == Axes::Leading { "(..., 3, 3)" } else { "(3, 3, ...)" };
-            let shape = shape_text(array.shape());
+            let shape = shape::text(array.shape());
             return Err(value_error(format!("F has the shape {shape}; it must be {wanted}")));
-        }
-        let array = if array.is_c_contiguous() { array.clone() } else { copy(array)? };
+        };
+        let array = match shape::common(points, parameters) {
+            Some(common) if common == points && array.is_c_contiguous() => array.clone(),
+            Some(common) => broadcast(array, axes, &common)?,
+            None => {
+                let (points, parameters) = (shape::text(points), shape::text(parameters));
+                return Err(value_error(format!(
+                    "F has points of the shape {points}, and the material has parameters of the shape \
+                     {parameters}: they cannot be broadcast together"
+                )));
+            }
+        };
         let refused = |error: numpy::BorrowError| value_error(format!("F cannot be read: {error}"));
         Ok(Self { array: array.try_readonly().map_err(refused)?, axes })
     }
@@ -87,10 +141,13 @@ impl<'py, E: Element> Input<'py, E> {
             None => PyArrayDyn::zeros(py, shape, false),
             Some(given) => {
                 let array = given.cast::<PyArrayDyn<E>>().map_err(|_| {
-                    type_error(format!("out is {}; it must be an array of the numbers of F", kind(given)))
+                    let (found, wanted) = (kind(given), dtype::<E>(py));
+                    type_error(format!(
+                        "out is {found}; it must be an array of {wanted}, which the result is"
+                    ))
                 })?;
                 if array.shape() != shape {
-                    let (shape, found) = (shape_text(&shape), shape_text(array.shape()));
+                    let (shape, found) = (shape::text(&shape), shape::text(array.shape()));
                     return Err(value_error(format!("out has the shape {found}; it must be {shape}")));
                 }
                 array.clone()
@@ -131,77 +188,68 @@ pub(crate) fn statuses<'py>(given: &Bound<'py, PyAny>, points: &[usize]) -> PyRe
         .cast::<PyArrayDyn<u8>>()
         .map_err(|_| type_error(format!("status is {}; it must be an array of numpy.uint8", kind(given))))?;
     if array.shape() != points {
-        let (found, wanted) = (shape_text(array.shape()), shape_text(points));
+        let (found, wanted) = (shape::text(array.shape()), shape::text(points));
         return Err(value_error(format!("status has the shape {found}; it must be {wanted}")));
     }
     Output::new(array.clone(), "status")
 }
 
-/// A contiguous copy.
-fn copy<'py, E: Element>(array: &Bound<'py, PyArrayDyn<E>>) -> PyResult<Bound<'py, PyArrayDyn<E>>> {
-    let copied = array.call_method1("copy", ("C",))?;
-    copied.cast_into().map_err(|_| type_error("F cannot be copied".to_owned()))
+/// A contiguous copy whose points have another shape, to which they can be broadcast.
+fn broadcast<'py, E: Element>(
+    array: &Bound<'py, PyArrayDyn<E>>,
+    axes: Axes,
+    points: &[usize],
+) -> PyResult<Bound<'py, PyArrayDyn<E>>> {
+    let found = axes.points(array.shape()).unwrap_or_default();
+    // Axes are added before those of the points, which may not be the first of the array.
+    let added = [vec![1; points.len() - found.len()], found.to_vec()].concat();
+    let numpy = array.py().import("numpy")?;
+    let array = array.call_method1("reshape", (axes.shape(&added, &[3, 3]),))?;
+    converted(numpy.call_method1("broadcast_to", (array, axes.shape(points, &[3, 3])))?.cast()?)
 }
 
 /// Rows of N numbers, as of positions: any sequence of sequences, or an array.
-pub(crate) fn rows<const N: usize>(
-    py: Python<'_>,
-    name: &str,
-    given: &Bound<'_, PyAny>,
-) -> PyResult<Vec<[f64; N]>> {
-    let numbers = as_array(py, name, given, "float64")?;
-    let numbers = numbers.cast_into::<PyArrayDyn<f64>>().map_err(|_| no_numbers(name, given))?;
+pub(crate) fn rows<const N: usize>(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; N]>> {
+    let numbers = Numbers::new(name, given)?.doubles()?;
     if numbers.ndim() != 2 || numbers.shape()[1] != N {
-        let found = shape_text(numbers.shape());
+        let found = shape::text(numbers.shape());
         return Err(value_error(format!("{name} has the shape {found}; it must be (n, {N})")));
     }
-    let numbers = numbers.to_vec().map_err(|error| value_error(error.to_string()))?;
-    Ok(numbers.as_chunks().0.to_vec())
+    Ok(numbers.to_vec()?.as_chunks().0.to_vec())
 }
 
 /// Numbers in a row: any sequence, an array, or a single one.
-pub(crate) fn numbers(py: Python<'_>, name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    let array = as_array(py, name, given, "float64")?;
-    let array = array.cast_into::<PyArrayDyn<f64>>().map_err(|_| no_numbers(name, given))?;
+pub(crate) fn numbers(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let array = Numbers::new(name, given)?.doubles()?;
     if array.ndim() > 1 {
-        let found = shape_text(array.shape());
+        let found = shape::text(array.shape());
         return Err(value_error(format!(
             "{name} has the shape {found}; it must be a number or a row of numbers"
         )));
     }
-    array.to_vec().map_err(|error| value_error(error.to_string()))
+    Ok(array.to_vec()?)
 }
 
 /// Indices in rows of N, or in one row for N = 1, none below zero.
-pub(crate) fn indices<const N: usize>(
-    py: Python<'_>,
-    name: &str,
-    given: &Bound<'_, PyAny>,
-) -> PyResult<Vec<[usize; N]>> {
-    let kind = as_array(py, name, given, "")?;
-    let is_empty = kind.cast::<PyUntypedArray>().is_ok_and(|array| array.len() == 0);
-    let is_whole =
-        kind.cast::<PyUntypedArray>().is_ok_and(|array| matches!(array.dtype().kind(), b'i' | b'u'));
-    if !is_whole && !is_empty {
-        return Err(type_error(format!(
-            "{name} is {}; it must be an array of whole numbers",
-            self::kind(&kind)
-        )));
+pub(crate) fn indices<const N: usize>(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<[usize; N]>> {
+    let array = as_array(name, given)?;
+    let is_whole = matches!(array.dtype().kind(), b'i' | b'u');
+    if !is_whole && array.len() > 0 {
+        let found = kind(&array);
+        return Err(type_error(format!("{name} is {found}; it must be an array of whole numbers")));
     }
-    let array = as_array(py, name, given, "int64")?;
-    let array = array.cast_into::<PyArrayDyn<i64>>().map_err(|_| no_numbers(name, given))?;
+    let array: Bound<'_, PyArrayDyn<i64>> = converted(&array)?;
     let fits = if N == 1 { array.ndim() == 1 } else { array.ndim() == 2 && array.shape()[1] == N };
     if !fits {
         let wanted = if N == 1 { "(n,)".to_owned() } else { format!("(n, {N})") };
-        let found = shape_text(array.shape());
+        let found = shape::text(array.shape());
         return Err(value_error(format!("{name} has the shape {found}; it must be {wanted}")));
     }
-    let whole = array.to_vec().map_err(|error| value_error(error.to_string()))?;
     let index = |&number: &i64| {
         usize::try_from(number)
             .map_err(|_| value_error(format!("{name} has the entry {number}; it must not be negative")))
     };
-    let whole: Vec<_> = whole.iter().map(index).collect::<PyResult<_>>()?;
+    let whole: Vec<_> = array.to_vec()?.iter().map(index).collect::<PyResult<_>>()?;
     Ok(whole.as_chunks().0.to_vec())
 }
 
@@ -214,20 +262,30 @@ pub(crate) fn from_rows<'py, const N: usize, E: Element + Copy>(
     Ok(flat.reshape([rows.len(), N])?.into_any())
 }
 
-fn as_array<'py>(
-    py: Python<'py>,
-    name: &str,
-    given: &Bound<'py, PyAny>,
-    dtype: &str,
-) -> PyResult<Bound<'py, PyAny>> {
-    let numpy = py.import("numpy")?;
-    let arguments =
-        if dtype.is_empty() { PyTuple::new(py, [given])? } else { (given, dtype).into_pyobject(py)? };
-    numpy.call_method1("ascontiguousarray", arguments).map_err(|_| no_numbers(name, given))
+/// An array that the caller can read only, since it is a copy: what is written to it would be lost.
+pub(crate) fn read_only<T>(array: Bound<'_, T>) -> PyResult<Bound<'_, T>> {
+    array.as_any().call_method1("setflags", (false,))?;
+    Ok(array)
 }
 
-fn no_numbers(name: &str, given: &Bound<'_, PyAny>) -> PyErr {
-    type_error(format!("{name} is {}; it must be numbers", kind(given)))
+/// What `numpy.asarray` makes of an object.
+fn as_array<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
+    let array = given.py().import("numpy")?.call_method1("asarray", (given,));
+    Ok(array.map_err(|cause| no_numbers(name, given, Some(cause)))?.cast_into()?)
+}
+
+/// An array with numbers of this type, in the order of C; a copy if it is not one already.
+fn converted<'py, E: Element>(array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyArrayDyn<E>>> {
+    let (casting, is_subclass, is_copy) = ("unsafe", false, false);
+    let arguments = (dtype::<E>(array.py()), "C", casting, is_subclass, is_copy);
+    Ok(array.call_method1("astype", arguments)?.cast_into()?)
+}
+
+fn no_numbers(name: &str, given: &Bound<'_, PyAny>, cause: Option<PyErr>) -> PyErr {
+    let error =
+        type_error(format!("{name} is {}; it must be real numbers, or an array of them", kind(given)));
+    error.set_cause(given.py(), cause);
+    error
 }
 
 /// The kind of an object, in words.
@@ -235,13 +293,5 @@ pub(crate) fn kind(object: &Bound<'_, PyAny>) -> String {
     match object.cast::<PyUntypedArray>() {
         Ok(array) => format!("an array of {}", array.dtype()),
         Err(_) => format!("of type {}", type_name(object)),
-    }
-}
-
-/// A shape as Python writes it.
-pub(crate) fn shape_text(shape: &[usize]) -> String {
-    match shape {
-        [one] => format!("({one},)"),
-        _ => format!("({})", shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
     }
 }

@@ -8,10 +8,11 @@ use piola::batch::LengthError;
 use piola::mesh::{Group, TetMesh, tetrahedral_box};
 use piola::point::Filter;
 use piola::system::{self, ElasticResponse, NodalStiffness, Part};
+use pyo3::exceptions::PyImportError;
 use pyo3::prelude::*;
 use pyo3::types::PySequence;
 
-use crate::arrays::{from_rows, indices, kind, numbers, rows};
+use crate::arrays::{from_rows, indices, kind, numbers, read_only, rows};
 use crate::errors::{BodyError, DomainError, of_body, type_error};
 use crate::evaluate::filter;
 use crate::material::Material;
@@ -24,7 +25,7 @@ use crate::threads::on_threads;
 /// points: rest positions of the nodes, m, of shape (n, 3): `mesh.points` of meshio.
 /// tets: nodes of each tetrahedron, of shape (m, 4), positively oriented: `mesh.cells_dict["tetra"]`.
 /// material, density: a Material and its density, kg/m³; or a sequence of each, one for each part. A material
-///     that was declared with parameters for each point has them for each tetrahedron.
+///     whose parameters differ from point to point has them for each tetrahedron of its part.
 /// parts: the part of each tetrahedron, from 0, of shape (m,), where there are several.
 ///
 /// Raises BodyError for a mesh, a density or parts that make no body.
@@ -37,8 +38,56 @@ pub(crate) struct Body {
     order: Vec<usize>,
 }
 
-/// Row, column and entries of the blocks of a matrix.
-type Blocks<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyAny>);
+/// A sparse matrix in blocks, row by row.
+#[derive(Default)]
+struct Blocks {
+    /// The first block of each row, and their number.
+    starts: Vec<i64>,
+    columns: Vec<i64>,
+    blocks: Vec<[[f64; 3]; 3]>,
+}
+
+impl Blocks {
+    /// Both triangles of a symmetric matrix.
+    fn new(matrix: &NodalStiffness, nodes: usize) -> Self {
+        let mut starts = vec![0; nodes + 1];
+        for (row, column, _) in matrix.blocks() {
+            starts[row + 1] += 1;
+            starts[column + 1] += i64::from(row != column);
+        }
+        for row in 0..nodes {
+            starts[row + 1] += starts[row];
+        }
+        let count = starts[nodes] as usize;
+        let mut next = starts.clone();
+        let mut both = Self { starts, columns: vec![0; count], blocks: vec![[[0.0; 3]; 3]; count] };
+        // A row is given its columns in order: those that are stored as later ones of rows before it, and its
+        // diagonal; then those of the rows after it.
+        for (row, column, block) in matrix.blocks() {
+            both.put(&mut next, column, row, block);
+        }
+        for row in 0..nodes {
+            let mut place = both.starts[row] as usize;
+            while place < count && both.columns[place] < row as i64 {
+                let (column, block) = (both.columns[place] as usize, both.blocks[place]);
+                both.put(&mut next, column, row, &block);
+                place += 1;
+            }
+        }
+        both
+    }
+
+    /// Puts the transpose of a block at the next place of a row.
+    fn put(&mut self, next: &mut [i64], row: usize, column: usize, block: &[[f64; 3]; 3]) {
+        let place = next[row] as usize;
+        self.columns[place] = column as i64;
+        self.blocks[place] = std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]));
+        next[row] += 1;
+    }
+}
+
+/// Row, column and entries of each block.
+type Triplets<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyAny>);
 
 struct Memory {
     response: ElasticResponse,
@@ -73,6 +122,22 @@ impl Body {
         );
         Err(DomainError::new_err((message, (tet,), refused, nonfinite)))
     }
+
+    fn blocks(&self, py: Python<'_>, positions: &Bound<'_, PyAny>, filter: Option<&str>) -> PyResult<Blocks> {
+        let x = rows("positions", positions)?;
+        let filter: Filter = self::filter(filter)?;
+        let mut gradient = vec![[0.0; 3]; self.body.rest().len()];
+        if self.memory().stiffness.is_none() {
+            self.memory().stiffness = Some(NodalStiffness::of_body(&self.body).map_err(of_body)?);
+        }
+        self.evaluate(py, |body, memory| {
+            let Memory { response, stiffness } = memory;
+            let survey = response.energy(body, &x)?.1;
+            let Some(matrix) = stiffness else { return Ok((Blocks::default(), survey)) };
+            let survey = response.stiffness_here(body, filter, &mut gradient, matrix)?;
+            Ok((Blocks::new(matrix, body.rest().len()), survey))
+        })
+    }
 }
 
 #[pymethods]
@@ -80,24 +145,23 @@ impl Body {
     #[new]
     #[pyo3(signature = (points, tets, material, density, *, parts = None))]
     fn new(
-        py: Python<'_>,
         points: &Bound<'_, PyAny>,
         tets: &Bound<'_, PyAny>,
         material: &Bound<'_, PyAny>,
         density: &Bound<'_, PyAny>,
         parts: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let mut mesh = TetMesh::new(rows(py, "points", points)?, indices(py, "tets", tets)?);
+        let mut mesh = TetMesh::new(rows("points", points)?, indices("tets", tets)?);
         // Messages count tetrahedra from 0.
         mesh.tags = (0..mesh.tets.len()).collect();
-        let (materials, densities) = (materials(material)?, numbers(py, "density", density)?);
+        let (materials, densities) = (materials(material)?, numbers("density", density)?);
         if materials.len() != densities.len() {
             let (materials, densities) = (materials.len(), densities.len());
             return Err(BodyError::new_err(format!(
                 "there are {materials} materials and {densities} densities"
             )));
         }
-        let part_of: Option<Vec<[usize; 1]>> = parts.map(|parts| indices(py, "parts", parts)).transpose()?;
+        let part_of: Option<Vec<[usize; 1]>> = parts.map(|parts| indices("parts", parts)).transpose()?;
         match &part_of {
             None if materials.len() != 1 => {
                 return Err(BodyError::new_err(
@@ -127,7 +191,7 @@ impl Body {
         let order = groups.iter().flat_map(|group| group.tets.iter().copied()).collect();
         mesh.groups = groups;
         let part = |(part, (material, density)): (usize, (&Py<Material>, f64))| {
-            let material = material.get().elements()?;
+            let material = material.get().elements(mesh.groups[part].tets.len())?;
             Ok(Part { group: Some(part.to_string()), material, density })
         };
         let parts: Vec<_> = materials.iter().zip(densities).enumerate().map(part).collect::<PyResult<_>>()?;
@@ -136,81 +200,86 @@ impl Body {
         Ok(Self { body, memory, order })
     }
 
-    /// Rest positions of the nodes, m, of shape (n, 3).
+    /// Rest positions of the nodes, m, of shape (n, 3), to be read.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        from_rows(py, self.body.rest())
+        read_only(from_rows(py, self.body.rest())?)
     }
 
-    /// Lumped masses of the nodes, kg, of shape (n,).
+    /// Lumped masses of the nodes, kg, of shape (n,), to be read.
     #[getter]
-    fn masses<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.body.masses().to_vec().into_pyarray(py)
+    fn masses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        read_only(self.body.masses().to_vec().into_pyarray(py))
     }
 
     /// Energy of deformation, J, with the nodes at these positions, m, of shape (n, 3).
     ///
-    /// Raises DomainError if a tetrahedron is outside the domain of its material, as the next two do.
+    /// Raises DomainError if a tetrahedron is outside the domain of its material, as all that follows does.
     #[pyo3(signature = (positions, /))]
     fn energy(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<f64> {
-        let x = rows(py, "positions", positions)?;
+        let x = rows("positions", positions)?;
         self.evaluate(py, |body, memory| memory.response.energy(body, &x))
     }
 
     /// Gradient of the energy in the positions, N, of shape (n, 3): minus the forces.
     #[pyo3(signature = (positions, /))]
     fn gradient<'py>(&self, py: Python<'py>, positions: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let x = rows(py, "positions", positions)?;
+        let x = rows("positions", positions)?;
         let mut gradient = vec![[0.0; 3]; self.body.rest().len()];
         self.evaluate(py, |body, memory| Ok(((), memory.response.gradient(body, &x, &mut gradient)?)))?;
         from_rows(py, &gradient)
     }
 
-    /// Stiffness, N/m, in blocks of 3x3: (rows, columns, blocks), of shapes (b,), (b,) and (b, 3, 3).
+    /// Stiffness, N/m: second derivatives of the energy, a symmetric `scipy.sparse.csr_array` of shape
+    /// (3n, 3n), in which coordinate c of node k is number 3k + c.
     ///
     ///     stiffness(positions, /, *, filter=None)
     ///
-    /// Block k holds the second derivatives of the energy by the positions of node rows[k] and node
-    /// columns[k]; each pair of nodes occurs once in both orders, and always at the same place. With
-    /// `i = 3*rows[:, None, None] + numpy.arange(3)[:, None]` and likewise j, `scipy.sparse.csr_array` takes
-    /// `(blocks.ravel(), (i, j))`.
-    ///
     /// filter: as of `Material.tangent`, for each tetrahedron.
+    ///
+    /// Raises ImportError where there is no scipy, which `stiffness_blocks` does not need.
     #[pyo3(signature = (positions, /, *, filter = None))]
     fn stiffness<'py>(
         &self,
         py: Python<'py>,
         positions: &Bound<'py, PyAny>,
         filter: Option<&str>,
-    ) -> PyResult<Blocks<'py>> {
-        let x = rows(py, "positions", positions)?;
-        let filter: Filter = self::filter(filter)?;
-        let mut gradient = vec![[0.0; 3]; self.body.rest().len()];
-        if self.memory().stiffness.is_none() {
-            self.memory().stiffness = Some(NodalStiffness::of_body(&self.body).map_err(of_body)?);
-        }
-        let (places, blocks) = self.evaluate(py, |body, memory| {
-            let Memory { response, stiffness } = memory;
-            let mut survey = response.energy(body, &x)?.1;
-            let (mut places, mut blocks) = (Vec::new(), Vec::new());
-            if let Some(matrix) = stiffness {
-                survey = response.stiffness_here(body, filter, &mut gradient, matrix)?;
-                for (row, column, block) in matrix.blocks() {
-                    places.push([row as i64, column as i64]);
-                    blocks.push(*block);
-                    if row != column {
-                        places.push([column as i64, row as i64]);
-                        blocks.push(std::array::from_fn(|i| std::array::from_fn(|j| block[j][i])));
-                    }
-                }
-            }
-            Ok(((places, blocks), survey))
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let sparse = py.import("scipy.sparse").map_err(|cause| {
+            let error = PyImportError::new_err(
+                "Body.stiffness makes a matrix of scipy: install scipy, or take Body.stiffness_blocks, which gives arrays",
+            );
+            error.set_cause(py, Some(cause));
+            error
         })?;
-        let [row, column] =
-            [0, 1].map(|k| places.iter().map(|place| place[k]).collect::<Vec<_>>().into_pyarray(py));
-        let count = blocks.len();
-        let flat: Vec<f64> = blocks.into_iter().flat_map(|block: [[f64; 3]; 3]| block.concat()).collect();
-        Ok((row, column, flat.into_pyarray(py).reshape([count, 3, 3])?.into_any()))
+        let Blocks { starts, columns, blocks } = self.blocks(py, positions, filter)?;
+        let unknowns = 3 * self.body.rest().len();
+        // Solvers take indices of 32 bits, unless there are too many entries.
+        let dtype = if i32::try_from(9 * blocks.len()).is_ok() { "int32" } else { "int64" };
+        let index = |array: Vec<i64>| array.into_pyarray(py).call_method1("astype", (dtype,));
+        let arrays = (from_blocks(py, blocks)?, index(columns)?, index(starts)?);
+        sparse.call_method1("bsr_array", (arrays, (unknowns, unknowns)))?.call_method0("tocsr")
+    }
+
+    /// Stiffness, N/m, in blocks of 3x3: (rows, columns, blocks), of shapes (b,), (b,) and (b, 3, 3).
+    ///
+    ///     stiffness_blocks(positions, /, *, filter=None)
+    ///
+    /// Block k holds the second derivatives of the energy by the positions of node rows[k] and node
+    /// columns[k]. They come row by row, each pair of nodes in both orders, and always at the same place.
+    ///
+    /// filter: as of `Material.tangent`, for each tetrahedron.
+    #[pyo3(signature = (positions, /, *, filter = None))]
+    fn stiffness_blocks<'py>(
+        &self,
+        py: Python<'py>,
+        positions: &Bound<'py, PyAny>,
+        filter: Option<&str>,
+    ) -> PyResult<Triplets<'py>> {
+        let Blocks { starts, columns, blocks } = self.blocks(py, positions, filter)?;
+        let of_row = |row: usize| (starts[row]..starts[row + 1]).map(move |_| row as i64);
+        let rows: Vec<_> = (0..self.body.rest().len()).flat_map(of_row).collect();
+        Ok((rows.into_pyarray(py), columns.into_pyarray(py), from_blocks(py, blocks)?))
     }
 
     fn __repr__(&self) -> String {
@@ -220,6 +289,12 @@ impl Body {
             self.body.elements().len()
         )
     }
+}
+
+/// Blocks as an array of shape (b, 3, 3).
+fn from_blocks(py: Python<'_>, blocks: Vec<[[f64; 3]; 3]>) -> PyResult<Bound<'_, PyAny>> {
+    let flat = blocks.as_flattened().as_flattened().to_vec().into_pyarray(py);
+    Ok(flat.reshape([blocks.len(), 3, 3])?.into_any())
 }
 
 /// One material, or a sequence of them.

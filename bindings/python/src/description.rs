@@ -89,7 +89,15 @@ impl Description {
 impl Description {
     fn __repr__(&self) -> String {
         let names: Vec<_> = self.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-        format!("{}({}): {}", self.name, names.join(", "), self.formula)
+        format!("{}({}): {}", shown(&self.name), names.join(", "), self.formula)
+    }
+}
+
+/// A name before the parentheses of its parameters: in quotes if it is a formula, or has other signs in it.
+pub(crate) fn shown(name: &str) -> String {
+    match name.chars().all(|c| c.is_alphanumeric() || "_- ".contains(c)) {
+        true => name.to_owned(),
+        false => format!("'{name}'"),
     }
 }
 

@@ -25,6 +25,11 @@ pub(crate) fn of_parameters(error: Refused) -> PyErr {
     MaterialError::new_err(in_python(&error.to_string()))
 }
 
+/// A material of a point that refuses its parameters.
+pub(crate) fn of_point(index: &str, error: &Error) -> PyErr {
+    MaterialError::new_err(in_python(&format!("at index {index}: {error}")))
+}
+
 /// A message with Rust's names of what Python's keywords choose.
 fn in_python(message: &str) -> String {
     message.replace("Inversion::Refuse", "extend=None")

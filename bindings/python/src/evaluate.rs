@@ -12,11 +12,12 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::arrays::{Axes, Input, Output, kind, shape_text, statuses};
+use crate::arrays::{Axes, Input, Numbers, Output, kind, statuses};
 use crate::columns::Columns;
 use crate::errors::{DomainError, type_error, value_error};
 use crate::material::Material;
 use crate::quantity::{Number, Quantity};
+use crate::shape;
 use crate::threads::on_threads;
 
 /// Points from which on the threads of the pool share a call, unless the caller decides.
@@ -40,12 +41,9 @@ impl<'py> Call<'_, 'py> {
         F: &Bound<'py, PyAny>,
         quantity: Quantity,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        if let Ok(F) = F.cast::<PyArrayDyn<f64>>() {
-            self.run_in(material, F, quantity)
-        } else if let Ok(F) = F.cast::<PyArrayDyn<f32>>() {
-            self.run_in(material, F, quantity)
-        } else {
-            Err(type_error(format!("F is {}; it must be an array of float64 or float32", kind(F))))
+        match Numbers::new("F", F)? {
+            Numbers::Double(F) => self.run_in(material, &F, quantity),
+            Numbers::Single(F) => self.run_in(material, &F, quantity),
         }
     }
 
@@ -55,7 +53,7 @@ impl<'py> Call<'_, 'py> {
         F: &Bound<'py, PyArrayDyn<E>>,
         quantity: Quantity,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let input = Input::new(F, self.axes)?;
+        let input = Input::new(F, self.axes, material.shape())?;
         let mut outputs = Vec::with_capacity(3);
         for (k, components) in quantity.components().iter().enumerate() {
             outputs.push(input.output(F.py(), components, self.out.get(k).and_then(Option::as_ref))?);
@@ -82,17 +80,12 @@ impl<'py> Call<'_, 'py> {
         let F = input.slice()?;
         let mut results: Vec<_> = outputs.iter_mut().map(Output::slice).collect::<PyResult<_>>()?;
         let cells: Vec<_> = status.iter().flat_map(|_| (0..count).map(|_| StatusCell::default())).collect();
+        let each = material.at(input.points());
         let single;
-        let points: &dyn TileMaterial<E> = match material.each() {
-            None => E::material(material)?,
+        let points: &dyn TileMaterial<E> = match each.as_deref() {
+            None | Some([]) => E::material(material)?,
             Some(each) => {
                 single = PerPoint::new(each).map_err(|error| value_error(error.to_string()))?;
-                if each.len() != count {
-                    let (points, materials) = (shape_text(input.points()), each.len());
-                    return Err(value_error(format!(
-                        "F has points of shape {points}, and the material parameters for {materials} points"
-                    )));
-                }
                 &single
             }
         };
@@ -103,7 +96,7 @@ impl<'py> Call<'_, 'py> {
                 quantity.compute(&batch.with_threads(threads).with_statuses(&cells), F, &mut results)
             }
             Axes::Trailing => {
-                Columns { batch, filter, quantity, F, cells: &cells, count, each: material.each() }
+                Columns { batch, filter, quantity, F, cells: &cells, count, each: each.as_deref() }
                     .compute(results, threads)
             }
         };
@@ -133,23 +126,13 @@ fn flags(cell: &StatusCell) -> u8 {
 
 /// The exception for points whose results mean nothing.
 fn outside(survey: Survey, first: usize, points: &[usize]) -> PyErr {
-    let mut rest = first;
-    let mut index: Vec<_> = points
-        .iter()
-        .rev()
-        .map(|&n| {
-            let k = rest % n;
-            rest /= n;
-            k
-        })
-        .collect();
-    index.reverse();
+    let index = shape::index(first, points);
     let Survey { refused, nonfinite, .. } = survey;
     let message = format!(
         "of {} points, {refused} are outside the domain of the energy, and {nonfinite} have an F or a result \
          that is not finite; the first has the index {}",
         points.iter().product::<usize>(),
-        shape_text(&index)
+        shape::text(&index)
     );
     DomainError::new_err((message, index, refused, nonfinite))
 }
@@ -200,8 +183,9 @@ impl Material {
     ///
     ///     energy(F, /, *, trailing=False, out=None, status=None, threads=None)
     ///
-    /// F: float64 or float32, of shape (..., 3, 3), or (3, 3, ...) if trailing. Results have its type.
-    /// out: an array for the result, of shape (...), contiguous.
+    /// F: any array_like, of shape (..., 3, 3), or (3, 3, ...) if trailing; its points are broadcast with the
+    ///     parameters of the material. Results are float32 if F is, else float64.
+    /// out: an array for the result, of shape (...), contiguous and of its type.
     /// status: an array of uint8, of shape (...), for the flags of each point: see `Status`.
     /// threads: whether several threads share the points; None for yes from 2048 points on.
     ///

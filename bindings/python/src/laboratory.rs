@@ -2,7 +2,7 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods};
+use numpy::{IntoPyArray, PyArrayMethods};
 use piola::contract::{Settings, check};
 use piola::point::{stress, svd};
 use piola_laboratory::curve::{Mode, Volume, sweep};
@@ -13,9 +13,10 @@ use piola_laboratory::stability::{Path, Report, SurveySettings, survey};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::arrays::{Axes, Input, from_rows, kind, numbers, rows};
-use crate::errors::{ContractError, DomainError, FitError, of_material, type_error, value_error};
+use crate::arrays::{Axes, Input, Numbers, from_rows, numbers, rows};
+use crate::errors::{ContractError, DomainError, FitError, of_material, value_error};
 use crate::material::Material;
+use crate::shape;
 
 #[pymethods]
 impl Material {
@@ -37,7 +38,7 @@ impl Material {
         controls: &Bound<'py, PyAny>,
         incompressible: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (mode, controls) = (self::mode(mode)?, numbers(py, "controls", controls)?);
+        let (mode, controls) = (self::mode(mode)?, numbers("controls", controls)?);
         let specimen = self.uniform()?.specimen().map_err(of_material)?;
         let points = py.detach(|| sweep(&*specimen, mode, volume(incompressible), &controls));
         let stress: Vec<f64> =
@@ -84,7 +85,7 @@ impl Material {
         restarts: usize,
         seed: u64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let data = measurements(py, data)?;
+        let data = measurements(data)?;
         let candidate = self.uniform()?.candidate().map_err(of_material)?;
         let settings = FitSettings::default()
             .with_volume(volume(incompressible))
@@ -169,29 +170,32 @@ impl Material {
     ///
     ///     stress_by_parameters(F, /)
     ///
-    /// F: float64, of shape (..., 3, 3), inside the domain, with J > 0.
+    /// F: any array_like, of shape (..., 3, 3), inside the domain, with J > 0; its points are broadcast with
+    ///     the parameters of the material.
     ///
-    /// Returns a dictionary from the names of the parameters to arrays of the shape of F; of a list, to an
-    /// array with one more axis in front. Raises DomainError for an F outside of the domain, MaterialError
-    /// for an energy that does not know these derivatives.
+    /// Returns a dictionary from the names of the parameters to arrays of the shape of stresses, float32 if F
+    /// is; of a list, to an array with one more axis in front. Raises DomainError for an F outside of the
+    /// domain, MaterialError for an energy that does not know these derivatives.
     #[pyo3(signature = (F, /))]
     fn stress_by_parameters<'py>(
         &self,
         py: Python<'py>,
         F: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let Ok(F) = F.cast::<PyArrayDyn<f64>>() else {
-            return Err(type_error(format!("F is {}; it must be an array of float64", kind(F))));
-        };
-        let input = Input::new(F, Axes::Leading)?;
-        let candidate = self.uniform()?.candidate().map_err(of_material)?;
-        let lists = candidate.values();
+        let F = Numbers::new("F", F)?;
+        let dtype = if let Numbers::Single(_) = F { "float32" } else { "float64" };
+        let input = Input::new(&F.doubles()?, Axes::Leading, self.shape())?;
+        let candidates = self.specs().map(|spec| spec.candidate().map_err(of_material));
+        let candidates: Vec<_> = candidates.collect::<PyResult<_>>()?;
+        let candidate_of = shape::entries(self.shape(), input.points());
+        let lists = candidates[0].values();
         let count = lists.iter().map(Vec::len).sum::<usize>();
         let numbers = input.slice()?;
         let points = numbers.len() / 9;
         let mut derivatives = vec![0.0; count * numbers.len()];
         let outside = py.detach(|| {
             (0..points).find(|&point| {
+                let candidate = &candidates[candidate_of[point]];
                 let entries = &numbers[9 * point..][..9];
                 let F: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entries[3 * i + j]));
                 let frames = svd(&F);
@@ -207,19 +211,22 @@ impl Material {
             })
         });
         if let Some(point) = outside {
-            let message = format!("point {point} (from 0) is outside the domain of the energy");
-            return Err(DomainError::new_err((message, (point,), 1, 0)));
+            let index = shape::index(point, input.points());
+            let message = format!(
+                "a point is outside the domain of the energy, or not finite; it has the index {}",
+                shape::text(&index)
+            );
+            return Err(DomainError::new_err((message, index, 1, 0)));
         }
-        let description = self.uniform()?.description().map_err(of_material)?;
         let result = PyDict::new(py);
         let mut begin = 0;
-        for (parameter, list) in description.parameters.iter().zip(&lists) {
+        for (parameter, list) in candidates[0].description().parameters.iter().zip(&lists) {
             let part =
                 derivatives[begin * numbers.len()..][..list.len() * numbers.len()].to_vec().into_pyarray(py);
             begin += list.len();
             let shape = [input.points(), &[3, 3]].concat();
             let shape = if parameter.is_list() { [&[list.len()][..], &shape].concat() } else { shape };
-            result.set_item(&*parameter.name, part.reshape(shape)?)?;
+            result.set_item(&*parameter.name, part.reshape(shape)?.call_method1("astype", (dtype,))?)?;
         }
         Ok(result)
     }
@@ -233,12 +240,12 @@ fn mode(name: &str) -> PyResult<Mode> {
     name.parse().map_err(|error: piola_laboratory::curve::ModeError| value_error(error.to_string()))
 }
 
-fn measurements(py: Python<'_>, data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
+fn measurements(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
     let mut points = Vec::new();
     for (name, readings) in data {
         let name: String = name.extract()?;
         let mode = mode(&name)?;
-        let readings: Vec<[f64; 2]> = rows(py, &name, &readings)?;
+        let readings: Vec<[f64; 2]> = rows(&name, &readings)?;
         points.extend(readings.into_iter().map(|[control, stress]| Measured { mode, control, stress }));
     }
     Ok(Measurements { points })

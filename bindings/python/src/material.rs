@@ -1,20 +1,22 @@
 //! Materials: an energy with its parameters, by its name in the catalogue or declared by a text.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
-use numpy::{PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArrayMethods, PyUntypedArrayMethods};
+use piola::__private::message::printable;
 use piola::Inversion;
 use piola::batch::TileMaterial;
 use piola::interpreter::Interpreted;
 use piola::material::{Moduli, Parameter, PerPoint};
-use piola_declare::{Energy, FormulaOptions};
+use piola_declare::{Energy, FormulaOptions, Mistakes};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyTuple};
 
-use crate::arrays::{kind, numbers};
-use crate::description::Description;
-use crate::errors::{MaterialError, of_material, of_parameters, of_text, type_error};
+use crate::arrays::{Numbers, kind, read_only};
+use crate::description::{Description, shown};
+use crate::errors::{MaterialError, of_material, of_parameters, of_point, of_text, type_error, value_error};
+use crate::shape;
 
 /// An energy with its parameters, whatever it is called by.
 ///
@@ -23,9 +25,10 @@ use crate::errors::{MaterialError, of_material, of_parameters, of_text, type_err
 /// name: the name in `catalogue()`; case, spaces, `_` and `-` do not matter.
 /// extend: the stretch, between 0 and 1, below which the energy is continued, so that inverted elements are
 ///     ordinary ones; None to refuse what is outside of its domain.
-/// parameters: by the names of `describe(name)`, in its units: a number, or a sequence for a list. A number
-///     may be given as an array with a value for each point. `lambda_` is the parameter `lambda`, whose name
-///     Python keeps for itself.
+/// parameters: by the names of `describe(name)`, in its units: a number, or a sequence for a list. Where they
+///     differ from point to point they are arrays, which are broadcast with the shape of the points, by the
+///     rules of numpy: of shape (...) for a number, (..., n) for a list of n. `lambda_` is the parameter
+///     `lambda`, whose name Python keeps for itself.
 ///
 /// Raises MaterialError for an unknown name, and for parameters that are missing, unknown or out of range.
 #[pyclass(frozen, module = "piola")]
@@ -39,14 +42,32 @@ pub(crate) struct Material {
     pub(crate) double: Box<dyn TileMaterial<f64>>,
     /// Its program for single precision, made when it is wanted first.
     single: OnceLock<Interpreted>,
-    /// A material for each point, if they differ.
-    each: Option<PerPoint<Interpreted, Arc<[Interpreted]>>>,
+    /// Materials of points that differ.
+    each: Option<Each>,
 }
 
-/// A number that has a value of its own at each point.
+/// Materials of points that differ, in the order of C.
+struct Each {
+    varying: Vec<Varying>,
+    /// The shape that all parameters have together.
+    shape: Vec<usize>,
+    materials: Vec<Interpreted>,
+}
+
+/// A parameter that has a value of its own, or a list of them, at each point.
 struct Varying {
-    parameter: usize,
-    values: Vec<f64>,
+    name: String,
+    /// The shape as given, which that of the points begins.
+    given: Vec<usize>,
+    points: Vec<usize>,
+    numbers: Vec<f64>,
+}
+
+impl Varying {
+    fn at(&self, point: usize) -> &[f64] {
+        let entries: usize = self.given[self.points.len()..].iter().product();
+        &self.numbers[entries * point..][..entries]
+    }
 }
 
 impl Material {
@@ -64,62 +85,87 @@ impl Material {
 
     /// The material with parameters by keywords.
     fn from_keywords(
-        py: Python<'_>,
         spec: MaterialSpec,
         extend: Option<f64>,
         keywords: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let (spec, varying) = with_keywords(py, spec, keywords)?;
+        let (spec, varying) = with_keywords(spec, keywords)?;
         let material = Self::new(spec, extend)?;
-        if varying.is_empty() { Ok(material) } else { material.varied(&varying) }
+        if varying.is_empty() { Ok(material) } else { material.varied(varying) }
     }
 
     /// A material for each point.
-    fn varied(self, varying: &[Varying]) -> PyResult<Self> {
-        let points = varying[0].values.len();
-        if let Some(other) = varying.iter().find(|other| other.values.len() != points) {
-            let (first, name) = (&self.values[varying[0].parameter].0, &self.values[other.parameter].0);
+    fn varied(self, varying: Vec<Varying>) -> PyResult<Self> {
+        let mut shape = Vec::new();
+        for Varying { name, points, .. } in &varying {
+            shape = shape::common(&shape, points).ok_or_else(|| {
+                let (points, others) = (shape::text(points), shape::text(&shape));
+                MaterialError::new_err(format!(
+                    "`{name}` has values for points of the shape {points}, and the parameters before it for {others}: \
+                     they cannot be broadcast together"
+                ))
+            })?;
+        }
+        let refused = |point, error| of_point(&shape::text(&shape::index(point, &shape)), &error);
+        let mut materials = Vec::new();
+        let count = shape.iter().try_fold(1, |count: usize, &length| count.checked_mul(length));
+        if count.is_none_or(|count| materials.try_reserve_exact(count).is_err()) {
+            let shape = shape::text(&shape);
             return Err(MaterialError::new_err(format!(
-                "`{first}` has values for {points} points, and `{name}` for {}",
-                other.values.len()
+                "there is no memory for parameters of the shape {shape}"
             )));
         }
-        let material = |point: usize| {
-            let at_point = |spec: MaterialSpec, Varying { parameter, values }: &Varying| {
-                spec.with_parameter(&self.values[*parameter].0, [values[point]])
-            };
-            let spec = varying.iter().fold(self.spec.clone(), at_point);
-            let refused = |error| MaterialError::new_err(format!("point {point} (from 0): {error}"));
-            spec.interpreted().map_err(refused)
-        };
-        let materials: Arc<[_]> = (0..points).map(material).collect::<PyResult<_>>()?;
-        let each = PerPoint::new(materials).map_err(|error| MaterialError::new_err(error.to_string()))?;
-        Ok(Self { each: Some(each), ..self })
+        for (point, spec) in specs(&self.spec, &varying, &shape).enumerate() {
+            materials.push(spec.interpreted().map_err(|error| refused(point, error))?);
+        }
+        Ok(Self { each: Some(Each { varying, shape, materials }), ..self })
+    }
+
+    /// The shape of the points for which there are parameters, which is that of a number if they are the same
+    /// at all points.
+    pub(crate) fn shape(&self) -> &[usize] {
+        self.each.as_ref().map_or(&[], |each| &each.shape)
+    }
+
+    /// A specification for each point of the [shape](Self::shape).
+    pub(crate) fn specs(&self) -> impl Iterator<Item = MaterialSpec> {
+        specs(&self.spec, self.varying(), self.shape())
+    }
+
+    fn varying(&self) -> &[Varying] {
+        self.each.as_ref().map_or(&[], |each| &each.varying)
     }
 
     /// The specification, if it is the same at all points.
     pub(crate) fn uniform(&self) -> PyResult<&MaterialSpec> {
-        match self.each() {
+        match &self.each {
             None => Ok(&self.spec),
             Some(each) => Err(MaterialError::new_err(format!(
-                "{} has parameters for each of {} points; this needs one material for all",
+                "{} has parameters of the shape {}; this needs one material for all points",
                 self.name,
-                each.len()
+                shape::text(&each.shape)
             ))),
         }
     }
 
-    /// Materials for the elements of a body.
-    pub(crate) fn elements(&self) -> PyResult<Box<dyn TileMaterial<f64>>> {
-        match &self.each {
-            Some(each) => Ok(Box::new(each.clone())),
-            None => Ok(self.spec.build().map_err(of_material)?.elements),
+    /// Materials for the elements of a body, as many as there are.
+    pub(crate) fn elements(&self, count: usize) -> PyResult<Box<dyn TileMaterial<f64>>> {
+        let Some(each) = &self.each else { return Ok(self.spec.build().map_err(of_material)?.elements) };
+        if shape::common(&each.shape, &[count]).is_none_or(|common| common != [count]) {
+            return Err(MaterialError::new_err(format!(
+                "{} has parameters of the shape {}, and there are {count} tetrahedra",
+                self.name,
+                shape::text(&each.shape)
+            )));
         }
+        let materials: Vec<_> = self.at(&[count]).into_iter().flatten().cloned().collect();
+        Ok(Box::new(PerPoint::new(materials).map_err(|error| MaterialError::new_err(error.to_string()))?))
     }
 
-    /// The materials of the points, if they differ.
-    pub(crate) fn each(&self) -> Option<&[Interpreted]> {
-        self.each.as_ref().map(|each| each.materials())
+    /// The material of each of these points, to whose shape the parameters can be broadcast, if they differ.
+    pub(crate) fn at(&self, points: &[usize]) -> Option<Vec<&Interpreted>> {
+        let Each { shape, materials, .. } = self.each.as_ref()?;
+        Some(shape::entries(shape, points).into_iter().map(|entry| &materials[entry]).collect())
     }
 
     pub(crate) fn single(&self) -> PyResult<&dyn TileMaterial<f32>> {
@@ -144,67 +190,75 @@ impl Material {
     }
 }
 
-/// A specification with the values of keywords, and the numbers that differ from point to point.
+/// A specification for each point of a shape.
+fn specs(spec: &MaterialSpec, varying: &[Varying], points: &[usize]) -> impl Iterator<Item = MaterialSpec> {
+    let entries: Vec<_> = varying.iter().map(|varying| shape::entries(&varying.points, points)).collect();
+    (0..points.iter().product()).map(move |point| {
+        let at_point = |spec: MaterialSpec, (varying, entries): (&Varying, &Vec<usize>)| {
+            spec.with_parameter(&varying.name, varying.at(entries[point]))
+        };
+        varying.iter().zip(&entries).fold(spec.clone(), at_point)
+    })
+}
+
+/// A specification with the values of keywords, and the parameters that differ from point to point, of which
+/// it has the first value.
 fn with_keywords(
-    py: Python<'_>,
     mut spec: MaterialSpec,
     keywords: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(MaterialSpec, Vec<Varying>)> {
     let parameters = spec.description().map_err(of_material)?.parameters.clone();
-    let mut varying = Vec::new();
+    let mut all_varying = Vec::new();
     for (keyword, value) in keywords.into_iter().flatten() {
         let keyword: String = keyword.extract()?;
-        let find = |name: &str| parameters.iter().position(|parameter| parameter.name == name);
-        let bare = keyword.strip_suffix('_').unwrap_or(&keyword);
-        let (name, parameter) = match find(&keyword) {
-            Some(parameter) => (keyword.as_str(), Some(parameter)),
-            None => (bare, find(bare)),
-        };
-        let is_row = value.cast::<PyUntypedArray>().is_ok_and(|array| array.ndim() > 0);
-        let values = if is_row || !value.is_instance_of::<pyo3::types::PyFloat>() {
-            no_strings(name, &value)?;
-            numbers(py, name, &value)?
-        } else {
-            vec![value.extract()?]
-        };
-        match parameter {
-            Some(parameter) if is_row && !parameters[parameter].is_list() => {
-                let first = values.first().copied();
-                let first = first.ok_or_else(|| MaterialError::new_err(format!("`{name}` has no values")))?;
-                spec = spec.with_parameter(name, [first]);
-                varying.push(Varying { parameter, values });
-            }
-            _ => spec = spec.with_parameter(name, values),
+        let name = parameter_name(&keyword, |name| parameters.iter().any(|known| known.name == name));
+        let (given, numbers) = shape_and_numbers(name, &value)?;
+        let parameter = parameters.iter().find(|known| known.name == name);
+        let mut points = given.clone();
+        if parameter.is_some_and(Parameter::is_list) {
+            points.pop();
         }
+        if parameter.is_none() || points.is_empty() {
+            spec = spec.with_parameter(name, numbers);
+            continue;
+        }
+        if points.contains(&0) {
+            let given = shape::text(&given);
+            return Err(MaterialError::new_err(format!("`{name}` has the shape {given}: it has no values")));
+        }
+        let varying = Varying { name: name.to_owned(), given, points, numbers };
+        spec = spec.with_parameter(name, varying.at(0));
+        all_varying.push(varying);
     }
-    Ok((spec, varying))
+    Ok((spec, all_varying))
 }
 
-/// Refuses what numpy would read as numbers and a person would not.
-fn no_strings(name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
-    let is_text =
-        value.is_instance_of::<pyo3::types::PyString>() || value.is_instance_of::<pyo3::types::PyBool>();
-    let is_complex = value.cast::<PyUntypedArray>().is_ok_and(|array| array.dtype().kind() == b'c');
-    if is_text || is_complex || value.is_none() {
-        return Err(type_error(format!(
-            "`{name}` is {}; it must be a number, or numbers in a row",
-            kind(value)
-        )));
+/// The parameter that a keyword names: `lambda_` is `lambda`, unless there is a `lambda_`.
+fn parameter_name(keyword: &str, is_known: impl Fn(&str) -> bool) -> &str {
+    match keyword.strip_suffix('_') {
+        Some(bare) if !is_known(keyword) => bare,
+        _ => keyword,
     }
-    Ok(())
+}
+
+/// The shape and the numbers of a value that a parameter is given.
+fn shape_and_numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<usize>, Vec<f64>)> {
+    if value.is_instance_of::<PyFloat>() {
+        return Ok((Vec::new(), vec![value.extract()?]));
+    }
+    if value.is_instance_of::<PyBool>() {
+        return Err(type_error(format!("`{name}` is {}; it must be a number", kind(value))));
+    }
+    let array = Numbers::new(&format!("`{name}`"), value)?.doubles()?;
+    Ok((array.shape().to_vec(), array.to_vec()?))
 }
 
 #[pymethods]
 impl Material {
     #[new]
     #[pyo3(signature = (name, /, *, extend = None, **parameters))]
-    fn by_name(
-        py: Python<'_>,
-        name: &str,
-        extend: Option<f64>,
-        parameters: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<Self> {
-        Self::from_keywords(py, MaterialSpec::new(name), extend, parameters)
+    fn by_name(name: &str, extend: Option<f64>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        Self::from_keywords(MaterialSpec::new(name), extend, parameters)
     }
 
     /// The material of a name with its typical parameters, mostly those of a rubber.
@@ -230,8 +284,8 @@ impl Material {
     ///
     /// Raises MaterialError as Material.
     #[pyo3(signature = (**parameters))]
-    fn changed(&self, py: Python<'_>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        Self::from_keywords(py, self.uniform()?.clone(), self.extend(), parameters)
+    fn changed(&self, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        Self::from_keywords(self.uniform()?.clone(), self.extend(), parameters)
     }
 
     /// The name in the catalogue, or of the declaration.
@@ -246,8 +300,8 @@ impl Material {
         Ok(Description::new(&self.name, self.spec.description().map_err(of_material)?))
     }
 
-    /// The parameters by name: a number each, or a list of numbers. Those that differ from point to point
-    /// have the value of the first.
+    /// The parameters by name: a number each, or a list of numbers; arrays of those that differ from point to
+    /// point.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let parameters = PyDict::new(py);
@@ -257,6 +311,9 @@ impl Material {
                 true => parameters.set_item(name, values)?,
                 false => parameters.set_item(name, values[0])?,
             }
+        }
+        for Varying { name, given, numbers, .. } in self.varying() {
+            parameters.set_item(name, read_only(numbers.clone().into_pyarray(py).reshape(&given[..])?)?)?;
         }
         Ok(parameters)
     }
@@ -270,10 +327,11 @@ impl Material {
         }
     }
 
-    /// Number of points whose parameters are given one by one, or None for one material at all points.
-    #[getter]
-    fn points(&self) -> Option<usize> {
-        self.each().map(<[_]>::len)
+    /// The shape of parameters that differ from point to point, with which points are broadcast; () for one
+    /// material at all points.
+    #[getter(shape)]
+    fn shape_of_parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.shape())
     }
 
     /// Moduli at small strain, Pa, and Poisson's ratio: those of the first point, where parameters differ.
@@ -285,14 +343,18 @@ impl Material {
     }
 
     fn __repr__(&self) -> String {
-        let shown = |(name, values): &(String, Vec<f64>)| match values.as_slice() {
-            [value] => format!("{name}={value:?}"),
-            values => format!("{name}={values:?}"),
+        let argument = |(name, values): &(String, Vec<f64>)| {
+            let varying = self.varying().iter().find(|varying| varying.name == *name);
+            match (varying, values.as_slice()) {
+                (Some(varying), _) => format!("{name}=<array of shape {}>", shape::text(&varying.given)),
+                (None, [value]) => format!("{name}={value:?}"),
+                (None, values) => format!("{name}={values:?}"),
+            }
         };
-        let parameters = self.values.iter().map(shown);
+        let parameters = self.values.iter().map(argument);
         let extend = self.extend().map(|epsilon| format!("extend={epsilon:?}"));
         let arguments: Vec<_> = parameters.chain(extend).collect();
-        format!("<piola.Material {}({})>", self.name, arguments.join(", "))
+        format!("<piola.Material {}({})>", shown(&self.name), arguments.join(", "))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
@@ -319,28 +381,94 @@ fn spec_extension(spec: &MaterialSpec) -> PyResult<Option<f64>> {
 
 /// A material of an energy that a text declares.
 ///
-///     declare(text, /, *, extend=None, free_rest=False, **parameters)
+///     declare(text, /, *, name=None, extend=None, free_rest=False, **parameters)
 ///
 /// text: a formula in the notation of papers, such as "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2", in the
 ///     stretches l1, l2, l3 or the invariants I1, I2, J, I1b, I2b, with conditions behind `where`; or the
 ///     function in Rust that piola's attribute `material` takes, which has documentation, domain and more.
+/// name: what the material is called, in messages too; None for the formula, or the name of the function.
 /// free_rest: whether a formula gets a term in ln J that frees the rest state of stress.
-/// extend, parameters: as of Material.
+/// extend, parameters: as of Material. Names of a formula that are given here are parameters, whatever else
+///     they are called by: b, C and E for example.
 ///
 /// Raises DeclarationError with all mistakes of the text, each at its place, and MaterialError as Material.
 #[pyfunction]
-#[pyo3(signature = (text, /, *, extend = None, free_rest = false, **parameters))]
+#[pyo3(signature = (text, /, *, name = None, extend = None, free_rest = false, **parameters))]
 pub(crate) fn declare(
     py: Python<'_>,
     text: &str,
+    name: Option<&str>,
     extend: Option<f64>,
     free_rest: bool,
     parameters: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Material> {
-    let energy = py.detach(|| match text.contains("#[") {
-        true => Energy::from_rust(text),
-        false => Energy::from_formula_with(text, &FormulaOptions::default().with_free_rest(free_rest)),
-    });
+    if name.is_some_and(|name| name.trim().is_empty()) {
+        return Err(value_error(
+            "the name is empty; leave it out to call the material by its formula".to_owned(),
+        ));
+    }
+    let is_rust = text.contains("#[");
+    let energy = match is_rust {
+        true => py.detach(|| Energy::from_rust(text)),
+        false => of_formula(py, text, free_rest, parameters)?,
+    };
+    // Ctrl-C during the compilation ends here.
+    py.check_signals()?;
     let spec = MaterialSpec::declared(energy.map_err(of_text)?);
-    Material::from_keywords(py, spec, extend, parameters)
+    let spec = match name.or((!is_rust).then_some(text)) {
+        Some(name) => spec.with_name(label(name)),
+        None => spec,
+    };
+    Material::from_keywords(spec, extend, parameters)
+}
+
+/// The energy of a formula, in which the names of keywords are parameters.
+fn of_formula(
+    py: Python<'_>,
+    formula: &str,
+    free_rest: bool,
+    keywords: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Result<Energy, Mistakes>> {
+    let formula = &as_identifiers(py, formula)?;
+    let is_used =
+        |name: &str| formula.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
+    let mut known = Vec::new();
+    for (keyword, _) in keywords.into_iter().flatten() {
+        let keyword: String = keyword.extract()?;
+        known.push((parameter_name(&keyword, is_used).to_owned(), String::new()));
+    }
+    let any = FormulaOptions::default().with_free_rest(free_rest);
+    Ok(py.detach(|| {
+        if known.is_empty() {
+            return Energy::from_formula_with(formula, &any);
+        }
+        let energy = Energy::from_formula_with(formula, &any.clone().with_parameters(Some(known)));
+        // Where keywords are missing or wrong the material says which parameters there are.
+        energy.or_else(|mistakes| Energy::from_formula_with(formula, &any).map_err(|_| mistakes))
+    }))
+}
+
+/// A formula with the letters that Python makes of them in keywords: μ of the micro sign, φ of ϕ.
+fn as_identifiers(py: Python<'_>, formula: &str) -> PyResult<String> {
+    let mut letters = String::new();
+    for c in formula.chars() {
+        match c.is_alphabetic() && !c.is_ascii() {
+            true => {
+                let normal = py.import("unicodedata")?.call_method1("normalize", ("NFKC", c))?;
+                letters += &normal.extract::<String>()?;
+            }
+            false => letters.push(c),
+        }
+    }
+    Ok(letters)
+}
+
+/// The name of a material in one line, not longer than a line.
+fn label(name: &str) -> String {
+    const LONGEST: usize = 100;
+    let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
+    match name.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", printable(&name[..end])),
+        None => printable(&name),
+    }
 }

@@ -7,7 +7,7 @@ use piola::system::Pins;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{from_rows, indices, rows};
+use crate::arrays::{from_rows, indices, read_only, rows};
 use crate::body::Body;
 use crate::errors::{BodyError, StepError, of_body};
 use crate::settings::{from_keywords, to_dict};
@@ -64,34 +64,34 @@ impl Simulation {
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let settings: SimulationSettings = from_keywords(py, settings)?;
-        let pins = self::pins(py, pins)?;
+        let pins = self::pins(pins)?;
         let body = body.body.clone();
         let simulation = py.detach(|| on_threads(|| step::Simulation::new(body, &pins, settings)))?;
         Ok(Self { simulation: Mutex::new(simulation.map_err(of_body)?) })
     }
 
-    /// Positions of the nodes, m, of shape (n, 3): a copy. Set them to start from elsewhere, however
-    /// deformed.
+    /// Positions of the nodes, m, of shape (n, 3), to be read. Set all of them, `simulation.positions = x`,
+    /// to start from elsewhere, however deformed.
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        from_rows(py, &self.with(py, |simulation| simulation.positions().to_vec()))
+        read_only(from_rows(py, &self.with(py, |simulation| simulation.positions().to_vec()))?)
     }
 
     #[setter]
     fn set_positions(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
-        let x = rows(py, "positions", positions)?;
+        let x = rows("positions", positions)?;
         self.with(py, |simulation| simulation.set_positions(&x)).map_err(of_body)
     }
 
-    /// Velocities of the nodes, m/s, of shape (n, 3): a copy. Set them to push the body.
+    /// Velocities of the nodes, m/s, of shape (n, 3), to be read. Set all of them to push the body.
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        from_rows(py, &self.with(py, |simulation| simulation.velocities().to_vec()))
+        read_only(from_rows(py, &self.with(py, |simulation| simulation.velocities().to_vec()))?)
     }
 
     #[setter]
     fn set_velocities(&self, py: Python<'_>, velocities: &Bound<'_, PyAny>) -> PyResult<()> {
-        let v = rows(py, "velocities", velocities)?;
+        let v = rows("velocities", velocities)?;
         self.with(py, |simulation| simulation.set_velocities(&v)).map_err(of_body)
     }
 
@@ -103,14 +103,28 @@ impl Simulation {
 
     #[setter]
     fn set_pins(&self, py: Python<'_>, pins: &Bound<'_, PyAny>) -> PyResult<()> {
-        let pins = self::pins(py, Some(pins))?;
+        let pins = self::pins(Some(pins))?;
         self.with(py, |simulation| simulation.set_pins(&pins)).map_err(of_body)
+    }
+
+    /// Forces by which the pins hold the body, N, of shape (k, 3): of the node pins[i] at index i.
+    ///
+    /// At rest they and all other forces add up to zero: under gravity their sum is minus the weight. After a
+    /// step they also give the pinned nodes their accelerations.
+    ///
+    /// Raises StepError if a tetrahedron is outside the domain of its material, or not finite.
+    fn reactions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let reactions = py.detach(|| {
+            let simulation = &mut *self.lock();
+            on_threads(|| simulation.reactions())
+        })?;
+        from_rows(py, &reactions.map_err(|error| StepError::new_err(error.to_string()))?)
     }
 
     /// Sets forces on the nodes, N, of shape (n, 3), that keep their sizes and directions.
     #[pyo3(signature = (forces, /))]
     fn set_forces(&self, py: Python<'_>, forces: &Bound<'_, PyAny>) -> PyResult<()> {
-        let forces = rows(py, "forces", forces)?;
+        let forces = rows("forces", forces)?;
         self.with(py, |simulation| simulation.set_forces(&forces)).map_err(of_body)
     }
 
@@ -126,8 +140,8 @@ impl Simulation {
         nodes: &Bound<'_, PyAny>,
         positions: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let nodes: Vec<[usize; 1]> = indices(py, "nodes", nodes)?;
-        let positions: Vec<[f64; 3]> = rows(py, "positions", positions)?;
+        let nodes: Vec<[usize; 1]> = indices("nodes", nodes)?;
+        let positions: Vec<[f64; 3]> = rows("positions", positions)?;
         if nodes.len() != positions.len() {
             let (nodes, positions) = (nodes.len(), positions.len());
             return Err(BodyError::new_err(format!("there are {nodes} nodes and {positions} positions")));
@@ -177,8 +191,8 @@ impl Simulation {
     }
 }
 
-fn pins(py: Python<'_>, given: Option<&Bound<'_, PyAny>>) -> PyResult<Pins> {
+fn pins(given: Option<&Bound<'_, PyAny>>) -> PyResult<Pins> {
     let Some(given) = given else { return Ok(Pins::none()) };
-    let nodes: Vec<[usize; 1]> = indices(py, "pins", given)?;
+    let nodes: Vec<[usize; 1]> = indices("pins", given)?;
     Ok(Pins::at(nodes.into_iter().flatten()))
 }

@@ -23,16 +23,21 @@ def deformations(rng, count):
 
 
 def neo_hookean(F, mu=MU, lambda_=LAMBDA):
-    """ψ, P and dP/dF of μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)², by inverses and outer products."""
+    """ψ, P and dP/dF of μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)², by inverses and outer products.
+
+    Parameters are broadcast with the points.
+    """
+    mu, lambda_ = np.asarray(mu), np.asarray(lambda_)
+    of_matrix, of_tangent = (..., *[None] * 2), (..., *[None] * 4)
     inverse = np.linalg.inv(F)
     by_J = np.swapaxes(inverse, -1, -2)
     log = np.log(np.linalg.det(F))
     psi = mu / 2 * (np.einsum("...ij,...ij->...", F, F) - 3) - mu * log + lambda_ / 2 * log**2
-    P = mu * (F - by_J) + lambda_ * log[..., None, None] * by_J
+    P = mu[of_matrix] * (F - by_J) + (lambda_ * log)[of_matrix] * by_J
     identity = np.einsum("ik,jl->ijkl", np.eye(3), np.eye(3))
     crossed = np.einsum("...li,...jk->...ijkl", inverse, inverse)
     straight = np.einsum("...ij,...kl->...ijkl", by_J, by_J)
-    A = mu * identity + (mu - lambda_ * log)[..., None, None, None, None] * crossed + lambda_ * straight
+    A = mu[of_tangent] * identity + (mu - lambda_ * log)[of_tangent] * crossed + lambda_[of_tangent] * straight
     return psi, P, A
 
 

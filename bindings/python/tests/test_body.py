@@ -1,5 +1,6 @@
 """Bodies, and bodies in motion."""
 
+import sys
 import threading
 
 import meshio
@@ -24,25 +25,36 @@ def wobbly(points, rng):
     return points + 0.005 * rng.uniform(-1, 1, points.shape)
 
 
-def csr(rows, columns, blocks):
-    shape = blocks.shape
-    i = np.broadcast_to(3 * rows[:, None, None] + np.arange(3)[:, None], shape)
-    j = np.broadcast_to(3 * columns[:, None, None] + np.arange(3), shape)
-    return sparse.csr_array((blocks.ravel(), (i.ravel(), j.ravel())))
-
-
 def test_energy_gradient_and_stiffness_are_derivatives(rubber, beam, rng):
     points, tets = beam
     body = piola.Body(points, tets, rubber, 1000.0)
     assert body.energy(points) == pytest.approx(0, abs=1e-9)
     assert body.masses.sum() == pytest.approx(1000 * 0.4 * 0.1 * 0.1)
     x, d, h = wobbly(points, rng), rng.uniform(-1, 1, points.shape), 1e-7
-    gradient, K = body.gradient(x), csr(*body.stiffness(x))
+    gradient, K = body.gradient(x), body.stiffness(x)
     slope = (body.energy(x + h * d) - body.energy(x - h * d)) / (2 * h)
     assert (gradient * d).sum() == pytest.approx(slope, rel=1e-6)
     slopes = (body.gradient(x + h * d) - body.gradient(x - h * d)) / (2 * h)
     assert np.allclose(K @ d.ravel(), slopes.ravel(), rtol=1e-5, atol=1e-4 * np.abs(slopes).max())
     assert abs(K - K.T).max() == 0
+    assert isinstance(K, sparse.csr_array) and K.shape == (points.size, points.size) and K.has_canonical_format
+    assert K.indices.dtype == K.indptr.dtype == np.int32  # which solvers take as they are
+    rows, columns, blocks = body.stiffness_blocks(x)
+    dense = np.zeros((len(points), 3, len(points), 3))
+    dense[rows, :, columns, :] = blocks
+    assert np.array_equal(dense.reshape(K.shape), K.toarray())
+    assert list(zip(rows, columns)) == sorted({(i, j) for tet in tets for i in tet for j in tet})
+    clamped = body.stiffness(1.2 * points * [1, 1, 0.4], filter="clamp").toarray()
+    assert np.linalg.eigvalsh(clamped).min() > -1e-9 * np.abs(clamped).max()
+
+
+def test_blocks_need_no_scipy(rubber, beam, monkeypatch):
+    monkeypatch.setitem(sys.modules, "scipy.sparse", None)
+    points, tets = beam
+    body = piola.Body(points, tets, rubber, 1000.0)
+    with pytest.raises(ImportError, match="install scipy, or take Body.stiffness_blocks"):
+        body.stiffness(points)
+    assert body.stiffness_blocks(points)[2].shape[1:] == (3, 3)
 
 
 def test_a_newton_method_of_ones_own_finds_the_equilibrium(rubber, beam):
@@ -53,7 +65,7 @@ def test_a_newton_method_of_ones_own_finds_the_equilibrium(rubber, beam):
     free = np.setdiff1d(np.arange(points.size), 3 * pins[:, None] + np.arange(3))
     x = points.copy()
     for _ in range(12):
-        K = csr(*body.stiffness(x)).tocsc()[free][:, free]
+        K = body.stiffness(x)[free][:, free]
         force = (weight - body.gradient(x)).ravel()[free]
         x.ravel()[free] += spsolve(K, force)
     hanging = piola.Simulation(body, pins=pins, gravity=(0, -9.81, 0), newton={"tolerance": 1e-12})
@@ -91,6 +103,48 @@ def test_steps_move_and_report(rubber, beam):
         assert simulation.settings["integrator"] == integrator and simulation.pins == sorted([*left, *right])
 
 
+def test_reactions_hold_the_body(rubber, beam):
+    points, tets = beam
+    body = piola.Body(points, tets, rubber, 1000.0)
+    pins, weight = np.flatnonzero(points[:, 0] == 0), 1000 * 0.4 * 0.1 * 0.1 * 9.81
+    hanging = piola.Simulation(body, pins=pins, gravity=(0, -9.81, 0), newton={"tolerance": 1e-10})
+    hanging.equilibrate()
+    reactions = hanging.reactions()
+    assert reactions.shape == (len(pins), 3)
+    assert np.allclose(reactions.sum(axis=0), [0, weight, 0], atol=1e-6 * weight)
+    held = body.gradient(hanging.positions) - body.masses[:, None] * [0, -9.81, 0]
+    assert np.allclose(reactions, held[hanging.pins], atol=1e-9 * weight)
+    right = np.flatnonzero(points[:, 0] == points[:, 0].max())
+    pulled = piola.Simulation(body, pins=np.r_[right, pins], newton={"tolerance": 1e-10})
+    pulled.prescribe(right, points[right] + [0.04, 0, 0])
+    pulled.equilibrate()
+    by_node = dict(zip(pulled.pins, pulled.reactions()))
+    assert sum(by_node[k] for k in right)[0] > 0 > sum(by_node[k] for k in pins)[0]
+    assert np.allclose(sum(by_node.values()), 0, atol=1e-6)
+    free = piola.Simulation(body)
+    assert free.reactions().shape == (0, 3)
+    free.positions = points * [1, 1, -1]
+    with pytest.raises(piola.StepError, match="outside the domain"):
+        free.reactions()
+
+
+def test_state_is_read_and_set_as_a_whole(rubber, beam):
+    points, tets = beam
+    body = piola.Body(points, tets, rubber, 1000.0)
+    simulation = piola.Simulation(body)
+    for array in (simulation.positions, simulation.velocities, body.points, body.masses):
+        assert not array.flags.writeable
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] += 1
+    x = simulation.positions.copy()
+    x[5] += 0.01
+    simulation.positions = x.astype(np.float32).tolist()
+    assert np.array_equal(simulation.positions, x.astype(np.float32))
+    before = simulation.positions
+    simulation.step(0.001)
+    assert np.array_equal(before, x.astype(np.float32)) and not np.array_equal(simulation.positions, before)
+
+
 def test_forces_pins_and_settings_change(rubber, beam):
     points, tets = beam
     simulation = piola.Simulation(piola.Body(points, tets, rubber, 1000.0), damping={"mass": {"rate": 1.0}})
@@ -118,6 +172,11 @@ def test_parts_have_materials_of_their_own(rubber, beam):
     formula = "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2"
     graded = piola.declare(formula, mu=np.where(half, 1e6, 1e5), lambda_=np.where(half, 4e6, 4e5))
     assert piola.Body(points, tets, graded, 1.0).energy(x) == pytest.approx((soft + hard) / 2)
+    uniform = piola.declare(formula, mu=[1e5], lambda_=[4e5])
+    assert piola.Body(points, tets, uniform, 1.0).energy(x) == pytest.approx(soft)
+    for wrong in ([1e5, 1e5], np.full((24, 1), 1e5)):
+        with pytest.raises(piola.MaterialError, match="parameters of the shape .* there are 24 tetrahedra"):
+            piola.Body(points, tets, piola.declare(formula, mu=wrong, lambda_=4e5), 1.0)
 
 
 def test_inverted_bodies_recover(beam):

@@ -1,5 +1,9 @@
 """Materials by name and by text, and what they say when something is wrong."""
 
+import pickle
+import threading
+import unicodedata
+
 import numpy as np
 import piola
 import pytest
@@ -78,8 +82,9 @@ def test_wrong_parameters_are_named_with_their_range():
     )
     assert "`mu` is of type str" in message(TypeError, lambda: new("neo_hookean", mu="1", lambda_=1.0))
     assert "`mu`" in message(TypeError, lambda: new("neo_hookean", mu=None, lambda_=1.0))
-    assert "mu is of type complex" in message(TypeError, lambda: new("neo_hookean", mu=1j, lambda_=1.0))
+    assert "`mu` is of type complex" in message(TypeError, lambda: new("neo_hookean", mu=1j, lambda_=1.0))
     assert "0.1" not in message(ValueError, lambda: new("neo_hookean", mu=1.0, lambda_=1.0, extend=2.0))
+    assert "`mu` is of type bool" in message(TypeError, lambda: new("neo_hookean", mu=True, lambda_=1.0))
     typical = piola.Material.typical("murnaghan").parameters
     assert "use `extend=None`" in message(ValueError, lambda: new("murnaghan", extend=0.1, **typical))
     with pytest.raises(TypeError):
@@ -94,6 +99,75 @@ def test_a_declared_energy_is_that_of_the_catalogue(F):
     for found, expected in zip(declared.evaluate(F), compiled.evaluate(F)):
         assert np.array_equal(found, expected)
     assert np.array_equal(declared.stress(F.astype(np.float32)), compiled.stress(F.astype(np.float32)))
+
+
+@pytest.mark.parametrize("name", [*"bBCESUFePRVTKλµ", "name", "type_"])
+def test_a_name_that_is_given_a_value_is_a_parameter(name, F):
+    keyword = "name_" if name == "name" else unicodedata.normalize("NFKC", name)  # as Python does
+    material = piola.declare(f"mu/2*(I1-3) - mu*ln(J) + {name}*ln(J)^2", **{"mu": 1e6, keyword: 2.5e6})
+    assert close(material.stress(F), piola.Material("neo_hookean", mu=1e6, lambda_=5e6).stress(F))
+    assert material.parameters.popitem()[1] == 2.5e6
+
+
+def test_energies_are_called_by_their_formula_or_name():
+    formula = "mu/2*(I1 - 3)\n    - mu*ln(J)"
+    plain, named = piola.declare(formula, mu=1.0), piola.declare(formula, mu=1.0, name="my gel")
+    assert plain.name == "mu/2*(I1 - 3) - mu*ln(J)" and named.name == "my gel"
+    assert repr(plain) == "<piola.Material 'mu/2*(I1 - 3) - mu*ln(J)'(mu=1.0)>"
+    assert repr(named) == "<piola.Material my gel(mu=1.0)>"
+    assert repr(named.description) == "my gel(mu): 1/2 μ (I1 − 3) − μ ln J"
+    for material, name in [(plain, plain.name), (named, "my gel")]:
+        for copy in (material, pickle.loads(pickle.dumps(material)), material.changed(mu=2.0)):
+            refused = message(piola.MaterialError, lambda: copy.changed(kappa=1.0))
+            assert refused == f"{name} has no parameter `kappa`; it has `mu`"
+        assert message(piola.MaterialError, lambda: material.changed(mu=-1.0)).startswith(f"{name}: ")
+        fitted = material.fit(piola.treloar(), restarts=0).material
+        assert fitted.name == name
+    everywhere = "mu/2*(I1 - 3) - mu*(J - 1) + kappa/2*(J - 1)^2"
+    assert message(piola.MaterialError, lambda: piola.declare(everywhere, mu=1, kappa=1, extend=0.1)) == (
+        f"{everywhere}: the energy has no extension beyond its domain: it is defined for every deformation gradient "
+        "already; use `extend=None`"
+    )
+    long = " + ".join(["mu/2*(I1 - 3) - mu*ln(J)"] * 20)
+    assert len(piola.declare(long, mu=1.0).name) == 101
+    springs = "#[material]\nfn Springs([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * sum(|l| (l - 1.0).powi(2)) }"
+    assert piola.declare(springs, mu=1.0).name == "Springs"
+    assert piola.declare(springs, mu=1.0, name="my springs").name == "my springs"
+    for empty in ("", " \n"):
+        with pytest.raises(ValueError, match="the name is empty"):
+            piola.declare(formula, mu=1.0, name=empty)
+
+
+def test_keywords_that_are_missing_or_wrong_are_told_with_the_parameters_there_are():
+    declare = piola.declare
+    for keywords, expected in [
+        ({"lambda_": 1.0}, "needs a value for `mu`"),
+        ({}, "needs a value for `mu`, `lambda`"),
+        ({"mu": 1.0, "lambda_": 1.0, "kappa": 1.0}, "has no parameter `kappa`; it has `mu`, `lambda`"),
+        ({"mu": 1.0, "lamda": 1.0}, "has no parameter `lamda`; it has `mu`, `lambda`"),
+        ({"mu": 1.0, "lambda_": 1.0, "J": 1.0}, "has no parameter `J`; it has `mu`, `lambda`"),
+    ]:
+        assert message(piola.MaterialError, lambda: declare(FORMULA, **keywords)) == f"{FORMULA} {expected}"
+
+
+def test_others_run_while_a_formula_is_compiled():
+    counts, done = [0], threading.Event()
+
+    def count():
+        while not done.is_set():
+            counts[0] += 1
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    try:
+        terms = " + ".join(f"c{k}*(I1b - 3)^{k}" for k in range(1, 41))
+        values = {f"c{k}": 1.0 for k in range(1, 41)}
+        before = counts[0]
+        piola.declare(f"{terms} + K/2*(J - 1)^2", K=1.0, **values)
+        assert counts[0] - before > 1000
+    finally:
+        done.set()
+        counter.join()
 
 
 def test_a_declaration_in_rust_has_names_and_documentation():

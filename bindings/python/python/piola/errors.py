@@ -53,4 +53,4 @@ class BodyError(Error, ValueError):
 
 
 class StepError(Error, RuntimeError):
-    """A step without a next state. The state before it is untouched."""
+    """A step without a next state, or a state without reactions. The state is untouched."""

@@ -16,8 +16,7 @@ def stress(material, F, **parameters):
     """P, Pa, of F, of shapes (..., 3, 3): differentiable in F and in the parameters, tensors by their names.
 
     Parameters that are not given keep the values of the material. Those that are given are numbers: of lists,
-    all entries in a row. Derivatives by them need float64, and an energy that knows them: see
-    `Material.stress_by_parameters`.
+    all entries in a row. Derivatives by them need an energy that knows them: see `Material.stress_by_parameters`.
     """
     known = material.parameters
     names = tuple(name if name in known else name.removesuffix("_") for name in parameters)
@@ -34,7 +33,7 @@ class _Energy(torch.autograd.Function):
     @staticmethod
     def backward(ctx, by_energy):
         (F,) = ctx.saved_tensors
-        return by_energy[..., None, None] * _Stress.apply(F, ctx.material, ()), None
+        return (by_energy[..., None, None] * _Stress.apply(F, ctx.material, ())).sum_to_size(F.shape), None
 
 
 class _Stress(torch.autograd.Function):
@@ -55,7 +54,7 @@ class _Stress(torch.autograd.Function):
         by_F, by_values = None, [None] * len(ctx.names)
         if ctx.needs_input_grad[0]:
             A = _tensor(ctx.material.tangent(_array(F))[1], F)
-            by_F = torch.einsum("...ij,...ijkl->...kl", by_stress, A)
+            by_F = torch.einsum("...ij,...ijkl->...kl", by_stress, A).sum_to_size(F.shape)
         if any(ctx.needs_input_grad[3:]):
             derivatives = ctx.material.stress_by_parameters(_array(F))
             by_values = [_sum(_tensor(derivatives[name], F) * by_stress, F.dim()) for name in ctx.names]
