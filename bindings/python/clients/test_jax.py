@@ -81,6 +81,35 @@ def test_a_body_of_springs_comes_to_rest():
     assert found[3] > 0.5 and np.abs(found - expected).max() < 1e-9
 
 
+def test_wrong_arrays_are_refused_when_traced():
+    material = solids.yeoh()
+    functions = [piola.jax.energy(material), piola.jax.stress(material), piola.jax.tangent(material)]
+    functions += [jax.jit(function) for function in functions] + [jax.vmap(function) for function in functions]
+    for function in functions:
+        for F, error, expected in [
+            (jnp.ones((2, 9)), ValueError, "it must be (..., 3, 3)"),
+            (jnp.ones((4, 3)), ValueError, "it must be (..., 3, 3)"),
+            (jnp.ones((2, 3, 3), int), TypeError, "F is an array of int64; it must be float32 or float64"),
+            (jnp.ones((2, 3, 3), jnp.bfloat16), TypeError, "bfloat16"),
+            (jnp.ones((2, 3, 3), complex), TypeError, "complex128"),
+        ]:
+            with pytest.raises(error) as caught:
+                function(F)
+            assert expected in str(caught.value) and "\n" not in str(caught.value)
+    assert np.array_equal(functions[1]([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), np.zeros((3, 3)))
+
+
+def test_parameters_are_broadcast_with_the_points():
+    mu, F = np.linspace(0.5, 2, 4), points()[:3]
+    energy = piola.jax.energy(piola.Material("neo_hookean", mu=mu, lambda_=solids.LAMBDA))
+    each = [piola.jax.energy(piola.Material("neo_hookean", mu=value, lambda_=solids.LAMBDA)) for value in mu]
+    for function in (energy, jax.jit(energy)):
+        assert solids.difference(function(F[:, None]), jnp.stack([one(F) for one in each], axis=1)) < 1e-14
+        assert solids.difference(jax.vmap(function)(F), jnp.stack([one(F) for one in each], axis=1)) < 1e-14
+        gradient = jax.grad(lambda F: function(F[:, None]).sum())(F)
+        assert solids.difference(gradient, sum(jax.grad(lambda F: one(F).sum())(F) for one in each)) < 1e-14
+
+
 def test_a_point_outside_the_domain_is_an_exception():
     with pytest.raises(Exception, match="outside the domain"):
         piola.jax.energy(solids.yeoh())(-jnp.eye(3)).block_until_ready()

@@ -1,6 +1,7 @@
 """Energies for JAX: functions that `jax.grad`, `jax.jvp`, `jax.hessian`, `jax.vmap` and `jax.jit` know.
 
-What is computed runs on the processor, called back from the program of JAX, in the precision of F.
+What is computed runs on the processor, called back from the program of JAX, in the precision of F. An F of another shape
+or type raises ValueError or TypeError when it is traced.
 """
 
 import jax
@@ -14,14 +15,14 @@ def energy(material):
 
     @jax.custom_jvp
     def psi(F):
-        return _call(material.energy, F, F.shape[:-2])
+        return _call(material, material.energy, F, ())
 
     @psi.defjvp
     def psi_jvp(primals, tangents):
         (F,), (dF,) = primals, tangents
         return psi(F), jnp.einsum("...ij,...ij->...", P(F), dF)
 
-    return psi
+    return lambda F: psi(_checked(F))
 
 
 def stress(material):
@@ -30,7 +31,7 @@ def stress(material):
 
     @jax.custom_jvp
     def P(F):
-        return _call(material.stress, F, F.shape)
+        return _call(material, material.stress, F, (3, 3))
 
     @P.defjvp
     def P_jvp(primals, tangents):
@@ -38,7 +39,7 @@ def stress(material):
         stress, dP_dF = both(F)
         return stress, jnp.einsum("...ijkl,...kl->...ij", dP_dF, dF)
 
-    return P
+    return lambda F: P(_checked(F))
 
 
 def tangent(material, *, filter=None):
@@ -48,12 +49,26 @@ def tangent(material, *, filter=None):
     """
 
     def both(F):
-        return _call(lambda F: material.tangent(F, filter=filter), F, F.shape, (*F.shape, 3, 3))
+        return _call(material, lambda F: material.tangent(F, filter=filter), _checked(F), (3, 3), (3, 3, 3, 3))
 
     return both
 
 
-def _call(function, F, *shapes):
-    results = tuple(jax.ShapeDtypeStruct(shape, F.dtype) for shape in shapes)
-    results = results if len(results) > 1 else results[0]
+def _checked(F):
+    """F as an array of JAX."""
+    F = jnp.asarray(F)
+    if F.shape[-2:] != (3, 3):
+        raise ValueError(f"F has the shape {F.shape}; it must be (..., 3, 3)")
+    if F.dtype not in (jnp.float32, jnp.float64):
+        raise TypeError(f"F is an array of {F.dtype}; it must be float32 or float64")
+    return F
+
+
+def _call(material, function, F, *components):
+    """Results with these components at each point, called back."""
+    points = jnp.broadcast_shapes(F.shape[:-2], material.shape)
+    # Axes that `jax.vmap` adds come before all those of the points, parameters included.
+    F = F.reshape((1,) * (len(points) + 2 - F.ndim) + F.shape)
+    results = [jax.ShapeDtypeStruct((*points, *shape), F.dtype) for shape in components]
+    results = tuple(results) if len(results) > 1 else results[0]
     return jax.pure_callback(lambda F: function(np.asarray(F)), results, F, vmap_method="expand_dims")
