@@ -235,8 +235,9 @@ pub(crate) fn indices<const N: usize>(name: &str, given: &Bound<'_, PyAny>) -> P
     let array = as_array(name, given)?;
     let is_whole = matches!(array.dtype().kind(), b'i' | b'u');
     if !is_whole && array.len() > 0 {
-        let found = kind(&array);
-        return Err(type_error(format!("{name} is {found}; it must be an array of whole numbers")));
+        let (found, is_mask) = (kind(&array), array.dtype().kind() == b'b');
+        let advice = if is_mask { ", which numpy.flatnonzero makes of a mask" } else { "" };
+        return Err(type_error(format!("{name} is {found}; it must be an array of whole numbers{advice}")));
     }
     let array: Bound<'_, PyArrayDyn<i64>> = converted(&array)?;
     let fits = if N == 1 { array.ndim() == 1 } else { array.ndim() == 2 && array.shape()[1] == N };

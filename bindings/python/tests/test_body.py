@@ -223,6 +223,8 @@ def test_mistakes_are_named(rubber, beam):
     assert "unknown field `gravty`" in message(piola.BodyError, lambda: simulate(body, gravty=(0, 0, 0)))
     assert "implicit_euler" in message(piola.BodyError, lambda: simulate(body, integrator="euler"))
     assert "tolerance" in message(piola.BodyError, lambda: simulate(body, newton={"tolerance": 2.0}))
+    mask = points[:, 0] == 0
+    assert "numpy.flatnonzero" in message(TypeError, lambda: simulate(body, pins=mask))
     assert "no node 1000" in message(piola.BodyError, lambda: simulate(body, pins=[1000]))
     with pytest.raises((TypeError, ValueError)):
         simulate(body, gravity=object())
