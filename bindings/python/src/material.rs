@@ -414,7 +414,11 @@ pub(crate) fn declare(
     };
     // Ctrl-C during the compilation ends here.
     py.check_signals()?;
-    let spec = MaterialSpec::declared(energy.map_err(of_text)?);
+    let mistaken = |mistakes: Mistakes| match name {
+        Some(name) => of_text(mistakes.with_name(label(name))),
+        None => of_text(mistakes),
+    };
+    let spec = MaterialSpec::declared(energy.map_err(mistaken)?);
     let spec = match name.or((!is_rust).then_some(text)) {
         Some(name) => spec.with_name(label(name)),
         None => spec,

@@ -191,6 +191,7 @@ def test_mistakes_of_a_text_are_told_at_their_places():
     text, place = caught.value.mistakes[0]
     assert place[:2] == (1, 6) and text in str(caught.value) and "^" in str(caught.value)
     assert isinstance(caught.value, ValueError)
+    assert "--> my gel:1:6" in message(piola.DeclarationError, lambda: piola.declare("mu/2*(I1 - 3", name="my gel", mu=1.0))
     assert "stress" in message(piola.DeclarationError, lambda: piola.declare("C10*(I1 - 3)", C10=1.0))
     freed = piola.declare("C10*(I1 - 3) + kappa/2*(J-1)^2", C10=1.0, kappa=10.0, free_rest=True)
     assert np.abs(freed.stress(np.eye(3))).max() < 1e-12
