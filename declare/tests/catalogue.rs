@@ -9,7 +9,7 @@
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, MatrixForm, Stages, TileMaterial};
+use piola::batch::{Batch, Kernels, MatrixForm, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::lanes::Backend;
 use piola::material::{Constraint, Declared, Fittable, MaterialError, PerPoint, Response};
@@ -42,7 +42,7 @@ fn entries() -> impl Iterator<Item = (&'static Entry, Energy, Inversion)> {
 }
 
 /// `f64` or `f32`.
-trait Precision: Stages + Real<Mask = bool> {
+trait Precision: Kernels + Real<Mask = bool> {
     const NAME: &'static str;
 
     /// Any finite number: one with these bits.

@@ -1,11 +1,10 @@
-//! Names that generated code and the other crates of piola use: no part of the public interface, and free to
-//! change with every version.
+//! Names that generated code and the other crates of piola use: not part of the public interface, and
+//! free to change with every version.
 
 #[cfg(feature = "batch")]
-pub use crate::batch::{
-    material::{Arguments, Properties},
-    rows::Rows,
-};
+pub use crate::batch::material::{Arguments, Properties};
+#[cfg(feature = "batch")]
+pub use crate::kernels::rows::Rows;
 pub use crate::lanes::Mask;
 pub use crate::material::constructor::*;
 pub use crate::material::differences::by_values;

@@ -68,40 +68,34 @@
 
 use std::fmt;
 
+use crate::kernels::deformation::Deform;
+use crate::kernels::form::StiffnessForm;
+use crate::kernels::sink::Source;
+use crate::kernels::workspace::Workspace;
 use crate::lanes::Backend;
 use crate::point::Filter;
 use crate::status::{Status, StatusCell, Survey};
 
 #[cfg(feature = "bodies")]
 pub(crate) mod element;
-mod form;
 mod jobs;
 pub(crate) mod material;
-mod measure;
 mod measured;
 mod quadrature;
-pub(crate) mod rows;
-mod sink;
-mod stage;
-mod svd_tile;
-mod tetrahedra;
+pub(crate) mod tetrahedra;
 mod tile;
-mod workspace;
 
-pub use form::MatrixForm;
+pub use crate::kernels::Kernels;
+pub use crate::kernels::form::MatrixForm;
+pub use crate::kernels::sink::Layout;
 pub use material::TileMaterial;
 pub use quadrature::Quadrature;
-pub use sink::Layout;
-pub use stage::Stages;
 pub use tetrahedra::Tetrahedra;
 
 #[cfg(all(test, feature = "bodies"))]
-pub(crate) use form::MAX_STIFFNESS_RATIO;
+pub(crate) use crate::kernels::form::MAX_STIFFNESS_RATIO;
 use jobs::{Job, Work};
-use sink::Source;
-use stage::{Deform, StiffnessForm};
 use tile::{Call, Tile};
-use workspace::Workspace;
 
 /// A material with the settings to evaluate it at many points at once.
 #[derive(Clone, Copy)]
@@ -115,7 +109,7 @@ pub struct Batch<'a, E> {
     statuses: &'a [StatusCell],
 }
 
-impl<'a, E: Stages> Batch<'a, E> {
+impl<'a, E: Kernels> Batch<'a, E> {
     /// A batch without filter, with the best instructions of this processor, point by point, on one thread.
     ///
     /// The material is a [`Material`](crate::Material), or a [`PerPoint`](crate::material::PerPoint).
@@ -221,7 +215,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         let outputs = [("P", P, 9), ("dP_dF", dP_dF, form.tangent_entries())];
         self.run([("F", F, 9)], outputs, |call, job, [F], [P, dP_dF]| {
-            call.points(job, F).respond(form, P, dP_dF, None)
+            call.points(job, F).tangents(form, P, dP_dF, None)
         })
     }
 
@@ -240,7 +234,7 @@ impl<'a, E: Stages> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         let outputs = [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, form.tangent_entries())];
         self.run([("F", F, 9)], outputs, |call, job, [F], [energies, P, dP_dF]| {
-            call.points(job, F).respond(form, P, dP_dF, Some(energies))
+            call.points(job, F).tangents(form, P, dP_dF, Some(energies))
         })
     }
 
@@ -272,7 +266,7 @@ impl<'a, E: Stages> Batch<'a, E> {
             let F = Source::new(call.backend, call.layout, F, lines);
             let rest = Source::new(call.backend, call.layout, rest, shapes);
             let mut tile = Tile { call, start, count, F, rest, svd, is_decomposed: false, scratch };
-            tile.respond(StiffnessForm::Matrix(form), gradients, stiffnesses, None)
+            tile.tangents(StiffnessForm::Matrix(form), gradients, stiffnesses, None)
         })
     }
 
@@ -338,7 +332,7 @@ impl<'a, E: Stages> Batch<'a, E> {
             E::deform(call.backend, Deform { edges, rest, count });
             let F = edges.source();
             let mut tile = Tile { call, start, count, F, rest, svd, is_decomposed: false, scratch };
-            tile.respond(StiffnessForm::Matrix(form), gradients, stiffnesses, None)
+            tile.tangents(StiffnessForm::Matrix(form), gradients, stiffnesses, None)
         })
     }
 

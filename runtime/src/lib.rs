@@ -92,6 +92,8 @@ mod hand_written;
 // Its kernels are not compiled a second time for the unit tests, none of which needs them.
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod interpreter;
+#[cfg(feature = "batch")]
+mod kernels;
 pub mod lanes;
 pub mod material;
 #[cfg(feature = "bodies")]

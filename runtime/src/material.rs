@@ -36,7 +36,7 @@ pub use error::{Argument, MaterialError};
 pub use fittable::{Constraint, Fittable, Limit};
 pub use parameter::{Graded, ParameterValue, PerPoint, PerPointError};
 pub use response::Response;
-pub(crate) use response::{ResponseKind, Tile};
+pub(crate) use response::{RawTile, ResponseKind};
 
 /// The pairs of stretches, in the order in which flips, twists and mixed second derivatives are stored.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -208,7 +208,7 @@ pub trait Material: Send + Sync {
     fn respond_together<'m, E: Scalar>(
         material: impl Fn(usize) -> &'m Self + Copy,
         response: ResponseKind,
-        tile: Tile<'_, E>,
+        tile: RawTile<'_, E>,
     ) -> u64
     where
         Self: 'm,

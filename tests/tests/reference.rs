@@ -15,7 +15,7 @@ use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 
 use libtest_mimic::{Arguments, Trial};
-use piola::batch::{Batch, LengthError, MatrixForm, Stages, TileMaterial};
+use piola::batch::{Batch, Kernels, LengthError, MatrixForm, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::{Declared, MaterialError};
 use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint};
@@ -263,7 +263,7 @@ impl Judge<'_> {
     }
 
     /// Results of a batch of one point, with every back end.
-    fn batches<E: Stages>(
+    fn batches<E: Kernels>(
         self,
         energy: &dyn TileMaterial<E>,
         precision: &'static str,

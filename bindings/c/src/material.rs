@@ -4,7 +4,7 @@ use std::ffi::c_char;
 use std::sync::{Arc, OnceLock};
 
 use piola::Inversion;
-use piola::batch::{Stages, TileMaterial};
+use piola::batch::{Kernels, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::material::{Moduli, PerPoint};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
@@ -208,7 +208,7 @@ impl Material {
 }
 
 /// Numbers of the two precisions.
-pub(crate) trait Precision: Stages + Plain {
+pub(crate) trait Precision: Kernels + Plain {
     /// The material of a batch.
     fn tiles(material: &Material) -> Result<&dyn TileMaterial<Self>, Failure>;
 }

@@ -4,14 +4,14 @@
 
 use numpy::Element;
 use piola::Survey;
-use piola::batch::{Batch, LengthError, MatrixForm, Stages, TileMaterial};
+use piola::batch::{Batch, LengthError, MatrixForm, Kernels, TileMaterial};
 use piola::point::measures::Measure;
 use pyo3::PyResult;
 
 use crate::material::Material;
 
 /// A number of an array.
-pub(crate) trait Number: Stages + Element {
+pub(crate) trait Number: Kernels + Element {
     const ONE: Self;
 
     fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>>;
@@ -64,7 +64,7 @@ impl Quantity {
         self.components().iter().map(|shape| shape.iter().product())
     }
 
-    pub(crate) fn compute<E: Stages>(
+    pub(crate) fn compute<E: Kernels>(
         self,
         batch: &Batch<'_, E>,
         F: &[E],

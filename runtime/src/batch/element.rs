@@ -7,19 +7,21 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use super::material::TileMaterial;
-use super::sink::{Layout, Lines};
-use super::stage::{Deform, Stages, StiffnessForm};
-use super::svd_tile::SvdTile;
 use super::tetrahedra::set_edges;
 use super::tile::{Call, Tile};
-use super::workspace::Workspace;
+use crate::kernels::Kernels;
+use crate::kernels::deformation::Deform;
+use crate::kernels::form::StiffnessForm;
+use crate::kernels::sink::{Layout, Lines};
+use crate::kernels::svd_tile::SvdTile;
+use crate::kernels::workspace::Workspace;
 use crate::lanes::Backend;
 use crate::mesh::RestShape;
 use crate::point::matrix::to_matrix;
 use crate::point::{Filter, Matrix3};
 use crate::status::Status;
 
-pub(crate) use super::rows::TILE;
+pub(crate) use crate::kernels::rows::TILE;
 
 /// Up to [`TILE`] elements of one material.
 #[derive(Clone, Debug)]
@@ -95,7 +97,7 @@ impl Elements {
         gradients: &mut [f64],
         stiffnesses: &mut [f64],
     ) -> Status<u64> {
-        self.run(material, filter, |tile| tile.respond(StiffnessForm::Blocks, gradients, stiffnesses, None))
+        self.run(material, filter, |tile| tile.tangents(StiffnessForm::Blocks, gradients, stiffnesses, None))
     }
 
     /// Runs stages, and keeps the decomposition if there is one.

@@ -1,8 +1,8 @@
 //! The tiles of a call, one after the other or shared among threads.
 
-use super::rows::TILE;
-use super::stage::Stages;
-use super::workspace::Workspace;
+use crate::kernels::Kernels;
+use crate::kernels::rows::TILE;
+use crate::kernels::workspace::Workspace;
 use crate::lanes::Scalar;
 use crate::status::{Status, StatusCell, Survey};
 
@@ -44,7 +44,7 @@ pub(super) struct Job<'a, E> {
 }
 
 /// Runs `body` for each tile of the points and adds up its statuses, in the order of the points.
-pub(super) fn for_each_tile<E: Stages, const I: usize, const O: usize>(
+pub(super) fn for_each_tile<E: Kernels, const I: usize, const O: usize>(
     mut work: Work<'_, E, I, O>,
     points: std::ops::Range<usize>,
     threads: bool,

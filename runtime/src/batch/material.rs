@@ -1,10 +1,10 @@
 //! A material as batches see it: one dynamic dispatch for each response of a tile.
 
-use super::rows::{ROW, Rows, first_bits, for_each_group};
+use crate::kernels::rows::{ROW, Rows, first_bits, for_each_group, to_rows};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
 #[cfg(feature = "bodies")]
 use crate::material::properties::largest_rest_stiffness;
-use crate::material::{Blocks, Graded, Material, PerPoint, ResponseKind, Tile};
+use crate::material::{Graded, Material, PerPoint, RawTile, ResponseKind};
 use crate::point::energy_is_finite;
 use crate::status::Status;
 
@@ -117,8 +117,8 @@ macro_rules! tile_responses {
         impl<E: Scalar, P: Points> TileMaterial<E> for P {
             $(
                 fn $tile(&self, arguments: Arguments<'_, E>, to: &mut Rows<E, $rows>) -> Status<u64> {
-                    struct Respond<'a, P, E>(&'a P, Arguments<'a, E>, &'a mut Rows<E, $rows>);
-                    impl<P: Points, E: Scalar> Kernel<E> for Respond<'_, P, E> {
+                    struct OnLanes<'a, P, E>(&'a P, Arguments<'a, E>, &'a mut Rows<E, $rows>);
+                    impl<P: Points, E: Scalar> Kernel<E> for OnLanes<'_, P, E> {
                         type Output = Status<u64>;
                         #[inline(always)]
                         fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
@@ -163,7 +163,7 @@ macro_rules! tile_responses {
                         let finite = arguments.backend.run(Finite(arguments, to));
                         return domain_and_range(arguments.count, admitted, finite);
                     }
-                    arguments.backend.run(Respond(self, arguments, to))
+                    arguments.backend.run(OnLanes(self, arguments, to))
                 }
             )*
 
@@ -219,7 +219,7 @@ fn together<E: Scalar, P: Points>(
     P::Material::respond_together(
         |point| &materials[if have_own { start + point } else { 0 }],
         response,
-        Tile {
+        RawTile {
             backend,
             count,
             materials: if have_own { count } else { 1 },
@@ -241,23 +241,4 @@ fn anywhere<R: Real>(_: [R; 3]) -> R::Mask {
 fn domain_and_range(count: usize, admitted: u64, finite: u64) -> Status<u64> {
     let points = first_bits(count);
     Status { refused: !admitted & points, nonfinite: !finite & points, ..Status::default() }
-}
-
-#[inline(always)]
-pub(super) fn to_rows<R: Copy>(blocks: &Blocks<R>) -> [R; 15] {
-    let [p1, p2, p3] = blocks.gradient;
-    let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
-    let ([f12, f13, f23], [t12, t13, t23]) = (blocks.flip, blocks.twist);
-    [p1, p2, p3, h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23]
-}
-
-#[inline(always)]
-pub(super) fn from_rows<R: Copy>(rows: [R; 15]) -> Blocks<R> {
-    let [p1, p2, p3, h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23] = rows;
-    Blocks {
-        gradient: [p1, p2, p3],
-        hessian: [h11, h22, h33, h12, h13, h23],
-        flip: [f12, f13, f23],
-        twist: [t12, t13, t23],
-    }
 }

@@ -6,16 +6,16 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use super::measure::{MeasuredStress, MeasuredTangent};
-use super::stage::Stages;
 use super::tile::{Call, Tile};
-use super::workspace::Scratch;
 use super::{Batch, LengthError};
+use crate::kernels::Kernels;
+use crate::kernels::measure::{MeasuredStress, MeasuredTangent};
+use crate::kernels::workspace::Scratch;
 use crate::point::Filter;
 use crate::point::measures::Measure;
 use crate::status::Survey;
 
-impl<E: Stages> Batch<'_, E> {
+impl<E: Kernels> Batch<'_, E> {
     /// Stresses in another measure, Pa: six components of each F, in the order of
     /// [`voigt`](crate::point::measures::voigt).
     ///

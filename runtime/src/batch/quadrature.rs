@@ -161,7 +161,7 @@ impl<E: Scalar> Quadrature<E> {
         self.room.resize(Room::<E>::size(nodes), E::splat(0.0));
         for (element, stiffness) in stiffnesses.chunks_exact_mut(unknowns * unknowns).enumerate() {
             let of = element * points..(element + 1) * points;
-            backend.run(Stiffness {
+            backend.run(StiffnessSums {
                 nodes,
                 slopes: &slopes[unknowns * of.start..unknowns * of.end],
                 volumes: &volumes[of.clone()],
@@ -205,7 +205,7 @@ fn stride<E: Scalar>(nodes: usize) -> usize {
 }
 
 /// The stiffness of an element.
-struct Stiffness<'a, E> {
+struct StiffnessSums<'a, E> {
     nodes: usize,
     slopes: &'a [E],
     volumes: &'a [E],
@@ -236,7 +236,7 @@ impl<'a, E: Scalar> Room<'a, E> {
     }
 }
 
-impl<E: Scalar> Kernel<E> for Stiffness<'_, E> {
+impl<E: Scalar> Kernel<E> for StiffnessSums<'_, E> {
     type Output = ();
 
     // Plain loops: closures and iterators that are not inlined are not compiled for the back end.

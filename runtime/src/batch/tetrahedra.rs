@@ -1,7 +1,7 @@
 //! Linear tetrahedra of a mesh: which nodes they join, and how the positions of these become edges.
 
-use super::sink::Lines;
 use crate::NoSuchNode;
+use crate::kernels::sink::Lines;
 use crate::lanes::Scalar;
 
 /// The nodes of linear tetrahedra, four of each, seen to exist once for many calls.

@@ -7,13 +7,14 @@
 
 use super::jobs::Job;
 use super::material::{Arguments, Properties, TileMaterial};
-use super::rows::{Rows, first_bits};
-use super::sink::{Layout, Sink, Source};
-use super::stage::{
-    Decompose, Invariants, Judge, Outputs, Respond, RespondByInvariants, Stages, Stress, StressByInvariants,
-};
-use super::svd_tile::SvdTile;
-use super::workspace::{Scratch, Workspace};
+use crate::kernels::deformation::{Decompose, Invariants};
+use crate::kernels::rows::{Rows, first_bits};
+use crate::kernels::sink::{Layout, Sink, Source};
+use crate::kernels::stress::{Stress, StressByInvariants};
+use crate::kernels::svd_tile::SvdTile;
+use crate::kernels::tangents::{FilterBlocks, Tangents, TangentsByInvariants};
+use crate::kernels::workspace::{Scratch, Workspace};
+use crate::kernels::{Kernels, Outputs};
 use crate::lanes::{Backend, NonTemporal};
 use crate::point::Filter;
 use crate::status::Status;
@@ -32,7 +33,7 @@ pub(super) struct Call<'a, E> {
     pub(super) keeps_svd: bool,
 }
 
-impl<'a, E: Stages> Call<'a, E> {
+impl<'a, E: Kernels> Call<'a, E> {
     /// A tile of points with these deformation gradients.
     pub(super) fn points<'t>(self, job: Job<'t, E>, F: &'t [E]) -> Tile<'t, E, 0>
     where
@@ -80,7 +81,7 @@ pub(super) struct Tile<'t, E, const REST: usize> {
     pub(super) scratch: &'t mut Scratch<E>,
 }
 
-impl<E: Stages + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
+impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
     /// Energies.
     pub(super) fn energies(&mut self, energies: &mut [E]) -> Status<u64> {
         let has_energy = self.call.properties.has_energy_by_invariants;
@@ -133,7 +134,7 @@ impl<E: Stages + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
 
     /// Stresses and tangents, or gradients and stiffnesses of elements; energies, too, if there is room for
     /// them.
-    pub(super) fn respond(
+    pub(super) fn tangents(
         &mut self,
         form: <E as Outputs<REST>>::Form,
         first: &mut [E],
@@ -151,7 +152,7 @@ impl<E: Stages + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         }
         if served != 0 {
             let Scratch { invariants, derivatives, line, short_line, .. } = &mut *self.scratch;
-            let kernel = RespondByInvariants {
+            let kernel = TangentsByInvariants {
                 F: self.F,
                 invariants,
                 derivatives,
@@ -164,7 +165,7 @@ impl<E: Stages + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
                 first: call.sink(first, 0),
                 second: call.large_sink(second, fence.as_ref(), 0),
             };
-            served &= E::respond_by_invariants(call.backend, form, kernel);
+            served &= E::tangents_by_invariants(call.backend, form, kernel);
             served = self.accepted(served);
         }
         if served == first_bits(self.count) {
@@ -181,8 +182,8 @@ impl<E: Stages + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         let kernel = Stress { points, gradients: &blocks.0, rest, count, line, to };
         let stressed = E::stress(call.backend, kernel);
         let to = call.large_sink(second, fence.as_ref(), served);
-        let kernel = Respond { points, blocks, rest, count, has_pole, line, to };
-        (E::respond(call.backend, form, kernel) | stressed | status) & !served
+        let kernel = Tangents { points, blocks, rest, count, has_pole, line, to };
+        (E::tangents(call.backend, form, kernel) | stressed | status) & !served
     }
 
     /// Decomposes F, unless that has been done.
@@ -207,7 +208,11 @@ impl<E: Stages + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         let arguments = self.arguments(&self.svd.stretches);
         let blocks = &mut self.scratch.blocks;
         let refused = material.tile_blocks(arguments, blocks);
-        refused | E::judge(backend, Judge { points: self.svd, blocks, count: self.count, filter, has_pole })
+        refused
+            | E::filter_blocks(
+                backend,
+                FilterBlocks { points: self.svd, blocks, count: self.count, filter, has_pole },
+            )
     }
 
     /// The invariants, if the energy is one of them. Returns the points in range: none for any other.

@@ -55,12 +55,12 @@ pub(super) fn execute_tile<E: Scalar>(
     match E::by_format(arguments, results) {
         ByFormat::F64(arguments, results) => {
             let request = Request { count, stride, arguments, results, unread, volume };
-            execute_in_f64(backend, Tile { program, context, request })
+            execute_in_f64(backend, Execution { program, context, request })
         }
         #[cfg(feature = "f32")]
         ByFormat::F32(arguments, results) => {
             let request = Request { count, stride, arguments, results, unread, volume };
-            execute_in_f32(backend, Tile { program, context, request })
+            execute_in_f32(backend, Execution { program, context, request })
         }
         // There are no batches in `f32`.
         #[cfg(not(feature = "f32"))]
@@ -70,24 +70,24 @@ pub(super) fn execute_tile<E: Scalar>(
 
 // Not generic: compiled in this crate and not in each that has a material of this kind.
 #[inline(never)]
-fn execute_in_f64(backend: Backend, tile: Tile<'_, '_, f64>) -> u64 {
+fn execute_in_f64(backend: Backend, tile: Execution<'_, '_, f64>) -> u64 {
     backend.run(tile)
 }
 
 #[cfg(feature = "f32")]
 #[inline(never)]
-fn execute_in_f32(backend: Backend, tile: Tile<'_, '_, f32>) -> u64 {
+fn execute_in_f32(backend: Backend, tile: Execution<'_, '_, f32>) -> u64 {
     backend.run(tile)
 }
 
 /// [`execute_tile`] on the lanes of a back end.
-struct Tile<'a, 'c, E> {
+struct Execution<'a, 'c, E> {
     program: &'a Program,
     context: Context<'c>,
     request: Request<'a, E>,
 }
 
-impl<E: Scalar> Kernel<E> for Tile<'_, '_, E> {
+impl<E: Scalar> Kernel<E> for Execution<'_, '_, E> {
     type Output = u64;
 
     #[inline(always)]
@@ -113,7 +113,7 @@ trait Part: Lanes {
 
 impl<R: Lanes> Part for R {}
 
-impl<E: Scalar> Tile<'_, '_, E> {
+impl<E: Scalar> Execution<'_, '_, E> {
     /// Executes the program for G groups of lanes at a time.
     #[inline(always)]
     fn by_groups<R: Lanes<Scalar = E>, const G: usize>(self) -> u64 {

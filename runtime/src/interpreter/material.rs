@@ -10,7 +10,7 @@ use super::program::{Program, Sizes};
 use super::registers::Registers;
 use crate::lanes::{Mask, Real, Scalar};
 use crate::material::mixed::Mixed;
-use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Moduli, ResponseKind, Tile};
+use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Moduli, RawTile, ResponseKind};
 use crate::univariate::Univariate;
 
 /// Programs of an energy and of all its responses.
@@ -230,10 +230,10 @@ impl Interpreted {
         &self,
         response: ResponseKind,
         parameters: Parameters<'_>,
-        tile: &mut Tile<'_, E>,
+        tile: &mut RawTile<'_, E>,
         unread: u32,
     ) -> u64 {
-        let Tile { backend, count, stride, arguments, .. } = *tile;
+        let RawTile { backend, count, stride, arguments, .. } = *tile;
         let context = Context { parameters, ..self.context() };
         let is_by_invariants = response.is_by_invariants();
         let (Some(program), Some((_, calls))) = (self.program(response), self.domain(is_by_invariants))
@@ -256,12 +256,12 @@ impl Interpreted {
 
 /// The points for which all results of a program satisfy a condition, as bits.
 fn domain_bits<E: Scalar>(
-    tile: &Tile<'_, E>,
+    tile: &RawTile<'_, E>,
     program: &Program,
     context: Context<'_>,
     holds: impl Fn(usize, E) -> bool,
 ) -> u64 {
-    let Tile { backend, count, stride, arguments, .. } = *tile;
+    let RawTile { backend, count, stride, arguments, .. } = *tile;
     let sizes = Sizes { numbers: program.results.len() * stride, ..Sizes::default() };
     let mut rows = Registers::<E>::take(sizes, 1);
     let volume = VolumeBound { volume: Volume::Any, inversion: Inversion::Refuse, is_by_invariants: false };
@@ -382,7 +382,7 @@ impl Material for Interpreted {
     fn respond_together<'m, E: Scalar>(
         material: impl Fn(usize) -> &'m Self + Copy,
         response: ResponseKind,
-        mut tile: Tile<'_, E>,
+        mut tile: RawTile<'_, E>,
     ) -> u64 {
         let first = material(0);
         let unread = match response {

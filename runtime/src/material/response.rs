@@ -55,7 +55,7 @@ impl ResponseKind {
 
 /// Points that compute a response together: see [`Material::respond_together`].
 #[derive(Debug)]
-pub struct Tile<'a, E> {
+pub struct RawTile<'a, E> {
     /// Vector instructions of the kernels.
     pub backend: Backend,
     /// Number of points, at most 64.
@@ -182,7 +182,7 @@ macro_rules! forward_to_pointee {
             fn respond_together<'m, E: Scalar>(
                 material: impl Fn(usize) -> &'m Self + Copy,
                 response: ResponseKind,
-                tile: Tile<'_, E>,
+                tile: RawTile<'_, E>,
             ) -> u64
             where
                 Self: 'm,

@@ -17,7 +17,7 @@ use crate::batch::element::TILE;
 use crate::point::Filter;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
-use crate::system::element::Stiffness;
+use crate::system::element::StiffnessBlocks;
 use crate::system::stiffnesses::ElementStiffnesses;
 
 /// Forces against velocity.
@@ -106,7 +106,7 @@ impl Viscosity {
     }
 
     /// Adds β/h K to the stiffnesses of the elements of some tiles.
-    pub(crate) fn add_tiles_to(&self, tiles: Range<usize>, to: &mut [[Stiffness; TILE]]) {
+    pub(crate) fn add_tiles_to(&self, tiles: Range<usize>, to: &mut [[StiffnessBlocks; TILE]]) {
         self.stiffnesses.add_tiles_to(self.factor, tiles, to);
     }
 }

@@ -27,7 +27,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::body::Body;
-use super::element::{ElementGroup, Evaluated, Stiffness, Tetrahedron};
+use super::element::{ElementGroup, Evaluated, StiffnessBlocks, Tetrahedron};
 use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
 use crate::point::{Filter, svd};
@@ -87,7 +87,7 @@ impl Elastic {
         body: &Body,
         filter: Filter,
         first: usize,
-        tiles: &mut [[Stiffness; TILE]],
+        tiles: &mut [[StiffnessBlocks; TILE]],
     ) {
         self.groups[first..].par_iter_mut().zip(tiles).for_each(|(state, tile)| {
             state.evaluate(body, |group, material, elements| {

@@ -60,7 +60,7 @@ impl Tetrahedron {
 
 /// Second derivatives of an element's energy in its nodal positions, N/m: ∂²E/∂x_i∂x_j of the node pairs i ≥
 /// j in the order (0,0), (1,0), (1,1), (2,0), …
-pub(crate) type Stiffness = [[[f64; 3]; 3]; 10];
+pub(crate) type StiffnessBlocks = [[[f64; 3]; 3]; 10];
 
 /// Index of the block of the nodes i ≥ j.
 #[inline(always)]
@@ -155,7 +155,7 @@ impl ElementGroup {
         material: &dyn TileMaterial<f64>,
         elements: &[Tetrahedron],
         filter: Filter,
-        stiffnesses: &mut [Stiffness],
+        stiffnesses: &mut [StiffnessBlocks],
     ) -> Status<u64> {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
         let stiffnesses = stiffnesses[..elements.len()].as_flattened_mut();

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use super::assemble::Elastic;
 use super::body::Body;
-use super::element::{Evaluated, Stiffness, pair};
+use super::element::{Evaluated, StiffnessBlocks, pair};
 use super::graph::Graph;
 use super::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use super::linear::{LinearError, fits};
@@ -196,7 +196,7 @@ impl NodalStiffness {
         body: &Body,
         elastic: &mut Elastic,
         filter: Filter,
-        more: impl Fn(Range<usize>, &mut [[Stiffness; TILE]]),
+        more: impl Fn(Range<usize>, &mut [[StiffnessBlocks; TILE]]),
     ) -> Evaluated {
         let Self { shape, matrix, elements } = self;
         matrix.for_each_chunk(|_, _, blocks| blocks.fill([[0.0; 3]; 3]));

@@ -4,14 +4,14 @@
 use std::ops::Range;
 
 use super::body::Body;
-use super::element::{Stiffness, Tetrahedron, pair};
+use super::element::{StiffnessBlocks, Tetrahedron, pair};
 use crate::batch::element::TILE;
 
 /// The filtered stiffness of each element, 720 bytes, where they were evaluated last: zero before that.
 #[derive(Clone)]
 pub(crate) struct ElementStiffnesses {
     /// The stiffnesses of each of [`Body::groups`].
-    pub(super) tiles: Vec<[Stiffness; TILE]>,
+    pub(super) tiles: Vec<[StiffnessBlocks; TILE]>,
 }
 
 impl ElementStiffnesses {
@@ -19,7 +19,7 @@ impl ElementStiffnesses {
         Self { tiles: vec![[[[[0.0; 3]; 3]; 10]; TILE]; body.groups().count()] }
     }
 
-    pub(crate) fn tiles_mut(&mut self) -> &mut [[Stiffness; TILE]] {
+    pub(crate) fn tiles_mut(&mut self) -> &mut [[StiffnessBlocks; TILE]] {
         &mut self.tiles
     }
 
@@ -27,13 +27,13 @@ impl ElementStiffnesses {
     pub(super) fn of_elements<'a>(
         &'a self,
         body: &'a Body,
-    ) -> impl Iterator<Item = (&'a Tetrahedron, &'a Stiffness)> {
+    ) -> impl Iterator<Item = (&'a Tetrahedron, &'a StiffnessBlocks)> {
         let tiles = body.groups().zip(&self.tiles);
         tiles.flat_map(|((_, elements), tile)| body.elements()[elements].iter().zip(tile))
     }
 
     /// Adds a factor times the stiffnesses of some tiles to others.
-    pub(crate) fn add_tiles_to(&self, factor: f64, tiles: Range<usize>, to: &mut [[Stiffness; TILE]]) {
+    pub(crate) fn add_tiles_to(&self, factor: f64, tiles: Range<usize>, to: &mut [[StiffnessBlocks; TILE]]) {
         let blocks = to.as_flattened_mut().as_flattened_mut().iter_mut();
         for (to, block) in blocks.zip(self.tiles[tiles].as_flattened().as_flattened()) {
             for a in 0..3 {

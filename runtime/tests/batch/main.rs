@@ -4,7 +4,7 @@
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, Layout, MatrixForm, REST, Stages, TileMaterial};
+use piola::batch::{Batch, Kernels, Layout, MatrixForm, REST, TileMaterial};
 use piola::lanes::{Backend, Real, Scalar};
 use piola::point::{Filter, Matrix3, Point, evaluate, evaluate_energy};
 use piola::{Inversion, Material, StatusCell, Survey, material};
@@ -19,7 +19,7 @@ use hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKir
 const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
 
 /// Numbers of a format that a test can make and read.
-trait Number: Stages + Real<Mask = bool> {
+trait Number: Kernels + Real<Mask = bool> {
     fn of(value: f64) -> Self;
 }
 

@@ -1,13 +1,13 @@
 //! Sums over the quadrature points of elements with any number of nodes.
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, LengthError, MatrixForm, Quadrature, Stages};
+use piola::batch::{Batch, Kernels, LengthError, MatrixForm, Quadrature};
 use piola::lanes::Backend;
 
 use crate::hand_written::SaintVenantKirchhoff;
 
 /// Sums of elements with random slopes are those that the formulas say, whatever elements stand beside.
-fn check<E: Stages>(nodes: usize, points: usize) {
+fn check<E: Kernels>(nodes: usize, points: usize) {
     const ELEMENTS: usize = 3;
     let mut random = Random::new(31);
     let mut numbers =

@@ -2,7 +2,7 @@
 
 use piola::__private::random::Random;
 use piola::NoSuchNode;
-use piola::batch::{Batch, Layout, LengthError, MatrixForm, REST, Stages, Tetrahedra, TileMaterial};
+use piola::batch::{Batch, Kernels, Layout, LengthError, MatrixForm, REST, Tetrahedra, TileMaterial};
 use piola::lanes::{Backend, Real, Scalar};
 use piola::point::Filter;
 
@@ -70,7 +70,7 @@ fn lay<E: Scalar, const N: usize>(layout: Layout, points: &[[E; N]], padding: [E
 }
 
 /// The outputs at positions are those at the deformation gradients that these make.
-fn check<E: Stages>(material: &dyn TileMaterial<E>, filter: Filter)
+fn check<E: Kernels>(material: &dyn TileMaterial<E>, filter: Filter)
 where
     f64: From<E>,
 {

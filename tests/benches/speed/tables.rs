@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use piola::batch::{Batch, Layout, Stages};
+use piola::batch::{Batch, Kernels, Layout};
 use piola::lanes::Backend;
 use piola::point::Filter;
 use piola_speed::{Arrays, Decompositions, Effort, IN_CACHE, Task, Times, materials, time};
@@ -25,7 +25,7 @@ pub(crate) fn header(titles: &[&str]) -> String {
     format!("| {} |\n|{}\n", titles.join(" | "), "---|".repeat(titles.len()))
 }
 
-pub(crate) fn in_cache<E: Stages>(effort: Effort, backend: Backend) -> String {
+pub(crate) fn in_cache<E: Kernels>(effort: Effort, backend: Backend) -> String {
     let materials = materials::<E>();
     let mut titles = vec!["kernel".to_owned()];
     for (name, _) in &materials {

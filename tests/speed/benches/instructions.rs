@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::{env, fs};
 
-use piola::batch::{Batch, Layout, Stages};
+use piola::batch::{Batch, Kernels, Layout};
 use piola::lanes::Backend;
 use piola_speed::{Arrays, Decompositions, IN_CACHE, Task, materials};
 
@@ -105,7 +105,7 @@ fn kernels() -> Vec<(String, Call)> {
     kernels
 }
 
-fn kernels_in<E: Stages>(backend: Backend, kernels: &mut Vec<(String, Call)>) {
+fn kernels_in<E: Kernels>(backend: Backend, kernels: &mut Vec<(String, Call)>) {
     let mut push = |kernel: &str, material: &str, call: Call| {
         let format = std::any::type_name::<E>();
         kernels.push((format!("{:<8} {format} {kernel:<25} {material:<17}", backend.name()), call));

@@ -5,7 +5,7 @@
 use std::hint::black_box;
 use std::ops::{Deref, DerefMut};
 
-use piola::batch::{Batch, Layout, LengthError, MatrixForm, Stages, Tetrahedra};
+use piola::batch::{Batch, Kernels, Layout, LengthError, MatrixForm, Tetrahedra};
 use piola::lanes::Scalar;
 
 use super::task::{CORNERS, Task};
@@ -22,7 +22,7 @@ pub struct Arrays<E> {
     tetrahedra: Vec<[usize; 4]>,
 }
 
-impl<E: Stages> Arrays<E> {
+impl<E: Kernels> Arrays<E> {
     /// Arrays of random points, which are equal for every task, format and layout.
     #[must_use]
     pub fn new(task: Task, layout: Layout, points: usize) -> Self {

@@ -23,7 +23,7 @@ const FORBIDDEN: [(&str, &[&str]); 8] = [
 ];
 
 /// Modules of the runtime from the bottom up: each may need those on the floors below.
-const RUNTIME: [&[&str]; 12] = [
+const RUNTIME: [&[&str]; 13] = [
     &["chained", "lanes", "message", "no_such_node", "random"],
     &["mesh"],
     &["status"],
@@ -31,6 +31,7 @@ const RUNTIME: [&[&str]; 12] = [
     &["material"],
     &["univariate"],
     &["interpreter", "point"],
+    &["kernels"],
     &["batch", "contract", "convert"],
     &["dynamic"],
     &["system"],

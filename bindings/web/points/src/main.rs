@@ -13,7 +13,7 @@ use std::error::Error;
 use std::io::{Write, stdin, stdout};
 
 use piola::Inversion;
-use piola::batch::{Batch, MatrixForm, Stages, TileMaterial};
+use piola::batch::{Batch, MatrixForm, Kernels, TileMaterial};
 use piola::lanes::Backend;
 use piola::point::Filter;
 use piola_declare::Energy;
@@ -99,7 +99,7 @@ impl Request {
         answers.collect()
     }
 
-    fn on<E: Stages + Into<f64>>(
+    fn on<E: Kernels + Into<f64>>(
         &self,
         material: &dyn TileMaterial<E>,
         backend: Backend,

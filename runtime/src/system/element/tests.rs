@@ -36,7 +36,7 @@ fn derivatives(
 }
 
 /// The whole matrix; unknown 3i+a is coordinate a of node i.
-pub(crate) fn to_matrix(stiffness: &Stiffness) -> [[f64; 12]; 12] {
+pub(crate) fn to_matrix(stiffness: &StiffnessBlocks) -> [[f64; 12]; 12] {
     std::array::from_fn(|row| {
         std::array::from_fn(|column| {
             let (i, a, j, c) = (row / 3, row % 3, column / 3, column % 3);

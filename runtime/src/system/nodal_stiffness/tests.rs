@@ -28,7 +28,8 @@ fn the_product_is_the_sum_of_those_of_the_elements() {
     let mut found = vec![[f64::NAN; 3]; nodes];
     // Twice, since nothing may be left from the first time.
     for _ in 0..2 {
-        let more = |tiles: Range<usize>, to: &mut [[Stiffness; TILE]]| elements.add_tiles_to(0.5, tiles, to);
+        let more =
+            |tiles: Range<usize>, to: &mut [[StiffnessBlocks; TILE]]| elements.add_tiles_to(0.5, tiles, to);
         let evaluated = stiffness.linearise(&body, &mut elastic, Filter::Clamp, more);
         assert!(evaluated.survey.is_clean(), "{evaluated:?}");
         stiffness.multiply(&x, &mut found).expect("lengths");

@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "F, P, K as in the literature")]
 
 use piola::Real;
-use piola::batch::{Batch, Layout, MatrixForm, Stages, TileMaterial};
+use piola::batch::{Batch, Kernels, Layout, MatrixForm, TileMaterial};
 use piola::lanes::{Backend, Kernel, Lanes, Scalar};
 use piola::material::Blocks;
 use piola::point::{Filter, Matrix3, Svd};
@@ -14,7 +14,7 @@ use piola_tests::baselines::{decompositions, eigen};
 pub(crate) const POINTS: usize = 64;
 
 /// `f64` or `f32`, with what the libraries of the baselines are generic over in ways of their own.
-pub(crate) trait Number: Stages + Real<Mask = bool> {
+pub(crate) trait Number: Kernels + Real<Mask = bool> {
     const NAME: &'static str;
     const IS_DOUBLE: bool;
     const ROUNDOFF: f64;

@@ -4,16 +4,17 @@
 //! it is. A tile that is not full is padded with copies of nothing in particular: no lane looks at another.
 
 use crate::lanes::{Lanes, Scalar};
+use crate::material::Blocks;
 
 /// Points of a tile. As many as an integer has bits, so that a truth value of each is one integer.
 pub(crate) const TILE: usize = 64;
 
 /// Places of a row, more than points: rows as far apart as a power of two would compete for the same places
 /// of the innermost cache, and loads would wait for stores to addresses that only look the same.
-pub(super) const ROW: usize = 80;
+pub(crate) const ROW: usize = 80;
 
 /// One component of each point of a tile.
-pub(super) type Row<E> = [E; ROW];
+pub(crate) type Row<E> = [E; ROW];
 
 /// Rows of a tile: N components of each of its points.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +66,7 @@ macro_rules! for_each_group {
         while $at < $count {
             // Always true, since the lanes of every back end divide the tile; said for the bounds checks'
             // sake.
-            if $at + <$R as $crate::lanes::Lanes>::LANES <= $crate::batch::rows::TILE $body
+            if $at + <$R as $crate::lanes::Lanes>::LANES <= $crate::kernels::rows::TILE $body
             $at += <$R as $crate::lanes::Lanes>::LANES;
         }
     };
@@ -76,4 +77,23 @@ pub(crate) use for_each_group;
 #[inline]
 pub(crate) fn first_bits(count: usize) -> u64 {
     if count >= 64 { u64::MAX } else { (1 << count) - 1 }
+}
+
+#[inline(always)]
+pub(crate) fn to_rows<R: Copy>(blocks: &Blocks<R>) -> [R; 15] {
+    let [p1, p2, p3] = blocks.gradient;
+    let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
+    let ([f12, f13, f23], [t12, t13, t23]) = (blocks.flip, blocks.twist);
+    [p1, p2, p3, h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23]
+}
+
+#[inline(always)]
+pub(crate) fn from_rows<R: Copy>(rows: [R; 15]) -> Blocks<R> {
+    let [p1, p2, p3, h11, h22, h33, h12, h13, h23, f12, f13, f23, t12, t13, t23] = rows;
+    Blocks {
+        gradient: [p1, p2, p3],
+        hessian: [h11, h22, h33, h12, h13, h23],
+        flip: [f12, f13, f23],
+        twist: [t12, t13, t23],
+    }
 }

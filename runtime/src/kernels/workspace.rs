@@ -1,34 +1,36 @@
 //! Memory between the stages of a tile. Each thread keeps one, so that calls neither allocate nor clear it.
 
+#![expect(non_snake_case, reason = "F as in the literature")]
+
 use super::rows::Rows;
-use super::sink::{Line, Lines};
+use super::sink::{LineBuffer, Lines};
 use super::svd_tile::SvdTile;
 use crate::lanes::Scalar;
 
 /// Memory for one tile of any call.
 #[derive(Debug)]
 pub struct Workspace<E> {
-    pub(super) F: Lines<E, 9>,
-    pub(super) rest: Lines<E, 10>,
-    pub(super) svd: SvdTile<E>,
-    pub(super) scratch: Scratch<E>,
+    pub(crate) F: Lines<E, 9>,
+    pub(crate) rest: Lines<E, 10>,
+    pub(crate) svd: SvdTile<E>,
+    pub(crate) scratch: Scratch<E>,
 }
 
 /// Memory of which nothing outlasts the call of a tile.
 #[derive(Debug)]
-pub(super) struct Scratch<E> {
-    pub(super) energies: Rows<E, 1>,
-    pub(super) gradients: Rows<E, 3>,
-    pub(super) invariants: Rows<E, 3>,
-    pub(super) derivatives: Rows<E, 9>,
-    pub(super) blocks: Rows<E, 15>,
-    pub(super) line: Line<E>,
+pub(crate) struct Scratch<E> {
+    pub(crate) energies: Rows<E, 1>,
+    pub(crate) gradients: Rows<E, 3>,
+    pub(crate) invariants: Rows<E, 3>,
+    pub(crate) derivatives: Rows<E, 9>,
+    pub(crate) blocks: Rows<E, 15>,
+    pub(crate) line: LineBuffer<E>,
     /// Memory for P or gradients next to [`line`](Self::line).
-    pub(super) short_line: Line<E>,
+    pub(crate) short_line: LineBuffer<E>,
 }
 
 impl<E: Scalar> Workspace<E> {
-    pub(super) fn new() -> Box<Self> {
+    pub(crate) fn new() -> Box<Self> {
         Box::new(Self {
             F: Lines::zero(),
             rest: Lines::zero(),
@@ -39,8 +41,8 @@ impl<E: Scalar> Workspace<E> {
                 invariants: Rows::zero(),
                 derivatives: Rows::zero(),
                 blocks: Rows::zero(),
-                line: Line::zero(),
-                short_line: Line::zero(),
+                line: LineBuffer::zero(),
+                short_line: LineBuffer::zero(),
             },
         })
     }

@@ -28,16 +28,16 @@ impl Layout {
 
 /// Components of each point of a tile, N of them, in [`Layout::Lines`], where lanes can load them.
 #[derive(Clone, Copy)]
-pub(super) struct Source<'a, E, const N: usize>(&'a [E]);
+pub(crate) struct Source<'a, E, const N: usize>(&'a [E]);
 
 impl<E> Source<'_, E, 0> {
-    pub(super) const NONE: Self = Self(&[]);
+    pub(crate) const NONE: Self = Self(&[]);
 }
 
 impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
     /// From a tile's part of a slice; `lines` is where points are turned to, and where a tile that is not
     /// full gets its room.
-    pub(super) fn new(backend: Backend, layout: Layout, from: &'a [E], lines: &'a mut Lines<E, N>) -> Self {
+    pub(crate) fn new(backend: Backend, layout: Layout, from: &'a [E], lines: &'a mut Lines<E, N>) -> Self {
         match layout {
             Layout::Lines if from.len() == N * TILE => return Self(from),
             Layout::Lines => lines.copy_from(from),
@@ -50,7 +50,7 @@ impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
 
     /// The numbers of the points from `at` on.
     #[inline(always)]
-    pub(super) fn get_all<R: Lanes<Scalar = E>>(&self, at: usize) -> [R; N] {
+    pub(crate) fn get_all<R: Lanes<Scalar = E>>(&self, at: usize) -> [R; N] {
         let mut numbers = [R::splat(0.0); N];
         if N > 0 {
             let from = &self.0[at / E::LINE * N * E::LINE + at % E::LINE..];
@@ -68,26 +68,26 @@ impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
 /// Memory for the points of a tile in [`Layout::Lines`].
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Lines<E, const N: usize>(pub(super) [[E; N]; TILE]);
+pub(crate) struct Lines<E, const N: usize>(pub(crate) [[E; N]; TILE]);
 
 impl<E: Scalar, const N: usize> Lines<E, N> {
-    pub(super) fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         Self([[E::default(); N]; TILE])
     }
 
-    pub(super) fn set(&mut self, point: usize, k: usize, number: E) {
+    pub(crate) fn set(&mut self, point: usize, k: usize, number: E) {
         self.0.as_flattened_mut()[Layout::Lines.index::<E>(point, N, k)] = number;
     }
 
     /// The components of a point.
     #[cfg(feature = "bodies")]
-    pub(super) fn get(&self, point: usize) -> [E; N] {
+    pub(crate) fn get(&self, point: usize) -> [E; N] {
         std::array::from_fn(|k| self.0.as_flattened()[Layout::Lines.index::<E>(point, N, k)])
     }
 
     /// The numbers of the points from `at` on.
     #[inline(always)]
-    pub(super) fn set_all<R: Lanes<Scalar = E>>(&mut self, at: usize, numbers: [R; N]) {
+    pub(crate) fn set_all<R: Lanes<Scalar = E>>(&mut self, at: usize, numbers: [R; N]) {
         let to = &mut self.0.as_flattened_mut()[at / E::LINE * N * E::LINE + at % E::LINE..];
         let to = &mut to[..(N - 1) * E::LINE + R::LANES];
         for k in 0..N {
@@ -96,11 +96,11 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
     }
 
     /// A tile's part of a slice as it is.
-    pub(super) fn copy_from(&mut self, from: &[E]) {
+    pub(crate) fn copy_from(&mut self, from: &[E]) {
         self.0.as_flattened_mut()[..from.len()].copy_from_slice(from);
     }
 
-    pub(super) fn source(&self) -> Source<'_, E, N> {
+    pub(crate) fn source(&self) -> Source<'_, E, N> {
         Source(self.0.as_flattened())
     }
 }
@@ -108,10 +108,10 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
 /// Room for up to 144 components of one line of points, on their way to a slice in another layout.
 #[derive(Debug)]
 #[repr(C, align(64))]
-pub(super) struct Line<E>(pub(super) [[E; 16]; 144]);
+pub(crate) struct LineBuffer<E>(pub(crate) [[E; 16]; 144]);
 
-impl<E: Scalar> Line<E> {
-    pub(super) fn zero() -> Self {
+impl<E: Scalar> LineBuffer<E> {
+    pub(crate) fn zero() -> Self {
         Self([[E::default(); 16]; 144])
     }
 }
@@ -135,23 +135,23 @@ impl<E: Scalar, const N: usize> Kernel<E> for Turn<'_, E, N> {
 }
 
 /// Output of a tile's components to its part of a slice.
-pub(super) struct Sink<'a, E> {
+pub(crate) struct Sink<'a, E> {
     /// The part of the slice that belongs to the tile.
-    pub(super) to: &'a mut [E],
-    pub(super) layout: Layout,
+    pub(crate) to: &'a mut [E],
+    pub(crate) layout: Layout,
     /// Fence for non-temporal stores past the caches; ordinary stores without one.
-    pub(super) non_temporal: Option<&'a NonTemporal>,
+    pub(crate) non_temporal: Option<&'a NonTemporal>,
     /// Points that keep what they have, as bits.
-    pub(super) served: u64,
+    pub(crate) served: u64,
 }
 
 impl<E: Scalar> Sink<'_, E> {
     /// The place for the N components of the points from `at` on: component k belongs at k LINE.
     /// [`Sink::finish`] must follow.
     #[inline(always)]
-    pub(super) fn place<'a, R: Lanes<Scalar = E>, const N: usize>(
+    pub(crate) fn place<'a, R: Lanes<Scalar = E>, const N: usize>(
         &'a mut self,
-        line: &'a mut Line<E>,
+        line: &'a mut LineBuffer<E>,
         at: usize,
     ) -> &'a mut [E] {
         let offset = at % E::LINE;
@@ -171,9 +171,9 @@ impl<E: Scalar> Sink<'_, E> {
 
     /// Brings what is in a place to the slice; `count` is how many points the tile has.
     #[inline(always)]
-    pub(super) fn finish<R: Lanes<Scalar = E>, const N: usize>(
+    pub(crate) fn finish<R: Lanes<Scalar = E>, const N: usize>(
         &mut self,
-        line: &Line<E>,
+        line: &LineBuffer<E>,
         at: usize,
         count: usize,
     ) {

@@ -20,7 +20,7 @@ pub enum MatrixForm {
 
 impl MatrixForm {
     /// Number of entries of dP/dF.
-    pub(super) fn tangent_entries(self) -> usize {
+    pub(crate) fn tangent_entries(self) -> usize {
         match self {
             Self::Full => 81,
             Self::Packed => 45,
@@ -28,7 +28,7 @@ impl MatrixForm {
     }
 
     /// Number of entries of an element's stiffness.
-    pub(super) fn stiffness_entries(self) -> usize {
+    pub(crate) fn stiffness_entries(self) -> usize {
         match self {
             Self::Full => 144,
             Self::Packed => 78,
@@ -36,8 +36,16 @@ impl MatrixForm {
     }
 }
 
+/// The second output of an element's response.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StiffnessForm {
+    Matrix(MatrixForm),
+    #[cfg(feature = "bodies")]
+    Blocks,
+}
+
 /// Form of N components, made from a point's judged tangent and the REST components of its rest shape.
-pub(super) trait Output<const REST: usize, const N: usize> {
+pub(crate) trait Output<const REST: usize, const N: usize> {
     /// Changes blocks where the form asks for more than the filter does.
     #[inline(always)]
     fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; REST], has_pole: bool) -> Status<R::Mask> {
@@ -50,7 +58,7 @@ pub(super) trait Output<const REST: usize, const N: usize> {
 }
 
 /// Form that is made without a decomposition as well.
-pub(super) trait OutputByInvariants<const REST: usize, const N: usize>: Output<REST, N> {
+pub(crate) trait OutputByInvariants<const REST: usize, const N: usize>: Output<REST, N> {
     /// Puts number k at k LINE. Returns the largest entry on the diagonal of the tangent.
     fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
@@ -68,12 +76,12 @@ pub(super) trait OutputByInvariants<const REST: usize, const N: usize>: Output<R
 
 /// Puts number k at k LINE.
 #[inline(always)]
-pub(super) fn put<R: Lanes>(to: &mut [R::Scalar], k: usize, number: R) {
+pub(crate) fn put<R: Lanes>(to: &mut [R::Scalar], k: usize, number: R) {
     number.store(&mut to[k * <R::Scalar as Scalar>::LINE..]);
 }
 
 #[inline(always)]
-pub(super) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Scalar]) {
+pub(crate) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Scalar]) {
     for k in 0..N {
         put(to, k, numbers[k]);
     }
@@ -83,7 +91,7 @@ pub(super) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Sc
 struct Blocks3<'a, F, E>(F, &'a mut [E]);
 
 /// All 81 entries of dP/dF: row 3i+j, column 3k+l at 9 (3i+j) + 3k+l.
-pub(super) struct FullTangent;
+pub(crate) struct FullTangent;
 
 impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Scalar> {
     #[inline(always)]
@@ -118,7 +126,7 @@ impl OutputByInvariants<0, 81> for FullTangent {
 }
 
 /// The 45 entries of dP/dF on and above the diagonal, row by row.
-pub(super) struct PackedTangent;
+pub(crate) struct PackedTangent;
 
 impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Scalar> {
     #[inline(always)]
@@ -167,8 +175,8 @@ const fn packed<const SIZE: usize>() -> [[usize; SIZE]; SIZE] {
     places
 }
 
-pub(super) static PACKED_9: [[usize; 9]; 9] = packed();
-pub(super) static PACKED_12: [[usize; 12]; 12] = packed();
+pub(crate) static PACKED_9: [[usize; 9]; 9] = packed();
+pub(crate) static PACKED_12: [[usize; 12]; 12] = packed();
 
 /// Dm⁻¹ row by row, its volume last: what an element's forms need of its shape at rest.
 struct Rest<R> {
@@ -246,7 +254,7 @@ fn stiffness_is_finite<R: Real>(blocks: &Blocks<R>, rest: &Rest<R>) -> R::Mask {
 /// Whether no number can overflow on the way from stress to the gradient: a sum of nine products of the
 /// stress, Dm⁻¹ and the volume.
 #[inline(always)]
-pub(super) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
+pub(crate) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
     let Rest { inverse, volume } = Rest::new(*rest);
     (largest(to_row_major(inverse)) * volume * R::splat(16.0) * largest(to_row_major(*stress))).is_finite()
 }
@@ -262,7 +270,7 @@ fn prepare_stiffness<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: 
 ///
 /// v P Dm⁻ᵀ; its column n belongs to node n + 1, and node 0 takes minus their sum.
 #[inline(always)]
-pub(super) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
+pub(crate) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
     let rest = Rest::new(*rest);
     thrice!(a => {
         let row = three!(x => stress[a][x] * rest.volume);
@@ -291,9 +299,9 @@ trait Places {
 /// product.
 ///
 /// Node 0 takes minus the sums over the others, so that a common translation is resisted by rounding alone.
-struct Stiffness<'a, F, E>(F, &'a mut [E]);
+struct StiffnessPlace<'a, F, E>(F, &'a mut [E]);
 
-impl<F: Places, E: Scalar> Stiffness<'_, F, E> {
+impl<F: Places, E: Scalar> StiffnessPlace<'_, F, E> {
     #[inline(always)]
     fn put<R: Lanes<Scalar = E>>(&mut self, [i, a]: [usize; 2], [j, c]: [usize; 2], entry: R) {
         let (place, mirrored) = F::places(i, a, j, c);
@@ -304,7 +312,7 @@ impl<F: Places, E: Scalar> Stiffness<'_, F, E> {
     }
 }
 
-impl<F: Places, R: Lanes> Assemble<R> for Stiffness<'_, F, R::Scalar> {
+impl<F: Places, R: Lanes> Assemble<R> for StiffnessPlace<'_, F, R::Scalar> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1, and stands for
@@ -328,7 +336,7 @@ impl<F: Places, R: Lanes> Assemble<R> for Stiffness<'_, F, R::Scalar> {
 macro_rules! stiffness_form {
     ($(#[$doc:meta])* $Form:ident of $numbers:literal, |$i:ident, $a:ident, $j:ident, $c:ident| $places:expr) => {
         $(#[$doc])*
-        pub(super) struct $Form;
+        pub(crate) struct $Form;
 
         impl Places for $Form {
             #[inline(always)]
@@ -347,7 +355,7 @@ macro_rules! stiffness_form {
             fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
                 let Tangent { U, V, blocks } = tangent;
                 let W = Rest::new(*rest).shape_gradients(V);
-                assemble_blocks(U, &W, blocks, &mut Stiffness(Self, to));
+                assemble_blocks(U, &W, blocks, &mut StiffnessPlace(Self, to));
             }
         }
 
@@ -359,7 +367,7 @@ macro_rules! stiffness_form {
                 to: &mut [R::Scalar],
             ) -> R {
                 let coordinates = RowsOf::new(Rest::new(*rest).scaled_gradients());
-                terms.assemble(&coordinates, &mut Stiffness(Self, to))
+                terms.assemble(&coordinates, &mut StiffnessPlace(Self, to))
             }
 
             #[inline(always)]

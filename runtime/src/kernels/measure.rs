@@ -1,9 +1,8 @@
 //! The stages of a batch that make other measures of stress, compiled once for each format and back end.
 
 use super::form::put;
-use super::material::from_rows;
-use super::rows::{Row, Rows, first_bits, for_each_group};
-use super::sink::{Line, Sink};
+use super::rows::{Row, Rows, first_bits, for_each_group, from_rows};
+use super::sink::{LineBuffer, Sink};
 use super::svd_tile::SvdTile;
 use crate::lanes::{Kernel, Lanes, Scalar};
 use crate::point::matrix::three;
@@ -12,14 +11,14 @@ use crate::point::stretches_in_range;
 use crate::status::Status;
 
 /// Kernel from frames and ψi to a stress, Pa.
-pub(super) struct MeasuredStress<'a, E> {
-    pub(super) measure: Measure,
-    pub(super) points: &'a SvdTile<E>,
+pub(crate) struct MeasuredStress<'a, E> {
+    pub(crate) measure: Measure,
+    pub(crate) points: &'a SvdTile<E>,
     /// ψi in the first three rows.
-    pub(super) gradients: &'a [Row<E>],
-    pub(super) count: usize,
-    pub(super) line: &'a mut Line<E>,
-    pub(super) to: Sink<'a, E>,
+    pub(crate) gradients: &'a [Row<E>],
+    pub(crate) count: usize,
+    pub(crate) line: &'a mut LineBuffer<E>,
+    pub(crate) to: Sink<'a, E>,
 }
 
 impl<E: Scalar> Kernel<E> for MeasuredStress<'_, E> {
@@ -47,13 +46,13 @@ impl<E: Scalar> Kernel<E> for MeasuredStress<'_, E> {
 }
 
 /// Kernel from frames and blocks to a tangent, Pa.
-pub(super) struct MeasuredTangent<'a, E> {
-    pub(super) measure: Measure,
-    pub(super) points: &'a SvdTile<E>,
-    pub(super) blocks: &'a Rows<E, 15>,
-    pub(super) count: usize,
-    pub(super) line: &'a mut Line<E>,
-    pub(super) to: Sink<'a, E>,
+pub(crate) struct MeasuredTangent<'a, E> {
+    pub(crate) measure: Measure,
+    pub(crate) points: &'a SvdTile<E>,
+    pub(crate) blocks: &'a Rows<E, 15>,
+    pub(crate) count: usize,
+    pub(crate) line: &'a mut LineBuffer<E>,
+    pub(crate) to: Sink<'a, E>,
 }
 
 impl<E: Scalar> Kernel<E> for MeasuredTangent<'_, E> {
