@@ -123,18 +123,65 @@ impl fmt::Display for Mode {
 impl FromStr for Mode {
     type Err = ModeError;
 
-    /// In any case, with spaces or `-` for `_`; `planar` and `planar_tension` are pure shear.
+    /// In any case, with spaces or `-` for `_`: the [name](Mode::name), or another that people write, such as
+    /// `UT`, `tension`, `compression`, `ET`, `EB`, `biaxial`, `PS`, `planar`, `hydrostatic`. `shear` alone is
+    /// two tests, and neither.
     fn from_str(text: &str) -> Result<Self, ModeError> {
-        let name = text.trim().to_lowercase().replace([' ', '-'], "_");
-        let name = if matches!(name.as_str(), "planar" | "planar_tension") { "pure_shear" } else { &name };
-        let mode = Self::ALL.into_iter().find(|mode| mode.name() == name);
-        mode.ok_or_else(|| ModeError(text.trim().into()))
+        let words = text.to_lowercase();
+        let words = words.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        let name = words.filter(|word| !matches!(*word, "test" | "data")).collect::<Vec<_>>().join("_");
+        let mode = NAMES.into_iter().find(|(mode, others)| mode.name() == name || others.contains(&&*name));
+        mode.map(|(mode, _)| mode).ok_or_else(|| ModeError(text.trim().into()))
     }
 }
 
+/// Other names of each mode.
+const NAMES: [(Mode, &[&str]); 5] = [
+    (
+        Mode::Uniaxial,
+        &[
+            "ut",
+            "uc",
+            "ua",
+            "uniaxial_tension",
+            "uniaxial_compression",
+            "tension",
+            "tensile",
+            "compression",
+            "simple_tension",
+        ],
+    ),
+    (
+        Mode::Equibiaxial,
+        &[
+            "et",
+            "eb",
+            "bt",
+            "ebt",
+            "biaxial",
+            "biaxial_tension",
+            "equi_biaxial",
+            "equibiaxial_tension",
+            "equi_biaxial_tension",
+            "biaxial_compression",
+            "equibiaxial_compression",
+        ],
+    ),
+    (
+        Mode::PureShear,
+        &["ps", "pt", "planar", "planar_tension", "planar_compression", "planar_shear", "plane_tension"],
+    ),
+    (Mode::SimpleShear, &["ss"]),
+    (Mode::Volumetric, &["vol", "volumetric_compression", "hydrostatic", "hydrostatic_compression", "bulk"]),
+];
+
 /// An unknown name of a test.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{}` is no test; write one of {known}", quoted(.0), known = Mode::ALL.map(|mode| format!("`{mode}`")).join(", "))]
+#[error(
+    "`{}` is not a test{}; write one of {}", quoted(.0),
+    if .0.eq_ignore_ascii_case("shear") { " by itself: pure shear has a stretch λ, simple shear an angle γ" } else { "" },
+    Mode::ALL.map(|mode| format!("`{mode}`")).join(", ")
+)]
 pub struct ModeError(
     /// The name as given.
     pub String,

@@ -20,9 +20,11 @@ pub mod curve;
 pub mod data;
 pub mod fit;
 pub mod ranking;
+mod rest;
 mod specimen;
 pub mod stability;
 
+pub use rest::AtRest;
 pub use specimen::Specimen;
 
 #[cfg(doctest)]

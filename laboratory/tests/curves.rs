@@ -191,8 +191,10 @@ fn points_that_do_not_exist_are_said_to() -> Outcome {
 fn ogdens_rubber_agrees_with_treloars() -> Outcome {
     let rubber = Ogden::new([0.63e6, 0.0012e6, -0.01e6], [1.3, 5.0, -2.0], 2e7)?;
     let agreement = Measurements::read(TRELOAR_1944)?.agreement(&rubber, Volume::Kept)?;
-    let expected = [(Mode::Uniaxial, 0.97454), (Mode::Equibiaxial, 0.99738), (Mode::PureShear, 0.99721)];
+    // A spreadsheet's, with the rest state among the points.
+    let expected = [(Mode::Uniaxial, 0.97591), (Mode::Equibiaxial, 0.99761), (Mode::PureShear, 0.99759)];
     assert_eq!(agreement.modes.len(), 3);
+    assert!(agreement.total.is_some_and(|total| (total - 0.98288).abs() <= 0.5e-5), "{agreement}");
     for ((mode, found), (wanted, expected)) in agreement.modes.into_iter().zip(expected) {
         assert_eq!(mode, wanted);
         // As the figures are rounded.

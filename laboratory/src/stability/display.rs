@@ -4,13 +4,14 @@ use std::fmt;
 
 use super::criteria::Criterion;
 use super::{Finding, Report, SurveySettings, Walk};
+use crate::curve::Volume;
+use crate::rest::{AtRest, digits};
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { settings: SurveySettings { from, to, .. }, moduli, points, admitted, findings, walks } =
             self;
-        let (mu, bulk) = (pascals(moduli.mu), pascals(moduli.bulk()));
-        writeln!(f, "at rest  μ = {mu}, K = {bulk}, ν = {}", digits(moduli.poisson()))?;
+        writeln!(f, "at rest  {}", AtRest { moduli: *moduli, volume: Volume::Free })?;
         write!(f, "box      {from} ≤ λ3 ≤ λ2 ≤ λ1 ≤ {to}: {points} points, ")?;
         match points - admitted {
             0 => writeln!(f, "all inside the domain")?,
@@ -63,33 +64,12 @@ fn triple(numbers: [f64; 3]) -> String {
     numbers.map(digits).join(", ")
 }
 
-/// A number with four significant digits at most.
-fn digits(number: f64) -> String {
-    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
-    match rounded.abs() {
-        0.0 | 1e-3..1e6 => rounded.to_string(),
-        _ => format!("{rounded:e}"),
-    }
-}
-
-fn pascals(stress: f64) -> String {
-    let units = [(1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")];
-    let unit = units.into_iter().find(|(size, _)| stress.abs() >= *size && stress.abs() < 1e4 * size);
-    let (size, name) = unit.unwrap_or((1.0, "Pa"));
-    format!("{} {name}", digits(stress / size))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short() {
-        assert_eq!(
-            [0.0, 1.0, -0.577_350_27, 12_345.6, 1.2e-7].map(digits),
-            ["0", "1", "-0.5774", "12350", "1.2e-7"]
-        );
-        assert_eq!([3.8e5, 8.1e10, 2e7, 1.0].map(pascals), ["380 kPa", "81 GPa", "20 MPa", "1 Pa"]);
+    fn shares_are_rounded_down() {
         assert_eq!(
             [(0, 0), (3, 3), (9_999, 10_000)].map(|(part, whole)| share(part, whole)),
             ["–", "100 %", "99.9 %"]

@@ -18,8 +18,8 @@ use piola::material::Form;
 use piola::point::{Filter, Matrix3, evaluate};
 use piola_declare::Energy;
 use piola_laboratory::chart::{self, Curve};
-use piola_laboratory::curve::{Volume, sweep};
-use piola_laboratory::data::Measurements;
+use piola_laboratory::curve::{Mode, Volume, sweep};
+use piola_laboratory::data::{Measurements, ReadOptions, decoded};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::seal;
 use piola_scenes::run::{Output, run};
@@ -81,9 +81,13 @@ pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
 
 /// Measured points, beside the curves of a material in a chart.
 pub fn csv(_: &Path, bytes: &[u8]) -> bool {
-    let Ok(text) = std::str::from_utf8(bytes) else { return false };
-    let data = match Measurements::read(text) {
-        Ok(data) => data,
+    let options = ReadOptions::default().with_test(Mode::Uniaxial).with_unit("MPa".parse().expect("a unit"));
+    let data = match Measurements::read_with(&decoded(bytes), &options) {
+        Ok(reading) => {
+            let note = reading.to_string();
+            assert!(!note.is_empty() && !note.chars().any(char::is_control), "{note:?}");
+            reading.measurements
+        }
         Err(error) => return refused(&error),
     };
     let specimen = MaterialSpec::typical("gent").and_then(|gent| gent.specimen()).expect("a material");

@@ -1,0 +1,149 @@
+//! Points of measured curves, and how well an energy agrees with them.
+
+use std::fmt;
+
+use piola::__private::message::number;
+
+use super::fault::{CONTROLS, Fault, STRESSES};
+use crate::curve::{Mode, Response, ResponseError, Volume, respond};
+use crate::specimen::Specimen;
+
+/// A reading of a testing machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// The test.
+    pub mode: Mode,
+    /// The control that the machine had set: λ, γ or J.
+    pub control: f64,
+    /// The stress, Pa.
+    pub stress: f64,
+}
+
+impl Measured {
+    /// Whether this is the rest state, from which nothing can be learnt.
+    #[must_use]
+    pub fn is_rest(&self) -> bool {
+        self.control == self.mode.rest()
+    }
+
+    /// The mistake in a reading out of the range that the [module](super) states.
+    pub(crate) fn fault(&self) -> Option<Fault> {
+        let Self { mode, control, stress } = *self;
+        let (size, least) = match mode {
+            Mode::SimpleShear => (control.abs(), 0.0),
+            _ => (control, CONTROLS.0),
+        };
+        if !mode.allows(control) {
+            Some(Fault::Control { reason: ResponseError::Control { mode, control }, remedy: "" })
+        } else if !(least..=CONTROLS.1).contains(&size) {
+            Some(Fault::ControlRange { mode, control })
+        } else if stress != 0.0 && !(STRESSES.0..=STRESSES.1).contains(&stress.abs()) {
+            Some(Fault::StressRange { stress })
+        } else {
+            None
+        }
+    }
+}
+
+/// Readings of one material in one or several tests.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Measurements {
+    /// In the order of the file; those of several files one after the other.
+    pub points: Vec<Measured>,
+}
+
+impl Measurements {
+    /// The modes in which there are points other than rest, in the order of [`Mode::ALL`].
+    pub fn modes(&self) -> impl Iterator<Item = Mode> {
+        let is_used = |mode: &Mode| self.of(*mode).any(|point| !point.is_rest());
+        Mode::ALL.into_iter().filter(is_used)
+    }
+
+    /// The points of a mode.
+    pub fn of(&self, mode: Mode) -> impl Iterator<Item = &Measured> {
+        self.points.iter().filter(move |point| point.mode == mode)
+    }
+
+    /// The response of the specimen at each point.
+    pub fn responses(&self, specimen: &dyn Specimen, volume: Volume) -> Vec<Result<Response, ResponseError>> {
+        self.points.iter().map(|point| respond(specimen, point.mode, volume, point.control)).collect()
+    }
+
+    /// How well the specimen agrees with the points: the coefficient of determination
+    ///
+    /// ```text
+    /// R² = 1 − Σ (P − P̂)² / Σ (P − P̄)²
+    /// ```
+    ///
+    /// of the stresses P with mean P̄, P̂ being those of the specimen. All points count, the rest state among
+    /// them, as in a spreadsheet. 1 is agreement; below 0 the mean would be a better guess. Stresses that are
+    /// all equal, such as a single one, have none.
+    ///
+    /// # Errors
+    /// [`PointError`] of the first point where the specimen has no stress.
+    pub fn agreement(&self, specimen: &dyn Specimen, volume: Volume) -> Result<Agreement, PointError> {
+        let responses = self.responses(specimen, volume).into_iter().zip(&self.points);
+        let pair = |(response, &point): (Result<Response, _>, _)| match response {
+            Ok(response) => Ok((point, response.stress)),
+            Err(reason) => Err(PointError { point, reason }),
+        };
+        let pairs = responses.map(pair).collect::<Result<Vec<_>, _>>()?;
+        let of = |mode| {
+            let pairs: Vec<_> = pairs.iter().filter(|(point, _)| point.mode == mode).copied().collect();
+            determination(&pairs)
+        };
+        Ok(Agreement {
+            modes: self.modes().map(|mode| (mode, of(mode))).collect(),
+            total: determination(&pairs),
+        })
+    }
+}
+
+/// R² by mode and of all points together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Agreement {
+    /// R² of each mode by itself; `None` where its stresses do not vary.
+    pub modes: Vec<(Mode, Option<f64>)>,
+    /// R² of the points of all modes; `None` where their stresses do not vary.
+    pub total: Option<f64>,
+}
+
+impl fmt::Display for Agreement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shown = |determination: &Option<f64>| match determination {
+            Some(determination) => short(*determination),
+            None => "undefined (equal stresses)".to_owned(),
+        };
+        for (mode, determination) in &self.modes {
+            write!(f, "{mode} {}, ", shown(determination))?;
+        }
+        write!(f, "all {}", shown(&self.total))
+    }
+}
+
+/// R² with five digits behind the point, and one that is far below 0 with an exponent.
+pub(crate) fn short(determination: f64) -> String {
+    if determination > -1e6 { format!("{determination:.5}") } else { format!("{determination:.1e}") }
+}
+
+/// A measured point at which a specimen has no stress.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{} at {} = {}: {reason}", point.mode, point.mode.letter(), number(point.control))]
+pub struct PointError {
+    /// The point.
+    pub point: Measured,
+    /// Why the specimen has no stress there.
+    #[source]
+    pub reason: ResponseError,
+}
+
+fn determination(pairs: &[(Measured, f64)]) -> Option<f64> {
+    let (first, _) = pairs.first()?;
+    if pairs.iter().all(|(point, _)| point.stress == first.stress) {
+        return None;
+    }
+    let mean = pairs.iter().map(|(point, _)| point.stress).sum::<f64>() / pairs.len() as f64;
+    let unexplained: f64 = pairs.iter().map(|(point, stress)| (point.stress - stress).powi(2)).sum();
+    let all: f64 = pairs.iter().map(|(point, _)| (point.stress - mean).powi(2)).sum();
+    Some(1.0 - unexplained / all).filter(|determination| determination.is_finite())
+}

@@ -1,0 +1,60 @@
+//! Numbers that are fit for a computer and not for a test: strains under `stretch`, percent without a word,
+//! signs of compression.
+
+use super::fault::{DataError, Fault};
+use super::heading::{Heading, Quantity};
+use super::measured::Measured;
+use super::test::Test;
+use crate::curve::Mode;
+
+/// No rubber is seldom below this stretch, and hardly any reaches the next: numbers that are all beyond the
+/// first, or some beyond the second, are strains in percent unless their header has a unit.
+const FAR: (f64, f64) = (8.0, 20.0);
+/// Strains that are noise or slack: this much, or a tenth of the greatest where that is less.
+const SMALL: f64 = 0.02;
+
+/// Refuses points of a table, with line and test of each, that are likely to be something else than their
+/// header says.
+pub(super) fn check(points: &[Measured], rows: &[(u64, Test)], heading: &Heading) -> Result<(), DataError> {
+    for mode in Mode::ALL {
+        let points: Vec<_> = points.iter().zip(rows).filter(|(point, _)| point.mode == mode).collect();
+        let strain = |point: &Measured| point.control - mode.rest();
+        let greatest = |size: &dyn Fn(&Measured) -> f64| {
+            points.iter().map(|(point, _)| size(point).abs()).fold(0.0, f64::max)
+        };
+        let (range, peak) = (greatest(&strain), greatest(&|point| point.stress));
+        let is_pulled = points.iter().all(|(point, _)| point.stress > -0.01 * peak);
+        if heading.unit.is_none() && mode != Mode::Volumetric {
+            let mut controls = points.iter().filter(|(point, _)| strain(point).abs() > SMALL);
+            let least = controls.clone().map(|(point, _)| point.control).fold(f64::INFINITY, f64::min);
+            let most = controls.clone().map(|(point, _)| point.control).fold(0.0, f64::max);
+            if let Some((_, (line, _))) = controls.next()
+                && (least > FAR.0 || most > FAR.1)
+            {
+                let (column, range) = (heading.text.clone(), least..=most);
+                let is_stretch = heading.quantity == Quantity::Stretch;
+                return Err(DataError {
+                    line: *line,
+                    fault: Fault::Percent { column, mode, range, is_stretch },
+                });
+            }
+        }
+        for &(point, &(line, test)) in &points {
+            let &Measured { control, stress, .. } = point;
+            let strain = strain(point);
+            // Unloaded rubber has some stress of the other sign; where no stress is one of compression, little of
+            // it tells strains under `stretch`.
+            let noise = if strain < 0.0 && is_pulled { 0.01 } else { 0.1 };
+            if strain.abs() <= SMALL.min(0.1 * range) || stress.abs() <= noise * peak {
+                continue;
+            }
+            if (test.is_compression || heading.is_compressive) && strain > 0.0 {
+                return Err(DataError { line, fault: Fault::Compression { mode, control, stress } });
+            }
+            if (strain > 0.0) != (stress > 0.0) {
+                return Err(DataError { line, fault: Fault::Sign { mode, control, stress } });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,118 @@
+//! Units of stress, by the names that people write.
+
+use std::fmt;
+use std::str::FromStr;
+
+use piola::__private::message::quoted;
+
+/// A unit of stress.
+///
+/// ```
+/// use piola_laboratory::data::StressUnit;
+///
+/// # fn main() -> Result<(), piola_laboratory::data::StressUnitError> {
+/// let units = ["N/mm²", "psi", "kgf/cm^2"].map(|name| name.parse::<StressUnit>().map(|unit| unit.pascals()));
+/// assert_eq!(units, [Ok(1e6), Ok(6894.757293168361), Ok(98066.5)]);
+/// assert!("mPa".parse::<StressUnit>().is_err(), "a millipascal");
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StressUnit {
+    name: &'static str,
+    pascals: f64,
+}
+
+/// Each unit with its size in Pa and other spellings, in small letters and without signs for powers.
+const UNITS: [(&str, f64, &[&str]); 11] = [
+    ("Pa", 1.0, &["n/m2", "nm-2", "j/m3", "pascal"]),
+    ("kPa", 1e3, &["kn/m2"]),
+    ("MPa", 1e6, &["n/mm2", "nmm-2", "mn/m2", "megapascal"]),
+    ("GPa", 1e9, &["kn/mm2"]),
+    ("psi", 6_894.757_293_168_361, &["lbf/in2", "lb/in2", "lbs/in2", "lbf/sqin"]),
+    ("ksi", 6_894_757.293_168_361, &["kip/in2"]),
+    ("bar", 1e5, &[]),
+    ("atm", 101_325.0, &[]),
+    ("kgf/cm2", 98_066.5, &["kg/cm2", "kp/cm2"]),
+    ("kgf/mm2", 9_806_650.0, &["kg/mm2", "kp/mm2"]),
+    ("dyn/cm2", 0.1, &["dyne/cm2", "dynes/cm2"]),
+];
+
+impl StressUnit {
+    /// The name, such as `MPa`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// The size, Pa.
+    #[must_use]
+    pub fn pascals(self) -> f64 {
+        self.pascals
+    }
+}
+
+impl fmt::Display for StressUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name)
+    }
+}
+
+impl FromStr for StressUnit {
+    type Err = StressUnitError;
+
+    /// In letters of any size, but for `mPa`, which would be a thousandth of a pascal; with `²`, `^2`, `**2`
+    /// or `2` for a square.
+    fn from_str(text: &str) -> Result<Self, StressUnitError> {
+        let name = plain(text);
+        let is_named = |(own, _, spellings): &&(&str, f64, &[&str])| {
+            own.eq_ignore_ascii_case(&name) || spellings.contains(&&*name)
+        };
+        let found = UNITS.iter().find(is_named).filter(|_| text.trim() != "mPa");
+        let &(name, pascals, _) = found.ok_or_else(|| StressUnitError(text.trim().into()))?;
+        Ok(Self { name, pascals })
+    }
+}
+
+/// A unit in small letters, without spaces, points and signs for powers.
+pub(super) fn plain(unit: &str) -> String {
+    let letters = unit.chars().filter(|c| !matches!(c, ' ' | '^' | '*' | '·' | '.' | '\u{a0}'));
+    let letters = letters.map(|c| match c {
+        '²' => '2',
+        '³' => '3',
+        '−' | '⁻' => '-',
+        'μ' => 'µ',
+        c => c,
+    });
+    letters.flat_map(char::to_lowercase).collect()
+}
+
+/// An unknown name of a unit of stress.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{}` is not a unit of stress; write one of {}", quoted(.0), UNITS.map(|(name, ..)| name).join(", "))]
+pub struct StressUnitError(
+    /// The name as given.
+    pub String,
+);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_known_in_every_spelling() {
+        let read = |text: &str| text.parse::<StressUnit>().map(StressUnit::pascals);
+        for (name, pascals, spellings) in UNITS {
+            for spelling in spellings.iter().chain([&name]) {
+                assert_eq!(read(spelling), Ok(pascals), "{spelling}");
+            }
+        }
+        for (spelling, pascals) in
+            [("Mpa", 1e6), ("MPA", 1e6), ("kpa", 1e3), ("N/mm^2", 1e6), ("N / mm**2", 1e6), ("N·mm⁻²", 1e6)]
+        {
+            assert_eq!(read(spelling), Ok(pascals), "{spelling}");
+        }
+        let error = read("stone").map_err(|error| error.to_string()).expect_err("a weight");
+        assert!(error.contains("`stone`") && error.contains("kPa, MPa, GPa, psi"), "{error}");
+    }
+}
