@@ -2,22 +2,24 @@
 
 mod check;
 mod curve;
+mod data;
 mod fit;
 mod ranking;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Args;
 use piola::__private::message::number;
+use piola::material::Moduli;
+use piola_laboratory::AtRest;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume};
-use piola_laboratory::data::{Agreement, Measurements, TRELOAR_1944};
+use piola_laboratory::data::{Agreement, Measurements};
 use piola_scenes::material::MaterialSpec;
-use piola_scenes::options::{Formula, Given, in_file, parameter, with_values};
+use piola_scenes::options::{Formula, Given, check_units, in_file, parameter, with_values};
 use piola_scenes::output::write_whole;
 
 use crate::error::Error;
-use crate::overlap::refuse_overlaps;
 
 pub(crate) use check::Check;
 pub(crate) use curve::Curve;
@@ -33,8 +35,8 @@ pub(crate) struct Material {
     #[command(flatten)]
     formula: Formula,
 
-    /// Value of a parameter, in SI units or with kPa, MPa or GPa behind it; lists as NAME=V,V,V [default: the
-    /// typical one of `piola materials`, or of the file].
+    /// Value of a parameter, in SI units or with a unit of stress behind it, such as MPa or psi, or /MPa for
+    /// one by a stress; lists as NAME=V,V,V [default: the typical one of `piola materials`, or of the file].
     #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
     parameters: Vec<Given>,
 }
@@ -50,32 +52,16 @@ impl Material {
                 None => MaterialSpec::typical(&name)?,
             },
         };
+        check_units(&material, &self.parameters)?;
         Ok(with_values(material, self.parameters))
     }
 }
 
-/// Whether measured points are those of the program.
-fn is_treloar(file: &Path) -> bool {
-    file.as_os_str().eq_ignore_ascii_case("treloar")
-}
-
-/// Refuses to draw over the measured points.
-fn keep_data(data: Option<&PathBuf>, svg: Option<&PathBuf>) -> Result<(), Error> {
-    let data = data.filter(|file| !is_treloar(file)).map(|file| ("--data", file.clone()));
-    let svg = svg.map(|file| ("--svg", file.clone()));
-    refuse_overlaps(data, svg)
-}
-
-/// Measured points from a file, or Treloar's.
-fn measurements(file: &Path) -> Result<Measurements, Error> {
-    if is_treloar(file) {
-        return Measurements::read(TRELOAR_1944).map_err(Error::bench);
-    }
-    let path = file.to_owned();
-    match std::fs::read_to_string(file) {
-        Ok(text) => Measurements::read(&text).map_err(|source| Error::Data { path, source }),
-        Err(source) => Err(Error::UnreadableData { path, source }),
-    }
+/// The small-strain moduli of a material in a line, and a warning where they are odd.
+pub(crate) fn at_rest(moduli: Moduli, volume: Volume) -> String {
+    let at_rest = AtRest { moduli, volume };
+    let warning = at_rest.warning().map(|warning| format!("warning: {warning}\n"));
+    format!("  at rest  {at_rest}\n{}", warning.unwrap_or_default())
 }
 
 /// The values of all parameters as options of the command line, with seven digits.

@@ -3,8 +3,9 @@
 use clap::Args;
 use piola::Inversion;
 use piola::contract::{Settings, check};
+use piola_laboratory::curve::Volume;
 
-use crate::bench::Material;
+use crate::bench::{Material, at_rest};
 use crate::error::Error;
 
 /// Prints how near each rule came to its tolerance, or what is broken, and where.
@@ -24,13 +25,14 @@ impl Contract {
         let spec = self.material.spec()?;
         let inversions = self.extend.map(|epsilon| Inversion::Extend { epsilon });
         let mut text = String::new();
+        let rest = at_rest(spec.clone().with_inversion(Inversion::Refuse).build()?.moduli, Volume::Free);
         for inversion in std::iter::once(Inversion::Refuse).chain(inversions) {
             let spec = spec.clone().with_inversion(inversion);
             let material = spec.build()?.name;
             let report = check(&spec.interpreted()?, &Settings::default())
                 .map_err(|violations| Error::Contract { material: material.to_string(), violations })?;
             text += &match inversion {
-                Inversion::Refuse => format!("{material} keeps the contract\n"),
+                Inversion::Refuse => format!("{material} keeps the contract\n{rest}"),
                 Inversion::Extend { epsilon } => format!("continued below {epsilon}, it does as well\n"),
             };
             for finding in &report.findings {

@@ -101,11 +101,36 @@ pub enum Error {
         &'static str,
     ),
     /// All rubbers are to be ranked beside a test that changes the volume.
-    #[error("{}: `piola curve all` fits solids that keep their volume; leave the volumetric test out", path.display())]
+    #[error("{files}: `piola curve all` fits solids that keep their volume; leave the volumetric test out")]
     RankedByVolume {
+        /// The files.
+        files: String,
+    },
+    /// An option that files of measured points need has another number of values than there are files.
+    #[error(
+        "{given} values of {option} and {files} of --data: give one for all files, or one for each in their order"
+    )]
+    Unpaired {
+        /// The option.
+        option: &'static str,
+        /// How often it is given.
+        given: usize,
+        /// How many files there are.
+        files: usize,
+    },
+    /// A file has no points of the tests that are asked for.
+    #[error("{}: has points of {} alone, and none of the tests of --mode", path.display(), known.join(", "))]
+    NoSuchTest {
         /// The file.
         path: PathBuf,
+        /// The tests that it has.
+        known: Vec<&'static str>,
     },
+    /// A unit is given without measured points.
+    #[error(
+        "--unit is of measured points: add --data FILE, or leave it out; units of parameters are written behind them"
+    )]
+    UnitWithoutData,
     /// Parameters cannot be fitted to the data.
     #[error(
         "{material} cannot be fitted: {source}{}",

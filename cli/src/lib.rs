@@ -122,7 +122,9 @@ impl Watch for Progress<'_> {
 
 fn serve(arguments: View) -> Result<(), Error> {
     let viewer = Viewer::start(arguments.options()?)?;
-    say(format_args!("{} shows the scene; Ctrl-C ends it", viewer.url()))?;
+    let rest = viewer.at_rest();
+    say(format_args!("{} shows the scene; Ctrl-C ends it\n  at rest  {rest}", viewer.url()))?;
+    rest.warning().iter().for_each(|warning| warn(format_args!("warning: {warning}")));
     viewer.wait();
     Ok(())
 }

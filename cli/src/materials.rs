@@ -2,6 +2,8 @@
 //! material.
 
 use piola::material::Description;
+use piola_laboratory::AtRest;
+use piola_laboratory::curve::Volume;
 use piola_materials::DECLARATIONS;
 use piola_scenes::error::Error;
 use piola_scenes::material::MaterialSpec;
@@ -38,5 +40,7 @@ fn page(name: &str) -> Result<String, Error> {
     };
     text += &format!("  domain       {domain}{beyond}\n");
     text += &format!("  small strain μ = {}, λ = {}\n", moduli[0], moduli[1]);
+    text +=
+        &format!("  at rest      {}\n", AtRest { moduli: material.build()?.moduli, volume: Volume::Free });
     Ok(text)
 }

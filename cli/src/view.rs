@@ -23,6 +23,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread::{self, JoinHandle};
 
+use piola_laboratory::AtRest;
+use piola_laboratory::curve::Volume;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::settings::Settings;
 use piola_viewer::conversation::Conversation;
@@ -90,6 +92,7 @@ pub enum Begin {
 #[derive(Debug)]
 pub struct Viewer {
     address: SocketAddr,
+    at_rest: AtRest,
     token: Token,
     is_over: Arc<AtomicBool>,
     server: Option<JoinHandle<()>>,
@@ -112,6 +115,7 @@ impl Viewer {
         let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
         let threads = threads.map_err(SceneError::from)?;
         let topology = topology(session.geometry()).into();
+        let at_rest = AtRest { moduli: session.play().moduli(), volume: Volume::Free };
         let first = Conversation::after(session.pulls().map(|(drag, _)| drag));
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));
@@ -125,7 +129,7 @@ impl Viewer {
         // The driver ends when the server and all its connections have.
         start("driver", Box::new(move || driver::run(driver, &taken)))?;
         let server = Some(start("server", Box::new(move || server.run()))?);
-        Ok(Self { address, token, is_over, server })
+        Ok(Self { address, at_rest, token, is_over, server })
     }
 
     /// Address at which it listens.
@@ -138,6 +142,12 @@ impl Viewer {
     #[must_use]
     pub fn url(&self) -> String {
         format!("http://{}/?token={}", self.address, self.token)
+    }
+
+    /// Small-strain moduli of the material with which it begins.
+    #[must_use]
+    pub fn at_rest(&self) -> AtRest {
+        self.at_rest
     }
 
     /// Serves until the process is ended from outside.

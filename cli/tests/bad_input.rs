@@ -203,7 +203,11 @@ fn what_a_bench_cannot_do() {
     check(&[], &["fit", "gent"], &["--data"]);
     check(&[], &["fit", "gent", "--data", "rubber.csv"], &["rubber.csv", "cannot be read", "treloar"]);
     let arguments = ["fit", "gent", "--data", "rubber.csv"];
-    check(&data("mode,stretch\nuniaxial,2\n"), &arguments, &["rubber.csv:1", "nominal_stress_MPa"]);
+    check(
+        &data("mode,stretch\nuniaxial,2\n"),
+        &arguments,
+        &["rubber.csv:1", "a stress", "nominal_stress_MPa"],
+    );
     let text = "mode,stretch,nominal_stress_kPa\nuniaxial,two,3\n";
     check(&data(text), &arguments, &["rubber.csv:2", "`two`", "not a number"]);
     check(&[], &["fit", "gent", "--data", "treloar", "--hold", "nu"], &["`nu`", "mu, jm, kappa"]);
@@ -211,6 +215,28 @@ fn what_a_bench_cannot_do() {
     check(&[], &["fit", "stretch_spline", "--data", "treloar"], &["fit"]);
     let text = "mode,stretch,nominal_stress_kPa\nuniaxial,2,300\n";
     check(&data(text), &arguments, &["1 points", "--hold"]);
+}
+
+#[test]
+fn data_that_may_mean_two_things() {
+    let data = |text: &str| [("rubber.csv", text.to_owned())];
+    let arguments = ["fit", "gent", "--data", "rubber.csv"];
+    check(&data("strain,stress\n0.1,0.2\n"), &arguments, &["rubber.csv:1", "--mode uniaxial"]);
+    let uniaxial = [&arguments[..], &["--mode", "uniaxial"]].concat();
+    check(&data("strain,stress\n0.1,0.2\n"), &uniaxial, &["rubber.csv:1", "--unit MPa"]);
+    check(&data("stretch,stress_MPa\n10,0.2\n50,0.4\n"), &uniaxial, &["rubber.csv:2", "percent"]);
+    check(&data("Load (N),Extension (mm)\n1,2\n"), &uniaxial, &["Load (N)", "cross-section"]);
+    let two = [&uniaxial[..], &["--mode", "planar"]].concat();
+    check(&data("strain,stress_Pa\n0.1,0.2\n"), &two, &["2 values of --mode", "1 of --data"]);
+    check(&[], &["fit", "gent", "--data", "treloar", "--mode", "volumetric"], &["treloar", "equibiaxial"]);
+    check(&[], &["fit", "gent", "--data", "treloar", "--mode", "shear"], &["pure shear", "simple shear"]);
+    check(&[], &["curve", "gent", "--unit", "MPa"], &["--unit", "--data"]);
+    check(&[], &["curve", "gent", "--unit", "mm"], &["`mm`", "psi"]);
+    check(&[], &["curve", "gent", "--at", "-1"], &["--at", "from 1e-6"]);
+    check(&[], &["curve", "gent", "--at", "1.1", "--rows", "3"], &["--at", "--rows"]);
+    check(&[], &["curve", "gent", "--param", "jm=105MPa"], &["`jm`", "without a unit", "in Pa"]);
+    check(&[], &["curve", "gent", "--param", "mu=1/MPa"], &["`mu`", "in Pa", "in 1/Pa"]);
+    check(&[], &["run", "horse", "--param", "mu=1/MPa"], &["`mu`", "in Pa", "in 1/Pa"]);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use piola::__private::message::{number, quoted};
-use piola::material::{MaterialError, Text};
+use piola::material::{MaterialError, Text, Unit};
 use piola::mesh::ReadError;
 use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, PinError};
@@ -45,6 +45,17 @@ pub enum Error {
     /// An energy has mistakes.
     #[error("{0}")]
     Declaration(Mistakes),
+    /// A value of a parameter is given in a unit that the parameter does not have.
+    #[error("the parameter `{}` is {}, but its value is given {}; write another unit behind it, or none",
+        quoted(parameter), in_words(*declared), in_words(*unit))]
+    UnitOfParameter {
+        /// The parameter.
+        parameter: String,
+        /// The kind of unit that is given.
+        unit: Unit,
+        /// The kind of unit that the parameter has.
+        declared: Unit,
+    },
     /// No body has that name.
     #[error("there is no body `{}`; choose one of {}", quoted(name), list(known))]
     UnknownBody {
@@ -247,6 +258,15 @@ fn some(names: &[String]) -> String {
     match names.len().saturating_sub(SHOWN) {
         0 => shown,
         more => format!("{shown} and {more} more"),
+    }
+}
+
+/// A kind of unit in sentences.
+fn in_words(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Pascal => "in Pa",
+        Unit::PerPascal => "in 1/Pa",
+        _ => "without a unit",
     }
 }
 

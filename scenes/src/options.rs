@@ -4,7 +4,7 @@ mod energy;
 mod step;
 mod value;
 
-pub use energy::{Formula, in_file, with_values};
+pub use energy::{Formula, check_units, in_file, with_values};
 pub use step::StepOptions;
 pub use value::{Given, inversion, parameter};
 
@@ -35,8 +35,9 @@ pub struct SceneOptions {
     #[expect(missing_docs, reason = "clap would print it")]
     pub formula: Formula,
 
-    /// Value of a parameter of the material, in SI units or with kPa, MPa or GPa behind it; lists as
-    /// NAME=V,V,V. Of another material than the scene's, all or none.
+    /// Value of a parameter of the material, in SI units or with a unit of stress behind it, such as MPa or
+    /// psi, or /MPa for one by a stress; lists as NAME=V,V,V. Of another material than the scene's, all or
+    /// none.
     #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
     pub parameters: Vec<Given>,
 
@@ -96,6 +97,7 @@ impl SceneOptions {
                 None => MaterialSpec::matching(&name, settings.material.build()?.moduli),
             };
         }
+        check_units(&settings.material, &self.parameters)?;
         settings.material = with_values(settings.material, self.parameters);
         if let Some(inversion) = self.inversion {
             settings.material = settings.material.with_inversion(inversion);

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use piola::Inversion;
+use piola_laboratory::AtRest;
+use piola_laboratory::curve::Volume;
 use piola_laboratory::stability::{SurveySettings, map, survey};
 use piola_scenes::options::inversion;
 use piola_scenes::output::write_whole;
@@ -58,7 +60,9 @@ impl Check {
         if let Some(path) = self.svg {
             write_whole(&path, map(&*specimen, &stretches, &title).map_err(Error::bench)?.as_bytes())?;
         }
-        Ok(format!("{title}\n  ψ = {}\n\n{report}", description.formula))
+        let warning = AtRest { moduli: report.moduli, volume: Volume::Free }.warning();
+        let warning = warning.map(|warning| format!("warning: {warning}\n")).unwrap_or_default();
+        Ok(format!("{title}\n  ψ = {}\n{warning}\n{report}", description.formula))
     }
 }
 

@@ -10,25 +10,23 @@ use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::Measured;
 use piola_scenes::error::Error as SceneError;
 
-use super::{
-    FINE, Material, as_options, draw, keep_data, measured_range, measurements, ranking, spaced, titled,
-};
+use super::data::{self, Data};
+use super::{FINE, Material, as_options, at_rest, draw, measured_range, ranking, spaced, titled};
 use crate::error::Error;
 
 /// Stresses are in Pa.
 ///
 /// `piola curve all --data FILE` fits every rubber of the catalogue to the data instead and ranks them by R²,
-/// the share of the variance of all measured stresses that the fitted energy explains.
+/// the share of the variance of all measured stresses, those at rest among them, that the fitted energy
+/// explains.
 #[derive(Debug, Args)]
-#[command(after_help = ranking::HELP)]
+#[command(after_help = format!("{}\n\n{}", ranking::HELP, data::HELP))]
 pub(crate) struct Curve {
     #[command(flatten)]
     material: Material,
 
-    /// Tests, separated by commas: uniaxial, equibiaxial, pure_shear, simple_shear, volumetric
-    /// [default: those of the data, or else the first three].
-    #[arg(long = "mode", value_name = "MODE,MODE", value_delimiter = ',')]
-    modes: Vec<Mode>,
+    #[command(flatten)]
+    data: Data,
 
     /// Least stretch (simple shear: γ, volumetric: J) [default: of the data, or else 0.5 (0, 0.8)].
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
@@ -42,14 +40,14 @@ pub(crate) struct Curve {
     #[arg(long, value_name = "N")]
     rows: Option<usize>,
 
+    /// Points of the table of each test, in place of rows from one stretch to another; separated by commas.
+    #[arg(long, value_name = "STRETCH,STRETCH", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(conflicts_with_all = ["from", "to", "rows"])]
+    at: Vec<f64>,
+
     /// Keep the volume, whatever the bulk modulus.
     #[arg(long)]
     incompressible: bool,
-
-    /// Measured points to compare with: a file with the columns mode,stretch,nominal_stress_MPa, or
-    /// `treloar`.
-    #[arg(long, value_name = "FILE|treloar")]
-    data: Option<PathBuf>,
 
     /// Draw the curves.
     #[arg(long, value_name = "FILE")]
@@ -66,16 +64,18 @@ const MAX_STRETCH: f64 = 1e6;
 impl Curve {
     /// Computes test curves as tables, and draws them if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
-        keep_data(self.data.as_ref(), self.svg.as_ref())?;
+        self.data.keep(self.svg.as_ref())?;
         if self.material.material.as_deref() == Some(ranking::ALL) {
             return self.rank();
         }
         let material = self.material.spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
         let specimen = &*material.specimen()?;
-        let data = self.data.as_deref().map(measurements).transpose()?;
+        let data::Measured { points, notes } = self.data.read()?.unwrap_or_default();
+        let data = (!points.points.is_empty()).then_some(points);
         let volume = if self.incompressible { Volume::Kept } else { Volume::Free };
-        let modes = match (&data, self.modes) {
+        let is_asked = |mode: &Mode| self.data.tests.iter().any(|test| test.mode == *mode);
+        let modes = match (&data, Mode::ALL.into_iter().filter(is_asked).collect::<Vec<_>>()) {
             (Some(data), modes) if modes.is_empty() => data.modes().collect(),
             (None, modes) if modes.is_empty() => vec![Mode::Uniaxial, Mode::Equibiaxial, Mode::PureShear],
             (_, modes) => modes,
@@ -86,6 +86,8 @@ impl Curve {
         let names = material.description()?.parameters.iter().map(|parameter| &parameter.name);
         let options = as_options(names.map(|name| (&**name, info.parameters[name].as_slice())));
         let (mut text, mut curves) = (format!("{title}\n  {options}\n"), Vec::new());
+        text += &at_rest(info.moduli, volume);
+        text += &notes;
         for mode in modes {
             let measured: Vec<Measured> = data.iter().flat_map(|data| data.of(mode)).copied().collect();
             let [least, greatest] = match (&data, mode) {
@@ -97,8 +99,12 @@ impl Curve {
             let (from, to) = (self.from.unwrap_or(least), self.to.unwrap_or(greatest));
             let rows = self.rows.unwrap_or(ROWS);
             check_range(mode, from, to, rows)?;
-            if has_range || measured.is_empty() {
-                let controls = spaced(from, to, rows);
+            if let Some(&at) = self.at.iter().find(|at| !is_allowed(mode, **at)) {
+                let requirement = allowed(mode);
+                return Err(SceneError::OutOfRange { quantity: "--at", value: at, requirement }.into());
+            }
+            if has_range || !self.at.is_empty() || measured.is_empty() {
+                let controls = if self.at.is_empty() { spaced(from, to, rows) } else { self.at.clone() };
                 text += &table(specimen, volume, mode, &controls, &[]);
             } else {
                 let controls: Vec<_> = measured.iter().map(|point| point.control).collect();
@@ -126,7 +132,7 @@ impl Curve {
     fn rank(self) -> Result<String, Error> {
         for (is_given, option) in [
             (!self.material.parameters.is_empty(), "--param"),
-            (!self.modes.is_empty(), "--mode"),
+            (!self.at.is_empty(), "--at"),
             (self.from.is_some(), "--from"),
             (self.to.is_some(), "--to"),
             (self.rows.is_some(), "--rows"),
@@ -135,19 +141,25 @@ impl Curve {
                 return Err(Error::RankedWith(option));
             }
         }
-        ranking::run(&self.data.ok_or(Error::RankedWithoutData)?, self.svg.as_deref())
+        ranking::run(&self.data, self.svg.as_deref())
     }
 }
 
+/// Whether a table has rows at a control.
+fn is_allowed(mode: Mode, control: f64) -> bool {
+    let least = if mode == Mode::SimpleShear { -MAX_STRETCH } else { 1.0 / MAX_STRETCH };
+    (least..=MAX_STRETCH).contains(&control)
+}
+
+/// The controls at which a table has rows, in words.
+fn allowed(mode: Mode) -> &'static str {
+    if mode == Mode::SimpleShear { "from -1e6 to 1e6" } else { "from 1e-6 to 1e6" }
+}
+
 fn check_range(mode: Mode, from: f64, to: f64, rows: usize) -> Result<(), SceneError> {
-    let (least, allowed) = match mode {
-        Mode::SimpleShear => (-MAX_STRETCH, "from -1e6 to 1e6"),
-        _ => (1.0 / MAX_STRETCH, "from 1e-6 to 1e6"),
-    };
-    let is_allowed = |stretch: f64| (least..=MAX_STRETCH).contains(&stretch);
     for (is_in_range, quantity, value, requirement) in [
-        (is_allowed(from), "--from", from, allowed),
-        (is_allowed(to), "--to", to, allowed),
+        (is_allowed(mode, from), "--from", from, allowed(mode)),
+        (is_allowed(mode, to), "--to", to, allowed(mode)),
         (from < to, "--to", to, "above --from"),
         ((1..=MAX_ROWS).contains(&rows), "--rows", rows as f64, "from 1 to 100000"),
     ] {

@@ -10,20 +10,22 @@ use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::fit::{self, Candidate, FitSettings, Standing, Warning};
 use piola_scenes::error::Error as SceneError;
 
-use super::{
-    FINE, Material, as_options, draw, keep_data, measured_range, measurements, rounded, spaced, titled,
-};
+use super::data::{Data, HELP, Measured};
+use super::{FINE, Material, as_options, at_rest, draw, measured_range, rounded, spaced, titled};
 use crate::error::Error;
 
 /// Prints the parameters in a form to be pasted, R² of each test, and why other parameters might do as well.
+///
+/// What is made small are differences by the measured stress, so that points without stress, rest among them,
+/// do not count; R² is of all points, rest included, as a spreadsheet has it.
 #[derive(Debug, Args)]
+#[command(after_help = HELP, mut_arg("files", |data| data.required(true)))]
 pub(crate) struct Fit {
     #[command(flatten)]
     material: Material,
 
-    /// Measured points: a file with the columns mode,stretch,nominal_stress_MPa (or _kPa, _Pa), or `treloar`.
-    #[arg(long, value_name = "FILE|treloar")]
-    data: PathBuf,
+    #[command(flatten)]
+    data: Data,
 
     /// Keep a parameter, all entries of a list, or one as NAME_1; may be repeated.
     #[arg(long = "hold", value_name = "NAME")]
@@ -53,11 +55,11 @@ pub(crate) struct Fit {
 impl Fit {
     /// Fits the parameters, and draws the result if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
-        keep_data(Some(&self.data), self.svg.as_ref())?;
+        self.data.keep(self.svg.as_ref())?;
         let spec = self.material.spec()?.with_inversion(Inversion::Refuse);
         let material = spec.build()?.name;
         let candidate = spec.candidate()?;
-        let data = measurements(&self.data)?;
+        let Measured { points: data, notes } = self.data.read()?.unwrap_or_default();
         let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);
         let volume = match self.compressible || is_volumetric && !self.incompressible {
             true => Volume::Free,
@@ -77,7 +79,8 @@ impl Fit {
         };
 
         let title = titled(&material, volume);
-        let mut text = format!("{title}, fitted to {} by relative differences\n", self.data.display());
+        let mut text = format!("{title}, fitted to {} by relative differences\n", self.data.names());
+        text += &notes;
         text += &format!("  {}\n", options(&fit.values));
         for component in &fit.numbers {
             text += &format!("  {:12} {:<14}", component.name, number(rounded(component.value)));
@@ -91,7 +94,13 @@ impl Fit {
             }
         }
         text += &format!("  R²           {}\n", fit.agreement);
-        text += &format!("  differences  {:.3} % (root mean square)\n", 100.0 * fit.difference);
+        text += &format!(
+            "  differences  {:.3} % (root mean square, points without stress left out)\n",
+            100.0 * fit.difference
+        );
+        let fitted = names.iter().zip(&fit.values);
+        let fitted = fitted.fold(spec, |spec, (name, values)| spec.with_parameter(name, values.clone()));
+        text += &at_rest(fitted.build()?.moduli, volume);
         let start = match fit.start {
             0 => "the parameters given".into(),
             start => format!("random start {start}"),

@@ -12,7 +12,7 @@ use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::write_whole;
 
-use super::measurements;
+use super::data::{Data, Measured};
 use crate::error::Error;
 
 /// The word in the place of a material.
@@ -21,11 +21,10 @@ pub(super) const ALL: &str = "all";
 pub(super) const HELP: &str = "\
 The ranking of `piola curve all --data FILE`:
   energy     those of `piola materials` whose typical parameters are of rubber, from which each fit begins,
-             at constant volume and such that R² is greatest: `piola fit ENERGY --data FILE --absolute` has
-             the parameters and their warnings
+             at constant volume and such that R² is greatest
   n          how many parameters were fitted: those that say nothing at constant volume do not count
-  R²         1 − Σ (P − P̂)²/Σ (P − P̄)² of all points together, P̄ being the mean of the measured stresses P;
-             then that of the points of each test, with the mean of these
+  R²         1 − Σ (P − P̂)²/Σ (P − P̄)² of all points together, rest among them as in a spreadsheet, P̄ being
+             the mean of the measured stresses P; then that of the points of each test, with the mean of these
   R²/n       R² of all points by n: it compares energies of like R²
   stability  whether Baker–Ericksen (BE), Hill and strong ellipticity (SE) hold for all changes of shape at
              constant volume from rest to the ends of the data, or where each is lost nearest to rest";
@@ -35,10 +34,11 @@ const NOTE: &str = "fitted so that R² of all points is greatest; n parameters; 
                     Baker–Ericksen (BE), Hill, strong ellipticity (SE)";
 
 /// Fits every rubber and ranks them, as a table and, if wanted, as a chart.
-pub(super) fn run(file: &Path, svg: Option<&Path>) -> Result<String, Error> {
-    let data = measurements(file)?;
+pub(super) fn run(data: &Data, svg: Option<&Path>) -> Result<String, Error> {
+    let files = data.names();
+    let Measured { points: data, notes } = data.read()?.ok_or(Error::RankedWithoutData)?;
     if data.modes().any(|mode| mode == Mode::Volumetric) {
-        return Err(Error::RankedByVolume { path: file.to_owned() });
+        return Err(Error::RankedByVolume { files });
     }
     let contender = |name: &str| -> Result<Contender, SceneError> {
         let spec = MaterialSpec::typical(name)?.with_inversion(Inversion::Refuse);
@@ -47,10 +47,10 @@ pub(super) fn run(file: &Path, svg: Option<&Path>) -> Result<String, Error> {
     let rubbers = DECLARATIONS.iter().filter(|declaration| declaration.is_rubber);
     let contenders = rubbers.map(|rubber| contender(rubber.name)).collect::<Result<Vec<_>, _>>()?;
     let ranking = rank(&contenders, &data, &FitSettings::default().with_difference(Difference::Absolute));
-    let title = format!("rubbers, incompressible, fitted to {}", file.display());
+    let title = format!("rubbers, incompressible, fitted to {files}");
     if let Some(svg) = svg {
         let picture = chart::rows(&title, NOTE, &ranking).map_err(Error::bench)?;
         write_whole(svg, picture.as_bytes())?;
     }
-    Ok(format!("{title}\n\n{ranking}"))
+    Ok(format!("{title}\n{notes}\n{ranking}"))
 }

@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::material::MaterialSpec;
 
 use super::Given;
+use super::value::modulus;
 
 /// Options of a formula.
 #[derive(Clone, Debug, Default, PartialEq, Args)]
@@ -25,8 +26,8 @@ pub struct Formula {
     #[arg(long, requires = "energy")]
     free_rest: bool,
 
-    /// Add K/2 (J - 1)^2 to the formula, which resists changes of volume; K in Pa.
-    #[arg(long, value_name = "K", requires = "energy", allow_negative_numbers = true)]
+    /// Add K/2 (J - 1)^2 to the formula, which resists changes of volume; K in Pa, or with a unit of stress.
+    #[arg(long, value_name = "K", requires = "energy", allow_negative_numbers = true, value_parser = modulus)]
     kappa: Option<f64>,
 }
 
@@ -76,6 +77,23 @@ fn read(path: &Path) -> Result<Energy, Error> {
     let text = std::fs::read_to_string(path).map_err(unreadable)?;
     let named = |mistakes: piola_declare::Mistakes| mistakes.with_name(path.display().to_string());
     Energy::from_rust(&text).map_err(|mistakes| Error::Declaration(named(mistakes)))
+}
+
+/// Refuses a unit that a parameter does not have.
+///
+/// # Errors
+/// [`Error::UnitOfParameter`], or that of a material that is not known.
+pub fn check_units(spec: &MaterialSpec, parameters: &[Given]) -> Result<(), Error> {
+    let known = &spec.description()?.parameters;
+    for given in parameters {
+        let declared = known.iter().find(|known| known.name == given.name).and_then(|known| known.unit);
+        if let (Some(unit), Some(declared)) = (given.unit, declared)
+            && unit != declared
+        {
+            return Err(Error::UnitOfParameter { parameter: given.name.clone(), unit, declared });
+        }
+    }
+    Ok(())
 }
 
 /// Adds values of parameters to a material.

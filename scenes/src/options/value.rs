@@ -1,6 +1,9 @@
 //! Values of options that have a notation of their own: parameters, and how inverted material is treated.
 
+use piola::__private::message::quoted;
 use piola::Inversion;
+use piola::material::Unit;
+use piola_laboratory::data::StressUnit;
 
 /// A parameter as it is given on the command line.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,39 +13,75 @@ pub struct Given {
     pub name: String,
     /// Its values in SI units, several to a list.
     pub values: Vec<f64>,
-    /// Whether they were given with a unit, in which case that is Pa.
-    has_unit: bool,
+    /// The kind of the unit that they were given with, if there was one: a stress, or one by a stress.
+    pub unit: Option<Unit>,
 }
 
 impl Given {
     /// Documentation of the parameter, as in a declaration.
     #[must_use]
     pub fn documentation(&self) -> String {
-        if self.has_unit {
-            format!("Parameter {}, Pa.", self.name)
-        } else {
-            format!("Parameter {}.", self.name)
+        match self.unit {
+            Some(Unit::Pascal) => format!("Parameter {}, Pa.", self.name),
+            Some(Unit::PerPascal) => format!("Parameter {}, 1/Pa.", self.name),
+            _ => format!("Parameter {}.", self.name),
         }
     }
 }
 
-/// Units of stress, with their sizes in Pa; longer names first.
-const UNITS: [(&str, f64); 4] = [("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("Pa", 1.0)];
-
-/// Reads `NAME=V,V,V`, with or without a unit of stress behind the last value.
+/// Reads `NAME=V,V,V`, with or without a unit behind the last value, which is that of all, or behind each: a
+/// unit of stress, or one by a unit of stress as in `2e-5/MPa`, `2e-5 1/MPa` and `2e-5 MPa^-1`.
 ///
 /// # Errors
 /// What is wrong, and what to write.
 pub fn parameter(text: &str) -> Result<Given, String> {
     let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
-    let unit = UNITS.into_iter().find_map(|(unit, size)| Some((values.trim().strip_suffix(unit)?, size)));
-    let (values, size) = unit.unwrap_or((values, 1.0));
-    let number = |value: &str| {
-        let number: f64 = value.trim().parse().map_err(|_| format!("`{value}` is not a number"))?;
-        Ok::<_, String>(number * size)
+    let values: Vec<_> = values.split(',').map(value).collect::<Result<_, _>>()?;
+    let common = values.last().and_then(|(_, unit)| *unit);
+    let unit = |(_, own): &(f64, Option<(Unit, f64)>)| own.or(common);
+    if values.iter().any(|value| unit(value).map(|(kind, _)| kind) != common.map(|(kind, _)| kind)) {
+        return Err("the values have units of two kinds; write one behind the last value".into());
+    }
+    let in_si = |value: &(f64, _)| value.0 * unit(value).map_or(1.0, |(_, size)| size);
+    let (values, unit) = (values.iter().map(in_si).collect(), common.map(|(kind, _)| kind));
+    Ok(Given { name: name.trim().into(), values, unit })
+}
+
+/// Reads a modulus, in Pa or with a unit of stress behind it.
+pub(super) fn modulus(text: &str) -> Result<f64, String> {
+    match value(text)? {
+        (number, None) => Ok(number),
+        (number, Some((Unit::Pascal, size))) => Ok(number * size),
+        _ => Err(format!("`{}` is a unit by a stress; write a stress, such as 20MPa", quoted(text))),
+    }
+}
+
+/// A number, and the unit behind it with its size in SI units.
+fn value(text: &str) -> Result<(f64, Option<(Unit, f64)>), String> {
+    let text = text.trim();
+    if let Ok(number) = text.parse() {
+        return Ok((number, None));
+    }
+    // The letter of an exponent has digits behind it.
+    let is_unit = |(at, c): &(usize, char)| match c {
+        'e' | 'E' => !text[at + 1..].starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c)),
+        c => c.is_alphabetic() || *c == '/' || c.is_whitespace(),
     };
-    let values = values.split(',').map(number).collect::<Result<_, _>>()?;
-    Ok(Given { name: name.trim().into(), values, has_unit: unit.is_some() })
+    let end = text.char_indices().find(is_unit).map_or(text.len(), |(at, _)| at);
+    let (number, unit) = text.split_at(end);
+    let number = number.parse().map_err(|_| format!("`{}` is not a number", quoted(text)))?;
+    let unit = unit.trim();
+    let by = unit.strip_prefix("1/").or_else(|| unit.strip_prefix('/'));
+    let by = by.or_else(|| ["^-1", "^(-1)", "⁻¹", "**-1"].iter().find_map(|power| unit.strip_suffix(power)));
+    let size = |name: &str| name.trim().parse().map(StressUnit::pascals);
+    let unit = match by {
+        Some(name) => size(name).map(|size| (Unit::PerPascal, 1.0 / size)),
+        None => size(unit).map(|size| (Unit::Pascal, size)),
+    };
+    let unit = unit.map_err(|error| {
+        format!("`{}` is not a number: {error} behind it, or one by it, as in `2e-5/MPa`", quoted(text))
+    })?;
+    Ok((number, Some(unit)))
 }
 
 /// Reads `refuse` or the stretch where an extension begins.
@@ -68,6 +107,19 @@ mod tests {
         assert_eq!(read("alpha = 1.3, 5,-2"), Ok(("alpha".into(), vec![1.3, 5.0, -2.0])));
         assert_eq!(read("mu=0.25 MPa"), Ok(("mu".into(), vec![0.25e6])));
         assert_eq!(read("mu=1,2kPa"), Ok(("mu".into(), vec![1e3, 2e3])));
+        // Of Abaqus and CalculiX.
+        for text in ["D1=2e-5/MPa", "D1=2e-5 1/MPa", "D1=2e-5 MPa^-1", "D1=2e-5MPa⁻¹", "D1 = 2E-5 / MPa"] {
+            assert_eq!(read(text), Ok(("D1".into(), vec![2e-5 * (1.0 / 1e6)])), "{text}");
+            assert_eq!(parameter(text).map(|given| given.documentation()), Ok("Parameter D1, 1/Pa.".into()));
+        }
+        assert_eq!(read("D1=1/Pa"), Ok(("D1".into(), vec![1.0])));
+        assert_eq!(read("mu=60psi").map(|(_, values)| values), Ok(vec![60.0 * 6_894.757_293_168_361]));
+        assert_eq!(read("mu=0.4 N/mm²"), Ok(("mu".into(), vec![0.4e6])));
+        assert_eq!(read("mu=1MPa,2kPa"), Ok(("mu".into(), vec![1e6, 2e3])));
+        assert_eq!(modulus("20MPa"), Ok(2e7));
+        assert!(modulus("20/MPa").is_err_and(|error| error.contains("by a stress")));
+        assert!(parameter("mu=1MPa,2/kPa").is_err_and(|error| error.contains("two kinds")));
+        assert!(parameter("mu=1mm").is_err_and(|error| error.contains("`1mm`") && error.contains("psi")));
         assert!(parameter("mu").is_err_and(|error| error.contains("NAME=VALUE")));
         assert!(parameter("mu=soft").is_err_and(|error| error.contains("`soft`")));
     }

@@ -147,6 +147,9 @@ pub struct Summary {
     pub material: String,
     /// Parameters of the material by name, in SI units.
     pub parameters: Parameters,
+    /// Poisson's ratio of the material at rest; `None` where it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poisson: Option<f64>,
     /// Number of tetrahedra.
     pub tets: usize,
     /// Number of nodes.
@@ -162,7 +165,7 @@ pub struct Summary {
     /// Reasons why something is missing: a step that failed, a file that could not be written, an equilibrium
     /// that could not be examined.
     pub failures: Vec<String>,
-    /// Properties of the mesh that may not be meant.
+    /// Properties of the mesh and the material that may not be meant.
     pub warnings: Vec<String>,
     /// Time step, s.
     pub dt: f64,
@@ -230,7 +233,10 @@ impl fmt::Display for Summary {
         for (name, values) in &self.parameters {
             write!(f, " {name}={}", values.iter().map(|value| short(*value)).collect::<Vec<_>>().join(","))?;
         }
-        writeln!(f)?;
+        match self.poisson {
+            Some(poisson) => writeln!(f, ", ν = {}", short(poisson))?,
+            None => writeln!(f)?,
+        }
         if self.inverted_at_start > 0 {
             writeln!(f, "  {} of {tets} tetrahedra start inside out", self.inverted_at_start)?;
         }

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use piola::batch::TileMaterial;
 use piola::step::StepReport;
+use piola_laboratory::AtRest;
+use piola_laboratory::curve::Volume;
 use rayon::ThreadPool;
 
 use super::Finished;
@@ -232,10 +234,12 @@ impl<'a> Course<'a> {
             failures,
             ..
         } = self;
+        let at_rest = AtRest { moduli: play.moduli(), volume: Volume::Free };
         let summary = Summary {
             scene: settings.scene.name.into(),
             material: play.material().to_string(),
             parameters: play.parameters().clone(),
+            poisson: Some(play.moduli().poisson()).filter(|poisson| poisson.is_finite()),
             tets: geometry.mesh.tets.len(),
             nodes: geometry.mesh.positions.len(),
             surface_vertices: geometry.surface_vertices(),
@@ -243,7 +247,7 @@ impl<'a> Course<'a> {
             frames_wanted: settings.frames,
             ended,
             failures,
-            warnings: geometry.warnings().iter().map(ToString::to_string).collect(),
+            warnings: geometry.warnings().iter().map(ToString::to_string).chain(at_rest.warning()).collect(),
             dt: settings.dt,
             newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
             inverted_at_start: progress.inverted_at_start,

@@ -1,0 +1,125 @@
+//! Measured points on the command line: files, and what they leave unsaid.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use piola_laboratory::data::{Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944, Test, decoded};
+
+use crate::error::Error;
+use crate::overlap::refuse_overlaps;
+
+/// What a file may contain, below the help of each command that reads measurements.
+pub(super) const HELP: &str = "\
+Files of measured points, as test machines, spreadsheets and papers have them:
+  separators  commas, semicolons, tabs or spaces; decimals with a point or a comma
+  columns     by the words of their headers: `stretch`; `strain` (nominal), `true strain`, `shear strain`,
+              `volume ratio`, `volume strain`; `stress` (nominal), `true stress`, `pressure`; `mode`.
+              True stress σ becomes nominal stress P = σ/λ, as of an incompressible solid
+  units       behind the name or in a row below, as in `strain [%]`, `stress (MPa)`: Pa, kPa, MPa, GPa, psi,
+              ksi, bar, atm, kgf/cm2, kgf/mm2, dyn/cm2, N/mm2
+  tests       uniaxial (UT, tension, compression), equibiaxial (ET, EB, BT, biaxial), pure_shear (PS, planar),
+              simple_shear (SS), volumetric (hydrostatic), in a column `mode` or by --mode
+  without a header: a stretch and a nominal stress, with --mode and --unit
+  decks       blocks such as *UNIAXIAL TEST DATA, with nominal stress and nominal strain, and --unit
+What was read, and what was left out, is said for each file.";
+
+/// Measured points, and what their files leave unsaid.
+#[derive(Debug, Args)]
+pub(crate) struct Data {
+    /// Measured points: a file, or `treloar`; may be repeated, as for a file of each test.
+    #[arg(long = "data", value_name = "FILE|treloar")]
+    pub(super) files: Vec<PathBuf>,
+
+    /// Tests, separated by commas or repeated: uniaxial, equibiaxial, pure_shear, simple_shear, volumetric.
+    /// Of files that name their tests only these are used. Of others it is the test: one for all files, or
+    /// one for each --data in their order [default: those of the data, or else the first three].
+    #[arg(long = "mode", value_name = "MODE,MODE", value_delimiter = ',')]
+    pub(super) tests: Vec<Test>,
+
+    /// Unit of stresses whose header names none, such as MPa: one for all files, or one for each --data.
+    #[arg(long = "unit", value_name = "UNIT")]
+    units: Vec<StressUnit>,
+}
+
+/// Measured points of all files, and how these were understood.
+#[derive(Default)]
+pub(super) struct Measured {
+    pub(super) points: Measurements,
+    /// A line for each file.
+    pub(super) notes: String,
+}
+
+impl Data {
+    /// Refuses to draw over the measured points.
+    pub(super) fn keep(&self, svg: Option<&PathBuf>) -> Result<(), Error> {
+        let data = self.files.iter().filter(|file| !is_treloar(file)).map(|file| ("--data", file.clone()));
+        refuse_overlaps(data, svg.map(|svg| ("--svg", svg.clone())))
+    }
+
+    /// The files in sentences.
+    pub(super) fn names(&self) -> String {
+        self.files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The points of all files; `None` without a file.
+    pub(super) fn read(&self) -> Result<Option<Measured>, Error> {
+        let mut all = Measured::default();
+        for (index, file) in self.files.iter().enumerate() {
+            let (points, note) = self.file(index, file)?;
+            all.points.points.extend(points.points);
+            all.notes += &format!("  read     {}: {note}\n", file.display());
+        }
+        match (self.files.is_empty(), self.units.is_empty()) {
+            (true, false) => Err(Error::UnitWithoutData),
+            (is_empty, _) => Ok((!is_empty).then_some(all)),
+        }
+    }
+
+    /// The points of a file, and how it was understood.
+    fn file(&self, index: usize, file: &Path) -> Result<(Measurements, String), Error> {
+        let path = || file.to_owned();
+        let bytes = match is_treloar(file) {
+            true => TRELOAR_1944.into(),
+            false => std::fs::read(file).map_err(|source| Error::UnreadableData { path: path(), source })?,
+        };
+        let mut options = ReadOptions::default();
+        options.test = self.of_file(&self.tests, index);
+        options.unit = self.of_file(&self.units, index);
+        let reading = Measurements::read_with(&decoded(&bytes), &options).map_err(|source| {
+            let unpaired = |option, given| Error::Unpaired { option, given, files: self.files.len() };
+            match source.fault {
+                Fault::NoMode if !self.tests.is_empty() => unpaired("--mode", self.tests.len()),
+                Fault::NoUnit { .. } if !self.units.is_empty() => unpaired("--unit", self.units.len()),
+                _ => Error::Data { path: path(), source },
+            }
+        })?;
+        let (mut points, mut note) = (reading.measurements.clone(), reading.to_string());
+        if !self.tests.is_empty() {
+            let modes: Vec<_> = self.tests.iter().map(|test| test.mode).collect();
+            points.points.retain(|point| modes.contains(&point.mode));
+            let (all, used) = (reading.measurements.points.len(), points.points.len());
+            if points.modes().next().is_none() {
+                let known = reading.measurements.modes().map(|mode| mode.name()).collect();
+                return Err(Error::NoSuchTest { path: path(), known });
+            }
+            if used < all {
+                note += &format!("; {used} of {all} points used, by --mode");
+            }
+        }
+        Ok((points, note))
+    }
+
+    /// The value of an option for a file: the only one, or that of its place.
+    fn of_file<T: Copy>(&self, values: &[T], index: usize) -> Option<T> {
+        match values {
+            [one] => Some(*one),
+            values if values.len() == self.files.len() => Some(values[index]),
+            _ => None,
+        }
+    }
+}
+
+/// Whether measured points are those of the program.
+fn is_treloar(file: &Path) -> bool {
+    file.as_os_str().eq_ignore_ascii_case("treloar")
+}
