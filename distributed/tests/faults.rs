@@ -280,7 +280,8 @@ fn files_read_in_parts_are_malformed_at_a_byte() -> TestResult {
         (nodes.replace("4 0 0 1", "3 0 0 1"), tets.into(), "see node 3"),
         (nodes.replace("5 3", "6 3"), tets.into(), "tet.node: its first line says 6 nodes, and there are 5"),
         (nodes.into(), tets.replace("3 4 5", "3 4 6"), "tet.ele: node 6 is not among 5 nodes from 1 on"),
-        (nodes.into(), tets.replace("2 4\n", "2 5\n"), "tetrahedra have 5 nodes; they must have 4 or 10"),
+        (nodes.into(), tets.replace("2 4\n", "2 5\n"), "tetrahedra have 5 nodes; they must have 4"),
+        (nodes.into(), tets.replace("2 4\n", "2 10\n"), "2 second-order tetrahedra (10 nodes)"),
     ] {
         fs::write(&file, nodes)?;
         fs::write(file.with_extension("ele"), tets)?;

@@ -3,11 +3,13 @@
 //! This module knows no materials, no forces and no time. Coordinates are in f64.
 
 mod boxes;
+mod elements;
 mod embed;
 mod io;
 pub(crate) mod tet;
 
 pub use boxes::{BoxError, tetrahedral_box};
+pub use elements::ElementCounts;
 pub use embed::{Anchor, EmbedError, Embedding};
 pub use io::{
     NodeLine, NodeLines, ReadError, Surface, TetLine, TetLines, parse_msh, parse_surface_obj, read_msh,

@@ -4,6 +4,7 @@
 
 use std::fmt;
 
+use super::elements::ElementCounts;
 use crate::NoSuchNode;
 
 /// Tetrahedral mesh at rest, in f64.
@@ -29,6 +30,9 @@ pub struct TetMesh {
     /// Number of nodes that a reader has dropped because no tetrahedron names them; 0 for a mesh of one's
     /// own.
     pub dropped_nodes: usize,
+    /// Volume elements of the file that are not in the mesh because they are not linear tetrahedra; empty
+    /// unless [`ReadError::only_tetrahedra`](super::ReadError::only_tetrahedra) has left some out.
+    pub left_out: ElementCounts,
 }
 
 /// Named part of a mesh, such as a physical group of Gmsh.
@@ -212,7 +216,7 @@ impl TetMesh {
         // A node that does not exist remains one, for the error to come.
         let tets = self.tets.iter().map(|tet| tet.map(|node| number(node).unwrap_or(node))).collect();
         let dropped_nodes = self.dropped_nodes + unused.len();
-        Self { positions, tets, groups, dropped_nodes, tags: self.tags }
+        Self { positions, tets, groups, dropped_nodes, ..self }
     }
 }
 

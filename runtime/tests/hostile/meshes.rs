@@ -1,7 +1,7 @@
 //! Meshes, their embeddings, and files of them.
 
 use piola::mesh::{
-    Bounds, Embedding, NodeLines, Surface, TetLines, parse_msh, parse_surface_obj, read_msh,
+    Bounds, Embedding, NodeLines, ReadError, Surface, TetLines, parse_msh, parse_surface_obj, read_msh,
     read_surface_obj, read_tetgen, tetrahedral_box,
 };
 use piola::system::Pins;
@@ -32,7 +32,7 @@ fn meshes_and_embeddings() {
 #[test]
 fn files() {
     let msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n\
-               $Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n";
+               $Elements\n2\n1 4 2 1 1 1 2 3 4\n2 7 2 1 1 1 2 3 4 1\n$EndElements\n";
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let lines = ["4 3 1 1", "1 0.5 0 1e3 7 -1 # a node", "2 4 1", "1 1 2 3 4 5"];
     check(|hostile| {
@@ -45,7 +45,8 @@ fn files() {
                 bytes.splice(at..(at + hostile.0.below(3)).min(bytes.len()), word.iter().copied());
             }
             let text = String::from_utf8_lossy(&bytes);
-            let _ = parse_msh(&text, "some.msh").map(|mesh| mesh.rest_shapes());
+            let mesh = parse_msh(&text, "some.msh").or_else(ReadError::only_tetrahedra);
+            let _ = mesh.map(|mesh| mesh.rest_shapes());
             let _ = parse_surface_obj(&text, "some.obj");
             let [nodes, tets] =
                 [lines[0], lines[2]].map(|good| if hostile.0.once_in(2) { good } else { &text });

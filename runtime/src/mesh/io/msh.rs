@@ -5,27 +5,35 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-use super::text::{Cursor, Line, Problem, ReadError, read, read_text};
+use super::text::{Cursor, IN_GMSH, Line, Problem, ReadError, read, read_text};
+use crate::mesh::elements::ElementCounts;
 use crate::mesh::{Group, TetMesh};
 use crate::message::quoted;
 
 mod version2;
 mod version4;
 
-/// Gmsh's type number of a linear tetrahedron.
-const TETRAHEDRON: usize = 4;
+/// Command that converts files of other versions, and binary ones.
+const CONVERTED: &str = "`gmsh OLD.msh -save -format msh41 -o NEW.msh` of Gmsh 4.1 or later converts it";
+
+/// Sections whose names speak of nodes or elements and that hold none: fields on them, and lists of their
+/// tags.
+const WITHOUT_MESH: [&str; 4] = ["$NodeData", "$ElementData", "$ElementNodeData", "$GhostElements"];
 
 /// Reads the linear tetrahedra of a Gmsh file, MSH 4.1 or 2.2 in ASCII, with its physical groups.
 ///
 /// Nodes may have any tags; those that belong to no tetrahedron are dropped and counted in
-/// [`TetMesh::dropped_nodes`]. Elements of other types count only for the nodes of their groups. A group
-/// without a name is called by its number. Rest volumes are checked later, by [`TetMesh::rest_shapes`].
+/// [`TetMesh::dropped_nodes`]. Points, lines and surface elements count only for the nodes of their groups. A
+/// group without a name is called by its number. Rest volumes are checked later, by [`TetMesh::rest_shapes`].
 ///
 /// # Errors
-/// [`ReadError`], which names the line if it is malformed or if the file is binary, of another version,
-/// partitioned, or without linear tetrahedra.
+/// [`ReadError::OtherElements`] for a mesh with other volume elements, whose tetrahedra
+/// [`ReadError::only_tetrahedra`] gives. [`ReadError::Malformed`], which names the line, also if the file is
+/// binary, of another version, partitioned, without linear tetrahedra, or has nodes or elements in a section
+/// that is not known.
 pub fn read_msh(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
-    read(path.as_ref(), parse)
+    let path = path.as_ref();
+    read(path, parse).and_then(|mesh| whole(path, mesh))
 }
 
 /// Parses the linear tetrahedra of a Gmsh file from text in memory; `name` stands for the file in errors.
@@ -33,9 +41,18 @@ pub fn read_msh(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
 /// Otherwise like [`read_msh`].
 ///
 /// # Errors
-/// [`ReadError::Malformed`].
+/// [`ReadError::OtherElements`], [`ReadError::Malformed`].
 pub fn parse_msh(text: &str, name: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
-    read_text(name.as_ref(), text, parse)
+    let name = name.as_ref();
+    read_text(name, text, parse).and_then(|mesh| whole(name, mesh))
+}
+
+/// Refuses a mesh of which something is left out.
+fn whole(path: &Path, mesh: TetMesh) -> Result<TetMesh, ReadError> {
+    match mesh.left_out.is_empty() {
+        true => Ok(mesh),
+        false => Err(ReadError::OtherElements { path: path.to_owned(), mesh: Box::new(mesh) }),
+    }
 }
 
 fn parse(text: &str) -> Result<TetMesh, Problem> {
@@ -46,6 +63,11 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
         let section = line.text.trim();
         match (section, version) {
             ("$MeshFormat", _) => version = Some(format(&mut cursor)?),
+            ("$NOD" | "$NOE" | "$ELM", _) => {
+                return Err(
+                    line.problem(format!("`{section}` is of MSH 1, only 4.1 and 2.2 are read; {CONVERTED}"))
+                );
+            }
             (_, None) => {
                 return Err(line.problem(format!(
                     "expected `$MeshFormat`, found `{}`; is this a Gmsh file?",
@@ -53,13 +75,23 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
                 )));
             }
             ("$PhysicalNames", _) => file.physical_names(&mut cursor)?,
-            ("$Nodes", Some(Version::Two)) => file.nodes_2(&mut cursor)?,
+            ("$Nodes" | "$ParametricNodes", Some(Version::Two)) => file.nodes_2(&mut cursor)?,
             ("$Elements", Some(Version::Two)) => file.elements_2(&mut cursor)?,
             ("$Entities", Some(Version::Four)) => file.entities_4(&mut cursor)?,
             ("$Nodes", Some(Version::Four)) => file.nodes_4(&mut cursor)?,
             ("$Elements", Some(Version::Four)) => file.elements_4(&mut cursor)?,
-            ("$PartitionedEntities", _) => return Err(line.problem("partitioned meshes are not supported")),
+            ("$PartitionedEntities", _) => {
+                return Err(line.problem(
+                    "the mesh is partitioned, only whole ones are read; in Gmsh, `Mesh > Unpartition` joins the parts",
+                ));
+            }
             _ if section.starts_with('$') && !section.starts_with("$End") => {
+                if may_hold_mesh(section) {
+                    return Err(line.problem(format!(
+                        "the section `{}` is not known; nodes and elements are read from `$Nodes` and `$Elements`",
+                        quoted(section)
+                    )));
+                }
                 skip_section(&mut cursor, &section[1..])?;
                 continue;
             }
@@ -76,6 +108,13 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
         }
     }
     file.into_mesh(cursor.number + 1)
+}
+
+/// True for the name of an unknown section that could hold nodes or elements, which must not go unnoticed.
+/// Others, such as comments and periodicity, add nothing to the body.
+fn may_hold_mesh(section: &str) -> bool {
+    let name = section.to_ascii_lowercase();
+    (name.contains("node") || name.contains("element")) && !WITHOUT_MESH.contains(&section)
 }
 
 /// Version of the format.
@@ -99,6 +138,8 @@ struct File {
     node_of_tag: HashMap<usize, usize>,
     tets: Vec<[usize; 4]>,
     tags: Vec<usize>,
+    /// Volume elements other than linear tetrahedra.
+    others: ElementCounts,
     /// Nodes and tetrahedra of physical groups by dimension and tag.
     groups: BTreeMap<(usize, i64), Group>,
 }
@@ -111,14 +152,14 @@ fn format(cursor: &mut Cursor<'_>) -> Result<Version, Problem> {
         "4.1" => Version::Four,
         other => {
             return Err(line.problem(format!(
-                "the format is `{}`, only MSH 4.1 and 2.2 are read; in Gmsh, export as version 4 ASCII",
+                "the format is MSH `{}`, only 4.1 and 2.2 are read; {CONVERTED}",
                 quoted(other)
             )));
         }
     };
     match line.number::<usize>("the file type")? {
         0 => Ok(version),
-        _ => Err(line.problem("the file is binary, only ASCII is read; in Gmsh, export as version 4 ASCII")),
+        _ => Err(line.problem(format!("the file is binary, only ASCII is read; {CONVERTED}"))),
     }
 }
 
@@ -150,9 +191,13 @@ impl File {
             .ok_or_else(|| line.problem(format!("the element names node {tag}, which is not given above")))
     }
 
-    /// Parses the next four words of an element as the indices of its nodes.
+    /// Parses the remaining four words of an element as the indices of its nodes.
     fn tetrahedron(&self, line: &mut Line<'_>) -> Result<[usize; 4], Problem> {
-        Ok([self.node(line)?, self.node(line)?, self.node(line)?, self.node(line)?])
+        let nodes = [self.node(line)?, self.node(line)?, self.node(line)?, self.node(line)?];
+        match line.words.next() {
+            None => Ok(nodes),
+            Some(_) => Err(line.problem("the tetrahedron has more than four nodes")),
+        }
     }
 
     /// Parses the remaining words of an element as the indices of its nodes.
@@ -174,17 +219,20 @@ impl File {
     /// Drops the nodes of no tetrahedron and names the groups.
     fn into_mesh(self, end: usize) -> Result<TetMesh, Problem> {
         if self.tets.is_empty() {
-            return Err(Problem {
-                line: end,
-                text: "the file ends without a linear tetrahedron (element type 4)".to_owned(),
-            });
+            let text = match self.others.is_empty() {
+                true => "the file ends without volume elements; in Gmsh, mesh with `-3`, and if there are \
+                         physical groups add one of the volume"
+                    .to_owned(),
+                false => self.others.refusal(IN_GMSH),
+            };
+            return Err(Problem { line: end, text });
         }
         let groups = self.groups.into_iter().map(|((dimension, tag), group)| {
             let name = self.names.get(&(dimension, tag)).cloned().unwrap_or_else(|| tag.to_string());
             Group { name, dimension, ..group }
         });
-        let (positions, groups) = (self.positions, groups.collect());
-        let mesh = TetMesh { positions, tets: self.tets, tags: self.tags, groups, dropped_nodes: 0 };
+        let (tags, groups, left_out) = (self.tags, groups.collect(), self.others);
+        let mesh = TetMesh { tags, groups, left_out, ..TetMesh::new(self.positions, self.tets) };
         Ok(mesh.without_unused_nodes())
     }
 }
@@ -328,13 +376,15 @@ $EndElements
             "4.1 0 8",
             "4 0 8",
             2,
-            "the format is `4`, only MSH 4.1 and 2.2 are read; in Gmsh, export as version 4 ASCII",
+            "the format is MSH `4`, only 4.1 and 2.2 are read; `gmsh OLD.msh -save -format msh41 -o NEW.msh` of \
+             Gmsh 4.1 or later converts it",
         );
         check(
             "4.1 0 8",
             "4.1 1 8",
             2,
-            "the file is binary, only ASCII is read; in Gmsh, export as version 4 ASCII",
+            "the file is binary, only ASCII is read; `gmsh OLD.msh -save -format msh41 -o NEW.msh` of Gmsh 4.1 or \
+             later converts it",
         );
         check("$MeshFormat\n", "solid\n", 1, "expected `$MeshFormat`, found `solid`; is this a Gmsh file?");
         check("\"flesh\"", "flesh", 7, "expected the name of the group in double quotes");
@@ -347,12 +397,19 @@ $EndElements
         check("$EndElements\n", "", 44, "the file ends where the end of the section is expected");
         check("$EndNodes", "$EndNode", 35, "expected `$EndNodes`, found `$EndNode`");
         check("$Comments", "stray", 16, "expected the start of a section, found `stray`");
-        check("$Comments", "$PartitionedEntities", 16, "partitioned meshes are not supported");
+        check(
+            "$Comments",
+            "$PartitionedEntities",
+            16,
+            "the mesh is partitioned, only whole ones are read; in Gmsh, `Mesh > Unpartition` joins the parts",
+        );
+        check("11 40 3 20 10", "11 40 3 20 10 30", 41, "the tetrahedron has more than four nodes");
         check(
             "3 1 4 1\n11 40 3 20 10\n3 2 4 1\n12 3 20 10 30",
             "3 1 15 1\n11 40\n3 2 15 1\n12 3",
             45,
-            "the file ends without a linear tetrahedron (element type 4)",
+            "the file ends without volume elements; in Gmsh, mesh with `-3`, and if there are physical groups add \
+             one of the volume",
         );
     }
 
@@ -363,11 +420,11 @@ $EndElements
             "2.2 0 8",
             "2.2 1 8",
             2,
-            "the file is binary, only ASCII is read; in Gmsh, export as version 4 ASCII",
+            "the file is binary, only ASCII is read; `gmsh OLD.msh -save -format msh41 -o NEW.msh` of Gmsh 4.1 or \
+             later converts it",
         );
         check_in(OLDER, "\n10 0 0 1", "\n40 0 0 1", 15, "node 40 is given twice");
         check_in(OLDER, "\n10 0 0 1", "\n10 0 0", 15, "the z coordinate is missing");
-        check_in(OLDER, "11 4 2", "11 99 2", 21, "Gmsh knows no element type 99");
         check_in(
             OLDER,
             "40 3 20 10",
@@ -376,6 +433,110 @@ $EndElements
             "the element names node 99, which is not given above",
         );
         check_in(OLDER, "\n5\n1 2", "\n6\n1 2", 25, "expected the tag of the element, found `$EndElements`");
+    }
+
+    /// The words for a version, in the first section or without any.
+    #[test]
+    fn other_versions_are_named() {
+        for version in ["4", "4.0", "1", "2", "2.0", "2.1", "3", "5.0"] {
+            let error = parse(&GOOD.replace("4.1 0", &format!("{version} 0"))).expect_err(version).text;
+            assert!(error.starts_with(&format!("the format is MSH `{version}`, only 4.1")), "{error}");
+        }
+        for section in ["$NOD", "$NOE", "$ELM"] {
+            let expected = format!("`{section}` is of MSH 1, only 4.1 and 2.2 are read; {CONVERTED}");
+            for text in [format!("{section}\n4\n"), GOOD.replace("$Comments", section)] {
+                assert_eq!(parse(&text).expect_err(section).text, expected);
+            }
+        }
+    }
+
+    /// Parametric nodes have their coordinates first, in both formats.
+    #[test]
+    fn parametric_nodes_are_read() {
+        let older = OLDER.replace("Nodes", "ParametricNodes").replace("8 8 8", "8 8 8 0 5");
+        let older = older.replace("\n3 1 0 0\n", "\n3 1 0 0 2 1 0.25 0.75\n");
+        assert_eq!(parse(&older), parse(OLDER));
+        let newer =
+            GOOD.replace("3 1 0 5", "3 1 1 5").replace("0 0 0\n1 0 0\n", "0 0 0 9 9 9\n1 0 0 9 9 9\n");
+        assert_eq!(parse(&newer), parse(GOOD));
+    }
+
+    /// A section that could hold nodes or elements is not passed over; comments, fields on nodes and
+    /// relations between them are.
+    #[test]
+    fn sections_with_nodes_or_elements_are_not_passed_over() {
+        for section in ["$ParametricNodes", "$nodes", "$HexElements", "$NodeBlocks"] {
+            let text = GOOD.replace("Comments", &section[1..]);
+            let error = parse(&text).expect_err(section);
+            let expected = format!(
+                "the section `{section}` is not known; nodes and elements are read from `$Nodes` and `$Elements`"
+            );
+            assert_eq!(error, Problem { line: 16, text: expected });
+        }
+        let harmless =
+            WITHOUT_MESH.into_iter().chain(["$Periodic", "$InterpolationScheme", "$Parametrizations"]);
+        for section in harmless {
+            assert_eq!(parse(&GOOD.replace("Comments", &section[1..])), parse(GOOD), "{section}");
+        }
+    }
+
+    /// Elements by their lines behind number, type, tags: two hexahedra, of which the second is of two groups
+    /// in the older format, a prism, a tetrahedron of second order, one of an unknown type.
+    const OTHERS: [(usize, usize, &str); 5] = [
+        (21, 5, "40 3 20 10 30 1000 40 3"),
+        (22, 5, "40 3 20 10 30 1000 3 40"),
+        (23, 6, "40 3 20 10 30 1000"),
+        (24, 11, "40 3 20 10 30 1000 40 3 20 10"),
+        (25, 999, "1 2 3"),
+    ];
+
+    /// Both files with other volume elements beside the tetrahedra.
+    fn mixed() -> [String; 2] {
+        let newer = OTHERS.map(|(tag, kind, nodes)| format!("3 1 {kind} 1\n{tag} {nodes}\n")).concat();
+        let older = OTHERS.map(|(tag, kind, nodes)| format!("{tag} {kind} 2 9 1 {nodes}\n")).concat();
+        let again = "26 5 2 11 1 40 3 20 10 30 1000 3 40\n";
+        [
+            GOOD.replace("3 3 1 12\n", "8 8 1 25\n").replace("$EndElements", &format!("{newer}$EndElements")),
+            OLDER
+                .replace("$Elements\n5", "$Elements\n11")
+                .replace("$EndElements", &format!("{older}{again}$EndElements")),
+        ]
+    }
+
+    #[test]
+    fn other_volume_elements_are_refused_by_type_and_count_or_left_out_and_counted() {
+        let others = "2 hexahedra, 1 prism, 1 second-order tetrahedron (10 nodes), 1 element of type 999";
+        for text in mixed() {
+            let error = parse_msh(&text, "mixed.msh").expect_err("a mixed mesh");
+            assert_eq!(
+                error.to_string(),
+                format!(
+                    "mixed.msh: the volume is made of {others}, 2 tetrahedra, and only linear tetrahedra are read; \
+                     mesh it with these alone (in Gmsh, without `Recombine` and with `-order 1`)"
+                )
+            );
+            let mesh = error.only_tetrahedra().expect("its tetrahedra");
+            assert_eq!(mesh.left_out.to_string(), others);
+            let good = parse(GOOD).expect("a good file");
+            assert_eq!((mesh.positions, mesh.tets, mesh.tags), (good.positions, good.tets, good.tags));
+        }
+    }
+
+    #[test]
+    fn a_mesh_without_a_linear_tetrahedron_is_refused_whatever_is_wanted() {
+        for text in mixed() {
+            let text =
+                text.replace("12 3 20 10 30\n", "12 3 20 10 30 40 1000\n").replace("3 2 4 1", "3 2 6 1");
+            let text = text.replace("11 40 3 20 10\n", "11 40 3 20 10 30\n").replace("3 1 4 1", "3 1 7 1");
+            let text = text.replace("12 4 2 9 2 3 20 10 30", "12 6 2 9 2 3 20 10 30 40 1000");
+            let text = text.replace("12 4 2 11 2 3 20 10 30", "12 6 2 11 2 3 20 10 30 40 1000");
+            let text = text.replace("11 4 2 9 1 40 3 20 10", "11 7 2 9 1 40 3 20 10 30");
+            let error =
+                parse_msh(&text, "mixed.msh").or_else(ReadError::only_tetrahedra).expect_err("none left");
+            let expected = "2 hexahedra, 2 prisms, 1 pyramid, 1 second-order tetrahedron (10 nodes), 1 element of \
+                            type 999, and only linear";
+            assert!(error.to_string().contains(expected), "{error}");
+        }
     }
 
     /// An element stands there once for each of its groups; twice for one of them is two elements.

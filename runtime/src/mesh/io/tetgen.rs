@@ -7,19 +7,20 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use super::text::{Cursor, Line, Problem, ReadError, read};
+use crate::mesh::elements::{ElementCounts, TETRAHEDRON_10};
 use crate::mesh::{Group, TetMesh};
 
 /// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file beside it; either may be
 /// named.
 ///
-/// Nodes may be numbered in any way. Of tetrahedra with ten nodes the four corners count. The format promises
-/// no orientation: negative tetrahedra are turned. The first attribute of a tetrahedron, the number of its
-/// region, makes a group of dimension 3, and the boundary marker of a node, unless it is 0, one of dimension
-/// 2; both are called by their numbers. Nodes that belong to no tetrahedron are dropped and counted in
-/// [`TetMesh::dropped_nodes`].
+/// Nodes may be numbered in any way. The format promises no orientation: negative tetrahedra are turned. The
+/// first attribute of a tetrahedron, the number of its region, makes a group of dimension 3, and the boundary
+/// marker of a node, unless it is 0, one of dimension 2; both are called by their numbers. Nodes that belong
+/// to no tetrahedron are dropped and counted in [`TetMesh::dropped_nodes`].
 ///
 /// # Errors
-/// [`ReadError`], which names the line if it is malformed or if there is no tetrahedron.
+/// [`ReadError`], which names the line if it is malformed, if there is no tetrahedron, or if tetrahedra are of
+/// second order.
 pub fn read_tetgen(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
     let nodes = read(&path.as_ref().with_extension("node"), parse_nodes)?;
     read(&path.as_ref().with_extension("ele"), |text| parse_tets(text, nodes))
@@ -103,7 +104,6 @@ impl NodeLines {
 pub struct TetLines {
     /// Number of tetrahedra.
     pub count: usize,
-    corners: usize,
     has_regions: bool,
 }
 
@@ -140,15 +140,19 @@ impl TetLines {
     /// `count corners attributes`.
     fn read(line: &mut Line<'_>) -> Result<Self, Problem> {
         let count = line.number("the number of tetrahedra")?;
-        let corners = line.number("the number of nodes of a tetrahedron")?;
+        let nodes: usize = line.number("the number of nodes of a tetrahedron")?;
         if count == 0 {
             return Err(line.problem("there is no tetrahedron"));
         }
-        if corners != 4 && corners != 10 {
-            return Err(line.problem(format!("tetrahedra have {corners} nodes; they must have 4 or 10")));
+        if nodes == 10 {
+            let elements = ElementCounts::default().and(TETRAHEDRON_10, count);
+            return Err(line.problem(elements.refusal("run TetGen without `-o2`")));
+        }
+        if nodes != 4 {
+            return Err(line.problem(format!("tetrahedra have {nodes} nodes; they must have 4")));
         }
         let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
-        Ok(Self { count, corners, has_regions: attributes > 0 })
+        Ok(Self { count, has_regions: attributes > 0 })
     }
 
     /// `number node … attribute …`.
@@ -159,9 +163,6 @@ impl TetLines {
     ) -> Result<TetLine, Problem> {
         let number = line.number("the number of the tetrahedron")?;
         let corners = [node(line)?, node(line)?, node(line)?, node(line)?];
-        for _ in 4..self.corners {
-            node(line)?;
-        }
         // A whole number, written as a real one.
         let region: Option<f64> =
             self.has_regions.then(|| line.number("the region of the tetrahedron")).transpose()?;
@@ -221,7 +222,7 @@ fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
         tets: members,
     });
     let groups = marked.chain(regions).collect();
-    let mesh = TetMesh { positions: nodes.positions, tets, tags, groups, dropped_nodes: 0 };
+    let mesh = TetMesh { tags, groups, ..TetMesh::new(nodes.positions, tets) };
     Ok(mesh.without_unused_nodes())
 }
 
@@ -293,9 +294,9 @@ mod tests {
     }
 
     #[test]
-    fn nodes_may_be_counted_from_zero_and_tetrahedra_have_ten() {
+    fn nodes_may_be_counted_from_zero() {
         let nodes = parse_nodes("5 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 1").expect("bare nodes");
-        let mesh = parse_tets("1 10\n0  0 1 2 3 4 4 4 4 4 4", nodes).expect("ten nodes");
+        let mesh = parse_tets("1 4\n0  0 1 2 3", nodes).expect("bare tetrahedra");
         assert_eq!((mesh.positions.len(), mesh.tets, mesh.groups), (4, vec![[0, 1, 2, 3]], vec![]));
     }
 
@@ -315,7 +316,10 @@ mod tests {
         check("4  0 0 1", "3  0 0 1", 7, "node 3 is given twice");
         check("0.5 -1", "0.5", 7, "the boundary marker of the node is missing");
         check("3 2 4 5", "3 2 4 9", 3, "the .node file has no node 9");
-        check("2 4 1\n", "2 5 1\n", 1, "tetrahedra have 5 nodes; they must have 4 or 10");
+        check("2 4 1\n", "2 5 1\n", 1, "tetrahedra have 5 nodes; they must have 4");
+        let second_order = "the volume is made of 2 second-order tetrahedra (10 nodes), and only linear tetrahedra are \
+                            read; run TetGen without `-o2`";
+        check("2 4 1\n", "2 10 1\n", 1, second_order);
         check("2 4 1\n", "0 4 1\n", 1, "there is no tetrahedron");
         check("  7", "", 2, "the region of the tetrahedron is missing");
     }

@@ -4,7 +4,13 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use crate::mesh::TetMesh;
+use crate::mesh::elements::TETRAHEDRON;
 use crate::message::{printable, quoted};
+
+/// Remedy for a file of Gmsh with elements other than linear tetrahedra.
+pub(super) const IN_GMSH: &str =
+    "mesh it with these alone (in Gmsh, without `Recombine` and with `-order 1`)";
 
 /// Reason why a file cannot be read as a mesh or a surface.
 #[derive(Debug)]
@@ -26,6 +32,38 @@ pub enum ReadError {
         /// Description of the problem.
         problem: String,
     },
+    /// The volume is not made of linear tetrahedra alone.
+    OtherElements {
+        /// The file.
+        path: PathBuf,
+        /// The linear tetrahedra, with the other elements in [`TetMesh::left_out`].
+        mesh: Box<TetMesh>,
+    },
+}
+
+impl ReadError {
+    /// The linear tetrahedra of a mesh that is refused for its other volume elements: a body that lacks their
+    /// volume. [`TetMesh::left_out`] counts them.
+    ///
+    /// ```
+    /// use piola::mesh::{ReadError, parse_msh};
+    ///
+    /// let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
+    ///     $Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 0\n$EndNodes\n\
+    ///     $Elements\n2\n1 4 0 1 2 3 4\n2 7 0 1 2 5 3 4\n$EndElements\n";
+    /// let mesh = parse_msh(text, "mixed.msh").or_else(ReadError::only_tetrahedra)?;
+    /// assert_eq!((mesh.tets.len(), mesh.left_out.to_string().as_str()), (1, "1 pyramid"));
+    /// # Ok::<(), ReadError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Any other error, unchanged.
+    pub fn only_tetrahedra(self) -> Result<TetMesh, Self> {
+        match self {
+            Self::OtherElements { mesh, .. } => Ok(*mesh),
+            other => Err(other),
+        }
+    }
 }
 
 impl fmt::Display for ReadError {
@@ -33,6 +71,10 @@ impl fmt::Display for ReadError {
         match self {
             Self::Unreadable { path, source } => write!(f, "{}: cannot be read: {source}", shown(path)),
             Self::Malformed { path, line, problem } => write!(f, "{}:{line}: {problem}", shown(path)),
+            Self::OtherElements { path, mesh } => {
+                let elements = mesh.left_out.clone().and(TETRAHEDRON, mesh.tets.len());
+                write!(f, "{}: {}", shown(path), elements.refusal(IN_GMSH))
+            }
         }
     }
 }
@@ -41,7 +83,7 @@ impl std::error::Error for ReadError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Unreadable { source, .. } => Some(source),
-            Self::Malformed { .. } => None,
+            Self::Malformed { .. } | Self::OtherElements { .. } => None,
         }
     }
 }

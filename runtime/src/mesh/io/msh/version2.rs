@@ -3,10 +3,11 @@
 use std::collections::{HashMap, HashSet};
 
 use super::super::text::{Cursor, Problem};
-use super::{File, TETRAHEDRON};
+use super::File;
+use crate::mesh::elements::{self, TETRAHEDRON};
 
 impl File {
-    /// `count`, then `tag x y z` each.
+    /// `count`, then `tag x y z` each; behind them parametric nodes have an entity and parameters on it.
     pub(super) fn nodes_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let count: usize = cursor.next("the number of nodes")?.number("the number of nodes")?;
         for _ in 0..count {
@@ -24,13 +25,12 @@ impl File {
     /// written once for each of them, perhaps under other tags.
     pub(super) fn elements_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let count: usize = cursor.next("the number of elements")?.number("the number of elements")?;
-        let (mut seen, mut of_groups) = (HashMap::new(), HashSet::new());
+        let (mut seen, mut of_groups, mut others) = (HashMap::new(), HashSet::new(), HashSet::new());
         for _ in 0..count {
             let mut line = cursor.next("an element")?;
             let tag: usize = line.number("the tag of the element")?;
             let kind: usize = line.number("the type of the element")?;
-            let dimension =
-                dimension(kind).ok_or_else(|| line.problem(format!("Gmsh knows no element type {kind}")))?;
+            let dimension = elements::dimension(kind);
             let mut group = 0;
             for at in 0..line.number::<usize>("the number of tags of the element")? {
                 let tag: i32 = line.number("a tag of the element")?;
@@ -51,22 +51,18 @@ impl File {
                 if group != 0 {
                     self.put_into_group(group, index);
                 }
-            } else if group != 0 {
+                continue;
+            }
+            // An unknown element may be one of the volume.
+            let is_volume = dimension.is_none_or(|dimension| dimension == 3);
+            if is_volume && others.insert((kind, line.words.clone().collect::<Vec<_>>())) {
+                self.others.add(kind, 1);
+            }
+            if let Some(dimension) = dimension.filter(|_| group != 0) {
                 let nodes = self.nodes_of_element(&mut line)?;
                 self.groups.entry((dimension, group)).or_default().nodes.extend(nodes);
             }
         }
         Ok(())
-    }
-}
-
-/// Dimension of each element type of the manual, which distinguishes groups of one name.
-fn dimension(kind: usize) -> Option<usize> {
-    match kind {
-        15 => Some(0),
-        1 | 8 | 26..=28 => Some(1),
-        2 | 3 | 9 | 10 | 16 | 20..=25 => Some(2),
-        4..=7 | 11..=14 | 17..=19 | 29..=31 | 92 | 93 => Some(3),
-        _ => None,
     }
 }

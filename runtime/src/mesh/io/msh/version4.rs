@@ -1,7 +1,8 @@
 //! Sections particular to MSH 4.1: entities, and blocks of nodes and elements.
 
 use super::super::text::{Cursor, Problem};
-use super::{File, TETRAHEDRON};
+use super::File;
+use crate::mesh::elements::{self, TETRAHEDRON};
 
 impl File {
     /// Counts of points, curves, surfaces, volumes; then for each its tag, a point or a box, and its physical
@@ -69,6 +70,8 @@ impl File {
             let kind: usize = line.number("the type of the elements")?;
             let count: usize = line.number("the number of elements of the block")?;
             let groups = self.physical.get(&(dimension, entity)).cloned().unwrap_or_default();
+            let known = elements::dimension(kind);
+            let is_volume = known.unwrap_or(dimension) == 3;
             for _ in 0..count {
                 let mut line = cursor.next("an element")?;
                 let tag: usize = line.number("the tag of the element")?;
@@ -79,7 +82,12 @@ impl File {
                     for &group in &groups {
                         self.put_into_group(group, self.tets.len() - 1);
                     }
-                } else if !groups.is_empty() {
+                    continue;
+                }
+                if is_volume {
+                    self.others.add(kind, 1);
+                }
+                if known.is_some() && !groups.is_empty() {
                     let nodes = self.nodes_of_element(&mut line)?;
                     for &group in &groups {
                         self.groups.entry((dimension, group)).or_default().nodes.extend(&nodes);
