@@ -57,18 +57,26 @@ pub fn mean_edge_length(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
     total / seen.len().max(1) as f64
 }
 
+/// Share of a gauge length that its nodes must span: over a shorter one, errors of the solver are a stretch.
+const LEAST_SPAN: f64 = 0.01;
+
 /// Mean stretch along y of the part of a body that lies at rest between two heights, m: the slope of the
-/// straight line that fits its nodes' heights best. NaN if fewer than two heights lie there.
+/// straight line that fits its nodes' heights best. `None` if the nodes there are at one height, or if there
+/// are none.
 #[must_use]
-pub fn upright_stretch(rest: &[[f64; 3]], positions: &[[f64; 3]], [low, high]: [f64; 2]) -> f64 {
+pub fn upright_stretch(rest: &[[f64; 3]], positions: &[[f64; 3]], [low, high]: [f64; 2]) -> Option<f64> {
     let between = || rest.iter().zip(positions).filter(|(rest, _)| low <= rest[1] && rest[1] <= high);
+    let ends = between().fold([high, low], |[low, high], (rest, _)| [low.min(rest[1]), high.max(rest[1])]);
+    if ends[1] - ends[0] < LEAST_SPAN * (high - low) {
+        return None;
+    }
     let count = between().count() as f64;
     let mean = between().fold([0.0; 2], |[x, y], (rest, now)| [x + rest[1] / count, y + now[1] / count]);
     let moments = between().fold([0.0; 2], |[xx, xy], (rest, now)| {
         let (x, y) = (rest[1] - mean[0], now[1] - mean[1]);
         [xx + x * x, xy + x * y]
     });
-    moments[1] / moments[0]
+    Some(moments[1] / moments[0])
 }
 
 /// The largest distance of a point from where it is at rest, m.
@@ -172,8 +180,12 @@ mod tests {
     fn the_stretch_is_that_between_the_heights() {
         let rest = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 2.0, 0.0], [0.0, 3.0, 0.0]];
         let now = rest.map(|[x, y, z]| [x, 5.0 - 3.0 * y, z]);
-        assert_eq!(upright_stretch(&rest, &now, [0.5, 2.5]), -3.0);
-        assert!(upright_stretch(&rest, &now, [0.5, 1.5]).is_nan());
+        assert_eq!(upright_stretch(&rest, &now, [0.5, 2.5]), Some(-3.0));
+        assert_eq!(upright_stretch(&rest, &now, [0.5, 1.5]), None, "a single height");
+        assert_eq!(upright_stretch(&rest, &now, [1.25, 1.75]), None, "no node");
+        // Heights that differ by rounding are one.
+        let rounded = [[0.0, 0.1 + 0.2, 0.0], [1.0, 0.3, 0.0], [2.0, 0.3, 0.0]];
+        assert_eq!(upright_stretch(&rounded, &rounded, [0.0, 1.0]), None);
     }
 
     #[test]

@@ -26,10 +26,10 @@ pub fn read_specimen(
         .iter()
         .map(|pull| pull.stiffness * (pull.target[1] - pull.anchor.position(positions)[1]));
     let cross_section = measure::total_volume(&mesh.positions, &mesh.tets) / height;
-    let bar = respond(material, Mode::Uniaxial, Volume::Free, stretch);
+    let bar = stretch.and_then(|stretch| respond(material, Mode::Uniaxial, Volume::Free, stretch).ok());
     TensileReading {
         stretch,
         nominal_stress: upwards.sum::<f64>() / cross_section,
-        uniaxial_stress: bar.map_or(f64::NAN, |bar| bar.stress),
+        uniaxial_stress: bar.map(|bar| bar.stress),
     }
 }

@@ -58,12 +58,43 @@ pub enum Ended {
 /// Stretch and stress of an upright specimen in a testing machine.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TensileReading {
-    /// Stretch between the marks.
-    pub stretch: f64,
+    /// Stretch between the marks; `None` if nodes lie at fewer than two heights there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stretch: Option<f64>,
     /// Upward force of the springs that pull at it, over its mean cross-section at rest, Pa.
     pub nominal_stress: f64,
-    /// Stress of the material at that stretch with free sides, Pa; NaN if it has none.
-    pub uniaxial_stress: f64,
+    /// Stress of the material at that stretch with free sides, Pa; `None` if it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub uniaxial_stress: Option<f64>,
+}
+
+impl TensileReading {
+    /// Measurement that is missing, and why.
+    #[must_use]
+    pub fn missing(&self) -> Option<&'static str> {
+        match (self.uniaxial_stress, self.stretch) {
+            (Some(_), _) => None,
+            (None, None) => Some(
+                "no stretch was measured: between the marks, nodes lie at fewer than two heights, so refine the mesh \
+                 there",
+            ),
+            (None, Some(_)) => Some("the material has no uniaxial tension at that stretch to compare with"),
+        }
+    }
+}
+
+impl fmt::Display for TensileReading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { stretch, nominal_stress, uniaxial_stress } = self;
+        if let Some(stretch) = stretch {
+            write!(f, "stretch {stretch:.3} at a ")?;
+        }
+        write!(f, "nominal stress of {nominal_stress:.4e} Pa; ")?;
+        match uniaxial_stress {
+            Some(stress) => write!(f, "uniaxial tension of the material gives {stress:.4e} Pa"),
+            None => f.write_str(self.missing().unwrap_or_default()),
+        }
+    }
 }
 
 /// Kind of the equilibrium of a body that has not recovered.
@@ -165,7 +196,7 @@ pub struct Summary {
     /// Reasons why something is missing: a step that failed, a file that could not be written, an equilibrium
     /// that could not be examined.
     pub failures: Vec<String>,
-    /// Properties of the mesh and the material that may not be meant.
+    /// Properties of the mesh and the material that may not be meant, and measurements that are missing.
     pub warnings: Vec<String>,
     /// Time step, s.
     pub dt: f64,
@@ -268,12 +299,8 @@ impl fmt::Display for Summary {
         }
         writeln!(f, "  smallest det F  {}", short(self.min_det_f))?;
         writeln!(f, "  elastic energy  {:.3e} J at the end", self.energy)?;
-        if let Some(TensileReading { stretch, nominal_stress, uniaxial_stress }) = self.reading {
-            writeln!(
-                f,
-                "  stretch {stretch:.3} at a nominal stress of {nominal_stress:.4e} Pa; \
-                 uniaxial tension of the material gives {uniaxial_stress:.4e} Pa"
-            )?;
+        if let Some(reading) = self.reading {
+            writeln!(f, "  {reading}")?;
         }
         write!(
             f,
