@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use piola::contract::Violations;
 use piola::material::MaterialError;
+use piola::mesh::ReadError;
 use piola_laboratory::data::DataError;
 use piola_laboratory::fit::FitError;
 use piola_scenes::error::Error as SceneError;
@@ -213,9 +214,13 @@ impl Error {
                 "the number of pins" => " (--pin)",
                 "the stretch where the extension begins" => " (--inversion)",
                 "Young's modulus of the material" => " (--param)",
+                "the diagonal of the body" => " (--unit)",
                 _ => "",
             }
             .into(),
+            SceneError::Read(ReadError::OtherElements { .. }) => {
+                ", or leave the others out with --only-tetrahedra".into()
+            }
             SceneError::OtherBody { .. } => {
                 "; give the mesh that it was saved with by --mesh (and --surface), or none for a body of the \
                  program"

@@ -90,9 +90,7 @@ fn play(arguments: Run) -> Result<ExitCode, Error> {
 fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCode, Error> {
     let place = folder.display();
     say(format_args!("{summary}\n  surfaces, frames.png and summary.json are in {place}"))?;
-    for warning in &summary.warnings {
-        warn(format_args!("warning: {warning}"));
-    }
+    summary.warnings.iter().for_each(warn_of);
     let again = format!("; the same command with --out {place} --resume goes on from there");
     let frames = summary.frames;
     match summary.ended {
@@ -125,6 +123,7 @@ fn serve(arguments: View) -> Result<(), Error> {
     let rest = viewer.at_rest();
     say(format_args!("{} shows the scene; Ctrl-C ends it\n  at rest  {rest}", viewer.url()))?;
     rest.warning().iter().for_each(|warning| warn(format_args!("warning: {warning}")));
+    viewer.warnings().iter().for_each(warn_of);
     viewer.wait();
     Ok(())
 }
@@ -142,6 +141,11 @@ fn heard(said: io::Result<()>) -> io::Result<()> {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         said => said,
     }
+}
+
+/// Writes a warning to standard error.
+fn warn_of(warning: &String) {
+    warn(format_args!("warning: {warning}"));
 }
 
 /// Writes a line to standard error, if anybody listens there. Names of files and what they say cannot speak

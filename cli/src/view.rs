@@ -96,6 +96,7 @@ pub struct Viewer {
     token: Token,
     is_over: Arc<AtomicBool>,
     server: Option<JoinHandle<()>>,
+    warnings: Vec<String>,
 }
 
 impl Viewer {
@@ -114,6 +115,7 @@ impl Viewer {
         let token = Token::new()?;
         let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
         let threads = threads.map_err(SceneError::from)?;
+        let warnings = session.play().warnings(session.geometry()).iter().map(ToString::to_string).collect();
         let topology = topology(session.geometry()).into();
         let at_rest = AtRest { moduli: session.play().moduli(), volume: Volume::Free };
         let first = Conversation::after(session.pulls().map(|(drag, _)| drag));
@@ -129,13 +131,19 @@ impl Viewer {
         // The driver ends when the server and all its connections have.
         start("driver", Box::new(move || driver::run(driver, &taken)))?;
         let server = Some(start("server", Box::new(move || server.run()))?);
-        Ok(Self { address, at_rest, token, is_over, server })
+        Ok(Self { address, at_rest, token, is_over, server, warnings })
     }
 
     /// Address at which it listens.
     #[must_use]
     pub fn address(&self) -> SocketAddr {
         self.address
+    }
+
+    /// Properties of the body that may not be meant.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// Address of the page, with the token that opens it.

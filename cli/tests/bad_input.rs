@@ -76,6 +76,59 @@ fn malformed_mesh_names_file_and_line() {
     check(&files, &arguments, &["skin.obj:4", "9"]);
 }
 
+/// Meshes from beside this file.
+const HEXMIDDLE: &str = include_str!("meshes/hexmiddle.msh");
+const PRISMMIDDLE: &str = include_str!("meshes/prismmiddle.msh");
+const TET10: &str = include_str!("meshes/tet10.msh");
+const TGO2: [&str; 2] = [include_str!("meshes/tgo2.node"), include_str!("meshes/tgo2.ele")];
+
+#[test]
+fn volume_elements_other_than_linear_tetrahedra_are_refused_by_type_and_count() {
+    let run = |files: &[(&str, &str)], mesh: &str, options: &[&str], guilty: &[&str]| {
+        let files: Vec<_> = files.iter().map(|&(name, text)| (name, text.to_owned())).collect();
+        check(&files, &[&["run", "stretch", "--mesh", mesh][..], options].concat(), guilty);
+    };
+    let advice = "or leave the others out with --only-tetrahedra";
+    run(&[("cage.msh", HEXMIDDLE)], "cage.msh", &[], &["1 hexahedron, 48 tetrahedra", "`Recombine`", advice]);
+    run(&[("cage.msh", PRISMMIDDLE)], "cage.msh", &[], &["2 prisms, 48 tetrahedra", advice]);
+    let second_order = "6 second-order tetrahedra (10 nodes)";
+    let tetgen = [("cage.node", TGO2[0]), ("cage.ele", TGO2[1])];
+    // Nothing would be left.
+    for options in [&[][..], &["--only-tetrahedra"]] {
+        run(&[("cage.msh", TET10)], "cage.msh", options, &["cage.msh", second_order, "`-order 1`"]);
+        for mesh in ["cage.ele", "cage.node"] {
+            run(&tetgen, mesh, options, &["cage.ele:1", second_order, "without `-o2`"]);
+        }
+    }
+    let view = ["view", "--mesh", "cage.msh", "--port", "0"];
+    check(&[("cage.msh", HEXMIDDLE.into())], &view, &["1 hexahedron, 48 tetrahedra", advice]);
+}
+
+#[test]
+fn meshes_in_other_versions_are_refused_with_the_command_that_converts_them() {
+    let (_, good) = good_mesh();
+    for version in ["4 0 8", "4.0 0 8", "2 0 8", "2.1 0 8", "1 0 8", "3 0 8", "4.1 1 8"] {
+        let files = [("cage.msh", good.replace("4.1 0 8", version))];
+        check(&files, &["run", "horse", "--mesh", "cage.msh"], &["cage.msh:2", "4.1", "-format msh41"]);
+    }
+    let oldest =
+        "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n$ELM\n1\n1 4 1 1 4 1 2 3 4\n$ENDELM\n";
+    let files = [("cage.msh", oldest.into())];
+    check(&files, &["run", "horse", "--mesh", "cage.msh"], &["cage.msh:1", "MSH 1", "-format msh41"]);
+}
+
+#[test]
+fn units_that_are_none_or_without_a_mesh() {
+    check(&[good_mesh()], &["run", "horse", "--mesh", "cage.msh", "--unit", "ell"], &["'ell'", "mm", "ft"]);
+    check(&[], &["run", "horse", "--unit", "mm"], &["--mesh"]);
+    check(&[], &["run", "horse", "--only-tetrahedra"], &["--mesh"]);
+    check(
+        &[good_mesh()],
+        &["view", "--load", "x.json", "--mesh", "cage.msh", "--unit", "mm"],
+        &["leave out"],
+    );
+}
+
 #[test]
 fn element_without_positive_volume_is_named() {
     let inside_out = ("cage.msh", tetrahedron([1, 2, 4, 3]));

@@ -152,6 +152,128 @@ fn a_mesh_of_ones_own_is_drawn_by_its_boundary() {
     assert!(0.0 < hanging && hanging < 0.1, "{hanging}");
 }
 
+/// Runs a scene on a mesh in a folder; returns what it says, its warnings with it, and its summary.
+#[track_caller]
+fn run_on(folder: &Path, mesh: &str, scene: &str, options: &[&str]) -> (String, Value) {
+    fs::write(folder.join("body.msh"), mesh).expect("a scratch file");
+    let arguments = ["run", scene, "--mesh", "body.msh", "--frames", "2", "--out", "out"];
+    let output = piola(folder, &[&arguments[..], options].concat());
+    let said =
+        [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()).concat();
+    assert!(output.status.success(), "{said}");
+    let text = fs::read_to_string(folder.join("out/summary.json")).expect("a summary");
+    (said, serde_json::from_str(&text).expect("JSON"))
+}
+
+#[test]
+fn elements_that_are_left_out_are_in_the_warnings() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    for (mesh, elements) in [
+        (include_str!("meshes/hexmiddle.msh"), "1 hexahedron"),
+        (include_str!("meshes/prismmiddle.msh"), "2 prisms"),
+    ] {
+        let (said, summary) = run_on(folder.path(), mesh, "stretch", &["--only-tetrahedra"]);
+        let warning = format!(
+            "only linear tetrahedra are read; left out of the body, which lacks their volume: {elements}"
+        );
+        assert!(said.contains(&format!("warning: {warning}")), "{said}");
+        assert_eq!((&summary["tets"], &summary["warnings"][0]), (&48.into(), &warning.into()));
+    }
+}
+
+/// A cube whose nodes are all at its ends.
+#[test]
+fn a_reading_that_finds_no_nodes_says_so() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let (said, summary) = run_on(folder.path(), include_str!("meshes/plain22.msh"), "stretch", &[]);
+    let missing = "no stretch was measured: between the marks, nodes lie at fewer than two heights";
+    assert_eq!(said.matches(missing).count(), 2, "in the text and as a warning: {said}");
+    assert!(!said.contains("NaN"), "{said}");
+    assert!(summary["warnings"][0].as_str().is_some_and(|text| text.starts_with(missing)), "{summary}");
+    let reading = summary["reading"].as_object().expect("a reading");
+    assert!(reading.len() == 1 && reading["nominal_stress"].is_f64(), "{summary}");
+}
+
+#[test]
+fn parametric_nodes_are_nodes() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let surface = |mesh: &str| {
+        run_on(folder.path(), mesh, "stretch", &[]);
+        fs::read(folder.path().join("out/frame_0002.ply")).expect("a surface")
+    };
+    let plain = surface(include_str!("meshes/plain22.msh"));
+    assert!(surface(include_str!("meshes/param22.msh")) == plain);
+}
+
+/// A bar of three cubes with edges of 50, one above the other, in a unit that is so many times as long.
+fn bar(times: f64) -> String {
+    let place = |cells: usize| (50 * cells) as f64 / times;
+    let mut nodes = String::new();
+    let mut elements = String::new();
+    for y in 0..4 {
+        for (x, z) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let number = 4 * y + 2 * z + x + 1;
+            nodes += &format!("{number} {} {} {}\n", place(x), place(y), place(z));
+        }
+    }
+    // Of a cube with corners by the bits of their number, z y x: ways along the edges from 0 to 7.
+    for cube in 0..3 {
+        let node = |corner: usize| 4 * (cube + corner / 2 % 2) + 2 * (corner / 4) + corner % 2 + 1;
+        for [a, b] in [[1, 3], [3, 2], [2, 6], [6, 4], [4, 5], [5, 1]] {
+            elements += &format!("1 4 0 {} {} {} {}\n", node(0), node(a), node(b), node(7));
+        }
+    }
+    format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n16\n{nodes}$EndNodes\n$Elements\n18\n{elements}$EndElements\n"
+    )
+}
+
+#[test]
+fn a_mesh_in_millimetres_is_the_body_in_metres() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let surface = |times: f64, options: &[&str]| {
+        let (said, _) = run_on(folder.path(), &bar(times), "horse", options);
+        (said, fs::read(folder.path().join("out/frame_0002.ply")).expect("a surface"))
+    };
+    let (said, metres) = surface(1e3, &[]);
+    assert!(!said.contains("warning"), "{said}");
+    for (times, unit) in [(1.0, "mm"), (10.0, "cm")] {
+        let (said, other) = surface(times, &["--unit", unit]);
+        assert!(!said.contains("warning") && other == metres, "{unit}: {said}");
+    }
+    let (said, _) = surface(1.0, &[]);
+    assert!(said.contains("warning: the body is 150 m long") && said.contains("--unit mm"), "{said}");
+    let (said, _) = surface(1e7, &[]);
+    assert!(said.contains("warning: the body is 0.000015 m long"), "{said}");
+}
+
+/// A run goes on in the unit that it was begun with.
+#[test]
+fn the_unit_is_part_of_the_state_of_a_run() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let options = ["--unit", "mm", "--gravity", "9.81", "--pin", ":,:0.001,:"];
+    run_on(folder.path(), &bar(1.0), "horse", &options);
+    let resume = ["run", "horse", "--mesh", "body.msh", "--out", "out", "--frames", "4", "--resume"];
+    let refused = piola(folder.path(), &[&resume[..], &options[2..]].concat());
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert!(
+        refused.status.code() == Some(2) && said.contains("`unit` was \"mm\", and is \"m\" now"),
+        "{said}"
+    );
+    assert!(piola(folder.path(), &[&resume[..], &options].concat()).status.success());
+}
+
+#[test]
+fn a_pull_that_finds_no_node_says_so() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    // The head of a dinosaur is above and in front, where this corner is not.
+    let corner = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
+                  $Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n\
+                  $Elements\n1\n1 4 0 1 2 3 4\n$EndElements\n";
+    let (said, _) = run_on(folder.path(), corner, "dinosaur", &[]);
+    assert!(said.contains("warning: no node of the body lies where the scene pulls"), "{said}");
+}
+
 #[test]
 fn tetrahedra_with_fields_are_written_for_paraview() {
     let folder = tempfile::tempdir().expect("a scratch folder");

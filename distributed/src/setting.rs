@@ -7,7 +7,7 @@ use piola::mesh::Bounds;
 use piola::step::Spring;
 use piola::system::Pins;
 use piola_scenes::clock::Clock;
-use piola_scenes::geometry::Geometry;
+use piola_scenes::geometry::{Geometry, GeometryWarning};
 use piola_scenes::play::{self, DragSprings, Stretch};
 use piola_scenes::region;
 use piola_scenes::scene::{Amplitude, Start};
@@ -215,10 +215,13 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
         pins = pins.and(&moved);
     }
     pins.nodes().iter().for_each(|&node| marks[node] |= PINNED);
-    let mut stiffnesses = Vec::new();
+    let (mut stiffnesses, mut warnings) = (Vec::new(), geometry.warnings());
     for (number, &pull) in settings.scene.pulls.iter().enumerate() {
         let springs = DragSprings::new(pull, mesh, young);
         springs.nodes.iter().for_each(|&(node, _)| marks[node] |= pull_mark(number));
+        if springs.nodes.is_empty() {
+            warnings.push(GeometryWarning::NothingPulled);
+        }
         stiffnesses.push(springs.stiffness);
     }
     let start = play::start_positions(settings, &geometry, &pins);
@@ -242,7 +245,7 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
     let facts = BodyFacts {
         bounds: mesh.bounds(),
         checksum: geometry.checksum(),
-        warnings: geometry.warnings().iter().map(ToString::to_string).collect(),
+        warnings: warnings.iter().map(ToString::to_string).collect(),
         stiffnesses,
     };
     let facts = serde_json::to_vec(&facts).map_err(|error| Error::Options(error.to_string()))?;

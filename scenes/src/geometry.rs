@@ -3,11 +3,12 @@
 use std::collections::{HashMap, HashSet};
 use std::error;
 use std::ffi::OsStr;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use piola::mesh::{
-    Anchor, Bounds, Embedding, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
-    read_tetgen, tetrahedral_box,
+    Anchor, Bounds, ElementCounts, Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj,
+    read_msh, read_surface_obj, read_tetgen, tetrahedral_box,
 };
 
 use crate::error::Error;
@@ -18,6 +19,9 @@ use crate::settings::Settings;
 ///
 /// Extrapolation magnifies the motion of a tetrahedron by the distance over the tetrahedron's size.
 pub const REACH: f64 = 0.02;
+
+/// Lengths of bodies, m, outside of which their coordinates may be in another unit.
+const USUAL: RangeInclusive<f64> = 1e-4..=20.0;
 
 /// Tetrahedra and the surface that is drawn in their place.
 #[derive(Clone, Debug)]
@@ -38,13 +42,17 @@ impl Geometry {
     pub fn load(settings: &Settings) -> Result<Self, Error> {
         let Some(files) = &settings.files else { return Self::of(settings.body) };
         let mesh = match files.mesh.extension().and_then(OsStr::to_str) {
-            Some("node" | "ele") => read_tetgen(&files.mesh)?,
-            _ => read_msh(&files.mesh)?,
+            Some("node" | "ele") => read_tetgen(&files.mesh),
+            _ => read_msh(&files.mesh),
         };
+        let mut mesh =
+            if settings.only_tetrahedra { mesh.or_else(ReadError::only_tetrahedra)? } else { mesh? };
+        settings.unit.convert(&mut mesh.positions);
         let mesh_name = files.mesh.display().to_string();
         match &files.surface {
             Some(file) => {
-                let surface = read_surface_obj(file)?;
+                let mut surface = read_surface_obj(file)?;
+                settings.unit.convert(&mut surface.positions);
                 Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
             }
             None => {
@@ -77,7 +85,10 @@ impl Geometry {
     /// Properties of the mesh that its maker may not have meant.
     #[must_use]
     pub fn warnings(&self) -> Vec<GeometryWarning> {
-        let mut warnings = Vec::new();
+        let mut warnings = Vec::from_iter(size_warning(self.mesh.bounds()));
+        if !self.mesh.left_out.is_empty() {
+            warnings.push(GeometryWarning::ElementsLeftOut { elements: self.mesh.left_out.clone() });
+        }
         if self.mesh.dropped_nodes > 0 {
             warnings.push(GeometryWarning::NodesDropped { nodes: self.mesh.dropped_nodes });
         }
@@ -178,10 +189,33 @@ pub fn check_bounds(bounds: Bounds) -> Result<f64, Error> {
     Ok(diagonal)
 }
 
+/// Warns of a bounding box, m, that is seldom as large or as small.
+#[must_use]
+pub fn size_warning(bounds: Bounds) -> Option<GeometryWarning> {
+    let length = bounds.size().into_iter().fold(0.0, f64::max);
+    (!USUAL.contains(&length)).then_some(GeometryWarning::UnusualSize { length })
+}
+
 /// A property of a mesh that is seldom meant. A body can be made of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryWarning {
+    /// The body is very large or very small.
+    // In single precision, the length has no digits of rounding.
+    #[error("the body is {} m long; is that meant? --unit names the unit of the mesh, such as --unit mm", *length as f32)]
+    UnusualSize {
+        /// Its longest side, m.
+        length: f64,
+    },
+    /// Volume elements of the file are not linear tetrahedra, and not part of the body.
+    #[error("only linear tetrahedra are read; left out of the body, which lacks their volume: {elements}")]
+    ElementsLeftOut {
+        /// Counts by type.
+        elements: ElementCounts,
+    },
+    /// A scene pulls where the body has no node.
+    #[error("no node of the body lies where the scene pulls, and nothing is pulled there")]
+    NothingPulled,
     /// The file has nodes of no tetrahedron, which are not part of the body.
     #[error("{nodes} nodes of the file belong to no tetrahedron and were left out")]
     NodesDropped {
@@ -258,6 +292,26 @@ mod tests {
         let pieces = GeometryWarning::InPieces { pieces: 2, largest: 12, tetrahedra: 24 };
         assert_eq!(warnings, [GeometryWarning::NodesDropped { nodes: 1 }, pieces]);
         Ok(())
+    }
+
+    #[test]
+    fn sizes_that_may_be_in_another_unit_are_named() {
+        let warned = |size: f64| {
+            let geometry = Geometry::new(
+                tetrahedral_box([1; 3], [size, 0.5 * size, 0.5 * size])?,
+                "box",
+                &Surface::default(),
+                "none",
+            )?;
+            Ok::<_, Box<dyn error::Error>>(geometry.warnings().first().map(ToString::to_string))
+        };
+        assert_eq!([1e-4, 1.0, 20.0].map(|size| warned(size).expect("a box")), [const { None }; 3]);
+        for (size, shown) in [(100.0, "100"), (20.1, "20.1"), (9e-5, "0.00009")] {
+            let text = format!(
+                "the body is {shown} m long; is that meant? --unit names the unit of the mesh, such as --unit mm"
+            );
+            assert_eq!(warned(size).expect("a box"), Some(text));
+        }
     }
 
     #[test]

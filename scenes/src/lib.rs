@@ -25,6 +25,7 @@ pub mod scene;
 pub mod settings;
 pub mod statics;
 pub mod tensile_reading;
+pub mod unit;
 pub mod watch;
 
 #[cfg(doctest)]

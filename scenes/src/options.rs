@@ -17,6 +17,7 @@ use crate::error::Error;
 use crate::material::MaterialSpec;
 use crate::scene::{Amplitude, Body, SCENES, Scene, Start};
 use crate::settings::{Files, Settings};
+use crate::unit::Unit;
 
 /// A scene and overrides of its defaults.
 #[derive(Clone, Debug, PartialEq, Args)]
@@ -77,6 +78,16 @@ pub struct SceneOptions {
     /// become shares of its bounding box.
     #[arg(long, value_name = "FILE")]
     pub mesh: Option<PathBuf>,
+
+    /// Unit of the coordinates in the files of --mesh and --surface; places of other options are in m
+    /// [default: m].
+    #[arg(long, value_enum, requires = "mesh")]
+    pub unit: Option<Unit>,
+
+    /// Leave out the volume elements of --mesh that are not linear tetrahedra; a mesh with such elements is
+    /// refused otherwise.
+    #[arg(long, requires = "mesh")]
+    pub only_tetrahedra: bool,
 }
 
 impl SceneOptions {
@@ -108,7 +119,11 @@ impl SceneOptions {
         settings.start = start(scene, self.seed, self.amplitude)?;
         settings.density = self.density.unwrap_or(settings.density);
         settings.gravity = self.gravity.unwrap_or(settings.gravity);
-        Ok(settings.with_files(self.mesh.map(|mesh| Files { mesh, surface })).with_pins(self.pins))
+        Ok(settings
+            .with_files(self.mesh.map(|mesh| Files { mesh, surface }))
+            .with_unit(self.unit.unwrap_or_default())
+            .with_only_tetrahedra(self.only_tetrahedra)
+            .with_pins(self.pins))
     }
 }
 

@@ -9,7 +9,7 @@ use piola::system::{Body, Part, Pins};
 
 use crate::clock::Clock;
 use crate::error::Error;
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, GeometryWarning};
 use crate::material::{self, MaterialSpec, Parameters};
 use crate::output::{Newton, StepCounts};
 use crate::region;
@@ -123,6 +123,14 @@ impl Play {
     #[must_use]
     pub fn moduli(&self) -> Moduli {
         self.moduli
+    }
+
+    /// Properties of the body that may not be meant, also beside what the scene does to it.
+    #[must_use]
+    pub fn warnings(&self, geometry: &Geometry) -> Vec<GeometryWarning> {
+        let is_idle = self.pulls.iter().any(|springs| springs.nodes.is_empty());
+        let idle = is_idle.then_some(GeometryWarning::NothingPulled);
+        geometry.warnings().into_iter().chain(idle).collect()
     }
 
     /// Number of the step and its time.

@@ -5,13 +5,18 @@ use piola::mesh::Bounds;
 /// All of space, in metres or shares.
 pub const EVERYWHERE: Bounds = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY; 3] };
 
-/// A box from shares of another: 0 is the low side of `whole`, 1 the high one.
+/// A box from shares of another: 0 is the low side of `whole`, 1 the high one, to the last bit.
 #[must_use]
 pub fn within(whole: Bounds, shares: Bounds) -> Bounds {
     let size = whole.size();
     let place = |share: f64, i: usize| {
-        // An infinite share of a flat box would not be a number.
-        if share.is_finite() { whole.min[i] + share * size[i] } else { share }
+        match share {
+            // A sum could round to a place beyond the last node.
+            1.0 => whole.max[i],
+            // An infinite share of a flat box would not be a number.
+            _ if share.is_infinite() => share,
+            _ => whole.min[i] + share * size[i],
+        }
     };
     Bounds {
         min: std::array::from_fn(|i| place(shares.min[i], i)),
@@ -71,5 +76,9 @@ mod tests {
         let expected =
             Bounds { min: [2.0, f64::NEG_INFINITY, f64::NEG_INFINITY], max: [4.0, 1.5, f64::INFINITY] };
         assert_eq!(within(whole, feet), expected);
+        for k in 0..1000 {
+            let whole = Bounds { min: [0.1 * f64::from(k); 3], max: [0.1 * f64::from(k) + 0.0123; 3] };
+            assert_eq!(within(whole, Bounds { min: [1.0; 3], max: [1.0; 3] }).min, whole.max);
+        }
     }
 }

@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::material::MaterialSpec;
 use crate::output::Newton;
 use crate::scene::{Amplitude, Body, Scene, Start};
+use crate::unit::Unit;
 
 /// More would take longer to start than any scene to run.
 const MAX_THREADS: f64 = 1024.0;
@@ -28,6 +29,13 @@ pub struct Settings {
     /// Files of another body; they are named where they are read, and nowhere else.
     #[serde(skip)]
     pub files: Option<Files>,
+    /// Unit of the coordinates in the files.
+    #[serde(default)]
+    pub unit: Unit,
+    /// Leaves out the volume elements of the files that are not linear tetrahedra; such a mesh is refused
+    /// without it.
+    #[serde(default)]
+    pub only_tetrahedra: bool,
     /// Positions of the nodes before the first step.
     pub start: Start,
     /// The material of the body.
@@ -85,6 +93,8 @@ impl Settings {
             scene,
             body: scene.body,
             files: None,
+            unit: Unit::default(),
+            only_tetrahedra: false,
             start: scene.start,
             material: (scene.material)(),
             density: scene.density,
@@ -104,6 +114,10 @@ impl Settings {
         with_body: body = Body;
         /// Takes the body from files, or, with `None`, that of the program.
         with_files: files = Option<Files>;
+        /// Replaces the unit of the coordinates in files.
+        with_unit: unit = Unit;
+        /// Leaves out other volume elements of files than linear tetrahedra, or not.
+        with_only_tetrahedra: only_tetrahedra = bool;
         /// Replaces the start.
         with_start: start = Start;
         /// Replaces the material.

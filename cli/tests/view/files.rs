@@ -5,6 +5,7 @@ use std::path::Path;
 
 use piola_scenes::output::seal;
 use piola_scenes::settings::Files;
+use piola_scenes::unit::Unit;
 use piola_viewer::error::Error;
 use piola_viewer::protocol::Act;
 use piola_viewer::session::Session;
@@ -170,4 +171,11 @@ fn a_body_from_files_is_given_again() {
         let error = load(files).expect_err("another body").to_string();
         assert!(error.contains("another body"), "{error}");
     }
+    // The unit is not given again.
+    let in_inches = settings().with_files(files(&mesh)).with_unit(Unit::In);
+    let mut session = Session::new(in_inches).expect("a scene that plays");
+    steps(&mut session, 2);
+    session.state().write(&state).expect("a file");
+    let again = Session::resume(State::read(&state).expect("a state").with_files(files(&mesh)));
+    assert!(bits(&again.expect("a state that plays")) == bits(&session));
 }

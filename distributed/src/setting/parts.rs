@@ -6,7 +6,7 @@ use std::path::Path;
 use piola::mesh::Bounds;
 use piola::system::PinError;
 use piola_scenes::error::Error as SceneError;
-use piola_scenes::geometry::{GeometryWarning, check_bounds};
+use piola_scenes::geometry::{GeometryWarning, check_bounds, size_warning};
 use piola_scenes::play::DragSprings;
 use piola_scenes::region;
 use piola_scenes::settings::Settings;
@@ -36,7 +36,10 @@ pub(super) fn read(
     groups: &[String],
     moves: &[Move],
 ) -> Result<(Portion, BodyFacts), Error> {
-    let part = tetgen::read(team, path)?;
+    let mut part = tetgen::read(team, path)?;
+    for (position, _) in &mut part.nodes {
+        *position = position.map(|x| settings.unit.to_metres(x));
+    }
     let bounds = bounds(team, &part);
     check_bounds(bounds)?;
     let known = groups_of(team, &part);
@@ -57,9 +60,10 @@ pub(super) fn read(
         marks.set(PINNED | move_mark(number), nodes, &format!("`{}`", motion.nodes))?;
     }
     let young = settings.material.build()?.moduli.young();
-    let mut stiffnesses = Vec::new();
+    let (mut stiffnesses, mut is_idle) = (Vec::new(), false);
     for (number, pull) in settings.scene.pulls.iter().enumerate() {
         let count = marks.add(pull_mark(number), Nodes::InBox(region::within(bounds, pull.region)));
+        is_idle |= count == 0;
         stiffnesses.push(DragSprings::stiffness_of_each(count, bounds, young));
     }
 
@@ -82,10 +86,12 @@ pub(super) fn read(
         }
     }
     let dropped = (part.dropped > 0).then_some(GeometryWarning::NodesDropped { nodes: part.dropped });
+    let idle = is_idle.then_some(GeometryWarning::NothingPulled);
+    let warnings = [size_warning(bounds), dropped, idle];
     let facts = BodyFacts {
         bounds,
         checksum: checksum(team, &part),
-        warnings: dropped.iter().map(ToString::to_string).collect(),
+        warnings: warnings.iter().flatten().map(ToString::to_string).collect(),
         stiffnesses,
     };
     Ok((Portion { homes: part.homes, places, elements }, facts))

@@ -235,6 +235,8 @@ impl<'a> Course<'a> {
             ..
         } = self;
         let at_rest = AtRest { moduli: play.moduli(), volume: Volume::Free };
+        let warnings = play.warnings(&geometry).into_iter().map(|warning| warning.to_string());
+        let missing = reading.and_then(|reading| reading.missing()).map(str::to_owned);
         let summary = Summary {
             scene: settings.scene.name.into(),
             material: play.material().to_string(),
@@ -247,7 +249,7 @@ impl<'a> Course<'a> {
             frames_wanted: settings.frames,
             ended,
             failures,
-            warnings: geometry.warnings().iter().map(ToString::to_string).chain(at_rest.warning()).collect(),
+            warnings: warnings.chain(missing).chain(at_rest.warning()).collect(),
             dt: settings.dt,
             newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
             inverted_at_start: progress.inverted_at_start,

@@ -18,7 +18,7 @@ use piola_viewer::protocol::Act;
 use piola_viewer::session::Session;
 
 /// Longer than any small file may take, on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(10);
+const PATIENCE: Duration = Duration::from_secs(2);
 
 fn count() -> usize {
     std::env::var("PIOLA_MUTATIONS").map_or(300, |text| text.parse().expect("a number"))
