@@ -62,9 +62,9 @@ fn check(arguments: TokenStream, term: Term, other: TokenStream) {
     for stretches in STRETCHES {
         let epsilon = 1e-3;
         let of_entry = |n: usize| EXPONENTS.map(|exponents| f64::from(exponents[n])).to_vec();
-        let parameters = vec![vec![1.0, 2.0, 3.0], of_entry(0), of_entry(1), vec![0.7]];
+        let parameters = vec![vec![1.0, 2.0, 3.0], of_entry(0), of_entry(1), vec![0.7]].into();
         let with_lists = Point { stretches, parameters, lengths: vec![3], epsilon };
-        let parameters = [1.0, 2.0, 3.0, 0.7].map(|value| vec![value]).to_vec();
+        let parameters = [1.0, 2.0, 3.0, 0.7].map(|value| vec![value]).to_vec().into();
         let with_terms = Point { stretches, parameters, lengths: vec![], epsilon };
         let pairs = results(&lists).into_iter().zip(results(&written));
         for (n, (found, expected)) in pairs.enumerate() {

@@ -220,7 +220,7 @@ fn judge_stretches(
 /// Σ|terms| of an expression, every subtraction replaced by an addition of magnitudes.
 fn terms(model: &Model, parameters: &Parameters, root: Id, stretches: [f64; 3]) -> f64 {
     let Parameters { values, lengths } = parameters.clone();
-    let point = interpret::Point { stretches, parameters: values, lengths, epsilon: EPSILON };
+    let point = interpret::Point { stretches, parameters: values.into(), lengths, epsilon: EPSILON };
     evaluate(&model.graph, root, &point).magnitude
 }
 

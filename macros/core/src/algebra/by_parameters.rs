@@ -13,6 +13,8 @@
 //! asked. The factor on the left has no entry, so that an entry inside a sum is never mistaken for one
 //! outside.
 
+use rustc_hash::{FxHashMap, FxHashSet};
+
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::simplify::simplify;
@@ -23,13 +25,23 @@ pub fn by_parameters<const N: usize>(
     variables: &[Node],
     expressions: [Id; N],
 ) -> Vec<[Id; N]> {
-    let mut d = Differentiator::default();
+    let mut parents: FxHashMap<Id, Vec<Id>> = FxHashMap::default();
+    for id in graph.reachable(&expressions) {
+        for child in graph.children(id) {
+            parents.entry(child).or_default().push(id);
+        }
+    }
     let mut by_variable = |variable: &Node| {
+        let variable_id = graph.leaf(variable.clone());
         expressions.map(|expression| {
-            let variable_id = graph.leaf(variable.clone());
             let derivative = match variable {
-                Node::Entry(_) => by_entry(&mut d, graph, expression, variable_id),
-                _ => d.derivative(graph, expression, variable_id),
+                Node::Entry(_) => by_entry(graph, expression, variable_id, &parents),
+                // Most parts of an energy with many parameters depend on few of them.
+                _ => Differentiator::within(above(variable_id, &parents)).derivative(
+                    graph,
+                    expression,
+                    variable_id,
+                ),
             };
             simplify(graph, derivative)
         })
@@ -37,15 +49,28 @@ pub fn by_parameters<const N: usize>(
     variables.iter().map(&mut by_variable).collect()
 }
 
-/// ∂e/∂m_q of a list m.
-fn by_entry(d: &mut Differentiator, graph: &mut Graph, e: Id, entry: Id) -> Id {
+/// An expression and all that contain it.
+fn above(id: Id, parents: &FxHashMap<Id, Vec<Id>>) -> FxHashSet<Id> {
+    let (mut found, mut left) = (FxHashSet::default(), vec![id]);
+    while let Some(id) = left.pop() {
+        if found.insert(id) {
+            left.extend(parents.get(&id).into_iter().flatten());
+        }
+    }
+    found
+}
+
+/// ∂e/∂m_q of a list m, given what contains each node.
+fn by_entry(graph: &mut Graph, e: Id, entry: Id, parents: &FxHashMap<Id, Vec<Id>>) -> Id {
+    let containing = above(entry, parents);
+    let mut d = Differentiator::within(containing.clone());
     // Entry q outside any sum.
     let mut terms = vec![d.derivative(graph, e, entry)];
-    for sum in graph.reachable(&[e]) {
+    for sum in graph.reachable(&[e]).into_iter().filter(|id| containing.contains(id)) {
         let Node::Sum(_, body) = *graph.node(sum) else { continue };
         let inner = d.derivative(graph, body, entry);
         if !graph.is_zero(inner) {
-            let outer = d.derivative(graph, e, sum);
+            let outer = Differentiator::within(above(sum, parents)).derivative(graph, e, sum);
             terms.push(graph.mul(outer, inner));
         }
     }
@@ -54,6 +79,8 @@ fn by_entry(d: &mut Differentiator, graph: &mut Graph, e: Id, entry: Id) -> Id {
 
 #[cfg(test)]
 mod tests {
+    use std::rc::Rc;
+
     use proc_macro2::TokenStream;
     use quote::quote;
 
@@ -63,7 +90,10 @@ mod tests {
     /// Entry `place` of every list in place of entry 0, which stands for all outside sums.
     fn with_first(point: &Point, place: usize) -> Point {
         let mut point = point.clone();
-        point.parameters.iter_mut().filter(|list| list.len() > place).for_each(|list| list.swap(0, place));
+        Rc::make_mut(&mut point.parameters)
+            .iter_mut()
+            .filter(|list| list.len() > place)
+            .for_each(|list| list.swap(0, place));
         point
     }
 
@@ -77,7 +107,7 @@ mod tests {
         let (_, model) = analyse(quote!(domain(J > 0.0), prestressed, fit), item, None).expect("an energy");
         let point = Point {
             stretches,
-            parameters: parameters.iter().map(|list| list.to_vec()).collect(),
+            parameters: Rc::new(parameters.iter().map(|list| list.to_vec()).collect()),
             lengths: vec![parameters[0].len()],
             ..Point::default()
         };
@@ -89,7 +119,7 @@ mod tests {
                 let exact = evaluate(&model.graph, derivatives[stress], &with_first(&point, place)).value;
                 let at = |change: f64| {
                     let mut point = point.clone();
-                    point.parameters[list][place] += change;
+                    Rc::make_mut(&mut point.parameters)[list][place] += change;
                     evaluate(&model.graph, model.plain.gradient[stress], &point)
                 };
                 let error = |h: f64| ((at(h).value - at(-h).value) / (2.0 * h) - exact).abs();

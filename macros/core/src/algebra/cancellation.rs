@@ -12,6 +12,8 @@
 //! and what is left has no cancellation. [`over_one_denominator`] does that where it helps, which is tried at
 //! points; it changes no other sum. [`lossy`] finds the sums that cancel all the same, and matter.
 
+use std::cell::RefCell;
+
 use rustc_hash::FxHashMap;
 
 use crate::algebra::expand::expand_products;
@@ -29,9 +31,16 @@ const BEARABLE: f64 = 1e3;
 /// stretch grows by so much, a chance crossing of zero by nothing.
 const GROWTH: f64 = 30.0;
 
+/// Nodes that are evaluated to find the sums that matter: a few tenths of a second.
+const MOST_EVALUATED: usize = 10_000_000;
+
 /// Points at which cancellation shows: two for each way out, the first one nearer to rest.
 #[derive(Debug)]
-pub struct Ways(Vec<[Point; 2]>);
+pub struct Ways {
+    ways: Vec<[Point; 2]>,
+    /// Values of nodes at each of these points.
+    values: RefCell<Vec<[Memo; 2]>>,
+}
 
 impl Ways {
     /// Ways to flat, thin and huge material from points near rest, as far as they are inside the domain.
@@ -51,7 +60,12 @@ impl Ways {
         let growing = samples.iter().flat_map(|sample| {
             [sets[0], sets[1], sets[2]].map(|set| FAR.map(|factor| moved(sample, set, 1.0 / factor)))
         });
-        Self(shrinking.chain(growing).filter(|way| way.iter().all(&is_inside)).collect())
+        Self::through(shrinking.chain(growing).filter(|way| way.iter().all(&is_inside)).collect())
+    }
+
+    fn through(ways: Vec<[Point; 2]>) -> Self {
+        let values = ways.iter().map(|_| Default::default()).collect();
+        Self { ways, values: RefCell::new(values) }
     }
 
     /// The ways by invariants, for energies in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
@@ -62,14 +76,15 @@ impl Ways {
             let [a, b, c] = point.stretches.map(|l| l * l);
             Point { stretches: [a + b + c, a * b + b * c + c * a, l1 * l2 * l3], ..point.clone() }
         };
-        Self(self.0.iter().map(|way| way.each_ref().map(moved)).collect())
+        Self::through(self.ways.iter().map(|way| way.each_ref().map(moved)).collect())
     }
 
     /// The ways on which the cancellation of a sum grows beyond what is bearable, each with its size at the
     /// end.
     fn cancelling<'a>(&'a self, graph: &'a Graph, sum: Id) -> impl Iterator<Item = (f64, &'a [Point; 2])> {
-        self.0.iter().filter_map(move |way| {
-            let [near, far] = [0, 1].map(|k| ratio(graph, sum, &way[k]));
+        self.ways.iter().enumerate().filter_map(move |(place, way)| {
+            let mut values = self.values.borrow_mut();
+            let [near, far] = [0, 1].map(|k| ratio(graph, sum, &way[k], &mut values[place][k]));
             (far > BEARABLE && far > GROWTH * near).then_some((far, way))
         })
     }
@@ -81,12 +96,11 @@ impl Ways {
 }
 
 /// How far the terms of a sum exceed it at a point; NaN where a term has no value.
-fn ratio(graph: &Graph, sum: Id, point: &Point) -> f64 {
+fn ratio(graph: &Graph, sum: Id, point: &Point, memo: &mut Memo) -> f64 {
     let Node::Linear { constant, terms } = graph.node(sum) else { return 1.0 };
-    let mut memo = Memo::default();
     let (mut value, mut size) = (constant.to_f64(), constant.to_f64().abs());
     for &(term, coefficient) in terms {
-        let term = coefficient.to_f64() * evaluate_with(graph, term, point, &mut memo).value;
+        let term = coefficient.to_f64() * evaluate_with(graph, term, point, memo).value;
         value += term;
         size += term.abs();
     }
@@ -166,7 +180,7 @@ pub fn lossy(graph: &Graph, energy: Id, derivatives: [&[Id]; 2], ways: &Ways) ->
         let exact = values(derivatives, point, Memo::default());
         let mut memo = Memo::default();
         let mut estimate = evaluate_with(graph, sum, point, &mut memo);
-        estimate.value += CHANGE * ratio(graph, sum, point) * estimate.value.abs();
+        estimate.value += CHANGE * ratio(graph, sum, point, &mut memo) * estimate.value.abs();
         let changed = values(derivatives, point, Memo::from_iter([(sum, estimate)]));
         let by_stretches: f64 = (0..3)
             .map(|k| {
@@ -178,13 +192,17 @@ pub fn lossy(graph: &Graph, energy: Id, derivatives: [&[Id]; 2], ways: &Ways) ->
         let size = exact.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         distance(&changed, &exact) > UNNOTICED * (CHANGE * size + by_stretches)
     };
+    // Nodes that may still be evaluated: what is beyond is not tried.
+    let each =
+        5 * derivatives.map(|derivatives| graph.reachable(derivatives).len()).into_iter().sum::<usize>();
+    let mut budget = MOST_EVALUATED;
+    let mut can_matter = |sum: Id, point: &Point| {
+        budget = budget.saturating_sub(each);
+        budget > 0 && derivatives.iter().any(|derivatives| matters(derivatives, sum, point))
+    };
     let sums =
         graph.reachable(&[energy]).into_iter().filter(|&id| matches!(graph.node(id), Node::Linear { .. }));
-    sums.filter(|&sum| {
-        ways.cancelling(graph, sum)
-            .any(|(_, [point, _])| derivatives.iter().any(|derivatives| matters(derivatives, sum, point)))
-    })
-    .collect()
+    sums.filter(|&sum| ways.cancelling(graph, sum).any(|(_, [point, _])| can_matter(sum, point))).collect()
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! else is constant. An entry belongs to the sum around it, so one outside a sum is not a variable of the
 //! expressions inside one: see [`crate::algebra::by_parameters`].
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::algebra::rational::Rational;
@@ -13,11 +13,26 @@ use crate::algebra::rational::Rational;
 #[derive(Debug, Default)]
 pub struct Differentiator {
     memo: FxHashMap<(Id, Id), Id>,
+    /// The only expressions that may depend on the variable, where that is known.
+    within: Option<FxHashSet<Id>>,
 }
 
 impl Differentiator {
+    /// Derivatives by variables on which only these expressions may depend: no other is looked at.
+    #[must_use]
+    pub fn within(expressions: FxHashSet<Id>) -> Self {
+        Self { memo: FxHashMap::default(), within: Some(expressions) }
+    }
+
+    fn may_depend(&self, e: Id) -> bool {
+        self.within.as_ref().is_none_or(|within| within.contains(&e))
+    }
+
     /// The derivative ∂e/∂v.
     pub fn derivative(&mut self, graph: &mut Graph, e: Id, v: Id) -> Id {
+        if !self.may_depend(e) || graph.is_full() {
+            return graph.integer(0);
+        }
         if let Some(&done) = self.memo.get(&(e, v)) {
             return done;
         }
@@ -35,6 +50,7 @@ impl Differentiator {
     fn rule(&mut self, graph: &mut Graph, e: Id, v: Id) -> Id {
         match graph.node(e).clone() {
             Node::Linear { terms, .. } => {
+                let terms: Vec<_> = terms.into_iter().filter(|&(term, _)| self.may_depend(term)).collect();
                 let terms: Vec<_> =
                     terms.into_iter().map(|(term, c)| (self.derivative(graph, term, v), c)).collect();
                 graph.linear(Rational::ZERO, &terms)

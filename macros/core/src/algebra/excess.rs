@@ -314,7 +314,8 @@ mod tests {
         let over = g.div(plain, beta);
         let square = g.powi(i1, 2);
         let squared = g.linear(Rational::integer(-9), &[(square, Rational::ONE)]);
-        let point = Point { stretches: [1.4, 0.9, 0.6], parameters: vec![vec![0.3]], ..Point::default() };
+        let point =
+            Point { stretches: [1.4, 0.9, 0.6], parameters: vec![vec![0.3]].into(), ..Point::default() };
         for base in [plain, mixed, over, squared] {
             let power = real(&mut g, base);
             let rewritten = with_squares(&mut g, power);
@@ -336,8 +337,11 @@ mod tests {
         let mixed = [(i1, Rational::ONE), (weighted, Rational::ONE), (d, Rational::integer(-3))];
         let mixed = g.linear(Rational::integer(-3), &[&mixed[..], &[(c, Rational::ONE)]].concat());
         let over = g.div(plain, d);
-        let point =
-            Point { stretches: [1.4, 0.9, 0.6], parameters: vec![vec![0.3], vec![0.7]], ..Point::default() };
+        let point = Point {
+            stretches: [1.4, 0.9, 0.6],
+            parameters: vec![vec![0.3], vec![0.7]].into(),
+            ..Point::default()
+        };
         let mut near = point.clone();
         near.stretches = [1.0 + 1e-9, 1.0, 1.0 - 1e-9];
         for sum in [plain, mixed, over] {

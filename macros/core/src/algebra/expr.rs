@@ -124,15 +124,19 @@ pub struct Graph {
     /// Nodes with their stretches replaced.
     substitutions: FxHashMap<(Id, [Id; 3]), Id>,
     overflowed: bool,
-    /// The most nodes; `None` for as many as memory holds.
+    /// The number of nodes and of their operands.
+    size: usize,
+    /// The number of operands of all sums and products that were to be made, be they new or not.
+    effort: usize,
+    /// The largest size; `None` for as much as memory holds.
     most: Option<usize>,
-    /// Whether there were to be more nodes.
+    /// Whether it was to be larger.
     is_full: Rc<Cell<bool>>,
 }
 
 impl Graph {
-    /// A graph of so many nodes at most. Beyond, every node is the first one, so that whatever goes on comes
-    /// to an end soon, with results that mean nothing; the cell then says so.
+    /// A graph of so many nodes and operands at most. Beyond, every node is the first one, so that whatever
+    /// goes on comes to an end soon, with results that mean nothing; the cell then says so.
     pub fn with_most(most: Option<usize>) -> (Self, Rc<Cell<bool>>) {
         let graph = Self { most, ..Self::default() };
         let is_full = graph.is_full.clone();
@@ -143,6 +147,22 @@ impl Graph {
     #[must_use]
     pub fn node(&self, id: Id) -> &Node {
         &self.nodes[id.0 as usize]
+    }
+
+    /// Whether there were to be more nodes than there may be; results are then meaningless.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        self.is_full.get()
+    }
+
+    /// Counts the operands of a sum or a product that is to be made.
+    fn work(&mut self, operands: usize) {
+        /// The largest effort for each unit of the largest size.
+        const EFFORT: usize = 24;
+        self.effort += operands;
+        if self.most.is_some_and(|most| self.effort > EFFORT * most) {
+            self.is_full.set(true);
+        }
     }
 
     /// Whether a rational number has left 128 bits; results are then meaningless.
@@ -172,7 +192,12 @@ impl Graph {
         if let Some(&id) = self.ids.get(&node) {
             return id;
         }
-        if self.most.is_some_and(|most| self.nodes.len() >= most) {
+        self.size += match &node {
+            Node::Linear { terms, .. } => 1 + terms.len(),
+            Node::Product(factors) => 1 + factors.len(),
+            _ => 2,
+        };
+        if self.most.is_some_and(|most| self.size > most) {
             self.is_full.set(true);
             return Id(0);
         }

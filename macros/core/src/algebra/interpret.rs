@@ -5,6 +5,8 @@
 //! Three users: the parity decisions of [`crate::algebra::quotient`], the checks of `judge`, and
 //! tests, as an oracle for the emitted code.
 
+use std::rc::Rc;
+
 use rustc_hash::FxHashMap;
 
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node};
@@ -14,8 +16,8 @@ use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node};
 pub struct Point {
     /// λ1, λ2, λ3.
     pub stretches: [f64; 3],
-    /// Entries of each parameter; one entry for a scalar.
-    pub parameters: Vec<Vec<f64>>,
+    /// Entries of each parameter; one entry for a scalar. Points that differ in their stretches share them.
+    pub parameters: Rc<Vec<Vec<f64>>>,
     /// Number of entries of each length.
     pub lengths: Vec<usize>,
     /// Threshold of the extension.

@@ -119,7 +119,7 @@ impl<'a> Quotients<'a> {
         if let Some(&done) = self.memo.get(&(e, reflection)) {
             return done;
         }
-        let result = if reflect(graph, e, reflection) == e {
+        let result = if graph.is_full() || reflect(graph, e, reflection) == e {
             graph.integer(0)
         } else {
             self.rule(graph, e, reflection)

@@ -33,11 +33,12 @@ fn rewrite(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
         return done;
     }
     let mut result = graph.map_children(e, &mut |graph, child| rewrite(graph, child, memo));
-    while let Some(simpler) = cancel_against_denominator(graph, result)
-        .or_else(|| collect_into_factor(graph, result))
-        .or_else(|| join_two_sums(graph, result))
-        .or_else(|| cancel_parameter(graph, result))
-        .or_else(|| join_hyperbolic(graph, result))
+    while !graph.is_full()
+        && let Some(simpler) = cancel_against_denominator(graph, result)
+            .or_else(|| collect_into_factor(graph, result))
+            .or_else(|| join_two_sums(graph, result))
+            .or_else(|| cancel_parameter(graph, result))
+            .or_else(|| join_hyperbolic(graph, result))
     {
         result = simpler;
     }
@@ -64,7 +65,7 @@ fn cancel_against_denominator(graph: &mut Graph, e: Id) -> Option<Id> {
             let w_over_s = graph.div(w, s);
             let rules = [(over_beta.negated(), w, s), (coefficient.negated(), w_over_s, beta_id)];
             for (c, w, factor) in rules {
-                if !terms.contains(&(w, c)) {
+                if coefficient_of(&terms, w) != Some(c) {
                     continue;
                 }
                 let factors = [(w, 1), (factor, 1), (denominator, -1)];
@@ -86,7 +87,7 @@ fn collect_into_factor(graph: &mut Graph, e: Id) -> Option<Id> {
                 continue;
             }
             let w = graph.div(product, sum);
-            let Some(&(_, other)) = terms.iter().find(|&&(term, _)| term == w) else { continue };
+            let Some(other) = coefficient_of(&terms, w) else { continue };
             let shift = other.checked_mul(coefficient.checked_powi(-1)?)?;
             let shifted = graph.linear(shift, &[(sum, Rational::ONE)]);
             let collected = graph.mul(w, shifted);
@@ -167,6 +168,11 @@ fn join_hyperbolic(graph: &mut Graph, e: Id) -> Option<Id> {
         return Some(graph.mul(others, power));
     }
     None
+}
+
+/// The coefficient of a term, given all terms in their order.
+fn coefficient_of(terms: &[(Id, Rational)], asked: Id) -> Option<Rational> {
+    terms.binary_search_by_key(&asked, |&(term, _)| term).ok().map(|k| terms[k].1)
 }
 
 /// The sum with two of its terms replaced by one.

@@ -1,5 +1,7 @@
 //! Points of the domain at which an energy is tried.
 
+use std::rc::Rc;
+
 use syn::Expr;
 
 use super::finding::{Finding, Violation};
@@ -107,7 +109,7 @@ pub(crate) fn candidates(
             if attempt > POSITIVE && random.unit() < 0.3 { -magnitude } else { magnitude }
         };
         let mut list = |&(number, is_whole): &(usize, bool)| (0..number).map(|_| value(is_whole)).collect();
-        let parameters = entries.iter().map(&mut list).collect();
+        let parameters = Rc::new(entries.iter().map(&mut list).collect());
         let mut stretches = [0, 1, 2].map(|_| 0.6 + 0.9 * random.unit());
         if has_negative && attempt % 2 == 1 {
             stretches[2] = -stretches[2];
@@ -119,7 +121,7 @@ pub(crate) fn candidates(
 /// The point with the first entry of each list in the place of all of them, so that a condition on their sum
 /// holds for each.
 pub(crate) fn with_equal_entries(mut point: Point) -> Point {
-    for entries in &mut point.parameters {
+    for entries in Rc::make_mut(&mut point.parameters) {
         let first = entries.first().copied().unwrap_or_default();
         entries.fill(first);
     }

@@ -43,12 +43,14 @@ impl Collector {
 fn collected(graph: &mut Graph, degrees: &mut Degrees, constant: Rational, terms: &[(Id, Rational)]) -> Id {
     // In the order of the terms, so that the result is always the same.
     let mut groups: Vec<(Id, Vec<(Id, Rational)>)> = Vec::new();
+    let mut places: FxHashMap<Id, usize> = FxHashMap::default();
     let one = graph.integer(1);
     for &(term, c) in terms {
         let (monomial, rest) = split(graph, term);
         let is_bounded = degrees.of(graph, rest) == [0.0; 2];
         let (monomial, rest) = if is_bounded && monomial != one { (monomial, rest) } else { (term, one) };
-        match groups.iter_mut().find(|group| group.0 == monomial) {
+        let place = *places.entry(monomial).or_insert(groups.len());
+        match groups.get_mut(place) {
             Some((_, rests)) => rests.push((rest, c)),
             None => groups.push((monomial, vec![(rest, c)])),
         }

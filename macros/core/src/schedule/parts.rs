@@ -13,7 +13,7 @@
 //!
 //! which saves a multiplication unless another sum needs c s or c t.
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::rational::Rational;
@@ -25,6 +25,8 @@ pub(super) type Linear = (Rational, Vec<(Id, Rational)>);
 pub(super) struct Parts {
     /// The sums, the longest first.
     sums: Vec<(Id, Linear)>,
+    /// The places of the sums there, by their first terms.
+    by_first: FxHashMap<Id, Vec<usize>>,
     /// The number of sums in which a term has a coefficient of this magnitude.
     multiples: FxHashMap<(Id, Rational), usize>,
 }
@@ -42,7 +44,11 @@ impl Parts {
         for &(term, c) in sums.iter().flat_map(|(_, (_, terms))| terms) {
             *multiples.entry((term, c.magnitude())).or_default() += 1;
         }
-        Self { sums, multiples }
+        let mut by_first: FxHashMap<Id, Vec<usize>> = FxHashMap::default();
+        for (place, (_, (_, terms))) in sums.iter().enumerate() {
+            by_first.entry(terms[0].0).or_default().push(place);
+        }
+        Self { sums, by_first, multiples }
     }
 
     /// The terms in groups whose coefficients differ only by their signs.
@@ -57,10 +63,12 @@ impl Parts {
         let one_group = all_alike && terms.iter().filter(is_shared).count() <= 1;
         let mut groups: Vec<Vec<(Id, Rational)>> = Vec::new();
         for term in terms {
+            let is_alone = !one_group && (term.1.magnitude() == Rational::ONE || is_shared(&term));
             let with_term = |group: &&mut Vec<(Id, Rational)>| {
-                one_group || are_alike(group[0].1, term.1) && !is_shared(&term) && !is_shared(&&group[0])
+                one_group || are_alike(group[0].1, term.1) && !is_shared(&&group[0])
             };
-            match groups.iter_mut().find(with_term) {
+            let group = if is_alone { None } else { groups.iter_mut().find(with_term) };
+            match group {
                 Some(group) => group.push(*term),
                 None => groups.push(vec![*term]),
             }
@@ -70,11 +78,15 @@ impl Parts {
 
     /// The sum with the longest of its parts as one term.
     pub(super) fn regrouped(&self, constant: Rational, terms: &[(Id, Rational)]) -> Linear {
-        let regrouped = self.sums.iter().find_map(|(id, (part_constant, part))| {
+        let coefficients: FxHashMap<Id, Rational> = terms.iter().copied().collect();
+        let coefficient = |asked: Id| coefficients.get(&asked).copied();
+        let mut places: Vec<_> = terms.iter().filter_map(|(id, _)| self.by_first.get(id)).flatten().collect();
+        places.sort_unstable();
+        let mut sums = places.into_iter().map(|&place| &self.sums[place]);
+        let regrouped = sums.find_map(|(id, (part_constant, part))| {
             if part.len() >= terms.len() {
                 return None;
             }
-            let coefficient = |asked: Id| terms.iter().find(|(id, _)| *id == asked).map(|&(_, c)| c);
             let sign = match coefficient(part[0].0)? {
                 c if c == part[0].1 => Rational::ONE,
                 c if c == part[0].1.negated() => Rational::ONE.negated(),
@@ -85,7 +97,8 @@ impl Parts {
             if !is_part || !(part_constant.is_zero() || left.is_zero()) {
                 return None;
             }
-            let others = terms.iter().filter(|(term, _)| part.iter().all(|(id, _)| id != term));
+            let parts: FxHashSet<Id> = part.iter().map(|&(id, _)| id).collect();
+            let others = terms.iter().filter(|(term, _)| !parts.contains(term));
             Some((left, others.copied().chain([(*id, sign)]).collect()))
         });
         regrouped.unwrap_or_else(|| (constant, terms.to_vec()))

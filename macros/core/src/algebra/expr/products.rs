@@ -40,6 +40,7 @@ impl Graph {
 
     /// The product Π base^exponent in normal form.
     pub fn product(&mut self, factors: &[(Id, Exponent)]) -> Id {
+        self.work(factors.len());
         let mut coefficient = Rational::ONE;
         let mut collected = Vec::with_capacity(factors.len());
         for &(base, exponent) in factors {

@@ -32,6 +32,7 @@ impl Graph {
 
     /// The sum constant + Σ coefficient · term in normal form.
     pub fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Id {
+        self.work(terms.len());
         let mut total = constant;
         let mut collected = Vec::with_capacity(terms.len());
         for &(term, factor) in terms {

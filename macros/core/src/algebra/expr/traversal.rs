@@ -1,5 +1,7 @@
 //! Traversal of the nodes below a node: their list, in order, and their replacement.
 
+use rustc_hash::FxHashMap;
+
 use super::{Exponent, Extended, Graph, Id, Node};
 
 impl Graph {
@@ -49,6 +51,9 @@ impl Graph {
             is_changed |= mapped != child;
             mapped
         };
+        if self.is_full() {
+            return id;
+        }
         let node = match self.node(id).clone() {
             Node::Linear { constant, terms } => {
                 let terms: Vec<_> = terms.into_iter().map(|(term, c)| (map(self, term), c)).collect();
@@ -127,6 +132,17 @@ impl Graph {
         };
         self.substitutions.insert((id, stretches), result);
         result
+    }
+
+    /// The largest number of nodes one inside the other below the roots, roots included.
+    #[must_use]
+    pub fn depth(&self, roots: &[Id]) -> usize {
+        let mut depths: FxHashMap<Id, usize> = FxHashMap::default();
+        for id in self.reachable(roots) {
+            let inner = self.children(id).iter().map(|child| depths[child]).max().unwrap_or(0);
+            depths.insert(id, inner + 1);
+        }
+        roots.iter().map(|root| depths[root]).max().unwrap_or(0)
     }
 
     /// All nodes below the roots, roots included, children before parents.
