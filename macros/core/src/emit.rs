@@ -91,7 +91,7 @@ fn doc(text: &str) -> TokenStream {
 /// A condition as people write it: `mu[p] * alpha[p] > 0`.
 #[must_use]
 pub fn condition_text(condition: &Expr) -> String {
-    spaced(&condition.to_token_stream()).replace(".0 ", " ").trim_end_matches(".0").to_owned()
+    spaced(&condition.to_token_stream()).replace(".0 ", " ").trim_end_matches(".0").replace("r#", "")
 }
 
 /// Tokens with spaces where people write them: inside of the compiler they are printed with others than

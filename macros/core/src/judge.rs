@@ -7,6 +7,7 @@
 
 use crate::algebra::excess::has_squares;
 use crate::algebra::expr::{Graph, Id};
+use crate::algebra::extension::extend;
 use crate::algebra::interpret::{Estimate, Point, evaluate};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
@@ -46,6 +47,19 @@ pub(crate) fn written(
     let found = asymmetry.into_iter().chain(domain(graph, source, &samples)).chain(units(graph, source));
     report(graph, source, found.collect::<Vec<_>>(), diagnostics);
     diagnostics.is_clean().then_some(samples)
+}
+
+/// Whether an energy has no value for a volume of its domain, or cannot be continued, which is known before
+/// its derivatives. Leaves the graph as it is.
+pub(crate) fn is_out_of_domain(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> bool {
+    let mut graph = graph.clone();
+    if source.declaration.options.extend.is_none() {
+        return !volume::has_value(&mut graph, source, samples);
+    }
+    let continued = extend(&mut graph, source.energy);
+    continued_powers(&graph, source).is_some()
+        || !flat(&graph, source, samples).is_empty()
+        || continued_value(&graph, source, continued, samples).is_some()
 }
 
 /// Derivatives of an energy, as far as they are judged.

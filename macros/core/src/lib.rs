@@ -32,6 +32,7 @@ use syn::{Attribute, Item, ItemFn, Meta};
 
 use model::Model;
 use read::diagnostics::Diagnostics;
+use read::notation::Notation;
 use read::parse::{self, Declaration};
 
 /// The expansion of `#[material(arguments)] item`.
@@ -43,8 +44,8 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
     }
 }
 
-/// The declaration `#[material(arguments)] item` with its energy, derived and checked; it may have so many
-/// different expressions at most, derivatives included, `None` for as many as memory holds.
+/// The declaration `#[material(arguments)] item` with its energy, derived and checked. Its expressions,
+/// derivatives included, may have this size at most, `None` for as large a one as memory holds.
 ///
 /// # Errors
 /// All mistakes of form and meaning, each at its tokens.
@@ -53,7 +54,20 @@ pub fn analyse(
     item: TokenStream,
     most: Option<usize>,
 ) -> syn::Result<(Declaration, Model)> {
-    let mut diagnostics = Diagnostics::default();
+    analyse_in(Notation::Attribute, arguments, item, most)
+}
+
+/// The same of a declaration in any notation, which is that of the messages.
+///
+/// # Errors
+/// All mistakes of form and meaning, each at its tokens.
+pub fn analyse_in(
+    notation: Notation,
+    arguments: TokenStream,
+    item: TokenStream,
+    most: Option<usize>,
+) -> syn::Result<(Declaration, Model)> {
+    let mut diagnostics = Diagnostics::new(notation);
     let analysed = parse::parse_declaration(arguments, item, &mut diagnostics).and_then(|declaration| {
         let model = model::read(&declaration, &mut diagnostics, most)?;
         Some((declaration, model))
@@ -68,6 +82,7 @@ pub fn analyse(
 /// A syntax error if the text is not Rust.
 pub fn declarations(source: &str) -> syn::Result<Vec<(TokenStream, TokenStream)>> {
     let mut found = Vec::new();
+    parse::check_file(&source.parse()?)?;
     collect(syn::parse_file(source)?.items, &mut found);
     Ok(found)
 }

@@ -177,25 +177,47 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
     diagnostics.finish(model)
 }
 
-/// The model of a declaration of so many different expressions at most, derivatives included; `None` for as
-/// many as memory holds. Of one with mistakes of form names are resolved, and nothing further is checked.
+/// The most parameters of an energy whose size is limited: each needs a register.
+pub const MOST_PARAMETERS: usize = 512;
+
+/// The most expressions one inside the other in an energy whose size is limited: algebra descends into them.
+const DEEPEST: usize = 256;
+
+/// The model of a declaration whose expressions, derivatives included, have this size at most; `None` for as
+/// large a one as memory holds. Of one with mistakes of form names are resolved, and nothing further is
+/// checked.
 pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics, most: Option<usize>) -> Option<Model> {
+    let parameters = declaration.parameters.len();
+    if most.is_some() && parameters > MOST_PARAMETERS {
+        let message = format!(
+            "this energy has {parameters} parameters, and one that is compiled at run time at most {MOST_PARAMETERS}: write \
+             lists of them, as in `sum(|p| mu[p] * …)`"
+        );
+        diagnostics.error(&declaration.body, message);
+        return None;
+    }
     let (graph, is_full) = Graph::with_most(most);
-    let model = read_into(graph, declaration, diagnostics);
+    let deepest = most.map_or(usize::MAX, |_| DEEPEST);
+    let model = read_into(graph, declaration, diagnostics, deepest);
     if !is_full.get() {
         return model;
     }
     // What was found of expressions that were left out means nothing.
-    *diagnostics = Diagnostics::default();
-    let message = "this energy is too large for one that is compiled at run time: write sums over lists as `sum(…)`, and nest \
-                   powers and functions less";
+    *diagnostics = Diagnostics::new(diagnostics.notation());
+    let message = "this energy is too large for one that is compiled at run time: write sums over lists as `sum(|p| …)`, and \
+                   nest powers and functions less";
     diagnostics.error(&declaration.body, message);
     None
 }
 
 /// The stages of a model: names are resolved, forms prepared and derivatives derived; what is written is
 /// judged before, and all else after.
-fn read_into(mut graph: Graph, declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
+fn read_into(
+    mut graph: Graph,
+    declaration: &Declaration,
+    diagnostics: &mut Diagnostics,
+    deepest: usize,
+) -> Option<Model> {
     let options = &declaration.options;
     let is_well_formed = diagnostics.is_clean();
     let mut resolver = Resolver::new(declaration, &mut graph, diagnostics);
@@ -206,11 +228,23 @@ fn read_into(mut graph: Graph, declaration: &Declaration, diagnostics: &mut Diag
     let restoring = options.extend.iter().flatten().filter_map(|condition| resolver.condition(condition));
     let admissible: Vec<_> = restoring.chain(constrained.iter().copied().flatten()).collect();
     let mut nodes = resolver.into_nodes();
+    if deepest < usize::MAX && graph.depth(&[energy]) > deepest {
+        let message = format!("this is nested more than {deepest} deep, what `let` names included");
+        diagnostics.error(&declaration.body, message);
+        return None;
+    }
     let (energy, bounds) = forms::in_squares(&mut graph, energy, bounds, &mut nodes);
     let volume = declaration.volume();
     let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
 
     let samples = judge::written(&mut graph, &source, is_well_formed, diagnostics)?;
+    // Of a formula more than one domain is tried, and the mistakes of the last are told.
+    let is_trial =
+        diagnostics.notation().is_formula() && (options.domain.is_empty() || options.extend.is_some());
+    if is_trial && judge::is_out_of_domain(&graph, &source, &samples) {
+        diagnostics.error(&declaration.body, "this has no value, or no continuation, where it is needed");
+        return None;
+    }
     let prepared = forms::prepare(&mut graph, &source, &samples);
     let (mut model, derived) = derive(graph, &source, &constrained, &prepared, samples);
     let findings = judge::derived(&mut model.graph, &source, &derived, &model.samples);

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node};
 use crate::algebra::rational::Rational;
+use crate::read::notation::plain_name;
 use crate::read::parse::Declaration;
 
 mod shared;
@@ -280,7 +281,7 @@ impl<'a> Printer<'a> {
 
     fn parameter(&self, k: usize) -> String {
         let name = self.declaration.parameters[k].name.to_string();
-        if self.notation == Notation::Formula { symbol(&name) } else { name }
+        if self.notation == Notation::Formula { symbol(&plain_name(&name)) } else { name }
     }
 
     fn derivative(&self, k: usize, order: u8) -> String {

@@ -4,7 +4,8 @@
 pub mod diagnostics;
 pub mod domain;
 pub(crate) mod literals;
+pub mod notation;
 pub mod parse;
 pub mod resolve;
-pub(crate) mod spelling;
+pub mod spelling;
 pub mod unit;

@@ -3,6 +3,7 @@
 
 use crate::model::Model;
 use crate::printer::{Formulas, formula, formulas, formulas_by_invariants};
+use crate::read::notation::plain_name;
 use crate::read::parse::Declaration;
 use crate::schedule::count::{LEGEND, table};
 
@@ -36,7 +37,8 @@ fn parameters(declaration: &Declaration) -> String {
     if declaration.parameters.is_empty() {
         return String::new();
     }
-    let parameters = declaration.parameters.iter().map(|p| format!("\n* `{}`: {}", p.name, p.doc));
+    let parameters =
+        declaration.parameters.iter().map(|p| format!("\n* `{}`: {}", plain_name(&p.name), p.doc));
     let list: String = parameters.collect();
     let conditions: Vec<_> = declaration.options.admissible.iter().map(condition_text).collect();
     let admissible = if conditions.is_empty() {

@@ -6,6 +6,7 @@ use syn::{BinOp, Block, Expr, Local, Pat, Stmt, UnOp};
 
 use super::source::Source;
 use crate::algebra::expr::Id;
+use crate::read::resolve::LONG_SUM;
 
 impl<'a> Source<'a> {
     /// The smallest term that alone breaks a rule, found through sums and the names of their terms.
@@ -62,8 +63,18 @@ fn terms<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) 
         Expr::Paren(inner) => vec![&*inner.expr],
         Expr::Group(inner) => vec![&*inner.expr],
         Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => vec![&*unary.expr],
-        Expr::Binary(binary) if matches!(binary.op, BinOp::Add(_) | BinOp::Sub(_)) => {
-            vec![&*binary.left, &*binary.right]
+        Expr::Binary(binary) if is_sum(binary) => {
+            let mut all = vec![&*binary.right];
+            let mut left = &*binary.left;
+            while let Expr::Binary(inner) = left
+                && is_sum(inner)
+            {
+                all.push(&inner.right);
+                left = &inner.left;
+            }
+            all.push(left);
+            all.reverse();
+            if all.len() > LONG_SUM { all } else { vec![&*binary.left, &*binary.right] }
         }
         Expr::Block(inner) => value(&inner.block, definitions).into_iter().collect(),
         Expr::Path(path) => {
@@ -74,12 +85,16 @@ fn terms<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) 
     }
 }
 
+fn is_sum(binary: &syn::ExprBinary) -> bool {
+    matches!(binary.op, BinOp::Add(_) | BinOp::Sub(_))
+}
+
 /// The operands of an operator, a method or a function, or the expression that a name or parentheses stand
 /// for.
 fn operands<'b>(expression: &'b Expr, definitions: &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr> {
     match expression {
         Expr::Unary(unary) => vec![&*unary.expr],
-        Expr::Binary(binary) => vec![&*binary.left, &*binary.right],
+        Expr::Binary(binary) if !is_sum(binary) => vec![&*binary.left, &*binary.right],
         Expr::MethodCall(call) => std::iter::once(&*call.receiver).chain(&call.args).collect(),
         Expr::Call(call) => call.args.iter().map(summand).collect(),
         _ => terms(expression, definitions),

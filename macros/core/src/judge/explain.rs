@@ -10,6 +10,7 @@ use crate::algebra::rational::Rational;
 use crate::printer::{rust, rust_factor};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
+use crate::read::notation::Notation;
 use crate::read::parse::identifiers;
 use crate::read::spelling::list;
 
@@ -27,7 +28,7 @@ pub(crate) fn report(
     diagnostics: &mut Diagnostics,
 ) {
     for finding in findings {
-        let message = Explainer { graph, source }.message(&finding);
+        let message = Explainer { graph, source, notation: diagnostics.notation() }.message(&finding);
         diagnostics.error(finding.tokens, message);
     }
 }
@@ -35,6 +36,7 @@ pub(crate) fn report(
 struct Explainer<'g, 's> {
     graph: &'g mut Graph,
     source: &'s Source<'s>,
+    notation: Notation,
 }
 
 impl Explainer<'_, '_> {
@@ -67,7 +69,8 @@ impl Explainer<'_, '_> {
                 )
             }
             Violation::NotInPascals(dimension) => {
-                format!("this energy is {}, but an energy density is in Pa: {UNITS}", in_unit(*dimension))
+                let units = self.units();
+                format!("this energy is {}, but an energy density is in Pa: {units}", in_unit(*dimension))
             }
             Violation::UnitsClash(clash) => self.units_clash(**clash),
             Violation::PowerAtRest { power } => format!(
@@ -79,7 +82,7 @@ impl Explainer<'_, '_> {
                     [] => "write a power of `I1b - 3.0`, which is never negative".to_owned(),
                     names => format!("write {}, since `I1b - 3.0` is never negative", in_place(names)),
                 },
-                if self.has_real_exponent(*power) {
+                if self.has_real_exponent(*power) && !self.notation.is_formula() {
                     "`.powi(2)` or `.powi(n)` with `n: u32`"
                 } else {
                     "`.powi(2)`"
@@ -143,11 +146,11 @@ impl Explainer<'_, '_> {
                      {l2} and 0, this does not hold: remove `extend`, or {instead}"
                 )
             }
-            Violation::NoShearModulus => {
+            Violation::NoShearModulus => format!(
                 "the shear modulus of this energy is zero at rest: add a term that resists shear, \
-                such as `mu / 2.0 * (I1b - 3.0)`, or say `part` in the attribute if it is a part of a sum"
-                    .into()
-            }
+                such as `mu / 2.0 * (I1b - 3.0)`{}",
+                self.notation.either(", or say `part` in the attribute if it is a part of a sum", "")
+            ),
             Violation::Overflow => {
                 "the exact fractions in the derivatives of this energy leave 128 bits: use smaller numbers"
                     .into()
@@ -163,15 +166,28 @@ impl Explainer<'_, '_> {
         match clash {
             Clash::Terms(terms) => {
                 let [one, other] = terms.map(|(term, dimension)| self.with_unit(term, dimension));
-                format!("{one} is added to {other}, but terms of a sum have one unit: {UNITS}")
+                let (other, units) = (other.trim_end_matches(','), self.units());
+                format!("{one} is added to {other}, but terms of a sum have one unit: {units}")
             }
             Clash::Argument(argument, dimension) => format!(
                 "{} stands where only a number without unit can, in a logarithm, an exponential, an exponent, a \
                  power with a parameter as exponent, or a function: divide it by a parameter of the same unit; \
-                 or {UNITS}",
-                self.with_unit(argument, dimension)
+                 or {}",
+                self.with_unit(argument, dimension),
+                self.units()
             ),
         }
+    }
+
+    /// How to state units, and how not to.
+    fn units(&self) -> &'static str {
+        self.notation.either(
+            "correct the energy, or the units that end the documentation of its parameters, as in \
+            `/// Shear modulus, Pa.` and `/// Exponent, dimensionless.`; if a number in the energy has a unit, \
+            make it a parameter, or leave the units out",
+            "correct the energy, or the units of the values; if a number in the energy has a unit, make it a parameter, \
+            or give the values without units",
+        )
     }
 
     /// A quoted term with its unit: `c1 * l1`, in Pa.
@@ -215,6 +231,7 @@ impl Explainer<'_, '_> {
         } else {
             ""
         };
+        let meant = self.stress_is_meant();
         let stress = self.print(stressed.stress);
         let is_cut_short =
             is_cut(&stress) || self.limits(&stressed.vanishing).iter().any(|limit| is_cut(limit));
@@ -223,23 +240,31 @@ impl Explainer<'_, '_> {
                 true => in_place(&source.invariants()),
                 false if !source.invariants().is_empty() => {
                     return format!(
-                        "this leaves stress at rest: take it away by a term in `J.ln()`{domain}; or say `prestressed` in the \
-                         attribute{mistyped}"
+                        "this leaves stress at rest: take it away by a term in `J.ln()`{domain}{meant}{mistyped}"
                     );
                 }
                 false => self.isochoric_stretches(),
             };
             return format!(
-                "this leaves stress at rest: write {instead}{domain}, which leaves none; or say `prestressed` in the attribute{mistyped}"
+                "this leaves stress at rest: write {instead}{domain}, which leaves none{meant}{mistyped}"
             );
         }
         let remedies = match names_stretches(source) && !is_limited {
             true => format!("{remedies}; or write {}{domain}, which leaves none", self.isochoric_stretches()),
             false => remedies,
         };
-        format!(
-            "this leaves the stress `{stress}` at rest: {remedies}; or say `prestressed` in the attribute{mistyped}"
-        )
+        format!("this leaves the stress `{stress}` at rest: {remedies}{meant}{mistyped}")
+    }
+
+    /// The option for an energy whose stress at rest is meant, or is that of an incompressible solid.
+    fn stress_is_meant(&self) -> String {
+        match self.notation {
+            Notation::Formula { free_rest: Some(option) } => {
+                format!("; or give the option `{option}`, which appends that term")
+            }
+            Notation::Formula { free_rest: None } => String::new(),
+            Notation::Attribute | Notation::Rust => "; or say `prestressed` in the attribute".to_owned(),
+        }
     }
 
     /// The isochoric stretches in the place of the stretches.
@@ -408,11 +433,6 @@ fn names_stretches(source: &Source<'_>) -> bool {
         && !["J", "I1b", "I2b"].into_iter().any(|word| body.iter().any(|name| name == word))
         && source.invariants().is_empty()
 }
-
-/// How to state units, and how not to.
-const UNITS: &str = "correct the energy, or the units that end the documentation of its parameters, as in \
-    `/// Shear modulus, Pa.` and `/// Exponent, dimensionless.`; if a number in the energy has a unit, \
-    make it a parameter, or leave the units out";
 
 /// A unit with its preposition.
 fn in_unit(dimension: Rational) -> String {

@@ -5,14 +5,31 @@ use std::fmt::Display;
 use proc_macro2::Span;
 use quote::ToTokens;
 
+use crate::read::notation::Notation;
+
 /// Mistakes found so far.
 #[derive(Debug, Default)]
-pub struct Diagnostics(Option<syn::Error>);
+pub struct Diagnostics {
+    found: Option<syn::Error>,
+    notation: Notation,
+}
 
 impl Diagnostics {
+    /// No mistakes yet, in a declaration of this notation.
+    #[must_use]
+    pub fn new(notation: Notation) -> Self {
+        Self { found: None, notation }
+    }
+
+    /// The notation of the declaration.
+    #[must_use]
+    pub fn notation(&self) -> Notation {
+        self.notation
+    }
+
     /// Adds a mistake at its tokens, all of which are underlined.
     pub fn error(&mut self, tokens: impl ToTokens, message: impl Display) {
-        self.push(syn::Error::new_spanned(tokens, message));
+        self.push(syn::Error::new_spanned(tokens, self.notation.message(&message.to_string())));
     }
 
     /// Adds the mistake of a failed step and goes on.
@@ -23,7 +40,7 @@ impl Diagnostics {
     /// Whether there are no mistakes so far.
     #[must_use]
     pub fn is_clean(&self) -> bool {
-        self.0.is_none()
+        self.found.is_none()
     }
 
     /// The value, unless there were mistakes.
@@ -31,7 +48,7 @@ impl Diagnostics {
     /// # Errors
     /// All mistakes as one.
     pub fn finish<T>(self, value: Option<T>) -> syn::Result<T> {
-        match (self.0, value) {
+        match (self.found, value) {
             (None, Some(value)) => Ok(value),
             (Some(error), _) => Err(error),
             (None, None) => {
@@ -41,9 +58,9 @@ impl Diagnostics {
     }
 
     fn push(&mut self, error: syn::Error) {
-        match &mut self.0 {
+        match &mut self.found {
             Some(all) => all.combine(error),
-            None => self.0 = Some(error),
+            None => self.found = Some(error),
         }
     }
 }

@@ -17,9 +17,11 @@ use crate::algebra::expr::Length;
 use crate::read::diagnostics::Diagnostics;
 pub(crate) use function::Function;
 pub use lengths::Entries;
+pub(crate) use nesting::check_file;
 pub use options::Options;
+pub use signature::is_reserved;
 use signature::{Lists, generics, named, parameters, plain, result, stretches};
-pub(crate) use signature::{entry, is_f64, is_reserved, is_type, is_u32, is_vector, may_be_function};
+pub(crate) use signature::{entry, is_f64, is_type, is_u32, is_vector, may_be_function};
 pub use typical::{Typical, Values};
 
 mod function;
@@ -175,7 +177,8 @@ pub fn parse_declaration(
     if let Some(typical) = options.typical.as_mut().filter(|_| mistaken.is_empty()) {
         typical.check(&parameters, diagnostics);
     }
-    let body = diagnostics.take(nesting::check(&body).and_then(|()| syn::parse2(body)));
+    let body =
+        diagnostics.take(nesting::check(&body, diagnostics.notation()).and_then(|()| syn::parse2(body)));
     let body: syn::Block = body?;
     lengths::unite(&mut parameters, &mut lengths, &body, &options);
     Some(Declaration {

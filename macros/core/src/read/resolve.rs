@@ -46,6 +46,9 @@ pub struct Resolver<'a> {
     nodes: Nodes,
 }
 
+/// Terms of a sum that is built and underlined as a whole, and not from the sum of all terms but the last.
+pub(crate) const LONG_SUM: usize = 64;
+
 /// The node of a mistake: NaN, which no literal is.
 const UNKNOWN: Node = Node::Float(f64::NAN.to_bits());
 
@@ -338,12 +341,32 @@ impl<'a> Resolver<'a> {
             left_sides.push((leftmost, left));
             leftmost = &left.left;
         }
+        let is_long = left_sides.len() >= LONG_SUM;
         let mut value = self.expression(leftmost);
-        for (expression, left) in left_sides.into_iter().rev() {
-            let id = self.connect(value, left);
+        // Terms of a long sum, which is not built once more for each of them.
+        let mut pending = Vec::new();
+        for (k, (expression, left)) in left_sides.into_iter().rev().enumerate() {
+            if let (true, Some(sign)) = (is_long, sign(left)) {
+                pending.push((self.expression(&left.right), sign));
+                if k % LONG_SUM > 0 {
+                    continue;
+                }
+            }
+            let sum = self.with_terms(value, &mut pending);
+            let id = if is_long && sign(left).is_some() { sum } else { self.connect(sum, left) };
             value = self.note(expression, id);
         }
+        let value = self.with_terms(value, &mut pending);
         self.connect(value, binary)
+    }
+
+    /// A sum with further terms.
+    fn with_terms(&mut self, sum: Id, terms: &mut Vec<(Id, Rational)>) -> Id {
+        if terms.is_empty() {
+            return sum;
+        }
+        terms.push((sum, Rational::ONE));
+        self.graph.linear(Rational::ZERO, &std::mem::take(terms))
     }
 
     /// The value of a binary expression whose left side has this one.
@@ -389,7 +412,10 @@ impl<'a> Resolver<'a> {
         }
         match digits.parse::<f64>() {
             Ok(value) if value.is_finite() => self.graph.leaf(Node::Float(value.to_bits())),
-            _ => self.mistake(literal, "this number is not finite in `f64`: write a smaller one"),
+            _ => {
+                let limit = self.diagnostics.notation().either("not finite in `f64`", "too large");
+                self.mistake(literal, &format!("this number is {limit}: write a smaller one"))
+            }
         }
     }
 
@@ -418,6 +444,15 @@ impl<'a> Resolver<'a> {
     fn excuse_names(&mut self, tokens: impl ToTokens) {
         let names = identifiers(tokens.into_token_stream());
         self.used.extend(names.iter().map(Ident::to_string));
+    }
+}
+
+/// The sign of the right side in a sum.
+fn sign(binary: &syn::ExprBinary) -> Option<Rational> {
+    match binary.op {
+        BinOp::Add(_) => Some(Rational::ONE),
+        BinOp::Sub(_) => Some(Rational::ONE.negated()),
+        _ => None,
     }
 }
 

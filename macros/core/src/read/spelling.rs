@@ -3,7 +3,8 @@
 use std::fmt::Display;
 
 /// The known name that differs least, in at most a third of the letters.
-pub(crate) fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+#[must_use]
+pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     known
         .into_iter()
         .map(|candidate| (edit_distance(name, candidate), candidate))

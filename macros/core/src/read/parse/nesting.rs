@@ -5,9 +5,15 @@
 
 use proc_macro2::{Delimiter, Group, Punct, Span, TokenStream, TokenTree};
 
+use crate::read::notation::Notation;
+
 /// Levels that a declaration may have. Each takes up to 20 kB of stack where a macro is compiled without
 /// optimisation, and an editor may expand it in a thread of 2 MiB.
 const DEEPEST: usize = 64;
+
+/// Terms of a sum, or factors of a product, that a declaration read at run time may have: syntax nests a term
+/// in all that follow it.
+const LONGEST: usize = 1000;
 
 /// The tokens of a group that are left, and their depth.
 struct Level {
@@ -18,12 +24,21 @@ struct Level {
     about_operand: usize,
     /// Values one behind the other, up to the next `,` or `;`.
     behind: usize,
+    /// Terms before the next operand, and factors.
+    joined: [usize; 2],
     is_behind_operand: bool,
 }
 
 impl Level {
     fn new(tokens: TokenStream, around: usize) -> Self {
-        Self { rest: tokens.into_iter(), around, about_operand: 0, behind: 0, is_behind_operand: false }
+        Self {
+            rest: tokens.into_iter(),
+            around,
+            about_operand: 0,
+            behind: 0,
+            joined: [0; 2],
+            is_behind_operand: false,
+        }
     }
 
     fn depth(&self) -> usize {
@@ -31,6 +46,13 @@ impl Level {
     }
 
     fn sign(&mut self, sign: &Punct) {
+        let [terms, factors] = self.joined;
+        self.joined = match sign.as_char() {
+            ',' | ';' => [0; 2],
+            '+' | '-' if self.is_behind_operand => [terms + 1, 0],
+            '*' | '/' if self.is_behind_operand => [terms, factors + 1],
+            _ => self.joined,
+        };
         match sign.as_char() {
             ',' | ';' => (self.about_operand, self.behind) = (0, 0),
             '|' | '=' => (self.about_operand, self.behind) = (0, self.behind + 1),
@@ -58,7 +80,20 @@ impl Level {
 ///
 /// # Errors
 /// A mistake at the token that is too deep.
-pub(super) fn check(tokens: &TokenStream) -> syn::Result<()> {
+pub(super) fn check(tokens: &TokenStream, notation: Notation) -> syn::Result<()> {
+    check_to(DEEPEST, tokens, notation)
+}
+
+/// Checks that the tokens of a file are nested no deeper than its parser bears. What is in it is checked
+/// later, with its own limit.
+///
+/// # Errors
+/// A mistake at the token that is too deep.
+pub(crate) fn check_file(tokens: &TokenStream) -> syn::Result<()> {
+    check_to(8 * DEEPEST, tokens, Notation::Rust)
+}
+
+fn check_to(deepest: usize, tokens: &TokenStream, notation: Notation) -> syn::Result<()> {
     let mut levels = vec![Level::new(tokens.clone(), 0)];
     while let Some(level) = levels.last_mut() {
         let Some(token) = level.rest.next() else {
@@ -76,9 +111,14 @@ pub(super) fn check(tokens: &TokenStream) -> syn::Result<()> {
                 None
             }
         };
+        if notation != Notation::Attribute && level.joined.into_iter().any(|parts| parts > LONGEST) {
+            let message = format!("a sum has at most {LONGEST} terms here, and a product as many factors");
+            return Err(syn::Error::new(first(&token), message));
+        }
         let depth = inside.as_ref().unwrap_or(level).depth();
-        if depth > DEEPEST {
-            let message = format!("this is nested more than {DEEPEST} deep: name parts of it by `let`");
+        if depth > deepest {
+            let remedy = notation.either("name parts of it by `let`", "write it with fewer parentheses");
+            let message = format!("this is nested more than {deepest} deep: {remedy}");
             return Err(syn::Error::new(first(&token), message));
         }
         levels.extend(inside);

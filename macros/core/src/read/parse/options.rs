@@ -52,7 +52,7 @@ impl Options {
     /// Understands what it can and reports the rest.
     pub(super) fn read(arguments: TokenStream, diagnostics: &mut Diagnostics) -> Self {
         let mut options = Self::default();
-        if diagnostics.take(nesting::check(&arguments)).is_none() {
+        if diagnostics.take(nesting::check(&arguments, diagnostics.notation())).is_none() {
             return options;
         }
         let arguments = Punctuated::<Meta, Token![,]>::parse_terminated.parse2(arguments).map_err(|error| {

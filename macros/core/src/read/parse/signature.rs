@@ -9,6 +9,7 @@ use syn::{
 
 use super::{Entries, Kind, Parameter, WORDS, documentation, identifiers};
 use crate::read::diagnostics::Diagnostics;
+use crate::read::notation::Notation;
 use crate::read::spelling::taken;
 
 /// Members of every material, which the method of a parameter of that name would hide.
@@ -246,7 +247,10 @@ impl Lists {
             self.mistaken.extend(identifiers(argument.pat.to_token_stream()));
             return diagnostics.error(&argument.pat, MESSAGE);
         };
-        reserved(&name, diagnostics);
+        // No code is generated at run time, in which a name could have another meaning.
+        if diagnostics.notation() == Notation::Attribute || !is_raw(&name) {
+            reserved(&name, diagnostics);
+        }
         let is_taken = stretches.is_some_and(|stretches| stretches.contains(&name))
             || generics.lengths.contains(&name)
             || self.parameters.iter().any(|other| other.name == name);
@@ -404,7 +408,8 @@ fn meaning(name: &Ident) -> String {
 }
 
 /// Whether a name is a word of energies, a member of materials, or a pattern or keyword to Rust.
-pub(crate) fn is_reserved(name: &Ident) -> bool {
+#[must_use]
+pub fn is_reserved(name: &Ident) -> bool {
     let text = name.to_string();
     let text = text.as_str();
     WORDS.contains(&text)

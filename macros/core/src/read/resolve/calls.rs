@@ -76,7 +76,11 @@ impl Resolver<'_> {
             if self.scope == Scope::Parameters
                 && matches!(function, Elementary::Erf | Elementary::Sigmoid | Elementary::Softplus)
             {
-                let message = format!("a condition is Rust of its own, where numbers have no `{name}`");
+                let rust = self
+                    .diagnostics
+                    .notation()
+                    .either("is Rust of its own, where numbers have", "on parameters has");
+                let message = format!("a condition {rust} no `{name}`");
                 return self.mistake(&call.method, &message);
             }
             return graph.elementary(function, receiver);
@@ -133,24 +137,29 @@ impl Resolver<'_> {
 
     fn unknown_function(&mut self, method: &Ident, of: Option<Tensor>) -> Id {
         let name = method.to_string();
+        let notation = self.diagnostics.notation();
         if KINKED.contains(&name.as_str()) {
+            let or = ", or a parameter whose type implements `piola::Univariate`";
             let message = format!(
-                "`{name}` has a kink, at which stress or stiffness would jump: write a smooth function, such as a power, or \
-                 a parameter whose type implements `piola::Univariate`"
+                "`{name}` has a kink, at which stress or stiffness would jump: write a smooth function, such as a power{}",
+                notation.either(or, "")
             );
             return self.mistake(method, &message);
         }
         let elementary = Elementary::ALL.map(Elementary::name);
         let known = || METHODS.into_iter().map(|(known, _)| known).chain(elementary);
         let near = || nearest(&name, known()).and_then(form);
-        let hint = match tensors::function(&name, of).or_else(|| paper_notation::function(&name)) {
+        let hint = match tensors::function(&name, of).or_else(|| paper_notation::function(&name, notation)) {
             Some(hint) => hint.to_owned(),
             None => match near() {
                 Some(form) => format!("did you mean `{form}`?"),
-                None => format!(
-                    "there are {}, …; another one is a parameter `f: F`, with `F` that implements `piola::Univariate`",
-                    list(&OFFERED)
-                ),
+                None => {
+                    let other = notation.either(
+                        "another one is a parameter `f: F`, with `F` that implements `piola::Univariate`",
+                        "for a product write `*` before the parenthesis",
+                    );
+                    format!("there are {}, …; {other}", list(&OFFERED))
+                }
             },
         };
         self.mistake(method, &format!("unknown function `{name}`: {hint}"))

@@ -122,11 +122,15 @@ impl Resolver<'_> {
     fn index_as_number(&self, index: &str) -> String {
         let list = self.first_list().map_or("mu".to_owned(), Ident::to_string);
         let exponents = if index == "n" { "k" } else { "n" };
-        format!(
+        let message = format!(
             "the index `{index}` only selects entries, as in `{list}[{index}]`, and is not a number: write the terms out, each with \
-             a parameter and numbers of its own, two terms for `{list}: [f64; 2]`; a list of numbers in its place would be \
-             parameters too, which a fit changes; whole exponents alone can be data, `x.powi({exponents}[{index}])` with `{exponents}: [u32; 2]`"
-        )
+             a parameter and numbers of its own"
+        );
+        let in_rust = format!(
+            ", two terms for `{list}: [f64; 2]`; a list of numbers in its place would be parameters too, which a fit changes; \
+             whole exponents alone can be data, `x.powi({exponents}[{index}])` with `{exponents}: [u32; 2]`"
+        );
+        message + self.diagnostics.notation().either(&in_rust, "")
     }
 
     /// The mistake of a name of the deformation in a condition on parameters.

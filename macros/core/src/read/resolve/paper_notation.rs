@@ -1,6 +1,7 @@
 //! Notation of papers that a declaration writes in another way.
 
 use super::tensors;
+use crate::read::notation::Notation;
 use crate::read::spelling::plain;
 
 /// The advice for a name that papers use.
@@ -27,7 +28,7 @@ pub(super) fn name(name: &str) -> Option<&'static str> {
 }
 
 /// The advice for a function that papers use.
-pub(super) fn function(name: &str) -> Option<&'static str> {
+pub(super) fn function(name: &str, notation: Notation) -> Option<&'static str> {
     Some(match name {
         "pow" => "write `.powi(2)` or `.powf(alpha)`",
         "exp2" => "write `2.0.ln()` times x, then `.exp()`",
@@ -46,9 +47,10 @@ pub(super) fn function(name: &str) -> Option<&'static str> {
         }
         "logistic" => "write `.sigmoid()`",
         "langevin" => "write `x.cosh() / x.sinh() - 1.0 / x`",
-        "asin" | "acos" | "erfi" | "gamma" => {
-            "give it as a parameter `f: F`, with a type of your own that implements `piola::Univariate`, and write `f(x)`"
-        }
+        "asin" | "acos" | "erfi" | "gamma" => notation.either(
+            "give it as a parameter `f: F`, with a type of your own that implements `piola::Univariate`, and write `f(x)`",
+            "formulas do not have it",
+        ),
         _ => return None,
     })
 }

@@ -79,9 +79,11 @@ impl Resolver<'_> {
     fn no_list(&self, index: &Ident) -> String {
         match self.first_list() {
             Some(list) => format!("this sum runs over no list: write `{list}[{index}]` in it"),
-            None => format!(
-                "this sum runs over no list: write it without `sum`, or declare a list, `mu: [f64; N]`, and write `mu[{index}]` in it"
-            ),
+            None => {
+                let list =
+                    self.diagnostics.notation().either(", or declare a list, `mu: [f64; N]`, and", ", or");
+                format!("this sum runs over no list: write it without `sum`{list} write `mu[{index}]` in it")
+            }
         }
     }
 
@@ -131,8 +133,9 @@ impl Resolver<'_> {
             let is_other = position.is_some() || self.is_taken(list);
             if is_other && !self.mistaken.contains(&name) {
                 self.used.insert(name.clone());
-                let message =
-                    format!("`{name}` is not a list: write `{name}`, or declare `{name}: [f64; N]`");
+                let declared = format!(", or declare `{name}: [f64; N]`");
+                let declared = self.diagnostics.notation().either(&*declared, "");
+                let message = format!("`{name}` is not a list: write `{name}`{declared}");
                 return self.mistake(list, &message);
             }
             return self.name(list);
