@@ -6,6 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use piola::__private::interpreter::{ParameterValues, Value};
 use piola::material::{Argument, Text};
 use piola_codegen::emit::condition_text;
+use piola_codegen::read::notation::plain_name;
 use piola_codegen::read::parse::{Declaration, identifiers, indexed_list};
 use quote::ToTokens;
 use syn::{BinOp, Expr, Lit, UnOp};
@@ -60,7 +61,7 @@ impl Condition {
             holds,
             list: indexed_list(condition).and_then(|(list, _)| place(&list)),
             names: names
-                .map(|(k, parameter)| (parameter.name.to_string().into(), k, parameter.length().is_some()))
+                .map(|(k, parameter)| (plain_name(&parameter.name).into(), k, parameter.length().is_some()))
                 .collect(),
         }
     }

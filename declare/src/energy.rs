@@ -19,6 +19,7 @@ use piola_codegen::emit::documentation::page;
 use piola_codegen::emit::{Texts, condition_text};
 use piola_codegen::model::{self, Model};
 use piola_codegen::read;
+use piola_codegen::read::notation::plain_name;
 use piola_codegen::read::parse::{Declaration, Kind};
 
 use crate::constructor::Constructor;
@@ -304,7 +305,8 @@ fn description(declaration: &Declaration, texts: Texts) -> Description {
             Kind::List(_) => Form::List,
             Kind::Function(_) => Spline::FORM,
         };
-        Parameter { name: parameter.name.to_string().into(), doc: parameter.doc.clone().into(), unit, form }
+        let (name, doc) = (plain_name(&parameter.name).into(), parameter.doc.clone().into());
+        Parameter { name, doc, unit, form }
     });
     let Texts { formula, domain, defined, moduli, summary } = texts;
     let typical = options.typical.as_ref().map(|typical| Typical {

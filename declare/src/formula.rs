@@ -2,7 +2,7 @@
 //!
 //! A formula is translated into the Rust function that `#[piola::material]` takes, token by token, so that
 //! its mistakes are told at their places in the formula. Names that mean nothing else are parameters, in the
-//! order in which they occur.
+//! order in which they occur, and so are all names that the caller has values for.
 //!
 //! The domain is stated behind the formula, `… where J > 0, I1 < 3 + Jm`, together with conditions on the
 //! parameters. If nothing is said, the energy is defined for every J, for J > 0 and continued beyond, or for
@@ -10,19 +10,21 @@
 
 mod notation;
 mod parse;
+mod spellings;
 
 use piola_codegen::algebra::increment::substitute_rest;
 use piola_codegen::emit::spaced;
-use piola_codegen::model::Model;
+use piola_codegen::model::{MOST_PARAMETERS, Model};
 use piola_codegen::printer;
+use piola_codegen::read::notation::Notation as Language;
 use piola_codegen::read::parse::Declaration;
-use piola_codegen::{analyse, read};
+use piola_codegen::{analyse_in, read};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 use crate::energy::Energy;
 use crate::mistakes::Mistakes;
-use crate::rust::{MOST_EXPRESSIONS, TOO_LARGE};
+use crate::rust::{LARGEST, TOO_LARGE};
 use notation::Notation;
 use parse::{Parsed, parse};
 
@@ -44,13 +46,20 @@ use parse::{Parsed, parse};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FormulaOptions {
-    /// The names of the parameters, each with its documentation, which may end with a unit, as in `Shear
-    /// modulus, Pa.`; `None` to take every name that means nothing else.
+    /// Names that are parameters, whatever they mean otherwise: those that have values. Each has its
+    /// documentation, which may end with a unit, as in `Shear modulus, Pa.`. A name without a value is then a
+    /// mistake. `None` to take every name that means nothing else.
     pub parameters: Option<Vec<(String, String)>>,
+    /// Whether names beyond [`parameters`](Self::parameters) that mean nothing else are parameters, too.
+    pub further: bool,
     /// Whether −s ln J is added, s being the stress at rest, which frees the rest state of it.
     pub free_rest: bool,
     /// Name of the bulk modulus κ of a term κ/2 (J − 1)² that is added.
     pub bulk: Option<String>,
+    /// The form in which the user gives a value to the parameter `NAME`, for messages: `--param NAME=VALUE`.
+    pub value: Option<&'static str>,
+    /// The option by which the user sets [`free_rest`](Self::free_rest), for messages: `--free-rest`.
+    pub free_rest_option: Option<&'static str>,
 }
 
 impl FormulaOptions {
@@ -58,6 +67,19 @@ impl FormulaOptions {
     #[must_use]
     pub fn with_parameters(self, parameters: Option<Vec<(String, String)>>) -> Self {
         Self { parameters, ..self }
+    }
+
+    /// Options with or without [`further`](Self::further) parameters.
+    #[must_use]
+    pub fn with_further(self, further: bool) -> Self {
+        Self { further, ..self }
+    }
+
+    /// Options with the forms of the user's own options for messages: [`value`](Self::value) and
+    /// [`free_rest_option`](Self::free_rest_option).
+    #[must_use]
+    pub fn with_forms(self, value: &'static str, free_rest_option: &'static str) -> Self {
+        Self { value: Some(value), free_rest_option: Some(free_rest_option), ..self }
     }
 
     /// Options with or without [`free_rest`](Self::free_rest).
@@ -70,6 +92,13 @@ impl FormulaOptions {
     #[must_use]
     pub fn with_bulk(self, name: impl Into<String>) -> Self {
         Self { bulk: Some(name.into()), ..self }
+    }
+}
+
+impl FormulaOptions {
+    /// The language of messages.
+    fn language(&self) -> Language {
+        Language::Formula { free_rest: self.free_rest_option }
     }
 }
 
@@ -106,12 +135,27 @@ impl Energy {
         let notation = Notation::read(formula)?;
         let mistakes = |error: syn::Error| notation.mistakes(formula, error);
         let mut parsed = parse(notation.tokens.clone(), options).map_err(mistakes)?;
-        if options.free_rest {
-            parsed.free_rest().map_err(mistakes)?;
+        let parameters = parsed.parameters.len();
+        if parameters > MOST_PARAMETERS {
+            let message = format!(
+                "this formula has {parameters} parameters, and one that is compiled at run time at most {MOST_PARAMETERS}: \
+                 write lists of them, as in `sum(p, mu[p]*…)`"
+            );
+            return Err(Mistakes::of_all(formula, message));
         }
-        let (arguments, declaration, model) = parsed.analyse().map_err(mistakes)?;
+        if options.free_rest {
+            parsed.free_rest(options.language()).map_err(mistakes)?;
+        }
+        let (arguments, declaration, model) = parsed.analyse(options.language()).map_err(mistakes)?;
         let source = source(&arguments, &parsed.item());
-        let text = if *options == FormulaOptions::default() { formula.to_owned() } else { source.clone() };
+        // The text alone is the energy, if it is read so without the options.
+        let alone = parse(notation.tokens.clone(), &FormulaOptions::default());
+        let all = |parsed: &Parsed| {
+            let [item, arguments] = [parsed.item(), parsed.arguments().into_iter().collect()];
+            (item.to_string(), arguments.to_string())
+        };
+        let is_alone = alone.is_ok_and(|alone| all(&alone) == all(&parsed));
+        let text = if is_alone { formula.to_owned() } else { source.clone() };
         Self::new(&declaration, model, text, source)
             .ok_or_else(|| Mistakes::of_all(formula, TOO_LARGE.to_owned()))
     }
@@ -149,22 +193,22 @@ impl Parsed {
 
     /// The first declaration that has no mistakes, with the arguments of its attribute; else the mistakes of
     /// the last.
-    fn analyse(&self) -> syn::Result<(TokenStream, Declaration, Model)> {
+    fn analyse(&self, language: Language) -> syn::Result<(TokenStream, Declaration, Model)> {
         let mut mistakes = None;
         for arguments in self.arguments() {
-            match analyse(arguments.clone(), self.item(), MOST_EXPRESSIONS) {
+            match analyse_in(language, arguments.clone(), self.item(), LARGEST) {
                 Ok((declaration, model)) => return Ok((arguments, declaration, model)),
                 Err(error) => mistakes = Some(error),
             }
         }
-        Err(mistakes.unwrap_or_else(|| syn::Error::new(Span::call_site(), "this is no energy")))
+        Err(mistakes.unwrap_or_else(|| syn::Error::new(Span::call_site(), "this is not an energy")))
     }
 
     /// Subtracts s ln J, with the stress s at rest.
-    fn free_rest(&mut self) -> syn::Result<()> {
+    fn free_rest(&mut self, language: Language) -> syn::Result<()> {
         let domain = if self.domain.is_empty() { vec![quote!(J > 0.0)] } else { self.domain.clone() };
         let (declaration, mut model) =
-            analyse(quote!(domain(#(#domain),*), prestressed), self.item(), MOST_EXPRESSIONS)?;
+            analyse_in(language, quote!(domain(#(#domain),*), prestressed), self.item(), LARGEST)?;
         let stress = substitute_rest(&mut model.graph, model.plain.gradient[0]);
         if model.graph.is_zero(stress) {
             return Ok(());
@@ -190,7 +234,8 @@ fn source(arguments: &TokenStream, item: &TokenStream) -> String {
     format!("use piola::material;\n\n{documentation}#[material({arguments})]\npub fn {function}")
 }
 
-/// Whether papers have a name for something that an energy writes in another way.
-fn is_notation(name: &str) -> bool {
-    read::resolve::advice(name).is_some()
+/// The advice for a name that papers have for something that an energy writes in another way.
+fn advice(name: &str) -> Option<String> {
+    let formula = Language::Formula { free_rest: None };
+    read::resolve::advice(name).map(|advice| formula.message(advice))
 }

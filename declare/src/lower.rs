@@ -11,8 +11,8 @@ use piola_codegen::algebra::expr::Elementary as Function;
 use piola_codegen::read::parse::Declaration;
 use piola_codegen::schedule::{Op, Program as Ordered, Statement, Value};
 
-/// The most registers of one kind: a tile of them takes half a mebibyte.
-const MOST_REGISTERS: usize = 1024;
+/// The most registers of one kind: a tile of them takes two mebibytes.
+const MOST_REGISTERS: usize = 4096;
 
 /// The program of ordered operations for the interpreter; `None` if it needs too many registers.
 pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Program> {

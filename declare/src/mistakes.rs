@@ -35,6 +35,9 @@ pub struct Mistakes {
     pub list: Vec<Mistake>,
 }
 
+/// The most mistakes that are shown of a text.
+const MOST: usize = 100;
+
 impl Mistakes {
     /// One mistake about a text as a whole.
     pub(crate) fn of_all(text: &str, message: String) -> Self {
@@ -49,7 +52,15 @@ impl Mistakes {
     pub(crate) fn from_syn(text: &str, error: syn::Error) -> Self {
         let mistake =
             |error: syn::Error| Mistake { message: error.to_string(), place: Place::of(text, error.span()) };
-        Self::new(text, error.into_iter().map(mistake).collect())
+        let mut errors = error.into_iter();
+        let mut list: Vec<_> = errors.by_ref().take(MOST).map(mistake).collect();
+        match errors.count() {
+            0 => {}
+            left => {
+                list.push(Mistake { message: format!("{left} more mistakes are not shown"), place: None })
+            }
+        }
+        Self::new(text, list)
     }
 
     /// The mistakes with another name of the text, such as that of its file.

@@ -1,6 +1,7 @@
 //! Declarations in Rust: the same function that `#[piola::material]` takes.
 
-use piola_codegen::analyse;
+use piola_codegen::analyse_in;
+use piola_codegen::read::notation::Notation;
 use piola_codegen::read::parse::{Declaration, Kind};
 use proc_macro2::TokenStream;
 use syn::Type;
@@ -14,9 +15,10 @@ pub(crate) const TOO_LARGE: &str = "this energy is too large: fewer operations, 
 /// The longest text of an energy, in bytes.
 const LARGEST_TEXT: usize = 1 << 16;
 
-/// The most different expressions of an energy, derivatives included: some forty times as many as those of
-/// the catalogue have, and compiled within seconds.
-pub(crate) const MOST_EXPRESSIONS: Option<usize> = Some(100_000);
+/// The largest size of an energy, the number of its different expressions, derivatives included, and of their
+/// operands: some fifteen times that of the largest energy of the catalogue, and compiled within a second or
+/// two.
+pub(crate) const LARGEST: Option<usize> = Some(250_000);
 
 impl Energy {
     /// The energy of the one declaration in a text, a function as `#[piola::material]` takes it.
@@ -53,8 +55,8 @@ impl Energy {
 }
 
 fn compile(text: &str, arguments: TokenStream, item: TokenStream) -> Result<Energy, Mistakes> {
-    let (declaration, model) =
-        analyse(arguments, item, MOST_EXPRESSIONS).map_err(|error| Mistakes::from_syn(text, error))?;
+    let (declaration, model) = analyse_in(Notation::Rust, arguments, item, LARGEST)
+        .map_err(|error| Mistakes::from_syn(text, error))?;
     only_splines(&declaration).map_err(|error| Mistakes::from_syn(text, error))?;
     Energy::new(&declaration, model, text.to_owned(), text.to_owned())
         .ok_or_else(|| Mistakes::of_all(text, TOO_LARGE.to_owned()))

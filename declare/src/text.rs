@@ -3,6 +3,7 @@
 use proc_macro2::{TokenStream, TokenTree};
 
 use crate::energy::Energy;
+use crate::formula::FormulaOptions;
 use crate::mistakes::Mistakes;
 
 impl Energy {
@@ -11,23 +12,37 @@ impl Energy {
     /// # Errors
     /// All [`Mistakes`], those of [`Energy::from_rust`] or [`Energy::from_formula`].
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {
-        if is_rust(text) { Self::from_rust(text) } else { Self::from_formula(text) }
+        Self::from_text_with(text, &FormulaOptions::default())
+    }
+
+    /// The energy of a text, with these options if it is a formula.
+    ///
+    /// # Errors
+    /// All [`Mistakes`], those of [`Energy::from_rust`] or [`Energy::from_formula_with`].
+    pub fn from_text_with(text: &str, options: &FormulaOptions) -> Result<Self, Mistakes> {
+        if is_rust(text) { Self::from_rust(text) } else { Self::from_formula_with(text, options) }
     }
 }
 
-/// Whether a text has the word `fn`, which is no name in a formula.
+/// Whether a text has the word `fn` before a name: in a formula it could only be one itself.
 fn is_rust(text: &str) -> bool {
-    fn has_function(tokens: TokenStream) -> bool {
-        tokens.into_iter().any(|token| match token {
-            TokenTree::Ident(word) => word == "fn",
-            TokenTree::Group(group) => has_function(group.stream()),
-            _ => false,
-        })
+    let Ok(tokens) = text.parse::<TokenStream>() else {
+        return text.split_whitespace().any(|word| word == "fn");
+    };
+    let mut left = vec![tokens];
+    while let Some(tokens) = left.pop() {
+        let mut is_behind = false;
+        for token in tokens {
+            if is_behind && matches!(token, TokenTree::Ident(_)) {
+                return true;
+            }
+            is_behind = matches!(&token, TokenTree::Ident(word) if word == "fn");
+            if let TokenTree::Group(group) = token {
+                left.push(group.stream());
+            }
+        }
     }
-    match text.parse() {
-        Ok(tokens) => has_function(tokens),
-        Err(_) => text.split_whitespace().any(|word| word == "fn"),
-    }
+    false
 }
 
 #[cfg(feature = "serde")]

@@ -133,13 +133,20 @@ fn check_mistake(formula: &str, options: &FormulaOptions, underlined: &str, mess
 fn mistakes_are_told_at_their_places() {
     let any = FormulaOptions::default();
     check_mistake("mu/2*(I1 - 3) - mu*lnn(J)", &any, "lnn", "did you mean `ln`?");
-    check_mistake("mu*stiff(I1)", &any, "stiff", "unknown function `stiff`: there are `ln`, `exp`");
+    check_mistake(
+        "mu*stiff(I1)",
+        &any,
+        "stiff",
+        "unknown function `stiff`: there are `x^2`, `x^alpha`, `ln`",
+    );
     check_mistake("mu/2*(I1 - 3", &any, "(", "this `(` is not closed");
     check_mistake("mu/2*(I1 - 3) -", &any, "-", "a formula ends with");
     check_mistake("mu/2*(I1 − 3)² + · 2", &any, "·", "is expected here");
-    check_mistake("mu/2 (I1 - 3) + J(2)", &any, "J", "is no function: write `J * ( … )`");
-    check_mistake("mu*(trC - 3)", &any, "trC", "write `I1`");
-    check_mistake("mu*(I1 - 3) + log(J)", &any, "log", "natural logarithm");
+    check_mistake("mu/2 (I1 - 3) + J(2)", &any, "J", "is not a function: write `J * ( … )`");
+    check_mistake("mu*(I1 - 3) + ln", &any, "ln", "`ln` is a function: write `ln( … )`");
+    check_mistake("mu*(I1 - 3) + ln J^2", &any, "ln", "write `ln(J)^n` or `ln(J^n)`");
+    check_mistake("mu*(tr(F) - 3)", &any, "tr", "changes with rotations: `tr(C)`");
+    check_mistake("mu*(tr(A) - 3)", &any, "tr", "the tensors of a formula are");
     check_mistake("mu/2*(I1b - 3)\n  + K*(J - 1)^2\n  + l1", &any, "l1", "are exchanged");
     check_mistake("mu/2*(I1b - 3)\r\n  + K*(J - 1)^2\r\n  + l1", &any, "l1", "are exchanged");
     check_mistake("mu/2*(I1 - 3) + lambd\r\na*ln(J) + lambd\r\n[]/2", &any, "]", "expected an expression");
@@ -148,6 +155,168 @@ fn mistakes_are_told_at_their_places() {
     let known = any.with_parameters(Some(vec![("mu".to_owned(), "Modulus, Pa.".to_owned())]));
     check_mistake("muu/2*(I1b - 3) + mu*(J - 1)^2", &known, "muu", "did you mean `mu`?");
     check_mistake("mu/2*(I1b - 3)*mu + mu*(J - 1)^2", &known, "mu/2*(I1b - 3)*mu + mu*(J - 1)^2", "in Pa");
+}
+
+/// Checks that two formulas are one energy.
+#[track_caller]
+fn check_same(formula: &str, other: &str) {
+    let energies = [formula, other].map(|text| {
+        let options = FormulaOptions::default().with_free_rest(true);
+        Energy::from_formula_with(text, &options).unwrap_or_else(|mistakes| panic!("{mistakes}"))
+    });
+    let [one, other] = energies.each_ref().map(|energy| energy.description());
+    assert_eq!((&one.formula, &one.parameters), (&other.formula, &other.parameters), "{formula}");
+    for at in [[1.3, 1.1, 0.7], [2.0, 2.0, 0.1]] {
+        let [one, other]: [f64; 2] = energies.each_ref().map(|energy| {
+            let values = vec![&[2.5][..]; energy.description().parameters.len()];
+            energy.material(&values, Inversion::Refuse).expect("stable at rest").energy(at)
+        });
+        assert!((one - other).abs() <= 1e-13 * other.abs(), "{formula}: {one}, not {other}");
+    }
+}
+
+#[test]
+fn formulas_are_read_as_people_paste_them() {
+    const NEO_HOOKE: &str = "mu/2*(I1 - 3) - mu*ln(J) + k*ln(J)^2";
+    for pasted in [
+        "mu/2*(I_1 - 3) - mu*log(J) + k*log(J)**2",
+        "(mu/2)*(Ic - 3) - mu*ln(J) + k*(ln(J))**2",
+        "mu/2*(tr(C) - 3) - mu*ln(det(F)) + k*ln(det(F))^2",
+        "mu/2 .* (trace(C) - 3) - mu*log(J) + k*log(J).^2",
+        "mu / 2.0 * (I1 - 3.0) - mu * np.log(J) + k * np.log(J)**2",
+        "mu/2*(I1 - 3) - mu*math.log(J) + k*pow(math.log(J), 2)",
+        "mu/2*(I1 - 3) - mu*std::log(J) + k*std::pow(std::log(J), 2)",
+        "mu/2*(inner(F, F) - 3) - mu*ln(J) + k*ln(J)^2",
+        "mu/2*(tr(F^T F) - 3) - mu ln J + k*lnJ^2",
+        "W(I1, J) = mu/2*(tr C - 3) - mu*lnJ + k*(ln J)^2",
+        "\\mu/2*(I_{1} - 3) - \\mu*\\ln(J) + k*\\ln(J)^{2}",
+    ] {
+        check_same(&pasted.replace("^{2}", "^2"), NEO_HOOKE);
+    }
+    check_same(
+        "mu*(lambda_1^2 + lambda_2**2 + λ₃² - 3)/2 + k*(J - 1)^2",
+        "mu*(l1^2 + l2^2 + l3^2 - 3)/2 + k*(J - 1)^2",
+    );
+    check_same("mu*(I1_bar - 3) + c*(Ibar_2 - 3) + k*(J - 1)^2", "mu*(I1b - 3) + c*(I2b - 3) + k*(J - 1)^2");
+    check_same("mu*(tr(C^2) - 3) + k*(det(C) - 1)^2", "mu*(l1^4 + l2^4 + l3^4 - 3) + k*(J^2 - 1)^2");
+    check_same("mu*(tr(inv(C)) - 3) + k*(J - 1)^2", "mu*(I2/J^2 - 3) + k*(J - 1)^2");
+    check_same(
+        "lambda/2*tr(E)^2 + mu*inner(E, E)",
+        "lambda/2*((I1 - 3)/2)^2 + mu*(((l1^2 - 1)/2)^2 + ((l2^2 - 1)/2)^2 + ((l3^2 - 1)/2)^2)",
+    );
+    check_same("mu*(tr(U) - 3) + k*(J - 1)^2", "mu*(l1 + l2 + l3 - 3) + k*(J - 1)^2");
+}
+
+/// Options for parameters with these names, on the command line.
+fn given(names: &[&str]) -> FormulaOptions {
+    let named = names.iter().map(|&name| (name.to_owned(), String::new()));
+    let options = FormulaOptions::default().with_parameters(Some(named.collect()));
+    options.with_forms("--param NAME=VALUE", "--free-rest")
+}
+
+#[test]
+fn a_name_with_a_value_is_a_parameter() {
+    for name in [
+        "b", "C", "E", "B", "S", "U", "F", "e", "I_1", "lambda_1", "I1", "J", "l1", "I3", "log", "pi", "tr",
+        "np", "type", "fn", "in", "new", "energy", "values", "Some", "trC", "sum", "each",
+    ] {
+        let text = format!(
+            "mu/2*(lam1^2 + lam2^2 + lam3^2 - 3 - 2*ln(detF)) + {name}*(detF - 1)^2 where {name} > 0"
+        );
+        let energy = Energy::from_formula_with(&text, &given(&["mu", name]))
+            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let names: Vec<_> =
+            energy.description().parameters.iter().map(|parameter| &*parameter.name).collect();
+        assert_eq!(names, ["mu", name]);
+        assert_eq!(*energy.description().admissible, [format!("{name} > 0")]);
+        let material = energy.material(&[&[1.0], &[2.0]], Inversion::Refuse).expect("stable at rest");
+        let (found, expected) = (material.energy([2.0, 1.0, 1.0]), 0.5 * (3.0 - 2.0 * 2f64.ln()) + 2.0);
+        assert!((found - expected).abs() < 1e-14, "{name}: {found}, not {expected}");
+        // The text that an energy is kept as is read back as the same.
+        let again = Energy::from_text(energy.text()).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        assert_eq!(again.description().parameters, energy.description().parameters, "{}", energy.text());
+        let error = energy.material(&[&[1.0], &[-2.0]], Inversion::Refuse).unwrap_err().to_string();
+        assert!(error.contains(&format!("`{name} > 0`")) && !error.contains("r#"), "{error}");
+    }
+    let more = given(&["C"]).with_further(true);
+    let energy = Energy::from_formula_with("mu*(I1b - 3) + C*(J - 1)^2", &more).expect("two parameters");
+    assert_eq!(energy.description().parameters.len(), 2);
+    assert_eq!(Energy::from_text_with("mu*(I1b - 3) + C*(J - 1)^2", &more), Ok(energy));
+}
+
+#[test]
+fn a_name_without_a_value_is_told_before_all_else() {
+    let options = given(&["mu", "lamda"]);
+    check_mistake("mu/2*(I1 - 3) + lambda*(J - 1)^2", &options, "lambda", "no value: did you mean `lamda`?");
+    check_mistake("mu/2*(I1 - 3) + kk*(J - 1)^2", &options, "kk", "give it one by `--param kk=VALUE`");
+    check_mistake(
+        "mu/2*(I1 - 3) + b*(J - 1)^2",
+        &options,
+        "b",
+        "by `--param b=VALUE`, or, if it is what papers",
+    );
+    check_mistake("mu/2*(I1 - 3) + e*J", &options, "e", "mean by it, write `exp(x)` for eˣ");
+    let two = Energy::from_formula_with("a*(I1 - 3) + b*(J - 1)^2 + a", &given(&[])).unwrap_err();
+    assert_eq!(two.list.len(), 2, "{two}");
+}
+
+#[test]
+fn messages_are_in_the_notation_of_formulas() {
+    let any = FormulaOptions::default();
+    let command = given(&["mu", "a"]);
+    let python = given(&["mu"]).with_forms("NAME=VALUE", "free_rest=True");
+    check_mistake("exp(a)*J + mu*(I1b - 3)", &command, "exp(a)*J", "append `- exp(a)*ln(J)`");
+    check_mistake("mu/2*(I1 - 3)", &python, "mu/2*(I1 - 3)", "append `- mu*ln(J)`; or write `I1b` for `I1`");
+    check_mistake("mu/2*(I1 - 3)", &python, "mu/2*(I1 - 3)", "or give the option `free_rest=True`");
+    check_mistake("mu/2*(I1b - 3) + K*(J - 1)^2 + exp(l1)", &any, "exp(l1)", "but `exp(l1)` does");
+    check_mistake("mu/2*(I1b - 3) + ln(l1)^2/2", &any, "ln(l1)^2/2", "but `ln(l1)^2/2` does");
+    check_mistake("mu*(J - 1)^2", &any, "mu*(J - 1)^2", "such as `mu/2*(I1b - 3)`");
+    check_mistake("sum(p, m[p]*J) + mu*(I1b - 3)", &any, "sum(p, m[p]*J)", "append `- sum(p, m[p])*ln(J)`");
+    check_mistake("m[p]*(I1b - 3)", &any, "m[p]", "inside a sum: `sum(p, m[p])`");
+    check_mistake("mu*(asin(I1b) - 3)", &any, "asin", "formulas do not have it");
+    check_mistake("mu*tan(I1b - 3)", &any, "tan", "write `sin(x)/cos(x)`");
+    let in_pascals = ["mu", "a"].map(|name| (name.to_owned(), "Modulus, Pa.".to_owned()));
+    let units = FormulaOptions::default().with_parameters(Some(in_pascals.to_vec()));
+    let mistakes = Energy::from_formula_with("mu*(I1b - 3) + a^2*(J - 1)^2", &units).unwrap_err().to_string();
+    assert!(mistakes.contains("in Pa^2, but") && !mistakes.contains(",,"), "{mistakes}");
+    // No message about a formula has the Rust that it is translated into.
+    for text in [
+        "mu/2*(I1 - 3)*J^2",
+        "mu*ln(I1 - 3)",
+        "mu*(I1 - 3)^a",
+        "mu*sqrt(J - 1)",
+        "mu/(J - 2)",
+        "mu*I2",
+        "mu*ln(1 - J)",
+        "mu*l1^a",
+        "mu*(I1b - 3)^0.5",
+        "mu*exp(I1)",
+        "mu*(I1^2)^(a/3)",
+        "sum(p, m[p]*l1^a[p])",
+        "mu*cos(I1b)",
+        "mu*ln(I1 - 2) where I1 < 2",
+        "mu*(I1b - 3) where l2 < 3",
+        "mu*(I1b - 3) + 1/0",
+        "mu*(I1b-3)^100*1e999",
+    ] {
+        let Err(mistakes) = Energy::from_formula(text) else { continue };
+        for Mistake { message, .. } in &mistakes.list {
+            let is_rust = |rust: &&str| message.contains(rust);
+            let rust = [
+                ".powi",
+                ".powf",
+                ".ln()",
+                ".0",
+                "sum(|",
+                "f64",
+                "attribute",
+                "`domain",
+                "`admissible",
+                "Univariate",
+            ];
+            assert!(!rust.iter().any(|rust| is_rust(rust)), "{text}: {message}");
+        }
+    }
 }
 
 #[test]

@@ -22,13 +22,22 @@ impl Notation {
     pub(super) fn read(formula: &str) -> Result<Self, Mistakes> {
         check_size(formula)?;
         let (mut text, mut origins) = (String::new(), Vec::new());
-        let mut is_raised = false;
-        for (place, character) in formula.chars().enumerate() {
+        let (mut is_raised, mut is_index) = (false, false);
+        let mut characters = formula.chars().enumerate().peekable();
+        while let Some((place, character)) = characters.next() {
             let raised = raised(character);
+            let is_name = characters.peek().is_some_and(|(_, next)| next.is_alphabetic());
             let written = match (raised, lowered(character)) {
                 (Some(digit), _) if is_raised => digit.to_string(),
                 (Some(digit), _) => format!("^{digit}"),
                 (None, Some(letter)) => letter.to_string(),
+                // `\lambda_{1}` of TeX is `lambda_1`.
+                (None, None) if character == '\\' && is_name => String::new(),
+                (None, None) if character == '{' && text.ends_with('_') => {
+                    is_index = true;
+                    String::new()
+                }
+                (None, None) if character == '}' && std::mem::take(&mut is_index) => String::new(),
                 (None, None) => character.to_string(),
             };
             is_raised = raised.is_some();
@@ -47,7 +56,7 @@ impl Notation {
     pub(super) fn mistakes(&self, formula: &str, error: syn::Error) -> Mistakes {
         let Mistakes { list, .. } = Mistakes::from_syn(&self.text, error);
         let at_origin = |Mistake { message, place }: Mistake| Mistake {
-            message: in_notation(&message),
+            message,
             place: place.and_then(|place| self.origin(formula, place)),
         };
         let mut list: Vec<_> = list.into_iter().map(at_origin).collect();
@@ -114,16 +123,4 @@ fn lowered(character: char) -> Option<char> {
         '∕' | '÷' => Some('/'),
         _ => None,
     })
-}
-
-/// A message of the compiler in the notation of formulas, as far as it quotes that of Rust.
-fn in_notation(message: &str) -> String {
-    let message = message.replace("J.ln()", "ln(J)").replace("`domain(J > 0.0)`", "`where J > 0`");
-    match message.split_once(": there are `.powi(2)`") {
-        None => message.replace("did you mean `.", "did you mean `").replace("()`?", "`?"),
-        Some((unknown, _)) => format!(
-            "{unknown}: there are `ln`, `exp`, `sqrt`, `cbrt`, `log10`, `sinh`, `cosh`, `tanh`, `asinh`, `atan`, \
-             `erf`, …; for a product write `*` before the parenthesis"
-        ),
-    }
 }

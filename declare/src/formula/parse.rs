@@ -7,24 +7,30 @@
 //! product   = sign {("*" | "/" | nothing) sign}
 //! sign      = {"+" | "-"} power
 //! power     = atom ["^" sign]
-//! atom      = number | name | name "[" index "]" | function "(" sum ")" | "sum" "(" index "," sum ")" | "(" sum ")"
+//! atom      = number | {module "."} name | name "[" index "]" | function "(" sum ")" | function name
+//!           | power "(" sum "," sum ")" | invariant "(" tensors ")" | "sum" "(" index "," sum ")" | "(" sum ")"
 //! ```
 //!
-//! So −x² is −(x²), a/2 b is (a/2) b, and x^y^z is x^(y^z).
+//! So −x² is −(x²), a/2 b is (a/2) b, and x^y^z is x^(y^z). What names stand for is in [`spellings`].
 
-use std::iter::Peekable;
+use std::collections::{HashMap, HashSet};
 
-use piola_codegen::read::parse::WORDS;
+use piola_codegen::read::parse::{WORDS, is_reserved};
+use piola_codegen::read::spelling::nearest;
 use proc_macro2::{Delimiter, Group, Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 
-use super::{FormulaOptions, is_notation};
+use super::spellings::{self, Invariant};
+use super::{FormulaOptions, advice};
 
 /// The names of the stretches in a declaration.
 pub(super) const STRETCHES: [&str; 3] = ["l1", "l2", "l3"];
 
 /// Levels of parentheses and exponents: fewer than the compiler bears.
 const DEEPEST: usize = 48;
+
+/// Names without values that are told at once: nobody reads more.
+const MOST_ASKED: usize = 20;
 
 /// A formula as the parts of a declaration.
 pub(super) struct Parsed {
@@ -61,13 +67,23 @@ impl Parameter {
 /// Reads a formula.
 ///
 /// # Errors
-/// The first mistake of its form; what its names mean is the business of the compiler.
+/// The first mistake of its form, or all names that have no value and need one; what other names mean is the
+/// business of the compiler.
 pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Result<Parsed> {
-    let mut parser = Parser { tokens: Tokens::new(tokens), names: Vec::new(), indices: Vec::new(), depth: 0 };
+    let given = options.parameters.iter().flatten().map(|(name, _)| name.clone());
+    let mut parser = Parser {
+        tokens: Tokens::new(tokens),
+        given: given.collect(),
+        names: Vec::new(),
+        places: HashMap::new(),
+        indices: Vec::new(),
+        has_traces: false,
+        depth: 0,
+    };
     parser.left_side();
     let mut body = parser.sum()?;
     let (mut domain, mut admissible) = (Vec::new(), Vec::new());
-    if parser.tokens.take_word("where").is_some() {
+    if parser.tokens.take_word("where") {
         loop {
             let (condition, is_of_deformation) = parser.condition()?;
             if is_of_deformation { &mut domain } else { &mut admissible }.push(condition);
@@ -79,63 +95,67 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
     parser.tokens.end()?;
     if let Some(bulk) = &options.bulk {
         let bulk = syn::parse_str::<Ident>(bulk).map_err(|_| {
-            syn::Error::new(Span::call_site(), format!("`{bulk}` is no name for a bulk modulus"))
+            syn::Error::new(Span::call_site(), format!("`{bulk}` is not a name for a bulk modulus"))
         })?;
-        parser.use_name(&bulk, false);
+        parser.given.insert(bulk.to_string());
+        let bulk = parser.parameter(&bulk, false)?;
         body = quote!(#body + #bulk / 2.0 * (J - 1.0).powi(2));
     }
-    // One that the formula does not use is told, and is what another may have been meant for.
-    for (name, _) in options.parameters.iter().flatten() {
-        if let Ok(name) = syn::parse_str::<Ident>(name) {
-            parser.use_name(&name, false);
+    if let (Some(all), false) = (&options.parameters, options.further) {
+        parser.ask(options)?;
+        // One that the formula does not use is told.
+        for name in all.iter().filter_map(|(name, _)| syn::parse_str::<Ident>(name).ok()) {
+            parser.parameter(&name, false)?;
         }
     }
-    let is_declared = |name: &str| match &options.parameters {
-        Some(known) => known.iter().any(|(known, _)| known == name) || options.bulk.as_deref() == Some(name),
-        None => !is_notation(name),
-    };
-    let doc = |name: &str| {
-        let known = options.parameters.iter().flatten().find(|(known, _)| known == name);
-        known.map(|(_, doc)| doc.clone()).unwrap_or_default()
-    };
-    let parameters = parser.names.into_iter().filter(|(name, _)| is_declared(&name.to_string()));
+    let docs: HashMap<&str, &str> =
+        options.parameters.iter().flatten().map(|(name, doc)| (name.as_str(), doc.as_str())).collect();
+    let is_declared = |name: &str| parser.given.contains(name) || advice(name).is_none();
+    let parameters = parser.names.iter().filter(|(_, _, name)| is_declared(name));
+    let parameters = parameters.map(|(name, is_list, plain)| Parameter {
+        name: name.clone(),
+        doc: docs.get(plain.as_str()).copied().unwrap_or_default().to_owned(),
+        is_list: *is_list,
+    });
     Ok(Parsed {
         name: Ident::new("Energy", Span::call_site()),
         summary: "Energy of a formula.".to_owned(),
-        parameters: parameters
-            .map(|(name, is_list)| Parameter { doc: doc(&name.to_string()), name, is_list })
-            .collect(),
+        parameters: parameters.collect(),
         body,
         domain,
-        admissible,
+        admissible: admissible.into_iter().map(with_path_of_pi).collect(),
     })
 }
 
 struct Parser {
     tokens: Tokens,
-    /// Names that may be parameters, in the order of their first use, and whether they are lists.
-    names: Vec<(Ident, bool)>,
+    /// Names that are parameters, whatever they mean otherwise.
+    given: HashSet<String>,
+    /// Names that may be parameters, in the order of their first use: in the declaration, whether they are
+    /// lists, and as they are written.
+    names: Vec<(Ident, bool, String)>,
+    /// The places of the names in that list.
+    places: HashMap<String, usize>,
     /// Indices of the sums around.
     indices: Vec<Ident>,
+    /// Whether a function of tensors has been read.
+    has_traces: bool,
     depth: usize,
 }
 
 impl Parser {
-    /// Skips `ψ =`.
+    /// Skips `ψ =`, or `W(I1, I2) =`.
     fn left_side(&mut self) {
-        let mut ahead = self.tokens.0.clone();
-        let is_psi = ahead
-            .next()
-            .is_some_and(|token| ["ψ", "psi", "Psi", "Ψ", "W"].contains(&token.to_string().as_str()));
-        let is_equal = ahead
-            .next()
-            .is_some_and(|token| matches!(token, TokenTree::Punct(sign) if sign.as_char() == '='));
-        if is_psi && is_equal {
-            self.tokens.0 = ahead;
+        let is_name = matches!(self.tokens.peek(), Some(TokenTree::Ident(_)));
+        let has_arguments = matches!(self.tokens.ahead(1), Some(TokenTree::Group(_)));
+        let equal = 1 + usize::from(has_arguments);
+        if is_name && self.tokens.is_sign(equal, '=') && !self.tokens.is_sign(equal + 1, '=') {
+            self.tokens.next += equal + 1;
         }
     }
 
     fn condition(&mut self) -> syn::Result<(TokenStream, bool)> {
+        self.has_traces = false;
         let left = self.sum()?;
         let comparison =
             ["<=", ">=", "!=", "<", ">"].into_iter().find_map(|sign| self.tokens.take_sign(sign));
@@ -145,8 +165,8 @@ impl Parser {
         let right = self.sum()?;
         let condition = quote!(#left #comparison #right);
         let names = piola_codegen::read::parse::identifiers(condition.clone());
-        let is_of_deformation =
-            names.iter().any(|name| WORDS.iter().chain(&STRETCHES).any(|word| name == word));
+        let is_of_deformation = self.has_traces
+            || names.iter().any(|name| WORDS.iter().chain(&STRETCHES).any(|word| name == word));
         Ok((condition, is_of_deformation))
     }
 
@@ -163,7 +183,7 @@ impl Parser {
     fn product(&mut self) -> syn::Result<TokenStream> {
         let mut product = self.sign()?;
         loop {
-            if let Some(sign) = self.tokens.take_sign("*").or_else(|| self.tokens.take_sign("/")) {
+            if let Some(sign) = self.tokens.take_either(["*", "/"]) {
                 product.extend(sign);
             } else if self.tokens.begins_factor() {
                 product.extend(quote!(*));
@@ -188,26 +208,17 @@ impl Parser {
 
     fn power(&mut self) -> syn::Result<TokenStream> {
         let base = self.atom()?;
-        let Some(caret) = self.tokens.take_sign("^").or_else(|| self.tokens.take_sign("**")) else {
-            return Ok(base);
-        };
+        let Some(caret) = self.tokens.take_either(["^", "**"]) else { return Ok(base) };
         let span = span(&caret);
         self.deeper(span)?;
         let exponent = self.sign()?;
         self.depth -= 1;
-        let (method, exponent) = match whole(&exponent) {
-            Some(whole) => (Ident::new("powi", span), whole),
-            None => (Ident::new("powf", span), exponent),
-        };
-        // The power ends where its exponent does.
-        let last = exponent.clone().into_iter().last().map_or(span, |last| last.span());
-        let argument = parenthesised(exponent, last);
-        Ok(quote_spanned!(span=> #base.#method #argument))
+        Ok(raised(&base, exponent, span))
     }
 
     /// An operand that methods may be called on.
     fn atom(&mut self) -> syn::Result<TokenStream> {
-        match self.tokens.0.next() {
+        match self.tokens.advance() {
             Some(TokenTree::Literal(literal)) => Ok(real(literal)?.to_token_stream()),
             Some(TokenTree::Group(group)) if group.delimiter() != Delimiter::Brace => {
                 let inner = self.inside(&group, Self::sum)?;
@@ -222,69 +233,112 @@ impl Parser {
         }
     }
 
-    fn name(&mut self, name: Ident) -> syn::Result<TokenStream> {
+    /// A name, with its argument if it is that of a function.
+    fn name(&mut self, mut name: Ident) -> syn::Result<TokenStream> {
+        while !self.given.contains(&name.to_string())
+            && spellings::is_module(&name.to_string())
+            && let Some(function) = self.tokens.take_member()
+        {
+            name = function;
+        }
         let text = name.to_string();
-        match self.tokens.0.peek().cloned() {
+        let is_given = self.given.contains(&text) || self.indices.contains(&name);
+        match self.tokens.peek().cloned() {
             Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
-                self.tokens.0.next();
-                return if text == "sum" { self.summation(&name, &group) } else { self.call(&name, &group) };
+                self.tokens.next += 1;
+                return match text.as_str() {
+                    _ if is_given => Err(no_function(&name)),
+                    "sum" => self.summation(&name, &group),
+                    _ => self.call(&name, &group),
+                };
             }
             Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {
-                self.tokens.0.next();
-                self.use_name(&name, true);
-                return Ok(quote!(#name #group));
+                self.tokens.next += 1;
+                let list = self.parameter(&name, true)?;
+                return Ok(quote!(#list #group));
             }
             _ => {}
         }
-        if let Some(stretch) = stretch(&text) {
-            return Ok(Ident::new(stretch, name.span()).to_token_stream());
+        if is_given {
+            return Ok(match self.indices.contains(&name) {
+                true => name.to_token_stream(),
+                false => self.parameter(&name, false)?.to_token_stream(),
+            });
         }
-        if ["pi", "π"].contains(&text.as_str()) {
-            return Ok(Ident::new("PI", name.span()).to_token_stream());
+        if let Some(rust) = spellings::name(&text) {
+            return rust_at(rust, name.span());
         }
-        let is_known = WORDS.contains(&text.as_str()) || text == "PI" || self.indices.contains(&name);
-        if !is_known {
-            if syn::parse_str::<Ident>(&text).is_err() {
-                let message = format!("`{text}` is a word of Rust: give the parameter another name");
-                return Err(syn::Error::new(name.span(), message));
-            }
-            self.use_name(&name, false);
+        if spellings::function(&text).is_some() || spellings::invariant(&text).is_some() {
+            return self.open_call(&name);
         }
-        Ok(name.to_token_stream())
+        Ok(self.parameter(&name, false)?.to_token_stream())
+    }
+
+    /// `ln J`, with one name for its argument.
+    fn open_call(&mut self, name: &Ident) -> syn::Result<TokenStream> {
+        let write = |form: String| Err(syn::Error::new(name.span(), form));
+        let Some(TokenTree::Ident(argument)) = self.tokens.peek().cloned() else {
+            return write(format!("`{name}` is a function: write `{name}( … )`"));
+        };
+        self.tokens.next += 1;
+        if self.tokens.begins_exponent() {
+            return write(format!(
+                "write `{name}({argument})^n` or `{name}({argument}^n)`, whichever is meant"
+            ));
+        }
+        let mut group = Group::new(Delimiter::Parenthesis, TokenTree::Ident(argument.clone()).into());
+        group.set_span(argument.span());
+        self.call(name, &group)
     }
 
     /// `ln(x)` as `x.ln()`.
     fn call(&mut self, name: &Ident, group: &Group) -> syn::Result<TokenStream> {
         let text = name.to_string();
-        let method = match text.as_str() {
-            "arctan" => "atan",
-            "arsinh" | "arcsinh" => "asinh",
-            "log1p" | "ln1p" => "ln_1p",
-            "expm1" => "exp_m1",
-            "log" => {
-                let message = "write `ln(x)` for the natural logarithm, or `log10(x)`";
-                return Err(syn::Error::new(name.span(), message));
-            }
-            "pow" => return Err(syn::Error::new(name.span(), "write a power as `x^n`")),
-            text if self.names.iter().any(|(known, _)| known == text)
-                || WORDS.contains(&text)
-                || stretch(text).is_some() =>
-            {
-                let message = format!("`{text}` is no function: write `{text} * ( … )` for a product");
-                return Err(syn::Error::new(name.span(), message));
-            }
-            text => text,
-        };
-        let method = Ident::new(method, name.span());
+        if let Some(invariant) = spellings::invariant(&text) {
+            return self.invariant(invariant, name, group);
+        }
+        if spellings::is_power(&text) {
+            let (base, exponent) = self.inside(group, |parser| {
+                let base = parser.sum()?;
+                if parser.tokens.take_sign(",").is_none() {
+                    return Err(syn::Error::new(name.span(), format!("a power is `{name}(x, n)`, or `x^n`")));
+                }
+                Ok((base, parser.sum()?))
+            })?;
+            let base = parenthesised(base, whole_call(name, group)).to_token_stream();
+            return Ok(raised(&base, exponent, group.span_close()));
+        }
+        if self.places.contains_key(&text) || spellings::name(&text).is_some() {
+            return Err(no_function(name));
+        }
+        let method = Ident::new(spellings::function(&text).unwrap_or(&text), name.span());
         let argument = self.inside(group, Self::sum)?;
-        let argument = parenthesised(argument, group.span());
-        Ok(quote!(#argument.#method()))
+        // A mistake in the call is underlined from its name to the end.
+        let argument = parenthesised(argument, whole_call(name, group));
+        let end = group.span_close();
+        Ok(quote_spanned!(end=> #argument.#method()))
+    }
+
+    /// `tr(C)` as `I1`.
+    fn invariant(&mut self, invariant: Invariant, name: &Ident, group: &Group) -> syn::Result<TokenStream> {
+        /// Longer than any arguments, and nested no deeper than text may be.
+        const LONGEST: usize = 100;
+        let text = match group.span().byte_range().len() {
+            0..=LONGEST => group.stream().to_string().replace(char::is_whitespace, ""),
+            _ => String::new(),
+        };
+        let rust =
+            spellings::of_tensors(invariant, &text, |name| self.given.contains(name)).map_err(|advice| {
+                syn::Error::new(name.span(), format!("`{name}` of this is not known: {advice}"))
+            })?;
+        self.has_traces = true;
+        rust_at(&rust, whole_call(name, group))
     }
 
     /// `sum(p, mu[p])` as `sum(|p| mu[p])`.
     fn summation(&mut self, name: &Ident, group: &Group) -> syn::Result<TokenStream> {
         let (index, term) = self.inside(group, |parser| {
-            let index = match parser.tokens.0.next() {
+            let index = match parser.tokens.advance() {
                 Some(TokenTree::Ident(index)) => Some(index),
                 _ => None,
             };
@@ -297,14 +351,15 @@ impl Parser {
             parser.indices.pop();
             Ok((index, term?))
         })?;
-        Ok(quote_spanned!(name.span()=> sum(|#index| #term)))
+        let summand = parenthesised(quote_spanned!(name.span()=> |#index| #term), group.span());
+        Ok(quote!(#name #summand))
     }
 
     /// Reads all tokens of a group.
     fn inside<T>(&mut self, group: &Group, read: impl FnOnce(&mut Self) -> syn::Result<T>) -> syn::Result<T> {
         self.deeper(group.span())?;
         let outer = std::mem::replace(&mut self.tokens, Tokens::new(group.stream()));
-        self.tokens.1 = group.span_close();
+        self.tokens.end = group.span_close();
         let result = read(self).and_then(|result| self.tokens.end().map(|()| result));
         self.tokens = outer;
         self.depth -= 1;
@@ -320,53 +375,188 @@ impl Parser {
         Ok(())
     }
 
-    /// Notes that a name is used, and whether as a list.
-    fn use_name(&mut self, name: &Ident, is_list: bool) {
-        match self.names.iter_mut().find(|(known, _)| known == name) {
-            Some((_, known)) => *known |= is_list,
-            None => self.names.push((name.clone(), is_list)),
+    /// The name of a parameter in the declaration. One that means something else there is marked by `r#`.
+    fn parameter(&mut self, name: &Ident, is_list: bool) -> syn::Result<Ident> {
+        let text = name.to_string();
+        if let Some(&place) = self.places.get(&text) {
+            let (known, was_list, _) = &mut self.names[place];
+            *was_list |= is_list;
+            let mut known = known.clone();
+            known.set_span(name.span());
+            return Ok(known);
         }
+        let is_keyword = syn::parse_str::<Ident>(&text).is_err();
+        let declared = match text.as_str() {
+            "_" | "self" | "Self" | "super" | "crate" => {
+                let message = format!("`{text}` cannot be the name of a parameter: give it another name");
+                return Err(syn::Error::new(name.span(), message));
+            }
+            _ if is_keyword || is_reserved(name) || STRETCHES.contains(&text.as_str()) => {
+                Ident::new_raw(&text, name.span())
+            }
+            _ => name.clone(),
+        };
+        self.places.insert(text.clone(), self.names.len());
+        self.names.push((declared.clone(), is_list, text));
+        Ok(declared)
+    }
+
+    /// Asks for the values of all names that have none.
+    fn ask(&self, options: &FormulaOptions) -> syn::Result<()> {
+        let missing = self.names.iter().filter(|(_, _, text)| !self.given.contains(text));
+        let mistakes = missing.take(MOST_ASKED).map(|(name, _, text)| {
+            let near = nearest(text, self.given.iter().map(String::as_str));
+            let hint = match (near, &options.value, advice(text)) {
+                (Some(near), ..) => format!("did you mean `{near}`?"),
+                (None, value, advice) => {
+                    let value = value.map(|form| form.replace("NAME", text));
+                    let value =
+                        value.map_or("give it one".to_owned(), |form| format!("give it one by `{form}`"));
+                    match advice {
+                        Some(advice) => format!("{value}, or, if it is what papers mean by it, {advice}"),
+                        None => value,
+                    }
+                }
+            };
+            syn::Error::new(name.span(), format!("`{text}` has no value: {hint}"))
+        });
+        let all = mistakes.reduce(|mut all, other| {
+            all.combine(other);
+            all
+        });
+        all.map_or(Ok(()), Err)
     }
 }
 
-/// Tokens that are left, and the place of their end.
-struct Tokens(Peekable<proc_macro2::token_stream::IntoIter>, Span);
+/// The mistake of a number before a parenthesis.
+fn no_function(name: &Ident) -> syn::Error {
+    syn::Error::new(name.span(), format!("`{name}` is not a function: write `{name} * ( … )` for a product"))
+}
+
+/// The place of a call, from its name to its end.
+fn whole_call(name: &Ident, group: &Group) -> Span {
+    name.span().join(group.span()).unwrap_or(name.span())
+}
+
+/// The tokens of a text in Rust, all at one place.
+fn rust_at(rust: &str, span: Span) -> syn::Result<TokenStream> {
+    fn placed(tokens: TokenStream, span: Span) -> TokenStream {
+        let place = |mut token: TokenTree| {
+            if let TokenTree::Group(group) = &mut token {
+                *group = Group::new(group.delimiter(), placed(group.stream(), span));
+            }
+            token.set_span(span);
+            token
+        };
+        tokens.into_iter().map(place).collect()
+    }
+    let tokens: TokenStream = rust.parse().map_err(|_| syn::Error::new(span, "this is not a formula"))?;
+    Ok(placed(tokens, span))
+}
+
+/// A power, whose sign is at this place.
+fn raised(base: &TokenStream, exponent: TokenStream, span: Span) -> TokenStream {
+    let (method, exponent) = match whole(&exponent) {
+        Some(whole) => (Ident::new("powi", span), whole),
+        None => (Ident::new("powf", span), exponent),
+    };
+    // The power ends where its exponent does.
+    let last = exponent.clone().into_iter().last().map_or(span, |last| last.span());
+    let argument = parenthesised(exponent, last);
+    quote_spanned!(span=> #base.#method #argument)
+}
+
+/// A condition on parameters, which is emitted as it is, and in which π has its path.
+fn with_path_of_pi(condition: TokenStream) -> TokenStream {
+    let path = |token: TokenTree| match token {
+        TokenTree::Ident(name) if name == "PI" => quote!(std::f64::consts::PI),
+        TokenTree::Group(group) => {
+            parenthesised_as(group.delimiter(), with_path_of_pi(group.stream()), group.span())
+                .into_token_stream()
+        }
+        token => token.into(),
+    };
+    condition.into_iter().map(path).collect()
+}
+
+/// Tokens, those that are left, and the place of their end.
+struct Tokens {
+    all: Vec<TokenTree>,
+    next: usize,
+    end: Span,
+}
 
 impl Tokens {
     fn new(tokens: TokenStream) -> Self {
-        let last = tokens.clone().into_iter().last();
-        Self(tokens.into_iter().peekable(), last.map_or_else(Span::call_site, |last| last.span()))
+        let all: Vec<_> = tokens.into_iter().collect();
+        let end = all.last().map_or_else(Span::call_site, TokenTree::span);
+        Self { all, next: 0, end }
+    }
+
+    /// The token so many behind the next one.
+    fn ahead(&self, by: usize) -> Option<&TokenTree> {
+        self.all.get(self.next + by)
+    }
+
+    fn peek(&self) -> Option<&TokenTree> {
+        self.ahead(0)
+    }
+
+    /// Takes the next token.
+    fn advance(&mut self) -> Option<TokenTree> {
+        let token = self.peek().cloned();
+        self.next += usize::from(token.is_some());
+        token
+    }
+
+    fn is_sign(&self, by: usize, character: char) -> bool {
+        matches!(self.ahead(by), Some(TokenTree::Punct(found)) if found.as_char() == character)
     }
 
     /// Takes a sign of one or two characters if it comes next.
     fn take_sign(&mut self, sign: &str) -> Option<TokenStream> {
-        let mut ahead = self.0.clone();
-        let mut taken = TokenStream::new();
-        for character in sign.chars() {
-            match ahead.next() {
-                Some(TokenTree::Punct(found)) if found.as_char() == character => {
-                    taken.extend([TokenTree::Punct(found)]);
-                }
-                _ => return None,
-            }
-        }
-        // `*` is no beginning of `**`.
-        let is_power =
-            sign == "*" && matches!(ahead.peek(), Some(TokenTree::Punct(next)) if next.as_char() == '*');
-        if is_power {
+        let comes = sign.chars().enumerate().all(|(k, character)| self.is_sign(k, character));
+        // `*` is not the beginning of `**`.
+        if !comes || sign == "*" && self.is_sign(1, '*') {
             return None;
         }
-        self.0 = ahead;
+        let taken = self.all[self.next..][..sign.len()].iter().cloned().collect();
+        self.next += sign.len();
         Some(taken)
     }
 
-    fn take_word(&mut self, word: &str) -> Option<()> {
-        self.0.next_if(|token| matches!(token, TokenTree::Ident(found) if found == word)).map(|_| ())
+    /// Takes one of two signs if it comes next, also with the point before it of operations on each entry.
+    fn take_either(&mut self, signs: [&str; 2]) -> Option<TokenStream> {
+        let point = usize::from(self.is_sign(0, '.'));
+        self.next += point;
+        let taken = signs.into_iter().find_map(|sign| self.take_sign(sign));
+        if taken.is_none() {
+            self.next -= point;
+        }
+        taken
+    }
+
+    /// Takes the name behind `.` or `::`.
+    fn take_member(&mut self) -> Option<Ident> {
+        let behind = match (self.is_sign(0, '.'), self.is_sign(0, ':') && self.is_sign(1, ':')) {
+            (true, _) => 1,
+            (_, true) => 2,
+            _ => return None,
+        };
+        let Some(TokenTree::Ident(member)) = self.ahead(behind).cloned() else { return None };
+        self.next += behind + 1;
+        Some(member)
+    }
+
+    fn take_word(&mut self, word: &str) -> bool {
+        let comes = matches!(self.peek(), Some(TokenTree::Ident(found)) if found == word);
+        self.next += usize::from(comes);
+        comes
     }
 
     /// Whether a factor comes next, without `*` before it.
-    fn begins_factor(&mut self) -> bool {
-        match self.0.peek() {
+    fn begins_factor(&self) -> bool {
+        match self.peek() {
             Some(TokenTree::Ident(word)) => word != "where",
             Some(TokenTree::Literal(_)) => true,
             Some(TokenTree::Group(group)) => group.delimiter() == Delimiter::Parenthesis,
@@ -374,14 +564,18 @@ impl Tokens {
         }
     }
 
-    /// A mistake at the next token, or at the end.
-    fn mistake(&mut self, message: &str) -> syn::Error {
-        let span = self.0.peek().map_or(self.1, TokenTree::span);
-        syn::Error::new(span, message)
+    /// Whether an exponent comes next.
+    fn begins_exponent(&self) -> bool {
+        self.is_sign(0, '^') || self.is_sign(0, '*') && self.is_sign(1, '*')
     }
 
-    fn end(&mut self) -> syn::Result<()> {
-        match self.0.peek() {
+    /// A mistake at the next token, or at the end.
+    fn mistake(&self, message: &str) -> syn::Error {
+        syn::Error::new(self.peek().map_or(self.end, TokenTree::span), message)
+    }
+
+    fn end(&self) -> syn::Result<()> {
+        match self.peek() {
             None => Ok(()),
             Some(token) => {
                 let message = match token.to_string().as_str() {
@@ -399,7 +593,11 @@ impl Tokens {
 }
 
 fn parenthesised(tokens: TokenStream, span: Span) -> Group {
-    let mut group = Group::new(Delimiter::Parenthesis, tokens);
+    parenthesised_as(Delimiter::Parenthesis, tokens, span)
+}
+
+fn parenthesised_as(delimiter: Delimiter, tokens: TokenStream, span: Span) -> Group {
+    let mut group = Group::new(delimiter, tokens);
     group.set_span(span);
     group
 }
@@ -410,7 +608,13 @@ fn span(tokens: &TokenStream) -> Span {
 
 /// A number with a decimal point, as Rust wants it.
 fn real(literal: Literal) -> syn::Result<Literal> {
-    let refuse = || syn::Error::new(literal.span(), format!("`{literal}` is no number of a formula"));
+    /// More characters than any number needs, for numbers are read digit by digit.
+    const LONGEST: usize = 100;
+    let refuse = || syn::Error::new(literal.span(), format!("`{literal}` is not a number of a formula"));
+    if literal.to_string().len() > LONGEST {
+        let message = format!("a number has at most {LONGEST} digits here");
+        return Err(syn::Error::new(literal.span(), message));
+    }
     let digits = match syn::Lit::new(literal.clone()) {
         syn::Lit::Int(number) if number.suffix().is_empty() => number.base10_digits().to_owned() + ".0",
         syn::Lit::Float(number) if number.suffix().is_empty() => number.base10_digits().to_owned(),
@@ -441,16 +645,4 @@ fn whole(exponent: &TokenStream) -> Option<TokenStream> {
     let mut whole = Literal::i64_unsuffixed(value as i64);
     whole.set_span(literal.span());
     Some(quote!(#minus #whole))
-}
-
-/// The stretch that a name stands for.
-fn stretch(name: &str) -> Option<&'static str> {
-    let number =
-        ["l", "λ", "λ_", "lambda_", "lambda"].into_iter().find_map(|letter| name.strip_prefix(letter))?;
-    match number {
-        "1" => Some(STRETCHES[0]),
-        "2" => Some(STRETCHES[1]),
-        "3" => Some(STRETCHES[2]),
-        _ => None,
-    }
 }

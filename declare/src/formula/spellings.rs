@@ -1,0 +1,314 @@
+//! The spellings that formulas may have: one table, which the parser reads and `docs/formulas.md` prints.
+//!
+//! A name that is given a value is a parameter, however it is spelt; the table is about all others.
+
+/// A name or a function, with the Rust that it stands for.
+struct Spelling {
+    /// An expression, or the method of a function.
+    rust: &'static str,
+    #[cfg_attr(not(test), expect(dead_code, reason = "a test writes it into the documentation"))]
+    meaning: &'static str,
+    /// Without underscores.
+    spellings: &'static [&'static str],
+}
+
+/// Names, which may have underscores anywhere: `I_1` is `I1`.
+const NAMES: [Spelling; 10] = [
+    Spelling {
+        rust: "l1",
+        meaning: "principal stretch λ1",
+        spellings: &["l1", "λ1", "lambda1", "lam1", "lmbda1"],
+    },
+    Spelling {
+        rust: "l2",
+        meaning: "principal stretch λ2",
+        spellings: &["l2", "λ2", "lambda2", "lam2", "lmbda2"],
+    },
+    Spelling {
+        rust: "l3",
+        meaning: "principal stretch λ3",
+        spellings: &["l3", "λ3", "lambda3", "lam3", "lmbda3"],
+    },
+    Spelling { rust: "J", meaning: "J = λ1λ2λ3", spellings: &["J", "detF"] },
+    Spelling { rust: "I1", meaning: "I1 = Σλ²", spellings: &["I1", "trC", "IC", "Ic", "I1C"] },
+    Spelling { rust: "I2", meaning: "I2 = λ1²λ2² + λ2²λ3² + λ3²λ1²", spellings: &["I2", "I2C"] },
+    Spelling {
+        rust: "I1b",
+        meaning: "J^(−2/3) I1",
+        spellings: &["I1b", "I1bar", "Ibar1", "barI1", "Ib1", "I1iso", "Ī1", "I\u{304}1", "I\u{305}1"],
+    },
+    Spelling {
+        rust: "I2b",
+        meaning: "J^(−4/3) I2",
+        spellings: &["I2b", "I2bar", "Ibar2", "barI2", "Ib2", "I2iso", "Ī2", "I\u{304}2", "I\u{305}2"],
+    },
+    Spelling { rust: "(J.ln())", meaning: "ln(J)", spellings: &["lnJ", "logJ"] },
+    Spelling { rust: "PI", meaning: "π", spellings: &["pi", "π", "PI", "Pi"] },
+];
+
+/// Functions of one argument.
+const FUNCTIONS: [Spelling; 17] = [
+    Spelling { rust: "ln", meaning: "natural logarithm", spellings: &["ln", "log", "Log"] },
+    Spelling { rust: "log10", meaning: "decimal logarithm", spellings: &["log10"] },
+    Spelling { rust: "exp", meaning: "exponential", spellings: &["exp", "Exp"] },
+    Spelling { rust: "sqrt", meaning: "square root", spellings: &["sqrt", "Sqrt"] },
+    Spelling { rust: "cbrt", meaning: "cube root", spellings: &["cbrt"] },
+    Spelling { rust: "sinh", meaning: "hyperbolic sine", spellings: &["sinh"] },
+    Spelling { rust: "cosh", meaning: "hyperbolic cosine", spellings: &["cosh"] },
+    Spelling { rust: "tanh", meaning: "hyperbolic tangent", spellings: &["tanh"] },
+    Spelling {
+        rust: "asinh",
+        meaning: "inverse hyperbolic sine",
+        spellings: &["asinh", "arsinh", "arcsinh"],
+    },
+    Spelling { rust: "sin", meaning: "sine", spellings: &["sin"] },
+    Spelling { rust: "cos", meaning: "cosine", spellings: &["cos"] },
+    Spelling { rust: "atan", meaning: "arc tangent", spellings: &["atan", "arctan", "arctg"] },
+    Spelling { rust: "erf", meaning: "error function", spellings: &["erf"] },
+    Spelling { rust: "ln_1p", meaning: "ln(1 + x)", spellings: &["ln_1p", "ln1p", "log1p"] },
+    Spelling { rust: "exp_m1", meaning: "exp(x) − 1", spellings: &["exp_m1", "expm1"] },
+    Spelling { rust: "softplus", meaning: "ln(1 + exp(x))", spellings: &["softplus"] },
+    Spelling { rust: "sigmoid", meaning: "1/(1 + exp(−x))", spellings: &["sigmoid", "logistic", "expit"] },
+];
+
+/// Functions of two arguments: powers.
+const POWERS: [&str; 2] = ["pow", "power"];
+
+/// Functions of tensors.
+const TENSOR_FUNCTIONS: [(&[&str], Invariant); 3] = [
+    (&["tr", "trace", "Tr"], Invariant::Trace),
+    (&["det"], Invariant::Determinant),
+    (&["inner", "ddot"], Invariant::Product),
+];
+
+/// The products of F with its transpose that stand for C or b, without spaces.
+const RIGHT_AND_LEFT: [&str; 14] = [
+    "F^T*F",
+    "F^TF",
+    "F.T*F",
+    "F.T@F",
+    "transpose(F)*F",
+    "dot(F.T,F)",
+    "dot(transpose(F),F)",
+    "F.transpose()*F",
+    "F*F^T",
+    "FF^T",
+    "F*F.T",
+    "F@F.T",
+    "F*transpose(F)",
+    "dot(F,F.T)",
+];
+
+/// Modules whose name may stand before functions and constants, as in `np.log`, `std::log`.
+const MODULES: [&str; 14] = [
+    "np", "numpy", "jnp", "jax", "math", "cmath", "Math", "std", "sp", "sympy", "ufl", "torch", "tf",
+    "special",
+];
+
+/// A function that makes a number of tensors.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Invariant {
+    Trace,
+    Determinant,
+    /// The sum of the products of all entries of two tensors, which are one, or powers of one.
+    Product,
+}
+
+/// The Rust that a name stands for.
+pub(super) fn name(name: &str) -> Option<&'static str> {
+    let plain = name.replace('_', "");
+    find(&NAMES, &plain)
+}
+
+/// The method of a function.
+pub(super) fn function(name: &str) -> Option<&'static str> {
+    find(&FUNCTIONS, name)
+}
+
+fn find(table: &[Spelling], name: &str) -> Option<&'static str> {
+    table.iter().find(|spelling| spelling.spellings.contains(&name)).map(|spelling| spelling.rust)
+}
+
+/// Whether a function is a power of its first argument by its second.
+pub(super) fn is_power(name: &str) -> bool {
+    POWERS.contains(&name)
+}
+
+/// The function of tensors that a name stands for.
+pub(super) fn invariant(name: &str) -> Option<Invariant> {
+    TENSOR_FUNCTIONS.iter().find(|(names, _)| names.contains(&name)).map(|&(_, invariant)| invariant)
+}
+
+/// Whether a name is that of a module.
+pub(super) fn is_module(name: &str) -> bool {
+    MODULES.contains(&name)
+}
+
+/// The name that stands for each stretch in the sums of traces.
+const EACH: &str = "each";
+
+/// A tensor with stretches for principal values, or functions of them.
+#[derive(Clone, Copy, PartialEq)]
+enum Tensor {
+    /// C and b.
+    CauchyGreen,
+    /// U and V.
+    Stretch,
+    /// E.
+    Green,
+    /// F.
+    Gradient,
+}
+
+/// The Rust for an invariant of tensors, given as text without spaces, or advice.
+pub(super) fn of_tensors(
+    invariant: Invariant,
+    text: &str,
+    is_given: impl Fn(&str) -> bool,
+) -> Result<String, &'static str> {
+    const KNOWN: &str = "the tensors of a formula are `C` and `b`, `U` and `V`, `E`, their powers and inverses, and \
+                         `F` in `det(F)`, `tr(F^T*F)` and `inner(F, F)`";
+    let read = |text: &str| tensor(text, &is_given).ok_or(KNOWN);
+    if invariant == Invariant::Product {
+        let (one, other) =
+            text.split_once(',').ok_or("a product of tensors has two of them, as in `inner(E, E)`")?;
+        let ((one, n), (other, m)) = (read(one)?, read(other)?);
+        return match one {
+            _ if one != other => Err("both tensors of a product are powers of one, as in `inner(E, E)`"),
+            Tensor::Gradient if (n, m) == (1, 1) => Ok(trace(Tensor::CauchyGreen, 1)),
+            Tensor::Gradient => Err(KNOWN),
+            tensor => Ok(trace(tensor, n + m)),
+        };
+    }
+    match (invariant, read(text)?) {
+        (Invariant::Determinant, (Tensor::Gradient | Tensor::Stretch, 1)) => Ok("J".to_owned()),
+        (Invariant::Determinant, (Tensor::Gradient | Tensor::Stretch, n)) => Ok(format!("J.powi({n})")),
+        (Invariant::Determinant, (Tensor::CauchyGreen, n)) => Ok(format!("J.powi({})", 2 * n)),
+        (Invariant::Determinant, (Tensor::Green, _)) => {
+            Err("write out the product of the principal values of E, `(l1^2 - 1)/2` and so on")
+        }
+        (_, (Tensor::Gradient, _)) => Err(
+            "the trace of F changes with rotations: `tr(C)` is that of FᵀF, `tr(U)` the sum of the stretches",
+        ),
+        (_, (tensor, n)) => Ok(trace(tensor, n)),
+    }
+}
+
+/// The trace of a power of a tensor.
+fn trace(tensor: Tensor, n: i64) -> String {
+    match (tensor, n) {
+        (Tensor::CauchyGreen, 1) => "I1".to_owned(),
+        (Tensor::CauchyGreen, -1) => "(I2 / J.powi(2))".to_owned(),
+        (Tensor::CauchyGreen, n) => format!("sum(|{EACH}| {EACH}.powi({}))", 2 * n),
+        (Tensor::Green, 1) => "((I1 - 3.0) / 2.0)".to_owned(),
+        (Tensor::Green, n) => format!("sum(|{EACH}| (({EACH}.powi(2) - 1.0) / 2.0).powi({n}))"),
+        (_, n) => format!("sum(|{EACH}| {EACH}.powi({n}))"),
+    }
+}
+
+/// The tensor that a text without spaces is a power of, and the exponent.
+fn tensor(text: &str, is_given: &impl Fn(&str) -> bool) -> Option<(Tensor, i64)> {
+    /// Longer than any tensor, and nested no deeper than texts may be.
+    const LONGEST: usize = 40;
+    if text.len() > LONGEST {
+        return None;
+    }
+    let inner = |text: &str, function: &str| {
+        let inside = text.strip_prefix(function)?.strip_prefix('(')?.strip_suffix(')')?;
+        let mut depth = 0;
+        let closes = inside.chars().any(|c| {
+            depth += i32::from(c == '(') - i32::from(c == ')');
+            depth < 0
+        });
+        (!closes).then(|| inside.to_owned())
+    };
+    if RIGHT_AND_LEFT.contains(&text) {
+        return (!is_given("F")).then_some((Tensor::CauchyGreen, 1));
+    }
+    if let Some(inside) = inner(text, "") {
+        return tensor(&inside, is_given);
+    }
+    if let Some(inside) = inner(text, "inv").or_else(|| inner(text, "inverse")) {
+        let (tensor, n) = tensor(&inside, is_given)?;
+        return Some((tensor, -n));
+    }
+    if let Some((one, other)) = text.split_once("**").or_else(|| text.split_once('^')) {
+        let (tensor, n) = tensor(one, is_given)?;
+        let exponent: i64 = other.trim_matches(['(', ')']).parse().ok()?;
+        // Beyond, powers of stretches are larger than whole powers may be.
+        return (n.abs() * exponent.abs() <= 32).then_some((tensor, n * exponent));
+    }
+    let product = inner(text, "dot").map(|pair| pair.replacen(',', "*", 1));
+    if let Some((one, other)) = product.as_deref().unwrap_or(text).split_once(['*', '@']) {
+        let (tensor, n) = tensor(one, is_given).filter(|_| one == other)?;
+        return Some((tensor, 2 * n));
+    }
+    let tensor = match text {
+        "C" | "B" | "b" => Tensor::CauchyGreen,
+        "U" | "V" => Tensor::Stretch,
+        "E" => Tensor::Green,
+        "F" => Tensor::Gradient,
+        _ => return None,
+    };
+    (!is_given(text)).then_some((tensor, 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    /// The table as Markdown.
+    fn table() -> String {
+        let code =
+            |names: &[&str]| names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let mut text = "| spelling | meaning |\n|---|---|\n".to_owned();
+        let mut row = |spelling: String, meaning: &str| text += &format!("| {spelling} | {meaning} |\n");
+        for Spelling { meaning, spellings, .. } in &NAMES {
+            row(code(spellings), meaning);
+        }
+        for Spelling { meaning, spellings, .. } in &FUNCTIONS {
+            row(code(spellings), &format!("{meaning}, a function"));
+        }
+        row(format!("`x^n`, `x**n`, {}", POWERS.map(|name| format!("`{name}(x, n)`")).join(", ")), "power");
+        row("`.*`, `./`, `.^`".to_owned(), "`*`, `/`, `^`");
+        for (names, meaning) in [
+            (TENSOR_FUNCTIONS[0].0, "trace of a tensor: `tr(C)` is I1, `tr(E)^2` and `tr(E^2)` are read"),
+            (TENSOR_FUNCTIONS[1].0, "determinant: `det(F)` is J, `det(C)` is J²"),
+            (TENSOR_FUNCTIONS[2].0, "product A : B of tensors: `inner(E, E)` is `tr(E^2)`"),
+        ] {
+            row(code(names), meaning);
+        }
+        row(code(&RIGHT_AND_LEFT), "C or b, in these functions");
+        row(format!("{}, before `.` or `::`", code(&MODULES)), "nothing: `np.log(J)` is `log(J)`");
+        text
+    }
+
+    /// Set `PIOLA_BLESS=1` to write the table anew.
+    #[test]
+    fn the_documentation_has_the_table() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/formulas.md");
+        let text = std::fs::read_to_string(&path).expect("the documentation");
+        let begin = text.find("| spelling | meaning |").expect("a table");
+        let end = begin + text[begin..].find("\n\n").expect("its end") + 1;
+        if std::env::var_os("PIOLA_BLESS").is_some() {
+            std::fs::write(&path, text[..begin].to_owned() + &table() + &text[end..])
+                .expect("the documentation");
+        } else {
+            assert_eq!(text[begin..end], table());
+        }
+    }
+
+    #[test]
+    fn no_spelling_has_two_meanings() {
+        let mut all: Vec<_> = NAMES.iter().chain(&FUNCTIONS).flat_map(|one| one.spellings).copied().collect();
+        all.extend(
+            POWERS.iter().chain(TENSOR_FUNCTIONS.iter().flat_map(|(names, _)| *names)).chain(&MODULES),
+        );
+        let count = all.len();
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), count);
+    }
+}
