@@ -42,6 +42,14 @@ pub(crate) struct Material {
 }
 
 impl Material {
+    /// The material for curves at such a volume.
+    fn at(self, volume: Volume) -> Self {
+        match volume {
+            Volume::Free => self,
+            Volume::Kept => Self { formula: self.formula.at_constant_volume(), ..self },
+        }
+    }
+
     /// The material with these parameters and else typical ones.
     pub(crate) fn spec(self) -> Result<MaterialSpec, Error> {
         let name = self.material.unwrap_or_default();

@@ -26,7 +26,9 @@ pub(crate) struct Declare {
 impl Declare {
     /// The declaration and what follows from it.
     pub(crate) fn run(self) -> Result<String, Error> {
-        let options = FormulaOptions::default().with_free_rest(self.free_rest);
+        let options = FormulaOptions::default()
+            .with_free_rest(self.free_rest)
+            .with_forms("--param NAME=VALUE", "--free-rest");
         let options = if self.kappa { options.with_bulk("kappa") } else { options };
         let energy = Energy::from_formula_with(&self.formula, &options).map_err(SceneError::Declaration)?;
         Ok(format!("{}\n{}", energy.source(), as_comment(energy.documentation())))

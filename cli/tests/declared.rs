@@ -91,6 +91,28 @@ fn curves_and_fits_take_formulas_and_files() {
     assert!(fitted(&[OGDEN]).contains("--param mu="), "Ogden's from its file");
 }
 
+/// At constant volume the pressure does no work, and a stress at rest is a pressure: neo-Hooke's and Mooney's
+/// curves as they are printed.
+#[test]
+fn formulas_of_incompressible_solids_are_taken_as_printed_at_constant_volume() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let printed = "C_10*(I_1 - 3) + C_01*(I_2 - 3)";
+    let parameters = ["--param", "C_10=0.2MPa", "--param", "C_01=0.01MPa"];
+    let range = ["--incompressible", "--mode", "uniaxial", "--from", "2", "--to", "3", "--rows", "2"];
+    let text = answer(folder.path(), &[&["curve", "--energy", printed], &parameters[..], &range].concat());
+    let row = text.lines().find(|line| line.trim_start().starts_with("2.0000")).expect("a row");
+    let stress: f64 = row.split_whitespace().nth(1).expect("a stress").parse().expect("a number");
+    let expected = 2.0 * (2.0 - 0.25) * (0.2e6 + 0.01e6 / 2.0);
+    assert!((stress / expected - 1.0).abs() < 1e-5, "{row}: not {expected}");
+    let fit =
+        ["fit", "--energy", "mu/2*(I1 - 3)", "--data", "treloar", "--starts", "2", "--param", "mu=0.4MPa"];
+    assert!(answer(folder.path(), &fit).contains("incompressible, fitted to treloar"));
+    assert!(
+        refusal(&["fit", "--compressible"].into_iter().chain(fit.into_iter().skip(1)).collect::<Vec<_>>())
+            .contains("this leaves the stress `mu` at rest")
+    );
+}
+
 #[test]
 fn the_contract_is_checked_without_a_crate() {
     let folder = tempfile::tempdir().expect("a scratch folder");
@@ -143,8 +165,13 @@ fn mistakes_are_told_at_their_places() {
         "{message}"
     );
     let message = refusal(&["curve", "--energy", NEO_HOOKEAN, "--param", "mu=1", "--param", "lamda=1"]);
-    assert!(message.contains("unknown name `lambda`: did you mean `lamda`?"), "{message}");
-    assert!(refusal(&["curve", "--energy", NEO_HOOKEAN]).contains("needs a value for `mu`, `lambda`"));
+    assert!(message.contains("`lambda` has no value: did you mean `lamda`?"), "{message}");
+    let message = refusal(&["curve", "--energy", "mu/2*(I1 - 3) + b*(J - 1)^2", "--param", "mu=1"]);
+    assert!(message.contains("`b` has no value: give it one by `--param b=VALUE`"), "{message}");
+    let message = refusal(&["curve", "--energy", NEO_HOOKEAN]);
+    assert!(message.contains("`mu` has no value") && message.contains("`lambda` has no value"), "{message}");
+    let message = refusal(&["curve", "--energy", "mu/2*(I1 - 3)", "--param", "mu=1"]);
+    assert!(message.contains("`- mu*ln(J)`") && message.contains("the option `--free-rest`"), "{message}");
     assert!(refusal(&["curve", "nowhere.rs"]).contains("nowhere.rs: cannot be read"));
     assert!(
         refusal(&["curve", "--energy", NEO_HOOKEAN, "--param", "mu=1 psi"])

@@ -68,12 +68,12 @@ impl Curve {
         if self.material.material.as_deref() == Some(ranking::ALL) {
             return self.rank();
         }
-        let material = self.material.spec()?.with_inversion(Inversion::Refuse);
+        let volume = if self.incompressible { Volume::Kept } else { Volume::Free };
+        let material = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
         let specimen = &*material.specimen()?;
         let data::Measured { points, notes } = self.data.read()?.unwrap_or_default();
         let data = (!points.points.is_empty()).then_some(points);
-        let volume = if self.incompressible { Volume::Kept } else { Volume::Free };
         let is_asked = |mode: &Mode| self.data.tests.iter().any(|test| test.mode == *mode);
         let modes = match (&data, Mode::ALL.into_iter().filter(is_asked).collect::<Vec<_>>()) {
             (Some(data), modes) if modes.is_empty() => data.modes().collect(),

@@ -56,15 +56,15 @@ impl Fit {
     /// Fits the parameters, and draws the result if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
         self.data.keep(self.svg.as_ref())?;
-        let spec = self.material.spec()?.with_inversion(Inversion::Refuse);
-        let material = spec.build()?.name;
-        let candidate = spec.candidate()?;
         let Measured { points: data, notes } = self.data.read()?.unwrap_or_default();
         let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);
         let volume = match self.compressible || is_volumetric && !self.incompressible {
             true => Volume::Free,
             false => Volume::Kept,
         };
+        let spec = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
+        let material = spec.build()?.name;
+        let candidate = spec.candidate()?;
         let settings = FitSettings::default()
             .with_volume(volume)
             .with_held(self.held)

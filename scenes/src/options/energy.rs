@@ -17,12 +17,14 @@ use super::value::modulus;
 pub struct Formula {
     /// Energy as a formula, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`, in place of a material.
     ///
-    /// Its names are the stretches l1, l2, l3, the invariants I1, I2, J, I1b and I2b, and parameters, whose
-    /// values --param gives. Conditions may follow, as in `… where J > 0, I1 < 3 + Jm`.
+    /// Its names are those that --param gives values to, and else the stretches l1, l2, l3 and the invariants
+    /// I1, I2, J, I1b and I2b, also as lambda_1, tr(C), det(F) and more. Conditions may follow, as in `… where
+    /// J > 0, I1 < 3 + Jm`.
     #[arg(long, value_name = "FORMULA", conflicts_with = "material")]
     energy: Option<String>,
 
-    /// Subtract s ln J from the formula, s being its stress at rest, which it then has no more.
+    /// Subtract s ln J from the formula, s being its stress at rest, which it then has no more; curves and
+    /// fits at constant volume do not need it.
     #[arg(long, requires = "energy")]
     free_rest: bool,
 
@@ -35,16 +37,24 @@ pub struct Formula {
 const BULK: &str = "kappa";
 
 impl Formula {
+    /// The formula for curves at constant volume. A stress at rest is a pressure, which does no work there: it is
+    /// left out, as by `--free-rest`.
+    #[must_use]
+    pub fn at_constant_volume(self) -> Self {
+        Self { free_rest: self.free_rest || self.energy.is_some(), ..self }
+    }
+
     /// The material of the formula with these parameters, if a formula is given.
     ///
     /// # Errors
-    /// [`Error::Declaration`].
+    /// [`Error::Declaration`]; a name without a value is a mistake at its place.
     pub fn spec(&self, parameters: &[Given]) -> Result<Option<MaterialSpec>, Error> {
         let Some(formula) = &self.energy else { return Ok(None) };
-        // A name without a value is a mistake, told at its place, unless none has a value yet.
         let names = parameters.iter().map(|given| (given.name.clone(), given.documentation()));
-        let known = (!parameters.is_empty()).then(|| names.collect());
-        let options = FormulaOptions::default().with_parameters(known).with_free_rest(self.free_rest);
+        let options = FormulaOptions::default()
+            .with_parameters(Some(names.collect()))
+            .with_free_rest(self.free_rest)
+            .with_forms("--param NAME=VALUE", "--free-rest");
         let options = if self.kappa.is_some() { options.with_bulk(BULK) } else { options };
         let energy = Energy::from_formula_with(formula, &options).map_err(Error::Declaration)?;
         let spec = MaterialSpec::declared(energy);

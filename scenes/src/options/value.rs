@@ -18,13 +18,13 @@ pub struct Given {
 }
 
 impl Given {
-    /// Documentation of the parameter, as in a declaration.
+    /// Documentation of the parameter, as in a declaration, if it has a unit.
     #[must_use]
     pub fn documentation(&self) -> String {
         match self.unit {
             Some(Unit::Pascal) => format!("Parameter {}, Pa.", self.name),
             Some(Unit::PerPascal) => format!("Parameter {}, 1/Pa.", self.name),
-            _ => format!("Parameter {}.", self.name),
+            _ => String::new(),
         }
     }
 }
