@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use crate::driver::{Answer, Order};
 use crate::protocol::{Act, Message};
+use crate::typed;
 
 /// Bound of the numbers that a page gives its drags; that of its conversation tells them from those of other
 /// pages.
@@ -60,14 +61,17 @@ impl Conversation {
         Order::Leave { drags: self.drags.clone() }
     }
 
-    /// The order that a message of the page is; `None` if it asks once more for the frame that is under way.
+    /// The order that a message of the page is; `None` if it asks once more for the frame that is under way,
+    /// and if the energy in it is refused.
+    ///
+    /// An energy is compiled here, by the caller, and not by the driver: the body moves on.
     ///
     /// # Errors
     /// The reason why it is not a message.
     pub fn order(&mut self, text: &str) -> Result<Option<Order>, String> {
         let answer = self.answer.clone();
         Ok(match Message::parse(text)? {
-            Message::Act(act) => Some(Order::Act { act: self.as_own(act)?, answer }),
+            Message::Act(act) => self.act(act, answer)?,
             Message::Run(run) => Some(Order::Run(run)),
             Message::Look {} if self.waits => None,
             Message::Look {} => {
@@ -75,6 +79,23 @@ impl Conversation {
                 Some(Order::Look { seen: self.seen, answer })
             }
         })
+    }
+
+    /// The order of an act.
+    fn act(&self, act: Act, answer: Sender<Answer>) -> Result<Option<Order>, String> {
+        let act = self.as_own(act)?;
+        let energy = match &act {
+            Act::Energy { text, parameters } => match typed::energy(text, parameters) {
+                Ok(energy) => Some(energy),
+                Err(error) => {
+                    // The other end is in this conversation.
+                    let _ = answer.send(Answer::refusal(&act, error));
+                    return Ok(None);
+                }
+            },
+            _ => None,
+        };
+        Ok(Some(Order::Act { act, energy, answer }))
     }
 
     /// Messages for the page in the answers that have come.

@@ -12,6 +12,7 @@ use std::sync::mpsc::Sender;
 use std::time::Duration;
 
 use piola::step::StepReport;
+use piola_declare::Energy;
 use piola_scenes::error::Error as SceneError;
 
 use crate::error::Error;
@@ -48,6 +49,8 @@ pub enum Order {
     Act {
         /// The change.
         act: Act,
+        /// The energy of an act that has the text of one, compiled.
+        energy: Option<Energy>,
         /// Where to say why it is refused.
         answer: Sender<Answer>,
     },
@@ -74,6 +77,17 @@ pub enum Answer {
     Frame(Frame),
     /// An act was refused; a message for the page.
     Refused(Arc<str>),
+}
+
+impl Answer {
+    /// The answer that an act is refused, for this reason.
+    pub(crate) fn refusal(act: &Act, error: Error) -> Self {
+        let (reason, mistakes) = match error {
+            Error::Scene(SceneError::Declaration(mistakes)) => (mistakes.to_string(), mistakes.list),
+            error => (for_page(&error), Vec::new()),
+        };
+        Self::Refused(show::refused(act, &reason, &mistakes))
+    }
 }
 
 /// A session, with everything that drives it.
@@ -143,16 +157,10 @@ impl<H: Host> Driver<H> {
     /// Does what it is told between two steps.
     pub fn obey(&mut self, order: Order) {
         match order {
-            Order::Act { act, answer } => {
-                if let Err(error) = self.act(&act).and_then(|()| self.save(&act)) {
-                    let (reason, mistakes) = match error {
-                        Error::Scene(SceneError::Declaration(mistakes)) => {
-                            (mistakes.to_string(), mistakes.list)
-                        }
-                        error => (for_page(&error), Vec::new()),
-                    };
+            Order::Act { act, energy, answer } => {
+                if let Err(error) = self.act(&act, energy).and_then(|()| self.save(&act)) {
                     // A page that has gone needs no answer.
-                    let _ = answer.send(Answer::Refused(show::refused(&act, &reason, &mistakes)));
+                    let _ = answer.send(Answer::refusal(&act, error));
                 }
             }
             Order::Run(Run::Pause { paused }) => {
@@ -175,15 +183,18 @@ impl<H: Host> Driver<H> {
                 let left: Vec<_> = left.filter(|drag| drags.contains(drag)).collect();
                 for drag in left {
                     // A release cannot fail.
-                    let _ = self.act(&Act::Release { drag });
+                    let _ = self.act(&Act::Release { drag }, None);
                 }
             }
         }
         self.state += 1;
     }
 
-    fn act(&mut self, act: &Act) -> Result<(), Error> {
-        self.session.apply(act)?;
+    fn act(&mut self, act: &Act, energy: Option<Energy>) -> Result<(), Error> {
+        match (act, energy) {
+            (Act::Energy { parameters, .. }, Some(energy)) => self.session.declare(energy, parameters)?,
+            _ => self.session.apply(act)?,
+        }
         let is_another_body =
             matches!(act, Act::Material { .. } | Act::Energy { .. } | Act::Parameter { .. });
         if is_another_body || matches!(act, Act::Reset {} | Act::Restore {}) {

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use piola::mesh::Anchor;
 use piola::step::StepReport;
+use piola_declare::Energy;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::MaterialSpec;
@@ -148,11 +149,7 @@ impl Session {
                 let material = self.material(name, *as_stiff)?;
                 self.change(self.settings.clone().with_material(material))
             }
-            Act::Energy { text, parameters } => {
-                let moduli = self.play.moduli();
-                let material = typed::material(text, parameters, &self.settings.material, moduli)?;
-                self.change(self.settings.clone().with_material(material))
-            }
+            Act::Energy { text, parameters } => self.declare(typed::energy(text, parameters)?, parameters),
             Act::Parameter { name, values } => {
                 let material = self.settings.material.clone().with_parameter(name, values.clone());
                 self.change(self.settings.clone().with_material(material))
@@ -180,6 +177,15 @@ impl Session {
                 result
             }
         }
+    }
+
+    /// Replaces the material by an energy with these values, as [`Act::Energy`] does by its text.
+    ///
+    /// # Errors
+    /// [`Error::Scene`]; the state is then as before.
+    pub fn declare(&mut self, energy: Energy, parameters: &BTreeMap<String, Vec<f64>>) -> Result<(), Error> {
+        let material = typed::material(energy, parameters, &self.settings.material, self.play.moduli())?;
+        self.change(self.settings.clone().with_material(material))
     }
 
     fn pull(&mut self, number: u64, vertex: usize, target: [f64; 3]) -> Result<(), SceneError> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use piola::material::{Moduli, Parameter};
-use piola_declare::Energy;
+use piola_declare::{Energy, FormulaOptions};
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 
@@ -14,18 +14,18 @@ const MAX_TEXT: usize = 12 * 1024;
 /// New parameters of which all combinations of values are tried; any more begin with 1.
 const MOST_TRIED: usize = 6;
 
-/// The material of a text with these values. A parameter without one has that of the present material, if
+/// The material of an energy with these values. A parameter without one has that of the present material, if
 /// that has one of its name and form, and else begins with [a value of its own](begin).
 ///
 /// # Errors
-/// [`SceneError::Declaration`], or an error of the material.
+/// An error of the material.
 pub(crate) fn material(
-    text: &str,
+    energy: Energy,
     given: &BTreeMap<String, Vec<f64>>,
     present: &MaterialSpec,
     moduli: Moduli,
 ) -> Result<MaterialSpec, Error> {
-    let spec = MaterialSpec::declared(energy(text)?);
+    let spec = MaterialSpec::declared(energy);
     let description = spec.description()?.clone();
     let of_present = description.parameters.iter().filter_map(|parameter| {
         let values = present.values_of(&parameter.name);
@@ -38,12 +38,17 @@ pub(crate) fn material(
     Ok(begin(spec, moduli)?.explicit()?)
 }
 
-/// The energy of a formula, or of a declaration in Rust.
-fn energy(text: &str) -> Result<Energy, Error> {
+/// The energy of a formula, whose names with values are parameters, or of a declaration in Rust.
+///
+/// # Errors
+/// [`Error::LongText`] or [`SceneError::Declaration`].
+pub(crate) fn energy(text: &str, given: &BTreeMap<String, Vec<f64>>) -> Result<Energy, Error> {
     if text.len() > MAX_TEXT {
         return Err(Error::LongText { bytes: text.len(), most: MAX_TEXT });
     }
-    Ok(Energy::from_text(text).map_err(SceneError::Declaration)?)
+    let names = given.keys().map(|name| (name.clone(), String::new()));
+    let options = FormulaOptions::default().with_parameters(Some(names.collect())).with_further(true);
+    Ok(Energy::from_text_with(text, &options).map_err(SceneError::Declaration)?)
 }
 
 /// Gives each parameter without a value the shear modulus of the body, or 1: of all combinations the one with
@@ -81,7 +86,14 @@ mod tests {
     fn typed(text: &str, given: &[(&str, f64)]) -> Result<MaterialSpec, Error> {
         let given = given.iter().map(|&(name, value)| (name.to_owned(), vec![value])).collect();
         let present = MaterialSpec::new("neo_hookean").with_parameter("mu", [3e4]);
-        material(text, &given, &present, BODY)
+        material(energy(text, &given)?, &given, &present, BODY)
+    }
+
+    #[test]
+    fn a_name_with_a_value_is_a_parameter() {
+        let text = "mu/2*(I1 - 3) - mu*ln(J) + C*(J - 1)^2";
+        assert!(typed(text, &[]).unwrap_err().to_string().contains("unknown name `C`"));
+        assert_eq!(typed(text, &[("C", 2e5)]).unwrap().values_of("C"), [2e5]);
     }
 
     #[test]
@@ -97,7 +109,8 @@ mod tests {
     fn a_list_of_the_body_is_no_value_for_a_number() {
         let present = MaterialSpec::typical("ogden").unwrap();
         let text = "mu/2*(I1 - 3) - mu*ln(J) + kappa/2*(J - 1)^2";
-        let spec = material(text, &BTreeMap::new(), &present, BODY).unwrap();
+        let given = BTreeMap::new();
+        let spec = material(energy(text, &given).unwrap(), &given, &present, BODY).unwrap();
         assert_eq!([spec.values_of("mu"), spec.values_of("kappa")], [&[1e5], present.values_of("kappa")]);
     }
 
