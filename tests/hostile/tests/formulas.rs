@@ -1,0 +1,177 @@
+//! Formulas of 64 kB and less: a material or a refusal, and neither takes long.
+//!
+//! Time is that of the processor where Linux tells it, so that a busy machine makes no difference.
+
+use std::io::Write;
+use std::panic::catch_unwind;
+use std::time::{Duration, Instant};
+
+use piola_declare::Energy;
+
+/// The longest text of an energy.
+const LENGTH: usize = 1 << 16;
+
+/// The longest time of a call.
+const LONGEST: Duration = Duration::from_secs(2);
+
+/// A sum of as many terms as fit into a length, free of stress at rest.
+fn sum(length: usize, term: impl Fn(usize) -> String) -> String {
+    let mut text = "m*(I1 - 3 - 2*ln(J))".to_owned();
+    for k in 0.. {
+        let term = format!(" + {}", term(k));
+        if text.len() + term.len() > length {
+            return text;
+        }
+        text += &term;
+    }
+    text
+}
+
+/// What is repeated, so many times at most.
+fn repeated(
+    length: usize,
+    before: &str,
+    part: impl Fn(usize) -> String,
+    after: impl Fn(usize) -> String,
+) -> String {
+    let mut parts = Vec::new();
+    let mut size = before.len();
+    for k in 0.. {
+        size += part(k).len() + after(k).len();
+        if size > length {
+            break;
+        }
+        parts.push(part(k));
+    }
+    let closing: String = (0..parts.len()).map(&after).collect();
+    before.to_owned() + &parts.concat() + &closing
+}
+
+/// Formulas of about so many bytes.
+fn formulas(length: usize) -> Vec<(&'static str, String)> {
+    let none = |_: usize| String::new();
+    vec![
+        ("terms of one kind", sum(length, |_| "m*(I1b - 3)".to_owned())),
+        ("ones", repeated(length, "m*(I1b - 3)*(1", |_| "+1".to_owned(), none) + ")"),
+        ("a parameter in each term", sum(length, |k| format!("c{k}*(I1b - 3)^2"))),
+        ("a parameter and a power", sum(length, |k| format!("c{k}*(I1b - 3)^{}", 1 + k % 9))),
+        ("two parameters in each term", sum(length, |k| format!("c{k}*(exp(a{k}*(I1b - 3)) - 1)"))),
+        (
+            "Ogden, written out",
+            sum(length, |k| format!("c{k}/a{k}*(l1^a{k} + l2^a{k} + l3^a{k} - 3 - a{k}*ln(J))")),
+        ),
+        ("fractions", sum(length, |k| format!("m*((I1b - 3)/(I1b + {}))^2", k + 2))),
+        ("logarithms", sum(length, |k| format!("m*ln(1 + (I1b - 3)/{})^2", k + 2))),
+        (
+            "neurons",
+            sum(length, |k| format!("softplus({}.5*(I1b - 3) - {k})*0 + m*tanh(0.{k}*(I1b - 3))^2", k % 7)),
+        ),
+        ("coefficients", sum(length, |k| format!("0.{}*m*(I1b - 3)^2*(J - 1)^2", k + 1))),
+        ("factors", repeated(length, "m*(I1b - 3)", |k| format!("*(I1b + {k})"), none)),
+        ("factors with parameters", repeated(length, "m*(I1b - 3)", |k| format!("*(I1b + c{k})"), none)),
+        ("unknown names", repeated(length, "m*(I1b - 3)", |k| format!("*f{k}(J)"), none)),
+        ("conditions", repeated(length, "m*(I1b - 3) where J > 0", |k| format!(", I1 < 3 + c{k}"), none)),
+        (
+            "conditions on parameters",
+            repeated(length, "m*(I1b - 3) where m > 0", |k| format!(", m > {k}"), none),
+        ),
+        ("parentheses", repeated(length, "m*", |_| "(".to_owned(), |_| ")".to_owned())),
+        ("exponents", repeated(length, "m", |_| "^(1+J".to_owned(), |_| ")".to_owned())),
+        ("signs", repeated(length, "m*(I1b - 3) ", |_| "-".to_owned(), none) + "m*(I1b - 3)^2"),
+        ("functions", repeated(length, "m*", |_| "exp(".to_owned(), |_| ")".to_owned())),
+        ("tensors", sum(length, |k| format!("m*(tr(C^{}) - 3)", 2 + k % 9))),
+        ("lists", sum(length, |k| format!("sum(p, m{k}[p]*(I1b - 3)^2)"))),
+        (
+            "sums of sums",
+            repeated(length, "sum(p, c[p])", |k| format!("*sum(p, c[p]*(I1b - 3)^{})", 1 + k % 9), none),
+        ),
+        ("asymmetric terms", sum(length, |k| format!("m*l1^{}", 1 + k % 60))),
+        ("stressed terms", sum(length, |k| format!("c{k}*I1"))),
+        (
+            "powers of sums",
+            sum(length, |k| format!("m*(I1b - 3 + (J - 1)^2 + {k}*(I2b - 3)^2)^{}", 2 + k % 40)),
+        ),
+        ("roots", sum(length, |k| format!("m*(sqrt(I1b + {k}) - sqrt({}))^2", k + 3))),
+        (
+            "quotients of stretches",
+            sum(length, |k| {
+                format!(
+                    "m*((l1/l2)^{0} + (l2/l1)^{0} + (l2/l3)^{0} + (l3/l2)^{0} + (l1/l3)^{0} + (l3/l1)^{0} - 6)",
+                    k % 30 + 1
+                )
+            }),
+        ),
+        (
+            "erf of stretches",
+            sum(length, |k| format!("m*(erf({k}*(l1 - 1))^2 + erf({k}*(l2 - 1))^2 + erf({k}*(l3 - 1))^2)")),
+        ),
+        ("commas", ",".repeat(length)),
+        ("names alone", repeated(length, "", |k| format!("a{k} "), none)),
+        ("numbers", "1234567890".repeat(length / 10)),
+        ("one name", "m".repeat(length)),
+        ("quotes", "\"".repeat(length)),
+        ("lines", "m*(I1b-3)+\n".repeat(length / 11) + "q"),
+    ]
+}
+
+/// Time of the processor that this thread has used.
+fn processor_time() -> Option<Duration> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
+}
+
+/// Declarations in Rust of about so many bytes.
+fn declarations(length: usize) -> Vec<(&'static str, String)> {
+    let declared = |body: String| {
+        format!("#[material(domain(J > 0.0), fit)] fn E([l1, l2, l3]: [f64; 3], m: f64) -> f64 {{ {body} }}")
+    };
+    let none = |_: usize| String::new();
+    let named = |value: fn(usize) -> String| {
+        let names =
+            repeated(length, "let a0 = I1b - 3.0;", |k| format!("let a{} = {};", k + 1, value(k)), none);
+        let last = names.matches("let").count() - 1;
+        declared(format!("{names} m * a{last} + m * a0"))
+    };
+    vec![
+        ("names of products", named(|k| format!("a{k} * a{k}"))),
+        ("names of functions", named(|k| format!("a{k}.tanh()"))),
+        ("names of fractions", named(|k| format!("1.0 - 1.0 / (2.0 + a{k})"))),
+        ("names of sums", named(|k| format!("a{k} * (I2b - 3.0) + a{}", k / 2))),
+        ("ones", declared(repeated(length, "m * (I1b - 3.0) * (1.0", |_| "+1.0".to_owned(), none) + ")")),
+        ("factors", declared(repeated(length, "m * (I1b - 3.0)", |_| "*J".to_owned(), none))),
+        ("unknown names", declared(repeated(length, "m * (I1b - 3.0)", |k| format!("+b{k}"), none))),
+    ]
+}
+
+#[track_caller]
+fn check(name: &str, text: &str) {
+    let (begun, before) = (Instant::now(), processor_time());
+    let result = catch_unwind(|| Energy::from_text(text).map_err(|mistakes| mistakes.to_string()));
+    let time = match (before, processor_time()) {
+        (Some(before), Some(after)) => after - before,
+        _ => begun.elapsed(),
+    };
+    let result = result.unwrap_or_else(|_| panic!("{name} panics"));
+    let verdict = match &result {
+        Ok(energy) => format!("{} parameters", energy.description().parameters.len()),
+        Err(message) => message.chars().take(90).collect::<String>().replace('\n', " "),
+    };
+    let said = writeln!(
+        std::io::stdout(),
+        "{:>7.3} s, {} bytes of {name}: {verdict}",
+        time.as_secs_f64(),
+        text.len()
+    );
+    said.expect("standard output");
+    assert!(time < LONGEST, "{name} takes {time:?}");
+}
+
+/// The largest energies of each kind that are taken, and larger ones, come to an end in time.
+#[test]
+fn no_formula_takes_long() {
+    for length in [LENGTH, LENGTH / 8, LENGTH / 16] {
+        for (name, text) in formulas(length).into_iter().chain(declarations(length)) {
+            check(name, &text);
+        }
+    }
+}
