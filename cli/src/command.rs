@@ -11,6 +11,7 @@ use piola_viewer::state::State;
 use crate::bench::{Check, Curve, Fit};
 use crate::contract::Contract;
 use crate::declare::Declare;
+use crate::emit::Emit;
 use crate::error::Error;
 use crate::overlap::refuse_overlaps;
 use crate::view::{Begin, Options};
@@ -45,6 +46,8 @@ pub(crate) enum Command {
     Fit(Box<Fit>),
     /// Print a formula as a declaration in Rust, to be pasted into a crate, and its derivatives as formulas.
     Declare(Box<Declare>),
+    /// Print an energy as C: stress, tangent and projection of a point, in one file without a dependency.
+    Emit(Box<Emit>),
     /// Check the rules that every material must keep, on a declaration in Rust or a formula.
     ///
     /// Finite differences of energy and stress, symmetry, equal stretches, inversion, accuracy in single

@@ -8,6 +8,7 @@ mod bench;
 mod command;
 mod contract;
 mod declare;
+mod emit;
 pub mod error;
 mod materials;
 mod overlap;
@@ -53,6 +54,7 @@ pub fn main() -> ExitCode {
         Command::Fit(fit) => fit.run().and_then(say),
         Command::Check(check) => check.run().and_then(say),
         Command::Declare(declare) => declare.run().and_then(say),
+        Command::Emit(emit) => emit.run().and_then(say),
         Command::Contract(contract) => contract.run().and_then(say),
     };
     result.unwrap_or_else(|error| {

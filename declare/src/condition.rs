@@ -1,7 +1,6 @@
 //! Conditions on parameters, evaluated as the Rust that they are.
 
 use std::fmt;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use piola::__private::interpreter::{ParameterValues, Value};
 use piola::material::{Argument, Text};
@@ -15,10 +14,11 @@ use syn::{BinOp, Expr, Lit, UnOp};
 pub(crate) struct Condition {
     /// The comparison as people write it.
     pub(crate) text: Text,
-    sides: [Term; 2],
-    holds: fn(&f64, &f64) -> bool,
+    pub(crate) sides: [Term; 2],
+    /// `>`, `<`, `>=`, `<=` or `!=`.
+    pub(crate) comparison: &'static str,
     /// A list by whose entries it is written, by its place in the declaration.
-    list: Option<usize>,
+    pub(crate) list: Option<usize>,
     /// The parameters that it names: their names, places in the declaration, and whether they are lists.
     names: Vec<(Text, usize, bool)>,
 }
@@ -29,8 +29,56 @@ impl fmt::Debug for Condition {
     }
 }
 
-/// A number that depends on parameters, and on the current entry of those that are lists.
-type Term = Box<dyn Fn(&ParameterValues, usize) -> f64 + Send + Sync>;
+/// An expression in parameters, and in the current entry of those that are lists.
+#[derive(Debug)]
+pub(crate) enum Term {
+    Number(f64),
+    /// A parameter, by its place in the declaration.
+    Parameter(usize),
+    Negative(Box<Term>),
+    /// A sum, difference, product or quotient.
+    Arithmetic(char, Box<[Term; 2]>),
+    /// A function of the standard library.
+    Call(&'static Function, Vec<Term>),
+}
+
+/// A function of the standard library that conditions may call.
+#[derive(Debug)]
+pub(crate) struct Function {
+    /// Its name in Rust.
+    name: &'static str,
+    /// A call in C, of `a` and `b`.
+    pub(crate) in_c: &'static str,
+    /// The second argument is that of a function of one argument twice.
+    value: fn(f64, f64) -> f64,
+}
+
+impl Term {
+    fn value(&self, values: &ParameterValues, entry: usize) -> f64 {
+        match self {
+            Self::Number(number) => *number,
+            Self::Parameter(k) => number(values, *k, entry),
+            Self::Negative(term) => -term.value(values, entry),
+            Self::Arithmetic(operator, sides) => {
+                let [a, b] = sides.each_ref().map(|side| side.value(values, entry));
+                match operator {
+                    '+' => a + b,
+                    '-' => a - b,
+                    '*' => a * b,
+                    _ => a / b,
+                }
+            }
+            Self::Call(function, arguments) => {
+                let values: Vec<_> = arguments.iter().map(|argument| argument.value(values, entry)).collect();
+                match values[..] {
+                    [a] => (function.value)(a, a),
+                    [a, b, ..] => (function.value)(a, b),
+                    [] => f64::NAN,
+                }
+            }
+        }
+    }
+}
 
 impl Condition {
     pub(crate) fn new(declaration: &Declaration, condition: &Expr) -> Self {
@@ -39,18 +87,18 @@ impl Condition {
             declaration.parameters.iter().position(|parameter| parameter.name == name)
         };
         // The parser lets nothing but comparisons through; NaN holds in none.
-        let (holds, sides): (fn(&f64, &f64) -> bool, _) = match condition {
+        let (comparison, sides) = match condition {
             Expr::Binary(binary) => {
-                let holds = match binary.op {
-                    BinOp::Gt(_) => f64::gt,
-                    BinOp::Lt(_) => f64::lt,
-                    BinOp::Ge(_) => f64::ge,
-                    BinOp::Le(_) => f64::le,
-                    _ => f64::ne,
+                let comparison = match binary.op {
+                    BinOp::Gt(_) => ">",
+                    BinOp::Lt(_) => "<",
+                    BinOp::Ge(_) => ">=",
+                    BinOp::Le(_) => "<=",
+                    _ => "!=",
                 };
-                (holds, [&*binary.left, &*binary.right].map(|side| term(side, &place)))
+                (comparison, [&*binary.left, &*binary.right].map(|side| term(side, &place)))
             }
-            _ => (f64::gt, [literal(f64::NAN), literal(f64::NAN)]),
+            _ => (">", [Term::Number(f64::NAN), Term::Number(f64::NAN)]),
         };
         let named = identifiers(condition.to_token_stream());
         let parameters = declaration.parameters.iter().enumerate();
@@ -58,7 +106,7 @@ impl Condition {
         Self {
             text: condition_text(condition).into(),
             sides,
-            holds,
+            comparison,
             list: indexed_list(condition).and_then(|(list, _)| place(&list)),
             names: names
                 .map(|(k, parameter)| (plain_name(&parameter.name).into(), k, parameter.length().is_some()))
@@ -84,8 +132,14 @@ impl Condition {
     }
 
     fn holds(&self, values: &ParameterValues, entry: usize) -> bool {
-        let [left, right] = self.sides.each_ref().map(|side| side(values, entry));
-        (self.holds)(&left, &right)
+        let [left, right] = self.sides.each_ref().map(|side| side.value(values, entry));
+        match self.comparison {
+            ">" => left > right,
+            "<" => left < right,
+            ">=" => left >= right,
+            "<=" => left <= right,
+            _ => left != right,
+        }
     }
 }
 
@@ -102,56 +156,42 @@ fn number(values: &ParameterValues, parameter: usize, entry: usize) -> f64 {
     entries.get(entry).or(entries.first()).copied().unwrap_or(f64::NAN)
 }
 
-fn literal(value: f64) -> Term {
-    Box::new(move |_, _| value)
-}
-
 /// An expression as Rust evaluates it, with parameters by their places; NaN for what the parser refuses.
 fn term(expression: &Expr, place: &impl Fn(&dyn ToString) -> Option<usize>) -> Term {
-    let one = |expression: &Expr, function: fn(f64) -> f64| -> Term {
-        let term = term(expression, place);
-        Box::new(move |values, entry| function(term(values, entry)))
-    };
-    let two = |a: &Expr, b: &Expr, function: fn(f64, f64) -> f64| -> Term {
-        let [a, b] = [a, b].map(|side| term(side, place));
-        Box::new(move |values, entry| function(a(values, entry), b(values, entry)))
+    let read = |expression: &Expr| term(expression, place);
+    let call = |name: &str, arguments: &[&Expr]| match FUNCTIONS.iter().find(|one| one.name == name) {
+        Some(function) => Term::Call(function, arguments.iter().map(|&argument| read(argument)).collect()),
+        None => Term::Number(f64::NAN),
     };
     match expression {
-        Expr::Lit(number) => literal(match &number.lit {
+        Expr::Lit(number) => Term::Number(match &number.lit {
             Lit::Float(number) => number.base10_parse().unwrap_or(f64::NAN),
             Lit::Int(number) => number.base10_parse().unwrap_or(f64::NAN),
             _ => f64::NAN,
         }),
-        Expr::Paren(inner) => term(&inner.expr, place),
-        Expr::Group(inner) => term(&inner.expr, place),
-        Expr::Index(index) => term(&index.expr, place),
-        Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => one(&unary.expr, f64::neg),
+        Expr::Paren(inner) => read(&inner.expr),
+        Expr::Group(inner) => read(&inner.expr),
+        Expr::Index(index) => read(&index.expr),
+        Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => Term::Negative(Box::new(read(&unary.expr))),
         Expr::Binary(binary) => {
-            let function = match binary.op {
-                BinOp::Add(_) => f64::add,
-                BinOp::Sub(_) => f64::sub,
-                BinOp::Mul(_) => f64::mul,
-                BinOp::Div(_) => f64::div,
-                _ => |_, _| f64::NAN,
+            let operator = match binary.op {
+                BinOp::Add(_) => '+',
+                BinOp::Sub(_) => '-',
+                BinOp::Mul(_) => '*',
+                BinOp::Div(_) => '/',
+                _ => return Term::Number(f64::NAN),
             };
-            two(&binary.left, &binary.right, function)
+            Term::Arithmetic(operator, Box::new([read(&binary.left), read(&binary.right)]))
         }
         Expr::Path(path) => match path.path.get_ident().and_then(|name| place(name)) {
-            Some(k) => Box::new(move |values, entry| number(values, k, entry)),
-            None => literal(constant(&path.path)),
+            Some(k) => Term::Parameter(k),
+            None => Term::Number(constant(&path.path)),
         },
-        Expr::MethodCall(call) => match (call.method.to_string().as_str(), call.args.first()) {
-            ("powi", Some(exponent)) => {
-                let base = term(&call.receiver, place);
-                let exponent = term(exponent, place)(&ParameterValues::new(Vec::new()), 0) as i32;
-                Box::new(move |values, entry| base(values, entry).powi(exponent))
-            }
-            ("powf", Some(exponent)) => two(&call.receiver, exponent, f64::powf),
-            ("log", Some(base)) => two(&call.receiver, base, f64::log),
-            (name, None) => one(&call.receiver, function(name).unwrap_or(|_| f64::NAN)),
-            _ => literal(f64::NAN),
+        Expr::MethodCall(method) => match method.args.first() {
+            Some(other) => call(&method.method.to_string(), &[&*method.receiver, other]),
+            None => call(&method.method.to_string(), &[&*method.receiver]),
         },
-        _ => literal(f64::NAN),
+        _ => Term::Number(f64::NAN),
     }
 }
 
@@ -171,25 +211,32 @@ fn constant(path: &syn::Path) -> f64 {
     }
 }
 
-/// A function of the standard library that conditions may call.
-fn function(name: &str) -> Option<fn(f64) -> f64> {
-    Some(match name {
-        "ln" => f64::ln,
-        "log10" => f64::log10,
-        "log2" => f64::log2,
-        "exp" => f64::exp,
-        "sqrt" => f64::sqrt,
-        "cbrt" => f64::cbrt,
-        "recip" => f64::recip,
-        "ln_1p" => f64::ln_1p,
-        "exp_m1" => f64::exp_m1,
-        "sinh" => f64::sinh,
-        "cosh" => f64::cosh,
-        "tanh" => f64::tanh,
-        "asinh" => f64::asinh,
-        "sin" => f64::sin,
-        "cos" => f64::cos,
-        "atan" => f64::atan,
-        _ => return None,
-    })
+macro_rules! functions {
+    ($($name:literal $in_c:literal |$a:ident $(, $b:ident)?| $value:expr;)*) => {
+        [$(Function { name: $name, in_c: $in_c, value: |$a, functions!(@ $($b)?)| $value }),*]
+    };
+    (@) => { _ };
+    (@ $b:ident) => { $b };
 }
+
+static FUNCTIONS: [Function; 19] = functions! {
+    "powi" "pow(a, b)" |a, b| a.powi(b as i32);
+    "powf" "pow(a, b)" |a, b| a.powf(b);
+    "log" "(log(a) / log(b))" |a, b| a.log(b);
+    "ln" "log(a)" |a| a.ln();
+    "log10" "log10(a)" |a| a.log10();
+    "log2" "log2(a)" |a| a.log2();
+    "exp" "exp(a)" |a| a.exp();
+    "sqrt" "sqrt(a)" |a| a.sqrt();
+    "cbrt" "cbrt(a)" |a| a.cbrt();
+    "recip" "(1.0 / a)" |a| a.recip();
+    "ln_1p" "log1p(a)" |a| a.ln_1p();
+    "exp_m1" "expm1(a)" |a| a.exp_m1();
+    "sinh" "sinh(a)" |a| a.sinh();
+    "cosh" "cosh(a)" |a| a.cosh();
+    "tanh" "tanh(a)" |a| a.tanh();
+    "asinh" "asinh(a)" |a| a.asinh();
+    "sin" "sin(a)" |a| a.sin();
+    "cos" "cos(a)" |a| a.cos();
+    "atan" "atan(a)" |a| a.atan();
+};

@@ -30,7 +30,7 @@ pub(crate) struct Constructor {
     extend: Option<Vec<Condition>>,
     /// Bounds of the domain that parameters decide at rest.
     at_rest: Vec<(Program, Condition)>,
-    is_prestressed: bool,
+    pub(crate) is_prestressed: bool,
     has_functions: bool,
 }
 
@@ -61,6 +61,12 @@ impl Constructor {
             is_prestressed: options.prestressed,
             has_functions: declaration.has_functions(),
         })
+    }
+
+    /// The conditions on the parameters, with those of an extension.
+    pub(crate) fn conditions(&self, inversion: Inversion) -> impl Iterator<Item = &Condition> {
+        let extended = matches!(inversion, Inversion::Extend { .. });
+        self.admissible.iter().chain(self.extend.iter().flatten().filter(move |_| extended))
     }
 
     /// The values of the parameters, each in its form.

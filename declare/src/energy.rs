@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use piola::__private::interpreter::{ByInvariants, Calls, Programs, Value, Variant, Volume};
+use piola::__private::interpreter::{ByInvariants, Calls, ParameterValues, Programs, Value, Variant, Volume};
+use piola::__private::record;
 use piola::interpreter::Interpreted;
 #[cfg(doc)]
 use piola::material::Fittable;
@@ -22,6 +23,7 @@ use piola_codegen::read;
 use piola_codegen::read::notation::plain_name;
 use piola_codegen::read::parse::{Declaration, Kind};
 
+use crate::condition::Condition;
 use crate::constructor::Constructor;
 use crate::fit::Fit;
 use crate::lower::{lower, lower_within};
@@ -200,6 +202,34 @@ impl Energy {
     pub fn domain_constraints(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<Constraint> {
         let material = self.without_extension(material);
         self.0.fit.as_ref().map(|fit| fit.domain_constraints(&material, stretches)).unwrap_or_default()
+    }
+
+    /// The material with a value in the place of each number among its parameters that stands for it in a
+    /// recorded program. Whole exponents keep theirs.
+    pub(crate) fn with_marked_parameters(&self, material: &Interpreted) -> Interpreted {
+        let mut k = 0;
+        let mut mark = |number: &f64, is_whole: bool| {
+            k += 1;
+            if is_whole { *number } else { record::parameter(k - 1) }
+        };
+        let pairs = material.values().all().iter().zip(&self.0.programs.are_whole);
+        let marked = pairs.map(|(value, &is_whole)| match value {
+            Value::Numbers(numbers) => {
+                Value::Numbers(numbers.iter().map(|number| mark(number, is_whole)).collect())
+            }
+            function => function.clone(),
+        });
+        material.clone_with(ParameterValues::new(marked.collect()))
+    }
+
+    /// The conditions on the parameters of a material, with those of its extension.
+    pub(crate) fn conditions(&self, inversion: Inversion) -> impl Iterator<Item = &Condition> {
+        self.0.constructor.conditions(inversion)
+    }
+
+    /// Whether the rest state may carry a stress.
+    pub(crate) fn is_prestressed(&self) -> bool {
+        self.0.constructor.is_prestressed
     }
 
     fn without_extension(&self, material: &Interpreted) -> Interpreted {

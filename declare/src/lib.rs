@@ -31,6 +31,7 @@
 
 mod condition;
 mod constructor;
+pub mod emit;
 mod energy;
 mod fit;
 mod formula;

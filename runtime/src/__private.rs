@@ -39,3 +39,12 @@ pub mod message {
 pub mod random {
     pub use crate::random::Random;
 }
+
+/// Computations as programs, for back ends that print them.
+#[cfg(all(feature = "interpreter", not(test)))]
+pub mod record {
+    pub use crate::lanes::recorded::{
+        Binary, Function, Id, Operation, Program, Recordable, Recorded, RecordedMask, Recording, Unary,
+        UnrecordedParameter, parameter, record,
+    };
+}

@@ -20,6 +20,8 @@ mod non_temporal;
 mod polynomial;
 mod primitive;
 mod real;
+#[cfg(all(feature = "interpreter", not(test)))]
+pub(crate) mod recorded;
 mod scalar;
 mod vector;
 #[cfg(target_arch = "x86_64")]

@@ -9,6 +9,7 @@ use piola::mesh::ReadError;
 use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, PinError};
 use piola_declare::Mistakes;
+use piola_declare::emit::EmitError;
 
 use crate::region::RegionError;
 
@@ -56,6 +57,9 @@ pub enum Error {
         /// The kind of unit that the parameter has.
         declared: Unit,
     },
+    /// An energy cannot be printed in another language.
+    #[error(transparent)]
+    Emit(#[from] EmitError),
     /// No body has that name.
     #[error("there is no body `{}`; choose one of {}", quoted(name), list(known))]
     UnknownBody {

@@ -10,6 +10,7 @@ use piola::batch;
 use piola::interpreter::Interpreted;
 use piola::material::{Description, MaterialError, Moduli, Text};
 use piola_declare::Energy;
+use piola_declare::emit::Emission;
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
 use piola_materials::DECLARATIONS;
@@ -218,6 +219,14 @@ impl MaterialSpec {
     /// Like [`MaterialSpec::build`].
     pub fn interpreted(&self) -> Result<Interpreted, Error> {
         self.resolve(|origin, values, inversion| origin.interpreted(values, inversion))
+    }
+
+    /// The material as source text of another language: [`Energy::emit`].
+    ///
+    /// # Errors
+    /// Like [`MaterialSpec::build`], and [`Error::Emit`].
+    pub fn emit(&self, emission: &Emission) -> Result<String, Error> {
+        Ok(self.resolve(|origin, values, inversion| Ok(origin.energy().emit(values, inversion, emission)))??)
     }
 
     /// The material as a candidate of the laboratory, for fits of its parameters.

@@ -123,11 +123,11 @@ impl<'a> Origin<'a> {
         }
     }
 
-    /// The energy, to be interpreted.
+    /// The energy, to be interpreted or printed.
     ///
     /// # Panics
     /// If a declaration of the catalogue has a mistake; the tests of the catalogue compile them all.
-    fn energy(&self) -> &'a Energy {
+    pub(super) fn energy(&self) -> &'a Energy {
         match self {
             Self::Catalogue(known) => {
                 let source = known.declaration.source;

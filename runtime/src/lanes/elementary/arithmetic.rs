@@ -94,7 +94,7 @@ pub(super) fn residual<P: Primitive>(a: P, b: P, c: P) -> P {
     if P::IS_FUSED {
         return a.mul_add(b, c);
     }
-    let (high, low) = two_product(a, b);
+    let (high, low) = a.two_product(b);
     (high + c) + low
 }
 

@@ -1,6 +1,6 @@
 //! asinh x = ± ln(|x| + √(1 + x²)).
 
-use super::arithmetic::{power_of_two, quick_two_sum, residual, two_product, two_sum};
+use super::arithmetic::{power_of_two, quick_two_sum, residual, two_sum};
 use super::logarithm::ln_of_sum;
 use crate::lanes::primitive::Primitive;
 
@@ -14,7 +14,7 @@ use crate::lanes::primitive::Primitive;
 pub(in super::super) fn asinh<P: Primitive>(x: P) -> P {
     let a = x.abs();
     let (zero, half, one) = (P::splat(0.0), P::splat(0.5), P::splat(1.0));
-    let (square, square_low) = two_product(a, a);
+    let (square, square_low) = a.two_product(a);
     let (radicand, radicand_low) = two_sum(one, square);
     let root = radicand.sqrt();
     let rest = residual(root, -root, radicand) + (radicand_low + square_low);

@@ -3,14 +3,14 @@
 //!
 //! x = 2ᵉ m with √½ ≤ m < √2, and ln m = 2 artanh (t/2) = t + t³/12 + t⁵/80 + … for t = (m − 1)/((m + 1)/2).
 
-use super::arithmetic::{is_single, ln_2, polynomial, quick_two_sum, residual, two_product, two_sum};
+use super::arithmetic::{is_single, ln_2, polynomial, quick_two_sum, residual, two_sum};
 use crate::lanes::primitive::Primitive;
 
 /// ln x as the unevaluated sum of two numbers, |low| ≤ u |high|. If high is infinite, low may have any value.
 #[derive(Clone, Copy, Debug)]
 pub struct Logarithm<P> {
-    pub(super) high: P,
-    pub(super) low: P,
+    pub(in super::super) high: P,
+    pub(in super::super) low: P,
 }
 
 /// x = 2ᵉ m, and t + t_low for ln m, t_low so small that ln m is linear in it.
@@ -67,10 +67,10 @@ pub(in super::super) fn logarithm<P: Primitive>(x: P) -> Logarithm<P> {
     } else {
         4.625_929_269_271_485e-18
     });
-    let (square, square_low) = two_product(t, t);
-    let (cube, cube_low) = two_product(t, square);
+    let (square, square_low) = t.two_product(t);
+    let (cube, cube_low) = t.two_product(square);
     let cube_low = t.mul_add(square_low, cube_low);
-    let (cubic, cubic_low) = two_product(twelfth, cube);
+    let (cubic, cubic_low) = twelfth.two_product(cube);
     let cubic_low = twelfth.mul_add(cube_low, cubic_low);
     // d ln m/dt = 1/(1 − t²/4) = 1 + t²/4 + …, to 2⁻¹² by the chord-like line 1 + 0.2561 t².
     let t_low = (t_low * square).mul_add(P::splat(0.2561), t_low);

@@ -1,0 +1,60 @@
+//! `piola emit`: an energy as source text of another language.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use piola::Inversion;
+use piola_declare::emit::{Emission, PointFunction, Precision, Target};
+use piola_scenes::output::write_whole;
+
+use crate::bench::Material;
+use crate::error::Error;
+
+/// One file without a dependency: a structure of the parameters, a check of them, and the functions of a
+/// point. What it holds and how it is compiled stands at its top.
+#[derive(Debug, Args)]
+pub(crate) struct Emit {
+    #[command(flatten)]
+    material: Material,
+
+    /// The language: c, which is C99 and C++17 alike.
+    #[arg(long)]
+    target: Target,
+
+    /// The number format: f64 or f32.
+    #[arg(long, default_value = "f64")]
+    precision: Precision,
+
+    /// What all names begin with [default: the name of the energy].
+    #[arg(long, value_name = "PREFIX")]
+    name: Option<String>,
+
+    /// The functions, separated by commas: energy, stress, tangent, projected, absolute, blocks, svd
+    /// [default: all].
+    #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',')]
+    functions: Vec<PointFunction>,
+
+    /// Continue the energy by polynomials below this stretch.
+    #[arg(long, value_name = "STRETCH", allow_negative_numbers = true)]
+    extend: Option<f64>,
+
+    /// Write to a file [default: print].
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+impl Emit {
+    /// The text, or a line about the file that was written.
+    pub(crate) fn run(self) -> Result<String, Error> {
+        let inversion = self.extend.map_or(Inversion::Refuse, |epsilon| Inversion::Extend { epsilon });
+        let mut emission = Emission::new(self.target).with_precision(self.precision);
+        emission.prefix = self.name;
+        if !self.functions.is_empty() {
+            emission = emission.with_functions(self.functions);
+        }
+        let text = self.material.spec()?.with_inversion(inversion).emit(&emission)?;
+        let Some(file) = self.output else { return Ok(text) };
+        write_whole(&file, text.as_bytes())?;
+        Ok(format!("wrote {}\n", file.display()))
+    }
+}

@@ -1,0 +1,344 @@
+//! Energies as source text of other languages: stress, tangent and projection of a point, in one file without
+//! a dependency.
+//!
+//! The functions of [`piola::point`] run once, on a real number that records what is done to it, with the
+//! programs of the energy inside; what has been recorded is printed. There is no second copy of the
+//! mathematics, and the arithmetic is that of portable lanes, to the last bit.
+
+mod c;
+mod steps;
+
+use std::str::FromStr;
+
+use piola::__private::record::{Recordable, Recorded, RecordedMask, Recording, UnrecordedParameter, record};
+use piola::interpreter::Interpreted;
+use piola::lanes::{Mask, Real};
+use piola::material::{Form, MaterialError, Text};
+use piola::point::{Filter, evaluate_dense, evaluate_energy, evaluate_stress, svd};
+use piola::{Inversion, Material, Status};
+
+use crate::energy::Energy;
+
+/// A language that energies are printed in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Target {
+    /// C99, which is C++17 as well.
+    C,
+}
+
+impl FromStr for Target {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<Self, UnknownWord> {
+        match word {
+            "c" => Ok(Self::C),
+            _ => Err(UnknownWord {
+                kind: "target",
+                word: word.to_owned(),
+                known: "c, which C++ reads as well".to_owned(),
+            }),
+        }
+    }
+}
+
+/// The number format of a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// 32 bits.
+    F32,
+    /// 64 bits.
+    #[default]
+    F64,
+}
+
+impl FromStr for Precision {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<Self, UnknownWord> {
+        match word {
+            "f32" => Ok(Self::F32),
+            "f64" => Ok(Self::F64),
+            _ => Err(UnknownWord { kind: "precision", word: word.to_owned(), known: "f32, f64".to_owned() }),
+        }
+    }
+}
+
+/// A function of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PointFunction {
+    /// ψ from F.
+    Energy,
+    /// P from F.
+    Stress,
+    /// P and the 81 entries of dP/dF from F.
+    Tangent,
+    /// P and dP/dF with its negative eigenvalues clamped to zero.
+    Projected,
+    /// P and dP/dF with the absolute values of its eigenvalues.
+    Absolute,
+    /// ψi, ψij, flips and twists from the signed stretches.
+    Blocks,
+    /// U, the signed stretches and V from F.
+    Svd,
+}
+
+impl PointFunction {
+    /// All functions, in the order in which they are printed.
+    pub const ALL: [Self; 7] =
+        [Self::Energy, Self::Stress, Self::Tangent, Self::Projected, Self::Absolute, Self::Blocks, Self::Svd];
+
+    /// The word for it, which its name ends with.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Energy => "energy",
+            Self::Stress => "stress",
+            Self::Tangent => "tangent",
+            Self::Projected => "projected",
+            Self::Absolute => "absolute",
+            Self::Blocks => "blocks",
+            Self::Svd => "svd",
+        }
+    }
+}
+
+impl FromStr for PointFunction {
+    type Err = UnknownWord;
+
+    fn from_str(word: &str) -> Result<Self, UnknownWord> {
+        Self::ALL.into_iter().find(|function| function.name() == word).ok_or_else(|| UnknownWord {
+            kind: "function",
+            word: word.to_owned(),
+            known: Self::ALL.map(Self::name).join(", "),
+        })
+    }
+}
+
+/// A word for a choice that there is not.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("unknown {kind} `{word}`; known are: {known}")]
+pub struct UnknownWord {
+    kind: &'static str,
+    word: String,
+    known: String,
+}
+
+/// What a file holds, and how it is called.
+///
+/// ```
+/// use piola::Inversion;
+/// use piola_declare::Energy;
+/// use piola_declare::emit::{Emission, PointFunction, Target};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let energy = Energy::from_formula("mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2")?;
+/// let emission = Emission::new(Target::C).with_prefix("rubber").with_functions([PointFunction::Stress]);
+/// let file = energy.emit(&[&[1e6], &[5e6]], Inversion::Refuse, &emission)?;
+/// assert!(file.contains("unsigned rubber_stress(const rubber_parameters *p, const double F[9], double P[9])"));
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Emission {
+    /// The language.
+    pub target: Target,
+    /// The number format.
+    pub precision: Precision,
+    /// What all names begin with; `None` for the name of the energy in lower case.
+    pub prefix: Option<String>,
+    /// The functions of the file.
+    pub functions: Vec<PointFunction>,
+}
+
+impl Emission {
+    /// A file with all functions in `f64`.
+    #[must_use]
+    pub fn new(target: Target) -> Self {
+        Self { target, precision: Precision::F64, prefix: None, functions: PointFunction::ALL.to_vec() }
+    }
+
+    /// The file with another [`precision`](Self::precision).
+    #[must_use]
+    pub fn with_precision(self, precision: Precision) -> Self {
+        Self { precision, ..self }
+    }
+
+    /// The file with another [`prefix`](Self::prefix).
+    #[must_use]
+    pub fn with_prefix(self, prefix: impl Into<String>) -> Self {
+        Self { prefix: Some(prefix.into()), ..self }
+    }
+
+    /// The file with other [`functions`](Self::functions).
+    #[must_use]
+    pub fn with_functions(self, functions: impl IntoIterator<Item = PointFunction>) -> Self {
+        Self { functions: functions.into_iter().collect(), ..self }
+    }
+}
+
+/// An energy cannot be printed as asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EmitError {
+    /// The parameters are not admissible.
+    #[error(transparent)]
+    Parameters(#[from] MaterialError),
+    /// A parameter is a function.
+    #[error(
+        "the parameter `{0}` is a function, which has no text that could be printed: write it into the energy"
+    )]
+    Function(Text),
+    /// A prefix is not a name of the language.
+    #[error("`{0}` is not a name in C: letters of ASCII, digits and `_` make one, without a digit in front")]
+    Prefix(String),
+    /// No function is asked for.
+    #[error("no function is asked for; there are: {}", PointFunction::ALL.map(PointFunction::name).join(", "))]
+    Nothing,
+    /// A parameter decides on the program.
+    #[error(transparent)]
+    Unrecorded(#[from] UnrecordedParameter),
+}
+
+/// A function as recorded.
+struct PointProgram {
+    function: PointFunction,
+    recording: Recording,
+}
+
+/// All that a printer needs of an energy.
+struct File<'a> {
+    energy: &'a Energy,
+    prefix: String,
+    precision: Precision,
+    /// Values of the parameters when the file was printed.
+    values: &'a [&'a [f64]],
+    inversion: Inversion,
+    functions: Vec<PointProgram>,
+    /// From parameters to numbers that must be positive at rest.
+    rest: Option<Recording>,
+}
+
+impl Energy {
+    /// The energy as source text: a structure of its parameters, a check of them, and the functions asked for.
+    ///
+    /// The values are those of [`Energy::material`]. Lengths of lists, whole exponents and the threshold of an
+    /// extension are fixed by them; all other parameters are read from the structure, and these values are
+    /// there as an example.
+    ///
+    /// # Errors
+    /// [`EmitError`].
+    pub fn emit(
+        &self,
+        values: &[&[f64]],
+        inversion: Inversion,
+        emission: &Emission,
+    ) -> Result<String, EmitError> {
+        let functions = self.description().parameters.iter();
+        let mut functions = functions.filter(|one| matches!(one.form, Form::Function | Form::Points));
+        if let Some(function) = functions.next() {
+            return Err(EmitError::Function(function.name.clone()));
+        }
+        let prefix = emission.prefix.clone().unwrap_or_else(|| self.description().name.to_lowercase());
+        if !c::is_identifier(&prefix) {
+            return Err(EmitError::Prefix(prefix));
+        }
+        if emission.functions.is_empty() {
+            return Err(EmitError::Nothing);
+        }
+        let material = self.with_marked_parameters(&self.material(values, inversion)?);
+        match emission.precision {
+            Precision::F64 => self.file::<f64>(prefix, values, material, emission),
+            Precision::F32 => self.file::<f32>(prefix, values, material, emission),
+        }
+        .map(|file| c::print(&file))
+        .map_err(EmitError::from)
+    }
+
+    fn file<'a, E: Recordable>(
+        &'a self,
+        prefix: String,
+        values: &'a [&'a [f64]],
+        material: Interpreted,
+        emission: &Emission,
+    ) -> Result<File<'a>, UnrecordedParameter> {
+        let mut wanted = emission.functions.clone();
+        wanted.sort_unstable();
+        wanted.dedup();
+        // A material keeps what it has computed of its parameters, which belongs to one recording.
+        let fresh = || material.clone_with(material.values().clone());
+        let recorded =
+            |function| Ok(PointProgram { function, recording: recorded::<E>(function, &fresh())? });
+        let functions = wanted.into_iter().map(recorded).collect::<Result<_, UnrecordedParameter>>()?;
+        let rest = if self.is_prestressed() { None } else { Some(at_rest::<E>(&fresh())?) };
+        let (precision, inversion) = (emission.precision, material.inversion());
+        Ok(File { energy: self, prefix, precision, values, inversion, functions, rest })
+    }
+}
+
+/// Runs a function of a point once.
+fn recorded<E: Recordable>(
+    function: PointFunction,
+    material: &Interpreted,
+) -> Result<Recording, UnrecordedParameter> {
+    let count = if function == PointFunction::Blocks { 3 } else { 9 };
+    record(count, |arguments: &[Recorded<E>]| {
+        let bits = |status: Status<RecordedMask>| {
+            vec![status.refused, status.bounded, status.nonfinite, status.filtered]
+        };
+        let no = RecordedMask::splat(false);
+        let dense = |filter| {
+            let point = evaluate_dense(material, &matrix(arguments), filter);
+            (flat(point.stress).chain(flat(point.tangent)).collect(), bits(point.status))
+        };
+        match function {
+            PointFunction::Energy => {
+                let point = evaluate_energy(material, &matrix(arguments));
+                (vec![point.energy], bits(point.status))
+            }
+            PointFunction::Stress => {
+                let point = evaluate_stress(material, &matrix(arguments));
+                (flat(point.stress).collect(), bits(point.status))
+            }
+            PointFunction::Tangent => dense(Filter::None),
+            PointFunction::Projected => dense(Filter::Clamp),
+            PointFunction::Absolute => dense(Filter::Absolute),
+            PointFunction::Blocks => {
+                let stretches = [arguments[0], arguments[1], arguments[2]];
+                let blocks = material.blocks(stretches);
+                let numbers = [&blocks.gradient[..], &blocks.hessian, &blocks.flip, &blocks.twist].concat();
+                let is_finite = all_finite(&numbers);
+                (numbers, vec![!material.admits(stretches), no, !is_finite])
+            }
+            PointFunction::Svd => {
+                let svd = svd(&matrix(arguments));
+                let is_finite = all_finite(&svd.stretches);
+                let numbers = flat(svd.U).chain(svd.stretches).chain(flat(svd.V));
+                (numbers.collect(), vec![no, no, !is_finite])
+            }
+        }
+    })
+}
+
+/// Twice the shear modulus and three times the bulk modulus at rest.
+fn at_rest<E: Recordable>(material: &Interpreted) -> Result<Recording, UnrecordedParameter> {
+    record(0, |_: &[Recorded<E>]| {
+        let one = Recorded::splat(1.0);
+        let blocks = material.blocks([one; 3]);
+        let [h11, _, _, h12, ..] = blocks.hessian;
+        (vec![blocks.flip[0], h11 + h12 + h12], Vec::new())
+    })
+}
+
+fn all_finite<R: Real>(numbers: &[R]) -> R::Mask {
+    numbers.iter().fold(R::Mask::splat(true), |all, number| all & number.is_finite())
+}
+
+fn flat<R, const N: usize, const M: usize>(rows: [[R; M]; N]) -> impl Iterator<Item = R> {
+    rows.into_iter().flatten()
+}
+
+fn matrix<R: Copy>(rows: &[R]) -> [[R; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| rows[3 * i + j]))
+}

@@ -1,0 +1,272 @@
+//! The order in which a recorded program is printed, with branches where code may be skipped.
+//!
+//! A selection by a mask that the computation has asked about is a branch: what only one of its values needs
+//! stands inside. Whatever else the order of the record is, is kept.
+
+use std::collections::{BTreeSet, HashMap};
+
+use piola::__private::record::{Id, Operation, Program};
+
+/// A statement, or two lists of them of which one is executed.
+pub(super) enum Step {
+    /// Computes an operation.
+    Compute(Id),
+    /// Computes the values of selections by the mask where it holds, and where it does not.
+    Branch { mask: Id, selections: Vec<Id>, yes: Vec<Step>, no: Vec<Step> },
+}
+
+/// The statements of a program, and those whose results are needed outside of the branch that has them.
+pub(super) struct Steps {
+    pub(super) all: Vec<Step>,
+    pub(super) escaping: BTreeSet<Id>,
+}
+
+/// Whether an operation needs no statement: it is written where it is used.
+pub(super) fn is_inline(operation: &Operation) -> bool {
+    use Operation::{Argument, Literal, Parameter, Second, Truth};
+    matches!(operation, Argument(_) | Parameter(_) | Literal(_) | Truth(_) | Second(_))
+}
+
+impl Steps {
+    pub(super) fn of(program: &Program) -> Self {
+        let mut order = Order::new(program);
+        let all: BTreeSet<Id> = (0..program.operations.len() as Id).collect();
+        let all = order.steps(ROOT, &all);
+        let mut scopes =
+            Scopes { program, parents: vec![0], defined: HashMap::new(), escaping: BTreeSet::new() };
+        scopes.define(&all, 0);
+        scopes.check(&all, 0);
+        for &result in &program.results {
+            scopes.uses(result, 0);
+        }
+        Self { all, escaping: scopes.escaping }
+    }
+}
+
+/// A place in the tree of conditions.
+type Node = usize;
+const ROOT: Node = 0;
+
+/// A condition under which operations are needed, within another one.
+struct Condition {
+    parent: Node,
+    mask: Id,
+}
+
+struct Order<'a> {
+    program: &'a Program,
+    /// All but the root, whose place comes first.
+    conditions: Vec<Condition>,
+    places: HashMap<(Node, Id, bool), Node>,
+    /// The condition under which each operation is needed.
+    needed: Vec<Node>,
+    is_done: Vec<bool>,
+}
+
+impl<'a> Order<'a> {
+    fn new(program: &'a Program) -> Self {
+        let count = program.operations.len();
+        let root = Condition { parent: ROOT, mask: 0 };
+        let mut order = Self {
+            program,
+            conditions: vec![root],
+            places: HashMap::new(),
+            needed: Vec::new(),
+            is_done: vec![false; count],
+        };
+        let mut needed: Vec<Option<Node>> = vec![None; count];
+        for &result in &program.results {
+            needed[result as usize] = Some(ROOT);
+        }
+        for k in (0..count).rev() {
+            let node = needed[k].unwrap_or(ROOT);
+            let mut need = |order: &Self, id: Id, node: Node| {
+                let old = needed[id as usize];
+                needed[id as usize] = Some(old.map_or(node, |old| order.common(old, node)));
+            };
+            match order.guarded(k as Id) {
+                Some((mask, yes, no)) => {
+                    let [if_yes, if_no] = [true, false].map(|holds| order.within(node, mask, holds));
+                    need(&order, mask, node);
+                    need(&order, yes, if_yes);
+                    need(&order, no, if_no);
+                }
+                None => program.operations[k].for_each_operand(|id| need(&order, id, node)),
+            }
+        }
+        order.needed = needed.into_iter().map(|node| node.unwrap_or(ROOT)).collect();
+        order
+    }
+
+    /// Mask and values of a selection that is a branch.
+    fn guarded(&self, id: Id) -> Option<(Id, Id, Id)> {
+        match self.program.operations[id as usize] {
+            Operation::Select(mask, yes, no) if self.program.guards.contains(&mask) => Some((mask, yes, no)),
+            _ => None,
+        }
+    }
+
+    /// The condition that a mask holds or not, within another one.
+    fn within(&mut self, node: Node, mask: Id, holds: bool) -> Node {
+        if self.ancestors(node).any(|node| node != ROOT && self.conditions[node].mask == mask) {
+            return node;
+        }
+        *self.places.entry((node, mask, holds)).or_insert_with(|| {
+            self.conditions.push(Condition { parent: node, mask });
+            self.conditions.len() - 1
+        })
+    }
+
+    /// A condition and those that it is within, the root last.
+    fn ancestors(&self, node: Node) -> impl Iterator<Item = Node> + Clone {
+        std::iter::successors(Some(node), |&node| (node != ROOT).then(|| self.conditions[node].parent))
+    }
+
+    /// The innermost condition that both are within.
+    fn common(&self, one: Node, other: Node) -> Node {
+        let of_other = self.ancestors(other);
+        self.ancestors(one).find(|&node| of_other.clone().any(|other| other == node)).unwrap_or(ROOT)
+    }
+
+    /// Whether a condition is within another one, and not that one.
+    fn is_below(&self, node: Node, other: Node) -> bool {
+        node != other && self.ancestors(node).any(|node| node == other)
+    }
+
+    /// Statements under a condition, of these operations.
+    fn steps(&mut self, node: Node, operations: &BTreeSet<Id>) -> Vec<Step> {
+        let mut steps = Vec::new();
+        let here: Vec<_> =
+            operations.iter().copied().filter(|&id| self.needed[id as usize] == node).collect();
+        for (place, &id) in here.iter().enumerate() {
+            if self.is_done[id as usize] {
+                continue;
+            }
+            let Some((mask, ..)) = self.guarded(id) else {
+                self.is_done[id as usize] = true;
+                if !is_inline(&self.program.operations[id as usize]) {
+                    steps.push(Step::Compute(id));
+                }
+                continue;
+            };
+            let mut selections = Vec::new();
+            let mut inside = [BTreeSet::new(), BTreeSet::new()];
+            for &other in &here[place..] {
+                let Some((_, yes, no)) = self.guarded(other).filter(|&(by, ..)| by == mask) else { continue };
+                if self.is_done[other as usize] {
+                    continue;
+                }
+                let mut found = inside.clone();
+                if self.collect(yes, node, &mut found[0]) && self.collect(no, node, &mut found[1]) {
+                    inside = found;
+                    selections.push(other);
+                }
+            }
+            let [yes, no] = [true, false].map(|holds| {
+                let within = self.within(node, mask, holds);
+                match within == node {
+                    true => Vec::new(),
+                    false => self.steps(within, &inside[usize::from(!holds)]),
+                }
+            });
+            for &selection in &selections {
+                self.is_done[selection as usize] = true;
+            }
+            steps.push(Step::Branch { mask, selections, yes, no });
+        }
+        steps
+    }
+
+    /// Collects what a value needs under a condition within this one; false if it needs more that has not
+    /// been computed.
+    fn collect(&self, id: Id, node: Node, to: &mut BTreeSet<Id>) -> bool {
+        let mut open = vec![id];
+        while let Some(id) = open.pop() {
+            if self.is_done[id as usize] || to.contains(&id) {
+                continue;
+            }
+            let operation = &self.program.operations[id as usize];
+            if self.is_below(self.needed[id as usize], node) {
+                to.insert(id);
+            } else if !is_inline(operation) {
+                return false;
+            }
+            operation.for_each_operand(|operand| open.push(operand));
+        }
+        true
+    }
+}
+
+/// Which list of statements has each result.
+struct Scopes<'a> {
+    program: &'a Program,
+    /// The list around each list.
+    parents: Vec<usize>,
+    defined: HashMap<Id, usize>,
+    escaping: BTreeSet<Id>,
+}
+
+impl Scopes<'_> {
+    fn define(&mut self, steps: &[Step], scope: usize) {
+        for step in steps {
+            match step {
+                Step::Compute(id) => _ = self.defined.insert(*id, scope),
+                Step::Branch { selections, yes, no, .. } => {
+                    for &selection in selections {
+                        self.defined.insert(selection, scope);
+                    }
+                    for inner in [yes, no] {
+                        self.parents.push(scope);
+                        self.define(inner, self.parents.len() - 1);
+                    }
+                }
+            }
+        }
+    }
+
+    fn check(&mut self, steps: &[Step], scope: usize) {
+        let mut next = scope;
+        self.check_from(steps, scope, &mut next);
+    }
+
+    /// Visits lists in the order in which [`define`](Self::define) has numbered them.
+    fn check_from(&mut self, steps: &[Step], scope: usize, last: &mut usize) {
+        for step in steps {
+            match step {
+                Step::Compute(id) => {
+                    self.program.operations[*id as usize]
+                        .for_each_operand(|operand| self.uses(operand, scope));
+                }
+                Step::Branch { mask, selections, yes, no } => {
+                    self.uses(*mask, scope);
+                    for (k, inner) in [yes, no].into_iter().enumerate() {
+                        *last += 1;
+                        let here = *last;
+                        self.check_from(inner, here, last);
+                        for &selection in selections {
+                            if let Operation::Select(_, yes, no) = self.program.operations[selection as usize]
+                            {
+                                self.uses([yes, no][k], here);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn uses(&mut self, id: Id, scope: usize) {
+        if let Operation::Second(call) = self.program.operations[id as usize] {
+            return self.uses(call, scope);
+        }
+        let Some(&defined) = self.defined.get(&id) else { return };
+        let mut at = scope;
+        while at != defined {
+            if at == 0 {
+                self.escaping.insert(id);
+                return;
+            }
+            at = self.parents[at];
+        }
+    }
+}

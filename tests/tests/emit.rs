@@ -1,0 +1,221 @@
+//! Energies as C: what a C compiler makes of them has the bits of scalars here.
+//!
+//! The energies cover polynomials, logarithms, exponentials, real powers in lists, a pole, a locking domain
+//! and continuations; deformation gradients are those of all reference cases. Every other energy of the
+//! catalogue is printed and read by the compiler.
+
+#![expect(non_snake_case, reason = "F, U, V as in the literature")]
+
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+
+use piola::point::{Filter, Matrix3};
+use piola::{Inversion, Material, Status};
+use piola_declare::emit::{Emission, EmitError, PointFunction, Precision, Target};
+use piola_tests::cases::Case;
+use piola_tests::compiled;
+use piola_tests::energies::{ENERGIES, Format, Judged, find};
+
+const STRICT: [&str; 6] = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off"];
+
+/// A program that applies all functions of `energy.h` to the deformation gradients of a file.
+const PROGRAM: &str = r#"
+#include "energy.h"
+#include <stdio.h>
+int main(void) {
+    const energy_parameters p = ENERGY_EXAMPLE;
+    FILE *from = fopen("points", "rb"), *to = fopen("results", "wb");
+    NUMBER F[9], a[9], b[81], c[9], l[3];
+    unsigned status = energy_check(&p);
+    if (!from || !to || status) return 1;
+    while (fread(F, sizeof(NUMBER), 9, from) == 9) {
+#define PUT(n, x) fwrite(x, sizeof(NUMBER), n, to)
+#define PUT_STATUS fwrite(&status, sizeof status, 1, to)
+        status = energy_energy(&p, F, a), PUT(1, a), PUT_STATUS;
+        status = energy_stress(&p, F, a), PUT(9, a), PUT_STATUS;
+        status = energy_tangent(&p, F, a, b), PUT(9, a), PUT(81, b), PUT_STATUS;
+        status = energy_projected(&p, F, a, b), PUT(9, a), PUT(81, b), PUT_STATUS;
+        status = energy_absolute(&p, F, a, b), PUT(9, a), PUT(81, b), PUT_STATUS;
+        status = energy_svd(&p, F, a, l, c), PUT(9, a), PUT(3, l), PUT(9, c), PUT_STATUS;
+        status = energy_blocks(&p, l, b), PUT(15, b), PUT_STATUS;
+    }
+    return fclose(to);
+}
+"#;
+
+/// A number of a file of results.
+trait Number: Format {
+    const PRECISION: Precision;
+    const NAME_IN_C: &'static str;
+    fn put(self, to: &mut Vec<u8>);
+    fn of_f64(number: f64) -> Self;
+}
+
+impl Number for f64 {
+    const PRECISION: Precision = Precision::F64;
+    const NAME_IN_C: &'static str = "double";
+    fn put(self, to: &mut Vec<u8>) {
+        to.extend(self.to_ne_bytes());
+    }
+    fn of_f64(number: f64) -> Self {
+        number
+    }
+}
+
+impl Number for f32 {
+    const PRECISION: Precision = Precision::F32;
+    const NAME_IN_C: &'static str = "float";
+    fn put(self, to: &mut Vec<u8>) {
+        to.extend(self.to_ne_bytes());
+    }
+    fn of_f64(number: f64) -> Self {
+        number as f32
+    }
+}
+
+/// Results at a point: their bytes, and which of them mean nothing.
+fn results<R: Number>(energy: &Judged, inversion: Inversion, F: &Matrix3<R>) -> Vec<(Vec<R>, u32)> {
+    let values = energy.typical();
+    let subject = energy.subject(&values, inversion).expect("typical parameters");
+    let material = R::of(&subject);
+    let bits = |status: Status| {
+        u32::from(status.refused)
+            | u32::from(status.bounded) << 1
+            | u32::from(status.nonfinite) << 2
+            | u32::from(status.filtered) << 3
+    };
+    let at = compiled::evaluate_energy(material, F);
+    let mut all = vec![(vec![at.energy], bits(at.status))];
+    let at = compiled::evaluate_stress(material, F);
+    all.push((at.stress.as_flattened().to_vec(), bits(at.status)));
+    for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
+        let at = compiled::evaluate_dense(material, F, filter);
+        all.push(([at.stress.as_flattened(), at.tangent.as_flattened()].concat(), bits(at.status)));
+    }
+    let finite = |numbers: &[R]| numbers.iter().all(|number| number.is_finite());
+    let svd = compiled::svd(F);
+    let numbers = [svd.U.as_flattened(), &svd.stretches, svd.V.as_flattened()].concat();
+    all.push((numbers, if finite(&svd.stretches) { 0 } else { 4 }));
+    let blocks = subject.exact.blocks(svd.stretches);
+    let numbers = [&blocks.gradient[..], &blocks.hessian, &blocks.flip, &blocks.twist].concat();
+    let refused = u32::from(!subject.exact.admits(svd.stretches));
+    let nonfinite = if finite(&numbers) { 0 } else { 4 };
+    all.push((numbers, refused | nonfinite));
+    all
+}
+
+fn compile(folder: &Path, arguments: &[&str]) {
+    let output = Command::new("cc").args(STRICT).args(arguments).current_dir(folder).output();
+    let output = output.expect("the C compiler that Rust links with");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+fn print<R: Number>(energy: &Judged, inversion: Inversion) -> Result<String, EmitError> {
+    let emission = Emission::new(Target::C).with_prefix("energy").with_precision(R::PRECISION);
+    energy.energy.emit(&energy.typical(), inversion, &emission)
+}
+
+fn check<R: Number>(name: &str) {
+    let energy = find(name).expect("in the catalogue");
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut cases = Vec::new();
+    for file in ["cases", "cases-more", "cases-further", "cases-ordinary"] {
+        let path = format!("{}/reference/{file}.json", env!("CARGO_MANIFEST_DIR"));
+        cases.extend(Case::read(Path::new(&path)).expect("reference cases"));
+    }
+    assert_eq!(cases.len(), 1213);
+    let points: Vec<Matrix3<R>> = cases
+        .iter()
+        .map(|case| [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::of_f64(case.deformation[3 * i + j]))))
+        .collect();
+    for inversion in energy.inversions(0.1) {
+        let text = print::<R>(energy, inversion).expect("an energy that can be printed");
+        std::fs::write(folder.path().join("energy.h"), text).expect("a file");
+        let program = PROGRAM.replace("NUMBER", R::NAME_IN_C);
+        std::fs::write(folder.path().join("main.c"), program).expect("a file");
+        let mut bytes = Vec::new();
+        points.iter().for_each(|F| F.as_flattened().iter().for_each(|number| number.put(&mut bytes)));
+        std::fs::write(folder.path().join("points"), bytes).expect("a file");
+        compile(folder.path(), &["-std=c99", "-O1", "main.c", "-lm", "-o", "main"]);
+        let status = Command::new(folder.path().join("main")).current_dir(folder.path()).status();
+        assert!(status.expect("the program").success());
+
+        let found = std::fs::read(folder.path().join("results")).expect("results");
+        let mut found = &found[..];
+        let mut different = String::new();
+        for F in &points {
+            for (function, (numbers, status)) in results(energy, inversion, F).into_iter().enumerate() {
+                let mut wanted = Vec::new();
+                numbers.iter().for_each(|number| number.put(&mut wanted));
+                let (results, rest) = found.split_at(wanted.len());
+                let (word, rest) = rest.split_at(4);
+                found = rest;
+                let means_something = status & 5 == 0;
+                if word != status.to_ne_bytes() || means_something && results != wanted {
+                    let _ = writeln!(different, "function {function} at {F:?}: {word:?} and not {status}");
+                }
+            }
+        }
+        assert!(
+            found.is_empty() && different.is_empty(),
+            "{name} in {}, {inversion:?}:\n{different}",
+            R::NAME
+        );
+    }
+}
+
+macro_rules! same_bits {
+    ($($energy:ident)*) => {$(
+        // Where scalars fuse products and sums, the compiler of C does so elsewhere.
+        #[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
+        #[test]
+        fn $energy() {
+            check::<f64>(stringify!($energy));
+            check::<f32>(stringify!($energy));
+        }
+    )*};
+}
+same_bits! { neo_hookean st_venant_kirchhoff ogden hencky gent fung rotated_linear stable_neo_hookean }
+
+#[test]
+fn every_energy_is_read_without_a_warning() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let has_cpp = Command::new("c++").arg("--version").output().is_ok();
+    let mut refused = Vec::new();
+    for energy in ENERGIES.iter() {
+        let text = match print::<f64>(energy, Inversion::Refuse) {
+            Ok(text) => text,
+            Err(EmitError::Function(_)) => {
+                refused.push(energy.name);
+                continue;
+            }
+            Err(error) => panic!("{}: {error}", energy.name),
+        };
+        std::fs::write(folder.path().join("energy.h"), text + "\nint main(void) { return 0; }\n")
+            .expect("a file");
+        compile(folder.path(), &["-std=c99", "-fsyntax-only", "-x", "c", "energy.h"]);
+        if has_cpp {
+            compile(folder.path(), &["-std=c++17", "-fsyntax-only", "-x", "c++", "energy.h"]);
+        }
+    }
+    assert_eq!(refused, ["stretch_spline"]);
+}
+
+#[test]
+fn mistakes_say_what_to_do() {
+    let energy = find("neo_hookean").expect("in the catalogue");
+    let emit = |emission: Emission| {
+        let result = energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission);
+        result.expect_err("a mistake").to_string()
+    };
+    assert!(emit(Emission::new(Target::C).with_prefix("1st")).starts_with("`1st` is not a name in C"));
+    assert!(emit(Emission::new(Target::C).with_functions([])).contains("energy, stress, tangent"));
+    let unknown = |word: &str| word.parse::<PointFunction>().expect_err("unknown").to_string();
+    assert_eq!(
+        unknown("forces"),
+        "unknown function `forces`; known are: energy, stress, tangent, projected, absolute, blocks, svd"
+    );
+    assert!("fortran".parse::<Target>().expect_err("unknown").to_string().contains("known are: c"));
+    assert!("f16".parse::<Precision>().expect_err("unknown").to_string().contains("f32, f64"));
+}
