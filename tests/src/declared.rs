@@ -65,7 +65,7 @@ impl Declared {
                 lengths[length] = list.len();
             }
         }
-        let parameters = values.iter().map(|list| list.to_vec()).collect();
+        let parameters = values.iter().map(|list| list.to_vec()).collect::<Vec<_>>().into();
         Point { stretches, parameters, lengths, epsilon: self.point.epsilon }
     }
 

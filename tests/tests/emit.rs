@@ -137,7 +137,8 @@ fn check<R: Number>(name: &str) {
         let mut bytes = Vec::new();
         points.iter().for_each(|F| F.as_flattened().iter().for_each(|number| number.put(&mut bytes)));
         std::fs::write(folder.path().join("points"), bytes).expect("a file");
-        compile(folder.path(), &["-std=c99", "-O1", "main.c", "-lm", "-o", "main"]);
+        let level = if R::PRECISION == Precision::F64 { "-O1" } else { "-O0" };
+        compile(folder.path(), &["-std=c99", level, "main.c", "-lm", "-o", "main"]);
         let status = Command::new(folder.path().join("main")).current_dir(folder.path()).status();
         assert!(status.expect("the program").success());
 

@@ -57,7 +57,7 @@ pub fn analyse(
     analyse_in(Notation::Attribute, arguments, item, most)
 }
 
-/// The same of a declaration in any notation, which is that of the messages.
+/// A declaration in any notation, which is that of the messages, with its energy: see [`analyse`].
 ///
 /// # Errors
 /// All mistakes of form and meaning, each at its tokens.

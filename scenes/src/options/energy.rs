@@ -17,9 +17,9 @@ use super::value::modulus;
 pub struct Formula {
     /// Energy as a formula, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`, in place of a material.
     ///
-    /// Its names are those that --param gives values to, and else the stretches l1, l2, l3 and the invariants
-    /// I1, I2, J, I1b and I2b, also as lambda_1, tr(C), det(F) and more. Conditions may follow, as in `… where
-    /// J > 0, I1 < 3 + Jm`.
+    /// Its names are those that --param gives values to, and else the stretches l1, l2, l3 and the
+    /// invariants I1, I2, J, I1b and I2b, also as lambda_1, tr(C), det(F) and more. Conditions may follow,
+    /// as in `… where J > 0, I1 < 3 + Jm`.
     #[arg(long, value_name = "FORMULA", conflicts_with = "material")]
     energy: Option<String>,
 
@@ -37,8 +37,8 @@ pub struct Formula {
 const BULK: &str = "kappa";
 
 impl Formula {
-    /// The formula for curves at constant volume. A stress at rest is a pressure, which does no work there: it is
-    /// left out, as by `--free-rest`.
+    /// The formula for curves at constant volume. A stress at rest is a pressure, which does no work there:
+    /// it is left out, as by `--free-rest`.
     #[must_use]
     pub fn at_constant_volume(self) -> Self {
         Self { free_rest: self.free_rest || self.energy.is_some(), ..self }

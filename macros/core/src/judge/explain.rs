@@ -183,8 +183,8 @@ impl Explainer<'_, '_> {
     fn units(&self) -> &'static str {
         self.notation.either(
             "correct the energy, or the units that end the documentation of its parameters, as in \
-            `/// Shear modulus, Pa.` and `/// Exponent, dimensionless.`; if a number in the energy has a unit, \
-            make it a parameter, or leave the units out",
+            `/// Shear modulus, Pa.` and `/// Exponent, dimensionless.`; if a number in the energy has a \
+            unit, make it a parameter, or leave the units out",
             "correct the energy, or the units of the values; if a number in the energy has a unit, make it a parameter, \
             or give the values without units",
         )

@@ -12,7 +12,7 @@ pub enum Notation {
     /// Rust below the attribute, to be compiled.
     #[default]
     Attribute,
-    /// The same Rust, read at run time.
+    /// Rust of that form, read at run time.
     Rust,
     /// A formula, from which the declaration has been made.
     Formula {
