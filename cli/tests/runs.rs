@@ -6,10 +6,11 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-const KEYS: [&str; 24] = [
+const KEYS: [&str; 25] = [
     "scene",
     "material",
     "parameters",
+    "poisson",
     "tets",
     "nodes",
     "surface_vertices",

@@ -20,10 +20,10 @@
 //!
 //! | quantity | words, of which one is enough | becomes |
 //! |---|---|---|
-//! | test | `mode`, `test`, `test type`, `loading` | |
+//! | test | `mode`, `test`, `type`, `test type`, `loading` | |
 //! | stretch | `stretch`, `λ`, `lambda`, `extension ratio` | the control |
 //! | nominal strain ε | `strain`, `ε`, `eps`, `Dehnung`; `elongation` in % | λ = 1 + ε; γ = ε in simple shear; J = 1 + ε in a volumetric test |
-//! | true strain ε | those with `true`, `log`, `ln`, `Hencky`, `natural`, `wahre`; `LE11` | λ = exp ε |
+//! | true strain ε | those with `true`, `log`, `ln`, `Hencky`, `wahre`; `LE11` | λ = exp ε |
 //! | shear γ | `strain` with `shear`; `γ`, `gamma` | γ |
 //! | volume ratio | `J`, `V/V0`, `volume ratio` | J |
 //! | volume strain ε | `strain` with `volume` or `volumetric` | J = 1 + ε |
@@ -36,10 +36,10 @@
 //!   positive in compression.
 //! * Of several kinds of stress or strain the first of this table is used; two columns of one kind are
 //!   refused. Forces and elongations are refused where no stress or strain is there, since they need the size
-//!   of the specimen; names such as `strain rate` and `maximum stress` are no strains and stresses.
+//!   of the specimen; columns such as `strain rate` and `maximum stress` are neither strains nor stresses.
 //! * Two columns without a header are stretch and nominal stress.
-//! * In input decks the blocks `*UNIAXIAL TEST DATA`, `*BIAXIAL …`, `*PLANAR …`, `*SIMPLE SHEAR …` have nominal
-//!   stress and nominal strain, `*VOLUMETRIC TEST DATA` pressure and J.
+//! * In input decks the blocks `*UNIAXIAL TEST DATA`, `*BIAXIAL …`, `*PLANAR …`, `*SIMPLE SHEAR …` have
+//!   nominal stress and nominal strain, `*VOLUMETRIC TEST DATA` pressure and J.
 //! * [`ReadOptions`] has the test and the unit where a file names none. [`Reading`] says in a line what was
 //!   used and what was left out.
 //!

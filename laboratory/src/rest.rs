@@ -18,7 +18,7 @@ use crate::curve::Volume;
 /// assert_eq!(rubber.warning(), None);
 /// // A bulk modulus of 20 Pa in place of 20 MPa.
 /// let mixed = AtRest { moduli: Moduli { mu: 0.4e6, lambda: 20.0 - 0.4e6 * 2.0 / 3.0 }, ..rubber };
-/// assert!(mixed.warning().is_some_and(|warning| warning.contains("is -0.9999")));
+/// assert!(mixed.warning().is_some_and(|warning| warning.contains("is -0.9998")));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtRest {

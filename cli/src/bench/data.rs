@@ -8,7 +8,7 @@ use piola_laboratory::data::{Fault, Measurements, ReadOptions, StressUnit, TRELO
 use crate::error::Error;
 use crate::overlap::refuse_overlaps;
 
-/// What a file may contain, below the help of each command that reads measurements.
+/// Contents of files, below the help of each command that reads measurements.
 pub(super) const HELP: &str = "\
 Files of measured points, as test machines, spreadsheets and papers have them:
   separators  commas, semicolons, tabs or spaces; decimals with a point or a comma

@@ -2,7 +2,6 @@
 
 use piola::__private::message::{number, quoted};
 
-use super::unit::StressUnitError;
 use crate::curve::{Mode, ModeError, ResponseError};
 
 /// Sizes of controls and of stresses, Pa, that measurements may have.
@@ -33,7 +32,7 @@ pub enum Fault {
     /// A column is missing.
     #[error("the header `{}` has no column of a {quantity}; {HEADER}, or {WORDS}", quoted(found))]
     NoColumn {
-        /// What is missing: a stretch or a stress.
+        /// The quantity that is missing: a stretch or a stress.
         quantity: &'static str,
         /// The header as given.
         found: String,
@@ -77,13 +76,6 @@ pub enum Fault {
         /// The header of the stress, or which column it is.
         found: String,
     },
-    /// There is no such unit.
-    #[error(transparent)]
-    Unit(
-        /// The name as given.
-        #[from]
-        StressUnitError,
-    ),
     /// The header and the row of units below it name different units.
     #[error("`{}` has the unit `{}` in the row below it; keep one", quoted(header), quoted(below))]
     UnitTwice {
@@ -146,7 +138,7 @@ pub enum Fault {
         /// The reason.
         #[source]
         reason: ResponseError,
-        /// What the number may be instead, to be put behind the reason.
+        /// Advice about what the number may be instead, to be put behind the reason.
         remedy: &'static str,
     },
     /// A stretch, a shear or a volume is beyond all bounds.

@@ -119,67 +119,14 @@ pub(super) struct Heading {
 }
 
 /// Words of quantities that no fit can use, although `strain` or `stress` is in their names.
-const OTHERS: &[&str] = &[
-    "rate",
-    "max",
-    "maximum",
-    "min",
-    "minimum",
-    "peak",
-    "break",
-    "fracture",
-    "failure",
-    "yield",
-    "ultimate",
-    "bruch",
-    "transverse",
-    "lateral",
-    "width",
-    "thickness",
-    "poisson",
-    "poissons",
-    "modulus",
-    "secant",
-    "tangent",
-    "plastic",
-    "creep",
-    "thermal",
-    "residual",
-    "error",
-    "std",
-    "stdev",
-    "sd",
-    "deviation",
-    "energy",
-    "green",
-    "lagrange",
-    "almansi",
-    "mises",
-    "reduced",
-    "normalized",
-    "normalised",
-    "second",
-    "2nd",
-    "pk2",
-];
-const NOMINAL: &[&str] = &[
-    "nominal",
-    "engineering",
-    "eng",
-    "engr",
-    "technical",
-    "tech",
-    "technische",
-    "nenn",
-    "piola",
-    "first",
-    "1st",
-    "pk1",
-    "conventional",
-];
-const TRUE: &[&str] =
-    &["true", "log", "logarithmic", "ln", "hencky", "natural", "cauchy", "wahre", "wahrer", "wahr"];
-const COMPRESSIVE: &[&str] = &["compressive", "compression", "compress", "druck"];
+const OTHERS: &str = "rate max maximum min minimum peak break fracture failure yield ultimate bruch transverse lateral \
+    width thickness poisson poissons modulus secant tangent plastic creep thermal residual error std \
+    stdev sd deviation energy tensor green lagrange almansi mises reduced normalized normalised second 2nd \
+    pk2";
+const NOMINAL: &str =
+    "nominal engineering eng engr technical tech technische nenn piola first 1st pk1 conventional";
+const TRUE: &str = "true log logarithmic ln hencky cauchy wahre wahrer wahr";
+const COMPRESSIVE: &str = "compressive compression compress druck stauchung";
 
 impl Heading {
     /// The column of a header, with the unit that stands in a row below it, if there is one.
@@ -187,13 +134,13 @@ impl Heading {
         let (name, unit) = name_and_unit(text);
         let unit = unit.or(below);
         let words = words(&name);
-        let has = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
+        let has = |list: &str| list.split(' ').any(|listed| words.iter().any(|word| word == listed));
         let is_true = has(TRUE) || words.iter().any(|word| word == "le") || name.trim() == "S11";
         let quantity = match (quantity(&name, &words, is_true), unit) {
             (_, Some(Unit::Sized)) => Quantity::Sized,
             (_, Some(Unit::Other)) => Quantity::Other,
             // In percent these are strains.
-            (Quantity::Sized, Some(Unit::Share(_))) if has(&["elongation", "extension", "deformation"]) => {
+            (Quantity::Sized, Some(Unit::Share(_))) if has("elongation extension deformation") => {
                 Quantity::Strain
             }
             (quantity, Some(Unit::Stress(_))) if !quantity.is_stress() => Quantity::Other,
@@ -211,68 +158,36 @@ impl Heading {
 }
 
 fn quantity(name: &str, words: &[String], is_true: bool) -> Quantity {
-    const MODES: &[&str] = &[
-        "mode",
-        "test",
-        "test mode",
-        "test type",
-        "type of test",
-        "loading",
-        "loading mode",
-        "deformation mode",
-        "load case",
-    ];
-    let has = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
+    let has = |list: &str| list.split(' ').any(|listed| words.iter().any(|word| word == listed));
     let joined = words.join(" ");
-    let is_kirchhoff = has(&["kirchhoff"]) && !has(&["piola"]);
-    let has_stress = has(&["stress", "stresses", "spannung", "σ", "sigma", "τ", "tau"])
-        || matches!(name.trim(), "P" | "P11" | "P12" | "S11");
-    let has_strain =
-        has(&["strain", "strains", "dehnung", "stauchung", "ε", "eps", "epsilon", "γ", "gamma", "ne", "le"]);
-    let has_volume = has(&["volume", "volumetric", "vol"]);
+    let is_kirchhoff = has("kirchhoff") && !has("piola");
+    let has_stress =
+        has("stress stresses spannung σ sigma τ tau") || matches!(name.trim(), "P" | "P11" | "P12" | "S11");
+    let has_strain = has("strain strains dehnung stauchung ε eps epsilon γ gamma ne le");
+    let has_volume = has("volume volumetric vol");
     match joined.as_str() {
-        _ if MODES.contains(&joined.as_str()) => Quantity::Mode,
+        "mode" | "test" | "type" | "experiment" | "test mode" | "test type" | "type of test" | "loading"
+        | "loading mode" | "deformation mode" | "load case" => Quantity::Mode,
         _ if has(OTHERS) || is_kirchhoff || has_stress && has_strain => Quantity::Other,
         "j" | "v v" | "jacobian" | "det f" => Quantity::Volume,
-        _ if has(&["stretch", "stretches", "λ", "lambda", "lam", "streckung", "verstreckung"]) => {
-            Quantity::Stretch
-        }
-        _ if has(&["ratio"]) && has(&["extension", "elongation"]) => Quantity::Stretch,
-        _ if has(&["ratio"]) && has_volume => Quantity::Volume,
+        _ if has("stretch stretches λ lambda lam streckung verstreckung") => Quantity::Stretch,
+        _ if has("ratio") && has("extension elongation") => Quantity::Stretch,
+        _ if has("ratio") && has_volume => Quantity::Volume,
         _ if has_strain && has_volume => Quantity::VolumeStrain,
-        _ if has_strain && (has(&["shear", "γ", "gamma"])) => Quantity::Shear,
+        _ if has_strain && has("shear γ gamma") => Quantity::Shear,
         _ if has_strain && is_true => Quantity::TrueStrain,
         _ if has_strain => Quantity::Strain,
         _ if has_stress && is_true => Quantity::TrueStress,
         _ if has_stress => Quantity::Stress,
-        _ if has(&["pressure"]) => Quantity::Pressure,
+        _ if has("pressure") => Quantity::Pressure,
         _ if has(SIZED) => Quantity::Sized,
         _ => Quantity::Other,
     }
 }
 
 /// Words of forces and lengths.
-const SIZED: &[&str] = &[
-    "force",
-    "load",
-    "kraft",
-    "standardkraft",
-    "prüfkraft",
-    "extension",
-    "elongation",
-    "displacement",
-    "deformation",
-    "crosshead",
-    "position",
-    "stroke",
-    "travel",
-    "deflection",
-    "weg",
-    "standardweg",
-    "traversenweg",
-    "längenänderung",
-    "verlängerung",
-];
+const SIZED: &str = "force load kraft standardkraft prüfkraft extension elongation displacement deformation crosshead \
+    position stroke travel deflection weg standardweg traversenweg längenänderung verlängerung";
 
 /// The words of a name in small letters, without numbers behind them; `nennspannung` and `TrueStress` are
 /// two each.
@@ -397,6 +312,7 @@ mod tests {
             "Green strain",
             "Temperature",
             "Poisson's ratio",
+            "Tensor shear strain",
             "Strain energy (MPa)",
             "",
             "Specimen label",

@@ -1,9 +1,9 @@
-//! What a file of measurements leaves unsaid.
+//! Options for what a file of measurements leaves unsaid.
 
 use super::test::Test;
 use super::unit::StressUnit;
 
-/// What a file of measurements leaves unsaid.
+/// Test and unit where a file of measurements names none.
 ///
 /// ```
 /// use piola_laboratory::curve::Mode;

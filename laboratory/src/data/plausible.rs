@@ -42,8 +42,8 @@ pub(super) fn check(points: &[Measured], rows: &[(u64, Test)], heading: &Heading
         for &(point, &(line, test)) in &points {
             let &Measured { control, stress, .. } = point;
             let strain = strain(point);
-            // Unloaded rubber has some stress of the other sign; where no stress is one of compression, little of
-            // it tells strains under `stretch`.
+            // Unloaded rubber has some stress of the other sign. Where no stress is one of compression,
+            // a little tells strains under `stretch`.
             let noise = if strain < 0.0 && is_pulled { 0.01 } else { 0.1 };
             if strain.abs() <= SMALL.min(0.1 * range) || stress.abs() <= noise * peak {
                 continue;

@@ -1,6 +1,6 @@
 //! Lines of a table, taken apart: what separates columns, and how numbers are written.
 
-/// What stands between two columns.
+/// A separator of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Separator {
     Tab,
