@@ -25,7 +25,7 @@ pub(crate) struct Emit {
     #[arg(long, default_value = "f64")]
     precision: Precision,
 
-    /// What all names begin with [default: the name of the energy].
+    /// First part of all names [default: the name of the energy].
     #[arg(long, value_name = "PREFIX")]
     name: Option<String>,
 

@@ -124,7 +124,7 @@ pub struct UnknownWord {
     known: String,
 }
 
-/// What a file holds, and how it is called.
+/// Contents of a file, and its names.
 ///
 /// ```
 /// use piola::Inversion;
@@ -146,7 +146,7 @@ pub struct Emission {
     pub target: Target,
     /// The number format.
     pub precision: Precision,
-    /// What all names begin with; `None` for the name of the energy in lower case.
+    /// The first part of all names; `None` for the name of the energy in lower case.
     pub prefix: Option<String>,
     /// The functions of the file.
     pub functions: Vec<PointFunction>,
@@ -221,11 +221,11 @@ struct File<'a> {
 }
 
 impl Energy {
-    /// The energy as source text: a structure of its parameters, a check of them, and the functions asked for.
+    /// The energy as source text: a structure of its parameters, a check of them, and functions.
     ///
-    /// The values are those of [`Energy::material`]. Lengths of lists, whole exponents and the threshold of an
-    /// extension are fixed by them; all other parameters are read from the structure, and these values are
-    /// there as an example.
+    /// The values are those of [`Energy::material`]. They fix lengths of lists, whole exponents and the
+    /// threshold of an extension. All other parameters are read from the structure, and the values are there
+    /// as an example.
     ///
     /// # Errors
     /// [`EmitError`].

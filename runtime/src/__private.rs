@@ -44,7 +44,7 @@ pub mod random {
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod record {
     pub use crate::lanes::recorded::{
-        Binary, Function, Id, Operation, Program, Recordable, Recorded, RecordedMask, Recording, Unary,
-        UnrecordedParameter, parameter, record,
+        Binary, Function, Id, Recordable, Recorded, RecordedMask, RecordedOperation, RecordedProgram,
+        Recording, Unary, UnrecordedParameter, parameter, record,
     };
 }

@@ -4,7 +4,7 @@
 
 use numpy::Element;
 use piola::Survey;
-use piola::batch::{Batch, LengthError, MatrixForm, Kernels, TileMaterial};
+use piola::batch::{Batch, Kernels, LengthError, MatrixForm, TileMaterial};
 use piola::point::measures::Measure;
 use pyo3::PyResult;
 

@@ -29,7 +29,7 @@ def test_points_that_a_curve_lacks_are_nan_with_a_reason(rubber):
     curve = rubber.curve("uniaxial", [1.0, -1.0, np.nan, np.inf])
     assert list(np.isnan(curve.stress)) == [False, True, True, True]
     assert "must be positive and finite" in curve.reasons[1]
-    with pytest.raises(ValueError, match="is no test"):
+    with pytest.raises(ValueError, match="is not a test"):
         rubber.curve("torsion", [1.0])
     with pytest.raises(TypeError, match="controls"):
         rubber.curve("uniaxial", "abc")
@@ -68,7 +68,7 @@ def test_data_that_cannot_be_fitted_are_refused(rubber):
     assert "(n, 2)" in message(ValueError, lambda: rubber.fit({"uniaxial": np.ones(3)}))
     assert "cannot be fitted" in message(piola.FitError, lambda: rubber.fit({"uniaxial": [[np.nan, 1e6]]}))
     assert "no point" in message(piola.FitError, lambda: rubber.fit({}))
-    assert "is no test" in message(ValueError, lambda: rubber.fit({"torsion": [[1.5, 1e6]]}))
+    assert "is not a test" in message(ValueError, lambda: rubber.fit({"torsion": [[1.5, 1e6]]}))
     assert "at most" in message(piola.FitError, lambda: rubber.fit(data, restarts=10**9))
 
 

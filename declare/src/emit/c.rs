@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use piola::__private::record::{Binary, Function, Id, Operation, Program, Recording, Unary};
+use piola::__private::record::{Binary, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary};
 use piola::Inversion;
 use piola::material::Form;
 
@@ -50,7 +50,7 @@ struct Printer<'a> {
     upper: String,
     /// `float` or `double`.
     number: &'static str,
-    /// What functions of the C library and literals end with.
+    /// The end of literals, and of the names of functions of the C library.
     suffix: &'static str,
     /// How each number among the parameters is written; whole exponents have no place.
     parameters: Vec<String>,
@@ -143,7 +143,7 @@ impl<'a> Printer<'a> {
         )
     }
 
-    /// What every program is made of, so far as one of them needs it.
+    /// Functions that programs are made of, those that one of them needs.
     fn primitives(&self, recordings: &[&Recording]) -> String {
         let Self { prefix, upper, number, suffix, .. } = self;
         let all: Vec<_> = recordings
@@ -151,11 +151,13 @@ impl<'a> Printer<'a> {
             .flat_map(|recording| recording.functions.values().chain([&recording.program]))
             .flat_map(|program| &program.operations)
             .collect();
-        let has = |wanted: &dyn Fn(&Operation) -> bool| all.iter().any(|operation| wanted(operation));
-        let calls = |function| has(&|operation| matches!(operation, Operation::Call(f, _) if *f == function));
-        let unary =
-            |operator| has(&|operation| matches!(operation, Operation::Unary(o, _) if *o == operator));
-        let scales = has(&|operation| matches!(operation, Operation::Binary(Binary::Scale, ..)));
+        let has = |wanted: &dyn Fn(&RecordedOperation) -> bool| all.iter().any(|operation| wanted(operation));
+        let calls =
+            |function| has(&|operation| matches!(operation, RecordedOperation::Call(f, _) if *f == function));
+        let unary = |operator| {
+            has(&|operation| matches!(operation, RecordedOperation::Unary(o, _) if *o == operator))
+        };
+        let scales = has(&|operation| matches!(operation, RecordedOperation::Binary(Binary::Scale, ..)));
         let single = self.file.precision == Precision::F32;
         let (bits, signed, mantissa, bias) = match single {
             true => ("uint32_t", "int32_t", 23, 127),
@@ -288,13 +290,13 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
             return;
         };
         for operation in &program.operations {
-            if let Operation::Call(called, _) = operation {
+            if let RecordedOperation::Call(called, _) = operation {
                 self.function(*called, recording, printed, text);
             }
         }
         let Self { prefix, number, .. } = self;
         let count = program.operations.iter().filter_map(|operation| match operation {
-            Operation::Argument(k) => Some(k + 1),
+            RecordedOperation::Argument(k) => Some(k + 1),
             _ => None,
         });
         let arguments: Vec<_> = (0..count.max().unwrap_or(0)).map(|k| format!("x{k}")).collect();
@@ -314,7 +316,7 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
         let _ = writeln!(text, "    return {};\n}}\n", body.operand(program.results[0]));
     }
 
-    fn point_function(&self, function: PointFunction, program: &Program) -> String {
+    fn point_function(&self, function: PointFunction, program: &RecordedProgram) -> String {
         let Self { prefix, number, .. } = self;
         let outputs: &[(&str, usize)] = match function {
             PointFunction::Energy => &[("psi", 1)],
@@ -352,7 +354,8 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
                 _ => format!("{number} {name}[{count}]"),
             })
             .collect();
-        let uses_parameters = program.operations.iter().any(|one| matches!(one, Operation::Parameter(_)));
+        let uses_parameters =
+            program.operations.iter().any(|one| matches!(one, RecordedOperation::Parameter(_)));
         let unused = if uses_parameters { "" } else { "    (void)p;\n" };
         let mut text = format!(
             "/* {comment} */\nstatic inline unsigned {prefix}_{}(const {prefix}_parameters *p, const {number} {input}[{count}], {}) {{\n{unused}",
@@ -370,7 +373,7 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
         }
         let bits: Vec<_> = results
             .enumerate()
-            .filter(|&(_, &result)| program.operations[result as usize] != Operation::Truth(false))
+            .filter(|&(_, &result)| program.operations[result as usize] != RecordedOperation::Truth(false))
             .map(|(k, &result)| match k {
                 0 => format!("(unsigned){}", body.operand(result)),
                 _ => format!("(unsigned){} << {k}", body.operand(result)),
@@ -471,9 +474,9 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
 
     fn literal(&self, value: f64) -> String {
         match self.file.precision {
-            _ if value.is_nan() => return format!("({})NAN", self.number),
+            _ if value.is_nan() => format!("({})NAN", self.number),
             _ if value.is_infinite() => {
-                return format!("{}({})INFINITY", if value < 0.0 { "-" } else { "" }, self.number);
+                format!("{}({})INFINITY", if value < 0.0 { "-" } else { "" }, self.number)
             }
             Precision::F64 => format!("{value:?}"),
             Precision::F32 => format!("{:?}f", value as f32),
@@ -484,13 +487,13 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
 /// Statements of a program.
 struct Body<'a> {
     printer: &'a Printer<'a>,
-    program: &'a Program,
+    program: &'a RecordedProgram,
     arguments: Vec<String>,
     steps: Steps,
 }
 
 impl<'a> Body<'a> {
-    fn new(printer: &'a Printer<'a>, program: &'a Program, arguments: Vec<String>) -> Self {
+    fn new(printer: &'a Printer<'a>, program: &'a RecordedProgram, arguments: Vec<String>) -> Self {
         Self { printer, program, arguments, steps: Steps::of(program) }
     }
 
@@ -530,7 +533,9 @@ impl<'a> Body<'a> {
                         }
                         self.write(inner, depth + 1, text);
                         for &id in selections {
-                            if let Operation::Select(_, yes, no) = self.program.operations[id as usize] {
+                            if let RecordedOperation::Select(_, yes, no) =
+                                self.program.operations[id as usize]
+                            {
                                 let _ = writeln!(text, "{margin}    t{id} = {};", self.operand([yes, no][k]));
                             }
                         }
@@ -542,11 +547,11 @@ impl<'a> Body<'a> {
     }
 
     fn is_pair(&self, id: Id) -> bool {
-        matches!(self.program.operations[id as usize], Operation::Call(function, _) if function.is_pair())
+        matches!(self.program.operations[id as usize], RecordedOperation::Call(function, _) if function.is_pair())
     }
 
     fn type_of(&self, id: Id) -> &'static str {
-        use Operation::{And, IsZero, Less, Not, Or, Truth};
+        use RecordedOperation::{And, IsZero, Less, Not, Or, Truth};
         match self.program.operations[id as usize] {
             Truth(_) | Less(..) | IsZero(_) | Not(_) | And(..) | Or(..) => "int",
             _ => self.printer.number,
@@ -556,14 +561,14 @@ impl<'a> Body<'a> {
     /// An operand where it is used.
     fn operand(&self, id: Id) -> String {
         match self.program.operations[id as usize] {
-            Operation::Argument(k) => self.arguments[k as usize].clone(),
-            Operation::Parameter(k) => self.printer.parameters[k as usize].clone(),
-            Operation::Literal(bits) => {
+            RecordedOperation::Argument(k) => self.arguments[k as usize].clone(),
+            RecordedOperation::Parameter(k) => self.printer.parameters[k as usize].clone(),
+            RecordedOperation::Literal(bits) => {
                 let text = self.printer.literal(f64::from_bits(bits));
                 if text.starts_with('-') { format!("({text})") } else { text }
             }
-            Operation::Truth(truth) => u8::from(truth).to_string(),
-            Operation::Second(call) => format!("s{call}"),
+            RecordedOperation::Truth(truth) => u8::from(truth).to_string(),
+            RecordedOperation::Second(call) => format!("s{call}"),
             _ => format!("t{id}"),
         }
     }
@@ -572,14 +577,14 @@ impl<'a> Body<'a> {
         let Printer { prefix, upper, suffix, .. } = self.printer;
         let o = |id: Id| self.operand(id);
         match self.program.operations[id as usize] {
-            Operation::Unary(operator, a) => match operator {
+            RecordedOperation::Unary(operator, a) => match operator {
                 Unary::Negate => format!("-{}", o(a)),
                 Unary::Absolute => format!("fabs{suffix}({})", o(a)),
                 Unary::SquareRoot => format!("sqrt{suffix}({})", o(a)),
                 Unary::LeadingPower => format!("{prefix}_leading_power({})", o(a)),
                 Unary::ReciprocalOfPower => format!("{prefix}_reciprocal_of_power({})", o(a)),
             },
-            Operation::Binary(operator, a, b) => match operator {
+            RecordedOperation::Binary(operator, a, b) => match operator {
                 Binary::Add => format!("{} + {}", o(a), o(b)),
                 Binary::Subtract => format!("{} - {}", o(a), o(b)),
                 Binary::Multiply => format!("{} * {}", o(a), o(b)),
@@ -587,14 +592,14 @@ impl<'a> Body<'a> {
                 Binary::CopySign => format!("copysign{suffix}({}, {})", o(a), o(b)),
                 Binary::Scale => format!("{prefix}_scale({}, {})", o(a), o(b)),
             },
-            Operation::MulAdd(a, b, c) => format!("{upper}_MUL_ADD({}, {}, {})", o(a), o(b), o(c)),
-            Operation::Less(a, b) => format!("{} < {}", o(a), o(b)),
-            Operation::IsZero(a) => format!("{} == 0", o(a)),
-            Operation::Not(a) => format!("!{}", o(a)),
-            Operation::And(a, b) => format!("{} & {}", o(a), o(b)),
-            Operation::Or(a, b) => format!("{} | {}", o(a), o(b)),
-            Operation::Select(mask, yes, no) => format!("{} ? {} : {}", o(mask), o(yes), o(no)),
-            Operation::Call(function, arguments) => {
+            RecordedOperation::MulAdd(a, b, c) => format!("{upper}_MUL_ADD({}, {}, {})", o(a), o(b), o(c)),
+            RecordedOperation::Less(a, b) => format!("{} < {}", o(a), o(b)),
+            RecordedOperation::IsZero(a) => format!("{} == 0", o(a)),
+            RecordedOperation::Not(a) => format!("!{}", o(a)),
+            RecordedOperation::And(a, b) => format!("{} & {}", o(a), o(b)),
+            RecordedOperation::Or(a, b) => format!("{} | {}", o(a), o(b)),
+            RecordedOperation::Select(mask, yes, no) => format!("{} ? {} : {}", o(mask), o(yes), o(no)),
+            RecordedOperation::Call(function, arguments) => {
                 let mut list: Vec<_> = arguments.iter().flatten().map(|&argument| o(argument)).collect();
                 if function.is_pair() {
                     list.push(format!("&s{id}"));

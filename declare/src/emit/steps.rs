@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use piola::__private::record::{Id, Operation, Program};
+use piola::__private::record::{Id, RecordedOperation, RecordedProgram};
 
 /// A statement, or two lists of them of which one is executed.
 pub(super) enum Step {
@@ -22,13 +22,13 @@ pub(super) struct Steps {
 }
 
 /// Whether an operation needs no statement: it is written where it is used.
-pub(super) fn is_inline(operation: &Operation) -> bool {
-    use Operation::{Argument, Literal, Parameter, Second, Truth};
+pub(super) fn is_inline(operation: &RecordedOperation) -> bool {
+    use RecordedOperation::{Argument, Literal, Parameter, Second, Truth};
     matches!(operation, Argument(_) | Parameter(_) | Literal(_) | Truth(_) | Second(_))
 }
 
 impl Steps {
-    pub(super) fn of(program: &Program) -> Self {
+    pub(super) fn of(program: &RecordedProgram) -> Self {
         let mut order = Order::new(program);
         let all: BTreeSet<Id> = (0..program.operations.len() as Id).collect();
         let all = order.steps(ROOT, &all);
@@ -54,7 +54,7 @@ struct Condition {
 }
 
 struct Order<'a> {
-    program: &'a Program,
+    program: &'a RecordedProgram,
     /// All but the root, whose place comes first.
     conditions: Vec<Condition>,
     places: HashMap<(Node, Id, bool), Node>,
@@ -64,7 +64,7 @@ struct Order<'a> {
 }
 
 impl<'a> Order<'a> {
-    fn new(program: &'a Program) -> Self {
+    fn new(program: &'a RecordedProgram) -> Self {
         let count = program.operations.len();
         let root = Condition { parent: ROOT, mask: 0 };
         let mut order = Self {
@@ -101,7 +101,9 @@ impl<'a> Order<'a> {
     /// Mask and values of a selection that is a branch.
     fn guarded(&self, id: Id) -> Option<(Id, Id, Id)> {
         match self.program.operations[id as usize] {
-            Operation::Select(mask, yes, no) if self.program.guards.contains(&mask) => Some((mask, yes, no)),
+            RecordedOperation::Select(mask, yes, no) if self.program.guards.contains(&mask) => {
+                Some((mask, yes, no))
+            }
             _ => None,
         }
     }
@@ -199,7 +201,7 @@ impl<'a> Order<'a> {
 
 /// Which list of statements has each result.
 struct Scopes<'a> {
-    program: &'a Program,
+    program: &'a RecordedProgram,
     /// The list around each list.
     parents: Vec<usize>,
     defined: HashMap<Id, usize>,
@@ -244,7 +246,8 @@ impl Scopes<'_> {
                         let here = *last;
                         self.check_from(inner, here, last);
                         for &selection in selections {
-                            if let Operation::Select(_, yes, no) = self.program.operations[selection as usize]
+                            if let RecordedOperation::Select(_, yes, no) =
+                                self.program.operations[selection as usize]
                             {
                                 self.uses([yes, no][k], here);
                             }
@@ -256,7 +259,7 @@ impl Scopes<'_> {
     }
 
     fn uses(&mut self, id: Id, scope: usize) {
-        if let Operation::Second(call) = self.program.operations[id as usize] {
+        if let RecordedOperation::Second(call) = self.program.operations[id as usize] {
             return self.uses(call, scope);
         }
         let Some(&defined) = self.defined.get(&id) else { return };

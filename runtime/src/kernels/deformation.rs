@@ -1,4 +1,4 @@
-//! Kernels from deformation gradients to frames, stretches and invariants, and from edges to deformation gradients.
+//! Kernels from edges to deformation gradients, and from these to frames, stretches and invariants.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 

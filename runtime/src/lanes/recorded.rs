@@ -4,7 +4,7 @@
 //! A computation runs once. There is no branch on a value to miss, since a `Real` has none; where code asks
 //! whether *any* lane of a mask is set, the answer is yes unless the mask is known, so that both ways are
 //! recorded. The question itself is kept: what only one way needs stands behind a condition again, once the
-//! program is printed ([`Program::guards`]).
+//! program is printed ([`RecordedProgram::guards`]).
 //!
 //! Equal operations exist once, arithmetic with literals is done at once, and no rule changes a bit. The
 //! elementary functions are recorded as well, each once, and called.
@@ -25,7 +25,7 @@ pub type Id = u32;
 
 /// An operation of a program, on results of operations before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Operation {
+pub enum RecordedOperation {
     /// An argument of the program.
     Argument(u32),
     /// A number among the parameters of the material, in the order in which they are declared.
@@ -153,13 +153,13 @@ functions! {
 
 /// A straight-line program.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Program {
+pub struct RecordedProgram {
     /// In an order in which they can be executed; all are needed.
-    pub operations: Vec<Operation>,
+    pub operations: Vec<RecordedOperation>,
     /// The results.
     pub results: Vec<Id>,
-    /// Masks of which the computation asked whether any lane is set: where a selection is by one of them, what
-    /// only one of its values needs is worth a branch.
+    /// Masks of which the computation asked whether any lane is set: a selection by one of them is a branch,
+    /// in which stands what only one of its values needs.
     pub guards: HashSet<Id>,
 }
 
@@ -167,9 +167,9 @@ pub struct Program {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// The program.
-    pub program: Program,
+    pub program: RecordedProgram,
     /// Programs of the functions that it calls, and of those that they call.
-    pub functions: BTreeMap<Function, Program>,
+    pub functions: BTreeMap<Function, RecordedProgram>,
 }
 
 /// A computation has used a parameter as a number of Rust, so that it is no program of the parameter.
@@ -187,8 +187,8 @@ impl std::error::Error for UnrecordedParameter {}
 /// Operations under construction.
 #[derive(Default)]
 struct Tape {
-    operations: Vec<Operation>,
-    places: HashMap<Operation, Id>,
+    operations: Vec<RecordedOperation>,
+    places: HashMap<RecordedOperation, Id>,
     guards: HashSet<Id>,
 }
 
@@ -196,7 +196,7 @@ struct Tape {
 struct Recorder {
     /// The program, and above it the functions that are being recorded.
     tapes: Vec<Tape>,
-    functions: BTreeMap<Function, Program>,
+    functions: BTreeMap<Function, RecordedProgram>,
     has_lost_parameter: bool,
 }
 
@@ -255,9 +255,13 @@ pub fn record<E: Recordable>(
 }
 
 /// The program of a computation on a tape of its own.
-fn recorded<E: Recordable>(arguments: usize, computation: impl FnOnce(&[Recorded<E>]) -> Vec<Id>) -> Program {
+fn recorded<E: Recordable>(
+    arguments: usize,
+    computation: impl FnOnce(&[Recorded<E>]) -> Vec<Id>,
+) -> RecordedProgram {
     RECORDER.with_borrow_mut(|recorder| recorder.tapes.push(Tape::default()));
-    let arguments: Vec<_> = (0..arguments as u32).map(|k| Recorded::of(Operation::Argument(k))).collect();
+    let arguments: Vec<_> =
+        (0..arguments as u32).map(|k| Recorded::of(RecordedOperation::Argument(k))).collect();
     let results = computation(&arguments);
     let tape = RECORDER.with_borrow_mut(|recorder| recorder.tapes.pop()).unwrap_or_default();
     tape.into_program(results)
@@ -277,15 +281,15 @@ fn call<E: Recordable>(
         });
         RECORDER.with_borrow_mut(|recorder| recorder.functions.insert(function, program));
     }
-    let called = Recorded::of(Operation::Call(
+    let called = Recorded::of(RecordedOperation::Call(
         function,
         std::array::from_fn(|k| arguments.get(k).map(|argument| argument.id)),
     ));
-    [called, if function.is_pair() { Recorded::of(Operation::Second(called.id)) } else { called }]
+    [called, if function.is_pair() { Recorded::of(RecordedOperation::Second(called.id)) } else { called }]
 }
 
 impl Tape {
-    fn push(&mut self, operation: Operation) -> Id {
+    fn push(&mut self, operation: RecordedOperation) -> Id {
         let Self { operations, places, .. } = self;
         *places.entry(operation).or_insert_with(|| {
             operations.push(operation);
@@ -295,21 +299,21 @@ impl Tape {
 
     fn literal(&self, id: Id) -> Option<f64> {
         match self.operations[id as usize] {
-            Operation::Literal(bits) => Some(f64::from_bits(bits)),
+            RecordedOperation::Literal(bits) => Some(f64::from_bits(bits)),
             _ => None,
         }
     }
 
     fn truth(&self, id: Id) -> Option<bool> {
         match self.operations[id as usize] {
-            Operation::Truth(truth) => Some(truth),
+            RecordedOperation::Truth(truth) => Some(truth),
             _ => None,
         }
     }
 
     /// The operation, or what has the same bits and is simpler.
-    fn simplified<E: Recordable>(&mut self, operation: Operation) -> Id {
-        use Operation::{And, Binary, Less, Literal, Not, Or, Select, Truth, Unary};
+    fn simplified<E: Recordable>(&mut self, operation: RecordedOperation) -> Id {
+        use RecordedOperation::{And, Binary, Less, Literal, Not, Or, Select, Truth, Unary};
         let computed = match operation {
             Unary(self::Unary::Negate, a) => self.literal(a).map(|a| -a),
             Binary(operator, a, b) => match (self.literal(a), self.literal(b)) {
@@ -350,8 +354,8 @@ impl Tape {
         self.push(computed.map_or(operation, |value| Literal(value.to_bits())))
     }
 
-    /// What the results need.
-    fn into_program(self, results: Vec<Id>) -> Program {
+    /// The operations that the results need, in order.
+    fn into_program(self, results: Vec<Id>) -> RecordedProgram {
         let mut is_needed = vec![false; self.operations.len()];
         for &result in &results {
             is_needed[result as usize] = true;
@@ -368,7 +372,7 @@ impl Tape {
             operations.push(operation.with_operands(|id| places[id as usize]));
         }
         let moved = |id: Id| places[id as usize];
-        Program {
+        RecordedProgram {
             operations,
             results: results.into_iter().map(moved).collect(),
             guards: self.guards.into_iter().filter(|&id| is_needed[id as usize]).map(moved).collect(),
@@ -376,7 +380,7 @@ impl Tape {
     }
 }
 
-impl Operation {
+impl RecordedOperation {
     /// The operation on other operands.
     #[must_use]
     pub fn with_operands(self, mut map: impl FnMut(Id) -> Id) -> Self {
@@ -427,7 +431,7 @@ impl Recordable for f64 {}
 impl Recordable for f32 {}
 
 impl<E: Recordable> Recorded<E> {
-    fn of(operation: Operation) -> Self {
+    fn of(operation: RecordedOperation) -> Self {
         let id = RECORDER.with_borrow_mut(|recorder| match recorder.tapes.last_mut() {
             Some(tape) => tape.simplified::<E>(operation),
             None => 0,
@@ -436,16 +440,16 @@ impl<E: Recordable> Recorded<E> {
     }
 
     fn unary(self, operator: Unary) -> Self {
-        Self::of(Operation::Unary(operator, self.id))
+        Self::of(RecordedOperation::Unary(operator, self.id))
     }
 
     fn binary(self, operator: Binary, other: Self) -> Self {
-        Self::of(Operation::Binary(operator, self.id, other.id))
+        Self::of(RecordedOperation::Binary(operator, self.id, other.id))
     }
 }
 
 impl RecordedMask {
-    fn of(operation: Operation) -> Self {
+    fn of(operation: RecordedOperation) -> Self {
         // No operation on truth values depends on the format.
         Self(Recorded::<f64>::of(operation).id)
     }
@@ -455,7 +459,7 @@ impl BitAnd for RecordedMask {
     type Output = Self;
 
     fn bitand(self, other: Self) -> Self {
-        Self::of(Operation::And(self.0, other.0))
+        Self::of(RecordedOperation::And(self.0, other.0))
     }
 }
 
@@ -463,7 +467,7 @@ impl BitOr for RecordedMask {
     type Output = Self;
 
     fn bitor(self, other: Self) -> Self {
-        Self::of(Operation::Or(self.0, other.0))
+        Self::of(RecordedOperation::Or(self.0, other.0))
     }
 }
 
@@ -471,22 +475,22 @@ impl Not for RecordedMask {
     type Output = Self;
 
     fn not(self) -> Self {
-        Self::of(Operation::Not(self.0))
+        Self::of(RecordedOperation::Not(self.0))
     }
 }
 
 impl Mask for RecordedMask {
     fn splat(value: bool) -> Self {
-        Self::of(Operation::Truth(value))
+        Self::of(RecordedOperation::Truth(value))
     }
 
     fn any(self) -> bool {
         RECORDER.with_borrow_mut(|recorder| {
             let Some(tape) = recorder.tapes.last_mut() else { return true };
             match tape.operations[self.0 as usize] {
-                Operation::Truth(truth) => return truth,
+                RecordedOperation::Truth(truth) => return truth,
                 // Selections are by masks that are not negations.
-                Operation::Not(mask) => tape.guards.insert(mask),
+                RecordedOperation::Not(mask) => tape.guards.insert(mask),
                 _ => tape.guards.insert(self.0),
             };
             true
@@ -528,12 +532,12 @@ impl<E: Recordable> Real for Recorded<E> {
     fn splat(value: f64) -> Self {
         let bits = value.to_bits();
         match bits & !0xffff_ffff {
-            PARAMETERS => return Self::of(Operation::Parameter(bits as u32)),
+            PARAMETERS => return Self::of(RecordedOperation::Parameter(bits as u32)),
             QUIET => RECORDER.with_borrow_mut(|recorder| recorder.has_lost_parameter = true),
             _ => {}
         }
         let rounded: f64 = E::splat(value).into();
-        Self::of(Operation::Literal(rounded.to_bits()))
+        Self::of(RecordedOperation::Literal(rounded.to_bits()))
     }
 
     fn from_fn(value: impl Fn(usize) -> f64) -> Self {
@@ -541,7 +545,7 @@ impl<E: Recordable> Real for Recorded<E> {
     }
 
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        Self::of(Operation::MulAdd(self.id, factor.id, addend.id))
+        Self::of(RecordedOperation::MulAdd(self.id, factor.id, addend.id))
     }
 
     fn sqrt(self) -> Self {
@@ -592,7 +596,7 @@ impl<E: Recordable> Real for Recorded<E> {
     }
 
     fn less(self, other: Self) -> RecordedMask {
-        RecordedMask::of(Operation::Less(self.id, other.id))
+        RecordedMask::of(RecordedOperation::Less(self.id, other.id))
     }
 
     fn is_finite(self) -> RecordedMask {
@@ -600,11 +604,12 @@ impl<E: Recordable> Real for Recorded<E> {
     }
 
     fn select(mask: RecordedMask, yes: Self, no: Self) -> Self {
-        Self::of(Operation::Select(mask.0, yes.id, no.id))
+        Self::of(RecordedOperation::Select(mask.0, yes.id, no.id))
     }
 
     fn two_product(self, other: Self) -> (Self, Self) {
-        let operation = Operation::Call(Function::ProductError, [Some(self.id), Some(other.id), None, None]);
+        let operation =
+            RecordedOperation::Call(Function::ProductError, [Some(self.id), Some(other.id), None, None]);
         (self * other, Self::of(operation))
     }
 
@@ -618,12 +623,12 @@ impl<E: Recordable> Primitive for Recorded<E> {
     const IS_FUSED: bool = false;
 
     fn is_zero(self) -> RecordedMask {
-        RecordedMask::of(Operation::IsZero(self.id))
+        RecordedMask::of(RecordedOperation::IsZero(self.id))
     }
 
     fn split(self) -> (Self, Self) {
-        let called = Self::of(Operation::Call(Function::Split, [Some(self.id), None, None, None]));
-        (called, Self::of(Operation::Second(called.id)))
+        let called = Self::of(RecordedOperation::Call(Function::Split, [Some(self.id), None, None, None]));
+        (called, Self::of(RecordedOperation::Second(called.id)))
     }
 
     fn scale(self, exponent: Self) -> Self {

@@ -13,7 +13,7 @@ use std::error::Error;
 use std::io::{Write, stdin, stdout};
 
 use piola::Inversion;
-use piola::batch::{Batch, MatrixForm, Kernels, TileMaterial};
+use piola::batch::{Batch, Kernels, MatrixForm, TileMaterial};
 use piola::lanes::Backend;
 use piola::point::Filter;
 use piola_declare::Energy;
