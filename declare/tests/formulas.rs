@@ -314,7 +314,7 @@ fn messages_are_in_the_notation_of_formulas() {
                 "`admissible",
                 "Univariate",
             ];
-            assert!(!rust.iter().any(|rust| is_rust(rust)), "{text}: {message}");
+            assert!(!rust.iter().any(is_rust), "{text}: {message}");
         }
     }
 }
