@@ -8,6 +8,7 @@ use piola::Inversion;
 use piola::batch::TileMaterial;
 use piola::interpreter::Interpreted;
 use piola::material::{Moduli, Parameter, PerPoint};
+use piola_declare::emit::{Emission, UnknownWord};
 use piola_declare::{Energy, FormulaOptions, Mistakes};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
 use pyo3::prelude::*;
@@ -286,6 +287,36 @@ impl Material {
     #[pyo3(signature = (**parameters))]
     fn changed(&self, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         Self::from_keywords(self.uniform()?.clone(), self.extend(), parameters)
+    }
+
+    /// The energy as source text, for kernels that link no library.
+    ///
+    ///     emit(target, *, precision="f64", name=None, functions=None)
+    ///
+    /// target: "c", which is C99 and C++17 alike.
+    /// precision: "f64" or "f32".
+    /// name: the first part of all names; None for the name of the energy.
+    /// functions: a sequence of "energy", "stress", "tangent", "projected", "absolute", "blocks" and "svd"; None
+    ///     for all.
+    ///
+    /// Raises ValueError for an unknown word, and MaterialError for an energy that cannot be printed.
+    #[pyo3(signature = (target, *, precision = "f64", name = None, functions = None))]
+    fn emit(
+        &self,
+        target: &str,
+        precision: &str,
+        name: Option<String>,
+        functions: Option<Vec<String>>,
+    ) -> PyResult<String> {
+        let unknown = |error: UnknownWord| value_error(error.to_string());
+        let mut emission = Emission::new(target.parse().map_err(unknown)?);
+        emission = emission.with_precision(precision.parse().map_err(unknown)?);
+        emission.prefix = name;
+        if let Some(functions) = functions {
+            let functions: Result<Vec<_>, _> = functions.iter().map(|word| word.parse()).collect();
+            emission = emission.with_functions(functions.map_err(unknown)?);
+        }
+        self.uniform()?.clone().with_inversion(self.inversion).emit(&emission).map_err(of_material)
     }
 
     /// The name in the catalogue, or of the declaration.

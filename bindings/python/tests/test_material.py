@@ -199,3 +199,13 @@ def test_mistakes_of_a_text_are_told_at_their_places():
     for text in ("", "(" * 100_000, "mu" * 50_000, "\0", "∫", "fn", "#[material] fn", "1/0", "J^J^J^J"):
         with pytest.raises((piola.DeclarationError, piola.MaterialError)):
             piola.declare(text, mu=1.0)
+
+
+def test_an_energy_is_printed_as_c():
+    rubber = piola.declare(FORMULA, mu=1e6, **{"lambda": 5e6})
+    text = rubber.emit("c", name="rubber", precision="f32", functions=["stress"])
+    assert "unsigned rubber_stress(const rubber_parameters *p, const float F[9], float P[9])" in text
+    assert "rubber_tangent" not in text and "{1000000.0f, 5000000.0f}" in text
+    assert "known are: c" in message(ValueError, lambda: rubber.emit("fortran"))
+    assert "unknown function `forces`" in message(ValueError, lambda: rubber.emit("c", functions=["forces"]))
+    assert "is not a name in C" in message(piola.MaterialError, lambda: rubber.emit("c", name="a b"))

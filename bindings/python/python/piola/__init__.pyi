@@ -71,6 +71,14 @@ class Material:
     @staticmethod
     def matching(name: str, /, *, young: float, poisson: float, extend: Optional[float] = None) -> Material: ...
     def changed(self, **parameters: ArrayLike) -> Material: ...
+    def emit(
+        self,
+        target: str,
+        *,
+        precision: str = "f64",
+        name: Optional[str] = None,
+        functions: Optional[Sequence[str]] = None,
+    ) -> str: ...
     @property
     def name(self) -> str: ...
     @property
