@@ -472,7 +472,7 @@ fn of_formula(
         let keyword: String = keyword.extract()?;
         known.push((parameter_name(&keyword, is_used).to_owned(), String::new()));
     }
-    let any = FormulaOptions::default().with_free_rest(free_rest);
+    let any = FormulaOptions::default().with_free_rest(free_rest).with_forms("NAME=VALUE", "free_rest=True");
     Ok(py.detach(|| {
         if known.is_empty() {
             return Energy::from_formula_with(formula, &any);
