@@ -16,7 +16,7 @@ use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::data::{Agreement, Measurements};
 use piola_scenes::material::MaterialSpec;
-use piola_scenes::options::{Formula, Given, check_units, in_file, parameter, with_values};
+use piola_scenes::options::{Formula, Given, in_file, parameter, with_values};
 use piola_scenes::output::write_whole;
 
 use crate::error::Error;
@@ -60,8 +60,7 @@ impl Material {
                 None => MaterialSpec::typical(&name)?,
             },
         };
-        check_units(&material, &self.parameters)?;
-        Ok(with_values(material, self.parameters))
+        Ok(with_values(material, self.parameters)?)
     }
 }
 

@@ -275,7 +275,7 @@ fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error
         None if parameters.is_empty() => MaterialSpec::matching(name, settings.material.build()?.moduli),
         None => MaterialSpec::new(name),
     };
-    let material = with_values(material, parameters);
+    let material = with_values(material, parameters)?;
     material.build()?;
     Ok((group.to_owned(), MaterialPart { material, varied: None, density }))
 }

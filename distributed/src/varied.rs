@@ -92,8 +92,8 @@ impl Varied {
                 parameter(&format!("{name}={cell}")).map_err(|reason| in_line(format!("{name}: {reason}")))
             });
             let given: Vec<_> = given.collect::<Result<_, _>>()?;
-            let material = with_values(material.clone(), given);
-            material.interpreted().map_err(|error| in_line(error.to_string()))
+            let material = with_values(material.clone(), given).and_then(|material| material.interpreted());
+            material.map_err(|error| in_line(error.to_string()))
         };
         let materials: Vec<_> = tags.map(of_element).collect::<Result<_, _>>()?;
         Ok(Box::new(PerPoint::new(materials).map_err(|error| wrong(error.to_string()))?))

@@ -4,7 +4,7 @@ mod energy;
 mod step;
 mod value;
 
-pub use energy::{Formula, check_units, in_file, with_values};
+pub use energy::{Formula, in_file, with_values};
 pub use step::StepOptions;
 pub use value::{Given, inversion, parameter};
 
@@ -108,8 +108,7 @@ impl SceneOptions {
                 None => MaterialSpec::matching(&name, settings.material.build()?.moduli),
             };
         }
-        check_units(&settings.material, &self.parameters)?;
-        settings.material = with_values(settings.material, self.parameters);
+        settings.material = with_values(settings.material, self.parameters)?;
         if let Some(inversion) = self.inversion {
             settings.material = settings.material.with_inversion(inversion);
         }

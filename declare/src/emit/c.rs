@@ -5,17 +5,20 @@ use std::fmt::Write;
 
 use piola::__private::record::{Binary, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary};
 use piola::Inversion;
-use piola::material::Form;
+use piola::material::{Form, Parameter};
 
 use super::steps::{Step, Steps};
 use super::{File, PointFunction, Precision};
 use crate::condition::{Condition, Term};
 
-/// Names that parameters and files cannot have.
-const RESERVED: [&str; 24] = [
-    "auto", "bool", "break", "case", "char", "class", "const", "delete", "double", "else", "enum", "float",
-    "for", "if", "inline", "int", "long", "new", "operator", "return", "short", "static", "this", "while",
-];
+/// Names that fields cannot have: keywords of C99 and C++20, and macros of the headers and compilers.
+const RESERVED: &str = " alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t \
+    char32_t class co_await co_return co_yield compl concept const const_cast consteval constexpr constinit continue \
+    decltype default delete do double dynamic_cast else enum explicit export extern false float for friend goto if \
+    inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public \
+    register reinterpret_cast requires restrict return short signed sizeof static static_assert static_cast struct \
+    switch template this thread_local throw true try typedef typeid typename typeof union unsigned using virtual void \
+    volatile wchar_t while xor xor_eq INFINITY NAN HUGE_VAL NULL errno linux unix ";
 
 /// Whether names can begin with it.
 pub(super) fn is_identifier(name: &str) -> bool {
@@ -52,6 +55,8 @@ struct Printer<'a> {
     number: &'static str,
     /// The end of literals, and of the names of functions of the C library.
     suffix: &'static str,
+    /// The name of each parameter.
+    fields: Vec<String>,
     /// How each number among the parameters is written; whole exponents have no place.
     parameters: Vec<String>,
 }
@@ -64,8 +69,8 @@ impl<'a> Printer<'a> {
         };
         let description = file.energy.description();
         let mut parameters = Vec::new();
-        for (parameter, values) in description.parameters.iter().zip(file.values) {
-            let name = field(&parameter.name);
+        let fields = fields(description.parameters.iter());
+        for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&fields) {
             for k in 0..values.len() {
                 parameters.push(match parameter.form {
                     Form::List | Form::Exponents => format!("p->{name}[{k}]"),
@@ -73,7 +78,15 @@ impl<'a> Printer<'a> {
                 });
             }
         }
-        Self { file, prefix: &file.prefix, upper: file.prefix.to_uppercase(), number, suffix, parameters }
+        Self {
+            file,
+            prefix: &file.prefix,
+            upper: file.prefix.to_uppercase(),
+            number,
+            suffix,
+            fields,
+            parameters,
+        }
     }
 
     /// Comment, guard, and the structure of the parameters.
@@ -114,8 +127,7 @@ impl<'a> Printer<'a> {
         );
         let mut fields = String::new();
         let mut example = Vec::new();
-        for (parameter, values) in description.parameters.iter().zip(file.values) {
-            let name = field(&parameter.name);
+        for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&self.fields) {
             let doc = safe(&parameter.doc);
             let comment = if doc.is_empty() { String::new() } else { format!(" /* {doc} */") };
             let numbers: Vec<_> = values.iter().map(|&value| self.literal(value)).collect();
@@ -392,11 +404,11 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
         let mut all = Vec::new();
         // Each with what is said of it, statements before it, and the condition under which all is well.
         let mut cases: Vec<(String, String, String)> = Vec::new();
-        for (parameter, values) in description.parameters.iter().zip(file.values) {
+        for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&self.fields) {
             let numbers: Vec<_> = places.by_ref().take(values.len()).cloned().collect();
             if !matches!(parameter.form, Form::Exponent | Form::Exponents) && !numbers.is_empty() {
                 let finite: Vec<_> = numbers.iter().map(|place| format!("isfinite({place})")).collect();
-                let meaning = format!("{} is not finite", field(&parameter.name));
+                let meaning = format!("{name} is not finite");
                 cases.push((meaning, String::new(), finite.join(" && ")));
             }
             all.push(numbers);
@@ -611,18 +623,30 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The name of a parameter as a field.
-fn field(name: &str) -> String {
-    let ascii: String =
-        name.chars()
-            .map(|c| {
-                if c.is_ascii_alphanumeric() || c == '_' { c.to_string() } else { format!("u{:x}", c as u32) }
-            })
-            .collect();
-    if RESERVED.contains(&&*ascii) { format!("{ascii}_") } else { ascii }
+/// The names of all parameters as fields, each another one.
+fn fields<'p>(parameters: impl Iterator<Item = &'p Parameter>) -> Vec<String> {
+    let mut fields: Vec<String> = Vec::new();
+    for parameter in parameters {
+        let mut name = String::new();
+        for c in parameter.name.chars() {
+            match c.is_ascii_alphanumeric() || c == '_' {
+                true => name.push(c),
+                false => _ = write!(name, "u{:x}", u32::from(c)),
+            }
+        }
+        while RESERVED.contains(&format!(" {name} ")) || fields.contains(&name) {
+            name.push('_');
+        }
+        fields.push(name);
+    }
+    fields
 }
 
 /// A text in a comment of C, in ASCII as far as it has names there.
 fn safe(text: &str) -> String {
-    text.replace("*/", "* /").replace("/*", "/ *").replace(['\n', '\r'], " ").replace('\\', "/")
+    text.replace(['\n', '\r'], " ")
+        .replace('\\', "/")
+        .replace("??", "? ?")
+        .replace("*/", "* /")
+        .replace("/*", "/ *")
 }

@@ -94,9 +94,10 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
     }
     parser.tokens.end()?;
     if let Some(bulk) = &options.bulk {
-        let bulk = syn::parse_str::<Ident>(bulk).map_err(|_| {
+        let mut bulk = syn::parse_str::<Ident>(bulk).map_err(|_| {
             syn::Error::new(Span::call_site(), format!("`{bulk}` is not a name for a bulk modulus"))
         })?;
+        bulk.set_span(Span::call_site());
         parser.given.insert(bulk.to_string());
         let bulk = parser.parameter(&bulk, false)?;
         body = quote!(#body + #bulk / 2.0 * (J - 1.0).powi(2));
@@ -104,7 +105,9 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
     if let (Some(all), false) = (&options.parameters, options.further) {
         parser.ask(options)?;
         // One that the formula does not use is told.
-        for name in all.iter().filter_map(|(name, _)| syn::parse_str::<Ident>(name).ok()) {
+        for mut name in all.iter().filter_map(|(name, _)| syn::parse_str::<Ident>(name).ok()) {
+            // It stands nowhere in the formula.
+            name.set_span(Span::call_site());
             parser.parameter(&name, false)?;
         }
     }

@@ -23,7 +23,7 @@ pub struct Formula {
     #[arg(long, value_name = "FORMULA", conflicts_with = "material")]
     energy: Option<String>,
 
-    /// Subtract s ln J from the formula, s being its stress at rest, which it then has no more; curves and
+    /// Subtract s ln J from the formula, s being its stress at rest, so that the rest state is free of stress; curves and
     /// fits at constant volume do not need it.
     #[arg(long, requires = "energy")]
     free_rest: bool,
@@ -89,13 +89,13 @@ fn read(path: &Path) -> Result<Energy, Error> {
     Energy::from_rust(&text).map_err(|mistakes| Error::Declaration(named(mistakes)))
 }
 
-/// Refuses a unit that a parameter does not have.
+/// Adds values of parameters to a material.
 ///
 /// # Errors
-/// [`Error::UnitOfParameter`], or that of a material that is not known.
-pub fn check_units(spec: &MaterialSpec, parameters: &[Given]) -> Result<(), Error> {
+/// [`Error::UnitOfParameter`] for a value in a unit that its parameter does not have.
+pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpec, Error> {
     let known = &spec.description()?.parameters;
-    for given in parameters {
+    for given in &parameters {
         let declared = known.iter().find(|known| known.name == given.name).and_then(|known| known.unit);
         if let (Some(unit), Some(declared)) = (given.unit, declared)
             && unit != declared
@@ -103,11 +103,5 @@ pub fn check_units(spec: &MaterialSpec, parameters: &[Given]) -> Result<(), Erro
             return Err(Error::UnitOfParameter { parameter: given.name.clone(), unit, declared });
         }
     }
-    Ok(())
-}
-
-/// Adds values of parameters to a material.
-#[must_use]
-pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> MaterialSpec {
-    parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values))
+    Ok(parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values)))
 }
