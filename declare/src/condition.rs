@@ -47,9 +47,8 @@ pub(crate) enum Term {
 pub(crate) struct Function {
     /// Its name in Rust.
     name: &'static str,
-    /// A call in C, of `a` and `b`.
-    pub(crate) in_c: &'static str,
-    /// The second argument is that of a function of one argument twice.
+    /// A call in C. The second argument of a function of one argument is the first once more, here and below.
+    pub(crate) in_c: fn(&str, &str) -> String,
     value: fn(f64, f64) -> f64,
 }
 
@@ -213,30 +212,34 @@ fn constant(path: &syn::Path) -> f64 {
 
 macro_rules! functions {
     ($($name:literal $in_c:literal |$a:ident $(, $b:ident)?| $value:expr;)*) => {
-        [$(Function { name: $name, in_c: $in_c, value: |$a, functions!(@ $($b)?)| $value }),*]
+        [$(Function {
+            name: $name,
+            in_c: |$a, functions!(@ $($b)?)| format!($in_c),
+            value: |$a, functions!(@ $($b)?)| $value,
+        }),*]
     };
     (@) => { _ };
     (@ $b:ident) => { $b };
 }
 
 static FUNCTIONS: [Function; 19] = functions! {
-    "powi" "pow(a, b)" |a, b| a.powi(b as i32);
-    "powf" "pow(a, b)" |a, b| a.powf(b);
-    "log" "(log(a) / log(b))" |a, b| a.log(b);
-    "ln" "log(a)" |a| a.ln();
-    "log10" "log10(a)" |a| a.log10();
-    "log2" "log2(a)" |a| a.log2();
-    "exp" "exp(a)" |a| a.exp();
-    "sqrt" "sqrt(a)" |a| a.sqrt();
-    "cbrt" "cbrt(a)" |a| a.cbrt();
-    "recip" "(1.0 / a)" |a| a.recip();
-    "ln_1p" "log1p(a)" |a| a.ln_1p();
-    "exp_m1" "expm1(a)" |a| a.exp_m1();
-    "sinh" "sinh(a)" |a| a.sinh();
-    "cosh" "cosh(a)" |a| a.cosh();
-    "tanh" "tanh(a)" |a| a.tanh();
-    "asinh" "asinh(a)" |a| a.asinh();
-    "sin" "sin(a)" |a| a.sin();
-    "cos" "cos(a)" |a| a.cos();
-    "atan" "atan(a)" |a| a.atan();
+    "powi" "pow({a}, {b})" |a, b| a.powi(b as i32);
+    "powf" "pow({a}, {b})" |a, b| a.powf(b);
+    "log" "(log({a}) / log({b}))" |a, b| a.log(b);
+    "ln" "log({a})" |a| a.ln();
+    "log10" "log10({a})" |a| a.log10();
+    "log2" "log2({a})" |a| a.log2();
+    "exp" "exp({a})" |a| a.exp();
+    "sqrt" "sqrt({a})" |a| a.sqrt();
+    "cbrt" "cbrt({a})" |a| a.cbrt();
+    "recip" "(1.0 / {a})" |a| a.recip();
+    "ln_1p" "log1p({a})" |a| a.ln_1p();
+    "exp_m1" "expm1({a})" |a| a.exp_m1();
+    "sinh" "sinh({a})" |a| a.sinh();
+    "cosh" "cosh({a})" |a| a.cosh();
+    "tanh" "tanh({a})" |a| a.tanh();
+    "asinh" "asinh({a})" |a| a.asinh();
+    "sin" "sin({a})" |a| a.sin();
+    "cos" "cos({a})" |a| a.cos();
+    "atan" "atan({a})" |a| a.atan();
 };

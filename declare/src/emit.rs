@@ -191,7 +191,9 @@ pub enum EmitError {
     )]
     Function(Text),
     /// A prefix is not a name of the language.
-    #[error("`{0}` is not a name in C: letters of ASCII, digits and `_` make one, without a digit in front")]
+    #[error(
+        "`{0}` is not a name in C: letters of ASCII, digits and `_` make one, a letter in front and no `_` at the end or beside another; choose another prefix"
+    )]
     Prefix(String),
     /// No function is asked for.
     #[error("no function is asked for; there are: {}", PointFunction::ALL.map(PointFunction::name).join(", "))]
@@ -216,8 +218,10 @@ struct File<'a> {
     values: &'a [&'a [f64]],
     inversion: Inversion,
     functions: Vec<PointProgram>,
-    /// From parameters to numbers that must be positive at rest.
-    rest: Option<Recording>,
+    /// Whether the rest state may carry a stress.
+    is_prestressed: bool,
+    /// From parameters to the moduli at rest, and whether that is inside of the domain.
+    rest: Recording,
 }
 
 impl Energy {
@@ -240,13 +244,22 @@ impl Energy {
         if let Some(function) = functions.next() {
             return Err(EmitError::Function(function.name.clone()));
         }
-        let prefix = emission.prefix.clone().unwrap_or_else(|| self.description().name.to_lowercase());
+        let prefix = emission.prefix.clone().unwrap_or_else(|| snake_case(&self.description().name));
         if !c::is_identifier(&prefix) {
             return Err(EmitError::Prefix(prefix));
         }
         if emission.functions.is_empty() {
             return Err(EmitError::Nothing);
         }
+        // In `f32` a file has the numbers that are nearest, for which the conditions must hold as well.
+        let rounded: Vec<Vec<f64>> = match emission.precision {
+            Precision::F64 => values.iter().map(|list| list.to_vec()).collect(),
+            Precision::F32 => {
+                values.iter().map(|list| list.iter().map(|&x| f64::from(x as f32)).collect()).collect()
+            }
+        };
+        let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
+        let values = &values[..];
         let material = self.with_marked_parameters(&self.material(values, inversion)?);
         match emission.precision {
             Precision::F64 => self.file::<f64>(prefix, values, material, emission),
@@ -271,9 +284,10 @@ impl Energy {
         let recorded =
             |function| Ok(PointProgram { function, recording: recorded::<E>(function, &fresh())? });
         let functions = wanted.into_iter().map(recorded).collect::<Result<_, UnrecordedParameter>>()?;
-        let rest = if self.is_prestressed() { None } else { Some(at_rest::<E>(&fresh())?) };
+        let is_prestressed = self.is_prestressed();
+        let rest = at_rest::<E>(&self.without_extension(&fresh()))?;
         let (precision, inversion) = (emission.precision, material.inversion());
-        Ok(File { energy: self, prefix, precision, values, inversion, functions, rest })
+        Ok(File { energy: self, prefix, precision, values, inversion, functions, is_prestressed, rest })
     }
 }
 
@@ -321,18 +335,32 @@ fn recorded<E: Recordable>(
     })
 }
 
-/// Twice the shear modulus and three times the bulk modulus at rest.
+/// Twice the shear modulus and three times the bulk modulus at rest, and whether that is inside of the domain.
 fn at_rest<E: Recordable>(material: &Interpreted) -> Result<Recording, UnrecordedParameter> {
     record(0, |_: &[Recorded<E>]| {
         let one = Recorded::splat(1.0);
         let blocks = material.blocks([one; 3]);
         let [h11, _, _, h12, ..] = blocks.hessian;
-        (vec![blocks.flip[0], h11 + h12 + h12], Vec::new())
+        (vec![blocks.flip[0], h11 + h12 + h12], vec![material.admits([one; 3])])
     })
 }
 
 fn all_finite<R: Real>(numbers: &[R]) -> R::Mask {
     numbers.iter().fold(R::Mask::splat(true), |all, number| all & number.is_finite())
+}
+
+/// A name in lower case, with `_` before what were capitals within it.
+fn snake_case(name: &str) -> String {
+    let mut text = String::new();
+    let mut was_small = false;
+    for c in name.chars() {
+        if c.is_uppercase() && was_small {
+            text.push('_');
+        }
+        was_small = !c.is_uppercase();
+        text.extend(c.to_lowercase());
+    }
+    text
 }
 
 fn flat<R, const N: usize, const M: usize>(rows: [[R; M]; N]) -> impl Iterator<Item = R> {

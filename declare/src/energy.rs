@@ -232,7 +232,8 @@ impl Energy {
         self.0.constructor.is_prestressed
     }
 
-    fn without_extension(&self, material: &Interpreted) -> Interpreted {
+    /// The material without extension.
+    pub(crate) fn without_extension(&self, material: &Interpreted) -> Interpreted {
         Interpreted::new(self.0.programs.clone(), material.values().clone(), Inversion::Refuse)
     }
 }

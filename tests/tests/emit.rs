@@ -220,3 +220,114 @@ fn mistakes_say_what_to_do() {
     assert!("fortran".parse::<Target>().expect_err("unknown").to_string().contains("known are: c"));
     assert!("f16".parse::<Precision>().expect_err("unknown").to_string().contains("f32, f64"));
 }
+
+/// Every parameter in turn out of its bounds: the check of the file and the constructor agree.
+#[test]
+fn a_file_checks_parameters_as_the_constructor_does() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, inversion) in [
+        ("gent", Inversion::Refuse),
+        ("ogden", Inversion::Extend { epsilon: 0.1 }),
+        ("neo_hookean", Inversion::Refuse),
+        ("fung", Inversion::Refuse),
+    ] {
+        let energy = find(name).expect("in the catalogue");
+        let typical: Vec<Vec<f64>> = energy.typical().iter().map(|list| list.to_vec()).collect();
+        let mut all = vec![typical.clone()];
+        for (k, list) in typical.iter().enumerate() {
+            for entry in 0..list.len() {
+                for other in [0.0, -list[entry], 1e308, f64::NAN, f64::INFINITY] {
+                    let mut changed = typical.clone();
+                    changed[k][entry] = other;
+                    all.push(changed);
+                }
+            }
+        }
+        let number = |x: &f64| format!("{x:?}").replace("inf", "INFINITY").replace("NaN", "NAN");
+        let in_c = |values: &Vec<Vec<f64>>| {
+            let lists = values.iter().map(|list| list.iter().map(number).collect::<Vec<_>>().join(", "));
+            let is_list = |k: usize| energy.description().parameters[k].is_list();
+            let lists =
+                lists.enumerate().map(|(k, list)| if is_list(k) { format!("{{{list}}}") } else { list });
+            format!("{{{}}}", lists.collect::<Vec<_>>().join(", "))
+        };
+        let sets = all.iter().map(in_c).collect::<Vec<_>>().join(",\n");
+        let text = print::<f64>(energy, inversion).expect("an energy that can be printed");
+        std::fs::write(folder.path().join("energy.h"), text).expect("a file");
+        let program = format!(
+            "#include \"energy.h\"\n#include <stdio.h>\nint main(void) {{\nstatic const energy_parameters all[] = {{\n{sets}}};\n\
+             for (unsigned k = 0; k < {}; k++) printf(\"%u\\n\", energy_check(all + k));\nreturn 0;\n}}\n",
+            all.len()
+        );
+        std::fs::write(folder.path().join("main.c"), program).expect("a file");
+        compile(folder.path(), &["-std=c99", "-O0", "main.c", "-lm", "-o", "main"]);
+        let output = Command::new(folder.path().join("main")).output().expect("the program");
+        let found = String::from_utf8(output.stdout).expect("text");
+        assert_eq!(found.lines().count(), all.len());
+        let mut refused = 0;
+        for (values, found) in all.iter().zip(found.lines()) {
+            let lists: Vec<_> = values.iter().map(Vec::as_slice).collect();
+            let built = energy.energy.material(&lists, inversion);
+            assert_eq!(found == "0", built.is_ok(), "{name} with {values:?}: {found}, {:?}", built.err());
+            refused += usize::from(found != "0");
+        }
+        assert!(refused > 2, "{name}: {refused}");
+    }
+}
+
+/// What one way of a branch needs stands in it: a point that the invariants serve is not decomposed.
+#[test]
+fn branches_hold_what_only_they_need() {
+    for (name, function) in [("neo_hookean", PointFunction::Stress), ("neo_hookean", PointFunction::Tangent)]
+    {
+        let energy = find(name).expect("in the catalogue");
+        let emission = Emission::new(Target::C).with_prefix("energy").with_functions([function]);
+        let text = energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission).expect("text");
+        let (_, body) = text.split_once(&format!("energy_{}(const", function.name())).expect("the function");
+        let inside = body.lines().filter(|line| line.starts_with("        ")).count();
+        assert!(
+            2 * inside > body.lines().count(),
+            "{name} {function:?}: {inside} of {}",
+            body.lines().count()
+        );
+    }
+}
+
+#[test]
+fn no_text_of_a_declaration_leaves_its_comment() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let declared = r#"
+        /// Of */ int x; /* and a*\lambda, \* and ??/
+        #[material(domain(J > 0.0), admissible(-(-float) > 0.0))]
+        fn Hostile(
+            [l1, l2, l3]: [f64; 3],
+            /// Pa, *\ ??/
+            float: f64,
+            float_: f64,
+            é: f64,
+            ue9: f64,
+            void: Vec<f64>,
+        ) -> f64 {
+            float / 2.0 * (I1 - 3.0) - float * J.ln() + (float_ + é + ue9) / 2.0 * J.ln().powi(2)
+                + sum(|p| void[p] * J.ln().powi(2))
+        }
+    "#;
+    let energy = piola_declare::Energy::from_rust(declared).expect("an energy");
+    let emit = |void: &[f64], precision| {
+        let emission = Emission::new(Target::C).with_precision(precision);
+        energy.emit(&[&[1e6], &[1e6], &[0.0], &[0.0], void], Inversion::Refuse, &emission)
+    };
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+    let text = emit(&[], Precision::F64).expect("text");
+    assert!(text.contains("hostile_stress"), "the name in lower case");
+    write("one.h", &text);
+    write("other.h", &emit(&[1.0], Precision::F64).expect("text"));
+    write("main.c", "#include \"one.h\"\n#include \"one.h\"\nint main(void) { return 0; }\n");
+    compile(folder.path(), &["-std=c99", "-fsyntax-only", "main.c"]);
+    // Two files of one prefix would hide each other.
+    write("both.c", "#include \"one.h\"\n#include \"other.h\"\nint main(void) { return 0; }\n");
+    let both = Command::new("cc").args(["-fsyntax-only", "both.c"]).current_dir(folder.path()).output();
+    assert!(String::from_utf8_lossy(&both.expect("cc").stderr).contains("give one of them another name"));
+    // Beyond the numbers of `f32`.
+    assert!(matches!(emit(&[1e39], Precision::F32), Err(EmitError::Parameters(_))));
+}

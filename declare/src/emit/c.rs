@@ -22,16 +22,18 @@ const RESERVED: &str = " alignas alignof and and_eq asm auto bitand bitor bool b
 
 /// Whether names can begin with it.
 pub(super) fn is_identifier(name: &str) -> bool {
-    let is_letter = |c: char| c.is_ascii_alphabetic() || c == '_';
-    name.starts_with(is_letter) && name.chars().all(|c| is_letter(c) || c.is_ascii_digit())
+    let is_of_c = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    // Others belong to the compiler.
+    let is_free = !name.contains("__") && !name.ends_with('_');
+    name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_of_c) && is_free
 }
 
 /// The file.
 pub(super) fn print(file: &File<'_>) -> String {
     let printer = Printer::new(file);
     let recordings: Vec<&Recording> =
-        file.functions.iter().map(|one| &one.recording).chain(&file.rest).collect();
-    let mut text = printer.head();
+        file.functions.iter().map(|one| &one.recording).chain([&file.rest]).collect();
+    let mut text = printer.parameters();
     text += &printer.primitives(&recordings);
     let mut printed = BTreeSet::new();
     for recording in &recordings {
@@ -43,8 +45,7 @@ pub(super) fn print(file: &File<'_>) -> String {
     for one in &file.functions {
         text += &printer.point_function(one.function, &one.recording.program);
     }
-    let guard = printer.upper.clone();
-    text + &format!("#endif /* {guard}_H */\n")
+    printer.comment() + &printer.guarded(&text)
 }
 
 struct Printer<'a> {
@@ -89,9 +90,9 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// Comment, guard, and the structure of the parameters.
-    fn head(&self) -> String {
-        let Self { file, prefix, upper, number, .. } = self;
+    /// What the file is and how it is used.
+    fn comment(&self) -> String {
+        let Self { file, prefix, .. } = self;
         let description = file.energy.description();
         let mut text = format!(
             "/* {}: an isotropic hyperelastic energy, by piola {}.\n *\n * {}\n *\n * psi = {}\n",
@@ -106,25 +107,56 @@ impl<'a> Printer<'a> {
         if let Inversion::Extend { epsilon } = file.inversion {
             let _ = writeln!(text, " * continued where a stretch is below {epsilon}.");
         }
-        text += &format!(
+        text + &format!(
             " *
  * F, P row by row: entry (i, j) at 3 i + j. dP/dF: row 3 i + j for entry (i, j) of P, column 3 k + l for entry
  * (k, l) of F, entry at 9 row + column; symmetric. Energies are densities of rest volume, Pa in SI units.
- * Stretches are signed: F = U diag(l) V^T with rotations U and V, l1 >= l2 >= |l3|.
+ * Stretches are signed: F = U diag(l) V^T with rotations U and V, l1 >= l2 >= |l3|. Outputs may not overlap
+ * inputs.
  *
  * Functions return bits: 1 refused (outside of the domain), 2 bounded (at a pole), 4 not finite, 8 filtered.
  * With 1 or 4 the results mean nothing. Call {prefix}_check once for each set of parameters.
  *
  * Compile with -O2 or -O3 and -ffp-contract=off, for the processor at hand (-march=native); never with
  * -ffast-math. Nothing is allocated, and there is no global state. Licence: MIT or Apache-2.0, as you choose. */
-#ifndef {upper}_H
-#define {upper}_H
+"
+        )
+    }
+
+    /// The contents between guards against a second reading, another file of that name, and arithmetic that
+    /// is not that of IEEE 754.
+    fn guarded(&self, text: &str) -> String {
+        let Self { upper, .. } = self;
+        // FNV-1a.
+        let sum =
+            text.bytes().fold(0x811c_9dc5u32, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193));
+        let exact = if self.file.precision == Precision::F32 {
+            "FLT_EVAL_METHOD == 0"
+        } else {
+            "FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD < 2"
+        };
+        format!(
+            "#ifndef {upper}_H
+#define {upper}_H {sum:#x}
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+#if defined(__FAST_MATH__) || !({exact})
+#error \"compile without -ffast-math, and with arithmetic in the format itself (-msse2 -mfpmath=sse)\"
+#endif
 
+{text}#elif {upper}_H != {sum:#x}
+#error \"two files have the prefix of this one: give one of them another name\"
+#endif
 "
-        );
+        )
+    }
+
+    /// The structure of the parameters.
+    fn parameters(&self) -> String {
+        let Self { file, prefix, upper, number, .. } = self;
+        let description = file.energy.description();
         let mut fields = String::new();
         let mut example = Vec::new();
         for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&self.fields) {
@@ -134,6 +166,9 @@ impl<'a> Printer<'a> {
             match parameter.form {
                 Form::Exponent | Form::Exponents => {
                     let _ = writeln!(fields, "    /* {name} is {}, a whole exponent. */", numbers.join(", "));
+                }
+                Form::List if values.is_empty() => {
+                    let _ = writeln!(fields, "    /* {name} has no entries. */");
                 }
                 Form::List => {
                     let _ = writeln!(fields, "    {number} {name}[{}];{comment}", values.len());
@@ -149,7 +184,7 @@ impl<'a> Printer<'a> {
             fields += &format!("    {number} unused; /* The energy has no parameters. */\n");
             example.push(self.literal(0.0));
         }
-        text + &format!(
+        format!(
             "typedef struct {{\n{fields}}} {prefix}_parameters;\n\n/* The parameters that the file was made with: {prefix}_parameters p = {upper}_EXAMPLE; */\n#define {upper}_EXAMPLE {{{}}}\n\n",
             example.join(", ")
         )
@@ -307,11 +342,7 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
             }
         }
         let Self { prefix, number, .. } = self;
-        let count = program.operations.iter().filter_map(|operation| match operation {
-            RecordedOperation::Argument(k) => Some(k + 1),
-            _ => None,
-        });
-        let arguments: Vec<_> = (0..count.max().unwrap_or(0)).map(|k| format!("x{k}")).collect();
+        let arguments: Vec<_> = (0..program.arguments).map(|k| format!("x{k}")).collect();
         let list: Vec<_> = arguments.iter().map(|name| format!("{number} {name}")).collect();
         let second = if function.is_pair() { format!(", {number} *second") } else { String::new() };
         let _ = writeln!(
@@ -420,12 +451,20 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
                 cases.push((format!("not {}", safe(&condition.text)), String::new(), holds.join(" && ")));
             }
         }
-        if let Some(Recording { program, .. }) = &file.rest {
-            let body = Body::new(self, program, Vec::new());
-            let [shear, bulk] = [0, 1].map(|k| body.operand(program.results[k]));
-            let condition = format!("{shear} > 0.0{suffix} && {bulk} >= -1e-6{suffix} * {shear}");
+        let Recording { program, .. } = &file.rest;
+        let body = Body::new(self, program, Vec::new());
+        let mut results = program.results.iter().map(|&id| body.operand(id));
+        let mut statements = body.statements();
+        if let (false, Some(shear), Some(bulk)) = (file.is_prestressed, results.next(), results.next()) {
+            // The constructor has the moduli by a formula, without the roundings of derivatives.
+            let rounding = if file.precision == Precision::F32 { "1e-5f" } else { "1e-13" };
+            let condition =
+                format!("{shear} > 0.0{suffix} && {bulk} >= -{rounding} * {shear} && isfinite({bulk})");
             let meaning = "at rest, the solid does not resist shear or changes of volume".to_owned();
-            cases.push((meaning, body.statements(), condition));
+            cases.push((meaning, std::mem::take(&mut statements), condition));
+        }
+        if let Some(inside) = results.next().filter(|inside| inside != "1") {
+            cases.push(("the rest state is outside of the domain".to_owned(), statements, inside));
         }
         let mut list =
             "/* Returns 0 if the parameters are admissible, else the first of these that is true:\n"
@@ -458,28 +497,15 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
                 let place = place.cloned().unwrap_or_else(|| "NAN".to_owned());
                 if self.file.precision == Precision::F32 { format!("(double){place}") } else { place }
             }
-            Term::Negative(term) => format!("-{}", self.term(term, places, entry)),
+            Term::Negative(term) => format!("(-{})", self.term(term, places, entry)),
             Term::Arithmetic(operator, sides) => {
                 let [a, b] = sides.each_ref().map(|side| self.term(side, places, entry));
                 format!("({a} {operator} {b})")
             }
             Term::Call(function, arguments) => {
                 let terms: Vec<_> = arguments.iter().map(|one| self.term(one, places, entry)).collect();
-                let mut text = String::new();
-                // The arguments are the letters a and b that stand alone.
-                let letters: Vec<_> = function.in_c.chars().collect();
-                for (k, &letter) in letters.iter().enumerate() {
-                    let is_beside = |k: Option<usize>| {
-                        k.and_then(|k| letters.get(k)).is_some_and(|c| c.is_alphanumeric())
-                    };
-                    let is_alone = !is_beside(k.checked_sub(1)) && !is_beside(Some(k + 1));
-                    match letter {
-                        'a' if is_alone => text += &terms[0],
-                        'b' if is_alone => text += terms.last().map_or("NAN", String::as_str),
-                        _ => text.push(letter),
-                    }
-                }
-                text
+                let last = terms.last().map_or("NAN", String::as_str);
+                (function.in_c)(terms.first().map_or("NAN", String::as_str), last)
             }
         }
     }
@@ -563,9 +589,10 @@ impl<'a> Body<'a> {
     }
 
     fn type_of(&self, id: Id) -> &'static str {
-        use RecordedOperation::{And, IsZero, Less, Not, Or, Truth};
+        use RecordedOperation::{And, IsZero, Less, Not, Or, Select, Truth};
         match self.program.operations[id as usize] {
             Truth(_) | Less(..) | IsZero(_) | Not(_) | And(..) | Or(..) => "int",
+            Select(_, yes, no) if [yes, no].iter().any(|&id| self.type_of(id) == "int") => "int",
             _ => self.printer.number,
         }
     }

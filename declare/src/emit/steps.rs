@@ -140,7 +140,13 @@ impl<'a> Order<'a> {
         let mut steps = Vec::new();
         let here: Vec<_> =
             operations.iter().copied().filter(|&id| self.needed[id as usize] == node).collect();
-        for (place, &id) in here.iter().enumerate() {
+        let mut by_mask: HashMap<Id, Vec<Id>> = HashMap::new();
+        for &id in &here {
+            if let Some((mask, ..)) = self.guarded(id) {
+                by_mask.entry(mask).or_default().push(id);
+            }
+        }
+        for &id in &here {
             if self.is_done[id as usize] {
                 continue;
             }
@@ -153,15 +159,22 @@ impl<'a> Order<'a> {
             };
             let mut selections = Vec::new();
             let mut inside = [BTreeSet::new(), BTreeSet::new()];
-            for &other in &here[place..] {
-                let Some((_, yes, no)) = self.guarded(other).filter(|&(by, ..)| by == mask) else { continue };
+            for &other in &by_mask[&mask] {
+                let Some((_, yes, no)) = self.guarded(other) else { continue };
                 if self.is_done[other as usize] {
                     continue;
                 }
-                let mut found = inside.clone();
-                if self.collect(yes, node, &mut found[0]) && self.collect(no, node, &mut found[1]) {
-                    inside = found;
+                let mut added = [Vec::new(), Vec::new()];
+                let is_ready = [yes, no]
+                    .iter()
+                    .enumerate()
+                    .all(|(k, &value)| self.collect(value, node, &mut inside[k], &mut added[k]));
+                if is_ready {
                     selections.push(other);
+                } else {
+                    for (inside, added) in inside.iter_mut().zip(&added) {
+                        added.iter().for_each(|id| _ = inside.remove(id));
+                    }
                 }
             }
             let [yes, no] = [true, false].map(|holds| {
@@ -181,7 +194,7 @@ impl<'a> Order<'a> {
 
     /// Collects what a value needs under a condition within this one; false if it needs more that has not
     /// been computed.
-    fn collect(&self, id: Id, node: Node, to: &mut BTreeSet<Id>) -> bool {
+    fn collect(&self, id: Id, node: Node, to: &mut BTreeSet<Id>, added: &mut Vec<Id>) -> bool {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             if self.is_done[id as usize] || to.contains(&id) {
@@ -190,6 +203,7 @@ impl<'a> Order<'a> {
             let operation = &self.program.operations[id as usize];
             if self.is_below(self.needed[id as usize], node) {
                 to.insert(id);
+                added.push(id);
             } else if !is_inline(operation) {
                 return false;
             }

@@ -154,6 +154,8 @@ functions! {
 /// A straight-line program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedProgram {
+    /// Number of arguments, those that no operation reads included.
+    pub arguments: usize,
     /// In an order in which they can be executed; all are needed.
     pub operations: Vec<RecordedOperation>,
     /// The results.
@@ -178,7 +180,7 @@ pub struct UnrecordedParameter;
 
 impl fmt::Display for UnrecordedParameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a parameter of the energy decides on its program")
+        f.write_str("a parameter of the energy decides on its program: write its value into the energy")
     }
 }
 
@@ -256,15 +258,14 @@ pub fn record<E: Recordable>(
 
 /// The program of a computation on a tape of its own.
 fn recorded<E: Recordable>(
-    arguments: usize,
+    count: usize,
     computation: impl FnOnce(&[Recorded<E>]) -> Vec<Id>,
 ) -> RecordedProgram {
     RECORDER.with_borrow_mut(|recorder| recorder.tapes.push(Tape::default()));
-    let arguments: Vec<_> =
-        (0..arguments as u32).map(|k| Recorded::of(RecordedOperation::Argument(k))).collect();
+    let arguments: Vec<_> = (0..count as u32).map(|k| Recorded::of(RecordedOperation::Argument(k))).collect();
     let results = computation(&arguments);
     let tape = RECORDER.with_borrow_mut(|recorder| recorder.tapes.pop()).unwrap_or_default();
-    tape.into_program(results)
+    RecordedProgram { arguments: count, ..tape.into_program(results) }
 }
 
 /// The results of a function, which is recorded when it is first called. The second means something if the
@@ -311,6 +312,20 @@ impl Tape {
         }
     }
 
+    /// The guard of which a truth value is the negation.
+    fn guard_of_negation(&self, id: Id) -> Option<Id> {
+        match self.operations[id as usize] {
+            RecordedOperation::Not(guard) if self.guards.contains(&guard) => Some(guard),
+            _ => None,
+        }
+    }
+
+    /// A truth value where a guard does not hold, false where it does.
+    fn unless(&mut self, guard: Id, truth: Id) -> Id {
+        let never = self.push(RecordedOperation::Truth(false));
+        self.push(RecordedOperation::Select(guard, never, truth))
+    }
+
     /// The operation, or what has the same bits and is simpler.
     fn simplified<E: Recordable>(&mut self, operation: RecordedOperation) -> Id {
         use RecordedOperation::{And, Binary, Less, Literal, Not, Or, Select, Truth, Unary};
@@ -340,6 +355,12 @@ impl Tape {
                     (Some(truth), _) => return if truth == decides { a } else { b },
                     (_, Some(truth)) => return if truth == decides { b } else { a },
                     _ if a == b => return a,
+                    // What is asked where a guard does not hold needs no answer where it does.
+                    _ if !decides => match (self.guard_of_negation(a), self.guard_of_negation(b)) {
+                        (Some(guard), _) => return self.unless(guard, b),
+                        (_, Some(guard)) => return self.unless(guard, a),
+                        _ => None,
+                    },
                     _ => None,
                 }
             }
@@ -347,6 +368,10 @@ impl Tape {
             Select(mask, yes, no) => match self.operations[mask as usize] {
                 Truth(truth) => return if truth { yes } else { no },
                 Not(mask) => return self.push(Select(mask, no, yes)),
+                Select(guard, never, inner) if self.truth(never) == Some(false) => {
+                    let selected = self.simplified::<E>(Select(inner, yes, no));
+                    return self.push(Select(guard, no, selected));
+                }
                 _ => None,
             },
             _ => None,
@@ -373,6 +398,7 @@ impl Tape {
         }
         let moved = |id: Id| places[id as usize];
         RecordedProgram {
+            arguments: 0,
             operations,
             results: results.into_iter().map(moved).collect(),
             guards: self.guards.into_iter().filter(|&id| is_needed[id as usize]).map(moved).collect(),
@@ -530,10 +556,13 @@ impl<E: Recordable> Real for Recorded<E> {
     const MIN_POSITIVE: f64 = E::MIN_POSITIVE;
 
     fn splat(value: f64) -> Self {
+        const SIGN: u64 = 1 << 63;
         let bits = value.to_bits();
         match bits & !0xffff_ffff {
             PARAMETERS => return Self::of(RecordedOperation::Parameter(bits as u32)),
-            QUIET => RECORDER.with_borrow_mut(|recorder| recorder.has_lost_parameter = true),
+            marked if [PARAMETERS, QUIET].contains(&(marked & !SIGN)) => {
+                RECORDER.with_borrow_mut(|recorder| recorder.has_lost_parameter = true);
+            }
             _ => {}
         }
         let rounded: f64 = E::splat(value).into();
