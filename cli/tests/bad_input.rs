@@ -283,6 +283,9 @@ fn data_that_may_mean_two_things() {
     check(&data("strain,stress_Pa\n0.1,0.2\n"), &two, &["2 values of --mode", "1 of --data"]);
     check(&[], &["fit", "gent", "--data", "treloar", "--mode", "volumetric"], &["treloar", "equibiaxial"]);
     check(&[], &["fit", "gent", "--data", "treloar", "--mode", "shear"], &["pure shear", "simple shear"]);
+    // Although the header of the data has a unit.
+    let units = ["fit", "gent", "--data", "treloar", "--unit", "MPa", "--unit", "kPa"];
+    check(&[], &units, &["2 values of --unit", "1 of --data"]);
     check(&[], &["curve", "gent", "--unit", "MPa"], &["--unit", "--data"]);
     check(&[], &["curve", "gent", "--unit", "mm"], &["`mm`", "psi"]);
     check(&[], &["curve", "gent", "--at", "-1"], &["--at", "from 1e-6"]);

@@ -121,6 +121,12 @@ fn files_of_several_tests_are_read_together() {
     // Of a file that names its tests, those that are asked for.
     let text = piola(folder.path(), &["fit", "yeoh", "--data", "treloar", "--mode", "EB", "--starts", "0"]);
     assert!(text.contains("17 of 56 points used, by --mode") && !text.contains("pure_shear 0."), "{text}");
+    // Beside a file that names none.
+    let files = ["--data", "treloar", "--data", "ut.csv", "--mode", "uniaxial"];
+    let text = piola(folder.path(), &[&["curve", "yeoh", "--incompressible"], &files[..]].concat());
+    for word in ["25 of 56 points used, by --mode", "2 points of uniaxial", "6.00000e5"] {
+        assert!(text.contains(word), "`{word}` is not in: {text}");
+    }
 }
 
 #[test]
@@ -148,6 +154,18 @@ fn a_single_point_is_a_table() {
     );
     let text = piola(folder.path(), &["curve", "gent", "--at", "1.1,1.2", "--mode", "uniaxial"]);
     assert_eq!(text.lines().filter(|row| row.trim().starts_with("1.")).count(), 2, "{text}");
+    let text = piola(folder.path(), &["curve", "gent", "--at", "1.00001,1.00002", "--mode", "uniaxial"]);
+    assert!(text.contains("\n   1.00001 ") && text.contains("\n   1.00002 "), "{text}");
+}
+
+#[test]
+fn a_test_with_points_at_rest_alone_has_the_curve_of_one_without() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let text = "mode,stretch,nominal_stress_MPa\nuniaxial,2,0.6\nplanar,1,0\n";
+    fs::write(folder.path().join("rest.csv"), text).expect("a scratch file");
+    let text = piola(folder.path(), &["curve", "gent", "--data", "rest.csv", "--mode", "uniaxial,planar"]);
+    let (_, sheet) = text.split_once("\npure_shear\n").expect("a table");
+    assert!(sheet.contains("\n    0.5000 ") && sheet.contains("\n    3.0000 "), "{text}");
 }
 
 #[test]

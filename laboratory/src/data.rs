@@ -32,7 +32,8 @@
 //! | pressure p | `pressure` | P = −p in a volumetric test |
 //!
 //! * Units stand behind the name, in brackets or after a space, comma, slash or `_`: [`StressUnit`] for
-//!   stresses, `%` or `mm/mm` for strains. Numbers under `compressive strain` and `compressive stress` are
+//!   stresses, `%`, `‰`, `µε` or `mm/mm` for strains; percent may also stand before the name or behind each
+//!   number. A strain with another unit is refused. Numbers under `compressive strain` and `compressive stress` are
 //!   positive in compression.
 //! * Of several kinds of stress or strain the first of this table is used; two columns of one kind are
 //!   refused. Forces and elongations are refused where no stress or strain is there, since they need the size
@@ -40,8 +41,9 @@
 //! * Two columns without a header are stretch and nominal stress.
 //! * In input decks the blocks `*UNIAXIAL TEST DATA`, `*BIAXIAL …`, `*PLANAR …`, `*SIMPLE SHEAR …` have
 //!   nominal stress and nominal strain, `*VOLUMETRIC TEST DATA` pressure and J.
+//! * A first line `sep=;`, as spreadsheets write and read it, names the separator.
 //! * [`ReadOptions`] has the test and the unit where a file names none. [`Reading`] says in a line what was
-//!   used and what was left out.
+//!   used and what was left out: with a test in the options also a column `Test` whose cells name none.
 //!
 //! What may mean two things is asked about by an error: stretches that are all above 8, or some above 20,
 //! without a unit (percent?), stresses of another sign than their strain (strains under `stretch`?

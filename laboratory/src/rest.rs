@@ -39,7 +39,9 @@ impl AtRest {
     pub fn warning(&self) -> Option<String> {
         let poisson = self.moduli.poisson();
         let meaning = match poisson {
-            0.0..=0.5 => return None,
+            // Roundings of K − 2μ/3.
+            -1e-9..=0.5 => return None,
+            _ if poisson.is_nan() => return None,
             _ if self.has_no_bulk() => return None,
             _ if self.moduli.bulk() < 0.0 => "pressure makes it grow",
             _ => "it grows thicker when it is pulled",
@@ -100,6 +102,13 @@ mod tests {
         for bulk in [0.67, 1.0, 1e3, 1e12] {
             assert_eq!(warning(bulk, Volume::Free), None, "{bulk}");
         }
+        for mu in [0.1, 0.3, 0.7, 1.1, 0.35e6, 0.4e6, 0.63e6] {
+            let moduli = Moduli { mu, lambda: 2.0 / 3.0 * mu - 2.0 * mu / 3.0 };
+            assert_eq!(AtRest { moduli, volume: Volume::Free }.warning(), None, "{mu}");
+            let auxetic = Moduli { mu, lambda: -1e-6 * mu };
+            assert!(AtRest { moduli: auxetic, volume: Volume::Free }.warning().is_some(), "{mu}");
+        }
+        assert_eq!(warning(f64::NAN, Volume::Free), None);
         assert!(warning(0.0, Volume::Free).is_some_and(|text| text.contains("is -1: it grows thicker")));
         assert!(warning(-0.1, Volume::Free).is_some_and(|text| text.contains("pressure makes it grow")));
         // Energies without a term in J are meant to keep their volume; moduli in two units are not.

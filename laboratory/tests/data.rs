@@ -235,11 +235,57 @@ fn numbers_that_cannot_be_stretches_are_asked_about() {
 }
 
 #[test]
+fn strains_in_unknown_units_are_asked_about() {
+    for unit in ["[10^-3]", "[10⁻³]", "(x10-6)", "[mstrain]", "(mε)", "[% of L0]", "x 10^3"] {
+        let text = format!("Strain {unit},Stress [MPa]\n0.5,0.1\n1,0.2\n");
+        let found = unit.trim_matches(['[', ']', '(', ')']);
+        refuse(&text, ["uniaxial", ""], 1, &[found, "is not known", "`strain [%]`"]);
+    }
+    let uniaxial = ["uniaxial", ""];
+    refuse("Tensile % strain,Stress [MPa]\n1,0.1\n", uniaxial, 1, &["`Tensile % strain`", "`strain [%]`"]);
+    refuse("Strain (1) [mstrain],Stress [MPa]\n1,0.1\n", uniaxial, 1, &["`mstrain`"]);
+    refuse("Strain,Stress\nmstrain,MPa\n1,0.1\n", uniaxial, 1, &["`mstrain`"]);
+}
+
+/// Tables whose meaning is in small marks.
+#[test]
+fn marks_beside_the_numbers() {
+    #[track_caller]
+    fn check(text: &str, unit: &str, words: &[&str]) {
+        let reading = Measurements::read_with(text, &options("uniaxial", unit)).expect("a table");
+        let points = &reading.measurements.points;
+        let stresses: Vec<_> = points.iter().map(|point| (point.mode, point.control, point.stress)).collect();
+        assert_eq!(stresses, [(Uniaxial, 1.1, 0.12e6), (Uniaxial, 1.5, 0.4e6)], "{text}");
+        for word in words {
+            assert!(reading.to_string().contains(word), "`{word}` is not in: {reading}");
+        }
+    }
+    for header in ["strain", "strain [-]", "strain [%]", "strain [‰]"] {
+        check(&format!("{header},stress_kPa\n10%,120\n50 %,400\n"), "", &[]);
+    }
+    check("compressive strain [-],stress_kPa\n-10%,120\n-50%,400\n", "", &[]);
+    check("** UNIAXIAL TEST DATA\nstretch,stress_kPa\n1.1,120\n1.5,400\n", "", &[]);
+    // Of spreadsheets.
+    check("sep=;\n1.1;120\n1.5;400\n", "kPa", &["semicolons"]);
+    check("\"SEP=\t\"\r\n1,1\t120\r\n1,5\t400\r\n", "kPa", &["tabs and decimal commas"]);
+    check("sep=,\nstretch,stress_kPa\n1.1,120\n1.5,400\n", "", &[]);
+    // Numbers of specimens.
+    for name in ["Test", "Type", "Experiment"] {
+        let text = format!("{name},stretch,stress_kPa\n1,1.1,120\n2,1.5,400\n");
+        check(&text, "", &[&format!("left out: {name}")]);
+        refuse(&text, ["", ""], 2, &["`1`"]);
+    }
+    // A mistyped test among others is none of them.
+    refuse("mode,stretch,stress_Pa\nuniaxal,1.1,1\nUT,1.2,2\n", ["uniaxial", ""], 2, &["`uniaxal`"]);
+}
+
+#[test]
 fn what_is_missing_or_twofold_is_named() {
     let uniaxial = ["uniaxial", ""];
     refuse("strain,stress [MPa]\n0.1,0.1\n", ["", ""], 1, &["no column `mode`", "--mode uniaxial"]);
     refuse("strain,stress\n0.1,0.1\n", uniaxial, 1, &["`stress` names no unit", "--unit MPa"]);
     refuse("strain,stress [mPa]\n0.1,0.1\n", uniaxial, 1, &["names no unit"]);
+    refuse("strain,stress [mN/m²]\n0.1,0.1\n", uniaxial, 1, &["names no unit"]);
     refuse("1.1,0.1\n1.2,0.2\n", uniaxial, 1, &["`column 2`", "--unit MPa"]);
     refuse("1.1,0.1,3\n1.2,0.2,3\n", ["uniaxial", "MPa"], 1, &["3 columns", "true stress"]);
     refuse("X,Y\n1.1,0.1\n", ["uniaxial", "MPa"], 1, &["`X,Y`", "stretch or strain", "`volume ratio`"]);

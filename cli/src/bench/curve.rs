@@ -89,7 +89,13 @@ impl Curve {
         text += &at_rest(info.moduli, volume);
         text += &notes;
         for mode in modes {
-            let measured: Vec<Measured> = data.iter().flat_map(|data| data.of(mode)).copied().collect();
+            // Points at rest alone have neither a range nor a curve.
+            let measured: Vec<Measured> = data
+                .iter()
+                .filter(|data| data.modes().any(|measured| measured == mode))
+                .flat_map(|data| data.of(mode))
+                .copied()
+                .collect();
             let [least, greatest] = match (&data, mode) {
                 (Some(data), _) if !measured.is_empty() => measured_range(data, mode),
                 (_, Mode::SimpleShear) => [0.0, 2.0],
@@ -105,10 +111,11 @@ impl Curve {
             }
             if has_range || !self.at.is_empty() || measured.is_empty() {
                 let controls = if self.at.is_empty() { spaced(from, to, rows) } else { self.at.clone() };
-                text += &table(specimen, volume, mode, &controls, &[]);
+                let decimals = self.at.is_empty().then_some(DECIMALS);
+                text += &table(specimen, volume, mode, (&controls, decimals), &[]);
             } else {
                 let controls: Vec<_> = measured.iter().map(|point| point.control).collect();
-                text += &table(specimen, volume, mode, &controls, &measured);
+                text += &table(specimen, volume, mode, (&controls, Some(DECIMALS)), &measured);
             }
             let points = sweep(specimen, mode, volume, &spaced(from, to, FINE));
             curves.push(chart::Curve { mode, points });
@@ -170,12 +177,15 @@ fn check_range(mode: Mode, from: f64, to: f64, rows: usize) -> Result<(), SceneE
     Ok(())
 }
 
-/// A test as a table, with the points measured at the same controls if there are any.
+/// Decimals of the controls in a table, unless they are given one by one.
+const DECIMALS: usize = 4;
+
+/// A test as a table, its controls with so many decimals or as they are, with the points measured at the same controls if there are any.
 fn table(
     specimen: &dyn Specimen,
     volume: Volume,
     mode: Mode,
-    controls: &[f64],
+    (controls, decimals): (&[f64], Option<usize>),
     measured: &[Measured],
 ) -> String {
     let [control, stress, along, across, thickness] = match mode {
@@ -190,7 +200,8 @@ fn table(
     );
     for (row, (control, response)) in controls.iter().zip(sweep(specimen, mode, volume, controls)).enumerate()
     {
-        text += &format!("{control:>10.4} ");
+        let shown = decimals.map_or_else(|| control.to_string(), |decimals| format!("{control:.decimals$}"));
+        text += &format!("{shown:>10} ");
         match response {
             Ok(response) => {
                 text += &format!("{:>14.5e}", response.stress);

@@ -63,16 +63,20 @@ impl Data {
 
     /// The points of all files; `None` without a file.
     pub(super) fn read(&self) -> Result<Option<Measured>, Error> {
+        let (files, given) = (self.files.len(), self.units.len());
+        if files == 0 && given > 0 {
+            return Err(Error::UnitWithoutData);
+        }
+        if given > 1 && given != files {
+            return Err(Error::Unpaired { option: "--unit", given, files });
+        }
         let mut all = Measured::default();
         for (index, file) in self.files.iter().enumerate() {
             let (points, note) = self.file(index, file)?;
             all.points.points.extend(points.points);
             all.notes += &format!("  read     {}: {note}\n", file.display());
         }
-        match (self.files.is_empty(), self.units.is_empty()) {
-            (true, false) => Err(Error::UnitWithoutData),
-            (is_empty, _) => Ok((!is_empty).then_some(all)),
-        }
+        Ok((files > 0).then_some(all))
     }
 
     /// The points of a file, and how it was understood.
@@ -85,14 +89,12 @@ impl Data {
         let mut options = ReadOptions::default();
         options.test = self.of_file(&self.tests, index);
         options.unit = self.of_file(&self.units, index);
-        let reading = Measurements::read_with(&decoded(&bytes), &options).map_err(|source| {
-            let unpaired = |option, given| Error::Unpaired { option, given, files: self.files.len() };
-            match source.fault {
-                Fault::NoMode if !self.tests.is_empty() => unpaired("--mode", self.tests.len()),
-                Fault::NoUnit { .. } if !self.units.is_empty() => unpaired("--unit", self.units.len()),
+        let (files, given) = (self.files.len(), self.tests.len());
+        let reading =
+            Measurements::read_with(&decoded(&bytes), &options).map_err(|source| match source.fault {
+                Fault::NoMode if given > 0 => Error::Unpaired { option: "--mode", given, files },
                 _ => Error::Data { path: path(), source },
-            }
-        })?;
+            })?;
         let (mut points, mut note) = (reading.measurements.clone(), reading.to_string());
         if !self.tests.is_empty() {
             let modes: Vec<_> = self.tests.iter().map(|test| test.mode).collect();

@@ -84,6 +84,19 @@ pub enum Fault {
         /// The unit below it.
         below: String,
     },
+    /// The unit of a strain is not known.
+    #[error(
+        "the unit `{}` of `{}` is not known; write `strain [%]`, `strain [‰]`, `strain [µε]` or `strain [-]`, with numbers \
+         in that unit",
+        quoted(found),
+        quoted(header)
+    )]
+    StrainUnit {
+        /// The header of the column.
+        header: String,
+        /// What stands in the place of a unit.
+        found: String,
+    },
     /// Nothing names the test.
     #[error(
         "there is no column `mode`, and nothing else names the test; add one with uniaxial, equibiaxial, pure_shear, \

@@ -55,6 +55,11 @@ impl Quantity {
         (Self::Stretch..=Self::VolumeStrain).contains(&self)
     }
 
+    /// Whether it is a control that is 0 at rest.
+    pub(super) fn is_strain(self) -> bool {
+        matches!(self, Self::Strain | Self::TrueStrain | Self::Shear | Self::VolumeStrain)
+    }
+
     /// Whether it is what a machine reads.
     pub(super) fn is_stress(self) -> bool {
         (Self::Stress..=Self::Pressure).contains(&self)
@@ -74,13 +79,17 @@ pub(super) enum Unit {
 }
 
 /// Units of strain, force, length and whatever else stands in such files, as [`plain`] leaves them.
-const UNITS: [(Unit, &[&str]); 5] = [
+const UNITS: [(Unit, &[&str]); 6] = [
     (
         Unit::Share(1.0),
-        &["-", "–", "—", "1", "mm/mm", "m/m", "in/in", "mmmm-1", "mm-1", "inin-1", "dimensionless"],
+        &["-", "–", "—", "1", "mm/mm", "m/m", "cm/cm", "in/in", "mmmm-1", "mm-1", "inin-1", "dimensionless"],
     ),
     (Unit::Share(0.01), &["%", "percent", "pct", "prozent"]),
-    (Unit::Share(1e-6), &["µε", "µm/m", "um/m", "microstrain", "µstrain"]),
+    (Unit::Share(1e-3), &["‰", "permille", "promille", "mm/m", "millistrain"]),
+    (
+        Unit::Share(1e-6),
+        &["µε", "uε", "µe", "µm/m", "um/m", "microstrain", "microstrains", "µstrain", "ustrain"],
+    ),
     (
         Unit::Sized,
         &["n", "kn", "mn", "lbf", "lb", "kgf", "kg", "g", "gf", "mm", "cm", "m", "in", "inch", "µm", "um"],
@@ -105,6 +114,13 @@ pub(super) fn unit(text: &str) -> Option<Unit> {
     listed.or_else(|| text.parse().ok().map(Unit::Stress))
 }
 
+/// Whether a text is likely to be a unit of strain, unknown as it is.
+fn is_like_unit(text: &str) -> bool {
+    let name = plain(text);
+    text.contains(['%', '‰', '^', '⁻', '×', 'µ', 'μ'])
+        || ["10-3", "10-6", "1e-3", "1e-6", "mstrain", "mε"].contains(&name.trim_start_matches('x'))
+}
+
 /// A column by its header.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Heading {
@@ -112,6 +128,8 @@ pub(super) struct Heading {
     pub(super) text: String,
     pub(super) quantity: Quantity,
     pub(super) unit: Option<Unit>,
+    /// What stands in the place of a unit without being a known one.
+    pub(super) unknown: Option<String>,
     /// Whether a word says which of two kinds of stress or strain it is.
     pub(super) is_specific: bool,
     /// Whether the numbers count compression as positive.
@@ -129,10 +147,14 @@ const TRUE: &str = "true log logarithmic ln hencky cauchy wahre wahrer wahr";
 const COMPRESSIVE: &str = "compressive compression compress druck stauchung";
 
 impl Heading {
-    /// The column of a header, with the unit that stands in a row below it, if there is one.
-    pub(super) fn of(text: &str, below: Option<Unit>) -> Self {
-        let (name, unit) = name_and_unit(text);
-        let unit = unit.or(below);
+    /// The column of a header, with the unit that stands in a row below it, which may be empty.
+    pub(super) fn of(text: &str, below: &str) -> Self {
+        let (name, own, unknown) = name_and_unit(text);
+        let unit = own.or(unit(below));
+        let unknown = match unit == own {
+            true => unknown.or_else(|| (unit.is_none() && is_like_unit(below)).then(|| below.into())),
+            false => None,
+        };
         let words = words(&name);
         let has = |list: &str| list.split(' ').any(|listed| words.iter().any(|word| word == listed));
         let is_true = has(TRUE) || words.iter().any(|word| word == "le") || name.trim() == "S11";
@@ -151,6 +173,7 @@ impl Heading {
             text: text.into(),
             quantity,
             unit,
+            unknown,
             is_specific: has(NOMINAL) || is_true,
             is_compressive: quantity != Quantity::Stretch && has(COMPRESSIVE),
         }
@@ -208,39 +231,69 @@ fn words(name: &str) -> Vec<String> {
 /// Bytes of a header beyond which no unit is looked for.
 const LONGEST: usize = 200;
 
-/// A header without its unit, and the unit: in brackets, or behind a space, `_`, `/` or a comma, or written
-/// in capitals behind small letters.
-fn name_and_unit(text: &str) -> (String, Option<Unit>) {
+/// A header without its unit, the unit, and what may be an unknown one. The unit stands in brackets; or behind
+/// a space, `_`, `/` or a comma, or in capitals behind small letters; a share may also stand before the name.
+fn name_and_unit(text: &str) -> (String, Option<Unit>, Option<String>) {
     if text.len() > LONGEST {
-        return (text.into(), None);
+        return (text.into(), None, None);
     }
-    let mut rest = text;
-    while let Some((before, bracket)) = rest.split_once(['(', '[', '{']) {
-        let (inside, after) = bracket.split_once([')', ']', '}']).unwrap_or((bracket, ""));
-        if let Some(unit) = unit(inside) {
-            let before = &text[..text.len() - rest.len() + before.len()];
-            return (format!("{before} {after}"), Some(unit));
+    // `(1)` and `(-)` may also number or join.
+    let rank = |inside: &str| match unit(inside) {
+        Some(Unit::Share(_)) if matches!(inside.trim(), "1" | "-" | "–" | "—") => 1,
+        Some(Unit::Share(_) | Unit::Stress(_)) => 4,
+        Some(_) => 3,
+        None if is_like_unit(inside) => 2,
+        None => 0,
+    };
+    let last = brackets(text).into_iter().max_by_key(|(_, inside)| rank(inside));
+    let (name, bracket) = match last.filter(|(_, inside)| rank(inside) > 0) {
+        Some((at, inside)) => {
+            let after = text.get(at + inside.len() + 2..).unwrap_or_default();
+            let (name, unit) = (format!("{} {after}", &text[..at]), unit(inside));
+            if rank(inside) > 1 {
+                return (name, unit, unit.is_none().then(|| inside.into()));
+            }
+            (name, unit)
         }
-        rest = bracket;
-    }
-    let (mut last, mut letters) = (' ', 0);
-    for (at, c) in text.char_indices() {
+        None => (text.into(), None),
+    };
+    let name = name.trim();
+    let (mut last, mut letters, mut unknown) = (' ', 0, None);
+    for (at, c) in name.char_indices() {
         // Behind a word, not behind the first letter of `mPa`.
         let is_capital = letters > 2 && last.is_lowercase() && c.is_uppercase();
-        let begins = !last.is_alphanumeric() || is_capital || c == '%';
+        let is_sign = matches!(c, '%' | '‰');
         // A letter alone is one of a specimen.
-        let is_letter = c != '%' && text.len() - at == c.len_utf8();
-        if at > 0
-            && begins
-            && !is_letter
-            && let Some(unit) = unit(&text[at..])
-        {
-            return (text[..at].into(), Some(unit));
+        let is_letter = !is_sign && name.len() - at == c.len_utf8();
+        if (!last.is_alphanumeric() || is_capital || is_sign) && !is_letter {
+            if at > 0
+                && let Some(unit) = unit(&name[at..])
+            {
+                return (name[..at].into(), Some(unit), None);
+            }
+            unknown = Some(&name[at..]).filter(|rest| is_like_unit(rest)).or(unknown);
         }
         letters = if c.is_alphabetic() { letters + 1 } else { 0 };
         last = c;
     }
-    (text.into(), None)
+    // `% strain`, `Percent strain`, `Microstrain`.
+    let sign: String = name.chars().take(1).collect();
+    let word = words(name).into_iter().next().unwrap_or_default();
+    let is_part = |unit: &Unit| matches!(unit, Unit::Share(size) if *size < 1.0);
+    match [&*sign, &*word, name].into_iter().filter_map(unit).find(is_part) {
+        Some(unit) => (name.into(), Some(unit), None),
+        None => (name.into(), bracket, unknown.map(str::to_owned)),
+    }
+}
+
+/// What stands in brackets, and where each opens; the last may be left open.
+fn brackets(text: &str) -> Vec<(usize, &str)> {
+    let opened = text.match_indices(['(', '[', '{']);
+    let inside = |(at, _): (usize, &str)| {
+        let rest = &text[at + 1..];
+        (at, rest.split_once([')', ']', '}']).map_or(rest, |(inside, _)| inside))
+    };
+    opened.map(inside).collect()
 }
 
 #[cfg(test)]
@@ -249,7 +302,7 @@ mod tests {
 
     #[track_caller]
     fn check(header: &str, quantity: Quantity, size: Option<f64>) {
-        let heading = Heading::of(header, None);
+        let heading = Heading::of(header, "");
         let found = heading.unit.and_then(|unit| match unit {
             Unit::Stress(unit) => Some(unit.pascals()),
             Unit::Share(size) => Some(size),
@@ -268,6 +321,26 @@ mod tests {
         check("Strain [%]", Quantity::Strain, Some(0.01));
         check("strain%", Quantity::Strain, Some(0.01));
         check("strain_pct", Quantity::Strain, Some(0.01));
+        for before in
+            ["% strain", "%Strain", "Percent strain", "pct strain", "PctStrain", "Percent strain (1)"]
+        {
+            check(before, Quantity::Strain, Some(0.01));
+        }
+        check("% Elongation", Quantity::Strain, Some(0.01));
+        for last in ["Strain (1) [%]", "Strain [%] (1)", "Strain % (1)", "Strain (-) (%)", "Strain (1) %"] {
+            check(last, Quantity::Strain, Some(0.01));
+        }
+        check("Strain (1)", Quantity::Strain, Some(1.0));
+        check("Strain (ΔL/L0) [-]", Quantity::Strain, Some(1.0));
+        check("Strain (ε)", Quantity::Strain, None);
+        check("Strain [‰]", Quantity::Strain, Some(1e-3));
+        for micro in ["Strain [µε]", "Strain (μϵ)", "Strain [microstrain]", "Microstrain", "Micro strain"]
+        {
+            check(micro, Quantity::Strain, Some(1e-6));
+        }
+        check("Stress (1) [MPa]", Quantity::Stress, Some(1e6));
+        check("Stress [MPa] (C)", Quantity::Stress, Some(1e6));
+        check("Stress (10^6 Pa)", Quantity::Stress, None);
         check("eng_strain", Quantity::Strain, None);
         check("EngStrain", Quantity::Strain, None);
         check("Tensile strain (Strain 1) (mm/mm)", Quantity::Strain, Some(1.0));
@@ -322,21 +395,21 @@ mod tests {
             check(
                 other,
                 Quantity::Other,
-                Heading::of(other, None).unit.and_then(|unit| match unit {
+                Heading::of(other, "").unit.and_then(|unit| match unit {
                     Unit::Stress(unit) => Some(unit.pascals()),
                     Unit::Share(size) => Some(size),
                     _ => None,
                 }),
             );
         }
-        assert!(Heading::of("Compressive strain (%)", None).is_compressive);
-        assert!(Heading::of("Druckspannung", None).is_compressive);
+        assert!(Heading::of("Compressive strain (%)", "").is_compressive);
+        assert!(Heading::of("Druckspannung", "").is_compressive);
     }
 
     #[test]
     fn long_headers_take_no_longer_than_they_are() {
         for text in ["(".repeat(1_000_000), "a ".repeat(1_000_000), "strain".repeat(200_000)] {
-            assert_eq!(Heading::of(&text, None).unit, None);
+            assert_eq!(Heading::of(&text, "").unit, None);
         }
     }
 }

@@ -10,7 +10,8 @@ use crate::curve::Mode;
 /// The separator and the sections of a file.
 pub(super) fn sections(text: &str) -> Result<(Separator, Vec<Section<'_>>), DataError> {
     let lines = lines(text);
-    let is_deck = |line: &Line<'_>| line.text.starts_with('*') && deck_test(line.text).is_some();
+    let is_deck =
+        |line: &Line<'_>| !line.is_comment() && line.text.starts_with('*') && deck_test(line.text).is_some();
     match lines.iter().any(is_deck) {
         true => Ok((Separator::Comma, deck(&lines)?)),
         false => table(&lines),
@@ -41,8 +42,14 @@ fn lines(text: &str) -> Vec<Line<'_>> {
 
 /// The separator and the section of a table.
 fn table<'a>(lines: &[Line<'a>]) -> Result<(Separator, Vec<Section<'a>>), DataError> {
-    let plain: Vec<&Line<'a>> = lines.iter().filter(|line| !line.is_comment()).collect();
-    let separator = Separator::of(plain.iter().map(|line| line.text));
+    let mut plain: Vec<&Line<'a>> = lines.iter().filter(|line| !line.is_comment()).collect();
+    let separator = match plain.first().and_then(|line| Separator::declared(line.text)) {
+        Some(separator) => {
+            plain.remove(0);
+            separator
+        }
+        None => Separator::of(plain.iter().map(|line| line.text)),
+    };
     let has_numbers =
         |line: &Line<'_>| separator.fields(line.text).iter().filter(|field| is_number(field)).count() > 1;
     let first = plain.iter().position(|line| has_numbers(line));
@@ -124,10 +131,10 @@ impl Header {
     fn of(line: u64, names: &[&str], below: &[&str]) -> Self {
         let (mut headings, mut conflict) = (Vec::new(), None);
         for (place, name) in names.iter().enumerate() {
-            let below = below.get(place).filter(|below| unit(below).is_some());
-            let heading = Heading::of(name, below.and_then(|below| unit(below)));
-            if let Some(below) = below.filter(|below| heading.unit != unit(below)) {
-                let fault = Fault::UnitTwice { header: (*name).into(), below: (*below).into() };
+            let below = below.get(place).copied().unwrap_or_default();
+            let heading = Heading::of(name, below);
+            if unit(below).is_some_and(|below| heading.unit != Some(below)) {
+                let fault = Fault::UnitTwice { header: (*name).into(), below: below.into() };
                 conflict.get_or_insert(fault);
             }
             headings.push(heading);
@@ -175,9 +182,10 @@ impl Header {
                 (place, _) => Ok(place.ok_or(missing)),
             }
         };
-        let mode = choose(|quantity| quantity == Quantity::Mode, "test")?.ok();
+        let whole = |place: usize| Column { place, heading: self.headings[place].clone() };
+        let mode = choose(|quantity| quantity == Quantity::Mode, "test")?.ok().map(whole);
         let column = |chosen: Result<usize, &'static str>| match chosen {
-            Ok(place) => Ok(Column { place, heading: self.headings[place].clone() }),
+            Ok(place) => Ok(whole(place)),
             Err(quantity) => {
                 Err(at(match self.headings.iter().find(|heading| heading.quantity == Quantity::Sized) {
                     Some(heading) => Fault::NoSize { found: heading.text.clone() },
@@ -187,12 +195,17 @@ impl Header {
         };
         let control = column(choose(Quantity::is_control, "stretch or strain")?)?;
         let stress = column(choose(Quantity::is_stress, "stress")?)?;
+        if let Some(found) = control.heading.unknown.as_ref().filter(|_| control.heading.quantity.is_strain())
+        {
+            let header = control.heading.text.clone();
+            return Err(at(Fault::StrainUnit { header, found: found.clone() }));
+        }
         let is_true = control.heading.quantity == Quantity::TrueStrain;
         if is_true && stress.heading.quantity == Quantity::Stress && !stress.heading.is_specific {
             return Err(at(Fault::WhichStress { found: stress.heading.text }));
         }
-        let used = [mode, Some(control.place), Some(stress.place)];
-        let unused = self.headings.iter().enumerate().filter(|(place, _)| !used.contains(&Some(*place)));
+        let used = [mode.as_ref().unwrap_or(&control), &control, &stress].map(|column| column.place);
+        let unused = self.headings.iter().enumerate().filter(|(place, _)| !used.contains(place));
         let unused =
             unused.map(|(_, heading)| heading.text.clone()).filter(|text| !text.is_empty()).collect();
         Ok(Section { line: self.line, test: None, mode, control, stress, unused, preamble, rows: Vec::new() })

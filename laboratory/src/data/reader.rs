@@ -63,7 +63,10 @@ impl Measurements {
         if text.starts_with("PK\u{3}\u{4}") {
             return Err(DataError { line: 1, fault: Fault::Archive });
         }
-        let (separator, sections) = layout::sections(text)?;
+        let (separator, mut sections) = layout::sections(text)?;
+        if options.test.is_some() {
+            sections.iter_mut().for_each(Section::leave_out_specimens);
+        }
         let cells = sections.iter().flat_map(Section::numbers);
         let unclear =
             |(line, found): (u64, &str)| DataError { line, fault: Fault::Decimals { found: found.into() } };

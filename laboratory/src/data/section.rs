@@ -22,7 +22,7 @@ pub(super) struct Section<'a> {
     pub(super) line: u64,
     /// The test of all rows, if one is named above them.
     pub(super) test: Option<Test>,
-    pub(super) mode: Option<usize>,
+    pub(super) mode: Option<Column>,
     pub(super) control: Column,
     pub(super) stress: Column,
     /// Headers of columns that are not used.
@@ -74,6 +74,15 @@ impl<'a> Section<'a> {
         self.rows.iter().flat_map(move |row| places.map(|place| (row.line, row.fields[place])))
     }
 
+    /// Leaves out a column whose name is one of tests and whose cells name none, such as numbers of specimens.
+    pub(super) fn leave_out_specimens(&mut self) {
+        let names_none =
+            |column: &Column| self.rows.iter().all(|row| row.fields[column.place].parse::<Test>().is_err());
+        if self.mode.as_ref().is_some_and(names_none) {
+            self.unused.extend(self.mode.take().map(|column| column.heading.text));
+        }
+    }
+
     /// Whether test and unit are known.
     pub(super) fn is_complete(&self, options: &ReadOptions) -> Result<(), Fault> {
         let has_test = self.mode.is_some() || self.test.or(options.test).is_some();
@@ -87,8 +96,8 @@ impl<'a> Section<'a> {
         options: &ReadOptions,
     ) -> Result<(Test, Measured), DataError> {
         let at = |fault| DataError { line: row.line, fault };
-        let test = match self.mode {
-            Some(place) => row.fields[place].parse().map_err(|error| at(Fault::Mode(error)))?,
+        let test = match &self.mode {
+            Some(column) => row.fields[column.place].parse().map_err(|error| at(Fault::Mode(error)))?,
             None => self.test.or(options.test).ok_or_else(|| at(Fault::NoMode))?,
         };
         let value = |column: &Column| {
@@ -97,9 +106,9 @@ impl<'a> Section<'a> {
             let number = number(found, decimal).filter(|_| !(is_percent && heading.quantity.is_stress()));
             let number =
                 number.ok_or_else(|| Fault::Number { column: heading.text.clone(), found: found.into() })?;
-            // `10 %` in a column without a unit.
-            let share = if is_percent && heading.unit.is_none() { 0.01 } else { 1.0 };
-            Ok::<_, Fault>(number * column.factor(options)? * share)
+            let factor = column.factor(options)?;
+            // A cell with its own unit, `10 %`.
+            Ok::<_, Fault>(number * if is_percent { 0.01_f64.copysign(factor) } else { factor })
         };
         let (control, stress) = (value(&self.control).map_err(at)?, value(&self.stress).map_err(at)?);
         let not_of_test =

@@ -32,6 +32,16 @@ impl Separator {
         best.or_else(most).unwrap_or(Self::Comma)
     }
 
+    /// The separator that a first line such as `sep=;` tells spreadsheets.
+    pub(super) fn declared(line: &str) -> Option<Self> {
+        match &*line.trim_matches('"').to_ascii_lowercase() {
+            "sep=;" => Some(Self::Semicolon),
+            "sep=," => Some(Self::Comma),
+            "sep=\t" => Some(Self::Tab),
+            _ => None,
+        }
+    }
+
     /// The fields of a line, without spaces and quotes around them. Between quotes nothing separates.
     pub(super) fn fields(self, line: &str) -> Vec<&str> {
         let line = if self == Self::Spaces { line.trim() } else { line };

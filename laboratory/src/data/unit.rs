@@ -61,14 +61,15 @@ impl fmt::Display for StressUnit {
 impl FromStr for StressUnit {
     type Err = StressUnitError;
 
-    /// In letters of any size, but for `mPa`, which would be a thousandth of a pascal; with `²`, `^2`, `**2`
-    /// or `2` for a square.
+    /// In letters of any size, except for `m` before a capital, as in `mPa` and `mN/m²`: that would be a
+    /// thousandth. With `²`, `^2`, `**2` or `2` for a square.
     fn from_str(text: &str) -> Result<Self, StressUnitError> {
         let name = plain(text);
         let is_named = |(own, _, spellings): &&(&str, f64, &[&str])| {
             own.eq_ignore_ascii_case(&name) || spellings.contains(&&*name)
         };
-        let found = UNITS.iter().find(is_named).filter(|_| text.trim() != "mPa");
+        let is_milli = text.trim().strip_prefix('m').is_some_and(|rest| rest.starts_with(char::is_uppercase));
+        let found = UNITS.iter().find(is_named).filter(|_| !is_milli);
         let &(name, pascals, _) = found.ok_or_else(|| StressUnitError(text.trim().into()))?;
         Ok(Self { name, pascals })
     }
@@ -82,6 +83,7 @@ pub(super) fn plain(unit: &str) -> String {
         '³' => '3',
         '−' | '⁻' => '-',
         'μ' => 'µ',
+        'ϵ' => 'ε',
         c => c,
     });
     letters.flat_map(char::to_lowercase).collect()
@@ -111,6 +113,9 @@ mod tests {
             [("Mpa", 1e6), ("MPA", 1e6), ("kpa", 1e3), ("N/mm^2", 1e6), ("N / mm**2", 1e6), ("N·mm⁻²", 1e6)]
         {
             assert_eq!(read(spelling), Ok(pascals), "{spelling}");
+        }
+        for milli in ["mPa", "mN/m²", " mN/m^2", "mPsi"] {
+            assert_eq!(read(milli), Err(StressUnitError(milli.trim().into())));
         }
         let error = read("stone").map_err(|error| error.to_string()).expect_err("a weight");
         assert!(error.contains("`stone`") && error.contains("kPa, MPa, GPa, psi"), "{error}");

@@ -39,10 +39,17 @@ pub fn parameter(text: &str) -> Result<Given, String> {
     let values: Vec<_> = values.split(',').map(value).collect::<Result<_, _>>()?;
     let common = values.last().and_then(|(_, unit)| *unit);
     let unit = |(_, own): &(f64, Option<(Unit, f64)>)| own.or(common);
+    if common.is_none() && values.iter().any(|(_, own)| own.is_some()) {
+        return Err("the last value has no unit; write one behind it, or behind each".into());
+    }
     if values.iter().any(|value| unit(value).map(|(kind, _)| kind) != common.map(|(kind, _)| kind)) {
         return Err("the values have units of two kinds; write one behind the last value".into());
     }
-    let in_si = |value: &(f64, _)| value.0 * unit(value).map_or(1.0, |(_, size)| size);
+    let in_si = |value: &(f64, _)| match unit(value) {
+        Some((Unit::PerPascal, size)) => value.0 / size,
+        Some((_, size)) => value.0 * size,
+        None => value.0,
+    };
     let (values, unit) = (values.iter().map(in_si).collect(), common.map(|(kind, _)| kind));
     Ok(Given { name: name.trim().into(), values, unit })
 }
@@ -56,7 +63,7 @@ pub(super) fn modulus(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number, and the unit behind it with its size in SI units.
+/// A number, and the kind of the unit behind it with the stress, Pa, that it is made of.
 fn value(text: &str) -> Result<(f64, Option<(Unit, f64)>), String> {
     let text = text.trim();
     if let Ok(number) = text.parse() {
@@ -65,18 +72,25 @@ fn value(text: &str) -> Result<(f64, Option<(Unit, f64)>), String> {
     // The letter of an exponent has digits behind it.
     let is_unit = |(at, c): &(usize, char)| match c {
         'e' | 'E' => !text[at + 1..].starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c)),
-        c => c.is_alphabetic() || *c == '/' || c.is_whitespace(),
+        c => c.is_alphabetic() || "/(".contains(*c) || c.is_whitespace(),
     };
     let end = text.char_indices().find(is_unit).map_or(text.len(), |(at, _)| at);
     let (number, unit) = text.split_at(end);
     let number = number.parse().map_err(|_| format!("`{}` is not a number", quoted(text)))?;
-    let unit = unit.trim();
+    let bare = |unit: &str| {
+        let unit = unit.trim();
+        unit.strip_prefix('(').and_then(|unit| unit.strip_suffix(')')).unwrap_or(unit).trim().to_owned()
+    };
+    let unit = bare(unit);
     let by = unit.strip_prefix("1/").or_else(|| unit.strip_prefix('/'));
     let by = by.or_else(|| ["^-1", "^(-1)", "⁻¹", "**-1"].iter().find_map(|power| unit.strip_suffix(power)));
-    let size = |name: &str| name.trim().parse().map(StressUnit::pascals);
-    let unit = match by {
-        Some(name) => size(name).map(|size| (Unit::PerPascal, 1.0 / size)),
-        None => size(unit).map(|size| (Unit::Pascal, size)),
+    let size = |name: &str| bare(name).parse().map(StressUnit::pascals);
+    // `mm²/N` is one by `N/mm²`.
+    let turned = unit.split_once('/').map(|(area, force)| format!("{force}/{area}"));
+    let unit = match (by, turned.and_then(|turned| size(&turned).ok())) {
+        (Some(name), _) => size(name).map(|size| (Unit::PerPascal, size)),
+        (None, Some(size)) => Ok((Unit::PerPascal, size)),
+        (None, None) => size(&unit).map(|size| (Unit::Pascal, size)),
     };
     let unit = unit.map_err(|error| {
         format!("`{}` is not a number: {error} behind it, or one by it, as in `2e-5/MPa`", quoted(text))
@@ -108,8 +122,18 @@ mod tests {
         assert_eq!(read("mu=0.25 MPa"), Ok(("mu".into(), vec![0.25e6])));
         assert_eq!(read("mu=1,2kPa"), Ok(("mu".into(), vec![1e3, 2e3])));
         // Of Abaqus and CalculiX.
-        for text in ["D1=2e-5/MPa", "D1=2e-5 1/MPa", "D1=2e-5 MPa^-1", "D1=2e-5MPa⁻¹", "D1 = 2E-5 / MPa"] {
-            assert_eq!(read(text), Ok(("D1".into(), vec![2e-5 * (1.0 / 1e6)])), "{text}");
+        for text in [
+            "D1=2e-5/MPa",
+            "D1=2e-5 1/MPa",
+            "D1=2e-5 (1/MPa)",
+            "D1=2e-5 MPa^-1",
+            "D1=2e-5(MPa)^-1",
+            "D1=2e-5MPa⁻¹",
+            "D1 = 2E-5 / MPa",
+            "D1=2e-5 1/(N/mm²)",
+            "D1=2e-5 mm²/N",
+        ] {
+            assert_eq!(read(text), Ok(("D1".into(), vec![2e-11])), "{text}");
             assert_eq!(parameter(text).map(|given| given.documentation()), Ok("Parameter D1, 1/Pa.".into()));
         }
         assert_eq!(read("D1=1/Pa"), Ok(("D1".into(), vec![1.0])));
@@ -119,6 +143,7 @@ mod tests {
         assert_eq!(modulus("20MPa"), Ok(2e7));
         assert!(modulus("20/MPa").is_err_and(|error| error.contains("by a stress")));
         assert!(parameter("mu=1MPa,2/kPa").is_err_and(|error| error.contains("two kinds")));
+        assert!(parameter("mu=1MPa,2").is_err_and(|error| error.contains("the last value has no unit")));
         assert!(parameter("mu=1mm").is_err_and(|error| error.contains("`1mm`") && error.contains("psi")));
         assert!(parameter("mu").is_err_and(|error| error.contains("NAME=VALUE")));
         assert!(parameter("mu=soft").is_err_and(|error| error.contains("`soft`")));

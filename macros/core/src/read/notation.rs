@@ -73,6 +73,8 @@ fn quotation(code: &str) -> String {
     match code {
         ".powi(2)" => return "x^2".to_owned(),
         ".powf(alpha)" => return "x^alpha".to_owned(),
+        // An option of a command.
+        _ if code.starts_with("--") => return code.to_owned(),
         _ => {}
     }
     // A method, or a term with the sign that joins it to others.
