@@ -16,9 +16,9 @@ pub(crate) const TOO_LARGE: &str = "this energy is too large: fewer operations, 
 const LARGEST_TEXT: usize = 1 << 16;
 
 /// The largest size of an energy, the number of its different expressions, derivatives included, and of their
-/// operands: some fifteen times that of the largest energy of the catalogue, and compiled within a second or
+/// operands: some ten times that of the largest energy of the catalogue, and compiled within a second or
 /// two.
-pub(crate) const LARGEST: Option<usize> = Some(250_000);
+pub(crate) const LARGEST: Option<usize> = Some(150_000);
 
 impl Energy {
     /// The energy of the one declaration in a text, a function as `#[piola::material]` takes it.

@@ -20,7 +20,7 @@ pub struct Formula {
     /// Its names are those that --param gives values to, and else the stretches l1, l2, l3 and the
     /// invariants I1, I2, J, I1b and I2b, also as lambda_1, tr(C), det(F) and more. Conditions may follow,
     /// as in `… where J > 0, I1 < 3 + Jm`.
-    #[arg(long, value_name = "FORMULA", conflicts_with = "material")]
+    #[arg(long, value_name = "FORMULA", conflicts_with = "material", allow_hyphen_values = true)]
     energy: Option<String>,
 
     /// Subtract s ln J from the formula, s being its stress at rest, so that the rest state is free of stress; curves and
