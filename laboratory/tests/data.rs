@@ -263,7 +263,9 @@ fn marks_beside_the_numbers() {
     for header in ["strain", "strain [-]", "strain [%]", "strain [‰]"] {
         check(&format!("{header},stress_kPa\n10%,120\n50 %,400\n"), "", &[]);
     }
-    check("compressive strain [-],stress_kPa\n-10%,120\n-50%,400\n", "", &[]);
+    let compression = "compressive strain [-],compressive stress [kPa]\n50%,400\n";
+    let read = Measurements::read_with(compression, &options("uniaxial", "")).expect("a table");
+    assert_eq!(read.measurements.points[0].control, 0.5);
     check("** UNIAXIAL TEST DATA\nstretch,stress_kPa\n1.1,120\n1.5,400\n", "", &[]);
     // Of spreadsheets.
     check("sep=;\n1.1;120\n1.5;400\n", "kPa", &["semicolons"]);

@@ -180,7 +180,8 @@ fn check_range(mode: Mode, from: f64, to: f64, rows: usize) -> Result<(), SceneE
 /// Decimals of the controls in a table, unless they are given one by one.
 const DECIMALS: usize = 4;
 
-/// A test as a table, its controls with so many decimals or as they are, with the points measured at the same controls if there are any.
+/// A test as a table, with the points measured at the same controls if there are any. Controls have so many
+/// decimals, or all.
 fn table(
     specimen: &dyn Specimen,
     volume: Volume,

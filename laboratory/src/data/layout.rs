@@ -9,12 +9,14 @@ use crate::curve::Mode;
 
 /// The separator and the sections of a file.
 pub(super) fn sections(text: &str) -> Result<(Separator, Vec<Section<'_>>), DataError> {
-    let lines = lines(text);
+    let mut lines = lines(text);
+    let declared = lines.first().and_then(|line| Separator::declared(line.text));
+    lines.drain(..usize::from(declared.is_some()));
     let is_deck =
         |line: &Line<'_>| !line.is_comment() && line.text.starts_with('*') && deck_test(line.text).is_some();
     match lines.iter().any(is_deck) {
         true => Ok((Separator::Comma, deck(&lines)?)),
-        false => table(&lines),
+        false => table(&lines, declared),
     }
 }
 
@@ -40,16 +42,13 @@ fn lines(text: &str) -> Vec<Line<'_>> {
     lines.filter(|line| !line.text.trim().is_empty()).collect()
 }
 
-/// The separator and the section of a table.
-fn table<'a>(lines: &[Line<'a>]) -> Result<(Separator, Vec<Section<'a>>), DataError> {
-    let mut plain: Vec<&Line<'a>> = lines.iter().filter(|line| !line.is_comment()).collect();
-    let separator = match plain.first().and_then(|line| Separator::declared(line.text)) {
-        Some(separator) => {
-            plain.remove(0);
-            separator
-        }
-        None => Separator::of(plain.iter().map(|line| line.text)),
-    };
+/// The separator, unless a first line has declared it, and the section of a table.
+fn table<'a>(
+    lines: &[Line<'a>],
+    declared: Option<Separator>,
+) -> Result<(Separator, Vec<Section<'a>>), DataError> {
+    let plain: Vec<&Line<'a>> = lines.iter().filter(|line| !line.is_comment()).collect();
+    let separator = declared.unwrap_or_else(|| Separator::of(plain.iter().map(|line| line.text)));
     let has_numbers =
         |line: &Line<'_>| separator.fields(line.text).iter().filter(|field| is_number(field)).count() > 1;
     let first = plain.iter().position(|line| has_numbers(line));

@@ -133,7 +133,7 @@ mod tests {
             "D1=2e-5 1/(N/mm²)",
             "D1=2e-5 mm²/N",
         ] {
-            assert_eq!(read(text), Ok(("D1".into(), vec![2e-11])), "{text}");
+            assert_eq!(read(text), Ok(("D1".into(), vec![2e-5 / 1e6])), "{text}");
             assert_eq!(parameter(text).map(|given| given.documentation()), Ok("Parameter D1, 1/Pa.".into()));
         }
         assert_eq!(read("D1=1/Pa"), Ok(("D1".into(), vec![1.0])));
