@@ -12,9 +12,10 @@ use crate::error::Error;
 pub(crate) struct Declare {
     /// The energy, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`; conditions may follow, as in `…
     /// where J > 0`.
+    #[arg(allow_hyphen_values = true)]
     formula: String,
 
-    /// Subtract s ln J from it, s being its stress at rest, which it then has no more.
+    /// Subtract s ln J from it, s being its stress at rest, so that the rest state is free of stress.
     #[arg(long)]
     free_rest: bool,
 

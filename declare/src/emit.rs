@@ -335,7 +335,7 @@ fn recorded<E: Recordable>(
     })
 }
 
-/// Twice the shear modulus and three times the bulk modulus at rest, and whether that is inside of the domain.
+/// Twice the shear modulus and three times the bulk modulus at rest, and whether rest is inside the domain.
 fn at_rest<E: Recordable>(material: &Interpreted) -> Result<Recording, UnrecordedParameter> {
     record(0, |_: &[Recorded<E>]| {
         let one = Recorded::splat(1.0);

@@ -33,8 +33,8 @@
 //!
 //! * Units stand behind the name, in brackets or after a space, comma, slash or `_`: [`StressUnit`] for
 //!   stresses, `%`, `‰`, `µε` or `mm/mm` for strains; percent may also stand before the name or behind each
-//!   number. A strain with another unit is refused. Numbers under `compressive strain` and `compressive stress` are
-//!   positive in compression.
+//!   number. A strain with another unit is refused. Numbers under `compressive strain` and `compressive
+//!   stress` are positive in compression.
 //! * Of several kinds of stress or strain the first of this table is used; two columns of one kind are
 //!   refused. Forces and elongations are refused where no stress or strain is there, since they need the size
 //!   of the specimen; columns such as `strain rate` and `maximum stress` are neither strains nor stresses.

@@ -296,8 +296,8 @@ impl Material {
     /// target: "c", which is C99 and C++17 alike.
     /// precision: "f64" or "f32".
     /// name: the first part of all names; None for the name of the energy.
-    /// functions: a sequence of "energy", "stress", "tangent", "projected", "absolute", "blocks" and "svd"; None
-    ///     for all.
+    /// functions: a sequence of "energy", "stress", "tangent", "projected", "absolute", "blocks" and "svd";
+    ///     None for all.
     ///
     /// Raises ValueError for an unknown word, and MaterialError for an energy that cannot be printed.
     #[pyo3(signature = (target, *, precision = "f64", name = None, functions = None))]

@@ -90,7 +90,7 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// What the file is and how it is used.
+    /// The description of the file and its use.
     fn comment(&self) -> String {
         let Self { file, prefix, .. } = self;
         let description = file.energy.description();

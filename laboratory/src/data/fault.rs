@@ -94,7 +94,7 @@ pub enum Fault {
     StrainUnit {
         /// The header of the column.
         header: String,
-        /// What stands in the place of a unit.
+        /// The text in the place of a unit.
         found: String,
     },
     /// Nothing names the test.

@@ -128,7 +128,7 @@ pub(super) struct Heading {
     pub(super) text: String,
     pub(super) quantity: Quantity,
     pub(super) unit: Option<Unit>,
-    /// What stands in the place of a unit without being a known one.
+    /// Text in the place of a unit that is not a known one.
     pub(super) unknown: Option<String>,
     /// Whether a word says which of two kinds of stress or strain it is.
     pub(super) is_specific: bool,
@@ -231,8 +231,10 @@ fn words(name: &str) -> Vec<String> {
 /// Bytes of a header beyond which no unit is looked for.
 const LONGEST: usize = 200;
 
-/// A header without its unit, the unit, and what may be an unknown one. The unit stands in brackets; or behind
-/// a space, `_`, `/` or a comma, or in capitals behind small letters; a share may also stand before the name.
+/// A header without its unit, the unit, and what may be an unknown one.
+///
+/// The unit stands in brackets; or behind a space, `_`, `/` or a comma, or in capitals behind small letters.
+/// A share may also stand before the name.
 fn name_and_unit(text: &str) -> (String, Option<Unit>, Option<String>) {
     if text.len() > LONGEST {
         return (text.into(), None, None);
@@ -286,7 +288,7 @@ fn name_and_unit(text: &str) -> (String, Option<Unit>, Option<String>) {
     }
 }
 
-/// What stands in brackets, and where each opens; the last may be left open.
+/// Texts in brackets, and where each opens; the last may be left open.
 fn brackets(text: &str) -> Vec<(usize, &str)> {
     let opened = text.match_indices(['(', '[', '{']);
     let inside = |(at, _): (usize, &str)| {

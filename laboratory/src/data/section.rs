@@ -74,7 +74,7 @@ impl<'a> Section<'a> {
         self.rows.iter().flat_map(move |row| places.map(|place| (row.line, row.fields[place])))
     }
 
-    /// Leaves out a column whose name is one of tests and whose cells name none, such as numbers of specimens.
+    /// Leaves out a column that is called one of tests and names none, such as numbers of specimens.
     pub(super) fn leave_out_specimens(&mut self) {
         let names_none =
             |column: &Column| self.rows.iter().all(|row| row.fields[column.place].parse::<Test>().is_err());

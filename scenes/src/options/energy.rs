@@ -23,8 +23,8 @@ pub struct Formula {
     #[arg(long, value_name = "FORMULA", conflicts_with = "material", allow_hyphen_values = true)]
     energy: Option<String>,
 
-    /// Subtract s ln J from the formula, s being its stress at rest, so that the rest state is free of stress; curves and
-    /// fits at constant volume do not need it.
+    /// Subtract s ln J from the formula, s being its stress at rest, so that the rest state is free of
+    /// stress. Curves and fits at constant volume do not need it.
     #[arg(long, requires = "energy")]
     free_rest: bool,
 
