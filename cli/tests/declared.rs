@@ -174,7 +174,7 @@ fn mistakes_are_told_at_their_places() {
     assert!(message.contains("`- mu*ln(J)`") && message.contains("the option `--free-rest`"), "{message}");
     assert!(refusal(&["curve", "nowhere.rs"]).contains("nowhere.rs: cannot be read"));
     assert!(
-        refusal(&["curve", "--energy", NEO_HOOKEAN, "--param", "mu=1 psi"])
-            .contains("`1 psi` is not a number")
+        refusal(&["curve", "--energy", NEO_HOOKEAN, "--param", "mu=1 stone"])
+            .contains("`stone` is not a unit of stress")
     );
 }
