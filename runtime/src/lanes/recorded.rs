@@ -67,9 +67,9 @@ pub enum Unary {
     Absolute,
     /// √a.
     SquareRoot,
-    /// The power of two in |a|: [`Primitive::leading_power`].
+    /// The power of two in |a|, 0 for numbers below the normal ones.
     LeadingPower,
-    /// 1/a for a power of two: [`Primitive::reciprocal_of_power`].
+    /// 1/a for a power of two.
     ReciprocalOfPower,
 }
 
@@ -86,7 +86,7 @@ pub enum Binary {
     Divide,
     /// |a| with the sign of b.
     CopySign,
-    /// a 2ᵇ: [`Primitive::scale`].
+    /// a 2ᵇ, rounded once.
     Scale,
 }
 
@@ -107,7 +107,7 @@ macro_rules! functions {
             LogarithmOfRatio,
             /// The rounding error of a product: [`Real::two_product`]. It has no program.
             ProductError,
-            /// Mantissa and exponent: [`Primitive::split`]. It has no program.
+            /// Mantissa between √½ and √2, and exponent of two. It has no program.
             Split,
         }
 
