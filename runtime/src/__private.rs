@@ -43,8 +43,9 @@ pub mod random {
 /// Computations as programs, for back ends that print them.
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod record {
-    pub use crate::lanes::recorded::{
-        Binary, Function, Id, Recordable, Recorded, RecordedMask, RecordedOperation, RecordedProgram,
-        Recording, Unary, UnrecordedParameter, parameter, record,
+    pub use crate::lanes::recorded::program::{
+        Binary, Function, Id, Recordable, RecordedOperation, RecordedProgram, Recording, Unary,
+        UnrecordedParameter,
     };
+    pub use crate::lanes::recorded::{Recorded, RecordedMask, parameter, record};
 }

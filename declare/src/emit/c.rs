@@ -1,15 +1,18 @@
-//! Recorded programs as C99 that is C++17 as well.
+//! Recorded programs as C99 that is C++17 as well: the file, its parameters and its functions.
+
+mod body;
+mod check;
+mod primitives;
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use piola::__private::record::{Binary, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary};
+use piola::__private::record::{Function, RecordedOperation, RecordedProgram, Recording};
 use piola::Inversion;
 use piola::material::{Form, Parameter};
 
-use super::steps::{Step, Steps};
 use super::{File, PointFunction, Precision};
-use crate::condition::{Condition, Term};
+use body::Body;
 
 /// Names that fields cannot have: keywords of C99 and C++20, and macros of the headers and compilers.
 const RESERVED: &str = " alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t \
@@ -18,7 +21,7 @@ const RESERVED: &str = " alignas alignof and and_eq asm auto bitand bitor bool b
     inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public \
     register reinterpret_cast requires restrict return short signed sizeof static static_assert static_cast struct \
     switch template this thread_local throw true try typedef typeid typename typeof union unsigned using virtual void \
-    volatile wchar_t while xor xor_eq INFINITY NAN HUGE_VAL NULL errno linux unix ";
+    volatile wchar_t while xor xor_eq INFINITY NAN HUGE_VAL NULL M_E M_PI errno linux unix ";
 
 /// Whether names can begin with it.
 pub(super) fn is_identifier(name: &str) -> bool {
@@ -190,141 +193,6 @@ impl<'a> Printer<'a> {
         )
     }
 
-    /// Functions that programs are made of, those that one of them needs.
-    fn primitives(&self, recordings: &[&Recording]) -> String {
-        let Self { prefix, upper, number, suffix, .. } = self;
-        let all: Vec<_> = recordings
-            .iter()
-            .flat_map(|recording| recording.functions.values().chain([&recording.program]))
-            .flat_map(|program| &program.operations)
-            .collect();
-        let has = |wanted: &dyn Fn(&RecordedOperation) -> bool| all.iter().any(|operation| wanted(operation));
-        let calls =
-            |function| has(&|operation| matches!(operation, RecordedOperation::Call(f, _) if *f == function));
-        let unary = |operator| {
-            has(&|operation| matches!(operation, RecordedOperation::Unary(o, _) if *o == operator))
-        };
-        let scales = has(&|operation| matches!(operation, RecordedOperation::Binary(Binary::Scale, ..)));
-        let single = self.file.precision == Precision::F32;
-        let (bits, signed, mantissa, bias) = match single {
-            true => ("uint32_t", "int32_t", 23, 127),
-            false => ("uint64_t", "int64_t", 52, 1023),
-        };
-        // ¾/u, √½, the smallest normal number, and 1/u with its exponent.
-        let (rounding, half_root, smallest, lift, digits) = match single {
-            true => ("12582912.0f", "0x3f3504f3", "1.17549435e-38f", "16777216.0f", 24),
-            false => (
-                "6755399441055744.0",
-                "0x3fe6a09e667f3bcd",
-                "2.2250738585072014e-308",
-                "9007199254740992.0",
-                53,
-            ),
-        };
-        let fast = if single { "FP_FAST_FMAF" } else { "FP_FAST_FMA" };
-        let mut text = format!(
-            "#ifdef {fast}
-#define {upper}_MUL_ADD(a, b, c) fma{suffix}(a, b, c)
-#else
-#define {upper}_MUL_ADD(a, b, c) ((a) * (b) + (c))
-#endif
-
-"
-        );
-        let splits = calls(Function::Split);
-        if splits || scales || unary(Unary::LeadingPower) || unary(Unary::ReciprocalOfPower) {
-            text += &format!(
-                "static inline {number} {prefix}_of_bits({bits} bits) {{
-    {number} x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}}
-
-static inline {bits} {prefix}_to_bits({number} x) {{
-    {bits} bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}}
-
-"
-            );
-        }
-        if scales {
-            text += &format!(
-                "/* x 2^e, rounded once; two factors, since 2^e itself may be out of range. */
-static inline {number} {prefix}_scale({number} x, {number} e) {{
-    const {number} first = (e * 0.5{suffix} + {rounding}) - {rounding};
-    const {bits} low = {prefix}_to_bits(first + ({rounding} + {bias}.0{suffix}));
-    const {bits} high = {prefix}_to_bits((e - first) + ({rounding} + {bias}.0{suffix}));
-    return x * {prefix}_of_bits(low << {mantissa}) * {prefix}_of_bits(high << {mantissa});
-}}
-
-"
-            );
-        }
-        if unary(Unary::LeadingPower) {
-            text += &format!(
-                "/* The power of two in |x|. */
-static inline {number} {prefix}_leading_power({number} x) {{
-    return {prefix}_of_bits({prefix}_to_bits(x) & {prefix}_to_bits(({number})INFINITY));
-}}
-
-"
-            );
-        }
-        if unary(Unary::ReciprocalOfPower) {
-            text += &format!(
-                "/* 1/x for a power of two. */
-static inline {number} {prefix}_reciprocal_of_power({number} x) {{
-    return {prefix}_of_bits((({bits}){} << {mantissa}) - {prefix}_to_bits(x));
-}}
-
-",
-                2 * bias
-            );
-        }
-        if splits {
-            text += &format!(
-                "/* x = m 2^e with sqrt(1/2) <= m < sqrt(2). */
-static inline {number} {prefix}_split({number} x, {number} *e) {{
-    const int is_tiny = x < {smallest};
-    const {number} lifted = is_tiny ? x * {lift} : x;
-    const {signed} bits = ({signed}){prefix}_to_bits(lifted);
-    const {signed} exponent = ({signed})(({bits})bits - ({bits}){half_root}) >> {mantissa};
-    const {number} found = ({number})exponent - (is_tiny ? {digits}.0{suffix} : 0.0{suffix});
-    const {number} limit = x < 0.0{suffix} ? ({number})NAN : -({number})INFINITY;
-    *e = x < ({number})INFINITY ? (0.0{suffix} < x ? found : limit) : x;
-    return {prefix}_of_bits(({bits})bits - (({bits})exponent << {mantissa}));
-}}
-
-"
-            );
-        }
-        if calls(Function::ProductError) {
-            let without = match single {
-                true => "    return (float)((double)a * (double)b - (double)(a * b));\n".to_owned(),
-                false => "    const double a_big = 134217729.0 * a, b_big = 134217729.0 * b;
-    const double ah = a_big - (a_big - a), bh = b_big - (b_big - b);
-    const double al = a - ah, bl = b - bh;
-    return al * bl - (((a * b - ah * bh) - al * bh) - ah * bl);
-"
-                .to_owned(),
-            };
-            text += &format!(
-                "/* The rounding error of a b. */
-static inline {number} {prefix}_product_error({number} a, {number} b) {{
-#ifdef {fast}
-    return fma{suffix}(a, b, -(a * b));
-#else
-{without}#endif
-}}
-
-"
-            );
-        }
-        text
-    }
-
     /// A function, after those that it calls.
     fn function(
         &self,
@@ -427,89 +295,6 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
         text
     }
 
-    /// A check of the parameters, by the conditions of the declaration.
-    fn check(&self) -> String {
-        let Self { file, prefix, suffix, .. } = self;
-        let description = file.energy.description();
-        let mut places = self.parameters.iter();
-        let mut all = Vec::new();
-        // Each with what is said of it, statements before it, and the condition under which all is well.
-        let mut cases: Vec<(String, String, String)> = Vec::new();
-        for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&self.fields) {
-            let numbers: Vec<_> = places.by_ref().take(values.len()).cloned().collect();
-            if !matches!(parameter.form, Form::Exponent | Form::Exponents) && !numbers.is_empty() {
-                let finite: Vec<_> = numbers.iter().map(|place| format!("isfinite({place})")).collect();
-                let meaning = format!("{name} is not finite");
-                cases.push((meaning, String::new(), finite.join(" && ")));
-            }
-            all.push(numbers);
-        }
-        for condition in file.energy.conditions(file.inversion) {
-            let entries = condition.list.map_or(1, |list| all[list].len());
-            let holds: Vec<_> = (0..entries).map(|entry| self.condition(condition, &all, entry)).collect();
-            if !holds.is_empty() {
-                cases.push((format!("not {}", safe(&condition.text)), String::new(), holds.join(" && ")));
-            }
-        }
-        let Recording { program, .. } = &file.rest;
-        let body = Body::new(self, program, Vec::new());
-        let mut results = program.results.iter().map(|&id| body.operand(id));
-        let mut statements = body.statements();
-        if let (false, Some(shear), Some(bulk)) = (file.is_prestressed, results.next(), results.next()) {
-            // The constructor has the moduli by a formula, without the roundings of derivatives.
-            let rounding = if file.precision == Precision::F32 { "1e-5f" } else { "1e-13" };
-            let condition =
-                format!("{shear} > 0.0{suffix} && {bulk} >= -{rounding} * {shear} && isfinite({bulk})");
-            let meaning = "at rest, the solid does not resist shear or changes of volume".to_owned();
-            cases.push((meaning, std::mem::take(&mut statements), condition));
-        }
-        if let Some(inside) = results.next().filter(|inside| inside != "1") {
-            cases.push(("the rest state is outside of the domain".to_owned(), statements, inside));
-        }
-        let mut list =
-            "/* Returns 0 if the parameters are admissible, else the first of these that is true:\n"
-                .to_owned();
-        let mut statements = String::new();
-        for (k, (meaning, before, condition)) in cases.iter().enumerate() {
-            let _ = writeln!(list, " * {}: {meaning}", k + 1);
-            let _ = writeln!(statements, "{before}    if (!({condition})) return {}u;", k + 1);
-        }
-        if !statements.contains("p->") {
-            statements = format!("    (void)p;\n{statements}");
-        }
-        format!(
-            "{list} */\nstatic inline unsigned {prefix}_check(const {prefix}_parameters *p) {{\n{statements}    return 0u;\n}}\n\n"
-        )
-    }
-
-    /// A condition for an entry of its list.
-    fn condition(&self, condition: &Condition, places: &[Vec<String>], entry: usize) -> String {
-        let [left, right] = condition.sides.each_ref().map(|side| self.term(side, places, entry));
-        format!("{left} {} {right}", condition.comparison)
-    }
-
-    /// An expression in parameters, in `double`.
-    fn term(&self, term: &Term, places: &[Vec<String>], entry: usize) -> String {
-        match term {
-            Term::Number(number) => format!("{number:?}").replace("inf", "INFINITY").replace("NaN", "NAN"),
-            Term::Parameter(k) => {
-                let place = places[*k].get(entry).or(places[*k].first());
-                let place = place.cloned().unwrap_or_else(|| "NAN".to_owned());
-                if self.file.precision == Precision::F32 { format!("(double){place}") } else { place }
-            }
-            Term::Negative(term) => format!("(-{})", self.term(term, places, entry)),
-            Term::Arithmetic(operator, sides) => {
-                let [a, b] = sides.each_ref().map(|side| self.term(side, places, entry));
-                format!("({a} {operator} {b})")
-            }
-            Term::Call(function, arguments) => {
-                let terms: Vec<_> = arguments.iter().map(|one| self.term(one, places, entry)).collect();
-                let last = terms.last().map_or("NAN", String::as_str);
-                (function.in_c)(terms.first().map_or("NAN", String::as_str), last)
-            }
-        }
-    }
-
     fn literal(&self, value: f64) -> String {
         match self.file.precision {
             _ if value.is_nan() => format!("({})NAN", self.number),
@@ -518,134 +303,6 @@ static inline {number} {prefix}_product_error({number} a, {number} b) {{
             }
             Precision::F64 => format!("{value:?}"),
             Precision::F32 => format!("{:?}f", value as f32),
-        }
-    }
-}
-
-/// Statements of a program.
-struct Body<'a> {
-    printer: &'a Printer<'a>,
-    program: &'a RecordedProgram,
-    arguments: Vec<String>,
-    steps: Steps,
-}
-
-impl<'a> Body<'a> {
-    fn new(printer: &'a Printer<'a>, program: &'a RecordedProgram, arguments: Vec<String>) -> Self {
-        Self { printer, program, arguments, steps: Steps::of(program) }
-    }
-
-    fn statements(&self) -> String {
-        let mut text = String::new();
-        for &id in &self.steps.escaping {
-            let _ = writeln!(text, "    {} t{id} = 0;", self.type_of(id));
-            if self.is_pair(id) {
-                let _ = writeln!(text, "    {} s{id} = 0;", self.printer.number);
-            }
-        }
-        self.write(&self.steps.all, 1, &mut text);
-        text
-    }
-
-    fn write(&self, steps: &[Step], depth: usize, text: &mut String) {
-        let margin = "    ".repeat(depth);
-        for step in steps {
-            match step {
-                Step::Compute(id) => {
-                    let is_declared = self.steps.escaping.contains(id);
-                    if self.is_pair(*id) && !is_declared {
-                        let _ = writeln!(text, "{margin}{} s{id};", self.printer.number);
-                    }
-                    let kind =
-                        if is_declared { String::new() } else { format!("const {} ", self.type_of(*id)) };
-                    let _ = writeln!(text, "{margin}{kind}t{id} = {};", self.expression(*id));
-                }
-                Step::Branch { mask, selections, yes, no } => {
-                    for id in selections.iter().filter(|id| !self.steps.escaping.contains(id)) {
-                        let _ = writeln!(text, "{margin}{} t{id};", self.type_of(*id));
-                    }
-                    let _ = writeln!(text, "{margin}if ({}) {{", self.operand(*mask));
-                    for (k, inner) in [yes, no].into_iter().enumerate() {
-                        if k == 1 {
-                            let _ = writeln!(text, "{margin}}} else {{");
-                        }
-                        self.write(inner, depth + 1, text);
-                        for &id in selections {
-                            if let RecordedOperation::Select(_, yes, no) =
-                                self.program.operations[id as usize]
-                            {
-                                let _ = writeln!(text, "{margin}    t{id} = {};", self.operand([yes, no][k]));
-                            }
-                        }
-                    }
-                    let _ = writeln!(text, "{margin}}}");
-                }
-            }
-        }
-    }
-
-    fn is_pair(&self, id: Id) -> bool {
-        matches!(self.program.operations[id as usize], RecordedOperation::Call(function, _) if function.is_pair())
-    }
-
-    fn type_of(&self, id: Id) -> &'static str {
-        use RecordedOperation::{And, IsZero, Less, Not, Or, Select, Truth};
-        match self.program.operations[id as usize] {
-            Truth(_) | Less(..) | IsZero(_) | Not(_) | And(..) | Or(..) => "int",
-            Select(_, yes, no) if [yes, no].iter().any(|&id| self.type_of(id) == "int") => "int",
-            _ => self.printer.number,
-        }
-    }
-
-    /// An operand where it is used.
-    fn operand(&self, id: Id) -> String {
-        match self.program.operations[id as usize] {
-            RecordedOperation::Argument(k) => self.arguments[k as usize].clone(),
-            RecordedOperation::Parameter(k) => self.printer.parameters[k as usize].clone(),
-            RecordedOperation::Literal(bits) => {
-                let text = self.printer.literal(f64::from_bits(bits));
-                if text.starts_with('-') { format!("({text})") } else { text }
-            }
-            RecordedOperation::Truth(truth) => u8::from(truth).to_string(),
-            RecordedOperation::Second(call) => format!("s{call}"),
-            _ => format!("t{id}"),
-        }
-    }
-
-    fn expression(&self, id: Id) -> String {
-        let Printer { prefix, upper, suffix, .. } = self.printer;
-        let o = |id: Id| self.operand(id);
-        match self.program.operations[id as usize] {
-            RecordedOperation::Unary(operator, a) => match operator {
-                Unary::Negate => format!("-{}", o(a)),
-                Unary::Absolute => format!("fabs{suffix}({})", o(a)),
-                Unary::SquareRoot => format!("sqrt{suffix}({})", o(a)),
-                Unary::LeadingPower => format!("{prefix}_leading_power({})", o(a)),
-                Unary::ReciprocalOfPower => format!("{prefix}_reciprocal_of_power({})", o(a)),
-            },
-            RecordedOperation::Binary(operator, a, b) => match operator {
-                Binary::Add => format!("{} + {}", o(a), o(b)),
-                Binary::Subtract => format!("{} - {}", o(a), o(b)),
-                Binary::Multiply => format!("{} * {}", o(a), o(b)),
-                Binary::Divide => format!("{} / {}", o(a), o(b)),
-                Binary::CopySign => format!("copysign{suffix}({}, {})", o(a), o(b)),
-                Binary::Scale => format!("{prefix}_scale({}, {})", o(a), o(b)),
-            },
-            RecordedOperation::MulAdd(a, b, c) => format!("{upper}_MUL_ADD({}, {}, {})", o(a), o(b), o(c)),
-            RecordedOperation::Less(a, b) => format!("{} < {}", o(a), o(b)),
-            RecordedOperation::IsZero(a) => format!("{} == 0", o(a)),
-            RecordedOperation::Not(a) => format!("!{}", o(a)),
-            RecordedOperation::And(a, b) => format!("{} & {}", o(a), o(b)),
-            RecordedOperation::Or(a, b) => format!("{} | {}", o(a), o(b)),
-            RecordedOperation::Select(mask, yes, no) => format!("{} ? {} : {}", o(mask), o(yes), o(no)),
-            RecordedOperation::Call(function, arguments) => {
-                let mut list: Vec<_> = arguments.iter().flatten().map(|&argument| o(argument)).collect();
-                if function.is_pair() {
-                    list.push(format!("&s{id}"));
-                }
-                format!("{prefix}_{}({})", function.name(), list.join(", "))
-            }
-            _ => o(id),
         }
     }
 }

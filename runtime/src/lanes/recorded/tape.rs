@@ -1,0 +1,135 @@
+//! Operations under construction, each of them once and as simple as has the same bits.
+
+use std::collections::{HashMap, HashSet};
+
+use super::program::{Id, Recordable, RecordedOperation, RecordedProgram};
+
+/// Operations under construction.
+#[derive(Default)]
+pub(super) struct Tape {
+    pub(super) operations: Vec<RecordedOperation>,
+    places: HashMap<RecordedOperation, Id>,
+    pub(super) guards: HashSet<Id>,
+}
+
+impl Tape {
+    fn push(&mut self, operation: RecordedOperation) -> Id {
+        let Self { operations, places, .. } = self;
+        *places.entry(operation).or_insert_with(|| {
+            operations.push(operation);
+            operations.len() as Id - 1
+        })
+    }
+
+    fn literal(&self, id: Id) -> Option<f64> {
+        match self.operations[id as usize] {
+            RecordedOperation::Literal(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    fn truth(&self, id: Id) -> Option<bool> {
+        match self.operations[id as usize] {
+            RecordedOperation::Truth(truth) => Some(truth),
+            _ => None,
+        }
+    }
+
+    /// The guard of which a truth value is the negation.
+    fn guard_of_negation(&self, id: Id) -> Option<Id> {
+        match self.operations[id as usize] {
+            RecordedOperation::Not(guard) if self.guards.contains(&guard) => Some(guard),
+            _ => None,
+        }
+    }
+
+    /// A truth value where a guard does not hold, false where it does.
+    fn unless(&mut self, guard: Id, truth: Id) -> Id {
+        let never = self.push(RecordedOperation::Truth(false));
+        self.push(RecordedOperation::Select(guard, never, truth))
+    }
+
+    /// The operation, or what has the same bits and is simpler.
+    pub(super) fn simplified<E: Recordable>(&mut self, operation: RecordedOperation) -> Id {
+        use RecordedOperation::{And, Binary, Less, Literal, Not, Or, Select, Truth, Unary};
+        let computed = match operation {
+            Unary(super::program::Unary::Negate, a) => self.literal(a).map(|a| -a),
+            Binary(operator, a, b) => match (self.literal(a), self.literal(b)) {
+                (Some(a), Some(b)) => E::compute(operator, a, b),
+                // Exact, whatever the other operand.
+                (_, Some(1.0))
+                    if matches!(
+                        operator,
+                        super::program::Binary::Multiply | super::program::Binary::Divide
+                    ) =>
+                {
+                    return a;
+                }
+                (Some(1.0), _) if operator == super::program::Binary::Multiply => return b,
+                _ => None,
+            },
+            Less(a, b) => match (self.literal(a), self.literal(b)) {
+                (Some(a), Some(b)) => return self.push(Truth(a < b)),
+                _ => None,
+            },
+            Not(a) => match self.operations[a as usize] {
+                Truth(truth) => return self.push(Truth(!truth)),
+                Not(a) => return a,
+                _ => None,
+            },
+            And(a, b) | Or(a, b) => {
+                let decides = matches!(operation, Or(..));
+                match (self.truth(a), self.truth(b)) {
+                    (Some(truth), _) => return if truth == decides { a } else { b },
+                    (_, Some(truth)) => return if truth == decides { b } else { a },
+                    _ if a == b => return a,
+                    // What is asked where a guard does not hold needs no answer where it does.
+                    _ if !decides => match (self.guard_of_negation(a), self.guard_of_negation(b)) {
+                        (Some(guard), _) => return self.unless(guard, b),
+                        (_, Some(guard)) => return self.unless(guard, a),
+                        _ => None,
+                    },
+                    _ => None,
+                }
+            }
+            Select(_, yes, no) if yes == no => return yes,
+            Select(mask, yes, no) => match self.operations[mask as usize] {
+                Truth(truth) => return if truth { yes } else { no },
+                Not(mask) => return self.push(Select(mask, no, yes)),
+                Select(guard, never, inner) if self.truth(never) == Some(false) => {
+                    let selected = self.simplified::<E>(Select(inner, yes, no));
+                    return self.push(Select(guard, no, selected));
+                }
+                _ => None,
+            },
+            _ => None,
+        };
+        self.push(computed.map_or(operation, |value| Literal(value.to_bits())))
+    }
+
+    /// The operations that the results need, in order.
+    pub(super) fn into_program(self, results: Vec<Id>) -> RecordedProgram {
+        let mut is_needed = vec![false; self.operations.len()];
+        for &result in &results {
+            is_needed[result as usize] = true;
+        }
+        for (k, operation) in self.operations.iter().enumerate().rev() {
+            if is_needed[k] {
+                operation.for_each_operand(|id| is_needed[id as usize] = true);
+            }
+        }
+        let mut places = vec![0; self.operations.len()];
+        let mut operations = Vec::new();
+        for (k, operation) in self.operations.into_iter().enumerate().filter(|&(k, _)| is_needed[k]) {
+            places[k] = operations.len() as Id;
+            operations.push(operation.with_operands(|id| places[id as usize]));
+        }
+        let moved = |id: Id| places[id as usize];
+        RecordedProgram {
+            arguments: 0,
+            operations,
+            results: results.into_iter().map(moved).collect(),
+            guards: self.guards.into_iter().filter(|&id| is_needed[id as usize]).map(moved).collect(),
+        }
+    }
+}
