@@ -17,20 +17,20 @@ pub(crate) struct Emit {
     #[command(flatten)]
     material: Material,
 
-    /// The language: c, which is C99 and C++17 alike.
+    /// The language: c (C99 and C++17 alike), cuda (HIP and Warp, too), opencl, wgsl.
     #[arg(long)]
     target: Target,
 
-    /// The number format: f64 or f32.
-    #[arg(long, default_value = "f64")]
-    precision: Precision,
+    /// The number format: f64 or f32 [default: f64, for wgsl f32].
+    #[arg(long)]
+    precision: Option<Precision>,
 
     /// First part of all names [default: the name of the energy].
     #[arg(long, value_name = "PREFIX")]
     name: Option<String>,
 
-    /// The functions, separated by commas: energy, stress, tangent, projected, absolute, blocks, svd
-    /// [default: all].
+    /// The functions, separated by commas: energy, stress, tangent, projected, absolute,
+    /// tetrahedron, projected_tetrahedron, blocks, svd [default: all].
     #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',')]
     functions: Vec<PointFunction>,
 
@@ -47,7 +47,10 @@ impl Emit {
     /// The text, or a line about the file that was written.
     pub(crate) fn run(self) -> Result<String, Error> {
         let inversion = self.extend.map_or(Inversion::Refuse, |epsilon| Inversion::Extend { epsilon });
-        let mut emission = Emission::new(self.target).with_precision(self.precision);
+        let mut emission = Emission::new(self.target);
+        if let Some(precision) = self.precision {
+            emission = emission.with_precision(precision);
+        }
         emission.prefix = self.name;
         if !self.functions.is_empty() {
             emission = emission.with_functions(self.functions);

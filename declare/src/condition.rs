@@ -46,7 +46,7 @@ pub(crate) enum Term {
 #[derive(Debug)]
 pub(crate) struct Function {
     /// Its name in Rust.
-    name: &'static str,
+    pub(crate) name: &'static str,
     /// A call in C. The second argument of a function of one argument is the first once more, here and below.
     pub(crate) in_c: fn(&str, &str) -> String,
     value: fn(f64, f64) -> f64,

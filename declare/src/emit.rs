@@ -5,12 +5,15 @@
 //! programs of the energy inside; what has been recorded is printed. There is no second copy of the
 //! mathematics, and the arithmetic is that of portable lanes, to the last bit.
 
-mod c;
+mod language;
+mod printer;
 mod steps;
 
 use std::str::FromStr;
 
-use piola::__private::record::{Recordable, Recorded, RecordedMask, Recording, UnrecordedParameter, record};
+use piola::__private::record::{
+    Recordable, Recorded, RecordedMask, Recording, UnrecordedParameter, evaluate_tetrahedron, record,
+};
 use piola::interpreter::Interpreted;
 use piola::lanes::{Mask, Real};
 use piola::material::{Form, MaterialError, Text};
@@ -25,6 +28,12 @@ use crate::energy::Energy;
 pub enum Target {
     /// C99, which is C++17 as well.
     C,
+    /// CUDA, HIP and the native functions of Warp: C with the qualifiers of a device.
+    Cuda,
+    /// OpenCL C 1.2.
+    OpenCl,
+    /// WGSL, which has 32 bits alone.
+    Wgsl,
 }
 
 impl FromStr for Target {
@@ -33,10 +42,13 @@ impl FromStr for Target {
     fn from_str(word: &str) -> Result<Self, UnknownWord> {
         match word {
             "c" => Ok(Self::C),
+            "cuda" => Ok(Self::Cuda),
+            "opencl" => Ok(Self::OpenCl),
+            "wgsl" => Ok(Self::Wgsl),
             _ => Err(UnknownWord {
                 kind: "target",
                 word: word.to_owned(),
-                known: "c, which C++ reads as well".to_owned(),
+                known: "c, which C++ reads as well; cuda, also for HIP and Warp; opencl; wgsl".to_owned(),
             }),
         }
     }
@@ -77,6 +89,10 @@ pub enum PointFunction {
     Projected,
     /// P and dP/dF with the absolute values of its eigenvalues.
     Absolute,
+    /// The gradient of a tetrahedron's energy and its stiffness, from nodes, Dm⁻¹ and volume.
+    Tetrahedron,
+    /// The same with dP/dF clamped.
+    ProjectedTetrahedron,
     /// ψi, ψij, flips and twists from the signed stretches.
     Blocks,
     /// U, the signed stretches and V from F.
@@ -85,8 +101,17 @@ pub enum PointFunction {
 
 impl PointFunction {
     /// All functions, in the order in which they are printed.
-    pub const ALL: [Self; 7] =
-        [Self::Energy, Self::Stress, Self::Tangent, Self::Projected, Self::Absolute, Self::Blocks, Self::Svd];
+    pub const ALL: [Self; 9] = [
+        Self::Energy,
+        Self::Stress,
+        Self::Tangent,
+        Self::Projected,
+        Self::Absolute,
+        Self::Tetrahedron,
+        Self::ProjectedTetrahedron,
+        Self::Blocks,
+        Self::Svd,
+    ];
 
     /// The word for it, which its name ends with.
     #[must_use]
@@ -97,6 +122,8 @@ impl PointFunction {
             Self::Tangent => "tangent",
             Self::Projected => "projected",
             Self::Absolute => "absolute",
+            Self::Tetrahedron => "tetrahedron",
+            Self::ProjectedTetrahedron => "projected_tetrahedron",
             Self::Blocks => "blocks",
             Self::Svd => "svd",
         }
@@ -153,10 +180,11 @@ pub struct Emission {
 }
 
 impl Emission {
-    /// A file with all functions in `f64`.
+    /// A file with all functions in `f64`, in WGSL in `f32`.
     #[must_use]
     pub fn new(target: Target) -> Self {
-        Self { target, precision: Precision::F64, prefix: None, functions: PointFunction::ALL.to_vec() }
+        let precision = if target == Target::Wgsl { Precision::F32 } else { Precision::F64 };
+        Self { target, precision, prefix: None, functions: PointFunction::ALL.to_vec() }
     }
 
     /// The file with another [`precision`](Self::precision).
@@ -190,11 +218,14 @@ pub enum EmitError {
         "the parameter `{0}` is a function, which has no text that could be printed: write it into the energy"
     )]
     Function(Text),
-    /// A prefix is not a name of the language.
+    /// A prefix is not a name.
     #[error(
-        "`{0}` is not a name in C: letters of ASCII, digits and `_` make one, a letter in front and no `_` at the end or beside another; choose another prefix"
+        "`{0}` is not a name: letters of ASCII, digits and `_` make one, a letter in front and no `_` at the end or beside another; choose another prefix"
     )]
     Prefix(String),
+    /// The language has no numbers of that precision.
+    #[error("WGSL has no numbers of 64 bits: ask for the precision f32, or for another target")]
+    Precision,
     /// No function is asked for.
     #[error("no function is asked for; there are: {}", PointFunction::ALL.map(PointFunction::name).join(", "))]
     Nothing,
@@ -212,6 +243,7 @@ struct PointProgram {
 /// All that a printer needs of an energy.
 struct File<'a> {
     energy: &'a Energy,
+    target: Target,
     prefix: String,
     precision: Precision,
     /// Values of the parameters when the file was printed.
@@ -245,11 +277,14 @@ impl Energy {
             return Err(EmitError::Function(function.name.clone()));
         }
         let prefix = emission.prefix.clone().unwrap_or_else(|| snake_case(&self.description().name));
-        if !c::is_identifier(&prefix) {
+        if !printer::is_identifier(&prefix) {
             return Err(EmitError::Prefix(prefix));
         }
         if emission.functions.is_empty() {
             return Err(EmitError::Nothing);
+        }
+        if (emission.target, emission.precision) == (Target::Wgsl, Precision::F64) {
+            return Err(EmitError::Precision);
         }
         // In `f32` a file has the numbers that are nearest, for which the conditions must hold as well.
         let rounded: Vec<Vec<f64>> = match emission.precision {
@@ -265,7 +300,7 @@ impl Energy {
             Precision::F64 => self.file::<f64>(prefix, values, material, emission),
             Precision::F32 => self.file::<f32>(prefix, values, material, emission),
         }
-        .map(|file| c::print(&file))
+        .map(|file| printer::print(&file))
         .map_err(EmitError::from)
     }
 
@@ -286,8 +321,19 @@ impl Energy {
         let functions = wanted.into_iter().map(recorded).collect::<Result<_, UnrecordedParameter>>()?;
         let is_prestressed = self.is_prestressed();
         let rest = at_rest::<E>(&self.without_extension(&fresh()))?;
-        let (precision, inversion) = (emission.precision, material.inversion());
-        Ok(File { energy: self, prefix, precision, values, inversion, functions, is_prestressed, rest })
+        let Emission { target, precision, .. } = *emission;
+        let inversion = material.inversion();
+        Ok(File {
+            energy: self,
+            target,
+            prefix,
+            precision,
+            values,
+            inversion,
+            functions,
+            is_prestressed,
+            rest,
+        })
     }
 }
 
@@ -296,7 +342,11 @@ fn recorded<E: Recordable>(
     function: PointFunction,
     material: &Interpreted,
 ) -> Result<Recording, UnrecordedParameter> {
-    let count = if function == PointFunction::Blocks { 3 } else { 9 };
+    let count = match function {
+        PointFunction::Blocks => 3,
+        PointFunction::Tetrahedron | PointFunction::ProjectedTetrahedron => 22,
+        _ => 9,
+    };
     record(count, |arguments: &[Recorded<E>]| {
         let bits = |status: Status<RecordedMask>| {
             vec![status.refused, status.bounded, status.nonfinite, status.filtered]
@@ -305,6 +355,12 @@ fn recorded<E: Recordable>(
         let dense = |filter| {
             let point = evaluate_dense(material, &matrix(arguments), filter);
             (flat(point.stress).chain(flat(point.tangent)).collect(), bits(point.status))
+        };
+        let tetrahedron = |filter| {
+            let nodes = std::array::from_fn(|node| std::array::from_fn(|a| arguments[3 * node + a]));
+            let rest = std::array::from_fn(|k| arguments[12 + k]);
+            let element = evaluate_tetrahedron(material, nodes, rest, filter);
+            (element.gradient.into_iter().chain(element.stiffness).collect(), bits(element.status))
         };
         match function {
             PointFunction::Energy => {
@@ -318,6 +374,8 @@ fn recorded<E: Recordable>(
             PointFunction::Tangent => dense(Filter::None),
             PointFunction::Projected => dense(Filter::Clamp),
             PointFunction::Absolute => dense(Filter::Absolute),
+            PointFunction::Tetrahedron => tetrahedron(Filter::None),
+            PointFunction::ProjectedTetrahedron => tetrahedron(Filter::Clamp),
             PointFunction::Blocks => {
                 let stretches = [arguments[0], arguments[1], arguments[2]];
                 let blocks = material.blocks(stretches);

@@ -14,6 +14,8 @@ pub(crate) mod sink;
 pub(crate) mod stress;
 pub(crate) mod svd_tile;
 pub(crate) mod tangents;
+#[cfg(all(feature = "interpreter", not(test)))]
+pub(crate) mod tetrahedron;
 pub(crate) mod workspace;
 
 use std::cell::Cell;

@@ -2,7 +2,8 @@
 //!
 //! The energies cover polynomials, logarithms, exponentials, real powers in lists, a pole, a locking domain
 //! and continuations; deformation gradients are those of all reference cases. Every other energy of the
-//! catalogue is printed and read by the compiler.
+//! catalogue is printed and read by the compiler. The text for CUDA is C as well and has the same bits; other
+//! languages are judged by `PIOLA_EMITTED` in the test `reference`.
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
@@ -10,6 +11,8 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
 
+use piola::batch::{Batch, Kernels, MatrixForm, Tetrahedra};
+use piola::lanes::Backend;
 use piola::point::{Filter, Matrix3};
 use piola::{Inversion, Material, Status};
 use piola_declare::emit::{Emission, EmitError, PointFunction, Precision, Target};
@@ -26,7 +29,8 @@ const PROGRAM: &str = r#"
 int main(void) {
     const energy_parameters p = ENERGY_EXAMPLE;
     FILE *from = fopen("points", "rb"), *to = fopen("results", "wb");
-    NUMBER F[9], a[9], b[81], c[9], l[3];
+    const NUMBER rest[10] = REST;
+    NUMBER F[9], a[12], b[144], c[9], l[3], x[12] = {0};
     unsigned status = energy_check(&p);
     if (!from || !to || status) return 1;
     while (fread(F, sizeof(NUMBER), 9, from) == 9) {
@@ -39,13 +43,19 @@ int main(void) {
         status = energy_absolute(&p, F, a, b), PUT(9, a), PUT(81, b), PUT_STATUS;
         status = energy_svd(&p, F, a, l, c), PUT(9, a), PUT(3, l), PUT(9, c), PUT_STATUS;
         status = energy_blocks(&p, l, b), PUT(15, b), PUT_STATUS;
+        for (int k = 0; k < 9; k++) x[3 + k] = F[3 * (k % 3) + k / 3];
+        status = energy_tetrahedron(&p, x, rest, a, b), PUT(12, a), PUT(144, b), PUT_STATUS;
+        status = energy_projected_tetrahedron(&p, x, rest, a, b), PUT(12, a), PUT(144, b), PUT_STATUS;
     }
     return fclose(to);
 }
 "#;
 
+/// Dm⁻¹ and the volume of a tetrahedron.
+const REST: [f64; 10] = [1.25, -0.5, 0.25, 0.0, 0.75, -0.125, 0.5, 0.25, 1.5, 0.375];
+
 /// A number of a file of results.
-trait Number: Format {
+trait Number: Format + Kernels {
     const PRECISION: Precision;
     const NAME_IN_C: &'static str;
     fn put(self, to: &mut Vec<u8>);
@@ -102,6 +112,21 @@ fn results<R: Number>(energy: &Judged, inversion: Inversion, F: &Matrix3<R>) -> 
     let refused = u32::from(!subject.exact.admits(svd.stretches));
     let nonfinite = if finite(&numbers) { 0 } else { 4 };
     all.push((numbers, refused | nonfinite));
+    let zero = R::splat(0.0);
+    let [[f11, f12, f13], [f21, f22, f23], [f31, f32, f33]] = *F;
+    let positions = [[zero; 3], [f11, f21, f31], [f12, f22, f32], [f13, f23, f33]];
+    let tetrahedra = Tetrahedra::new(4, &[[0, 1, 2, 3]]).expect("four nodes");
+    let rest = REST.map(R::splat);
+    for filter in [Filter::None, Filter::Clamp] {
+        let batch = Batch::new(&subject.exact).with_backend(Backend::portable()).with_filter(filter);
+        let (mut gradient, mut stiffness) = (vec![zero; 12], [zero; 144]);
+        let (form, positions) = (MatrixForm::Full, &positions);
+        let survey = batch.stiffnesses_at(form, tetrahedra, positions, &rest, &mut gradient, &mut stiffness);
+        let survey = survey.expect("one tetrahedron");
+        let counts = [survey.refused, survey.bounded, survey.nonfinite, survey.filtered];
+        gradient.extend(stiffness);
+        all.push((gradient, (0..4).map(|k| (counts[k] as u32) << k).sum()));
+    }
     all
 }
 
@@ -111,12 +136,12 @@ fn compile(folder: &Path, arguments: &[&str]) {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
-fn print<R: Number>(energy: &Judged, inversion: Inversion) -> Result<String, EmitError> {
-    let emission = Emission::new(Target::C).with_prefix("energy").with_precision(R::PRECISION);
+fn print<R: Number>(energy: &Judged, target: Target, inversion: Inversion) -> Result<String, EmitError> {
+    let emission = Emission::new(target).with_prefix("energy").with_precision(R::PRECISION);
     energy.energy.emit(&energy.typical(), inversion, &emission)
 }
 
-fn check<R: Number>(name: &str) {
+fn check<R: Number>(name: &str, target: Target) {
     let energy = find(name).expect("in the catalogue");
     let folder = tempfile::tempdir().expect("a folder");
     let mut cases = Vec::new();
@@ -130,9 +155,10 @@ fn check<R: Number>(name: &str) {
         .map(|case| [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::of_f64(case.deformation[3 * i + j]))))
         .collect();
     for inversion in energy.inversions(0.1) {
-        let text = print::<R>(energy, inversion).expect("an energy that can be printed");
+        let text = print::<R>(energy, target, inversion).expect("an energy that can be printed");
         std::fs::write(folder.path().join("energy.h"), text).expect("a file");
-        let program = PROGRAM.replace("NUMBER", R::NAME_IN_C);
+        let rest = format!("{REST:?}").replace('[', "{").replace(']', "}");
+        let program = PROGRAM.replace("NUMBER", R::NAME_IN_C).replace("REST", &rest);
         std::fs::write(folder.path().join("main.c"), program).expect("a file");
         let mut bytes = Vec::new();
         points.iter().for_each(|F| F.as_flattened().iter().for_each(|number| number.put(&mut bytes)));
@@ -172,11 +198,18 @@ macro_rules! same_bits {
         #[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
         #[test]
         fn $energy() {
-            check::<f64>(stringify!($energy));
-            check::<f32>(stringify!($energy));
+            check::<f64>(stringify!($energy), Target::C);
+            check::<f32>(stringify!($energy), Target::C);
         }
     )*};
 }
+#[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
+#[test]
+fn text_for_cuda_has_the_bits_of_c() {
+    check::<f64>("hencky", Target::Cuda);
+    check::<f32>("stable_neo_hookean", Target::Cuda);
+}
+
 same_bits! { neo_hookean st_venant_kirchhoff ogden hencky gent fung rotated_linear stable_neo_hookean }
 
 #[test]
@@ -184,8 +217,11 @@ fn every_energy_is_read_without_a_warning() {
     let folder = tempfile::tempdir().expect("a folder");
     let has_cpp = Command::new("c++").arg("--version").output().is_ok();
     let mut refused = Vec::new();
+    // By invariants and by a decomposition, and the energy as it is.
+    let functions = [PointFunction::Tangent, PointFunction::Blocks];
+    let emission = Emission::new(Target::C).with_prefix("energy").with_functions(functions);
     for energy in ENERGIES.iter() {
-        let text = match print::<f64>(energy, Inversion::Refuse) {
+        let text = match energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission) {
             Ok(text) => text,
             Err(EmitError::Function(_)) => {
                 refused.push(energy.name);
@@ -210,14 +246,17 @@ fn mistakes_say_what_to_do() {
         let result = energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission);
         result.expect_err("a mistake").to_string()
     };
-    assert!(emit(Emission::new(Target::C).with_prefix("1st")).starts_with("`1st` is not a name in C"));
+    assert!(emit(Emission::new(Target::C).with_prefix("1st")).starts_with("`1st` is not a name"));
     assert!(emit(Emission::new(Target::C).with_functions([])).contains("energy, stress, tangent"));
     let unknown = |word: &str| word.parse::<PointFunction>().expect_err("unknown").to_string();
     assert_eq!(
         unknown("forces"),
-        "unknown function `forces`; known are: energy, stress, tangent, projected, absolute, blocks, svd"
+        "unknown function `forces`; known are: energy, stress, tangent, projected, absolute, tetrahedron, \
+         projected_tetrahedron, blocks, svd"
     );
     assert!("fortran".parse::<Target>().expect_err("unknown").to_string().contains("known are: c"));
+    let double = emit(Emission::new(Target::Wgsl).with_precision(Precision::F64));
+    assert!(double.contains("ask for the precision f32"), "{double}");
     assert!("f16".parse::<Precision>().expect_err("unknown").to_string().contains("f32, f64"));
 }
 
@@ -252,7 +291,7 @@ fn a_file_checks_parameters_as_the_constructor_does() {
             format!("{{{}}}", lists.collect::<Vec<_>>().join(", "))
         };
         let sets = all.iter().map(in_c).collect::<Vec<_>>().join(",\n");
-        let text = print::<f64>(energy, inversion).expect("an energy that can be printed");
+        let text = print::<f64>(energy, Target::C, inversion).expect("an energy that can be printed");
         std::fs::write(folder.path().join("energy.h"), text).expect("a file");
         let program = format!(
             "#include \"energy.h\"\n#include <stdio.h>\nint main(void) {{\nstatic const energy_parameters all[] = {{\n{sets}}};\n\

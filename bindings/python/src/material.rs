@@ -291,26 +291,28 @@ impl Material {
 
     /// The energy as source text, for kernels that link no library.
     ///
-    ///     emit(target, *, precision="f64", name=None, functions=None)
+    ///     emit(target, *, precision=None, name=None, functions=None)
     ///
-    /// target: "c", which is C99 and C++17 alike.
-    /// precision: "f64" or "f32".
+    /// target: "c" (C99 and C++17 alike), "cuda" (HIP and Warp, too), "opencl" or "wgsl".
+    /// precision: "f64" or "f32"; None for "f64", in WGSL for "f32".
     /// name: the first part of all names; None for the name of the energy.
-    /// functions: a sequence of "energy", "stress", "tangent", "projected", "absolute", "blocks" and "svd";
-    ///     None for all.
+    /// functions: a sequence of "energy", "stress", "tangent", "projected", "absolute", "tetrahedron",
+    ///     "projected_tetrahedron", "blocks" and "svd"; None for all.
     ///
     /// Raises ValueError for an unknown word, and MaterialError for an energy that cannot be printed.
-    #[pyo3(signature = (target, *, precision = "f64", name = None, functions = None))]
+    #[pyo3(signature = (target, *, precision = None, name = None, functions = None))]
     fn emit(
         &self,
         target: &str,
-        precision: &str,
+        precision: Option<&str>,
         name: Option<String>,
         functions: Option<Vec<String>>,
     ) -> PyResult<String> {
         let unknown = |error: UnknownWord| value_error(error.to_string());
         let mut emission = Emission::new(target.parse().map_err(unknown)?);
-        emission = emission.with_precision(precision.parse().map_err(unknown)?);
+        if let Some(precision) = precision {
+            emission = emission.with_precision(precision.parse().map_err(unknown)?);
+        }
         emission.prefix = name;
         if let Some(functions) = functions {
             let functions: Result<Vec<_>, _> = functions.iter().map(|word| word.parse()).collect();

@@ -53,17 +53,16 @@ pub(crate) trait Output<const REST: usize, const N: usize> {
         Status::clean()
     }
 
-    /// Puts number k at k LINE.
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; REST], to: &mut [R::Scalar]);
+    fn put_all<R: Real>(tangent: &Tangent<R>, rest: &[R; REST], to: &mut (impl Components<R> + ?Sized));
 }
 
 /// Form that is made without a decomposition as well.
 pub(crate) trait OutputByInvariants<const REST: usize, const N: usize>: Output<REST, N> {
-    /// Puts number k at k LINE. Returns the largest entry on the diagonal of the tangent.
-    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
+    /// Returns the largest entry on the diagonal of the tangent.
+    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
         rest: &[R; REST],
-        to: &mut [R::Scalar],
+        to: &mut (impl Components<R> + ?Sized),
     ) -> R;
 
     /// Whether no number can overflow on the way from the tangent, given a bound of its entries, to the form.
@@ -74,33 +73,51 @@ pub(crate) trait OutputByInvariants<const REST: usize, const N: usize>: Output<R
     }
 }
 
-/// Puts number k at k LINE.
-#[inline(always)]
-pub(crate) fn put<R: Lanes>(to: &mut [R::Scalar], k: usize, number: R) {
-    number.store(&mut to[k * <R::Scalar as Scalar>::LINE..]);
+/// Place of the components of an output.
+pub(crate) trait Components<R> {
+    fn put(&mut self, k: usize, number: R);
+
+    #[inline(always)]
+    fn put_all<const N: usize>(&mut self, numbers: [R; N])
+    where
+        R: Copy,
+    {
+        for k in 0..N {
+            self.put(k, numbers[k]);
+        }
+    }
 }
 
-#[inline(always)]
-pub(crate) fn put_all<R: Lanes, const N: usize>(numbers: [R; N], to: &mut [R::Scalar]) {
-    for k in 0..N {
-        put(to, k, numbers[k]);
+/// Lines: component k at k LINE.
+impl<E: Scalar, R: Lanes<Scalar = E>> Components<R> for [E] {
+    #[inline(always)]
+    fn put(&mut self, k: usize, number: R) {
+        number.store(&mut self[k * E::LINE..]);
+    }
+}
+
+#[cfg(all(feature = "interpreter", not(test)))]
+impl<R: Real, const N: usize> Components<R> for [R; N] {
+    #[inline(always)]
+    fn put(&mut self, k: usize, number: R) {
+        self[k] = number;
     }
 }
 
 /// Output for the blocks of [`assemble_blocks`], placed as the form F prescribes.
-struct Blocks3<'a, F, E>(F, &'a mut [E]);
+struct Blocks3<'a, F, C: ?Sized>(F, &'a mut C);
 
 /// All 81 entries of dP/dF: row 3i+j, column 3k+l at 9 (3i+j) + 3k+l.
 pub(crate) struct FullTangent;
 
-impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Scalar> {
+impl<R: Real, C: Components<R> + ?Sized> Assemble<R> for Blocks3<'_, FullTangent, C> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         thrice!(x => {
             thrice!(y => {
                 let (row, column) = (3 * a + x, 3 * c + y);
-                put(self.1, 9 * row + column, block[x][y]);
-                put(self.1, 9 * column + row, block[x][y]);
+                self.1.put(9 * row + column, block[x][y]);
+                self.1.put(9 * column + row, block[x][y]);
             });
         });
     }
@@ -108,7 +125,7 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, FullTangent, R::Scalar> {
 
 impl Output<0, 81> for FullTangent {
     #[inline(always)]
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
+    fn put_all<R: Real>(tangent: &Tangent<R>, _: &[R; 0], to: &mut (impl Components<R> + ?Sized)) {
         let Tangent { U, V, blocks } = tangent;
         assemble_blocks(U, V, blocks, &mut Blocks3(Self, to));
     }
@@ -116,10 +133,10 @@ impl Output<0, 81> for FullTangent {
 
 impl OutputByInvariants<0, 81> for FullTangent {
     #[inline(always)]
-    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
+    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
         _: &[R; 0],
-        to: &mut [R::Scalar],
+        to: &mut (impl Components<R> + ?Sized),
     ) -> R {
         terms.assemble(&Entries, &mut Blocks3(Self, to))
     }
@@ -128,13 +145,13 @@ impl OutputByInvariants<0, 81> for FullTangent {
 /// The 45 entries of dP/dF on and above the diagonal, row by row.
 pub(crate) struct PackedTangent;
 
-impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Scalar> {
+impl<R: Real, C: Components<R> + ?Sized> Assemble<R> for Blocks3<'_, PackedTangent, C> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         thrice!(x => {
             thrice!(y => {
                 if a != c || x <= y {
-                    put(self.1, PACKED_9[3 * a + x][3 * c + y], block[x][y]);
+                    self.1.put(PACKED_9[3 * a + x][3 * c + y], block[x][y]);
                 }
             });
         });
@@ -143,7 +160,7 @@ impl<R: Lanes> Assemble<R> for Blocks3<'_, PackedTangent, R::Scalar> {
 
 impl Output<0, 45> for PackedTangent {
     #[inline(always)]
-    fn put_all<R: Lanes>(tangent: &Tangent<R>, _: &[R; 0], to: &mut [R::Scalar]) {
+    fn put_all<R: Real>(tangent: &Tangent<R>, _: &[R; 0], to: &mut (impl Components<R> + ?Sized)) {
         let Tangent { U, V, blocks } = tangent;
         assemble_blocks(U, V, blocks, &mut Blocks3(Self, to));
     }
@@ -151,10 +168,10 @@ impl Output<0, 45> for PackedTangent {
 
 impl OutputByInvariants<0, 45> for PackedTangent {
     #[inline(always)]
-    fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
+    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
         _: &[R; 0],
-        to: &mut [R::Scalar],
+        to: &mut (impl Components<R> + ?Sized),
     ) -> R {
         terms.assemble(&Entries, &mut Blocks3(Self, to))
     }
@@ -270,7 +287,11 @@ fn prepare_stiffness<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: 
 ///
 /// v P Dm⁻ᵀ; its column n belongs to node n + 1, and node 0 takes minus their sum.
 #[inline(always)]
-pub(crate) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
+pub(crate) fn put_gradient<R: Real>(
+    stress: &Matrix3<R>,
+    rest: &[R; 10],
+    to: &mut (impl Components<R> + ?Sized),
+) {
     let rest = Rest::new(*rest);
     thrice!(a => {
         let row = three!(x => stress[a][x] * rest.volume);
@@ -281,11 +302,11 @@ pub(crate) fn put_gradient<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10], to: &m
 /// Puts coordinate a of what belongs to the nodes 1, 2, 3, and minus the sum at node 0: that of node n at
 /// 3n+a.
 #[inline(always)]
-fn put_at_nodes<R: Lanes>(a: usize, [g1, g2, g3]: [R; 3], to: &mut [R::Scalar]) {
-    put(to, a, -(g1 + g2 + g3));
-    put(to, 3 + a, g1);
-    put(to, 6 + a, g2);
-    put(to, 9 + a, g3);
+fn put_at_nodes<R: Real>(a: usize, [g1, g2, g3]: [R; 3], to: &mut (impl Components<R> + ?Sized)) {
+    to.put(a, -(g1 + g2 + g3));
+    to.put(3 + a, g1);
+    to.put(6 + a, g2);
+    to.put(9 + a, g3);
 }
 
 /// Places of the entries of an element's stiffness in an output.
@@ -299,20 +320,23 @@ trait Places {
 /// product.
 ///
 /// Node 0 takes minus the sums over the others, so that a common translation is resisted by rounding alone.
-struct StiffnessPlace<'a, F, E>(F, &'a mut [E]);
+struct StiffnessPlace<'a, F, C: ?Sized>(F, &'a mut C);
 
-impl<F: Places, E: Scalar> StiffnessPlace<'_, F, E> {
+impl<F: Places, C: ?Sized> StiffnessPlace<'_, F, C> {
     #[inline(always)]
-    fn put<R: Lanes<Scalar = E>>(&mut self, [i, a]: [usize; 2], [j, c]: [usize; 2], entry: R) {
+    fn put<R: Real>(&mut self, [i, a]: [usize; 2], [j, c]: [usize; 2], entry: R)
+    where
+        C: Components<R>,
+    {
         let (place, mirrored) = F::places(i, a, j, c);
-        put(self.1, place, entry);
+        self.1.put(place, entry);
         if let Some(mirrored) = mirrored {
-            put(self.1, mirrored, entry);
+            self.1.put(mirrored, entry);
         }
     }
 }
 
-impl<F: Places, R: Lanes> Assemble<R> for StiffnessPlace<'_, F, R::Scalar> {
+impl<F: Places, R: Real, C: Components<R> + ?Sized> Assemble<R> for StiffnessPlace<'_, F, C> {
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1, and stands for
@@ -352,7 +376,11 @@ macro_rules! stiffness_form {
             }
 
             #[inline(always)]
-            fn put_all<R: Lanes>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut [R::Scalar]) {
+            fn put_all<R: Real>(
+                tangent: &Tangent<R>,
+                rest: &[R; 10],
+                to: &mut (impl Components<R> + ?Sized),
+            ) {
                 let Tangent { U, V, blocks } = tangent;
                 let W = Rest::new(*rest).shape_gradients(V);
                 assemble_blocks(U, &W, blocks, &mut StiffnessPlace(Self, to));
@@ -361,10 +389,10 @@ macro_rules! stiffness_form {
 
         impl OutputByInvariants<10, $numbers> for $Form {
             #[inline(always)]
-            fn put_all_by_invariants<R: Lanes, const HAS_SECOND: bool, const HAS_ALL: bool>(
+            fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
                 terms: &Terms<R, HAS_SECOND, HAS_ALL>,
                 rest: &[R; 10],
-                to: &mut [R::Scalar],
+                to: &mut (impl Components<R> + ?Sized),
             ) -> R {
                 let coordinates = RowsOf::new(Rest::new(*rest).scaled_gradients());
                 terms.assemble(&coordinates, &mut StiffnessPlace(Self, to))

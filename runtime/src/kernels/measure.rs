@@ -1,6 +1,6 @@
 //! The stages of a batch that make other measures of stress, compiled once for each format and back end.
 
-use super::form::put;
+use super::form::Components;
 use super::rows::{Row, Rows, first_bits, for_each_group, from_rows};
 use super::sink::{LineBuffer, Sink};
 use super::svd_tile::SvdTile;
@@ -35,7 +35,7 @@ impl<E: Scalar> Kernel<E> for MeasuredStress<'_, E> {
             let place = to.place::<R, 6>(line, at);
             for k in 0..6 {
                 sum = stress[k].mul_add(R::splat(0.0), sum);
-                put(place, k, stress[k]);
+                place.put(k, stress[k]);
             }
             to.finish::<R, 6>(line, at, count);
             let is_finite = stretches_in_range(svd.stretches) & sum.is_finite();
@@ -69,7 +69,7 @@ impl<E: Scalar> Kernel<E> for MeasuredTangent<'_, E> {
             for row in 0..6 {
                 for column in 0..6 {
                     sum = tangent[row][column].mul_add(R::splat(0.0), sum);
-                    put(place, 6 * row + column, tangent[row][column]);
+                    place.put(6 * row + column, tangent[row][column]);
                 }
             }
             to.finish::<R, 36>(line, at, count);

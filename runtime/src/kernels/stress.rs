@@ -2,7 +2,7 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
-use super::form::{gradient_is_finite, put_all, put_gradient};
+use super::form::{Components, gradient_is_finite, put_gradient};
 use super::rows::{Row, Rows, first_bits, for_each_group};
 use super::sink::{LineBuffer, Sink, Source};
 use super::svd_tile::SvdTile;
@@ -54,7 +54,7 @@ impl<E: Scalar> Kernel<E> for Stress<'_, E, 0> {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             status.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;
-            put_all(to_row_major(stress), to.place::<R, 9>(line, at));
+            to.place::<R, 9>(line, at).put_all(to_row_major(stress));
             to.finish::<R, 9>(line, at, count);
         });
         status & first_bits(count)
@@ -117,7 +117,7 @@ pub(crate) fn put_stress<R: Lanes, const REST: usize>(
     at: usize,
 ) -> R::Mask {
     if REST == 0 {
-        put_all(to_row_major(*stress), to.place::<R, 9>(line, at));
+        to.place::<R, 9>(line, at).put_all(to_row_major(*stress));
         return R::Mask::splat(true);
     }
     let mut shape = [R::splat(0.0); 10];

@@ -75,7 +75,7 @@ class Material:
         self,
         target: str,
         *,
-        precision: str = "f64",
+        precision: Optional[str] = None,
         name: Optional[str] = None,
         functions: Optional[Sequence[str]] = None,
     ) -> str: ...

@@ -1,4 +1,4 @@
-//! The check of the parameters in C: the conditions of the constructor.
+//! The check of the parameters: the conditions of the constructor.
 
 use std::fmt::Write;
 
@@ -9,11 +9,12 @@ use super::body::Body;
 use super::{Printer, safe};
 use crate::condition::{Condition, Term};
 use crate::emit::Precision;
+use crate::emit::language::Argument;
 
 impl Printer<'_> {
     /// A check of the parameters, by the conditions of the declaration.
     pub(super) fn check(&self) -> String {
-        let Self { file, prefix, suffix, .. } = self;
+        let Self { file, language, .. } = self;
         let description = file.energy.description();
         let mut places = self.parameters.iter();
         let mut all = Vec::new();
@@ -22,7 +23,7 @@ impl Printer<'_> {
         for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&self.fields) {
             let numbers: Vec<_> = places.by_ref().take(values.len()).cloned().collect();
             if !matches!(parameter.form, Form::Exponent | Form::Exponents) && !numbers.is_empty() {
-                let finite: Vec<_> = numbers.iter().map(|place| format!("isfinite({place})")).collect();
+                let finite: Vec<_> = numbers.iter().map(|place| language.is_finite(place)).collect();
                 let meaning = format!("{name} is not finite");
                 cases.push((meaning, String::new(), finite.join(" && ")));
             }
@@ -41,13 +42,13 @@ impl Printer<'_> {
         let mut statements = body.statements();
         if let (false, Some(shear), Some(bulk)) = (file.is_prestressed, results.next(), results.next()) {
             // The constructor has the moduli by a formula, without the roundings of derivatives.
-            let rounding = if file.precision == Precision::F32 { "1e-5f" } else { "1e-13" };
-            let condition =
-                format!("{shear} > 0.0{suffix} && {bulk} >= -{rounding} * {shear} && isfinite({bulk})");
+            let rounding = language.literal(if file.precision == Precision::F32 { 1e-5 } else { 1e-13 });
+            let (zero, is_finite) = (language.literal(0.0), language.is_finite(&bulk));
+            let condition = format!("{shear} > {zero} && {bulk} >= -{rounding} * {shear} && {is_finite}");
             let meaning = "at rest, the solid does not resist shear or changes of volume".to_owned();
             cases.push((meaning, std::mem::take(&mut statements), condition));
         }
-        if let Some(inside) = results.next().filter(|inside| inside != "1") {
+        if let Some(inside) = results.next().filter(|inside| *inside != language.truth(true)) {
             cases.push(("the rest state is outside of the domain".to_owned(), statements, inside));
         }
         let mut list =
@@ -56,14 +57,14 @@ impl Printer<'_> {
         let mut statements = String::new();
         for (k, (meaning, before, condition)) in cases.iter().enumerate() {
             let _ = writeln!(list, " * {}: {meaning}", k + 1);
-            let _ = writeln!(statements, "{before}    if (!({condition})) return {}u;", k + 1);
+            statements += before;
+            statements += &language.return_unless(condition, k + 1);
         }
-        if !statements.contains("p->") {
-            statements = format!("    (void)p;\n{statements}");
+        if !self.parameters.iter().any(|place| statements.contains(place)) {
+            statements.insert_str(0, language.parameters_are_unused());
         }
-        format!(
-            "{list} */\nstatic inline unsigned {prefix}_check(const {prefix}_parameters *p) {{\n{statements}    return 0u;\n}}\n\n"
-        )
+        let head = language.head_of_point("check", &[Argument::Parameters]);
+        format!("{list} */\n{head}\n{statements}    return 0u;\n}}\n\n")
     }
 
     /// A condition for an entry of its list.
@@ -72,14 +73,16 @@ impl Printer<'_> {
         format!("{left} {} {right}", condition.comparison)
     }
 
-    /// An expression in parameters, in `double`.
+    /// An expression in parameters.
     fn term(&self, term: &Term, places: &[Vec<String>], entry: usize) -> String {
         match term {
-            Term::Number(number) => format!("{number:?}").replace("inf", "INFINITY").replace("NaN", "NAN"),
+            Term::Number(number) => self.language.number_in_condition(*number),
             Term::Parameter(k) => {
                 let place = places[*k].get(entry).or(places[*k].first());
-                let place = place.cloned().unwrap_or_else(|| "NAN".to_owned());
-                if self.file.precision == Precision::F32 { format!("(double){place}") } else { place }
+                match place {
+                    Some(place) => self.language.parameter_in_condition(place.clone()),
+                    None => self.language.number_in_condition(f64::NAN),
+                }
             }
             Term::Negative(term) => format!("(-{})", self.term(term, places, entry)),
             Term::Arithmetic(operator, sides) => {
@@ -88,8 +91,10 @@ impl Printer<'_> {
             }
             Term::Call(function, arguments) => {
                 let terms: Vec<_> = arguments.iter().map(|one| self.term(one, places, entry)).collect();
-                let last = terms.last().map_or("NAN", String::as_str);
-                (function.in_c)(terms.first().map_or("NAN", String::as_str), last)
+                let [first, last] =
+                    [terms.first(), terms.last()].map(|term| term.map_or("0.0", String::as_str));
+                let call = self.language.call_in_condition(function.name, first, last);
+                call.unwrap_or_else(|| (function.in_c)(first, last))
             }
         }
     }

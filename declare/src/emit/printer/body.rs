@@ -1,10 +1,11 @@
-//! The statements of a program in C.
+//! The statements of a program.
 
 use std::fmt::Write;
 
 use piola::__private::record::{Binary, Id, RecordedOperation, RecordedProgram, Unary};
 
 use super::Printer;
+use crate::emit::language::{Kind, Language};
 use crate::emit::steps::{Step, Steps};
 
 /// Statements of a program.
@@ -27,31 +28,41 @@ impl<'a> Body<'a> {
     pub(super) fn statements(&self) -> String {
         let mut text = String::new();
         for &id in &self.steps.escaping {
-            let _ = writeln!(text, "    {} t{id} = 0;", self.type_of(id));
+            let _ =
+                writeln!(text, "    {}", self.language().variable(self.kind(id), &format!("t{id}"), true));
             if self.is_pair(id) {
-                let _ = writeln!(text, "    {} s{id} = 0;", self.printer.number);
+                let second = self.language().variable(Kind::Number, &format!("s{id}"), true);
+                let _ = writeln!(text, "    {second}");
             }
         }
         self.write(&self.steps.all, 1, &mut text);
         text
     }
 
+    fn language(&self) -> &dyn Language {
+        &*self.printer.language
+    }
+
     fn write(&self, steps: &[Step], depth: usize, text: &mut String) {
         let margin = "    ".repeat(depth);
+        let variable = |kind, name: &str| self.language().variable(kind, name, false);
         for step in steps {
             match step {
                 Step::Compute(id) => {
+                    let (name, value) = (format!("t{id}"), self.expression(*id));
                     let is_declared = self.steps.escaping.contains(id);
                     if self.is_pair(*id) && !is_declared {
-                        let _ = writeln!(text, "{margin}{} s{id};", self.printer.number);
+                        let _ = writeln!(text, "{margin}{}", variable(Kind::Number, &format!("s{id}")));
                     }
-                    let kind =
-                        if is_declared { String::new() } else { format!("const {} ", self.type_of(*id)) };
-                    let _ = writeln!(text, "{margin}{kind}t{id} = {};", self.expression(*id));
+                    let statement = match is_declared {
+                        true => format!("{name} = {value};"),
+                        false => self.language().constant(self.kind(*id), &name, &value),
+                    };
+                    let _ = writeln!(text, "{margin}{statement}");
                 }
                 Step::Branch { mask, selections, yes, no } => {
-                    for id in selections.iter().filter(|id| !self.steps.escaping.contains(id)) {
-                        let _ = writeln!(text, "{margin}{} t{id};", self.type_of(*id));
+                    for &id in selections.iter().filter(|id| !self.steps.escaping.contains(id)) {
+                        let _ = writeln!(text, "{margin}{}", variable(self.kind(id), &format!("t{id}")));
                     }
                     let _ = writeln!(text, "{margin}if ({}) {{", self.operand(*mask));
                     for (k, inner) in [yes, no].into_iter().enumerate() {
@@ -77,12 +88,12 @@ impl<'a> Body<'a> {
         matches!(self.program.operations[id as usize], RecordedOperation::Call(function, _) if function.is_pair())
     }
 
-    fn type_of(&self, id: Id) -> &'static str {
+    fn kind(&self, id: Id) -> Kind {
         use RecordedOperation::{And, IsZero, Less, Not, Or, Select, Truth};
         match self.program.operations[id as usize] {
-            Truth(_) | Less(..) | IsZero(_) | Not(_) | And(..) | Or(..) => "int",
-            Select(_, yes, no) if [yes, no].iter().any(|&id| self.type_of(id) == "int") => "int",
-            _ => self.printer.number,
+            Truth(_) | Less(..) | IsZero(_) | Not(_) | And(..) | Or(..) => Kind::Truth,
+            Select(_, yes, no) if [yes, no].iter().any(|&id| self.kind(id) == Kind::Truth) => Kind::Truth,
+            _ => Kind::Number,
         }
     }
 
@@ -92,41 +103,43 @@ impl<'a> Body<'a> {
             RecordedOperation::Argument(k) => self.arguments[k as usize].clone(),
             RecordedOperation::Parameter(k) => self.printer.parameters[k as usize].clone(),
             RecordedOperation::Literal(bits) => {
-                let text = self.printer.literal(f64::from_bits(bits));
+                let text = self.language().literal(f64::from_bits(bits));
                 if text.starts_with('-') { format!("({text})") } else { text }
             }
-            RecordedOperation::Truth(truth) => u8::from(truth).to_string(),
+            RecordedOperation::Truth(truth) => self.language().truth(truth),
             RecordedOperation::Second(call) => format!("s{call}"),
             _ => format!("t{id}"),
         }
     }
 
     fn expression(&self, id: Id) -> String {
-        let Printer { prefix, upper, suffix, .. } = self.printer;
+        let prefix = self.printer.prefix;
+        let language = self.language();
         let o = |id: Id| self.operand(id);
+        let rounded = |result| language.rounded(result);
         match self.program.operations[id as usize] {
             RecordedOperation::Unary(operator, a) => match operator {
                 Unary::Negate => format!("-{}", o(a)),
-                Unary::Absolute => format!("fabs{suffix}({})", o(a)),
-                Unary::SquareRoot => format!("sqrt{suffix}({})", o(a)),
+                Unary::Absolute => language.absolute(&o(a)),
+                Unary::SquareRoot => rounded(language.square_root(&o(a))),
                 Unary::LeadingPower => format!("{prefix}_leading_power({})", o(a)),
                 Unary::ReciprocalOfPower => format!("{prefix}_reciprocal_of_power({})", o(a)),
             },
             RecordedOperation::Binary(operator, a, b) => match operator {
-                Binary::Add => format!("{} + {}", o(a), o(b)),
-                Binary::Subtract => format!("{} - {}", o(a), o(b)),
-                Binary::Multiply => format!("{} * {}", o(a), o(b)),
-                Binary::Divide => format!("{} / {}", o(a), o(b)),
-                Binary::CopySign => format!("copysign{suffix}({}, {})", o(a), o(b)),
+                Binary::Add => rounded(format!("{} + {}", o(a), o(b))),
+                Binary::Subtract => rounded(format!("{} - {}", o(a), o(b))),
+                Binary::Multiply => rounded(format!("{} * {}", o(a), o(b))),
+                Binary::Divide => rounded(format!("{} / {}", o(a), o(b))),
+                Binary::CopySign => language.copy_sign(&o(a), &o(b)),
                 Binary::Scale => format!("{prefix}_scale({}, {})", o(a), o(b)),
             },
-            RecordedOperation::MulAdd(a, b, c) => format!("{upper}_MUL_ADD({}, {}, {})", o(a), o(b), o(c)),
-            RecordedOperation::Less(a, b) => format!("{} < {}", o(a), o(b)),
-            RecordedOperation::IsZero(a) => format!("{} == 0", o(a)),
+            RecordedOperation::MulAdd(a, b, c) => rounded(language.mul_add(&o(a), &o(b), &o(c))),
+            RecordedOperation::Less(a, b) => language.less(&o(a), &o(b)),
+            RecordedOperation::IsZero(a) => language.is_zero(&o(a)),
             RecordedOperation::Not(a) => format!("!{}", o(a)),
             RecordedOperation::And(a, b) => format!("{} & {}", o(a), o(b)),
             RecordedOperation::Or(a, b) => format!("{} | {}", o(a), o(b)),
-            RecordedOperation::Select(mask, yes, no) => format!("{} ? {} : {}", o(mask), o(yes), o(no)),
+            RecordedOperation::Select(mask, yes, no) => language.select(&o(mask), &o(yes), &o(no)),
             RecordedOperation::Call(function, arguments) => {
                 let mut list: Vec<_> = arguments.iter().flatten().map(|&argument| o(argument)).collect();
                 if function.is_pair() {

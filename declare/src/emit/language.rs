@@ -1,0 +1,121 @@
+//! What the printer asks of a language: its words, its literals, and the lines around a function.
+
+mod c;
+mod wgsl;
+
+use piola::__private::record::{Binary, Function, RecordedOperation, Unary};
+
+use super::{Precision, Target};
+
+/// The type of a value within a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Number,
+    Truth,
+}
+
+/// An argument of a function of the file.
+pub(super) enum Argument {
+    /// The structure of the parameters, `p`.
+    Parameters,
+    /// Numbers to be read.
+    Input(&'static str, usize),
+    /// Numbers to be written.
+    Output(&'static str, usize),
+}
+
+/// A field of the structure of the parameters, with what is said of it.
+pub(super) enum Field {
+    /// A parameter without a place.
+    Absent(String),
+    Number(String, String),
+    List(String, usize, String),
+}
+
+/// A language, with the number format and the prefix of a file.
+pub(super) trait Language {
+    /// Whether a field cannot have this name.
+    fn is_reserved(&self, name: &str) -> bool;
+
+    fn literal(&self, value: f64) -> String;
+    fn truth(&self, truth: bool) -> String;
+    /// A statement with a value that is not changed.
+    fn constant(&self, kind: Kind, name: &str, value: &str) -> String;
+    /// A statement with a variable that is assigned later; zeroed, if not every way assigns it.
+    fn variable(&self, kind: Kind, name: &str, is_zeroed: bool) -> String;
+
+    fn parameter(&self, name: &str, entry: Option<usize>) -> String;
+    /// An entry of an output of so many numbers.
+    fn output(&self, name: &str, count: usize, entry: usize) -> String;
+
+    fn absolute(&self, a: &str) -> String;
+    fn square_root(&self, a: &str) -> String;
+    fn copy_sign(&self, a: &str, b: &str) -> String;
+    fn mul_add(&self, a: &str, b: &str, c: &str) -> String;
+    /// The result of an operation of arithmetic, rounded before it is used.
+    fn rounded(&self, result: String) -> String;
+    /// The first statement of a function that returns a status, whose first input this is.
+    fn start(&self, input: &str) -> String;
+    fn less(&self, a: &str, b: &str) -> String;
+    fn is_zero(&self, a: &str) -> String;
+    fn is_finite(&self, a: &str) -> String;
+    fn select(&self, mask: &str, yes: &str, no: &str) -> String;
+    /// Bit k of a status.
+    fn bit(&self, k: usize, truth: &str) -> String;
+
+    /// The first line of a function from numbers to a number, and to a second one if it is a pair.
+    fn head(&self, name: &str, arguments: &[String], is_pair: bool) -> String;
+    /// The first line of a function that returns a status.
+    fn head_of_point(&self, name: &str, arguments: &[Argument]) -> String;
+    /// A statement that makes compilers accept that the parameters are not read.
+    fn parameters_are_unused(&self) -> &'static str;
+    /// A statement that returns a number where a condition does not hold.
+    fn return_unless(&self, condition: &str, number: usize) -> String;
+
+    /// A number in a condition on parameters.
+    fn number_in_condition(&self, number: f64) -> String;
+    /// A parameter in a condition.
+    fn parameter_in_condition(&self, place: String) -> String;
+    /// A call in a condition by its name in Rust, where it is not that of C.
+    fn call_in_condition(&self, name: &str, a: &str, b: &str) -> Option<String>;
+
+    /// The structure of the parameters, and the values that the file was made with.
+    fn structure(&self, fields: &[Field], example: &[String]) -> String;
+    /// Numbers of a list among those values.
+    fn list(&self, numbers: &[String]) -> String;
+    /// How the values that the file was made with are called.
+    fn example(&self) -> String;
+    /// How the file is compiled, for its top.
+    fn advice(&self) -> &'static str;
+    /// Functions that programs are made of, those that one of them needs.
+    fn primitives(&self, needs: &Needs<'_>) -> String;
+    /// The contents below the comment, with what must stand around them.
+    fn guarded(&self, text: String) -> String;
+}
+
+/// The language of a target.
+pub(super) fn language(target: Target, precision: Precision, prefix: &str) -> Box<dyn Language> {
+    match target {
+        Target::C => Box::new(c::C::new(c::Dialect::C, precision, prefix)),
+        Target::Cuda => Box::new(c::C::new(c::Dialect::Cuda, precision, prefix)),
+        Target::OpenCl => Box::new(c::C::new(c::Dialect::OpenCl, precision, prefix)),
+        Target::Wgsl => Box::new(wgsl::Wgsl::new(prefix)),
+    }
+}
+
+/// What the programs of a file are made of.
+pub(super) struct Needs<'a>(pub(super) Vec<&'a RecordedOperation>);
+
+impl Needs<'_> {
+    fn calls(&self, function: Function) -> bool {
+        self.0.iter().any(|one| matches!(one, RecordedOperation::Call(called, _) if *called == function))
+    }
+
+    fn unary(&self, operator: Unary) -> bool {
+        self.0.iter().any(|one| matches!(one, RecordedOperation::Unary(used, _) if *used == operator))
+    }
+
+    fn binary(&self, operator: Binary) -> bool {
+        self.0.iter().any(|one| matches!(one, RecordedOperation::Binary(used, ..) if *used == operator))
+    }
+}

@@ -1,0 +1,309 @@
+//! WGSL, in which a number is an `f32`.
+//!
+//! The language lets a compiler compute as with real numbers, none of them infinite or NaN. Mesa's does: of
+//! (a + b) − a it makes b, of a b + a c a (b + c), of 0 a 0. So every result of arithmetic is hidden from it:
+//! its bits are combined with bits that are zero, which the compiler cannot know. What is finite is seen in the
+//! bits.
+
+use piola::__private::record::{Binary, Function, Unary};
+
+use super::{Argument, Field, Kind, Language, Needs};
+
+/// Keywords and reserved words.
+const RESERVED: &str = "alias break case const const_assert continue continuing default diagnostic discard else enable \
+    false fn for if let loop override requires return struct switch true var while NULL Self abstract active alignas \
+    alignof as asm asm_fragment async attribute auto await become binding_array cast catch class co_await co_return \
+    co_yield coherent column_major common compile compile_fragment concept const_cast consteval constexpr constinit crate \
+    debugger decltype delete demote demote_to_helper do dynamic_cast enum explicit export extends extern external \
+    fallthrough filter final finally friend from fxgroup get goto groupshared highp impl implements import inline \
+    instanceof interface layout lowp macro macro_rules match mediump meta mod module move mut mutable namespace new nil \
+    noexcept noinline nointerpolation non_coherent noncoherent noperspective null nullptr of operator package packoffset \
+    partition pass patch pixelfragment precise precision premerge priv protected pub public readonly ref regardless \
+    register reinterpret_cast require resource restrict self set shared sizeof smooth snorm static static_assert \
+    static_cast std subroutine super target template this thread_local throw trait try type typedef typeid typename \
+    typeof union unless unorm unsafe unsized use using varying virtual volatile wgsl where with writeonly yield bool f16 \
+    f32 i32 u32 array atomic ptr vec2 vec3 vec4";
+
+pub(super) struct Wgsl {
+    prefix: String,
+}
+
+impl Wgsl {
+    pub(super) fn new(prefix: &str) -> Self {
+        Self { prefix: prefix.to_owned() }
+    }
+
+    fn type_of(kind: Kind) -> &'static str {
+        match kind {
+            Kind::Number => "f32",
+            Kind::Truth => "bool",
+        }
+    }
+}
+
+impl Language for Wgsl {
+    fn is_reserved(&self, name: &str) -> bool {
+        RESERVED.split_ascii_whitespace().any(|word| word == name)
+    }
+
+    fn literal(&self, value: f64) -> String {
+        let value = value as f32;
+        if value == 0.0 {
+            // Which compilers would leave out of a sum, with the sign of the sum.
+            self.rounded(format!("{value:?}f"))
+        } else if value.is_finite() {
+            format!("{value:?}f")
+        } else {
+            format!("{}_of_bits({:#x}u)", self.prefix, value.to_bits())
+        }
+    }
+
+    fn truth(&self, truth: bool) -> String {
+        truth.to_string()
+    }
+
+    fn constant(&self, _: Kind, name: &str, value: &str) -> String {
+        format!("let {name} = {value};")
+    }
+
+    fn variable(&self, kind: Kind, name: &str, _: bool) -> String {
+        format!("var {name}: {};", Self::type_of(kind))
+    }
+
+    fn parameter(&self, name: &str, entry: Option<usize>) -> String {
+        entry.map_or_else(|| format!("p.{name}"), |entry| format!("p.{name}[{entry}]"))
+    }
+
+    fn output(&self, name: &str, count: usize, entry: usize) -> String {
+        if count == 1 { format!("*{name}") } else { format!("(*{name})[{entry}]") }
+    }
+
+    fn absolute(&self, a: &str) -> String {
+        format!("abs({a})")
+    }
+
+    fn square_root(&self, a: &str) -> String {
+        format!("sqrt({a})")
+    }
+
+    fn copy_sign(&self, a: &str, b: &str) -> String {
+        format!("{}_copysign({a}, {b})", self.prefix)
+    }
+
+    fn mul_add(&self, a: &str, b: &str, c: &str) -> String {
+        format!("fma({a}, {b}, {c})")
+    }
+
+    fn rounded(&self, result: String) -> String {
+        format!("{}_rounded({result})", self.prefix)
+    }
+
+    fn start(&self, input: &str) -> String {
+        format!("    {0}_nothing = select(1u, 0u, {0}_is_finite({input}));\n", self.prefix)
+    }
+
+    fn less(&self, a: &str, b: &str) -> String {
+        if b == self.literal(f64::INFINITY) { self.is_finite(a) } else { format!("{a} < {b}") }
+    }
+
+    fn is_zero(&self, a: &str) -> String {
+        format!("{a} == 0.0f")
+    }
+
+    fn is_finite(&self, a: &str) -> String {
+        format!("{}_is_finite({a})", self.prefix)
+    }
+
+    fn select(&self, mask: &str, yes: &str, no: &str) -> String {
+        format!("select({no}, {yes}, {mask})")
+    }
+
+    fn bit(&self, k: usize, truth: &str) -> String {
+        format!("select(0u, {}u, {truth})", 1 << k)
+    }
+
+    fn head(&self, name: &str, arguments: &[String], is_pair: bool) -> String {
+        let mut list: Vec<_> = arguments.iter().map(|argument| format!("{argument}: f32")).collect();
+        if is_pair {
+            list.push("second: ptr<function, f32>".to_owned());
+        }
+        format!("fn {}_{name}({}) -> f32 {{", self.prefix, list.join(", "))
+    }
+
+    fn head_of_point(&self, name: &str, arguments: &[Argument]) -> String {
+        let written = |argument: &Argument| match argument {
+            Argument::Parameters => format!("p: {}_parameters", self.prefix),
+            Argument::Input(name, count) => format!("{name}: array<f32, {count}>"),
+            Argument::Output(name, 1) => format!("{name}: ptr<function, f32>"),
+            Argument::Output(name, count) => format!("{name}: ptr<function, array<f32, {count}>>"),
+        };
+        let list: Vec<_> = arguments.iter().map(written).collect();
+        format!("fn {}_{name}({}) -> u32 {{", self.prefix, list.join(", "))
+    }
+
+    fn parameters_are_unused(&self) -> &'static str {
+        ""
+    }
+
+    fn return_unless(&self, condition: &str, number: usize) -> String {
+        format!("    if (!({condition})) {{ return {number}u; }}\n")
+    }
+
+    fn number_in_condition(&self, number: f64) -> String {
+        self.literal(number)
+    }
+
+    fn parameter_in_condition(&self, place: String) -> String {
+        place
+    }
+
+    fn call_in_condition(&self, name: &str, a: &str, b: &str) -> Option<String> {
+        Some(match name {
+            "log10" => format!("(log({a}) * 0.4342944819032518f)"),
+            "cbrt" => format!("(sign({a}) * pow(abs({a}), 0.3333333333333333f))"),
+            "ln_1p" => format!("log(1.0f + {a})"),
+            "exp_m1" => format!("(exp({a}) - 1.0f)"),
+            "recip" => format!("(1.0f / {a})"),
+            // The language has powers of positive numbers alone; a condition has whole exponents here.
+            "powi" => {
+                let exponent = b.trim_matches(['(', ')', 'f']).parse::<f32>();
+                let is_odd = exponent.is_ok_and(|exponent| exponent % 2.0 != 0.0);
+                format!(
+                    "({}pow(abs({a}), {b}))",
+                    if is_odd { format!("sign({a}) * ") } else { String::new() }
+                )
+            }
+            _ => return None,
+        })
+    }
+
+    fn structure(&self, fields: &[Field], example: &[String]) -> String {
+        let Self { prefix } = self;
+        let comment = |doc: &str| if doc.is_empty() { String::new() } else { format!(" /* {doc} */") };
+        let line = |field: &Field| match field {
+            Field::Absent(comment) => format!("    /* {comment} */\n"),
+            Field::Number(name, doc) => format!("    {name}: f32,{}\n", comment(doc)),
+            Field::List(name, count, doc) => format!("    {name}: array<f32, {count}>,{}\n", comment(doc)),
+        };
+        format!(
+            "struct {prefix}_parameters {{\n{}}}\n\nfn {prefix}_example() -> {prefix}_parameters {{\n    return {prefix}_parameters({});\n}}\n\n",
+            fields.iter().map(line).collect::<String>(),
+            example.join(", ")
+        )
+    }
+
+    fn list(&self, numbers: &[String]) -> String {
+        format!("array<f32, {}>({})", numbers.len(), numbers.join(", "))
+    }
+
+    fn example(&self) -> String {
+        format!("{}_example()", self.prefix)
+    }
+
+    fn advice(&self) -> &'static str {
+        "No option is needed. Divisions and square roots are as exact as the device makes them, which the language does
+ * not promise to be the last bit."
+    }
+
+    fn primitives(&self, needs: &Needs<'_>) -> String {
+        let Self { prefix } = self;
+        let mut text = format!(
+            "fn {prefix}_of_bits(bits: u32) -> f32 {{
+    return bitcast<f32>(bits);
+}}
+
+fn {prefix}_is_finite(x: f32) -> bool {{
+    return (bitcast<u32>(x) & 0x7f800000u) < 0x7f800000u;
+}}
+
+/* Zero, unless the last input was not finite: which no compiler knows. */
+var<private> {prefix}_nothing: u32;
+
+/* x, which is rounded before it is used: compilers may not combine what it is made of with what it is used for. */
+fn {prefix}_rounded(x: f32) -> f32 {{
+    return bitcast<f32>(bitcast<u32>(x) ^ {prefix}_nothing);
+}}
+
+"
+        );
+        if needs.binary(Binary::CopySign) {
+            text += &format!(
+                "/* |x| with the sign of y. */
+fn {prefix}_copysign(x: f32, y: f32) -> f32 {{
+    return bitcast<f32>((bitcast<u32>(x) & 0x7fffffffu) | (bitcast<u32>(y) & 0x80000000u));
+}}
+
+"
+            );
+        }
+        if needs.binary(Binary::Scale) {
+            text += &format!(
+                "/* x 2^e, rounded once; two factors, since 2^e itself may be out of range. */
+fn {prefix}_scale(x: f32, e: f32) -> f32 {{
+    let first = round(e * 0.5f);
+    let low = bitcast<u32>(i32(first) + 127) << 23u;
+    let high = bitcast<u32>(i32(e - first) + 127) << 23u;
+    return {prefix}_rounded({prefix}_rounded(x * bitcast<f32>(low)) * bitcast<f32>(high));
+}}
+
+"
+            );
+        }
+        if needs.unary(Unary::LeadingPower) {
+            text += &format!(
+                "/* The power of two in |x|. */
+fn {prefix}_leading_power(x: f32) -> f32 {{
+    return bitcast<f32>(bitcast<u32>(x) & 0x7f800000u);
+}}
+
+"
+            );
+        }
+        if needs.unary(Unary::ReciprocalOfPower) {
+            text += &format!(
+                "/* 1/x for a power of two. */
+fn {prefix}_reciprocal_of_power(x: f32) -> f32 {{
+    return bitcast<f32>((254u << 23u) - bitcast<u32>(x));
+}}
+
+"
+            );
+        }
+        if needs.calls(Function::Split) {
+            text += &format!(
+                "/* x = m 2^e with sqrt(1/2) <= m < sqrt(2). */
+fn {prefix}_split(x: f32, e: ptr<function, f32>) -> f32 {{
+    let is_tiny = x < 1.17549435e-38f;
+    let bits = bitcast<i32>(select(x, x * 16777216.0f, is_tiny));
+    let exponent = (bits - 0x3f3504f3) >> 23u;
+    let found = f32(exponent) - select(0.0f, 24.0f, is_tiny);
+    let limit = {prefix}_of_bits(select(0xff800000u, 0x7fc00000u, x < 0.0f));
+    *e = select(x, select(limit, found, 0.0f < x), {prefix}_is_finite(x) || x < 0.0f);
+    return bitcast<f32>(bits - (exponent << 23u));
+}}
+
+"
+            );
+        }
+        if needs.calls(Function::ProductError) {
+            text += &format!(
+                "/* The rounding error of a b, by halves of the digits. */
+fn {prefix}_product_error(a: f32, b: f32) -> f32 {{
+    let ah = bitcast<f32>(bitcast<u32>(a) & 0xfffff000u);
+    let bh = bitcast<f32>(bitcast<u32>(b) & 0xfffff000u);
+    let al = a - ah;
+    let bl = b - bh;
+    let first = {prefix}_rounded({prefix}_rounded(a * b) - ah * bh);
+    return al * bl - {prefix}_rounded({prefix}_rounded(first - al * bh) - ah * bl);
+}}
+
+"
+            );
+        }
+        text
+    }
+
+    fn guarded(&self, text: String) -> String {
+        text
+    }
+}

@@ -1,0 +1,102 @@
+//! One tetrahedron on any real number: what the stages of a tile do with it, for programs that are recorded.
+
+#![expect(non_snake_case, reason = "F, U, V, Ds as in the literature")]
+
+use super::form::{FullStiffness, Output, OutputByInvariants, gradient_is_finite, put_gradient};
+use crate::lanes::{Mask, Real};
+use crate::material::Response;
+use crate::point::invariants::invariants;
+use crate::point::invariants::tangent::Terms;
+use crate::point::matrix::three;
+use crate::point::{Filter, Matrix3, Tangent, decompose, judge, multiply, stress, stress_is_finite};
+use crate::status::Status;
+
+/// Gradient and stiffness of a linear tetrahedron.
+pub struct Tetrahedron<R: Real> {
+    /// The gradient of its energy, N: coordinate a of node i at 3i+a.
+    pub gradient: [R; 12],
+    /// Its stiffness, filtered as asked, N/m: row and column as the gradient.
+    pub stiffness: [R; 144],
+    /// Whether the results mean something, and whether the filter changed the stiffness.
+    pub status: Status<R::Mask>,
+}
+
+/// Gradient and filtered stiffness of a tetrahedron with its nodes at these positions.
+///
+/// `rest` is Dm⁻¹ row by row and the volume at rest; the columns of Dm are the edges from node 0.
+pub fn evaluate_tetrahedron<R: Real>(
+    material: &impl Response<R>,
+    nodes: [[R; 3]; 4],
+    rest: [R; 10],
+    filter: Filter,
+) -> Tetrahedron<R> {
+    let Ds = three!(a => three!(k => nodes[k + 1][a] - nodes[0][a]));
+    let [a, b, c, d, e, f, g, h, i, _] = rest;
+    let F = multiply(&Ds, &[[a, b, c], [d, e, f], [g, h, i]]);
+    if filter != Filter::None || !material.has_invariants() {
+        return by_decomposition(material, &F, &rest, filter);
+    }
+    let has_second = material.has_second_invariant();
+    let (served, by_invariants) = match (has_second, material.curvature_by_invariants().has_all(has_second)) {
+        (true, true) => by_invariants::<R, true, true>(material, &F, &rest),
+        (true, false) => by_invariants::<R, true, false>(material, &F, &rest),
+        (false, true) => by_invariants::<R, false, true>(material, &F, &rest),
+        (false, false) => by_invariants::<R, false, false>(material, &F, &rest),
+    };
+    if !(!served).any() {
+        return by_invariants;
+    }
+    let other = by_decomposition(material, &F, &rest, filter);
+    let (one, status) = (&by_invariants, other.status & !served);
+    Tetrahedron {
+        gradient: std::array::from_fn(|k| R::select(served, one.gradient[k], other.gradient[k])),
+        stiffness: std::array::from_fn(|k| R::select(served, one.stiffness[k], other.stiffness[k])),
+        status,
+    }
+}
+
+fn by_decomposition<R: Real>(
+    material: &impl Response<R>,
+    F: &Matrix3<R>,
+    rest: &[R; 10],
+    filter: Filter,
+) -> Tetrahedron<R> {
+    let svd = decompose(material, F);
+    let blocks = material.blocks(svd.stretches);
+    let stress = stress(&svd, blocks.gradient);
+    let is_finite = stress_is_finite(svd.stretches, &stress) & gradient_is_finite(&stress, rest);
+    let (mut blocks, status) = judge(svd.stretches, &blocks, material.has_pole(), filter);
+    let refused =
+        Status { refused: !material.admits(svd.stretches), nonfinite: !is_finite, ..Status::clean() };
+    let status = status | refused | FullStiffness::prepare(&mut blocks, rest, material.has_pole());
+    let mut at = Tetrahedron::zero(status);
+    put_gradient(&stress, rest, &mut at.gradient);
+    FullStiffness::put_all(&Tangent { U: svd.U, V: svd.V, blocks }, rest, &mut at.stiffness);
+    at
+}
+
+/// Where the invariants serve, and what they give there; elsewhere that means nothing.
+fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
+    material: &impl Response<R>,
+    F: &Matrix3<R>,
+    rest: &[R; 10],
+) -> (R::Mask, Tetrahedron<R>) {
+    let (invariants, is_in_range) = invariants(F, HAS_SECOND);
+    let derivatives = material.derivatives_by_invariants(invariants);
+    let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(F, invariants, &derivatives);
+    let mut at = Tetrahedron::zero(Status::clean());
+    let largest = FullStiffness::put_all_by_invariants(&terms, rest, &mut at.stiffness);
+    put_gradient(&terms.stress(), rest, &mut at.gradient);
+    let stays_finite =
+        FullStiffness::stays_finite(terms.bound(), rest) & gradient_is_finite(&terms.stress(), rest);
+    let served =
+        is_in_range & material.admits_invariants(invariants) & terms.keeps_digits(largest) & stays_finite;
+    (served, at)
+}
+
+impl<R: Real> Tetrahedron<R> {
+    fn zero(status: Status<R::Mask>) -> Self {
+        let zero = R::splat(0.0);
+        Self { gradient: [zero; 12], stiffness: [zero; 144], status }
+    }
+}
