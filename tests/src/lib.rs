@@ -5,6 +5,7 @@
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
 //! * [`energies`]: the catalogue behind pointers; [`compiled`]: the evaluation of a point, compiled once;
+//! * [`emitted`]: energies as source text, executed by programs of `emitted/`;
 //! * [`bits`]: deformation gradients of arbitrary finite entries; [`soundness`]: what must hold at each of
 //!   them;
 //! * [`baselines`]: other ways to a tangent; [`stability`]: the table of their errors and ours in
@@ -23,6 +24,7 @@ pub mod bits;
 pub mod cases;
 pub mod compiled;
 pub mod declared;
+pub mod emitted;
 pub mod energies;
 pub mod multiprecision;
 pub mod quotients;

@@ -5,7 +5,8 @@
 //! [`Inversion::Refuse`], as a single point and in batches of every back end (in `f32` those of a few
 //! energies): by C u (‖X*‖ + sens), ψ by C u (|ψ*| + sens + Σ|terms|). What has no representation in a format
 //! cannot be returned there; its status must then say so, and say so only then. The variable `PIOLA_CASES`
-//! names one other file of the same schema.
+//! names one other file of the same schema. With `PIOLA_EMITTED` the results are those of emitted source text
+//! ([`piola_tests::emitted`]): `PIOLA_EMITTED="wgsl f32 PROGRAM"`.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table to show")]
 
@@ -19,12 +20,14 @@ use piola::batch::{Batch, Kernels, LengthError, MatrixForm, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::{Declared, MaterialError};
 use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint};
-use piola::{Inversion, Status, Survey};
+use piola::{Inversion, Real, Status, Survey};
+use piola_declare::emit::Precision;
 use piola_materials::{NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
 use piola_tests::cases::{Case, Quantity};
 use piola_tests::compiled::{evaluate, evaluate_dense, evaluate_energy, evaluate_stress};
 use piola_tests::declared;
-use piola_tests::energies::{ENERGIES, Format, Subject, find};
+use piola_tests::emitted::{Answer, Runner};
+use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find};
 
 /// The constant of the judgement ‖X − X*‖ ≤ C u (‖X*‖ + sens).
 const C: f64 = 30.0;
@@ -61,6 +64,7 @@ fn main() -> ExitCode {
 
 /// One trial for each energy that has cases.
 fn trials() -> Result<Vec<Trial>, String> {
+    let runner = Runner::from_environment()?;
     let cases = match std::env::var_os("PIOLA_CASES") {
         Some(file) => Case::read(Path::new(&file))?,
         None => own_cases()?,
@@ -70,7 +74,8 @@ fn trials() -> Result<Vec<Trial>, String> {
         by_energy.entry(case.material.clone()).or_default().push(case);
     }
     let trial = |(name, cases): (String, Vec<Case>)| {
-        Trial::test(format!("reference::{name}"), move || Ok(judge_all(&name, &cases)?))
+        let runner = runner.clone();
+        Trial::test(format!("reference::{name}"), move || Ok(judge_all(&name, cases, runner.as_ref())?))
     };
     Ok(by_energy.into_iter().map(trial).collect())
 }
@@ -93,28 +98,26 @@ fn own_cases() -> Result<Vec<Case>, String> {
 ///
 /// # Errors
 /// The results that fail, one in each line, or why a case cannot be judged.
-fn judge_all(name: &str, cases: &[Case]) -> Result<(), String> {
+fn judge_all(name: &str, mut cases: Vec<Case>, runner: Option<&Runner>) -> Result<(), String> {
     let energy = find(name).ok_or_else(|| format!("{name} is not in the catalogue"))?;
+    if runner.is_some_and(|runner| runner.precision == Precision::F32) {
+        cases.retain(|case| case.f32_exact);
+    }
     let first = cases.first().ok_or_else(|| format!("{name} has no reference cases"))?;
     let values = first.values(energy.description())?;
     let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
     let declared = declared::Declared::read(energy.description(), &values, Inversion::Refuse)?;
     let mut table = Table { cases: cases.len(), energies: 1, ..Table::EMPTY };
     let mut failures = Vec::new();
-    for case in cases {
+    let mut answers = runner.map(|runner| runner.answers(energy, &cases)).transpose()?.map(Vec::into_iter);
+    for case in &cases {
         let values = case.values(energy.description())?;
         let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
         let judge = Judge { case, terms: declared.energy_terms(&values, case.stretches()?) };
-        let refused = |error| format!("{}: {name} {error}", case.id);
-        let subject = energy.subject(&values, Inversion::Refuse).map_err(refused)?;
-        let mut judgements = judge.points::<f64>(&subject);
-        judgements.extend(judge.batches(&*subject.double, "f64 lanes", |value| value, |value| value));
-        if case.f32_exact {
-            judgements.extend(judge.points::<f32>(&subject));
-            if let Some(elements) = in_single_precision(energy.name, &values).map_err(refused)? {
-                judgements.extend(judge.batches(&*elements, "f32 lanes", |value| value as f32, f64::from));
-            }
-        }
+        let judgements = match (runner, answers.as_mut().and_then(Iterator::next)) {
+            (Some(runner), Some(answer)) => judge.answer(runner.precision, answer),
+            _ => judge.subject(energy, &values)?,
+        };
         for judgement in judgements {
             if let Some(complaint) = table.add(energy.name, case, &judgement) {
                 let Judgement { precision, quantity, .. } = judgement;
@@ -240,7 +243,39 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    fn points<R: Format>(&self, subject: &Subject) -> Vec<Judgement> {
+    /// Judges the energy as it is here, in all its formats.
+    fn subject(self, energy: &Judged, values: &[&[f64]]) -> Result<Vec<Judgement>, String> {
+        let refused = |error| format!("{}: {} {error}", self.case.id, energy.name);
+        let subject = energy.subject(values, Inversion::Refuse).map_err(refused)?;
+        let mut judgements = self.points::<f64>(&subject);
+        judgements.extend(self.batches(&*subject.double, "f64 lanes", |value| value, |value| value));
+        if self.case.f32_exact {
+            judgements.extend(self.points::<f32>(&subject));
+            if let Some(elements) = in_single_precision(energy.name, values).map_err(refused)? {
+                judgements.extend(self.batches(&*elements, "f32 lanes", |value| value as f32, f64::from));
+            }
+        }
+        Ok(judgements)
+    }
+
+    /// Judges what a program has answered.
+    fn answer(self, precision: Precision, answer: Answer) -> Vec<Judgement> {
+        let (name, unit_roundoff, holds): (_, _, fn(f64) -> bool) = match precision {
+            Precision::F64 => ("f64", f64::UNIT_ROUNDOFF, f64::is_finite),
+            Precision::F32 => ("f32", f32::UNIT_ROUNDOFF, |x| (x as f32).is_finite()),
+        };
+        let Answer { energy: (energy, of_energy), stress: (stress, of_stress), tangent, projected } = answer;
+        let results = [
+            (Quantity::Energy, of_energy, vec![energy]),
+            (Quantity::Stress, of_stress, stress),
+            (Quantity::Stress, tangent.2, tangent.0),
+            (Quantity::Tangent, tangent.2, tangent.1),
+            (Quantity::Projected, projected.2, projected.1),
+        ];
+        self.verdicts(name, unit_roundoff, holds, results)
+    }
+
+    fn points<R: Format>(self, subject: &Subject) -> Vec<Judgement> {
         let material = R::of(subject);
         let f = self.case.deformation;
         let deformation: Matrix3<R> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(f[3 * i + j])));

@@ -1,0 +1,179 @@
+//! Energies as source text of other languages, compiled and executed by a program of another's.
+//!
+//! The program is called with the text, a file of points, a file for the results and the number of points. A
+//! point is the parameters in the order of their structure (one zero if there are none) and F; its results
+//! are ψ, P, P beside dP/dF, and P beside the projected dP/dF, each followed by its status: numbers in the
+//! format of the text, and 32 bits for a status. `emitted/` has such programs.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::process::Command;
+
+use piola::material::Form;
+use piola::{Inversion, Status};
+use piola_declare::emit::{Emission, PointFunction, Precision, Target};
+
+use crate::cases::Case;
+use crate::energies::Judged;
+
+/// A program that executes texts of a language.
+#[derive(Clone, Debug)]
+pub struct Runner {
+    target: Target,
+    /// The number format of its texts.
+    pub precision: Precision,
+    program: PathBuf,
+}
+
+/// Results at a point.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// ψ.
+    pub energy: (f64, Status<bool>),
+    /// P alone.
+    pub stress: (Vec<f64>, Status<bool>),
+    /// P and dP/dF.
+    pub tangent: (Vec<f64>, Vec<f64>, Status<bool>),
+    /// P and dP/dF projected.
+    pub projected: (Vec<f64>, Vec<f64>, Status<bool>),
+}
+
+impl Runner {
+    /// The program that the variable `PIOLA_EMITTED` names: target, precision, and path.
+    ///
+    /// # Errors
+    /// If the variable is not three words, or the first two are unknown.
+    pub fn from_environment() -> Result<Option<Self>, String> {
+        let Ok(text) = std::env::var("PIOLA_EMITTED") else { return Ok(None) };
+        let words: Vec<_> = text.split_ascii_whitespace().collect();
+        let [target, precision, program] = words[..] else {
+            return Err(format!("PIOLA_EMITTED is `{text}` and not TARGET PRECISION PROGRAM"));
+        };
+        Ok(Some(Self {
+            target: target.parse().map_err(|error| format!("PIOLA_EMITTED: {error}"))?,
+            precision: precision.parse().map_err(|error| format!("PIOLA_EMITTED: {error}"))?,
+            program: PathBuf::from(program),
+        }))
+    }
+
+    /// Results of all cases of one energy, in their order.
+    ///
+    /// # Errors
+    /// If the energy cannot be printed, or the program fails.
+    pub fn answers(&self, energy: &Judged, cases: &[Case]) -> Result<Vec<Answer>, String> {
+        // What the text fixes: lengths of lists and whole exponents.
+        let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+        let parameters = &energy.description().parameters;
+        for (index, case) in cases.iter().enumerate() {
+            let values = case.values(energy.description())?;
+            let fixed = parameters.iter().zip(&values).map(|(parameter, values)| match parameter.form {
+                Form::Exponent | Form::Exponents => format!("{values:?}"),
+                _ => values.len().to_string(),
+            });
+            groups.entry(fixed.collect::<Vec<_>>().join(";")).or_default().push(index);
+        }
+        let mut answers = vec![None; cases.len()];
+        for group in groups.into_values() {
+            let cases: Vec<_> = group.iter().map(|&index| &cases[index]).collect();
+            for (index, answer) in group.into_iter().zip(self.group(energy, &cases)?) {
+                answers[index] = Some(answer);
+            }
+        }
+        answers.into_iter().collect::<Option<_>>().ok_or_else(|| "a case has no answer".to_owned())
+    }
+
+    fn group(&self, energy: &Judged, cases: &[&Case]) -> Result<Vec<Answer>, String> {
+        let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", energy.name);
+        let functions = PointFunction::ALL[..4].iter().copied();
+        let emission = Emission::new(self.target)
+            .with_precision(self.precision)
+            .with_prefix("energy")
+            .with_functions(functions);
+        let parameters = &energy.description().parameters;
+        let mut points = Vec::new();
+        for case in cases {
+            let values = case.values(energy.description())?;
+            let before = points.len();
+            for (parameter, values) in parameters.iter().zip(&values) {
+                if !matches!(parameter.form, Form::Exponent | Form::Exponents) {
+                    points.extend(values);
+                }
+            }
+            if points.len() == before {
+                points.push(0.0);
+            }
+            points.extend(case.deformation);
+        }
+        let values = cases[0].values(energy.description())?;
+        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        let text = energy.energy.emit(&values, Inversion::Refuse, &emission).map_err(|error| fail(&error))?;
+
+        let folder = tempfile::tempdir().map_err(|error| fail(&error))?;
+        let [source, from, to] = ["energy.h", "points", "results"].map(|name| folder.path().join(name));
+        std::fs::write(&source, text).map_err(|error| fail(&error))?;
+        let bytes: Vec<u8> = points.iter().flat_map(|&x| self.bytes(x)).collect();
+        std::fs::write(&from, bytes).map_err(|error| fail(&error))?;
+        let output = Command::new(&self.program)
+            .args([&source, &from, &to])
+            .arg(cases.len().to_string())
+            .arg(if self.precision == Precision::F32 { "f32" } else { "f64" })
+            .output()
+            .map_err(|error| format!("{}: {error}", self.program.display()))?;
+        if !output.status.success() {
+            let said = String::from_utf8_lossy(&output.stderr);
+            return Err(format!("{}: {} fails: {said}", energy.name, self.program.display()));
+        }
+        let bytes = std::fs::read(&to).map_err(|error| fail(&error))?;
+        let mut rest = &bytes[..];
+        let answers = cases.iter().map(|_| self.answer(&mut rest)).collect::<Option<Vec<_>>>();
+        match answers {
+            Some(answers) if rest.is_empty() => Ok(answers),
+            _ => Err(fail(&format!("{} bytes of results", bytes.len()))),
+        }
+    }
+
+    fn answer(&self, bytes: &mut &[u8]) -> Option<Answer> {
+        let energy = (self.numbers(bytes, 1)?[0], status(bytes)?);
+        let stress = (self.numbers(bytes, 9)?, status(bytes)?);
+        let mut dense = || Some((self.numbers(bytes, 9)?, self.numbers(bytes, 81)?, status(bytes)?));
+        let (tangent, projected) = (dense()?, dense()?);
+        Some(Answer { energy, stress, tangent, projected })
+    }
+
+    fn bytes(&self, number: f64) -> Vec<u8> {
+        match self.precision {
+            Precision::F32 => (number as f32).to_ne_bytes().to_vec(),
+            Precision::F64 => number.to_ne_bytes().to_vec(),
+        }
+    }
+
+    fn numbers(&self, bytes: &mut &[u8], count: usize) -> Option<Vec<f64>> {
+        let mut numbers = Vec::new();
+        for _ in 0..count {
+            numbers.push(match self.precision {
+                Precision::F32 => f64::from(f32::from_ne_bytes(*bytes.split_off_chunk()?)),
+                Precision::F64 => f64::from_ne_bytes(*bytes.split_off_chunk()?),
+            });
+        }
+        Some(numbers)
+    }
+}
+
+/// The first bytes of a slice, which are taken from it.
+trait SplitOff {
+    fn split_off_chunk<const N: usize>(&mut self) -> Option<&[u8; N]>;
+}
+
+impl SplitOff for &[u8] {
+    fn split_off_chunk<const N: usize>(&mut self) -> Option<&[u8; N]> {
+        let (chunk, rest) = self.split_first_chunk()?;
+        *self = rest;
+        Some(chunk)
+    }
+}
+
+fn status(bytes: &mut &[u8]) -> Option<Status<bool>> {
+    let bits = u32::from_ne_bytes(*bytes.split_off_chunk()?);
+    let [refused, bounded, nonfinite, filtered] = [0, 1, 2, 3].map(|k| bits >> k & 1 == 1);
+    Some(Status { refused, bounded, nonfinite, filtered })
+}
