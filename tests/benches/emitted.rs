@@ -107,7 +107,7 @@ fn row(
 
     let points: Vec<Matrix3<f64>> =
         points.iter().map(|F| [[F[0], F[1], F[2]], [F[3], F[4], F[5]], [F[6], F[7], F[8]]]).collect();
-    let mut times = [[const { Vec::new() }; 2]; 2];
+    let mut times: [[Vec<f64>; 2]; 2] = Default::default();
     for _ in 0..TURNS {
         for (filter, times) in [Filter::None, Filter::Clamp].into_iter().zip(&mut times[0]) {
             times.push(turn(material, &points, filter));
