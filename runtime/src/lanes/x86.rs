@@ -108,10 +108,11 @@ macro_rules! register {
             }
 
             /// Transposes a matrix whose rows are FROM apart into one whose rows are TO apart, by squares, at
-            /// least one; the last in a row or column overlaps its neighbour.
+            /// least one. What is left is a square that overlaps its neighbour, or, if it is narrow, copied.
             #[target_feature(enable = $features)]
             fn transpose_squares<const FROM: usize, const TO: usize>(
-                [rows, columns]: [usize; 2],
+                rows: usize,
+                columns: usize,
                 from: &[$Number],
                 to: &mut [$Number],
             ) {
@@ -120,12 +121,17 @@ macro_rules! register {
                 assert!((rows - 1).saturating_mul(FROM).saturating_add(columns) <= from.len());
                 assert!((columns - 1).saturating_mul(TO).saturating_add(rows) <= to.len());
                 let (from, to) = (from.as_ptr(), to.as_mut_ptr());
+                let in_squares = |count: usize| match count % $lanes {
+                    narrow if narrow <= $lanes / 8 => count - narrow,
+                    _ => count,
+                };
+                let (square_rows, square_columns) = (in_squares(rows), in_squares(columns));
                 let mut i = 0;
-                while i < rows {
-                    i = i.min(rows - $lanes);
+                while i < square_rows {
+                    i = i.min(square_rows - $lanes);
                     let mut j = 0;
-                    while j < columns {
-                        j = j.min(columns - $lanes);
+                    while j < square_columns {
+                        j = j.min(square_columns - $lanes);
                         // SAFETY: `$lanes` rows of either matrix from i and j on have `$lanes` entries
                         // each, which are in their slices; the processor has what `$transpose` needs.
                         unsafe {
@@ -137,6 +143,22 @@ macro_rules! register {
                         j += $lanes;
                     }
                     i += $lanes;
+                }
+                for i in square_rows..rows {
+                    for j in (0..columns).step_by($lanes).map(|j| j.min(columns - $lanes)) {
+                        for k in 0..$lanes {
+                            // SAFETY: the entry is in its slice.
+                            unsafe { *to.add((j + k) * TO + i) = *from.add(i * FROM + j + k) }
+                        }
+                    }
+                }
+                for j in square_columns..columns {
+                    for i in (0..rows).step_by($lanes).map(|i| i.min(rows - $lanes)) {
+                        for k in 0..$lanes {
+                            // SAFETY: as above.
+                            unsafe { *to.add(j * TO + i + k) = *from.add((i + k) * FROM + j) }
+                        }
+                    }
                 }
             }
         }
@@ -205,7 +227,7 @@ macro_rules! register {
                     return $Narrower::points_to_line::<N>(from, to);
                 }
                 // SAFETY: the processor has the instructions: only `backend` names this type, behind a check.
-                unsafe { Self::transpose_squares::<N, LINE>([points, N], from, to) }
+                unsafe { Self::transpose_squares::<N, LINE>(points, N, from, to) }
             }
 
             #[inline(always)]
@@ -215,7 +237,7 @@ macro_rules! register {
                     return $Narrower::line_to_points::<N>(from, points, to);
                 }
                 // SAFETY: the processor has the instructions: only `backend` names this type, behind a check.
-                unsafe { Self::transpose_squares::<LINE, N>([N, points], from, to) }
+                unsafe { Self::transpose_squares::<LINE, N>(N, points, from, to) }
             }
 
             #[inline(always)]
@@ -362,7 +384,7 @@ register_512! {
         let series = e.mul_add(Self::splat(0.3125), Self::splat(0.375)).mul_add(e, Self::splat(0.5));
         y.mul_add(e * series, y)
     },
-    features "avx512f", splat _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd, stream _mm512_stream_pd,
+    features "avx512f,avx512dq", splat _mm512_set1_pd, load _mm512_loadu_pd, store _mm512_storeu_pd, stream _mm512_stream_pd,
     transpose transpose::transpose_f64x8, narrower F64x4,
     add _mm512_add_pd, sub _mm512_sub_pd, mul _mm512_mul_pd, div _mm512_div_pd,
     mul_add _mm512_fmadd_pd, sqrt _mm512_sqrt_pd, max _mm512_max_pd, min _mm512_min_pd,
@@ -382,7 +404,7 @@ register_512! {
         let e = (-(x * y)).mul_add(y, Self::splat(1.0));
         y.mul_add(e * Self::splat(0.5), y)
     },
-    features "avx512f", splat _mm512_set1_ps, load _mm512_loadu_ps, store _mm512_storeu_ps, stream _mm512_stream_ps,
+    features "avx512f,avx512dq", splat _mm512_set1_ps, load _mm512_loadu_ps, store _mm512_storeu_ps, stream _mm512_stream_ps,
     transpose transpose::transpose_f32x16, narrower F32x8,
     add _mm512_add_ps, sub _mm512_sub_ps, mul _mm512_mul_ps, div _mm512_div_ps,
     mul_add _mm512_fmadd_ps, sqrt _mm512_sqrt_ps, max _mm512_max_ps, min _mm512_min_ps,

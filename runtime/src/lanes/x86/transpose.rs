@@ -1,38 +1,12 @@
 //! Transposes of square matrices whose rows lie in memory, a stride apart.
 //!
 //! Neighbours are paired within each 128 bits, until these hold entries of one column, and blocks of 128 bits
-//! are brought to their places: with AVX2 while they are loaded, which spares these shuffles. Macros and
-//! loops instead of closures, which nothing can force the compiler to inline.
+//! are brought to their places: half of the way, and with AVX2 all of it, while they are loaded, which spares
+//! these shuffles. Macros and loops instead of closures, which nothing can force the compiler to inline.
 
 #![expect(unsafe_code, reason = "vector instructions; see the module above")]
 
 use std::arch::x86_64::*;
-
-/// The rows of a matrix, each in a register.
-macro_rules! load_rows {
-    ($load:ident, $zero:ident, $from:expr, $stride:expr, $rows:literal) => {{
-        let mut rows = [$zero(); $rows];
-        for k in 0..$rows {
-            rows[k] = $load($from.add(k * $stride));
-        }
-        rows
-    }};
-}
-
-/// Columns 0, 1, 2, 3 of a 4×4 matrix of 128-bit blocks given by rows.
-macro_rules! transpose_blocks {
-    ($shuffle:ident, $rows:expr) => {{
-        let [a, b, c, d] = $rows;
-        let (ab_even, ab_odd) = ($shuffle::<0x88>(a, b), $shuffle::<0xdd>(a, b));
-        let (cd_even, cd_odd) = ($shuffle::<0x88>(c, d), $shuffle::<0xdd>(c, d));
-        [
-            $shuffle::<0x88>(ab_even, cd_even),
-            $shuffle::<0x88>(ab_odd, cd_odd),
-            $shuffle::<0xdd>(ab_even, cd_even),
-            $shuffle::<0xdd>(ab_odd, cd_odd),
-        ]
-    }};
-}
 
 /// Four rows of floats, transposed within each 128 bits: element j holds entries j, j + 4, j + 8, … of all.
 macro_rules! transpose_quads {
@@ -90,22 +64,24 @@ macro_rules! transpose_quads_256 {
 pub(super) unsafe fn transpose_f64x8(from: *const f64, stride: usize) -> [__m512d; 8] {
     // SAFETY: both are conditions of this function.
     unsafe {
-        let [a, b, c, d, e, f, g, h] = load_rows!(_mm512_loadu_pd, _mm512_setzero_pd, from, stride, 8);
-        let low = [
-            _mm512_unpacklo_pd(a, b),
-            _mm512_unpacklo_pd(c, d),
-            _mm512_unpacklo_pd(e, f),
-            _mm512_unpacklo_pd(g, h),
-        ];
-        let high = [
-            _mm512_unpackhi_pd(a, b),
-            _mm512_unpackhi_pd(c, d),
-            _mm512_unpackhi_pd(e, f),
-            _mm512_unpackhi_pd(g, h),
-        ];
-        let (even, odd) =
-            (transpose_blocks!(_mm512_shuffle_f64x2, low), transpose_blocks!(_mm512_shuffle_f64x2, high));
-        [even[0], odd[0], even[1], odd[1], even[2], odd[2], even[3], odd[3]]
+        let mut columns = [_mm512_setzero_pd(); 8];
+        for half in 0..2 {
+            // Four columns: of row k in the first 256 bits, of row k + 2 in the others.
+            let mut rows = [_mm512_setzero_pd(); 4];
+            for (register, k) in [0, 1, 4, 5].into_iter().enumerate() {
+                let at = from.add(k * stride + 4 * half);
+                let first = _mm512_castpd256_pd512(_mm256_loadu_pd(at));
+                rows[register] = _mm512_insertf64x4::<1>(first, _mm256_loadu_pd(at.add(2 * stride)));
+            }
+            let [a, b, c, d] = rows;
+            let (even_ab, even_cd) = (_mm512_unpacklo_pd(a, b), _mm512_unpacklo_pd(c, d));
+            let (odd_ab, odd_cd) = (_mm512_unpackhi_pd(a, b), _mm512_unpackhi_pd(c, d));
+            columns[4 * half] = _mm512_shuffle_f64x2::<0x88>(even_ab, even_cd);
+            columns[4 * half + 1] = _mm512_shuffle_f64x2::<0x88>(odd_ab, odd_cd);
+            columns[4 * half + 2] = _mm512_shuffle_f64x2::<0xdd>(even_ab, even_cd);
+            columns[4 * half + 3] = _mm512_shuffle_f64x2::<0xdd>(odd_ab, odd_cd);
+        }
+        columns
     }
 }
 
@@ -117,20 +93,19 @@ pub(super) unsafe fn transpose_f64x8(from: *const f64, stride: usize) -> [__m512
 pub(super) unsafe fn transpose_f32x16(from: *const f32, stride: usize) -> [__m512; 16] {
     // SAFETY: both are conditions of this function.
     unsafe {
-        let rows = load_rows!(_mm512_loadu_ps, _mm512_setzero_ps, from, stride, 16);
-        // Column 4b + j of four rows each is in block b of element j.
-        let quads = [
-            transpose_quads_512!(rows, 0),
-            transpose_quads_512!(rows, 4),
-            transpose_quads_512!(rows, 8),
-            transpose_quads_512!(rows, 12),
-        ];
-        let mut columns = rows;
-        for j in 0..4 {
-            let blocks = [quads[0][j], quads[1][j], quads[2][j], quads[3][j]];
-            let transposed = transpose_blocks!(_mm512_shuffle_f32x4, blocks);
-            for b in 0..4 {
-                columns[4 * b + j] = transposed[b];
+        let mut columns = [_mm512_setzero_ps(); 16];
+        for half in 0..2 {
+            // Eight columns: of row k in the first 256 bits, of row k + 4 in the others.
+            let mut rows = [_mm512_setzero_ps(); 8];
+            for (register, k) in [0, 1, 2, 3, 8, 9, 10, 11].into_iter().enumerate() {
+                let at = from.add(k * stride + 8 * half);
+                let first = _mm512_castps256_ps512(_mm256_loadu_ps(at));
+                rows[register] = _mm512_insertf32x8::<1>(first, _mm256_loadu_ps(at.add(4 * stride)));
+            }
+            let (upper, lower) = (transpose_quads_512!(rows, 0), transpose_quads_512!(rows, 4));
+            for j in 0..4 {
+                columns[8 * half + j] = _mm512_shuffle_f32x4::<0x88>(upper[j], lower[j]);
+                columns[8 * half + 4 + j] = _mm512_shuffle_f32x4::<0xdd>(upper[j], lower[j]);
             }
         }
         columns
