@@ -120,7 +120,8 @@ macro_rules! register {
                 assert!(rows >= $lanes && columns >= $lanes);
                 assert!((rows - 1).saturating_mul(FROM).saturating_add(columns) <= from.len());
                 assert!((columns - 1).saturating_mul(TO).saturating_add(rows) <= to.len());
-                let (from, to) = (from.as_ptr(), to.as_mut_ptr());
+                const LINE: usize = <$Number as Scalar>::LINE;
+                let (length, from, to) = (to.len(), from.as_ptr(), to.as_mut_ptr());
                 let in_squares = |count: usize| match count % $lanes {
                     narrow if narrow <= $lanes / 8 => count - narrow,
                     _ => count,
@@ -133,9 +134,20 @@ macro_rules! register {
                     while j < square_columns {
                         j = j.min(square_columns - $lanes);
                         // SAFETY: `$lanes` rows of either matrix from i and j on have `$lanes` entries
-                        // each, which are in their slices; the processor has what `$transpose` needs.
+                        // each, which are in their slices, as is what is asked for ahead; the processor has
+                        // what `$transpose` needs.
                         unsafe {
                             let square = $transpose(from.add(i * FROM + j), FROM);
+                            // Rows that are no whole lines of the cache straddle them, and a store to two
+                            // lines waits for both: those of the next rows are asked for. With smaller
+                            // registers, and of short or aligned rows, that costs more than it gains.
+                            let next = (j + $lanes) * TO + i;
+                            let straddles = $lanes == LINE && TO > 2 * LINE && TO % LINE != 0;
+                            if straddles && next + $lanes * TO <= length {
+                                for k in 0..$lanes {
+                                    _mm_prefetch::<_MM_HINT_ET0>(to.add(next + k * TO).cast());
+                                }
+                            }
                             for k in 0..$lanes {
                                 $store(to.add((j + k) * TO + i), square[k]);
                             }
