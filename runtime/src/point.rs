@@ -43,7 +43,7 @@ mod twice;
 pub use deformation::Deformation;
 use deformation::Evaluate;
 pub use dense::{DensePoint, evaluate_dense};
-use invariants::{invariants, stress_by_invariants};
+use invariants::{gradient_is_in_range, invariants, stress_by_invariants};
 #[cfg(feature = "batch")]
 pub(crate) use matrix::multiply;
 use matrix::three;
@@ -163,11 +163,15 @@ impl<R: Real> Evaluate for &Matrix3<R> {
         let F = self;
         let (mut served, mut by_invariants) = (R::Mask::splat(false), [[R::splat(0.0); 3]; 3]);
         if material.has_invariants() {
-            let (invariants, is_in_range) = invariants(F, material.has_second_invariant());
+            let has_second = material.has_second_invariant();
+            let (invariants, is_in_range) = invariants(F, has_second);
             let gradient = material.gradient_by_invariants(invariants);
-            by_invariants = stress_by_invariants::<R, true>(F, gradient);
-            served =
-                is_in_range & material.admits_invariants(invariants) & entries_are_finite(&by_invariants);
+            by_invariants = if has_second {
+                stress_by_invariants::<R, true>(F, gradient)
+            } else {
+                stress_by_invariants::<R, false>(F, gradient)
+            };
+            served = is_in_range & material.admits_invariants(invariants) & gradient_is_in_range(gradient);
             if !(!served).any() {
                 return StressPoint { stress: by_invariants, status: Status::clean() };
             }

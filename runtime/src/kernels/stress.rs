@@ -7,9 +7,9 @@ use super::rows::{Row, Rows, first_bits, for_each_group};
 use super::sink::{LineBuffer, Sink, Source};
 use super::svd_tile::SvdTile;
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
-use crate::point::invariants::stress_by_invariants;
+use crate::point::invariants::{gradient_is_in_range, stress_by_invariants};
 use crate::point::matrix::{three, to_matrix, to_row_major};
-use crate::point::{Matrix3, entries_are_finite, stress, stress_is_finite};
+use crate::point::{Matrix3, stress, stress_is_finite};
 use crate::status::Status;
 
 /// Kernel from frames and ψi to P, Pa, or to the gradients of elements, N, if there are shapes at rest.
@@ -85,10 +85,11 @@ impl<E: Scalar, const HAS_SECOND: bool, const REST: usize> Kernel<E> for StressO
         let mut finite = 0;
         for_each_group!(R, count, |at| {
             let F = to_matrix(F.get_all::<R>(at));
-            let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradients.get_all(at));
+            let gradient = gradients.get_all(at);
+            let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradient);
             let stays_finite = put_stress(&stress, &rest.get_all(at), &mut to, line, at);
             finish_stress::<R, REST>(&mut to, line, at, count);
-            finite |= R::bits(entries_are_finite(&stress) & stays_finite) << at;
+            finite |= R::bits(gradient_is_in_range(gradient) & stays_finite) << at;
         });
         finite & first_bits(count)
     }

@@ -83,6 +83,14 @@ pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool>(
     stress_of_terms::<R, HAS_SECOND>([F, &D, &C], [W1 + W1, W2 + W2, WJ])
 }
 
+/// Whether P by these derivatives is finite wherever the invariants are in range: entries of F, C and D are
+/// then below the powers 1/8, 2/8 and 3/8 of the largest finite number, but for small factors, and the
+/// derivatives below its root.
+#[inline(always)]
+pub(crate) fn gradient_is_in_range<R: Real>([W1, W2, WJ]: [R; 3]) -> R::Mask {
+    (W1.abs() + W2.abs() + WJ.abs()).less(R::splat(R::MIN_POSITIVE.powf(-0.5)))
+}
+
 /// The sum of F, D and C times a factor each.
 #[inline(always)]
 fn stress_of_terms<R: Real, const HAS_SECOND: bool>(
