@@ -54,8 +54,8 @@ impl<E: Kernels> Batch<'_, E> {
     ) -> Result<Survey, LengthError> {
         self.run([("F", F, 9)], [("stresses", stresses, 6)], |call, job, [F], [stresses]| {
             let mut tile = call.points(job, F);
-            tile.decompose();
-            let refused = tile.gradients();
+            tile.decompose(0);
+            let refused = tile.gradients(0);
             let Tile { count, svd: points, scratch: Scratch { gradients, line, .. }, .. } = tile;
             let to = call.sink(stresses, 0);
             let kernel = MeasuredStress { measure, points, gradients: &gradients.0, count, line, to };
@@ -83,8 +83,8 @@ impl<E: Kernels> Batch<'_, E> {
             let call = Call { filter: Filter::None, ..call };
             let fence = call.fence();
             let mut tile = call.points(job, F);
-            tile.decompose();
-            let judged = tile.blocks();
+            tile.decompose(0);
+            let judged = tile.blocks(0);
             let Tile { count, svd: points, scratch: Scratch { blocks, line, .. }, .. } = tile;
             let (points, to) = (&*points, call.sink(stresses, 0));
             let kernel = MeasuredStress { measure, points, gradients: &blocks.0, count, line, to };

@@ -90,7 +90,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if served == first_bits(self.count) {
             return Status::default();
         }
-        self.decompose();
+        self.decompose(served);
         self.energies_by_stretches(served, energies) & !served
     }
 
@@ -100,7 +100,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         // The decomposition of an earlier call costs nothing.
         let mut served = if self.is_decomposed { 0 } else { self.invariants() };
         if served != 0 {
-            let arguments = self.arguments(&self.scratch.invariants);
+            let arguments = self.arguments(&self.scratch.invariants, 0);
             let gradients = &mut self.scratch.gradients;
             served &= !call.material.tile_gradients_by_invariants(arguments, gradients).refused;
             let kernel = StressByInvariants {
@@ -118,8 +118,8 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if served == first_bits(self.count) {
             return Status::default();
         }
-        self.decompose();
-        let refused = self.gradients();
+        self.decompose(served);
+        let refused = self.gradients(served);
         let Scratch { gradients, line, .. } = &mut *self.scratch;
         let kernel = Stress {
             points: self.svd,
@@ -171,8 +171,8 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if served == first_bits(self.count) {
             return Status::default();
         }
-        self.decompose();
-        let mut status = self.blocks();
+        self.decompose(served);
+        let mut status = self.blocks(served);
         if let Some(energies) = energies {
             status = status | self.energies_by_stretches(served, energies);
         }
@@ -186,26 +186,26 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         (E::tangents(call.backend, form, kernel) | stressed | status) & !served
     }
 
-    /// Decomposes F, unless that has been done.
-    pub(super) fn decompose(&mut self) {
+    /// Decomposes F where points are not served, unless that has been done.
+    pub(super) fn decompose(&mut self, served: u64) {
         if !self.is_decomposed {
             let is_signed = self.call.properties.ends_at_zero_volume;
-            let kernel = Decompose { F: self.F, count: self.count, is_signed, points: self.svd };
+            let kernel = Decompose { F: self.F, count: self.count, served, is_signed, points: self.svd };
             E::decompose(self.call.backend, kernel);
-            self.is_decomposed = true;
+            self.is_decomposed = served == 0;
         }
     }
 
-    /// Gradients of the energy in the stretches of a decomposed tile.
-    pub(super) fn gradients(&mut self) -> Status<u64> {
-        let arguments = self.arguments(&self.svd.stretches);
+    /// Gradients of the energy in the stretches of a decomposed tile, where points are not served.
+    pub(super) fn gradients(&mut self, served: u64) -> Status<u64> {
+        let arguments = self.arguments(&self.svd.stretches, served);
         self.call.material.tile_gradients(arguments, &mut self.scratch.gradients)
     }
 
-    /// The filtered blocks of a decomposed tile.
-    pub(super) fn blocks(&mut self) -> Status<u64> {
+    /// The filtered blocks of a decomposed tile, where points are not served.
+    pub(super) fn blocks(&mut self, served: u64) -> Status<u64> {
         let Call { material, properties: Properties { has_pole, .. }, filter, backend, .. } = self.call;
-        let arguments = self.arguments(&self.svd.stretches);
+        let arguments = self.arguments(&self.svd.stretches, served);
         let blocks = &mut self.scratch.blocks;
         let refused = material.tile_blocks(arguments, blocks);
         refused
@@ -237,7 +237,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if in_range == 0 {
             return 0;
         }
-        let arguments = self.arguments(&self.scratch.invariants);
+        let arguments = self.arguments(&self.scratch.invariants, 0);
         let derivatives = &mut self.scratch.derivatives;
         let status = self.call.material.tile_derivatives_by_invariants(arguments, derivatives);
         self.accepted(in_range & !(status.refused | status.nonfinite))
@@ -248,7 +248,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if in_range == 0 {
             return 0;
         }
-        let arguments = self.arguments(&self.scratch.invariants);
+        let arguments = self.arguments(&self.scratch.invariants, 0);
         let densities = &mut self.scratch.energies;
         let status = self.call.material.tile_energies_by_invariants(arguments, densities);
         energies.copy_from_slice(&densities.0[0][..energies.len()]);
@@ -257,7 +257,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
 
     /// Energies of the points of a decomposed tile that are not served yet, and the status of all.
     fn energies_by_stretches(&mut self, served: u64, energies: &mut [E]) -> Status<u64> {
-        let arguments = self.arguments(&self.svd.stretches);
+        let arguments = self.arguments(&self.svd.stretches, served);
         let densities = &mut self.scratch.energies;
         let status = self.call.material.tile_energies(arguments, densities);
         for (point, energy) in energies.iter_mut().enumerate().filter(|(point, _)| served >> point & 1 == 0) {
@@ -271,7 +271,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if self.call.keeps_svd && served != first_bits(self.count) { 0 } else { served }
     }
 
-    fn arguments<'r>(&self, rows: &'r Rows<E, 3>) -> Arguments<'r, E> {
-        Arguments { backend: self.call.backend, start: self.start, count: self.count, rows }
+    fn arguments<'r>(&self, rows: &'r Rows<E, 3>, served: u64) -> Arguments<'r, E> {
+        Arguments { backend: self.call.backend, start: self.start, count: self.count, served, rows }
     }
 }

@@ -20,13 +20,13 @@ type InTurns<R> = R;
 
 /// Decomposes the points of a tile on these lanes, but for exact axes.
 macro_rules! decompose {
-    ($R:ty, $F:ident, $count:ident, $is_signed:ident, $points:ident) => {
+    ($R:ty, $F:ident, $count:ident, $served:ident, $is_signed:ident, $points:ident) => {
         if $is_signed {
-            for_each_group!($R, $count, |at| {
+            for_each_group!($R, $count, but $served, |at| {
                 $points.set(at, &unaligned_signed_by_determinant(&to_matrix($F.get_all::<$R>(at))));
             });
         } else {
-            for_each_group!($R, $count, |at| {
+            for_each_group!($R, $count, but $served, |at| {
                 $points.set(at, &unaligned(&to_matrix($F.get_all::<$R>(at))));
             });
         }
@@ -37,6 +37,8 @@ macro_rules! decompose {
 pub(crate) struct Decompose<'a, E> {
     pub(crate) F: Source<'a, E, 9>,
     pub(crate) count: usize,
+    /// Points whose decomposition nothing reads, as bits.
+    pub(crate) served: u64,
     /// Whether the sign of det F decides over the domain.
     pub(crate) is_signed: bool,
     pub(crate) points: &'a mut SvdTile<E>,
@@ -47,14 +49,14 @@ impl<E: Scalar> Kernel<E> for Decompose<'_, E> {
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) {
-        let Self { F, count, is_signed, points } = self;
+        let Self { F, count, served, is_signed, points } = self;
         if count <= R::LANES {
-            decompose!(R, F, count, is_signed, points);
+            decompose!(R, F, count, served, is_signed, points);
         } else {
-            decompose!(InTurns<R>, F, count, is_signed, points);
+            decompose!(InTurns<R>, F, count, served, is_signed, points);
         }
         // Apart from the loops above, which need all registers.
-        for_each_group!(R, count, |at| {
+        for_each_group!(R, count, but served, |at| {
             let F = to_matrix(F.get_all::<R>(at));
             if may_have_axis(&F).any() {
                 points.set(at, &along_axes(&F, points.get(at)));

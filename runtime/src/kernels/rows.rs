@@ -70,6 +70,13 @@ macro_rules! for_each_group {
             $at += <$R as $crate::lanes::Lanes>::LANES;
         }
     };
+    // But for groups all of whose points are served already, as bits.
+    ($R:ty, $count:expr, but $served:expr, |$at:ident| $body:block) => {
+        $crate::kernels::rows::for_each_group!($R, $count, |$at| {
+            let lanes = $crate::kernels::rows::first_bits(<$R as $crate::lanes::Lanes>::LANES);
+            if (!$served >> $at) & lanes != 0 $body
+        })
+    };
 }
 pub(crate) use for_each_group;
 

@@ -29,8 +29,8 @@ impl<E: Scalar> Kernel<E> for Stress<'_, E, 10> {
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
         let Self { points, gradients, rest, count, line, mut to } = self;
-        let mut status = Status::default();
-        for_each_group!(R, count, |at| {
+        let (served, mut status) = (to.served, Status::default());
+        for_each_group!(R, count, but served, |at| {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             let rest = rest.get_all(at);
@@ -49,8 +49,8 @@ impl<E: Scalar> Kernel<E> for Stress<'_, E, 0> {
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
         let Self { points, gradients, count, line, mut to, .. } = self;
-        let mut status = Status::default();
-        for_each_group!(R, count, |at| {
+        let (served, mut status) = (to.served, Status::default());
+        for_each_group!(R, count, but served, |at| {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             status.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;

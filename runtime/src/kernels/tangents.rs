@@ -71,8 +71,8 @@ where
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
         let Tangents { points, blocks, rest, count, has_pole, line, mut to } = self.0;
-        let mut status = Status::default();
-        for_each_group!(R, count, |at| {
+        let (served, mut status) = (to.served, Status::default());
+        for_each_group!(R, count, but served, |at| {
             let Svd { U, V, .. } = points.get::<R>(at);
             let mut blocks = from_rows(blocks.get_all(at));
             let rest = rest.get_all(at);
