@@ -91,7 +91,7 @@ pub enum PointFunction {
     Absolute,
     /// The gradient of a tetrahedron's energy and its stiffness, from nodes, Dm⁻¹ and volume.
     Tetrahedron,
-    /// The same with dP/dF clamped.
+    /// Gradient and stiffness of a tetrahedron, from dP/dF with its negative eigenvalues clamped to zero.
     ProjectedTetrahedron,
     /// ψi, ψij, flips and twists from the signed stretches.
     Blocks,

@@ -43,7 +43,7 @@ pub mod random {
 /// Computations as programs, for back ends that print them.
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod record {
-    pub use crate::kernels::tetrahedron::{Tetrahedron, evaluate_tetrahedron};
+    pub use crate::kernels::tetrahedron::{DenseTetrahedron, evaluate_tetrahedron};
     pub use crate::lanes::recorded::program::{
         Binary, Function, Id, Recordable, RecordedOperation, RecordedProgram, Recording, Unary,
         UnrecordedParameter,

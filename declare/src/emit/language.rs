@@ -1,4 +1,4 @@
-//! What the printer asks of a language: its words, its literals, and the lines around a function.
+//! Languages as the printer sees them: words, literals, and the lines around a function.
 
 mod c;
 mod wgsl;
@@ -103,7 +103,7 @@ pub(super) fn language(target: Target, precision: Precision, prefix: &str) -> Bo
     }
 }
 
-/// What the programs of a file are made of.
+/// Operations of the programs of a file, whose primitives it must have.
 pub(super) struct Needs<'a>(pub(super) Vec<&'a RecordedOperation>);
 
 impl Needs<'_> {

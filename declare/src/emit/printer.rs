@@ -197,7 +197,7 @@ impl<'a> Printer<'a> {
     }
 }
 
-/// What a function takes and gives.
+/// Arguments and results of a function, and the comment above it.
 struct Signature {
     comment: &'static str,
     inputs: &'static [(&'static str, usize)],

@@ -12,7 +12,7 @@ use crate::point::{Filter, Matrix3, Tangent, decompose, judge, multiply, stress,
 use crate::status::Status;
 
 /// Gradient and stiffness of a linear tetrahedron.
-pub struct Tetrahedron<R: Real> {
+pub struct DenseTetrahedron<R: Real> {
     /// The gradient of its energy, N: coordinate a of node i at 3i+a.
     pub gradient: [R; 12],
     /// Its stiffness, filtered as asked, N/m: row and column as the gradient.
@@ -29,7 +29,7 @@ pub fn evaluate_tetrahedron<R: Real>(
     nodes: [[R; 3]; 4],
     rest: [R; 10],
     filter: Filter,
-) -> Tetrahedron<R> {
+) -> DenseTetrahedron<R> {
     let Ds = three!(a => three!(k => nodes[k + 1][a] - nodes[0][a]));
     let [a, b, c, d, e, f, g, h, i, _] = rest;
     let F = multiply(&Ds, &[[a, b, c], [d, e, f], [g, h, i]]);
@@ -48,7 +48,7 @@ pub fn evaluate_tetrahedron<R: Real>(
     }
     let other = by_decomposition(material, &F, &rest, filter);
     let (one, status) = (&by_invariants, other.status & !served);
-    Tetrahedron {
+    DenseTetrahedron {
         gradient: std::array::from_fn(|k| R::select(served, one.gradient[k], other.gradient[k])),
         stiffness: std::array::from_fn(|k| R::select(served, one.stiffness[k], other.stiffness[k])),
         status,
@@ -60,7 +60,7 @@ fn by_decomposition<R: Real>(
     F: &Matrix3<R>,
     rest: &[R; 10],
     filter: Filter,
-) -> Tetrahedron<R> {
+) -> DenseTetrahedron<R> {
     let svd = decompose(material, F);
     let blocks = material.blocks(svd.stretches);
     let stress = stress(&svd, blocks.gradient);
@@ -69,7 +69,7 @@ fn by_decomposition<R: Real>(
     let refused =
         Status { refused: !material.admits(svd.stretches), nonfinite: !is_finite, ..Status::clean() };
     let status = status | refused | FullStiffness::prepare(&mut blocks, rest, material.has_pole());
-    let mut at = Tetrahedron::zero(status);
+    let mut at = DenseTetrahedron::zero(status);
     put_gradient(&stress, rest, &mut at.gradient);
     FullStiffness::put_all(&Tangent { U: svd.U, V: svd.V, blocks }, rest, &mut at.stiffness);
     at
@@ -80,11 +80,11 @@ fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
     material: &impl Response<R>,
     F: &Matrix3<R>,
     rest: &[R; 10],
-) -> (R::Mask, Tetrahedron<R>) {
+) -> (R::Mask, DenseTetrahedron<R>) {
     let (invariants, is_in_range) = invariants(F, HAS_SECOND);
     let derivatives = material.derivatives_by_invariants(invariants);
     let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(F, invariants, &derivatives);
-    let mut at = Tetrahedron::zero(Status::clean());
+    let mut at = DenseTetrahedron::zero(Status::clean());
     let largest = FullStiffness::put_all_by_invariants(&terms, rest, &mut at.stiffness);
     put_gradient(&terms.stress(), rest, &mut at.gradient);
     let stays_finite =
@@ -94,7 +94,7 @@ fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
     (served, at)
 }
 
-impl<R: Real> Tetrahedron<R> {
+impl<R: Real> DenseTetrahedron<R> {
     fn zero(status: Status<R::Mask>) -> Self {
         let zero = R::splat(0.0);
         Self { gradient: [zero; 12], stiffness: [zero; 144], status }

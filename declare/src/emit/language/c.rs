@@ -60,7 +60,7 @@ impl C {
         if self.dialect == Dialect::OpenCl { "" } else { self.end() }
     }
 
-    /// What stands before the name of a function.
+    /// Qualifiers and type of a function, and the prefix of its name.
     fn function(&self, result: &str) -> String {
         match self.dialect {
             Dialect::C | Dialect::OpenCl => format!("static inline {result} {}", self.prefix),

@@ -1,9 +1,9 @@
 //! WGSL, in which a number is an `f32`.
 //!
-//! The language lets a compiler compute as with real numbers, none of them infinite or NaN. Mesa's does: of
-//! (a + b) − a it makes b, of a b + a c a (b + c), of 0 a 0. So every result of arithmetic is hidden from it:
-//! its bits are combined with bits that are zero, which the compiler cannot know. What is finite is seen in the
-//! bits.
+//! The language lets a compiler compute as with real numbers, none of them infinite or NaN. Mesa's compiler
+//! does: (a + b) − a becomes b, a b + a c becomes a (b + c), and 0 a becomes 0. So every result of arithmetic
+//! is hidden from it: the bits are combined with bits that are zero, which the compiler cannot know. Finite
+//! numbers are recognised by their bits.
 
 use piola::__private::record::{Binary, Function, Unary};
 
