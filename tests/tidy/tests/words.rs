@@ -84,7 +84,7 @@ fn sources() -> Vec<(PathBuf, String)> {
     let mut found: Vec<_> = members().iter().flat_map(|folder| files(folder)).collect();
     found.extend(files(Path::new("fuzz/fuzz_targets")));
     found.extend(
-        ["distributed", "bindings/c", "bindings/python", "bindings/web", "examples/fenris"]
+        ["distributed", "bindings/c", "bindings/python", "bindings/web", "examples/fenris", "examples/wgpu"]
             .iter()
             .flat_map(|folder| files(Path::new(folder))),
     );

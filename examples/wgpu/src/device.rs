@@ -1,0 +1,151 @@
+//! A graphics processor: its buffers, programs and calls of them. It knows no energy.
+
+use std::fmt;
+use std::time::{Duration, Instant};
+
+use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline, ErrorFilter, Limits, PollType};
+
+use crate::Error;
+
+/// No adapter answers to Vulkan.
+#[derive(Debug)]
+pub struct NoAdapter(wgpu::RequestAdapterError);
+
+impl fmt::Display for NoAdapter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let advice =
+            "a driver is needed, or Mesa's for the processor: mesa-vulkan-drivers and libvulkan1 in Debian";
+        write!(f, "no adapter for Vulkan: {advice} ({})", self.0)
+    }
+}
+
+impl std::error::Error for NoAdapter {}
+
+/// An open device.
+#[derive(Debug)]
+pub struct Device {
+    /// The adapter as it calls itself.
+    pub name: String,
+    /// All that the adapter allows.
+    pub limits: Limits,
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+}
+
+impl Device {
+    /// The fastest adapter, with its own limits.
+    ///
+    /// # Errors
+    /// [`NoAdapter`], or a device that cannot be opened.
+    pub fn open() -> Result<Self, Error> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(NoAdapter)?;
+        let limits = adapter.limits();
+        let descriptor = wgpu::DeviceDescriptor { required_limits: limits.clone(), ..Default::default() };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))?;
+        Ok(Self { name: adapter.get_info().name, limits, device, queue })
+    }
+
+    /// Entry points of a text in WGSL, whose bindings are found in it, as programs.
+    ///
+    /// # Errors
+    /// The text is not WGSL, or the driver does not compile it.
+    pub fn programs(&self, text: &str, entries: &[&str]) -> Result<Vec<ComputePipeline>, Error> {
+        let scope = self.device.push_error_scope(ErrorFilter::Validation);
+        let source = wgpu::ShaderSource::Wgsl(text.into());
+        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+        let compile = |entry: &&str| {
+            self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(*entry),
+                layout: None,
+                module: &module,
+                entry_point: Some(*entry),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        };
+        let programs = entries.iter().map(compile).collect();
+        pollster::block_on(scope.pop()).map_or(Ok(programs), |error| Err(error.into()))
+    }
+
+    /// A buffer with these contents.
+    #[must_use]
+    pub fn filled<T: bytemuck::NoUninit>(&self, contents: &[T]) -> Buffer {
+        let bytes = bytemuck::cast_slice(contents);
+        let buffer = self.empty(bytes.len() as u64);
+        self.queue.write_buffer(&buffer, 0, bytes);
+        buffer
+    }
+
+    /// A buffer of zeros.
+    #[must_use]
+    pub fn empty(&self, bytes: u64) -> Buffer {
+        self.buffer(bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)
+    }
+
+    fn buffer(&self, size: u64, usage: BufferUsages) -> Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size,
+            usage,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// Buffers in the order of the bindings that a program has; those it does not use are `None`.
+    #[must_use]
+    pub fn bind(&self, program: &ComputePipeline, buffers: &[Option<&Buffer>]) -> BindGroup {
+        let entries: Vec<_> = (0u32..)
+            .zip(buffers)
+            .filter_map(|(binding, buffer)| Some((binding, (*buffer)?)))
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .collect();
+        let layout = &program.get_bind_group_layout(0);
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+    }
+
+    /// Runs programs one after the other, each in so many workgroups, and says how long that took.
+    ///
+    /// # Errors
+    /// The device is lost.
+    pub fn run<'a>(
+        &self,
+        calls: impl IntoIterator<Item = (&'a ComputePipeline, &'a BindGroup, u32)>,
+    ) -> Result<Duration, Error> {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        for (program, group, workgroups) in calls {
+            pass.set_pipeline(program);
+            pass.set_bind_group(0, group, &[]);
+            pass.dispatch_workgroups(workgroups, 1, 1);
+        }
+        drop(pass);
+        let commands = encoder.finish();
+        self.device.poll(PollType::wait_indefinitely())?;
+        let start = Instant::now();
+        self.queue.submit([commands]);
+        self.device.poll(PollType::wait_indefinitely())?;
+        Ok(start.elapsed())
+    }
+
+    /// The contents of a buffer.
+    ///
+    /// # Errors
+    /// The device is lost, or has no memory.
+    pub fn read<T: bytemuck::Pod>(&self, buffer: &Buffer) -> Result<Vec<T>, Error> {
+        let copy = self.buffer(buffer.size(), BufferUsages::COPY_DST | BufferUsages::MAP_READ);
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+        self.queue.submit([encoder.finish()]);
+        let (sender, receiver) = std::sync::mpsc::channel();
+        copy.slice(..).map_async(wgpu::MapMode::Read, move |result| _ = sender.send(result));
+        self.device.poll(PollType::wait_indefinitely())?;
+        receiver.recv()??;
+        let view = copy.slice(..).get_mapped_range()?;
+        Ok(bytemuck::pod_collect_to_vec(&view))
+    }
+}

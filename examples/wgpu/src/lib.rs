@@ -1,0 +1,12 @@
+#![doc = include_str!("../README.md")]
+
+pub mod device;
+pub mod mesh;
+pub mod points;
+pub mod tetrahedra;
+
+/// A sentence for the user.
+pub type Error = Box<dyn std::error::Error + Send + Sync>;
+
+/// First part of all names in the WGSL that this crate runs.
+pub const PREFIX: &str = "energy";

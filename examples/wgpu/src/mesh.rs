@@ -1,0 +1,87 @@
+//! A bar of linear tetrahedra, bent out of shape.
+
+/// Linear tetrahedra with the positions of their nodes.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// Positions of the nodes now, m.
+    pub positions: Vec<[f32; 3]>,
+    /// Four nodes of each element.
+    pub corners: Vec<[u32; 4]>,
+    /// Dm⁻¹ row by row, 1/m, and the volume, m³, of each element.
+    pub rest: Vec<[f32; 10]>,
+}
+
+/// A bar of so many cubes along its axes, five tetrahedra each, stretched, twisted about its first axis, and
+/// waved so that each element has another deformation gradient. All J are positive.
+#[must_use]
+pub fn bar(cells: [usize; 3]) -> Mesh {
+    let [nx, ny, nz] = cells.map(|count| count + 1);
+    let node = |at: [usize; 3]| (at[2] * ny + at[1]) * nx + at[0];
+    let size = 1.0 / cells[0] as f64;
+    let mut at_rest = Vec::with_capacity(nx * ny * nz);
+    for z in 0..nz {
+        for y in 0..ny {
+            at_rest.extend((0..nx).map(|x| [x, y, z].map(|count| count as f64 * size)));
+        }
+    }
+    // A cube is cut into a tetrahedron in the middle and one at each corner that this leaves; neighbours are
+    // mirror images, whose faces fit.
+    const CUT: [[usize; 4]; 5] = [[0, 3, 5, 6], [1, 3, 0, 5], [2, 0, 3, 6], [4, 0, 6, 5], [7, 3, 5, 6]];
+    let mut mesh = Mesh { positions: Vec::new(), corners: Vec::new(), rest: Vec::new() };
+    for z in 0..cells[2] {
+        for y in 0..cells[1] {
+            for x in 0..cells[0] {
+                let mirror = (x + y + z) % 2;
+                for tetrahedron in CUT {
+                    let mut corners = tetrahedron.map(|corner| {
+                        node([x + ((corner & 1) ^ mirror), y + (corner >> 1 & 1), z + (corner >> 2)])
+                    });
+                    if determinant(edges(corners.map(|corner| at_rest[corner]))) < 0.0 {
+                        corners.swap(2, 3);
+                    }
+                    let (inverse, volume) = rest_shape(edges(corners.map(|corner| at_rest[corner])));
+                    let shape = [inverse.as_flattened(), &[volume]].concat();
+                    mesh.corners.push(corners.map(|corner| corner as u32));
+                    mesh.rest.push(std::array::from_fn(|k| shape[k] as f32));
+                }
+            }
+        }
+    }
+    let middle = [cells[1], cells[2]].map(|count| count as f64 * size / 2.0);
+    mesh.positions.extend(at_rest.into_iter().map(|at| deformed(at, middle).map(|x| x as f32)));
+    mesh
+}
+
+/// Where a point of the bar goes: half of a turn over its length, a stretch between 0.5 and 1.5 along it, and
+/// one between 0.6 and 1.4 across.
+fn deformed([x, y, z]: [f64; 3], middle: [f64; 2]) -> [f64; 3] {
+    use std::f64::consts::PI;
+    let across = 1.0 + 0.4 * (4.0 * PI * x).cos();
+    let [y, z] = [y - middle[0], z - middle[1]].map(|x| x * across);
+    let (sin, cos) = (PI * x).sin_cos();
+    let along = x + 0.5 / (6.0 * PI) * (6.0 * PI * x).sin();
+    [along + 0.05 * (9.0 * y).sin() * z, cos * y - sin * z, sin * y + cos * z]
+}
+
+/// Edges from corner 0, as columns.
+fn edges(corners: [[f64; 3]; 4]) -> [[f64; 3]; 3] {
+    std::array::from_fn(|a| std::array::from_fn(|k| corners[k + 1][a] - corners[0][a]))
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn determinant(rows: [[f64; 3]; 3]) -> f64 {
+    let normal = cross(rows[1], rows[2]);
+    rows[0][0] * normal[0] + rows[0][1] * normal[1] + rows[0][2] * normal[2]
+}
+
+/// Dm⁻¹ and the volume from Dm.
+fn rest_shape(rows: [[f64; 3]; 3]) -> ([[f64; 3]; 3], f64) {
+    let [a, b, c] = rows;
+    let columns = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant = determinant(rows);
+    let inverse = std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i] / determinant));
+    (inverse, determinant / 6.0)
+}

@@ -1,0 +1,163 @@
+//! Gradients and stiffnesses of linear tetrahedra, computed by one invocation each.
+//!
+//! Numbers of elements lie in lines: component k of the 64 elements of a workgroup, then component k + 1. So
+//! neighbours read and write side by side.
+
+use std::time::Duration;
+
+use wgpu::{BindGroup, Buffer, ComputePipeline};
+
+use crate::device::Device;
+use crate::mesh::Mesh;
+use crate::{Error, PREFIX};
+
+/// Elements of a line, and invocations of a workgroup.
+const LINE: usize = 64;
+
+/// Components of the stiffness, the largest part of an element.
+const ENTRIES: usize = 144;
+
+/// Elements on a device.
+#[derive(Debug)]
+pub struct Elements<'a> {
+    device: &'a Device,
+    count: usize,
+    program: ComputePipeline,
+    chunks: Vec<Chunk>,
+}
+
+/// Elements that share buffers, as many as a binding may hold.
+#[derive(Debug)]
+struct Chunk {
+    lines: u32,
+    bindings: BindGroup,
+    gradients: Buffer,
+    stiffnesses: Buffer,
+    statuses: Buffer,
+}
+
+/// Gradients and stiffnesses, element by element.
+pub type Results = (Vec<[f32; 12]>, Vec<[f32; ENTRIES]>);
+
+/// The program for an energy: its own text, and an entry point.
+#[must_use]
+pub fn shader(energy: &str, function: &str) -> String {
+    format!(
+        "{energy}
+@group(0) @binding(0) var<storage, read> parameters: {PREFIX}_parameters;
+@group(0) @binding(1) var<storage, read> positions: array<f32>;
+@group(0) @binding(2) var<storage, read> corners: array<vec4<u32>>;
+@group(0) @binding(3) var<storage, read> rests: array<f32>;
+@group(0) @binding(4) var<storage, read_write> gradients: array<f32>;
+@group(0) @binding(5) var<storage, read_write> stiffnesses: array<f32>;
+@group(0) @binding(6) var<storage, read_write> statuses: array<u32>;
+
+@compute @workgroup_size({LINE})
+fn elements(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {{
+    let element = {LINE}u * group.x + lane;
+    let nodes = corners[element];
+    var x: array<f32, 12>;
+    for (var k = 0u; k < 12u; k++) {{
+        x[k] = positions[3u * nodes[k / 3u] + k % 3u];
+    }}
+    var rest: array<f32, 10>;
+    for (var k = 0u; k < 10u; k++) {{
+        rest[k] = rests[(10u * group.x + k) * {LINE}u + lane];
+    }}
+    var gradient: array<f32, 12>;
+    var K: array<f32, {ENTRIES}>;
+    statuses[element] = {PREFIX}_{function}(parameters, x, rest, &gradient, &K);
+    for (var k = 0u; k < 12u; k++) {{
+        gradients[(12u * group.x + k) * {LINE}u + lane] = gradient[k];
+    }}
+    for (var k = 0u; k < {ENTRIES}u; k++) {{
+        stiffnesses[({ENTRIES}u * group.x + k) * {LINE}u + lane] = K[k];
+    }}
+}}
+"
+    )
+}
+
+impl<'a> Elements<'a> {
+    /// The elements of a mesh, with the text of an energy, its parameters as fields of that text, and the
+    /// function that is called: `tetrahedron` or `projected_tetrahedron`.
+    ///
+    /// # Errors
+    /// The device does not compile the text, or the nodes are too many for it.
+    pub fn new(
+        device: &'a Device,
+        (energy, function): (&str, &str),
+        parameters: &[f32],
+        mesh: &Mesh,
+    ) -> Result<Self, Error> {
+        let limits = &device.limits;
+        let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        if size_of_val(&mesh.positions[..]) as u64 > largest {
+            return Err(format!("{} nodes are too many for {}", mesh.positions.len(), device.name).into());
+        }
+        let program = device.programs(&shader(energy, function), &["elements"])?.remove(0);
+        let (parameters, positions) = (device.filled(parameters), device.filled(&mesh.positions));
+        let lines = largest / (4 * ENTRIES * LINE) as u64;
+        let lines = lines.min(limits.max_compute_workgroups_per_dimension.into()) as usize;
+        let parts = mesh.corners.chunks(lines * LINE).zip(mesh.rest.chunks(lines * LINE));
+        let chunks = parts.map(|(corners, rest)| {
+            // The last line is filled up with its last element.
+            let lines = corners.len().div_ceil(LINE);
+            let at = |k: usize| k.min(corners.len() - 1);
+            let corners: Vec<_> = (0..lines * LINE).map(|k| corners[at(k)]).collect();
+            let rest: Vec<f32> = (0..lines * LINE * 10)
+                .map(|k| rest[at(k / (10 * LINE) * LINE + k % LINE)][k / LINE % 10])
+                .collect();
+            let [gradients, stiffnesses, statuses] =
+                [12, ENTRIES, 1].map(|components| device.empty((4 * components * LINE * lines) as u64));
+            let (corners, rest) = (device.filled(&corners), device.filled(&rest));
+            let all = [&parameters, &positions, &corners, &rest, &gradients, &stiffnesses, &statuses];
+            let bindings = device.bind(&program, &all.map(Some));
+            Chunk { lines: lines as u32, bindings, gradients, stiffnesses, statuses }
+        });
+        let chunks = chunks.collect();
+        Ok(Self { device, count: mesh.corners.len(), program, chunks })
+    }
+
+    /// Computes all elements.
+    ///
+    /// # Errors
+    /// The device is lost.
+    pub fn compute(&self) -> Result<Duration, Error> {
+        self.device.run(self.chunks.iter().map(|chunk| (&self.program, &chunk.bindings, chunk.lines)))
+    }
+
+    /// The status of each element.
+    ///
+    /// # Errors
+    /// The device is lost.
+    pub fn statuses(&self) -> Result<Vec<u32>, Error> {
+        let mut all = Vec::new();
+        for chunk in &self.chunks {
+            all.extend(self.device.read::<u32>(&chunk.statuses)?);
+        }
+        all.truncate(self.count);
+        Ok(all)
+    }
+
+    /// What has been computed.
+    ///
+    /// # Errors
+    /// The device is lost, or has no memory.
+    pub fn results(&self) -> Result<Results, Error> {
+        let (mut gradients, mut stiffnesses) = (Vec::new(), Vec::new());
+        for chunk in &self.chunks {
+            gradients.extend(elements(&self.device.read(&chunk.gradients)?));
+            stiffnesses.extend(elements(&self.device.read(&chunk.stiffnesses)?));
+        }
+        gradients.truncate(self.count);
+        stiffnesses.truncate(self.count);
+        Ok((gradients, stiffnesses))
+    }
+}
+
+/// Components of each element from lines.
+fn elements<const N: usize>(lines: &[f32]) -> impl Iterator<Item = [f32; N]> {
+    let all = 0..lines.len() / N;
+    all.map(|at| std::array::from_fn(|k| lines[(at / LINE * N + k) * LINE + at % LINE]))
+}

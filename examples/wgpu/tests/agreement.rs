@@ -1,0 +1,120 @@
+//! Forces and stiffnesses of the shader beside those of piola's batches, on a small mesh.
+
+#![expect(non_snake_case, reason = "K as in the literature")]
+#![expect(clippy::print_stdout, reason = "figures to show")]
+
+use piola::Inversion;
+use piola::batch::{Batch, Kernels, MatrixForm, Tetrahedra, TileMaterial};
+use piola::interpreter::Interpreted;
+use piola::point::Filter;
+use piola_declare::Energy;
+use piola_declare::emit::{Emission, PointFunction, Precision, Target};
+use piola_wgpu::PREFIX;
+use piola_wgpu::device::Device;
+use piola_wgpu::mesh::{Mesh, bar};
+use piola_wgpu::tetrahedra::Elements;
+
+/// Bound of errors in units of u: of stiffnesses times the largest entry of the element's K, of gradients
+/// times their own largest entry and that of K times the largest edge, since a change of u in the edges
+/// changes them by that. It is piola's own for P and dP/dF; 19 u and 4.2 u are found.
+const BOUND: f64 = 30.0;
+
+/// Unit roundoff of `f32`.
+const U: f64 = 1.0 / (1 << 24) as f64;
+
+/// What is asked of the shader, and of a batch.
+const FUNCTIONS: [(PointFunction, Filter); 2] =
+    [(PointFunction::Tetrahedron, Filter::None), (PointFunction::ProjectedTetrahedron, Filter::Clamp)];
+
+/// Gradients and stiffnesses, element by element.
+type Results<E> = (Vec<E>, Vec<E>);
+
+/// Gradients and stiffnesses by a batch, in `f32` or `f64`.
+fn by_piola<E: Kernels>(
+    material: &Interpreted,
+    filter: Filter,
+    mesh: &Mesh,
+    number: impl Fn(f32) -> E,
+) -> Results<E>
+where
+    Interpreted: TileMaterial<E>,
+{
+    let positions: Vec<[E; 3]> = mesh.positions.iter().map(|at| at.map(&number)).collect();
+    let corners: Vec<[usize; 4]> = mesh.corners.iter().map(|all| all.map(|node| node as usize)).collect();
+    let rest: Vec<E> = mesh.rest.as_flattened().iter().map(|&x| number(x)).collect();
+    let tetrahedra = Tetrahedra::new(positions.len(), &corners).expect("nodes of the mesh");
+    let (mut gradients, mut K) =
+        (vec![number(0.0); 12 * corners.len()], vec![number(0.0); 144 * corners.len()]);
+    let batch = Batch::<E>::new(material).with_filter(filter);
+    let survey = batch
+        .stiffnesses_at(MatrixForm::Full, tetrahedra, &positions, &rest, &mut gradients, &mut K)
+        .expect("lengths that fit");
+    assert_eq!((survey.refused, survey.nonfinite), (0, 0));
+    (gradients, K)
+}
+
+/// Largest errors of gradients and stiffnesses, as [`BOUND`] has them.
+fn errors(mesh: &Mesh, exact: &Results<f64>, found: (&[f32], &[f32])) -> [f64; 2] {
+    let mut worst = [0.0f64; 2];
+    for (element, corners) in mesh.corners.iter().enumerate() {
+        let largest = |entries: &[f64]| entries.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let difference = |exact: &[f64], found: &[f32]| {
+            largest(&exact.iter().zip(found).map(|(x, &y)| x - f64::from(y)).collect::<Vec<_>>())
+        };
+        let (g, K) = (12 * element..12 * (element + 1), 144 * element..144 * (element + 1));
+        let [start, ..] = corners.map(|node| mesh.positions[node as usize]);
+        let edges = corners.map(|node| {
+            let at = mesh.positions[node as usize];
+            [0, 1, 2].map(|a| f64::from(at[a]) - f64::from(start[a]))
+        });
+        let stiffness = largest(&exact.1[K.clone()]);
+        let force = largest(&exact.0[g.clone()]) + stiffness * largest(edges.as_flattened());
+        worst[0] = worst[0].max(difference(&exact.0[g.clone()], &found.0[g]) / (U * force));
+        worst[1] = worst[1].max(difference(&exact.1[K.clone()], &found.1[K]) / (U * stiffness));
+    }
+    worst
+}
+
+#[track_caller]
+fn check(formula: &str, values: &[&[f64]]) {
+    let device = Device::open().expect("an adapter; `check` looks for one");
+    let energy = Energy::from_formula(formula).expect("a formula");
+    let material = energy.material(values, Inversion::Refuse).expect("admissible parameters");
+    let emission = Emission::new(Target::Wgsl).with_precision(Precision::F32).with_prefix(PREFIX);
+    let parameters: Vec<f32> = values.concat().into_iter().map(|value| value as f32).collect();
+    // The last line of 64 elements is not full.
+    let mesh = bar([11, 4, 3]);
+    for (function, filter) in FUNCTIONS {
+        let emission = emission.clone().with_functions([function]);
+        let text = energy.emit(values, Inversion::Refuse, &emission).expect("an energy that can be printed");
+        let function = function.name();
+        let elements = Elements::new(&device, (&text, function), &parameters, &mesh).expect("a program");
+        elements.compute().expect("a device");
+        let statuses = elements.statuses().expect("a device");
+        let is_filtered = |&status: &u32| status == 8 && filter != Filter::None;
+        assert!(statuses.iter().all(|status| *status == 0 || is_filtered(status)), "{statuses:?}");
+        assert_eq!(statuses.iter().any(is_filtered), filter != Filter::None);
+        let (gradients, stiffnesses) = elements.results().expect("a device");
+        assert_eq!(stiffnesses.len(), mesh.corners.len());
+        let exact = by_piola(&material, filter, &mesh, f64::from);
+        let single = by_piola(&material, filter, &mesh, |x| x);
+        let here = errors(&mesh, &exact, (gradients.as_flattened(), stiffnesses.as_flattened()));
+        let there = errors(&mesh, &exact, (&single.0, &single.1));
+        println!(
+            "{formula}, {function}: gradients {:.1} u, K {:.1} u; by piola in f32 {there:.1?}",
+            here[0], here[1]
+        );
+        assert!(here.iter().all(|&error| error < BOUND), "{formula}, {function}: {here:.1?} u");
+    }
+}
+
+#[test]
+fn neo_hookean() {
+    check("mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2", &[&[1e6], &[5e6]]);
+}
+
+#[test]
+fn ogden() {
+    let formula = "sum(p, mu[p]/alpha[p]*(l1^alpha[p] + l2^alpha[p] + l3^alpha[p] - 3)) - sum(p, mu[p])*ln(J) + kappa/2*(J - 1)^2";
+    check(formula, &[&[6.3e5, 1.2e3, -1e4], &[1.3, 5.0, -2.0], &[2e7]]);
+}
