@@ -80,8 +80,6 @@ pub struct Arguments<'a, E> {
     pub(crate) start: usize,
     /// Number of points in the tile.
     pub(crate) count: usize,
-    /// Points whose response nothing reads, as bits.
-    pub(crate) served: u64,
     pub(crate) rows: &'a Rows<E, 3>,
 }
 
@@ -124,9 +122,9 @@ macro_rules! tile_responses {
                         type Output = Status<u64>;
                         #[inline(always)]
                         fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
-                            let Self(points, Arguments { start, count, served, rows, .. }, to) = self;
+                            let Self(points, Arguments { start, count, rows, .. }, to) = self;
                             let (mut admitted, mut finite) = (0, 0);
-                            for_each_group!(R, count, but served, |group| {
+                            for_each_group!(R, count, |group| {
                                 let at = rows.get_all::<R>(group);
                                 let material = points.at(start + group);
                                 let result = $to_rows(material.$response(at));
@@ -214,7 +212,7 @@ tile_responses! {
 fn together<E: Scalar, P: Points>(
     points: &P,
     response: ResponseKind,
-    Arguments { backend, start, count, rows, .. }: Arguments<'_, E>,
+    Arguments { backend, start, count, rows }: Arguments<'_, E>,
     results: &mut [E],
 ) -> u64 {
     let (materials, have_own) = (points.materials(), points.count().is_some());

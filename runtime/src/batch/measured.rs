@@ -55,7 +55,7 @@ impl<E: Kernels> Batch<'_, E> {
         self.run([("F", F, 9)], [("stresses", stresses, 6)], |call, job, [F], [stresses]| {
             let mut tile = call.points(job, F);
             tile.decompose(0);
-            let refused = tile.gradients(0);
+            let refused = tile.gradients();
             let Tile { count, svd: points, scratch: Scratch { gradients, line, .. }, .. } = tile;
             let to = call.sink(stresses, 0);
             let kernel = MeasuredStress { measure, points, gradients: &gradients.0, count, line, to };
@@ -84,7 +84,7 @@ impl<E: Kernels> Batch<'_, E> {
             let fence = call.fence();
             let mut tile = call.points(job, F);
             tile.decompose(0);
-            let judged = tile.blocks(0);
+            let judged = tile.blocks();
             let Tile { count, svd: points, scratch: Scratch { blocks, line, .. }, .. } = tile;
             let (points, to) = (&*points, call.sink(stresses, 0));
             let kernel = MeasuredStress { measure, points, gradients: &blocks.0, count, line, to };

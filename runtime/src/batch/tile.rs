@@ -100,7 +100,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         // The decomposition of an earlier call costs nothing.
         let mut served = if self.is_decomposed { 0 } else { self.invariants() };
         if served != 0 {
-            let arguments = self.arguments(&self.scratch.invariants, 0);
+            let arguments = self.arguments(&self.scratch.invariants);
             let gradients = &mut self.scratch.gradients;
             served &= !call.material.tile_gradients_by_invariants(arguments, gradients).refused;
             let kernel = StressByInvariants {
@@ -119,7 +119,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
             return Status::default();
         }
         self.decompose(served);
-        let refused = self.gradients(served);
+        let refused = self.gradients();
         let Scratch { gradients, line, .. } = &mut *self.scratch;
         let kernel = Stress {
             points: self.svd,
@@ -172,7 +172,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
             return Status::default();
         }
         self.decompose(served);
-        let mut status = self.blocks(served);
+        let mut status = self.blocks();
         if let Some(energies) = energies {
             status = status | self.energies_by_stretches(served, energies);
         }
@@ -186,7 +186,8 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         (E::tangents(call.backend, form, kernel) | stressed | status) & !served
     }
 
-    /// Decomposes F where points are not served, unless that has been done.
+    /// Decomposes F where points are not served, unless that has been done. Elsewhere frames and stretches
+    /// may be those of another tile: what is computed from them is thrown away.
     pub(super) fn decompose(&mut self, served: u64) {
         if !self.is_decomposed {
             let is_signed = self.call.properties.ends_at_zero_volume;
@@ -196,16 +197,16 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         }
     }
 
-    /// Gradients of the energy in the stretches of a decomposed tile, where points are not served.
-    pub(super) fn gradients(&mut self, served: u64) -> Status<u64> {
-        let arguments = self.arguments(&self.svd.stretches, served);
+    /// Gradients of the energy in the stretches of a decomposed tile.
+    pub(super) fn gradients(&mut self) -> Status<u64> {
+        let arguments = self.arguments(&self.svd.stretches);
         self.call.material.tile_gradients(arguments, &mut self.scratch.gradients)
     }
 
-    /// The filtered blocks of a decomposed tile, where points are not served.
-    pub(super) fn blocks(&mut self, served: u64) -> Status<u64> {
+    /// The filtered blocks of a decomposed tile.
+    pub(super) fn blocks(&mut self) -> Status<u64> {
         let Call { material, properties: Properties { has_pole, .. }, filter, backend, .. } = self.call;
-        let arguments = self.arguments(&self.svd.stretches, served);
+        let arguments = self.arguments(&self.svd.stretches);
         let blocks = &mut self.scratch.blocks;
         let refused = material.tile_blocks(arguments, blocks);
         refused
@@ -237,7 +238,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if in_range == 0 {
             return 0;
         }
-        let arguments = self.arguments(&self.scratch.invariants, 0);
+        let arguments = self.arguments(&self.scratch.invariants);
         let derivatives = &mut self.scratch.derivatives;
         let status = self.call.material.tile_derivatives_by_invariants(arguments, derivatives);
         self.accepted(in_range & !(status.refused | status.nonfinite))
@@ -248,7 +249,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if in_range == 0 {
             return 0;
         }
-        let arguments = self.arguments(&self.scratch.invariants, 0);
+        let arguments = self.arguments(&self.scratch.invariants);
         let densities = &mut self.scratch.energies;
         let status = self.call.material.tile_energies_by_invariants(arguments, densities);
         energies.copy_from_slice(&densities.0[0][..energies.len()]);
@@ -257,7 +258,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
 
     /// Energies of the points of a decomposed tile that are not served yet, and the status of all.
     fn energies_by_stretches(&mut self, served: u64, energies: &mut [E]) -> Status<u64> {
-        let arguments = self.arguments(&self.svd.stretches, served);
+        let arguments = self.arguments(&self.svd.stretches);
         let densities = &mut self.scratch.energies;
         let status = self.call.material.tile_energies(arguments, densities);
         for (point, energy) in energies.iter_mut().enumerate().filter(|(point, _)| served >> point & 1 == 0) {
@@ -271,7 +272,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if self.call.keeps_svd && served != first_bits(self.count) { 0 } else { served }
     }
 
-    fn arguments<'r>(&self, rows: &'r Rows<E, 3>, served: u64) -> Arguments<'r, E> {
-        Arguments { backend: self.call.backend, start: self.start, count: self.count, served, rows }
+    fn arguments<'r>(&self, rows: &'r Rows<E, 3>) -> Arguments<'r, E> {
+        Arguments { backend: self.call.backend, start: self.start, count: self.count, rows }
     }
 }

@@ -74,7 +74,7 @@ macro_rules! for_each_group {
     ($R:ty, $count:expr, but $served:expr, |$at:ident| $body:block) => {
         $crate::kernels::rows::for_each_group!($R, $count, |$at| {
             let lanes = $crate::kernels::rows::first_bits(<$R as $crate::lanes::Lanes>::LANES);
-            if (!$served >> $at) & lanes != 0 $body
+            if $served == 0 || (!$served >> $at) & lanes != 0 $body
         })
     };
 }
