@@ -10,6 +10,10 @@ use std::process::exit;
 const ADVICE: &str = "on Debian: apt-get install -y --no-install-recommends gcc libc6-dev pkg-config libclang-dev \
                       petsc-dev libopenmpi-dev openmpi-bin";
 
+/// bindgen loads the newest libclang that it finds, and gives it the headers of the program `clang`.
+const VERSIONS: &str = "if the header at fault is one of clang's own, several versions of clang are installed: set \
+                        LIBCLANG_PATH to the folder of the libclang that belongs to `clang`";
+
 /// Functions and constants that are bound.
 const NAMES: &[&str] = &[
     "ISDestroy",
@@ -88,7 +92,7 @@ fn main() {
         .generate_comments(false)
         .generate();
     let bindings = bindings.unwrap_or_else(|error| {
-        eprintln!("the headers of PETSc and MPI cannot be read: {ADVICE}\n\n{error}");
+        eprintln!("the headers of PETSc and MPI cannot be read: {ADVICE}; {VERSIONS}\n\n{error}");
         exit(1);
     });
     let folder = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
