@@ -1,7 +1,7 @@
 //! One point a call: printed C beside [`evaluate_dense`] of the same energies, in nanoseconds.
 //!
 //! `cargo bench -p piola-tests --bench emitted`; CC and CFLAGS choose the compiler of C. Both sides evaluate
-//! the same deformation gradients in the same order, in turns; the least and the median of all turns are shown.
+//! the same deformation gradients in the same order, in turns, of which the least and the median are shown.
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
