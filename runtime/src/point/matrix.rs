@@ -29,9 +29,22 @@ macro_rules! three {
     };
 }
 
+/// `symmetric!(i, j => x)` is the matrix of `x` for i ≤ j, computed once for each pair, and its mirror image.
+macro_rules! symmetric {
+    ($i:ident, $j:ident => $value:expr) => {{
+        let [a, b, c, d, e, f] = symmetric!($i, $j => $value; 0 0, 0 1, 0 2, 1 1, 1 2, 2 2);
+        [[a, b, c], [b, d, e], [c, e, f]]
+    }};
+    ($i:ident, $j:ident => $value:expr; $($row:literal $column:literal),*) => {
+        [$({
+            let ($i, $j) = ($row, $column);
+            $value
+        }),*]
+    };
+}
+
 /// `thrice!(i => { … })` does it with i = 0, 1, 2: a loop that needs no unrolling, so that every index is a
 /// constant from the beginning.
-#[cfg(feature = "batch")]
 macro_rules! thrice {
     ($i:ident => $body:block) => {{
         {
@@ -49,9 +62,7 @@ macro_rules! thrice {
     }};
 }
 
-pub(crate) use three;
-#[cfg(feature = "batch")]
-pub(crate) use thrice;
+pub(crate) use {symmetric, three, thrice};
 
 /// The scalar product x·y.
 #[inline(always)]

@@ -46,10 +46,11 @@
 use super::super::Matrix3;
 #[cfg(feature = "batch")]
 use super::super::matrix::multiply_transposed;
-use super::super::matrix::{dot, three};
+use super::super::matrix::{dot, symmetric, three, thrice};
 use super::super::tangent::Assemble;
 use super::{cofactor, cross, square, stress_of_terms};
 use crate::lanes::Real;
+use crate::material::PAIRS;
 
 /// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P;
 /// without `HAS_SECOND` or `HAS_ALL` as in [`Terms`].
@@ -158,20 +159,12 @@ impl<R: Real> Coordinates<R> for RowsOf<R> {
     }
 }
 
-/// Does it with the pairs a ≤ c of coordinates, each a constant.
-macro_rules! pairs {
-    (|$a:ident, $c:ident| $body:block) => {{
-        pairs!($a 0, $c 0, $body);
-        pairs!($a 0, $c 1, $body);
-        pairs!($a 0, $c 2, $body);
-        pairs!($a 1, $c 1, $body);
-        pairs!($a 1, $c 2, $body);
-        pairs!($a 2, $c 2, $body);
-    }};
-    ($a:ident $first:literal, $c:ident $second:literal, $body:block) => {{
-        let ($a, $c) = ($first, $second);
-        $body
-    }};
+/// F, C, D and T seen from other coordinates.
+struct Pulled<R> {
+    F: Matrix3<R>,
+    C: Matrix3<R>,
+    D: Matrix3<R>,
+    T: Matrix3<R>,
 }
 
 /// The matrices and factors that P and dP/dF are made of at a point.
@@ -327,6 +320,37 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
         if HAS_SECOND { (-p2).mul_add(self.b[a][a], along) } else { along }
     }
 
+    /// K between (a, x) and (a, y), x a row and y a column.
+    #[inline(always)]
+    fn diagonal_block<C: Coordinates<R>>(&self, a: usize, seen: &Pulled<R>, from: &C) -> Matrix3<R> {
+        let Pulled { F, C, D, .. } = seen;
+        let h = self.products(a, F, D, C);
+        symmetric!(x, y => {
+            let metric = from.metric(x, y, self.metric_factor(a));
+            self.on_diagonal(a, x, y, F, D, C, &h, metric)
+        })
+    }
+
+    /// K between (a, x) and (c, y) for a < c, x a row and y a column.
+    #[inline(always)]
+    fn mixed_block<C: Coordinates<R>>(&self, [a, c]: [usize; 2], seen: &Pulled<R>, from: &C) -> Matrix3<R> {
+        let Pulled { F, C, D, T } = seen;
+        let h = self.products(c, F, D, C);
+        three!(x => three!(y => {
+            let turned = match (y + 3 - x) % 3 {
+                0 => None,
+                turn if turn == c - a => Some(T[third(a, c)][third(x, y)]),
+                _ => Some(-T[third(a, c)][third(x, y)]),
+            };
+            let metric = if HAS_SECOND { from.metric(x, y, -self.along[1] * self.b[a][c]) } else { None };
+            let other = match (metric, turned) {
+                (Some(metric), Some(turned)) => Some(metric + turned),
+                (metric, turned) => metric.or(turned),
+            };
+            self.ranks([F[a][x], D[a][x], C[a][x]], h[y], other)
+        }))
+    }
+
     /// Assembles dP/dF in the coordinates, as 3×3 blocks like those of
     /// [`assemble_blocks`](super::assemble_blocks), Pa. Returns the largest entry on the diagonal of dP/dF.
     #[inline(always)]
@@ -334,36 +358,19 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
         let mut largest = if C::ARE_ENTRIES { R::splat(0.0) } else { self.largest_on_diagonal() };
         let (F, C) = (coordinates.pulled(&self.F), coordinates.pulled(&self.C));
         let D = if HAS_SECOND && HAS_ALL { coordinates.pulled(&self.D) } else { C };
-        let T = coordinates.pulled_normals(&self.T);
-        pairs!(|a, c| {
-            let h = self.products(c, &F, &D, &C);
-            let block = three!(x => three!(y => {
-                if a == c {
-                    // Computed on and above the diagonal.
-                    let (x, y) = if y < x { (y, x) } else { (x, y) };
-                    let metric = coordinates.metric(x, y, self.metric_factor(a));
-                    self.on_diagonal(a, x, y, &F, &D, &C, &h, metric)
-                } else {
-                    let turned = match (y + 3 - x) % 3 {
-                        0 => None,
-                        turn if turn == c - a => Some(T[third(a, c)][third(x, y)]),
-                        _ => Some(-T[third(a, c)][third(x, y)]),
-                    };
-                    let metric = coordinates.metric(x, y, -self.along[1] * self.b[a][c]);
-                    let metric = if HAS_SECOND { metric } else { None };
-                    let other = match (metric, turned) {
-                        (Some(metric), Some(turned)) => Some(metric + turned),
-                        (metric, turned) => metric.or(turned),
-                    };
-                    self.ranks([F[a][x], D[a][x], C[a][x]], h[y], other)
-                }
-            }));
-            if C::ARE_ENTRIES && a == c {
+        let seen = &Pulled { F, C, D, T: coordinates.pulled_normals(&self.T) };
+        thrice!(a => {
+            let block = self.diagonal_block(a, seen, coordinates);
+            if C::ARE_ENTRIES {
                 for x in 0..3 {
                     largest = block[x][x].abs().max(largest);
                 }
             }
-            to.block(a, c, &block);
+            to.block(a, a, &block);
+        });
+        thrice!(pair => {
+            let (a, c) = PAIRS[pair];
+            to.block(a, c, &self.mixed_block([a, c], seen, coordinates));
         });
         largest
     }
@@ -372,10 +379,7 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
 /// A Aᵀ.
 #[inline(always)]
 fn gram<R: Real>(A: &Matrix3<R>) -> Matrix3<R> {
-    three!(i => three!(j => {
-        let (i, j) = if j < i { (j, i) } else { (i, j) };
-        dot(A[i], A[j])
-    }))
+    symmetric!(i, j => dot(A[i], A[j]))
 }
 
 /// The index beside two different ones.
