@@ -32,39 +32,7 @@ use crate::point::matrix::three;
 /// Calls allocate nothing but room at the first one, and compute on the thread of the caller: others may have
 /// a clone for their own elements. What an element gets does not depend on the others.
 ///
-/// ```
-/// use piola::batch::{Batch, MatrixForm, Quadrature};
-///
-/// /// Rubber.
-/// #[piola::material(domain(J > 0.0))]
-/// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
-///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-/// }
-///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// // A hexahedron, the unit cube, whose node n is at the bits of n; one point in its middle.
-/// let mut hexahedra = Quadrature::new(8, 1);
-/// let bits = |n: usize| [n & 1, n >> 1 & 1, n >> 2 & 1].map(|bit| bit as f64);
-/// let slopes: Vec<f64> = (0..8).flat_map(|n| bits(n).map(|bit| (2.0 * bit - 1.0) / 4.0)).collect();
-/// // Drawn along x by a tenth.
-/// let positions: Vec<f64> = (0..8).flat_map(|n| [1.1 * bits(n)[0], bits(n)[1], bits(n)[2]]).collect();
-///
-/// let (mut F, mut P, mut dP_dF) = ([0.0; 9], [0.0; 9], [0.0; 81]);
-/// hexahedra.deform(&positions, &slopes, &mut F)?;
-/// let rubber = Rubber::new(1e6, 4e6)?;
-/// Batch::new(&rubber).tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF)?;
-/// let (mut gradients, mut stiffness) = ([0.0; 24], vec![0.0; 24 * 24]);
-/// hexahedra.gradients(&slopes, &[1.0], &P, &mut gradients)?;
-/// hexahedra.stiffnesses(&slopes, &[1.0], &dP_dF, &mut stiffness)?;
-///
-/// // The four nodes of the face x = 1 carry its force, and its slope is dP11/dF11 times its area.
-/// let force: f64 = [1, 3, 5, 7].map(|n| gradients[3 * n]).iter().sum();
-/// assert!((force - P[0]).abs() < 1e-9 * P[0]);
-/// let pairs = [1, 3, 5, 7].map(|m| [1, 3, 5, 7].map(|n| stiffness[24 * 3 * m + 3 * n]));
-/// assert!((pairs.as_flattened().iter().sum::<f64>() - dP_dF[0]).abs() < 1e-9 * dP_dF[0]);
-/// # Ok(())
-/// # }
-/// ```
+/// The [front page](crate#other-elements) of the crate has a program.
 #[derive(Clone, Debug)]
 pub struct Quadrature<E> {
     nodes: usize,
