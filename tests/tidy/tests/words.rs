@@ -128,3 +128,27 @@ fn the_readme_shows_the_example() {
     let (shown, _) = rest.split_once("```").expect("the end of the block");
     assert_eq!(shown, example, "README.md and materials/examples/own_energy.rs differ");
 }
+
+/// The first table of `docs/embedding.md` quotes lines of files that it links to, and that are tested.
+#[test]
+fn lines_to_embed_piola_are_quoted() {
+    let without_spaces = |text: &str| -> String { text.split_whitespace().collect() };
+    let document = read(Path::new("docs/embedding.md"));
+    let (mut found, mut judged) = (Vec::new(), 0);
+    let rows = document.lines().skip_while(|line| !line.starts_with('|')).skip(2);
+    for row in rows.take_while(|line| line.starts_with('|')) {
+        let cells: Vec<&str> = row.split(" | ").collect();
+        let [_, lines, files] = cells[..] else { panic!("three columns: {row}") };
+        let files = files.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
+        let text: String =
+            files.map(|(file, _)| without_spaces(&read(&Path::new("docs").join(file)))).collect();
+        for line in lines.split('`').skip(1).step_by(2) {
+            judged += 1;
+            if !text.contains(&without_spaces(line)) {
+                found.push(line.to_owned());
+            }
+        }
+    }
+    forbid("lines of docs/embedding.md that none of the linked files has", &found);
+    assert!(judged > 15, "{judged} lines");
+}
