@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert!((point.stress[0][1] - 0.2e6).abs() < 1e-9 * 1e6);
     assert!(point.tangent[1][1] > 0.99e6);
 
-    // Finite differences, symmetry, equal stretches, inversion: what every material must satisfy.
+    // Requirements on every material: finite differences, symmetry, equal stretches, inversion.
     piola::contract::check(&rubber, &Default::default())?;
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Rubber with a curve in place of a formula: where it ends, fitted, and another one at each point.
+//! Rubber with a curve instead of a formula: its domain, a fit, and different curves at two points.
 
 use piola::batch::Batch;
 use piola::material::{MaterialError, PerPoint};
@@ -32,7 +32,7 @@ impl Univariate for Chains {
         R::splat(0.5 * self.mu * self.limit) / (left * left)
     }
 
-    // What a fit may change.
+    // Values that a fit may change.
     fn values(&self) -> Vec<f64> {
         vec![self.mu, self.limit]
     }
@@ -64,7 +64,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{:6} {:>10.3e}", number.name, number.value);
     }
 
-    // Two points at a stretch of 3, where I1b − 3 is 6.7: one rubber admits it, the other one ends before.
+    // Two points at a stretch of 3, where I1b − 3 is 6.7: one rubber admits this value, the other one does not.
     let (long, short) = (start.clone(), start.with_f(Chains { mu: 3e5, limit: 5.0 })?);
     let thin = 1.0 / 3f64.sqrt();
     let stretch = [3.0, 0.0, 0.0, 0.0, thin, 0.0, 0.0, 0.0, thin];

@@ -1,4 +1,4 @@
-//! What every material promises, asked of this one.
+//! The test suite of every material, applied to this one.
 
 use biderman::Biderman;
 use piola::Inversion;
