@@ -64,7 +64,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{:6} {:>10.3e}", number.name, number.value);
     }
 
-    // Two points at a stretch of 3, where I1b − 3 is 6.7: one rubber admits this value, the other one does not.
+    // Two points at a stretch of 3, where I1b − 3 is 6.7: one rubber admits this value, the other does not.
     let (long, short) = (start.clone(), start.with_f(Chains { mu: 3e5, limit: 5.0 })?);
     let thin = 1.0 / 3f64.sqrt();
     let stretch = [3.0, 0.0, 0.0, 0.0, thin, 0.0, 0.0, 0.0, thin];
