@@ -36,8 +36,8 @@
 //! well, row and column 3j+i of dP/dF for entry (i, j). This holds of everything that starts from F alone,
 //! not of tetrahedra and not of S, τ and σ.
 //!
-//! **Few points** in a call cost more each, because registers are computed whole: `cargo bench -p piola-tests
-//! --bench speed` has a table. Gather 64 or more, such as those of several elements, or take them one by one
+//! **Few points** in a call cost more each, because registers are computed whole: `cargo speed-report
+//! --table` shows. Gather 64 or more, such as those of several elements, or take them one by one
 //! from [`point`](crate::point).
 //!
 //! **Other elements** than linear tetrahedra, hexahedra for one, sum what their points have by a

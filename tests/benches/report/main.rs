@@ -6,7 +6,8 @@
 //!
 //! * [`point`]: P and dP/dF by many methods, nanoseconds against errors at reference cases of 25 digits;
 //! * [`steps`]: a motion by integrators and solvers, wall time against the distance from a much finer one;
-//! * [`growth`]: time and memory of a step against the number of elements.
+//! * [`growth`]: time and memory of a step against the number of elements;
+//! * [`table`]: with `--table`, nanoseconds of points and batches, printed and nothing else.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 
@@ -27,6 +28,7 @@ mod growth;
 mod page;
 mod point;
 mod steps;
+mod table;
 
 use data::Report;
 
@@ -44,6 +46,9 @@ struct Arguments {
     /// Only these sections; the others are left out of the report
     #[arg(long, value_enum, value_delimiter = ',')]
     only: Vec<Section>,
+    /// Prints a table of nanoseconds for points and batches of five energies instead of a report
+    #[arg(long, conflicts_with = "only")]
+    table: bool,
     /// What `cargo bench` adds
     #[arg(long, hide = true)]
     bench: bool,
@@ -66,7 +71,14 @@ fn folder() -> PathBuf {
 }
 
 fn main() -> ExitCode {
-    match make(&Arguments::parse()) {
+    let arguments = Arguments::parse();
+    let made = if arguments.table {
+        table::print(effort(arguments.quick), commit().as_deref())
+    } else {
+        make(&arguments)
+    };
+    match made {
+        Ok(()) if arguments.table => ExitCode::SUCCESS,
         Ok(()) => {
             println!("{}", folder().join(PAGE).display());
             ExitCode::SUCCESS

@@ -4,17 +4,16 @@
 
 use std::hint::black_box;
 
-use piola::batch::Batch;
+use piola::batch::{Batch, Layout};
 use piola::lanes::Backend;
 use piola::material::{Declared, MaterialError};
 use piola::point::{Filter, evaluate, evaluate_stress};
 use piola::{Inversion, Material};
 use piola_declare::Energy;
 use piola_materials::{CATALOGUE, DECLARATIONS, Entry, Visitor};
-use piola_speed::{Effort, Task, Times, time_in_turns};
+use piola_speed::{Arrays, Effort, IN_CACHE, Task, Times, time_in_turns};
 
-use super::measure::{matrices, side_by_side};
-use super::tables::{cell, header, row};
+use super::{cell, header, matrices, row};
 
 const NAMES: [&str; 5] = ["st_venant_kirchhoff", "neo_hookean", "ogden", "gent", "arruda_boyce"];
 const POINTS: usize = 64;
@@ -32,11 +31,11 @@ pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
         for backend in Backend::available().filter(|&backend| backend != Backend::portable()) {
             for task in [Task::Stresses, Task::Tangents] {
                 let batches = [Batch::new(&*compiled), Batch::new(&typed)];
-                let times = side_by_side(
-                    effort,
-                    task,
-                    batches.each_ref().map(|batch| batch.with_backend(backend)).each_ref(),
-                );
+                let [compiled, typed] = batches.map(|batch| batch.with_backend(backend));
+                let mut arrays = [(); 2].map(|()| Arrays::new(task, Layout::Lines, IN_CACHE));
+                let [first, second] = &mut arrays;
+                let calls: [&mut dyn FnMut(); 2] = [&mut || first.run(&compiled), &mut || second.run(&typed)];
+                let times = time_in_turns(effort, IN_CACHE, calls);
                 compare(&mut table, [entry.name, task.name(), backend.name()], times);
             }
         }

@@ -1,0 +1,182 @@
+//! Times of single points and batches, as the columns that other codes are compared by.
+//!
+//! Each energy has a table with a row for each way to ask and a column for each result, so that the figures
+//! of another code can stand beside it: F = I + 0.3 X with entries of X uniform in [−1, 1) and det F > 0.
+
+#![expect(non_snake_case, reason = "F, P as in the literature")]
+
+use std::error::Error;
+use std::fmt::Write;
+use std::hint::black_box;
+
+use piola::batch::{Batch, Kernels, Layout, TileMaterial};
+use piola::lanes::Backend;
+use piola::material::Declared;
+use piola::point::{Filter, Matrix3, evaluate, evaluate_dense, evaluate_stress};
+use piola_materials::{Arap, NeoHookean, StVenantKirchhoff, StableNeoHookean};
+use piola_speed::{
+    Arrays, Decompositions, Effort, IN_CACHE, LAMBDA, MU, Task, Times, deformation_gradients, ogden,
+    processor, time,
+};
+
+mod typed;
+
+/// Results: the title of a column, the task, and the filter.
+const COLUMNS: [(&str, Task, Filter); 9] = [
+    ("P", Task::Stresses, Filter::None),
+    ("P + dP/dF 81", Task::Tangents, Filter::None),
+    ("+ PSD", Task::Tangents, Filter::Clamp),
+    ("f + K 144", Task::Stiffnesses, Filter::None),
+    ("+ PSD", Task::Stiffnesses, Filter::Clamp),
+    ("P + 45", Task::PackedTangents, Filter::None),
+    ("+ PSD", Task::PackedTangents, Filter::Clamp),
+    ("f + K 78", Task::PackedStiffnesses, Filter::None),
+    ("+ PSD", Task::PackedStiffnesses, Filter::Clamp),
+];
+
+/// Prints all tables in Markdown, each as soon as it is measured.
+///
+/// # Errors
+/// Where a material of the catalogue cannot be made.
+pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Result<(), Box<dyn Error + Send + Sync>> {
+    println!("# Nanoseconds a point, one thread\n");
+    println!("Processor: {}. Commit: {}.\n", processor(), commit.unwrap_or("unknown"));
+    println!(
+        "Least of {} repeats and, in parentheses, the median. {IN_CACHE} points, unless a row says otherwise, the \
+         same arrays again and again. PSD: filtered with `Filter::Clamp`.\n",
+        effort.repeats
+    );
+    println!("## Singular value decomposition, in lines\n\n{}", decompositions(effort));
+    print_energy("neo-Hooke", &NeoHookean::new(MU, LAMBDA)?, effort);
+    print_energy("Saint Venant–Kirchhoff", &StVenantKirchhoff::new(MU, LAMBDA)?, effort);
+    print_energy("stable neo-Hooke", &StableNeoHookean::new(MU, LAMBDA)?, effort);
+    print_energy("ARAP", &Arap::new(MU)?, effort);
+    print_energy("Ogden with three terms", &ogden(), effort);
+    println!("## Energies typed at run time\n\n{}", typed::table(effort)?);
+    Ok(())
+}
+
+fn print_energy<M: Declared + 'static>(name: &str, material: &M, effort: Effort) {
+    let mut titles = vec!["how"];
+    titles.extend(COLUMNS.map(|(title, ..)| title));
+    let mut table = header(&titles);
+    for backend in vectors() {
+        for layout in [Layout::Points, Layout::Lines] {
+            row(&mut table, &bulk::<f64>(material, backend, layout, effort));
+            row(&mut table, &bulk::<f32>(material, backend, layout, effort));
+        }
+    }
+    for points in [1, 8, 64] {
+        let label = format!("a batch of {points}, f64, {}", Backend::best());
+        row(&mut table, &batch::<f64>(label, &Batch::new(material), Layout::Points, points, effort));
+    }
+    row(&mut table, &single(material, effort));
+    row(&mut table, &dense(material, effort));
+    println!("## {name}\n\n{table}");
+}
+
+/// Back ends with vector registers; the portable one where there is no other.
+fn vectors() -> impl Iterator<Item = Backend> {
+    Backend::available().filter(|&backend| backend != Backend::portable() || backend == Backend::best())
+}
+
+fn bulk<E: Kernels>(
+    material: &dyn TileMaterial<E>,
+    backend: Backend,
+    layout: Layout,
+    effort: Effort,
+) -> Vec<String> {
+    let layout_name = match layout {
+        Layout::Points => "point by point",
+        Layout::Lines => "in lines",
+    };
+    let label = format!("{layout_name}, {}, {backend}", std::any::type_name::<E>());
+    batch(label, &Batch::new(material).with_backend(backend), layout, IN_CACHE, effort)
+}
+
+fn batch<E: Kernels>(
+    label: String,
+    batch: &Batch<'_, E>,
+    layout: Layout,
+    points: usize,
+    effort: Effort,
+) -> Vec<String> {
+    let mut cells = vec![label];
+    cells.extend(COLUMNS.map(|(_, task, filter)| {
+        let mut arrays = Arrays::new(task, layout, points);
+        let batch = batch.with_filter(filter);
+        cell(time(effort, points, || arrays.run(&batch)))
+    }));
+    cells
+}
+
+/// One point a call: `evaluate_stress`, and `evaluate` with the 81 entries written out.
+fn single<M: Declared>(material: &M, effort: Effort) -> Vec<String> {
+    let tangent =
+        |filter| each_point(effort, |F| _ = black_box(evaluate(material, F, filter).tangent.to_matrix()));
+    let stress = each_point(effort, |F| _ = black_box(evaluate_stress(material, F)));
+    one_a_call(
+        "`evaluate_stress`, `evaluate`",
+        [Some(stress), Some(tangent(Filter::None)), Some(tangent(Filter::Clamp))],
+    )
+}
+
+/// One point a call: `evaluate_dense`.
+fn dense<M: Declared>(material: &M, effort: Effort) -> Vec<String> {
+    let tangent = |filter| each_point(effort, |F| _ = black_box(evaluate_dense(material, F, filter)));
+    one_a_call("`evaluate_dense`", [None, Some(tangent(Filter::None)), Some(tangent(Filter::Clamp))])
+}
+
+/// A row with the first three columns.
+fn one_a_call(label: &str, times: [Option<Times>; 3]) -> Vec<String> {
+    let mut cells = vec![format!("{label}, f64")];
+    cells.extend(times.map(|times| times.map_or("–".to_owned(), cell)));
+    cells.resize(1 + COLUMNS.len(), "–".to_owned());
+    cells
+}
+
+/// Times a call at each of the points.
+fn each_point(effort: Effort, mut call: impl FnMut(&Matrix3<f64>)) -> Times {
+    let gradients = matrices(IN_CACHE);
+    time(effort, IN_CACHE, || gradients.iter().for_each(&mut call))
+}
+
+fn decompositions(effort: Effort) -> String {
+    let mut table = header(&["how", "`svd`", "`svd_signed_by_determinant`"]);
+    for backend in vectors() {
+        row(&mut table, &decomposition::<f64>(backend, effort));
+        row(&mut table, &decomposition::<f32>(backend, effort));
+    }
+    table
+}
+
+fn decomposition<E: Kernels>(backend: Backend, effort: Effort) -> Vec<String> {
+    let mut points = Decompositions::<E>::new();
+    let mut cells = vec![format!("{}, {backend}", std::any::type_name::<E>())];
+    cells.extend(
+        [false, true].map(|is_signed| cell(time(effort, IN_CACHE, || points.run(backend, is_signed)))),
+    );
+    cells
+}
+
+/// Deformation gradients of [`Arrays`], as matrices.
+fn matrices(count: usize) -> Vec<Matrix3<f64>> {
+    let rows = |[a, b, c, d, e, f, g, h, i]: [f64; 9]| [[a, b, c], [d, e, f], [g, h, i]];
+    deformation_gradients().take(count).map(rows).collect()
+}
+
+/// `least (median)`.
+fn cell(Times { least, median }: Times) -> String {
+    format!("{least:.1} ({median:.1})")
+}
+
+/// A row of a table.
+fn row(table: &mut String, cells: &[String]) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(table, "| {} |", cells.join(" | "));
+}
+
+/// The first two rows of a table.
+fn header(titles: &[&str]) -> String {
+    format!("| {} |\n|---|{}\n", titles.join(" | "), "---:|".repeat(titles.len() - 1))
+}
