@@ -1,4 +1,4 @@
-//! Why the command ends without success.
+//! Errors that end the command.
 
 use std::io;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use piola_laboratory::fit::FitError;
 use piola_scenes::error::Error as SceneError;
 use piola_viewer::error::Error as ViewerError;
 
-/// Why the command ends without success.
+/// Error that ends the command without success.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -114,9 +114,9 @@ pub enum Error {
     Unpaired {
         /// The option.
         option: &'static str,
-        /// How often it is given.
+        /// Number of times that it is given.
         given: usize,
-        /// How many files there are.
+        /// Number of files.
         files: usize,
     },
     /// A file has no points of the tests that are asked for.
@@ -144,7 +144,7 @@ pub enum Error {
     Fit {
         /// Name of the material.
         material: String,
-        /// Why.
+        /// Reason.
         source: FitError,
     },
 }
@@ -164,7 +164,7 @@ impl Error {
         Self::Bench(Box::new(source))
     }
 
-    /// Whether its message is laid out in lines, as a compiler's is.
+    /// True if its message is laid out in lines, as a compiler's is.
     pub(crate) fn has_lines(&self) -> bool {
         matches!(self, Self::Scene(SceneError::Declaration(_)) | Self::Contract { .. })
     }

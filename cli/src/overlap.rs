@@ -28,7 +28,7 @@ pub(crate) fn refuse_overlaps(
     Ok(())
 }
 
-/// Where a path leads, which may not exist yet; `None` for a device or a pipe, in which nothing is lost, and
+/// Target of a path, which may not exist yet; `None` for a device or a pipe, in which nothing is lost, and
 /// for a folder that does not exist, in which nothing can be written.
 fn place(path: &Path) -> Option<PathBuf> {
     match fs::canonicalize(path) {

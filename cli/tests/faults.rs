@@ -68,7 +68,7 @@ fn frames(files: &Files) -> Vec<(&String, &Vec<u8>)> {
     files.iter().filter(|(name, _)| name.ends_with(".ply")).collect()
 }
 
-/// Whether these are the first frames of a run, each of them whole.
+/// True if these are the first frames of a run, each of them whole.
 fn is_beginning(some: &Files, whole: &Files) -> bool {
     frames(some).iter().zip(frames(whole)).all(|(one, other)| *one == other)
         && frames(some).len() <= frames(whole).len()

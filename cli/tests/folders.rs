@@ -87,7 +87,7 @@ fn a_run_replaces_an_earlier_one_without_a_trace() {
     assert_eq!(fs::read_dir(&out).expect("a folder").count(), names(&out).len(), "no folders are left");
 }
 
-/// Whether two runs have the same frames, picture and results, times of solving apart.
+/// Asserts that two runs have the same frames, picture and results, except for the times of solving.
 #[track_caller]
 fn assert_same(one: &Path, other: &Path) {
     let (mut first, mut second) = (content(one), content(other));

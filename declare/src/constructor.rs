@@ -23,7 +23,7 @@ pub(crate) struct Constructor {
     lengths: Vec<Option<usize>>,
     /// The lengths that the declaration itself states.
     stated: Vec<Option<usize>>,
-    /// Whether lists of a length are arrays, and not vectors.
+    /// For each length, true if its lists are arrays instead of vectors.
     are_arrays: Vec<bool>,
     admissible: Vec<Condition>,
     /// Conditions under which an extension restores; `None` without an extension.
@@ -78,7 +78,7 @@ impl Constructor {
         self.each(description, given, |_, list| Spline::from_values(list))
     }
 
-    /// Other values for the parameters of a material, in the form that a fit changes.
+    /// Material with other values of the parameters, in the form that a fit changes.
     pub(crate) fn changed_values(
         &self,
         description: &Description,

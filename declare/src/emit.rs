@@ -250,9 +250,10 @@ struct File<'a> {
     values: &'a [&'a [f64]],
     inversion: Inversion,
     functions: Vec<PointProgram>,
-    /// Whether the rest state may carry a stress.
+    /// True if the rest state may carry a stress.
     is_prestressed: bool,
-    /// From parameters to the moduli at rest, and whether that is inside of the domain.
+    /// Recording from parameters to the moduli at rest, and to a truth value: the rest state is inside of the
+    /// domain.
     rest: Recording,
 }
 

@@ -148,7 +148,8 @@ impl Energy {
         Ok(Box::new(self.material(values, inversion)?))
     }
 
-    /// Whether the derivatives by the parameters are known: formulas have them, and declarations with `fit`.
+    /// True if the derivatives by the parameters are known: formulas have them, and so do declarations with
+    /// `fit`.
     #[must_use]
     pub fn is_fittable(&self) -> bool {
         self.0.fit.is_some()
@@ -227,7 +228,7 @@ impl Energy {
         self.0.constructor.conditions(inversion)
     }
 
-    /// Whether the rest state may carry a stress.
+    /// True if the rest state may carry a stress.
     pub(crate) fn is_prestressed(&self) -> bool {
         self.0.constructor.is_prestressed
     }

@@ -110,7 +110,8 @@ impl Condition {
 /// Derivatives of expressions by each number among the parameters.
 #[derive(Debug)]
 struct Slopes {
-    /// Those by numbers, and those by the entries of the lists of one length, whose first is named.
+    /// Programs of the derivatives by numbers, and by the entries of the lists of one length, whose first is
+    /// named.
     programs: Vec<(Option<usize>, Vec<usize>, Program)>,
     /// Parameters by which no formula differentiates: functions, and what would need a third derivative of
     /// one.
@@ -118,7 +119,8 @@ struct Slopes {
 }
 
 impl Slopes {
-    /// From the derivatives of the expressions by each parameter, or by the current entry of each list.
+    /// Makes programs of the derivatives of the expressions by each parameter, or by the current entry of
+    /// each list.
     fn new(declaration: &Declaration, model: &mut Model, by_parameters: &[Vec<Id>]) -> Option<Self> {
         let model::Slopes { groups, differences } =
             model::Slopes::new(&model.graph, declaration, by_parameters);

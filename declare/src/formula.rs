@@ -50,9 +50,9 @@ pub struct FormulaOptions {
     /// documentation, which may end with a unit, as in `Shear modulus, Pa.`. A name without a value is then a
     /// mistake. `None` to take every name that means nothing else.
     pub parameters: Option<Vec<(String, String)>>,
-    /// Whether names beyond [`parameters`](Self::parameters) that mean nothing else are parameters, too.
+    /// True if unknown names beyond [`parameters`](Self::parameters) are parameters, too.
     pub further: bool,
-    /// Whether −s ln J is added, s being the stress at rest, which frees the rest state of it.
+    /// True to add −s ln J, s being the stress at rest, which makes the rest state free of stress.
     pub free_rest: bool,
     /// Name of the bulk modulus κ of a term κ/2 (J − 1)² that is added.
     pub bulk: Option<String>,

@@ -1,4 +1,4 @@
-//! From the operations of the compiler to a program of the interpreter: which register each value is in.
+//! Lowering of the operations of the compiler to a program of the interpreter, with register allocation.
 //!
 //! A value needs its register from where it is computed to where it is read last, and a register serves many
 //! values one after the other: fewer registers stay in the innermost cache. What a loop reads of values from
@@ -211,7 +211,7 @@ struct Registers {
     free: Vec<Register>,
 }
 
-/// Where a value is.
+/// Location of a value.
 #[derive(Clone, Copy)]
 enum Place {
     Register(Kind, Register),
@@ -223,7 +223,7 @@ struct Lowering<'a> {
     declaration: &'a Declaration,
     /// The time at which each value is read last.
     lives: BTreeMap<Name, usize>,
-    /// Where each value is, or was when it was read last.
+    /// Location of each value, or its location when it was read last.
     places: BTreeMap<Name, Place>,
     /// The registers of constants that are filled before the first operation.
     filled: BTreeMap<Constant, Register>,

@@ -9,7 +9,7 @@ use proc_macro2::Span;
 pub struct Mistake {
     /// The reason, and what to write instead.
     pub message: String,
-    /// Where it is; `None` if it is about the text as a whole.
+    /// Position of the mistake; `None` if it is about the text as a whole.
     pub place: Option<Place>,
 }
 

@@ -24,7 +24,7 @@ impl Energy {
     }
 }
 
-/// Whether a text has the word `fn` before a name: in a formula it could only be one itself.
+/// True if a text has the word `fn` before a name: in a formula it could only be one itself.
 fn is_rust(text: &str) -> bool {
     let Ok(tokens) = text.parse::<TokenStream>() else {
         return text.split_whitespace().any(|word| word == "fn");

@@ -86,7 +86,7 @@ fn deformations<E: Precision>(seed: u64) -> Vec<E> {
     all
 }
 
-/// Whether two results are equal, or both NaN.
+/// True if two results are equal, or both NaN.
 fn same<E: Precision>(one: E, other: E) -> bool {
     let [one, other]: [f64; 2] = [one.into(), other.into()];
     one.to_bits() == other.to_bits() || one.is_nan() && other.is_nan()

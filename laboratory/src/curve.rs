@@ -88,7 +88,8 @@ impl Mode {
         }
     }
 
-    /// Whether a specimen can be brought to a control: γ is any finite number, λ and J are positive ones.
+    /// True if a specimen can be brought to a control: γ is any finite number, λ and J are positive finite
+    /// ones.
     #[must_use]
     pub fn allows(self, control: f64) -> bool {
         control.is_finite() && (self == Self::SimpleShear || control > 0.0)
@@ -123,9 +124,9 @@ impl fmt::Display for Mode {
 impl FromStr for Mode {
     type Err = ModeError;
 
-    /// In any case, with spaces or `-` for `_`: the [name](Mode::name), or another that people write, such as
-    /// `UT`, `tension`, `compression`, `ET`, `EB`, `biaxial`, `PS`, `planar`, `hydrostatic`. `shear` alone is
-    /// two tests, and neither.
+    /// Parses a name in any case, with spaces or `-` for `_`: the [name](Mode::name), or another common one,
+    /// such as `UT`, `tension`, `compression`, `ET`, `EB`, `biaxial`, `PS`, `planar`, `hydrostatic`. `shear`
+    /// alone could be either of two tests and is refused.
     fn from_str(text: &str) -> Result<Self, ModeError> {
         let words = text.to_lowercase();
         let words = words.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
@@ -187,7 +188,7 @@ pub struct ModeError(
     pub String,
 );
 
-/// Whether a specimen can change its volume.
+/// Treatment of the volume of a specimen: free or constant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Volume {
     /// The energy decides: free sides carry no stress.
@@ -223,7 +224,7 @@ impl Response {
     }
 }
 
-/// Why a test curve has no point at a control.
+/// Reason why a test curve has no point at a control.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ResponseError {

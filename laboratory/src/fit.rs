@@ -59,9 +59,9 @@ pub enum Difference {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FitSettings {
-    /// Whether the specimens keep their volume. For data without lateral stretches, which most are, this is
-    /// the assumption to make for rubber: default. An energy that gives way in volume is another solid then
-    /// ([`Warning::Compressible`]): fit it with [`Volume::Free`].
+    /// Treatment of the volume of the specimens. Most data are without lateral stretches; for rubber the
+    /// assumption to make then is constant volume, the default. If the energy yields in volume, it describes
+    /// another solid ([`Warning::Compressible`]): fit it with [`Volume::Free`].
     pub volume: Volume,
     /// The measure of differences, relative by default.
     pub difference: Difference,
@@ -188,7 +188,7 @@ pub fn fit_parameters(
     Ok(report::report(&numbers, &held, &minima, best, agreement, analysis))
 }
 
-/// Which numbers are not to change: those of the names, and whole exponents.
+/// Numbers that are held: those of the names, and whole exponents.
 fn held(numbers: &Numbers, names: &[String]) -> Result<Vec<Option<Standing>>, FitError> {
     let mut held: Vec<_> = numbers.are_whole.iter().map(|whole| whole.then_some(Standing::Held)).collect();
     for name in names {

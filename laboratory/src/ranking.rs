@@ -35,9 +35,9 @@ pub struct Contender {
 /// Energies in the order of their agreement with the same measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ranking {
-    /// Those that were fitted, by falling R² of all points.
+    /// Energies that were fitted, by falling R² of all points.
     pub places: Vec<Place>,
-    /// Those that could not be fitted, in the order in which they were given.
+    /// Energies that could not be fitted, in the order in which they were given.
     pub failures: Vec<(String, FitError)>,
 }
 
@@ -48,12 +48,12 @@ pub struct Place {
     pub name: String,
     /// Its best parameters, with R² of each mode and of all.
     pub fit: Fit,
-    /// For each of [`Criterion::ALL`](crate::stability::criteria::Criterion::ALL) the test and the control at
-    /// which it is lost nearest to rest, if it is lost between rest and the data's ends.
+    /// Test and control at which each of [`Criterion::ALL`](crate::stability::criteria::Criterion::ALL) is
+    /// lost nearest to rest, if it is lost between rest and the ends of the data.
     pub lost: [Option<Loss>; 3],
 }
 
-/// Where a criterion is lost.
+/// Place at which a criterion is lost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
     /// The test.
@@ -158,7 +158,8 @@ fn place(contender: &Contender, data: &Measurements, settings: &FitSettings) -> 
 }
 
 impl Loss {
-    /// How far the specimen is from rest: ln λ of its greatest stretch along the axes that the machine moves.
+    /// Distance of the specimen from rest: ln λ of its greatest stretch along the axes that the machine
+    /// moves.
     fn strain(self) -> f64 {
         match self.mode {
             Mode::SimpleShear => (0.5 * self.control).asinh().abs(),

@@ -24,12 +24,12 @@ use crate::curve::Volume;
 pub struct AtRest {
     /// The moduli, Pa.
     pub moduli: Moduli,
-    /// Whether the specimen can change its volume.
+    /// Treatment of the volume of the specimen.
     pub volume: Volume,
 }
 
 impl AtRest {
-    /// Whether the volume is kept, and the energy leaves its resistance to that.
+    /// True if the volume is kept although the energy has no resistance to its change.
     fn has_no_bulk(&self) -> bool {
         self.volume == Volume::Kept && self.moduli.bulk().abs() <= 1e-9 * self.moduli.mu.abs()
     }

@@ -17,7 +17,7 @@ pub trait Specimen: Send + Sync {
     /// Gradient, Hessian and quotients, Pa: [`Material::blocks`].
     fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64>;
 
-    /// Whether the energy is defined there: [`Material::admits`].
+    /// True if the energy is defined there: [`Material::admits`].
     fn admits(&self, stretches: [f64; 3]) -> bool;
 }
 
@@ -42,7 +42,7 @@ impl<M: Material> Specimen for M {
 /// Three numbers along the axes of a test, and the order in which a material wants them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ordered {
-    /// From the greatest to the least.
+    /// Values from the greatest to the least.
     pub(crate) numbers: [f64; 3],
     /// The axis that each of them belongs to.
     axes: [usize; 3],

@@ -88,7 +88,7 @@ pub struct Report {
     pub moduli: Moduli,
     /// Points of the box, λ1 ≥ λ2 ≥ λ3.
     pub points: usize,
-    /// How many of them the material admits.
+    /// Number of points that the material admits.
     pub admitted: usize,
     /// One for each of [`Criterion::ALL`].
     pub findings: [Finding; 3],
@@ -103,11 +103,11 @@ pub struct Finding {
     pub criterion: Criterion,
     /// Points of the box that are admitted and keep it.
     pub kept: usize,
-    /// Where its modulus is least; `None` where no point is admitted.
+    /// Point at which its modulus is least; `None` if no point is admitted.
     pub worst: Option<Judgement>,
 }
 
-/// Why a material cannot be surveyed.
+/// Reason why a material cannot be surveyed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SurveyError {

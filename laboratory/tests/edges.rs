@@ -138,7 +138,7 @@ impl Linear {
         self.squares(&(origin + basis * solution.component_div(&lengths)))
     }
 
-    /// Whether a fit is as good.
+    /// Asserts that a fit is as good.
     #[track_caller]
     fn check(&self, fit: &Fit, least: f64) {
         let squares = fit.difference.powi(2) * self.wanted.len() as f64;

@@ -67,7 +67,7 @@ struct Bar<'a> {
     slices: Slices,
 }
 
-/// What goes to piola and what comes back, allocated once.
+/// Input and output arrays of piola, allocated once.
 struct Slices {
     positions: Vec<f64>,
     F: Vec<f64>,

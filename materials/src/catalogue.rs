@@ -15,7 +15,7 @@ use crate::{CATALOGUE, Kind};
 pub struct Declaration {
     /// The name by which the energy is chosen, such as `neo_hookean`.
     pub name: &'static str,
-    /// Whether it is an energy of rubber: its typical parameters are those of a vulcanised rubber, and it can
+    /// True if it is an energy of rubber: its typical parameters are those of a vulcanised rubber, and it can
     /// be fitted to tests of others.
     pub is_rubber: bool,
     /// The declaration, as `piola_declare::Energy::from_rust` takes it.

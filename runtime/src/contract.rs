@@ -105,7 +105,7 @@ pub struct Settings {
     pub seed: u64,
     /// Smallest and largest stretch to draw, 0 < smallest < 1 < largest.
     pub range: (f64, f64),
-    /// Whether the material claims that F = I is free of stress: `false` for one that is declared
+    /// True if the material claims that F = I is free of stress: `false` for one that is declared
     /// `prestressed`.
     ///
     /// ```

@@ -90,11 +90,11 @@ pub trait Material: Send + Sync {
         (self.energy(stretches), self.blocks(stretches))
     }
 
-    /// Whether the energy in use is defined at these stretches.
+    /// True if the energy in use is defined at these stretches.
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask;
 
-    /// Whether ψ is a function of the invariants I1, I2 and J alone, which `#[piola::material]` sees where no
-    /// stretch is named, or in sums such as Σ (λ² − 1)² only.
+    /// True if ψ is a function of the invariants I1, I2 and J alone. `#[piola::material]` detects this if the
+    /// declaration names no stretch, or only in sums such as Σ (λ² − 1)².
     ///
     /// The four methods below then give ψ, P and dP/dF without a singular value decomposition:
     ///
@@ -108,20 +108,20 @@ pub trait Material: Send + Sync {
     /// root of that of stretches.
     const HAS_INVARIANTS: bool = false;
 
-    /// Whether ψ by invariants depends on I2. Where it does not, W2, W22, W12 and W2J are taken for zero,
-    /// what stands for I2 in the arguments means nothing, and dP/dF takes half as many operations.
+    /// True if ψ by invariants depends on I2. If not, W2, W22, W12 and W2J count as zero, the argument for I2
+    /// is ignored, and dP/dF takes half as many operations.
     const HAS_SECOND_INVARIANT: bool = true;
 
     /// Second derivatives of ψ by invariants that do not vanish everywhere. The others are taken for zero,
     /// and dP/dF takes fewer operations.
     const CURVATURE_BY_INVARIANTS: Curvature = Curvature::All;
 
-    /// Whether ψ itself is taken from the invariants too. Near rest Σ (λ² − 1)², for one, has more digits.
+    /// True if ψ itself is computed from the invariants too. Near rest Σ (λ² − 1)², for one, has more digits.
     const HAS_ENERGY_BY_INVARIANTS: bool = Self::HAS_INVARIANTS;
 
-    /// Whether the invariants give the responses of this very material:
-    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS) says so of all materials of the type, of which some may have
-    /// none whose energies are found at run time.
+    /// True if the invariants give the responses of this particular material.
+    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS) holds for all materials of the type, including those that
+    /// have no invariants because their energies are found at run time.
     #[inline]
     fn has_invariants(&self) -> bool {
         Self::HAS_INVARIANTS
@@ -165,7 +165,7 @@ pub trait Material: Send + Sync {
         [R::splat(f64::NAN); 9]
     }
 
-    /// Whether \[I1, I2, J\] give the energy in use; false without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    /// True if \[I1, I2, J\] give the energy in use; false without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
     ///
     /// Of an extended energy they do where all stretches are surely above ε, that is, for 2J > ε I1, so that
     /// no pole is near. Elsewhere [`Material::admits`] decides.
@@ -174,13 +174,13 @@ pub trait Material: Send + Sync {
         R::Mask::splat(false)
     }
 
-    /// Whether some twist has a true pole at λi + λj = 0, where the stress itself jumps.
+    /// True if some twist has a true pole at λi + λj = 0, where the stress itself jumps.
     ///
     /// Its denominator has the lower bound [`pole_floor`](crate::quotient::pole_floor); a point there is
     /// `bounded`.
     fn has_pole(&self) -> bool;
 
-    /// Whether the domain ends at J = 0, so that the sign of a tiny λ3 decides over it and needs an exact
+    /// True if the domain ends at J = 0, so that the sign of a tiny λ3 decides and needs an exact
     /// determinant.
     fn ends_at_zero_volume(&self) -> bool;
 
@@ -195,7 +195,7 @@ pub trait Material: Send + Sync {
         None
     }
 
-    /// Whether many points are to be handed to [`respond_together`](Self::respond_together) at once.
+    /// True if [`respond_together`](Self::respond_together) should receive many points at once.
     #[doc(hidden)]
     const RESPONDS_TOGETHER: bool = false;
 
@@ -241,7 +241,7 @@ impl Curvature {
         }
     }
 
-    /// Whether the terms of dP/dF are computed with all second derivatives. If not, those of an energy with
+    /// True if the terms of dP/dF are computed with all second derivatives. If not, those of an energy with
     /// I2 have W11 and WJJ, those of one without it WJJ alone.
     #[inline(always)]
     pub(crate) fn has_all(self, has_second: bool) -> bool {
@@ -252,7 +252,7 @@ impl Curvature {
         }
     }
 
-    /// Whether nothing reads derivative k of W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, since it is zero
+    /// True if derivative k of W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J is never read, since it is zero
     /// everywhere.
     #[cfg(feature = "batch")]
     #[inline(always)]

@@ -68,7 +68,7 @@ pub fn names<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> String {
     }
 }
 
-/// Whether a character has no width, or changes the direction of those after it.
+/// True if a character has no width, or changes the direction of those after it.
 fn is_invisible(c: char) -> bool {
     matches!(c,
         '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'

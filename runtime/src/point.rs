@@ -85,7 +85,7 @@ pub struct Point<R: Real> {
     pub stress: Matrix3<R>,
     /// dP/dF, filtered as asked, Pa.
     pub tangent: Tangent<R>,
-    /// Whether the results mean something, and whether the filter changed the tangent.
+    /// Status of the results: valid or not, and filtered or not.
     pub status: Status<R::Mask>,
 }
 
@@ -222,19 +222,19 @@ pub(crate) fn judge<R: Real>(
     (blocks, Status { bounded, nonfinite, filtered, ..Status::clean() })
 }
 
-/// Whether stretches and energy mean something.
+/// True if stretches and energy are valid.
 #[inline(always)]
 pub(crate) fn energy_is_finite<R: Real>(stretches: [R; 3], energy: R) -> R::Mask {
     stretches_in_range(stretches) & energy.is_finite()
 }
 
-/// Whether no entry is infinite or NaN.
+/// True if no entry is infinite or NaN.
 #[inline(always)]
 pub(crate) fn entries_are_finite<R: Real>(A: &Matrix3<R>) -> R::Mask {
     none_infinite([none_infinite(A[0]), none_infinite(A[1]), none_infinite(A[2])]).is_finite()
 }
 
-/// Whether stretches and stress mean something.
+/// True if stretches and stress are valid.
 #[inline(always)]
 pub(crate) fn stress_is_finite<R: Real>(stretches: [R; 3], P: &Matrix3<R>) -> R::Mask {
     stretches_in_range(stretches) & entries_are_finite(P)
@@ -268,14 +268,14 @@ fn none_large<R: Real, const N: usize>(mut numbers: [R; N]) -> R {
     none_infinite(numbers)
 }
 
-/// Whether stretches are finite, their sums too, and their reciprocals have all digits: below a sixteenth of
+/// True if stretches, their sums and their reciprocals are finite and have all digits: below a sixteenth of
 /// the largest finite number.
 #[inline(always)]
 pub(crate) fn stretches_in_range<R: Real>(stretches: [R; 3]) -> R::Mask {
     none_large(stretches).is_finite()
 }
 
-/// Whether no entry of dP/dF can overflow, filtered or not: no number exceeds a sixteenth of the largest
+/// True if no entry of dP/dF can overflow, filtered or not: no number exceeds a sixteenth of the largest
 /// finite one.
 ///
 /// With m the largest of the numbers, an eigenvalue of the Hessian block is at most 3m, which so bounds what

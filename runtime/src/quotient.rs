@@ -146,7 +146,7 @@ fn tanhc<R: Real>(v2: R) -> R {
     sum.mul_add(v2, R::splat(1.0))
 }
 
-/// Whether a series must serve more than the 24 bits of `f32`.
+/// True if a series needs more than the 24 bits of `f32`.
 const fn is_double<R: Real>() -> bool {
     R::UNIT_ROUNDOFF < 1e-10
 }

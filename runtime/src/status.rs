@@ -24,7 +24,7 @@ pub struct Status<M = bool> {
 }
 
 impl Status {
-    /// Whether the results mean something: neither refused nor infinite.
+    /// True if the results are valid: neither refused nor infinite nor NaN.
     #[must_use]
     pub fn is_clean(self) -> bool {
         !self.refused && !self.nonfinite
@@ -145,7 +145,7 @@ impl Survey {
         }
     }
 
-    /// Whether the results of every point mean something.
+    /// True if the results of every point are valid.
     #[must_use]
     pub fn is_clean(&self) -> bool {
         self.refused == 0 && self.nonfinite == 0

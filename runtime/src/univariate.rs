@@ -61,7 +61,7 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// The form of the numbers that [`from_values`](Univariate::from_values) takes.
     const FORM: Form = Form::Function;
 
-    /// Whether φ is defined at x; by default it is for every x.
+    /// True if φ is defined at x; by default it is for every x.
     ///
     /// A material refuses the points at which an argument of one of its functions is not admitted, whatever
     /// its [`inversion`](crate::material::Material::inversion): an extension continues the energy around its
@@ -256,7 +256,7 @@ impl<F: Univariate, const N: u8> Derivative<'_, F, N> {
 }
 
 impl<F: Univariate, const N: u8> Derivative<'_, F, N> {
-    /// Whether the slope jumps between a and b, at a point that is not among the breakpoints.
+    /// True if the slope jumps between a and b, at a point that is not among the breakpoints.
     ///
     /// A mean of slopes is then wrong by up to the jump. Between close points a smooth slope is nearly
     /// straight: its second difference s(a) − 2 s(m) + s(b) is far below its first. A jump is in one half,

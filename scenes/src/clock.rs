@@ -55,7 +55,7 @@ impl Clock {
         Self { dt, since_frame: self.frame, since_time: self.time(), ..self }
     }
 
-    /// Whether steps can have led here, and can go on; a file may say anything.
+    /// True if steps can have led here and can continue; a file may contain anything.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.dt > 0.0

@@ -1,4 +1,4 @@
-//! Why a scene cannot start or go on.
+//! Errors of scenes.
 
 use std::io;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use piola_declare::emit::EmitError;
 
 use crate::region::RegionError;
 
-/// Why a scene cannot start or go on.
+/// Error that prevents a scene from starting or continuing.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -142,9 +142,9 @@ pub enum Error {
     /// A pin holds no node.
     #[error("the pin {pin} holds nothing: {source}")]
     Pin {
-        /// Which one.
+        /// The pin.
         pin: String,
-        /// Why.
+        /// Reason.
         source: Box<PinError>,
     },
     /// The file of a mesh or a surface cannot be read or is malformed.
@@ -186,7 +186,7 @@ pub enum Error {
         /// The folder.
         folder: PathBuf,
     },
-    /// There is no run to go on with.
+    /// No run to continue.
     #[error("the folder {} holds no run that could go on", folder.display())]
     NothingToResume {
         /// The folder.
@@ -197,7 +197,7 @@ pub enum Error {
     Resume {
         /// The folder.
         folder: PathBuf,
-        /// Why.
+        /// Reason.
         reason: String,
     },
     /// A signal has ended the run before its first step.

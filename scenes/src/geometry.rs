@@ -15,7 +15,8 @@ use crate::error::Error;
 use crate::scene::{Body, Shape};
 use crate::settings::Settings;
 
-/// How far a surface vertex may lie outside the tetrahedra, as a share of the diagonal of their bounding box.
+/// Largest distance of a surface vertex from the tetrahedra, as a share of the diagonal of their bounding
+/// box.
 ///
 /// Extrapolation magnifies the motion of a tetrahedron by the distance over the tetrahedron's size.
 pub const REACH: f64 = 0.02;
@@ -219,7 +220,7 @@ pub enum GeometryWarning {
     /// The file has nodes of no tetrahedron, which are not part of the body.
     #[error("{nodes} nodes of the file belong to no tetrahedron and were left out")]
     NodesDropped {
-        /// How many.
+        /// Number of nodes.
         nodes: usize,
     },
     /// The tetrahedra do not hang together.

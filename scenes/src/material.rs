@@ -163,7 +163,7 @@ impl MaterialSpec {
         Ok(Self { parameters, lame: None, ..self.clone() })
     }
 
-    /// Whether it is the material that the catalogue has under a name, in any spelling.
+    /// True if it is the material with this name in the catalogue, in any spelling.
     #[must_use]
     pub fn is(&self, material: &str) -> bool {
         self.energy.is_none() && same_name(&self.material, material)
@@ -340,7 +340,7 @@ fn find(material: &str) -> Result<Origin<'static>, Error> {
     Origin::in_catalogue(material).ok_or_else(unknown)
 }
 
-/// Whether two names agree in letters and digits, ignoring case.
+/// True if two names agree in letters and digits, ignoring case.
 fn same_name(one: &str, other: &str) -> bool {
     fn letters(name: &str) -> impl Iterator<Item = char> {
         name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase)

@@ -69,8 +69,8 @@ pub struct SceneOptions {
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
 
-    /// How far such a scene displaces each node along each axis, in mean edge lengths; `box` puts it anywhere
-    /// in the body's bounding box [default: the scene's, 0.3].
+    /// Largest displacement of a node along each axis in such a scene, in mean edge lengths; `box` puts it
+    /// anywhere in the body's bounding box [default: the scene's, 0.3].
     #[arg(long, value_name = "A|box", allow_negative_numbers = true)]
     pub amplitude: Option<Amplitude>,
 

@@ -46,12 +46,12 @@ const RESERVE: &str = ".piola-reserve";
 /// Name of a file that is being written.
 const PARTIAL: &str = ".piola-partial";
 
-/// Whether any run could have written a file of this name.
+/// True if any run could have written a file of this name.
 fn is_result(name: &str) -> bool {
     [CAGES_FILE, PICTURE_FILE, STATE_FILE, SUMMARY_FILE, RESERVE, PARTIAL].contains(&name) || is_frame(name)
 }
 
-/// Whether it is a name that [`frame_file`] or [`cage_file`] gives.
+/// True if it is a name that [`frame_file`] or [`cage_file`] gives.
 fn is_frame(name: &str) -> bool {
     let Some((digits, extension)) = name.strip_prefix("frame_").and_then(|rest| rest.split_once('.')) else {
         return false;

@@ -18,7 +18,7 @@ pub struct TrialOutcome {
     pub recovered: Option<usize>,
     /// Number of elements that were inside out before the first step.
     pub inverted_at_start: usize,
-    /// Whether every position after every step was finite.
+    /// True if every position after every step was finite.
     pub finite: bool,
     /// The largest increase of what a step minimises, as a share of the energies before it and of Young's
     /// modulus over the volume: rounding, or a mistake.

@@ -23,9 +23,9 @@ use course::{Course, Setup};
 pub struct Output {
     /// The folder for surfaces and the summary.
     pub folder: PathBuf,
-    /// Whether the tetrahedra are written with [`crate::fields`], too.
+    /// True to write the tetrahedra with [`crate::fields`], too.
     pub vtu: bool,
-    /// Whether the run in the folder goes on; otherwise its files are replaced.
+    /// True to continue the run in the folder; otherwise its files are replaced.
     pub resume: bool,
 }
 

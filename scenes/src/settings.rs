@@ -58,7 +58,7 @@ pub struct Settings {
     /// in steps as short as that takes, and in one without it.
     #[serde(default)]
     pub tolerance: Option<f64>,
-    /// How far each step is solved.
+    /// Accuracy to which each step is solved.
     pub newton: Newton,
     /// Threads for the solver; 0 for one per core.
     pub threads: usize,

@@ -1,5 +1,5 @@
-//! Which bodies find their shape again, by scene, body, energy and Newton's method, as Markdown on standard
-//! output.
+//! Share of bodies that recover their shape, by scene, body, energy and Newton's method, as Markdown on
+//! standard output.
 //!
 //! ```sh
 //! cargo bench -p piola-tests --bench recovery -- --seeds 100 --amplitude 0.3 0.5 1 2 box
@@ -29,24 +29,24 @@ const MATERIALS: [&str; 5] =
 /// Differences of energies err by some roundings; slopes judge what is below them.
 const RISE: f64 = 1e-12;
 
-/// Of so many bodies that are not back the seeds are named.
+/// Maximum number of bodies that are not back for which the seeds are named.
 const NAMED: usize = 5;
 
 #[derive(Parser)]
 struct Options {
-    /// How many random starts of each kind, from seed 1.
+    /// Number of random starts of each kind, from seed 1.
     #[arg(long, default_value_t = 100)]
     seeds: u64,
 
-    /// How far nodes are scrambled: mean edge lengths, or `box`.
+    /// Largest displacements of nodes: mean edge lengths, or `box`.
     #[arg(long, num_args = 1.., default_values = ["0.3", "0.5", "1", "2", "box"])]
     amplitude: Vec<Amplitude>,
 
-    /// How far each step is solved.
+    /// Accuracy of each step.
     #[arg(long, value_enum, num_args = 1.., default_values = ["single", "full"])]
     newton: Vec<Newton>,
 
-    /// What `cargo bench` adds.
+    /// Argument that `cargo bench` adds.
     #[arg(long, hide = true)]
     bench: bool,
 }
@@ -124,7 +124,7 @@ fn play(
     Ok(outcomes)
 }
 
-/// What some outcomes have in common.
+/// Common figures of some outcomes.
 struct Row<'a>(&'a [TrialOutcome]);
 
 impl fmt::Display for Row<'_> {

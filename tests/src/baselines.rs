@@ -1,4 +1,4 @@
-//! How dP/dF is computed elsewhere.
+//! Methods for dP/dF used elsewhere.
 //!
 //! From the same singular value decomposition and the same derivatives of the energy:
 //!

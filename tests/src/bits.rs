@@ -61,7 +61,7 @@ pub fn widen<R: Precision>(F: &Matrix3<R>) -> Matrix3<f64> {
     F.map(|row| row.map(R::widen))
 }
 
-/// How a deformation gradient is drawn.
+/// Distribution from which a deformation gradient is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Family {
     /// Nine independent patterns of bits.

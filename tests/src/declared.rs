@@ -31,7 +31,7 @@ pub fn declarations() -> Result<Vec<Declaration>, String> {
 #[derive(Debug)]
 pub struct Declared {
     model: Model,
-    /// Which length the list of each parameter has; `None` for scalars.
+    /// Length of the list of each parameter; `None` for scalars.
     lengths: Vec<Option<usize>>,
     point: Point,
     is_extended: bool,

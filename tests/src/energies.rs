@@ -90,11 +90,11 @@ impl Judged {
 
 /// A material in the formats that judges ask for.
 pub struct Subject {
-    /// In `f64`, single points and batches.
+    /// Material in `f64`, single points and batches.
     pub double: Box<dyn DynMaterial<f64>>,
-    /// In `f32`, single points.
+    /// Material in `f32`, single points.
     pub single: Box<dyn Response<f32>>,
-    /// For any other real number, such as one of a hundred digits.
+    /// Material for any other real number, such as one of a hundred digits.
     pub exact: Interpreted,
     /// Small-strain moduli, Pa.
     pub moduli: Moduli,

@@ -25,16 +25,16 @@ use crate::energies::Subject;
 /// The filters, in the order of their strength.
 pub const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
 
-/// How a deformation was answered, where the answer is sound.
+/// Kind of answer to a deformation, if it is sound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
     /// All numbers are exact to rounding.
     Clean,
     /// The tangent has a bounded value in place of an infinite one.
     Bounded,
-    /// Outside the domain.
+    /// Deformation outside the domain.
     Refused,
-    /// Outside the range of the format.
+    /// Deformation outside the range of the format.
     Nonfinite,
     /// Said to be outside the range of the format, though it fits, because a part of it does not.
     FlaggedEarly,
@@ -257,7 +257,7 @@ pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> 
     Ok(false)
 }
 
-/// Where `f32` has a clean answer, it is that of `f64` but for rounding.
+/// Checks that a clean answer of `f32` is that of `f64` up to rounding.
 ///
 /// ‖X₃₂ − X₆₄‖ ≤ C u ‖X‖ + C u sens with C = 64, twice what the reference cases allow because two roundings
 /// of a result are compared; C u sens = √Σ‖X(F ± C u ‖F‖ Eij) − X(F)‖² over the nine unit matrices is
@@ -318,8 +318,8 @@ fn distance<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> f64 {
 
 const SINGLE: f64 = <f32 as piola::Real>::UNIT_ROUNDOFF;
 
-/// Whether all deformations that an `f32` decomposition cannot tell from these stretches are inside the
-/// domain, or all outside.
+/// True if all deformations that an `f32` decomposition cannot distinguish from these stretches are inside
+/// the domain, or all outside.
 fn agreed(material: &dyn Response<f64>, stretches: [f64; 3]) -> Option<bool> {
     let here = material.admits(stretches);
     let mut others = indistinguishable(material.ends_at_zero_volume(), stretches);

@@ -270,7 +270,7 @@ impl Method {
         }
     }
 
-    /// From flips and twists.
+    /// Computes dP/dF from flips and twists.
     fn blocks<R: Judged>(self, material: &dyn Response<R>, F: &Matrix3<R>, filter: Filter) -> [[R; 9]; 9] {
         let Svd { U, stretches, V } = decompose(material, F);
         let blocks = match self {

@@ -23,7 +23,7 @@ trait Subject: Copy {
     const SIZES: &'static [f64];
     fn value<R: Real>(x: R) -> R;
     fn quotient<R: Real>(a: R, b: R) -> R;
-    /// Whether the function has a value at x.
+    /// True if the function has a value at x.
     fn is_inside(_x: f64) -> bool {
         true
     }

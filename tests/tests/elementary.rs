@@ -105,7 +105,7 @@ impl Function {
         }
     }
 
-    /// Whether `Real` promises digits at x.
+    /// True if `Real` promises digits at x.
     fn promises<E: Precision>(self, x: f64) -> bool {
         match self {
             ReciprocalSqrt | RoughSqrt => x >= E::MIN_POSITIVE,
@@ -116,7 +116,7 @@ impl Function {
         }
     }
 
-    /// Whether the argument is that of an exponential, for which logarithms in range are wide.
+    /// True if the argument is that of an exponential, for which logarithms in range are wide.
     fn is_exponential(self) -> bool {
         matches!(self, Exp | ExpM1 | Sinh | Cosh | Tanh | Softplus | Sigmoid)
     }

@@ -78,8 +78,8 @@ impl Worst {
     }
 }
 
-/// Whether ψ in 96 digits has no stress at rest. It has a little where it has a fraction that `f64` rounds,
-/// such as 1/6, and is then no oracle for strains: its linear term outweighs the rest.
+/// True if ψ in 96 digits has no stress at rest. It has a little if it contains a fraction that `f64` rounds,
+/// such as 1/6; it is then no oracle for strains, since its linear term outweighs the rest.
 fn is_free_of_stress(material: &Interpreted, mu: f64) -> bool {
     let (one, step) = (Exact::splat(1.0), Exact::splat(1e-30));
     let energy = |step: Exact| material.energy([one + step, one, one]);

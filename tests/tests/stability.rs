@@ -35,7 +35,7 @@ fn error(cell: &str) -> Option<f64> {
     }
 }
 
-/// Whether both tell the same of one column, as far as the machine has no part in it.
+/// True if both agree on one column, except for what depends on the machine.
 fn agree(committed: &str, computed: &str, column: usize) -> bool {
     if committed == computed {
         return true;

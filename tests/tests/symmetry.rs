@@ -32,7 +32,7 @@ fn samples() -> Vec<[f64; 9]> {
         .collect()
 }
 
-/// Whether a reflection of the axis changes the sign of the entry (i, j).
+/// True if a reflection of the axis changes the sign of the entry (i, j).
 fn is_odd(axis: usize, i: usize, j: usize) -> bool {
     (i == axis) != (j == axis)
 }

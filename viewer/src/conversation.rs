@@ -27,7 +27,7 @@ pub struct Conversation {
     drags: Range<u64>,
     answer: Sender<Answer>,
     answers: Receiver<Answer>,
-    /// Whether the page has asked for a frame that has not come.
+    /// True if the page has requested a frame that has not come.
     waits: bool,
     /// The state and the revision of the setup that the page has seen last.
     seen: u64,
@@ -49,7 +49,7 @@ impl Conversation {
         drags.map(|drag| drag / DRAGS + 1).max().unwrap_or(0)
     }
 
-    /// Whether the page has asked for a frame that has not come.
+    /// True if the page has requested a frame that has not come.
     #[must_use]
     pub fn waits(&self) -> bool {
         self.waits

@@ -20,11 +20,11 @@ use crate::protocol::{Act, Run};
 use crate::session::Session;
 use crate::show::{self, Frame, FrameStats};
 
-/// How long orders may be taken between two steps. A single one takes as long as it takes.
+/// Longest time for which orders are taken between two steps, unless a single one takes longer.
 pub const TURN: Duration = Duration::from_millis(20);
 /// Number of steps over which the speed is averaged.
 const TIMED: usize = 32;
-/// How far steps may lag behind the clock on the wall before the clock is set back: a body too slow for real
+/// Longest lag of steps behind the clock on the wall before the clock is set back: a body too slow for real
 /// time is played slowly, and does not race when it could.
 const LAG: Duration = Duration::from_millis(100);
 
@@ -51,7 +51,7 @@ pub enum Order {
         act: Act,
         /// The energy of an act that has the text of one, compiled.
         energy: Option<Energy>,
-        /// Where to say why it is refused.
+        /// Channel for the reason if it is refused.
         answer: Sender<Answer>,
     },
     /// A change of when steps are made.
@@ -60,7 +60,7 @@ pub enum Order {
     Look {
         /// The number of the state.
         seen: u64,
-        /// Where to send the frame.
+        /// Channel for the frame.
         answer: Sender<Answer>,
     },
     /// A page has gone; its pulls, which are those with these drags, end too.
@@ -98,7 +98,7 @@ pub struct Driver<H> {
     /// File for saved states.
     save: Option<PathBuf>,
     stats: FrameStats,
-    /// When the step before was due.
+    /// Time at which the step before was due.
     before: Duration,
     /// Times of the last steps.
     times: VecDeque<Duration>,
@@ -138,14 +138,14 @@ impl<H: Host> Driver<H> {
         self.answer();
     }
 
-    /// How long there is nothing to do without an order; `None` if that is for ever.
+    /// Time for which there is nothing to do without an order; `None` if that is for ever.
     #[must_use]
     pub fn rest(&self) -> Option<Duration> {
         let due = if self.stats.paused { None } else { self.due() };
         due.map(|due| due.saturating_sub(self.host.now()))
     }
 
-    /// When the next step is due; `None` if that is beyond all clocks.
+    /// Time at which the next step is due; `None` if that is beyond all clocks.
     fn due(&self) -> Option<Duration> {
         if !self.stats.real_time {
             return Some(self.before);
@@ -154,7 +154,7 @@ impl<H: Host> Driver<H> {
         self.before.checked_add(dt)
     }
 
-    /// Does what it is told between two steps.
+    /// Executes an order between two steps.
     pub fn obey(&mut self, order: Order) {
         match order {
             Order::Act { act, energy, answer } => {

@@ -1,4 +1,4 @@
-//! Why a viewer refuses an act or a state.
+//! Errors of the viewer.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::SealError;
 
-/// Why a viewer refuses an act or a state.
+/// Reason why the viewer refuses an act or a state.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -39,7 +39,7 @@ pub enum Error {
         /// The greatest length, in bytes.
         most: usize,
     },
-    /// There is no state to go back to.
+    /// No saved state to return to.
     #[error("no state has been saved yet")]
     NothingSaved,
 }

@@ -49,7 +49,7 @@ pub enum Act {
     Material {
         /// Name in the catalogue.
         name: String,
-        /// Whether it gets the small-strain moduli that the body has, in place of its typical ones.
+        /// True to scale it to the small-strain moduli of the body, instead of its typical ones.
         as_stiff: bool,
     },
     /// Replaces the material by an energy as it is typed; the body stays where it is.
@@ -86,14 +86,14 @@ pub enum Act {
 pub enum Run {
     /// Pauses, or goes on.
     Pause {
-        /// Whether to pause.
+        /// True to pause.
         paused: bool,
     },
     /// Makes a single step, and pauses.
     Step {},
     /// Steps in real time, or as fast as steps can be solved.
     Pace {
-        /// Whether to keep to real time.
+        /// True to keep to real time.
         real_time: bool,
     },
 }

@@ -130,7 +130,7 @@ impl Session {
         Ok(report)
     }
 
-    /// Does what a page asks for, before the next step.
+    /// Executes an act of a page, before the next step.
     ///
     /// # Errors
     /// [`Error::Scene`], [`Error::LongText`] or [`Error::NothingSaved`]; the state is then as before.
@@ -278,7 +278,7 @@ fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Play, SceneError
     Ok(play)
 }
 
-/// From one point to another, but at most so far.
+/// Moves from one point towards another by a limited distance.
 fn towards(from: [f64; 3], to: [f64; 3], way: f64) -> [f64; 3] {
     let by: [f64; 3] = std::array::from_fn(|c| to[c] - from[c]);
     let distance = by.iter().map(|x| x * x).sum::<f64>().sqrt();

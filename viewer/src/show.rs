@@ -41,7 +41,7 @@ pub(crate) struct FrameStats {
     pub(crate) newton_iterations: usize,
     /// Energies after the last step, J.
     pub(crate) energies: Energies,
-    /// Why the last step failed.
+    /// Reason why the last step failed.
     pub(crate) trouble: Option<String>,
 }
 

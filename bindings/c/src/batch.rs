@@ -270,7 +270,7 @@ pub unsafe extern "C" fn piola_stresses_in_f32(
     }
 }
 
-/// What a batch makes of arrays.
+/// Runs a batch on borrowed arrays.
 ///
 /// # Safety
 /// Pointers are null or point to what the header says, and arrays are as long as is said.
@@ -287,7 +287,7 @@ pub(crate) unsafe fn call<E: Precision, const I: usize, const O: usize>(
     guard(|| unsafe { call_with(Arrays::new(), material, options, inputs, outputs, survey, compute) })
 }
 
-/// As [`call`], with other arrays that have been lent already.
+/// Runs [`call`] next to other arrays that have been borrowed already.
 ///
 /// # Safety
 /// As of [`call`].

@@ -11,7 +11,7 @@ use crate::{handle, lent};
 /// share it.
 pub struct Csr(CsrPlaces);
 
-/// In the place of a node's first unknown: it has none. PIOLA_NO_UNKNOWN of the header.
+/// Marks a node without unknowns, instead of its first unknown: PIOLA_NO_UNKNOWN of the header.
 pub(crate) const NO_UNKNOWN: usize = usize::MAX;
 
 /// Finds the places of the stiffnesses of tetrahedra in a sparse matrix: row r has the columns

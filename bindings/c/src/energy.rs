@@ -64,11 +64,11 @@ pub struct ParameterDescription {
 pub struct EnergyDescription {
     /// The name by which it is chosen.
     pub name: *const c_char,
-    /// What it is, in a sentence or two.
+    /// Short description, in a sentence or two.
     pub summary: *const c_char,
     /// The energy density as a formula in one line.
     pub formula: *const c_char,
-    /// Where it is defined, such as `J > 0`; empty if everywhere.
+    /// Domain of the energy, such as `J > 0`; empty if it is defined everywhere.
     pub domain: *const c_char,
     /// 1 if it can be continued beyond its domain, for inverted elements; 0 if not.
     pub extends: i32,

@@ -28,7 +28,7 @@ pub enum Code {
     Text = 3,
     /// An option, a setting or an entry of an array is none of those that are allowed.
     Value = 4,
-    /// There is no energy of this name, or it has not these parameters, or not these values of them.
+    /// No energy has this name, these parameters, or these values of them.
     Material = 5,
     /// A text declares no energy; the message shows each mistake at its place.
     Energy = 6,
@@ -46,7 +46,7 @@ pub enum Code {
     Panic = 12,
 }
 
-/// Why a call fails.
+/// Reason why a call fails.
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) code: Code,

@@ -1,4 +1,4 @@
-//! What callers lend: arrays and texts, checked as far as C lets them be.
+//! Arrays and texts borrowed from callers, checked as far as C allows.
 
 use std::ffi::{CStr, c_char};
 use std::marker::PhantomData;
@@ -27,7 +27,7 @@ plain!(f64, f32, u8, i32, i64, usize);
 /// The arrays of a call, at most six: none that is written overlaps another one.
 pub(crate) struct Arrays<'call> {
     ranges: [Range<usize>; 6],
-    /// How many of the ranges are written, from the first on, and how many are read, from the last on.
+    /// Number of ranges that are written, the first ones, and of ranges that are read, the last ones.
     written: usize,
     read: usize,
     call: PhantomData<&'call mut ()>,
@@ -238,7 +238,7 @@ pub(crate) fn choice<T: Copy, const N: usize>(name: &str, number: i32, values: [
 mod tests {
     use super::*;
 
-    /// What a call makes of two arrays in one memory of ten numbers.
+    /// Checks the result of a call with two arrays in one memory of ten numbers.
     #[track_caller]
     fn check(read: Range<usize>, written: Range<usize>, expected: Result<(), &str>) {
         let mut memory = [0.0; 10];

@@ -166,9 +166,9 @@ fn of_point(failure: Failure, point: usize, points: usize) -> Failure {
     }
 }
 
-/// How a material is computed.
+/// Kinds of materials, by how they are computed.
 enum Kind {
-    /// The same at all points: in double precision as compiled with the library, if it is.
+    /// One material for all points: in double precision as compiled with the library, if it is.
     Uniform {
         spec: MaterialSpec,
         elements: Box<dyn TileMaterial<f64>>,

@@ -1,4 +1,4 @@
-//! How batches compute, and what they report.
+//! Options of batches, and their reports.
 
 use piola::batch::{Batch, Layout};
 use piola::lanes::Backend;
@@ -12,11 +12,11 @@ use crate::material::{Material, Precision};
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub enum Filter {
-    /// They stay: the exact derivative of the stress.
+    /// Leaves negative eigenvalues as they are: the exact derivative of the stress.
     None = 0,
-    /// They become zero.
+    /// Sets negative eigenvalues to zero.
     Clamp = 1,
-    /// They become positive.
+    /// Replaces negative eigenvalues by their absolute values.
     Absolute = 2,
 }
 
@@ -26,9 +26,9 @@ pub enum Filter {
 pub enum PointLayout {
     /// Point by point: component k of point p at p N + k.
     Points = 0,
-    /// In lines of L points, 8 in double precision and 16 in single precision: component k of point p at
-    /// (p/L N + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line up
-    /// with identities.
+    /// Lines of L points, 8 in double precision and 16 in single precision: component k of point p at (p/L N
+    /// + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line up with
+    /// identities.
     Lines = 1,
 }
 
@@ -38,11 +38,11 @@ pub enum PointLayout {
 pub enum Instructions {
     /// The best that the processor has.
     Best = 0,
-    /// Those that every processor has.
+    /// Instructions that every processor has.
     Portable = 1,
 }
 
-/// How a batch computes. `piola_options options = {sizeof options};` has the defaults, as null has.
+/// Options of a batch. `piola_options options = {sizeof options};` has the defaults, as null has.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Options {

@@ -54,7 +54,7 @@ pub struct Spring {
 }
 plain!(Spring);
 
-/// Why the iteration of a step has ended.
+/// Reason why the iteration of a step has ended.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub enum Convergence {
@@ -355,7 +355,7 @@ pub unsafe extern "C" fn piola_simulation_free(simulation: *mut Simulation) {
     unsafe { handle::free(simulation) }
 }
 
-/// Does something with a simulation that no other call uses.
+/// Changes a simulation that no other call uses.
 ///
 /// # Safety
 /// `simulation` is null or a handle.

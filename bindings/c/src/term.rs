@@ -17,7 +17,7 @@ use crate::lent::{self, Arrays, plain};
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Term {
-    /// What the functions get as their first argument. It must live as long as the simulation has this term.
+    /// First argument of the functions. It must live as long as the simulation has this term.
     pub context: *mut c_void,
     /// Writes the energy, J; infinity outside of its domain, to where no step will go.
     pub energy: Option<
@@ -96,7 +96,7 @@ pub(crate) struct Callbacks {
     energy: Function<f64>,
     add_gradient: Function<f64>,
     add_second_derivatives: unsafe extern "C" fn(*mut c_void, *const f64, usize, *mut Blocks<'_>) -> i32,
-    /// What a function has returned, unless it was 0: nothing is called any more.
+    /// Nonzero value that a function has returned, or 0; after a nonzero value no function is called.
     returned: AtomicI32,
 }
 
@@ -121,7 +121,7 @@ impl Callbacks {
         })
     }
 
-    /// What a function of the term has returned since the last time, unless it was 0.
+    /// Nonzero value that a function of the term has returned since the last call, if any.
     pub(crate) fn take_returned(&self) -> Option<i32> {
         match self.returned.swap(0, Ordering::Relaxed) {
             0 => None,
@@ -129,7 +129,7 @@ impl Callbacks {
         }
     }
 
-    /// Whether a function returns 0, and none before has returned anything else.
+    /// True if a function returns 0 and no earlier call has returned anything else.
     fn succeeds(&self, call: impl FnOnce(*mut c_void) -> i32) -> bool {
         if self.returned.load(Ordering::Relaxed) != 0 {
             return false;
@@ -149,7 +149,7 @@ impl piola::step::Term for Callbacks {
         Some(energy).filter(|energy| succeeds && energy.is_finite())
     }
 
-    /// Where the function fails, so does the step: it has no finite gradient.
+    /// If the function fails, so does the step: its gradient is not finite.
     fn add_gradient(&self, positions: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         let (x, nodes) = (positions.as_flattened().as_ptr(), positions.len());
         let to = gradient.as_flattened_mut().as_mut_ptr();
@@ -159,7 +159,7 @@ impl piola::step::Term for Callbacks {
         }
     }
 
-    /// Where the function fails, so does the step, whose next energy is none.
+    /// If the function fails, so does the step: its next energy is not finite.
     fn add_second_derivatives(&self, positions: &[[f64; 3]], blocks: &mut NodeBlocks) {
         let (x, nodes) = (positions.as_flattened().as_ptr(), positions.len());
         let mut blocks = Blocks(blocks);

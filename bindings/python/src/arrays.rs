@@ -269,7 +269,7 @@ pub(crate) fn read_only<T>(array: Bound<'_, T>) -> PyResult<Bound<'_, T>> {
     Ok(array)
 }
 
-/// What `numpy.asarray` makes of an object.
+/// Result of `numpy.asarray` for an object.
 fn as_array<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
     let array = given.py().import("numpy")?.call_method1("asarray", (given,));
     Ok(array.map_err(|cause| no_numbers(name, given, Some(cause)))?.cast_into()?)

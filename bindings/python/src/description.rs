@@ -17,7 +17,7 @@ pub(crate) struct Parameter {
     doc: String,
     /// Its unit: "Pa", "1/Pa", "1" for a number without unit, or None where the declaration states none.
     unit: Option<&'static str>,
-    /// Whether it takes a sequence of numbers.
+    /// True if it takes a sequence of numbers.
     is_list: bool,
     /// Its value in some real material, if the declaration has one.
     typical: Option<Vec<f64>>,
@@ -41,11 +41,11 @@ pub(crate) struct Description {
     formula: String,
     /// The parameters in the order of the declaration.
     parameters: Vec<Parameter>,
-    /// Where the energy is defined, such as "J > 0".
+    /// Domain of the energy, such as "J > 0".
     domain: String,
     /// Conditions on the parameters.
     admissible: Vec<String>,
-    /// Whether it can be continued beyond its domain, by `extend=`.
+    /// True if it can be continued beyond its domain, by `extend=`.
     extends: bool,
     /// Formulas of the shear modulus and of Lamé's first parameter at small strain.
     moduli: [String; 2],

@@ -23,11 +23,11 @@ use crate::threads::on_threads;
 /// Points from which on the threads of the pool share a call, unless the caller decides.
 const MANY: usize = 2048;
 
-/// How a caller wants points to be computed, by keywords that all methods share.
+/// Options of a call for points: keywords that all methods share.
 struct Call<'a, 'py> {
     filter: Filter,
     axes: Axes,
-    /// Where each result goes.
+    /// Array for each result, if the caller gives one.
     out: Vec<Option<Bound<'py, PyAny>>>,
     status: Option<&'a Bound<'py, PyAny>>,
     threads: Option<bool>,

@@ -111,7 +111,7 @@ impl Material {
         py.import("piola.results")?.call_method1("Fit", arguments)
     }
 
-    /// Where the material keeps the inequalities of a stable solid.
+    /// Range of stretches in which the material keeps the inequalities of a stable solid.
     ///
     ///     stability(*, smallest=0.3, largest=3.0, resolution=41)
     ///

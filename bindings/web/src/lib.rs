@@ -26,7 +26,7 @@ const NUMBERS: u32 = 2;
 /// All that is between two calls.
 #[derive(Default)]
 struct Border {
-    /// What the page has written.
+    /// Message written by the page.
     heard: Vec<u8>,
     behind: Option<(Driver<Browser>, Conversation)>,
     /// Messages for the page that wait.
@@ -130,7 +130,7 @@ pub extern "C" fn next() -> u32 {
     })
 }
 
-/// Where the message that was taken last begins.
+/// Address of the last message taken.
 #[unsafe(no_mangle)]
 pub extern "C" fn message() -> *const u8 {
     said(|bytes| bytes.as_ptr())

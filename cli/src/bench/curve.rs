@@ -152,7 +152,7 @@ impl Curve {
     }
 }
 
-/// Whether a table has rows at a control.
+/// True if a table has rows at a control.
 fn is_allowed(mode: Mode, control: f64) -> bool {
     let least = if mode == Mode::SimpleShear { -MAX_STRETCH } else { 1.0 / MAX_STRETCH };
     (least..=MAX_STRETCH).contains(&control)

@@ -121,7 +121,7 @@ impl Data {
     }
 }
 
-/// Whether measured points are those of the program.
+/// True if the measured points are those that the program includes.
 fn is_treloar(file: &Path) -> bool {
     file.as_os_str().eq_ignore_ascii_case("treloar")
 }

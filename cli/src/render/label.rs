@@ -4,7 +4,7 @@ use super::image::Image;
 
 const WIDTH: usize = 5;
 const HEIGHT: usize = 7;
-/// From one letter to the next.
+/// Distance from one letter to the next.
 const ADVANCE: usize = WIDTH + 1;
 
 /// Writes `text` with its upper left corner at column `x`, row `y`, every dot being `scale` pixels wide.

@@ -6,7 +6,7 @@ use super::{Surface, Vector};
 /// Nothing is seen.
 pub(super) const NOTHING: u32 = u32::MAX;
 
-/// For each pixel, the nearest triangle and its nearness, row by row from the top.
+/// Nearest triangle and its nearness for each pixel, row by row from the top.
 #[derive(Clone, Debug)]
 pub(super) struct DepthBuffer {
     pub(super) width: usize,

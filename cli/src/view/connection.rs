@@ -18,11 +18,11 @@ use super::patience::{Patience, TimedStream, is_silence};
 
 /// The longest message that makes sense is a declaration with its parameters.
 const MAX_MESSAGE: usize = 16 * 1024;
-/// How long a page that waits for a frame waits longer than it must.
+/// Longest extra wait of a page that waits for a frame.
 const TURN: Duration = Duration::from_millis(3);
-/// How long a page that does not may wait for anything else.
+/// Longest wait for anything else while no page waits for a frame.
 const LONG_TURN: Duration = Duration::from_millis(200);
-/// How long the last words of a page that is shut out are listened to, so that it gets to hear why.
+/// Time for which a page that is disconnected may still send, so that it receives the reason.
 const LAST_WORDS: Duration = Duration::from_secs(1);
 
 /// Serves a page until it is closed, goes away or breaks the protocol; none of these is an error.
@@ -57,9 +57,9 @@ pub(super) fn serve(
 struct Connection<'a> {
     socket: WebSocket<TimedStream>,
     patience: Patience,
-    /// When the page last sent a message or answered a ping.
+    /// Time of the last message or answer to a ping from the page.
     heard: Instant,
-    /// Whether it has been asked for a sign of life since then.
+    /// True if a ping has been sent since then.
     is_pinged: bool,
     orders: &'a SyncSender<Order>,
     conversation: Conversation,
@@ -72,11 +72,11 @@ impl Drop for Connection<'_> {
     }
 }
 
-/// Why a conversation ends.
+/// Reason why a conversation ends.
 enum End {
     /// The other side has gone.
     Gone,
-    /// It is to be told this.
+    /// The server closes it, with this code and reason.
     Because(CloseCode, String),
 }
 

@@ -9,7 +9,7 @@ use piola_viewer::driver::{Driver, Host, Order, TURN};
 use piola_viewer::session::Session;
 use rayon::ThreadPool;
 
-/// How long to wait for an order where no step is due in any time that a clock can name.
+/// Wait for an order when no step is due in any time that a clock can represent.
 const FOREVER: Duration = Duration::from_secs(3600);
 
 /// The clock of this machine, and threads to make steps with.

@@ -1,4 +1,4 @@
-//! How long the viewer waits for the other side of a connection, and a stream that waits no longer.
+//! Time limits for the other side of a connection, and a stream that enforces them.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 /// Times after which a connection is given up: it holds one of a few places.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
-    /// For all of a request; a browser sends it at once.
+    /// Limit for a whole request; a browser sends it at once.
     pub(super) request: Duration,
-    /// For taking one answer, frame or message; on one machine that is a matter of milliseconds.
+    /// Limit for sending one answer, frame or message; on one machine that takes milliseconds.
     pub(super) answer: Duration,
     /// Silence of a page after which it is asked for a sign of life. One that is paused may say nothing for
     /// hours.
@@ -77,7 +77,7 @@ impl Write for TimedStream {
     }
 }
 
-/// Whether a read or a write has ended because its time was over.
+/// True if a read or a write has ended because its time was over.
 pub(super) fn is_silence(error: &io::Error) -> bool {
     matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut)
 }

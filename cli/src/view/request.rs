@@ -29,13 +29,13 @@ pub(super) struct Door {
 /// A request that may be answered.
 #[derive(Debug)]
 pub(super) enum Request {
-    /// For a file of the page.
+    /// Request for a file of the page.
     File { path: String },
-    /// For a socket, with the answer that opens it.
+    /// Request for a socket, with the answer that opens it.
     Socket(Response),
 }
 
-/// Why a request is not answered: status and reason.
+/// Reason why a request is not answered: status and text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Denied(pub(super) &'static str, pub(super) &'static str);
 

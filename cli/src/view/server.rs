@@ -25,7 +25,7 @@ pub(super) struct Server {
     pub(super) patience: Patience,
     pub(super) topology: Bytes,
     pub(super) orders: SyncSender<Order>,
-    /// Whether no more connections are to be taken.
+    /// True if no more connections are accepted.
     pub(super) is_over: Arc<AtomicBool>,
     /// The number of the first connection; below it, drags of a loaded state may still pull.
     pub(super) first: u64,

@@ -22,8 +22,8 @@ impl Token {
         Ok(Self(HEXLOWER.encode(&bytes)))
     }
 
-    /// Whether a request with this query, the part of an address behind `?`, names the token, and once. How
-    /// long the answer takes does not depend on how much of it is right.
+    /// True if a request with this query, the part of an address behind `?`, contains the token exactly once.
+    /// The time of the comparison does not depend on the number of correct characters.
     pub(super) fn is_in(&self, query: Option<&str>) -> bool {
         let mut tokens = query.unwrap_or_default().split('&').filter_map(|pair| pair.strip_prefix("token="));
         match (tokens.next(), tokens.next()) {

@@ -34,7 +34,7 @@ pub(super) enum Field {
 
 /// A language, with the number format and the prefix of a file.
 pub(super) trait Language {
-    /// Whether a field cannot have this name.
+    /// True if a field cannot have this name.
     fn is_reserved(&self, name: &str) -> bool;
 
     fn literal(&self, value: f64) -> String;
@@ -83,9 +83,9 @@ pub(super) trait Language {
     fn structure(&self, fields: &[Field], example: &[String]) -> String;
     /// Numbers of a list among those values.
     fn list(&self, numbers: &[String]) -> String;
-    /// How the values that the file was made with are called.
+    /// Name of the values that the file was made with.
     fn example(&self) -> String;
-    /// How the file is compiled, for its top.
+    /// Compiler command, for the top of the file.
     fn advice(&self) -> &'static str;
     /// Functions that programs are made of, those that one of them needs.
     fn primitives(&self, needs: &Needs<'_>) -> String;

@@ -14,7 +14,7 @@ use super::language::{Argument, Field, Language, Needs, language};
 use super::{File, PointFunction};
 use body::Body;
 
-/// Whether names can begin with it, in every language.
+/// True if names can begin with this one, in every language.
 pub(super) fn is_identifier(name: &str) -> bool {
     let is_of_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
     // Others belong to the compiler.
@@ -51,7 +51,7 @@ struct Printer<'a> {
     prefix: &'a str,
     /// The name of each parameter.
     fields: Vec<String>,
-    /// How each number among the parameters is written; whole exponents have no place.
+    /// Text of each number among the parameters; whole exponents have no place.
     parameters: Vec<String>,
 }
 

@@ -21,7 +21,7 @@ pub(super) struct Steps {
     pub(super) escaping: BTreeSet<Id>,
 }
 
-/// Whether an operation needs no statement: it is written where it is used.
+/// True if an operation needs no statement because it is written where it is used.
 pub(super) fn is_inline(operation: &RecordedOperation) -> bool {
     use RecordedOperation::{Argument, Literal, Parameter, Second, Truth};
     matches!(operation, Argument(_) | Parameter(_) | Literal(_) | Truth(_) | Second(_))
@@ -130,7 +130,7 @@ impl<'a> Order<'a> {
         self.ancestors(one).find(|&node| of_other.clone().any(|other| other == node)).unwrap_or(ROOT)
     }
 
-    /// Whether a condition is within another one, and not that one.
+    /// True if a condition is within another one and differs from it.
     fn is_below(&self, node: Node, other: Node) -> bool {
         node != other && self.ancestors(node).any(|node| node == other)
     }
@@ -213,7 +213,7 @@ impl<'a> Order<'a> {
     }
 }
 
-/// Which list of statements has each result.
+/// List of statements that each result is defined in.
 struct Scopes<'a> {
     program: &'a RecordedProgram,
     /// The list around each list.

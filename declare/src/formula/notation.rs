@@ -10,7 +10,7 @@ pub(super) struct Notation {
     pub(super) tokens: TokenStream,
     /// The text of the tokens.
     text: String,
-    /// For each character of the text, the place of the one that it stands for in the formula.
+    /// Position in the formula of each character of the text.
     origins: Vec<usize>,
 }
 

@@ -141,7 +141,7 @@ struct Parser {
     places: HashMap<String, usize>,
     /// Indices of the sums around.
     indices: Vec<Ident>,
-    /// Whether a function of tensors has been read.
+    /// True if a function of tensors has been read.
     has_traces: bool,
     depth: usize,
 }
@@ -557,7 +557,7 @@ impl Tokens {
         comes
     }
 
-    /// Whether a factor comes next, without `*` before it.
+    /// True if a factor comes next, without `*` before it.
     fn begins_factor(&self) -> bool {
         match self.peek() {
             Some(TokenTree::Ident(word)) => word != "where",
@@ -567,7 +567,7 @@ impl Tokens {
         }
     }
 
-    /// Whether an exponent comes next.
+    /// True if an exponent comes next.
     fn begins_exponent(&self) -> bool {
         self.is_sign(0, '^') || self.is_sign(0, '*') && self.is_sign(1, '*')
     }

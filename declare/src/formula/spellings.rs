@@ -8,7 +8,7 @@ struct Spelling {
     rust: &'static str,
     #[cfg_attr(not(test), expect(dead_code, reason = "a test writes it into the documentation"))]
     meaning: &'static str,
-    /// Without underscores.
+    /// Spellings without underscores.
     spellings: &'static [&'static str],
 }
 
@@ -129,7 +129,7 @@ fn find(table: &[Spelling], name: &str) -> Option<&'static str> {
     table.iter().find(|spelling| spelling.spellings.contains(&name)).map(|spelling| spelling.rust)
 }
 
-/// Whether a function is a power of its first argument by its second.
+/// True if a function is a power of its first argument by its second.
 pub(super) fn is_power(name: &str) -> bool {
     POWERS.contains(&name)
 }
@@ -139,7 +139,7 @@ pub(super) fn invariant(name: &str) -> Option<Invariant> {
     TENSOR_FUNCTIONS.iter().find(|(names, _)| names.contains(&name)).map(|&(_, invariant)| invariant)
 }
 
-/// Whether a name is that of a module.
+/// True if a name is that of a module.
 pub(super) fn is_module(name: &str) -> bool {
     MODULES.contains(&name)
 }

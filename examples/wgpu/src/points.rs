@@ -23,7 +23,7 @@ fn words(functions: &[Function]) -> usize {
     numbers.sum::<usize>() + functions.len()
 }
 
-/// Where the stretches lie that `blocks` takes.
+/// Offset of the stretches that `blocks` takes.
 const STRETCHES: usize = 285 + 9;
 
 /// The program for an energy: its own text, and an entry point for each function.

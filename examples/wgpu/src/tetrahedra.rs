@@ -140,7 +140,7 @@ impl<'a> Elements<'a> {
         Ok(all)
     }
 
-    /// What has been computed.
+    /// Results of the last computation.
     ///
     /// # Errors
     /// The device is lost, or has no memory.

@@ -29,11 +29,11 @@ pub(super) fn colour(mode: Mode) -> RGBColor {
 
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Why there is no chart.
+/// Reason why there is no chart.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
-    /// There is no point to draw.
+    /// No points to draw.
     #[error("there is no point to draw: the material has no stress at any of them")]
     Empty,
     /// A number is infinite, NaN or beyond 10¹⁰⁰, and no axis reaches it.
@@ -202,8 +202,8 @@ fn strokes(curve: &Curve) -> Vec<Vec<(f64, f64)>> {
 /// Size of the greatest number on an axis.
 const MOST: f64 = 1e100;
 
-/// From a little below the least number to a little above the greatest. Between ticks that rounding does not
-/// tell apart the library of charts would look for others without end.
+/// Range from a little below the least number to a little above the greatest. Between ticks that are equal up
+/// to rounding the library of charts would search for others forever.
 fn range(numbers: impl Iterator<Item = f64>) -> Result<Range<f64>, ChartError> {
     let (from, to) = numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), x| {
         if x.is_nan() || least.is_nan() { (f64::NAN, f64::NAN) } else { (x.min(least), x.max(greatest)) }

@@ -124,7 +124,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// From the worst R² to the best; those below 0 stand at the left end, where R² is 0.
+    /// Axis from the worst R² to the best; those below 0 stand at the left end, where R² is 0.
     fn of(ranking: &Ranking) -> Option<Self> {
         let agreements = ranking.places.iter().map(|place| &place.fit.agreement);
         let all = agreements.flat_map(|a| a.modes.iter().filter_map(|(_, r)| *r).chain(a.total));

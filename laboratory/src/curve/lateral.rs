@@ -58,7 +58,7 @@ fn enclose(stress: impl Fn(f64) -> Option<f64>, isochoric: f64) -> Option<Interv
 struct Interval {
     low: f64,
     high: f64,
-    /// Whether low and high are outside the domain; never both.
+    /// For low and high, true if it is outside the domain; never both.
     is_edge: [bool; 2],
 }
 

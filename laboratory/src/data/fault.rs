@@ -106,7 +106,7 @@ pub enum Fault {
     /// Columns without a header, which are not a stretch and a stress.
     #[error("there is no header above {columns} columns; {HEADER}, or {WORDS}")]
     Columns {
-        /// How many there are.
+        /// Number of columns in the data.
         columns: usize,
     },
     /// A row has another number of fields than the header.
@@ -120,7 +120,7 @@ pub enum Fault {
         /// Fields of the header.
         expected: usize,
     },
-    /// There is no such test.
+    /// Unknown test.
     #[error(transparent)]
     Mode(
         /// The name as given.
@@ -225,10 +225,10 @@ pub enum Fault {
         mode: Mode,
         /// The least and the greatest control.
         range: std::ops::RangeInclusive<f64>,
-        /// Whether they stand under `stretch`.
+        /// True if they stand under `stretch`.
         is_stretch: bool,
     },
-    /// There is no point apart from the rest state.
+    /// No point except the rest state.
     #[error("below this header there is no point but rest; write lines such as `uniaxial,1.5,0.37`")]
     NoPoints,
 }

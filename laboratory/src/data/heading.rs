@@ -50,17 +50,17 @@ impl Quantity {
         }
     }
 
-    /// Whether it is what a machine sets.
+    /// True if it is a quantity that a machine sets.
     pub(super) fn is_control(self) -> bool {
         (Self::Stretch..=Self::VolumeStrain).contains(&self)
     }
 
-    /// Whether it is a control that is 0 at rest.
+    /// True if it is a control that is 0 at rest.
     pub(super) fn is_strain(self) -> bool {
         matches!(self, Self::Strain | Self::TrueStrain | Self::Shear | Self::VolumeStrain)
     }
 
-    /// Whether it is what a machine reads.
+    /// True if it is a quantity that a machine measures.
     pub(super) fn is_stress(self) -> bool {
         (Self::Stress..=Self::Pressure).contains(&self)
     }
@@ -74,7 +74,7 @@ pub(super) enum Unit {
     Share(f64),
     /// A unit of force or length.
     Sized,
-    /// Another one, of time or temperature.
+    /// Another unit, such as of time or temperature.
     Other,
 }
 
@@ -114,7 +114,7 @@ pub(super) fn unit(text: &str) -> Option<Unit> {
     listed.or_else(|| text.parse().ok().map(Unit::Stress))
 }
 
-/// Whether a text is likely to be a unit of strain, unknown as it is.
+/// True if a text is likely to be an unknown unit of strain.
 fn is_like_unit(text: &str) -> bool {
     let name = plain(text);
     text.contains(['%', '‰', '^', '⁻', '×', 'µ', 'μ'])
@@ -130,9 +130,9 @@ pub(super) struct Heading {
     pub(super) unit: Option<Unit>,
     /// Text in the place of a unit that is not a known one.
     pub(super) unknown: Option<String>,
-    /// Whether a word says which of two kinds of stress or strain it is.
+    /// True if a word names one of two kinds of stress or strain.
     pub(super) is_specific: bool,
-    /// Whether the numbers count compression as positive.
+    /// True if the numbers count compression as positive.
     pub(super) is_compressive: bool,
 }
 

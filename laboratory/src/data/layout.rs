@@ -1,4 +1,4 @@
-//! Where columns and rows are in a file: below a header, bare, or in the blocks of an input deck.
+//! Layout of columns and rows in a file: below a header, bare, or in the blocks of an input deck.
 
 use super::fault::{DataError, Fault};
 use super::heading::{Heading, Quantity, unit};
@@ -110,7 +110,7 @@ fn table<'a>(
     Ok((separator, vec![section]))
 }
 
-/// Whether the fields of a row are units, some of them known.
+/// True if the fields of a row are units, some of them known.
 fn are_units(fields: &[&str]) -> bool {
     fields.iter().any(|field| unit(field).is_some())
         && fields.iter().all(|field| !is_number(field) && field.parse::<Test>().is_err())

@@ -20,7 +20,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Whether this is the rest state, from which nothing can be learnt.
+    /// True if this is the rest state, which carries no information.
     #[must_use]
     pub fn is_rest(&self) -> bool {
         self.control == self.mode.rest()
@@ -48,7 +48,7 @@ impl Measured {
 /// Readings of one material in one or several tests.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurements {
-    /// In the order of the file; those of several files one after the other.
+    /// Points in the order of the file; those of several files one after the other.
     pub points: Vec<Measured>,
 }
 
@@ -69,7 +69,7 @@ impl Measurements {
         self.points.iter().map(|point| respond(specimen, point.mode, volume, point.control)).collect()
     }
 
-    /// How well the specimen agrees with the points: the coefficient of determination
+    /// Agreement of the specimen with the points: the coefficient of determination
     ///
     /// ```text
     /// R² = 1 − Σ (P − P̂)² / Σ (P − P̄)²
@@ -132,7 +132,7 @@ pub(crate) fn short(determination: f64) -> String {
 pub struct PointError {
     /// The point.
     pub point: Measured,
-    /// Why the specimen has no stress there.
+    /// Reason why the specimen has no stress there.
     #[source]
     pub reason: ResponseError,
 }

@@ -1,4 +1,4 @@
-//! From the text of a file to points, and to a line that says how it was understood.
+//! Reader of measured points from the text of a file, with a note on how the file was understood.
 
 use std::fmt;
 
@@ -20,7 +20,7 @@ use crate::curve::Mode;
 pub struct Reading {
     /// The points.
     pub measurements: Measurements,
-    /// Which columns were used and as what, which were left out, in a line.
+    /// Note on the columns that were used, with their meaning, and those that were left out.
     note: String,
 }
 
@@ -115,7 +115,7 @@ fn thousands<'a>(
     cells.all(|(_, cell)| is_whole(cell)).then_some(first)
 }
 
-/// How the file was understood.
+/// Describes how the file was understood.
 fn note(
     sections: &[Section<'_>],
     separator: Separator,

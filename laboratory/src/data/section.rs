@@ -83,7 +83,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Whether test and unit are known.
+    /// True if test and unit are known.
     pub(super) fn is_complete(&self, options: &ReadOptions) -> Result<(), Fault> {
         let has_test = self.mode.is_some() || self.test.or(options.test).is_some();
         if has_test { self.stress.factor(options).map(|_| ()) } else { Err(Fault::NoMode) }

@@ -94,19 +94,19 @@ fn bare(field: &str) -> &str {
     field.strip_prefix('"').map_or(field, |rest| rest.strip_suffix('"').unwrap_or(rest)).trim()
 }
 
-/// Whether a field looks like a number, with whatever marks of decimals and thousands.
+/// True if a field looks like a number, with any marks of decimals and thousands.
 pub(super) fn is_number(field: &str) -> bool {
     let digits = field.trim_end_matches('%').trim_end();
     digits.contains(|c: char| c.is_ascii_digit())
         && digits.chars().all(|c| is_digit(c) || matches!(c, '.' | ','))
 }
 
-/// Whether a character belongs to a number, marks apart; Fortran writes exponents with `D`.
+/// True if a character belongs to a number, not counting marks; Fortran writes exponents with `D`.
 fn is_digit(c: char) -> bool {
     matches!(c, '0'..='9' | '+' | '-' | '−' | 'e' | 'E' | 'd' | 'D')
 }
 
-/// Whether a field begins like a number, and is not one.
+/// True if a field begins like a number but is not one.
 fn is_torn(field: &str) -> bool {
     field.starts_with(|c: char| c.is_ascii_digit()) && !is_number(field)
 }

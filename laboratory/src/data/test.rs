@@ -20,7 +20,7 @@ use crate::curve::{Mode, ModeError};
 pub struct Test {
     /// The mode.
     pub mode: Mode,
-    /// Whether the name is one of compression: such data lie below rest.
+    /// True if the name means compression: such data lie below rest.
     pub is_compression: bool,
 }
 

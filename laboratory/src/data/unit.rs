@@ -61,8 +61,8 @@ impl fmt::Display for StressUnit {
 impl FromStr for StressUnit {
     type Err = StressUnitError;
 
-    /// In letters of any size, except for `m` before a capital, as in `mPa` and `mN/m²`: that would be a
-    /// thousandth. With `²`, `^2`, `**2` or `2` for a square.
+    /// Parses a unit in letters of any case, except for `m` before a capital, as in `mPa` and `mN/m²`: that
+    /// would be a thousandth. A square is written `²`, `^2`, `**2` or `2`.
     fn from_str(text: &str) -> Result<Self, StressUnitError> {
         let name = plain(text);
         let is_named = |(own, _, spellings): &&(&str, f64, &[&str])| {

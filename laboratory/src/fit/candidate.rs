@@ -59,10 +59,11 @@ impl<M: Fittable + 'static> Candidate for M {
 /// The parameters of an energy, lists and functions value by value.
 #[derive(Clone, Debug)]
 pub(super) struct Numbers {
-    /// Such as `kappa`, or `mu_1` for the first entry of a list, `f_1` for the first value of a function.
+    /// Names such as `kappa`, `mu_1` for the first entry of a list, or `f_1` for the first value of a
+    /// function.
     pub(super) names: Vec<String>,
     pub(super) values: Vec<f64>,
-    /// Whether each is an exponent that is whole, and so cannot change by little.
+    /// For each, true if it is an exponent that is whole, and so cannot change by little.
     pub(super) are_whole: Vec<bool>,
     /// The parameter that each belongs to: its name, the number of its entries, and its form.
     parameters: Vec<(Text, usize, Form)>,
@@ -92,7 +93,7 @@ impl Numbers {
         }
     }
 
-    /// Whether a number goes by that name, or is an entry of the list of that name.
+    /// True if `name` is a parameter, or a list that contains this entry.
     pub(super) fn is_named(&self, number: usize, name: &str) -> bool {
         let owners =
             self.parameters.iter().flat_map(|(owner, length, _)| std::iter::repeat_n(owner, *length));

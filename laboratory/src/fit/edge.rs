@@ -41,7 +41,7 @@ pub(super) struct Stop {
     /// Ways on downwards along the edges: next to them, and at a distance that leaves room if they are
     /// curved.
     pub(super) ways: Vec<Way>,
-    /// Whether there is no way on, so that this is the best that the edges allow.
+    /// True if no step is possible, so that this is the best point that the edges allow.
     pub(super) is_least: bool,
 }
 
@@ -57,7 +57,7 @@ struct Edge {
     reason: TrialError,
 }
 
-/// Whether the gain in Σ r² is too small to be worth a step.
+/// True if the gain in Σ r² is too small to be worth a step.
 pub(super) fn is_no_gain(gain: f64, squares: f64) -> bool {
     gain <= GAIN * squares
 }

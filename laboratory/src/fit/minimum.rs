@@ -9,7 +9,7 @@ use super::trial::TrialError;
 
 /// Evaluations before a search is given up, by the number of unknowns.
 const PATIENCE: usize = 400;
-/// How often a descent that an edge stops is taken up again along it: two or three times do where it is flat.
+/// Maximum number of restarts of a descent along an active constraint: two or three suffice if it is flat.
 const WAYS: usize = 12;
 /// A number that changes the residuals by less than this share of what the most telling one does is drowned:
 /// rounding is then more than a ten-millionth of what it does.
@@ -23,13 +23,13 @@ pub(super) struct Minimum<'a> {
     pub(super) ended: Ended,
     /// The reasons of the edges that ended the search, if edges did.
     pub(super) edges: Vec<TrialError>,
-    /// Whether this is a minimum: no step is worth taking, or none that the energy accepts.
+    /// True if this is a minimum: no step is worth taking, or the energy accepts none that is.
     pub(super) is_least: bool,
     /// Index of the start: 0 is the one given.
     pub(super) start: usize,
 }
 
-/// To the minimum below where the problem stands; `None` where numbers leave their range on the way.
+/// Descends to the nearest minimum below the current values; `None` if numbers leave their range on the way.
 pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {
     let approached = approach(&problem, start);
     let before = approached.as_ref().map_or(0, |approached| approached.evaluations);

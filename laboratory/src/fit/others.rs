@@ -9,7 +9,7 @@ use super::candidate::Numbers;
 use super::minimum::Minimum;
 use super::outcome::change;
 
-/// Another minimum is about as good if its differences are at most this much greater than those of the best.
+/// Bound for another minimum to count as about as good: its differences, relative to those of the best.
 const ABOUT_AS_GOOD: f64 = 1.1;
 /// Parameters are the same if they differ by no more than this share of themselves.
 const SAME: f64 = 0.01;
@@ -21,7 +21,7 @@ const SAME_STRESS: f64 = 1e-3;
 /// A parameter that grew by this factor and no longer affects the fit is reported as unbounded (random starts
 /// vary by ten at most).
 const RUNAWAY_FACTOR: f64 = 1e3;
-/// Other minima that are reported: in a flat valley there would be one for each descent.
+/// Largest number of other minima that are reported: in a flat valley there would be one for each descent.
 const OTHERS: usize = 5;
 
 /// Minima about as good as the best.
@@ -32,12 +32,12 @@ pub(super) struct Others<'a, 'b> {
     pub(super) equivalent: Option<Equivalent<'a, 'b>>,
 }
 
-/// Other parameters of the best solid.
+/// Equivalent parameters of the best solid.
 pub(super) struct Equivalent<'a, 'b> {
     pub(super) minimum: &'a Minimum<'b>,
     /// The numbers that are not the same.
     pub(super) differing: Vec<usize>,
-    /// Whether a single parameter runs off to infinity.
+    /// True if a single parameter runs off to infinity.
     pub(super) is_runaway: bool,
     /// The greatest [`change`] of these.
     distance: f64,

@@ -25,11 +25,11 @@ pub struct Fit {
     pub start: usize,
     /// Descents that ended in a minimum.
     pub descents: usize,
-    /// How often the curves were computed on the way to the best minimum.
+    /// Number of evaluations of the curves on the way to the best minimum.
     pub evaluations: usize,
-    /// Why the search ended there.
+    /// Reason why the search ended.
     pub ended: Ended,
-    /// Why other parameters might do as well, or better.
+    /// Warnings that other parameters might fit as well, or better.
     pub warnings: Vec<Warning>,
 }
 
@@ -40,25 +40,25 @@ pub struct Number {
     pub name: String,
     /// The fitted value.
     pub value: f64,
-    /// Whether it was sought.
+    /// Status of the parameter in the search.
     pub standing: Standing,
     /// Standard error of the value to first order, the differences being independent and alike, if it was
     /// sought from more points than unknowns, and no edge of what the energy accepts ended the search.
     pub error: Option<f64>,
 }
 
-/// Whether a parameter was sought.
+/// Status of a parameter in the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// It was sought.
+    /// Free parameter of the search.
     Free,
-    /// It kept its value, as was asked for.
+    /// Parameter that kept its value, as requested.
     Held,
-    /// It kept its value, because the data say nothing about it.
+    /// Parameter that kept its value because it has no effect on the data.
     Unidentifiable,
 }
 
-/// Why a search ended.
+/// Reason why a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ended {
     /// The curves go through the data exactly.
@@ -85,7 +85,7 @@ impl fmt::Display for Ended {
     }
 }
 
-/// Why other parameters might fit as well, or better.
+/// Warning that other parameters might fit as well, or better.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
@@ -102,7 +102,7 @@ pub enum Warning {
         /// The root of the mean square of what such a change changes of the differences, to first order.
         effect: f64,
     },
-    /// There is another minimum, about as good, of a solid with other stresses.
+    /// Another minimum, about as good, of a solid with other stresses.
     OtherMinimum {
         /// Its parameters, in the form of [`Fit::values`].
         values: Vec<Vec<f64>>,
@@ -113,19 +113,19 @@ pub enum Warning {
         /// [`Fit::difference`] of the minimum that was found, to compare with.
         found: f64,
     },
-    /// Other parameters make an equivalent solid: one grows without bound, a term has vanished, two terms
-    /// have become one, or parameters make up for each other.
+    /// Equivalent parameters: one parameter grows without bound, a term has vanished, two terms have become
+    /// one, or parameters compensate each other.
     EquivalentParameters {
         /// Name, value, and value of the other, of the parameters that are not the same but for the order of
         /// terms; lists with all their entries.
         numbers: Vec<(String, f64, f64)>,
-        /// Whether the only difference is one parameter that runs off to infinity.
+        /// True if the only difference is one parameter that runs off to infinity.
         is_runaway: bool,
     },
     /// A better fit is beyond an edge of what the energy accepts: these are the best parameters that were
     /// found along it. One warning for each edge.
     Edge {
-        /// Why the parameters next beyond are refused.
+        /// Reason why the parameters next beyond are refused.
         reason: TrialError,
     },
     /// The volume was kept, but the energy with these parameters gives way in volume: a body of it is another
@@ -248,7 +248,7 @@ impl fmt::Display for Percent {
 /// Limit of [`FitSettings::restarts`](super::FitSettings::restarts), far beyond the minima of any energy.
 pub(super) const MOST_RESTARTS: usize = 10_000;
 
-/// Why nothing can be fitted.
+/// Reason why nothing can be fitted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
@@ -274,14 +274,14 @@ pub enum FitError {
     Point {
         /// Its index among the measurements.
         index: usize,
-        /// Why.
+        /// Reason.
         #[source]
         fault: Fault,
     },
     /// No point counts.
     #[error("there is no point with a stress to fit")]
     NoPoints,
-    /// There are fewer points than parameters.
+    /// Fewer points than parameters.
     #[error("{points} points cannot determine {free} parameters; hold some, or add data")]
     TooFewPoints {
         /// Points that count.
@@ -304,7 +304,7 @@ pub enum FitError {
     NoMinimum,
 }
 
-/// How far apart two values are, relative to the lesser of them.
+/// Distance of two values, relative to the lesser of them.
 pub(super) fn change(one: f64, other: f64) -> f64 {
     if one == other { 0.0 } else { (one - other).abs() / one.abs().min(other.abs()) }
 }

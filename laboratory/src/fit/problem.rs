@@ -17,10 +17,10 @@ const REFUSED: f64 = 1e100;
 pub(super) struct Problem<'a> {
     start: &'a dyn Candidate,
     numbers: &'a Numbers,
-    /// With what the difference is divided by.
+    /// Points, each with the divisor of its difference.
     points: &'a [(Measured, f64)],
     volume: Volume,
-    /// Which numbers are sought.
+    /// Indices of the free numbers.
     pub(super) free: Vec<usize>,
     /// All numbers, those held included.
     pub(super) values: Vec<f64>,
@@ -41,7 +41,8 @@ pub(super) struct Bound {
 }
 
 impl Bound {
-    /// Whether this may be the constraint that does not hold. Of the entries of a list, only a place tells.
+    /// True if this may be the violated constraint. The entries of a list are told apart by their index
+    /// alone.
     pub(super) fn refuses(&self, error: &TrialError) -> bool {
         match (error, &self.limit) {
             (TrialError::Inadmissible(MaterialError::Violated { condition, .. }), Limit::Admissible(own)) => {
@@ -142,7 +143,7 @@ impl<'a> Problem<'a> {
         DVector::from_iterator(self.free.len(), self.free.iter().map(|&number| self.values[number]))
     }
 
-    /// Whether there would be a residual at each point with these free numbers.
+    /// Succeeds if there is a residual at each point with these free numbers.
     pub(super) fn accepts(&self, free: &DVector<f64>) -> Result<(), TrialError> {
         match self.attempt(&self.with_free(free)) {
             Trial::Answers(..) => Ok(()),
@@ -150,7 +151,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Whether there is a residual at each point.
+    /// Succeeds if there is a residual at each point.
     pub(super) fn answers(&self) -> Result<(), TrialError> {
         match &self.trial {
             Trial::Answers(..) => Ok(()),
@@ -194,8 +195,8 @@ impl<'a> Problem<'a> {
         (self.volume == Volume::Kept && is_imposed).then_some(moduli)
     }
 
-    /// Whether the stresses of another's energy differ from those of this one by no more than that share of
-    /// the greatest of each point.
+    /// True if the stresses of another energy differ from those of this one by no more than `share` of the
+    /// greatest of each point.
     ///
     /// They are compared at the stretches of the data and at their inverses, which make tension along two
     /// axes of tension along one: ψ1, ψ2, ψ3 themselves, so that of what keeps its volume the pressure counts

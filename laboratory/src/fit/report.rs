@@ -78,7 +78,7 @@ pub(super) fn report(
     }
 }
 
-/// Whether what was fitted at constant volume is far from keeping it.
+/// Warning if an energy that was fitted at constant volume is far from keeping it.
 fn compressible(best: &Minimum<'_>) -> Option<Warning> {
     let moduli = best.problem.moduli_if_volume_is_imposed()?;
     let poisson = moduli.poisson();

@@ -1,10 +1,10 @@
-//! Why an energy with trial parameters has no stresses to compare with the data.
+//! Errors of an energy with trial parameters.
 
 use piola::material::{Argument, MaterialError};
 
 use crate::data::PointError;
 
-/// Why parameters have no curves to compare with the data.
+/// Reason why an energy with trial parameters has no curves to compare with the data.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(transparent)]
 pub enum TrialError {

@@ -41,7 +41,7 @@ pub(crate) fn shown(determination: Option<f64>) -> String {
 }
 
 impl Place {
-    /// Where each criterion is lost first, such as `Hill, SE lost at uniaxial 2.13`, or `kept`.
+    /// Place at which each criterion is lost first, such as `Hill, SE lost at uniaxial 2.13`, or `kept`.
     #[must_use]
     pub fn stability(&self) -> String {
         let mut groups: Vec<(String, String)> = Vec::new();

@@ -1,4 +1,4 @@
-//! Where an incompressible solid loses a criterion on the way from rest to the end of a test.
+//! Loss of a criterion of incompressible solids on the way from rest to the end of a test.
 //!
 //! At constant volume an energy says nothing of the pressure, and no criterion may depend on it. So each is
 //! asked only for changes that keep the volume: Hill's for tr d ln U = 0, strong ellipticity for waves with m

@@ -72,7 +72,7 @@ pub struct Judgement {
     pub stretches: [f64; 3],
     /// The least modulus of each [`Criterion::ALL`], Pa.
     pub moduli: [f64; 3],
-    /// Whether each modulus is positive beyond doubt.
+    /// For each modulus, true if it is positive beyond doubt.
     pub kept: [bool; 3],
     /// The slowest wave, whose modulus is that of strong ellipticity.
     pub wave: Wave,

@@ -65,7 +65,7 @@ impl Plane {
     }
 }
 
-/// How λ2 follows λ1 along a line of the picture.
+/// Relation of λ2 to λ1 along a line of the picture.
 #[derive(Clone, Copy)]
 enum Course {
     Test(Path),
@@ -134,7 +134,7 @@ impl Cell {
     }
 }
 
-/// Why there is no map.
+/// Reason why there is no map.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MapError {
@@ -166,7 +166,7 @@ const FONT: &str = "sans-serif";
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Both planes over the range of the settings, side by side under a title, as SVG.
+/// Map of both planes over the range of the settings, side by side under a title, as SVG.
 ///
 /// The box's resolution is not that of the picture, which has 120 × 120 cells in a plane.
 ///

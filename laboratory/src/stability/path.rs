@@ -103,7 +103,7 @@ impl Walk {
         walk
     }
 
-    /// From rest to both ends of the settings' range along every path.
+    /// Walks from rest to both ends of the settings' range along every path.
     pub(super) fn all(specimen: &dyn Specimen, settings: &SurveySettings) -> Vec<Self> {
         let ends = [settings.from, settings.to];
         let both = |path| ends.map(|to| Self::along(path, specimen, to));

@@ -109,7 +109,7 @@ pub fn spaced(tokens: &TokenStream) -> String {
     text.replace("(| ", "(|").replace(" | ", "| ")
 }
 
-/// Whether people write a space between a text and the next token.
+/// True if conventional formatting has a space between a text and the next token.
 fn is_space_between(text: &str, next: char) -> bool {
     let is_name = |c: char| c.is_alphanumeric() || c == '_';
     let is_call = "([".contains(next) && text.ends_with(is_name);

@@ -49,7 +49,7 @@ pub(crate) fn written(
     diagnostics.is_clean().then_some(samples)
 }
 
-/// Whether an energy has no value for a volume of its domain, or cannot be continued, which is known before
+/// True if an energy has no value for a volume of its domain, or cannot be continued, which is known before
 /// its derivatives. Leaves the graph as it is.
 pub(crate) fn is_out_of_domain(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> bool {
     let mut graph = graph.clone();
@@ -72,7 +72,7 @@ pub(crate) struct Derived {
     pub(crate) shear: Id,
     /// The energy continued beyond its domain, if it is to be.
     pub(crate) continued: Option<Id>,
-    /// Whether the fractions of these derivatives are exact.
+    /// True if the fractions of these derivatives are exact.
     pub(crate) is_exact: bool,
 }
 
@@ -135,7 +135,7 @@ fn domain(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding>
     mistaken.map(|(_, condition)| Finding::new(condition, Violation::OnOneStretch)).collect()
 }
 
-/// Whether an expression differs from another one in which two stretches are exchanged.
+/// True if an expression differs from another one in which two stretches are exchanged.
 fn differs(graph: &Graph, [one, other]: [Id; 2], [i, j]: [usize; 2], samples: &[Point]) -> bool {
     samples.iter().any(|point| {
         let mut swapped = point.clone();

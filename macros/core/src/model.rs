@@ -155,7 +155,7 @@ pub struct Variant {
     pub flip: [Id; 3],
     /// D⁺ of the pairs.
     pub twist: [Id; 3],
-    /// Whether a twist has a pole at λi + λj = 0.
+    /// True if a twist has a pole at λi + λj = 0.
     pub has_pole: bool,
 }
 

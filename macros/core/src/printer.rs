@@ -86,7 +86,7 @@ impl Notation {
         if denominator == 1 { text } else { format!("{text} / {denominator}.0") }
     }
 
-    /// Whether terms, each with whether it is subtracted, and a constant have an operator, and their text.
+    /// Text of a sum, with true if it has an operator; each term comes with true if it is subtracted.
     fn sum(self, mut parts: Vec<(bool, String)>, constant: Rational) -> (bool, String) {
         if !constant.is_zero() || parts.is_empty() {
             parts.push((constant.is_negative(), self.number(constant)));

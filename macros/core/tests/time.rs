@@ -1,4 +1,4 @@
-//! How long an expansion takes beside work that only the compiler's own libraries do: a macro must not be
+//! Time of an expansion compared with work that only the compiler's own libraries do: a macro must not be
 //! felt.
 //!
 //! Both are measured in turn on one thread, in time of the processor that Linux gives this thread, so that

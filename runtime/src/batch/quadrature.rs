@@ -154,7 +154,7 @@ impl<E: Scalar> Quadrature<E> {
     }
 }
 
-/// Whether a slice has so many numbers of each point or element.
+/// Checks that a slice has this number of components for each point or element.
 fn fit<E>(slice: &'static str, of: &[E], components: usize, points: usize) -> Result<(), LengthError> {
     let found = of.len();
     if components.checked_mul(points) == Some(found) {

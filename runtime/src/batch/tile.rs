@@ -28,8 +28,8 @@ pub(super) struct Call<'a, E> {
     pub(super) backend: Backend,
     pub(super) layout: Layout,
     pub(super) streams: bool,
-    /// Whether decompositions are kept for later calls. The invariants then serve all points of a tile or
-    /// none, so that a decomposition is one of all points.
+    /// True if decompositions are kept for later calls. The invariants are then used for all points of a tile
+    /// or for none, so that a decomposition covers all points.
     pub(super) keeps_svd: bool,
 }
 
@@ -76,7 +76,7 @@ pub(super) struct Tile<'t, E, const REST: usize> {
     pub(super) F: Source<'t, E, 9>,
     pub(super) rest: Source<'t, E, REST>,
     pub(super) svd: &'t mut SvdTile<E>,
-    /// Whether [`svd`](Self::svd) is the decomposition of F.
+    /// True if [`svd`](Self::svd) is the decomposition of F.
     pub(super) is_decomposed: bool,
     pub(super) scratch: &'t mut Scratch<E>,
 }

@@ -106,8 +106,8 @@ fn restoring(
     judge.negative(|| gradient_name(2), stretches, found, remedy)
 }
 
-/// Whether the material admits the mirror image, which is then demanded of the point itself too: a bound such
-/// as Gent's on I1 is no matter of inversion.
+/// True if the material admits the mirror image. The point itself must be admitted then, too: a bound such as
+/// Gent's on I1 has nothing to do with inversion.
 fn admitted(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> Result<bool, Violation> {
     let [l1, l2, l3] = stretches;
     if !material.admits([l1, l2, l3.abs()]) {

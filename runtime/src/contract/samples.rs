@@ -1,4 +1,4 @@
-//! Where the contract looks: stretches in descending order, of which the material admits all.
+//! Samples of the contract: stretches in descending order, all of which the material admits.
 
 use super::subject::Subject;
 use super::{Finding, Judge, Rule, Settings, Violation};

@@ -72,7 +72,7 @@ pub(super) fn tangent_slope(material: &dyn Subject, settings: &Settings) -> Resu
     })
 }
 
-/// How difference quotients approach a derivative.
+/// Convergence of difference quotients to a derivative.
 pub(super) struct Approach {
     /// Exponent of h in the error.
     order: i32,

@@ -33,10 +33,10 @@ fn right_materials_pass() {
     }
 }
 
-/// What can be wrong with a material.
+/// Defects that a material can have.
 #[derive(Clone, Copy)]
 enum Defect {
-    /// Of every part: a defect only where the rest state is to be free of stress.
+    /// Stress at rest in every part: a defect only if the rest state must be free of stress.
     Prestress,
     PrestressOfOnePart,
     StressTooLargeByAMillionth,
@@ -249,7 +249,7 @@ impl<const IS_SEPARATE: bool> Material for ByInvariants<IS_SEPARATE> {
         SaintVenantKirchhoff.blocks(l)
     }
 
-    /// With μ = 1 and λ = 3/2: (I1² − 2 I2 − 2 I1 + 3)/4 + 3/16 (I1 − 3)².
+    /// Energy with μ = 1 and λ = 3/2: (I1² − 2 I2 − 2 I1 + 3)/4 + 3/16 (I1 − 3)².
     fn energy_by_invariants<R: Real>(&self, [i1, i2, _]: [R; 3]) -> R {
         let (two, three) = (R::splat(2.0), R::splat(3.0));
         let trace = i1 - three;
@@ -298,7 +298,7 @@ fn check_names(material: &impl Material, expected: Rule, component: &str) {
     assert!(named, "{violations}");
 }
 
-/// As [`check_names`], and no other rule sees it.
+/// Checks as [`check_names`] does, and that no other rule fails.
 #[track_caller]
 fn check_names_alone(material: &impl Material, expected: Rule, component: &str) {
     check_names(material, expected, component);
@@ -459,7 +459,7 @@ mod one_line {
         Err("no such rubber")
     }
 
-    /// What a test panics with, if it does.
+    /// Panic message of a test, if it panics.
     fn failure(test: fn()) -> Option<String> {
         let panic = std::panic::catch_unwind(test).err()?;
         Some(*panic.downcast::<String>().expect("a formatted message"))

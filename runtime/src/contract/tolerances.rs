@@ -1,4 +1,4 @@
-//! How exactly results are known, for the rules on formats and lanes.
+//! Accuracy of results, for the rules on formats and lanes.
 
 use super::results::{COUNT, results};
 use super::subject::Subject;

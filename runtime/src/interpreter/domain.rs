@@ -19,19 +19,19 @@ pub enum Volume {
 pub(super) struct VolumeBound {
     pub(super) volume: Volume,
     pub(super) inversion: Inversion,
-    /// Whether the arguments are I1, I2 and J, not stretches.
+    /// True if the arguments are I1, I2 and J, not stretches.
     pub(super) is_by_invariants: bool,
 }
 
 impl VolumeBound {
-    /// Whether there is no bound.
+    /// True if there is no bound.
     #[inline(always)]
     pub(super) fn is_any(self) -> bool {
         let is_refused = self.inversion == Inversion::Refuse;
         self.volume == Volume::Any || !self.is_by_invariants && !is_refused
     }
 
-    /// Whether volumes are inside the domain.
+    /// True if volumes are inside the domain.
     #[inline(always)]
     pub(super) fn holds<R: Real>(self, [first, _, last]: [R; 3]) -> R::Mask {
         let zero = R::splat(0.0);

@@ -32,7 +32,7 @@ pub(super) fn execute_alone<R: Real>(
 /// Arguments of a program at the points of a tile, and room for its results.
 pub(super) struct Request<'a, E> {
     pub(super) count: usize,
-    /// How far rows of arguments and of results are apart.
+    /// Distance between rows of arguments and of results.
     pub(super) stride: usize,
     pub(super) arguments: &'a [E],
     pub(super) results: &'a mut [E],
@@ -107,7 +107,8 @@ impl<E: Scalar> Kernel<E> for Execution<'_, '_, E> {
 
 /// Lanes as parts of a tile.
 trait Part: Lanes {
-    /// How many make a tile: a constant by itself, so that the compiler forgets the other numbers at once.
+    /// Number of parts of a tile: a constant by itself, so that the compiler forgets the other numbers at
+    /// once.
     const GROUPS: usize = 64 / Self::LANES;
 }
 

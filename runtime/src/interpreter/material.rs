@@ -30,7 +30,7 @@ pub struct Programs {
     pub by_invariants: Option<ByInvariants>,
     /// Small-strain μ and λ, Pa.
     pub moduli: Program,
-    /// Whether each parameter is a whole exponent or a list of such.
+    /// For each parameter, true if it is a whole exponent or a list of whole exponents.
     pub are_whole: Vec<bool>,
 }
 
@@ -45,7 +45,7 @@ pub struct Variant {
     pub blocks: Program,
     /// Calls of functions that are parameters.
     pub calls: Vec<Calls>,
-    /// Whether a twist has a pole at λi + λj = 0.
+    /// True if a twist has a pole at λi + λj = 0.
     pub has_pole: bool,
 }
 
@@ -62,7 +62,7 @@ pub struct ByInvariants {
     pub bounds: Program,
     /// Calls of functions that are parameters.
     pub calls: Vec<Calls>,
-    /// Whether ψ depends on I2.
+    /// True if ψ depends on I2.
     pub has_second_invariant: bool,
     /// Second derivatives that do not vanish everywhere.
     pub curvature: Curvature,
@@ -275,7 +275,7 @@ fn domain_bits<E: Scalar>(
     all
 }
 
-/// Where a function that is a parameter is defined.
+/// True if a function that is a parameter is defined at an argument.
 fn admits<R: Real>(parameters: &Parameters<'_>, function: usize, argument: R) -> R::Mask {
     parameters.function(function).map_or(R::Mask::splat(true), |function| function.admits(argument))
 }

@@ -46,7 +46,7 @@ impl ParameterValues {
         }
     }
 
-    /// Whether both differ in real numbers alone, so that lanes can hold values of both.
+    /// True if both differ in real numbers only, so that lanes can hold values of both.
     pub(super) fn are_alike(&self, other: &Self, is_whole: &[bool]) -> bool {
         let mut pairs = self.0.iter().zip(&other.0).zip(is_whole);
         pairs.all(|((one, other), &is_whole)| match (one, other) {

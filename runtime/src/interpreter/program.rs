@@ -24,7 +24,7 @@ pub struct Program {
     pub epsilon: Option<Register>,
     /// The operations, in order.
     pub operations: Vec<Operation>,
-    /// How many of the first operations compute constants: once for all tiles that follow each other.
+    /// Number of operations at the start that compute constants: once for all tiles that follow each other.
     pub preparations: usize,
     /// The loops among them.
     pub loops: Vec<Loop>,
@@ -36,7 +36,7 @@ pub struct Program {
     pub sizes: Sizes,
 }
 
-/// How many registers of each kind a program needs.
+/// Number of registers of each kind that a program needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
     /// Registers for real numbers, constants among them.

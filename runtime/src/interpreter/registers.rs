@@ -10,9 +10,9 @@ use crate::quotient::Pair;
 
 /// Registers of a program, each as many real numbers side by side as there are groups of points.
 pub(super) struct Registers<R: Real> {
-    /// Those for constants, and behind them those for other numbers.
+    /// Constant registers, followed by the other number registers.
     numbers: Vec<R>,
-    /// How many are for constants.
+    /// Number of constant registers.
     constants: usize,
     /// The material and the program that the constants in the registers belong to.
     prepared: Option<Prepared>,
@@ -141,7 +141,7 @@ fn grow<T: Clone>(list: &mut Vec<T>, length: usize, entry: impl FnOnce() -> T) {
 /// The registers of each kind, as cells: an operand may be in the register of the result.
 pub(super) struct Files<'a, R: Real, const G: usize> {
     numbers: &'a [[Cell<R>; G]],
-    /// How many of the numbers are constants, of which only the first group is in use.
+    /// Number of constants among the numbers; only the first group of a constant is in use.
     constants: usize,
     logarithms: &'a [[Cell<R::Logarithm>; G]],
     pairs: &'a [[Cell<Pair<R>>; G]],

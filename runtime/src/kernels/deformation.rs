@@ -39,7 +39,7 @@ pub(crate) struct Decompose<'a, E> {
     pub(crate) count: usize,
     /// Points whose decomposition nothing reads, as bits.
     pub(crate) served: u64,
-    /// Whether the sign of det F decides over the domain.
+    /// True if the sign of det F decides over the domain.
     pub(crate) is_signed: bool,
     pub(crate) points: &'a mut SvdTile<E>,
 }

@@ -65,7 +65,7 @@ pub(crate) trait OutputByInvariants<const REST: usize, const N: usize>: Output<R
         to: &mut (impl Components<R> + ?Sized),
     ) -> R;
 
-    /// Whether no number can overflow on the way from the tangent, given a bound of its entries, to the form.
+    /// True if nothing can overflow on the way from the tangent, given a bound of its entries, to the form.
     #[inline(always)]
     fn stays_finite<R: Real>(tangent: R, rest: &[R; REST]) -> R::Mask {
         let _ = (tangent, rest);
@@ -177,7 +177,7 @@ impl OutputByInvariants<0, 45> for PackedTangent {
     }
 }
 
-/// Where the entries of a symmetric matrix are when its upper triangle is stored row by row.
+/// Positions of the entries of a symmetric matrix whose upper triangle is stored row by row.
 const fn packed<const SIZE: usize>() -> [[usize; SIZE]; SIZE] {
     let mut places = [[0; SIZE]; SIZE];
     let (mut place, mut row) = (0, 0);
@@ -207,7 +207,7 @@ impl<R: Real> Rest<R> {
         Self { inverse: [[a, b, c], [d, e, f], [g, h, i]], volume }
     }
 
-    /// Whether a stiffness is finite whose tangent has no entry larger than this, in any frames.
+    /// True if the stiffness is finite in any frames, given a bound of the entries of its tangent.
     #[inline(always)]
     fn keeps_finite(&self, tangent: R) -> R::Mask {
         let shape = largest(to_row_major(self.inverse));
@@ -261,15 +261,15 @@ fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
     is_capped[0] | is_capped[1] | is_capped[2]
 }
 
-/// Whether no number can overflow on the way from the tangent to the stiffness: its entries are sums of at
-/// most 27 products of an entry of the tangent and two of W, or sums of nine such entries.
+/// True if nothing can overflow on the way from the tangent to the stiffness: its entries are sums of at most
+/// 27 products of an entry of the tangent and two of W, or sums of nine such entries.
 #[inline(always)]
 fn stiffness_is_finite<R: Real>(blocks: &Blocks<R>, rest: &Rest<R>) -> R::Mask {
     rest.keeps_finite(largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]))
 }
 
-/// Whether no number can overflow on the way from stress to the gradient: a sum of nine products of the
-/// stress, Dm⁻¹ and the volume.
+/// True if nothing can overflow on the way from stress to the gradient: a sum of nine products of the stress,
+/// Dm⁻¹ and the volume.
 #[inline(always)]
 pub(crate) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
     let Rest { inverse, volume } = Rest::new(*rest);

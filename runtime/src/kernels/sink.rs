@@ -9,8 +9,8 @@ pub enum Layout {
     /// Point by point: component k of point p at p N + k. Lanes are transposed in registers.
     #[default]
     Points,
-    /// In lines of [`LINE`](Scalar::LINE) = L points, 8 of `f64` or 16 of `f32`, which fill 64 bytes: number
-    /// k of point p at (⌊p/L⌋ N + k) L + p mod L. Lanes move as they are. The number of points must be a
+    /// Lines of [`LINE`](Scalar::LINE) = L points, 8 of `f64` or 16 of `f32`, which fill 64 bytes: number k
+    /// of point p at (⌊p/L⌋ N + k) L + p mod L. Lanes move as they are. The number of points must be a
     /// multiple of L: fill the last line up with identities.
     Lines,
 }
@@ -35,8 +35,8 @@ impl<E> Source<'_, E, 0> {
 }
 
 impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
-    /// From a tile's part of a slice; `lines` is where points are turned to, and where a tile that is not
-    /// full gets its room.
+    /// Source from a tile's part of a slice; `lines` is scratch memory for transposed points and for a tile
+    /// that is not full.
     pub(crate) fn new(backend: Backend, layout: Layout, from: &'a [E], lines: &'a mut Lines<E, N>) -> Self {
         match layout {
             Layout::Lines if from.len() == N * TILE => return Self(from),

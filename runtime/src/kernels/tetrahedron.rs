@@ -17,7 +17,7 @@ pub struct DenseTetrahedron<R: Real> {
     pub gradient: [R; 12],
     /// Its stiffness, filtered as asked, N/m: row and column as the gradient.
     pub stiffness: [R; 144],
-    /// Whether the results mean something, and whether the filter changed the stiffness.
+    /// Status of the results: valid or not, and filtered or not.
     pub status: Status<R::Mask>,
 }
 
@@ -75,7 +75,7 @@ fn by_decomposition<R: Real>(
     at
 }
 
-/// Where the invariants serve, and what they give there; elsewhere that means nothing.
+/// Tetrahedron by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
 fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
     material: &impl Response<R>,
     F: &Matrix3<R>,

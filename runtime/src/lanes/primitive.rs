@@ -4,7 +4,7 @@ use super::real::Real;
 
 /// A [`Real`] in hardware: operations that differ from one set of instructions to the next.
 pub trait Primitive: Real {
-    /// Whether [`Real::mul_add`] rounds once.
+    /// True if [`Real::mul_add`] rounds once.
     const IS_FUSED: bool;
 
     /// Binary digits of the significand: u is 2 to the power of −DIGITS.

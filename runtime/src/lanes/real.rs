@@ -139,7 +139,7 @@ pub trait Real:
 
     /// self < other; false if either is NaN.
     fn less(self, other: Self) -> Self::Mask;
-    /// Whether self is neither infinite nor NaN.
+    /// True if self is neither infinite nor NaN.
     fn is_finite(self) -> Self::Mask;
     /// `yes` where the mask is set, `no` elsewhere.
     #[must_use]
@@ -162,6 +162,6 @@ pub trait Mask:
 {
     /// `value` in every lane.
     fn splat(value: bool) -> Self;
-    /// Whether any lane is set.
+    /// True if any lane is set.
     fn any(self) -> bool;
 }

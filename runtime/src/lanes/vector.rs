@@ -98,7 +98,7 @@ pub trait Lanes: Real {
 pub trait Scalar:
     Primitive + Lanes<Scalar = Self, Mask = bool> + Default + PartialEq + PartialOrd + Debug + Into<f64>
 {
-    /// How many numbers fill a cache line of 64 bytes; blocks of points are laid out in such lines.
+    /// Number of values that fill a cache line of 64 bytes; blocks of points are laid out in such lines.
     const LINE: usize;
 
     /// The lanes of this format in a set of instructions.
@@ -116,9 +116,9 @@ pub trait Scalar:
 /// Slices of one format.
 #[derive(Debug)]
 pub enum ByFormat<'a> {
-    /// In `f64`.
+    /// Arrays of `f64`.
     F64(&'a [f64], &'a mut [f64]),
-    /// In `f32`.
+    /// Arrays of `f32`.
     F32(&'a [f32], &'a mut [f32]),
 }
 

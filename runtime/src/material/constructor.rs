@@ -84,7 +84,7 @@ pub fn restoring(holds: bool, condition: &'static str, given: &[Named]) -> Resul
     }
 }
 
-/// Whether a material is to be extended.
+/// True if a material is to be extended.
 ///
 /// # Errors
 /// [`MaterialError::Threshold`] unless 0 < ε < 1.
@@ -135,7 +135,8 @@ pub fn defined_at_rest<M: Material>(material: M) -> Result<M, MaterialError> {
     if material.admits([1.0f64; 3]) { Ok(material) } else { Err(MaterialError::UndefinedRest) }
 }
 
-/// Whether the sign of a tiny stretch decides over the domain, as where a function of a stretch ends at 0.
+/// True if the sign of a tiny stretch decides about the domain, for example if a function of a stretch ends
+/// at 0.
 #[must_use]
 pub fn sign_decides(material: &impl Material) -> bool {
     let tiny = 2f64.powi(-1000);

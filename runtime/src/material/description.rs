@@ -18,7 +18,7 @@ pub struct Description {
     pub parameters: Cow<'static, [Parameter]>,
     /// The domain of ψ, such as `J > 0`.
     pub domain: Text,
-    /// Whether the material can be built with [`Inversion::Extend`](super::Inversion::Extend).
+    /// True if the material can be built with [`Inversion::Extend`](super::Inversion::Extend).
     pub extends: bool,
     /// The reason why it does not extend, if the declaration states one.
     pub refusal: Option<Text>,
@@ -45,13 +45,13 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// Whether it takes a list of values: one for each term of a sum, or those that a function is built from.
+    /// True if it is a list of values: one for each term of a sum, or those that define a function.
     #[must_use]
     pub fn is_list(&self) -> bool {
         !matches!(self.form, Form::Number | Form::Exponent)
     }
 
-    /// Whether its values are whole numbers, exponents from 0 to 64, by which nothing is differentiated.
+    /// True if its values are whole numbers, exponents from 0 to 64, by which nothing is differentiated.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         matches!(self.form, Form::Exponent | Form::Exponents)

@@ -139,7 +139,7 @@ macro_rules! mixed_responses {
             fn inversion(&self) -> Inversion {
                 self.materials[0].inversion()
             }
-            /// Those of all lanes if they agree.
+            /// Moduli of all lanes if they agree.
             fn stated_moduli(&self) -> Option<Moduli> {
                 let first = self.materials[0].stated_moduli();
                 first.filter(|_| self.materials.iter().all(|material| material.stated_moduli() == first))

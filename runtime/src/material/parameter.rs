@@ -15,7 +15,7 @@ use super::Material;
 use super::properties::Properties;
 use crate::lanes::Real;
 
-/// How a declared material keeps a parameter.
+/// Representation of a parameter in a declared material.
 pub trait ParameterValue: Copy + fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The parameter on the lanes of a real type.
     fn on<R: Real>(&self) -> R;

@@ -5,24 +5,25 @@ use super::{Curvature, Material};
 /// Properties of the materials of many points that no deformation decides.
 #[derive(Clone, Copy, Debug)]
 pub struct Properties {
-    /// Whether ψ is a function of I1, I2 and J alone: [`Material::HAS_INVARIANTS`].
+    /// True if ψ is a function of I1, I2 and J alone: [`Material::HAS_INVARIANTS`].
     pub(crate) has_invariants: bool,
-    /// Whether ψ by invariants depends on I2: [`Material::HAS_SECOND_INVARIANT`].
+    /// True if ψ by invariants depends on I2: [`Material::HAS_SECOND_INVARIANT`].
     pub(crate) has_second_invariant: bool,
     /// Second derivatives of ψ by invariants that do not vanish: [`Material::CURVATURE_BY_INVARIANTS`].
     pub(crate) curvature: Curvature,
-    /// Whether ψ is taken from the invariants too: [`Material::HAS_ENERGY_BY_INVARIANTS`].
+    /// True if ψ is computed from the invariants too: [`Material::HAS_ENERGY_BY_INVARIANTS`].
     pub(crate) has_energy_by_invariants: bool,
-    /// Whether a twist of some of the materials has a pole: [`Material::has_pole`].
+    /// True if a twist of any of the materials has a pole: [`Material::has_pole`].
     pub(crate) has_pole: bool,
-    /// Whether the domain of some of the materials ends at J = 0: [`Material::ends_at_zero_volume`].
+    /// True if the domain of any of the materials ends at J = 0: [`Material::ends_at_zero_volume`].
     pub(crate) ends_at_zero_volume: bool,
     /// Number of points with a material of their own; `None` if one serves any number of points.
     pub(crate) points: Option<usize>,
 }
 
 impl Properties {
-    /// Those of all these materials together, of so many points with a material of their own.
+    /// Combines the properties of `materials`. `points` is the number of points if each has a material of its
+    /// own.
     pub(crate) fn of<M: Material>(materials: &[M], points: Option<usize>) -> Self {
         let curvatures = materials.iter().map(Material::curvature_by_invariants);
         Self {

@@ -115,7 +115,7 @@ fn for_each_place(counts: [usize; 3], [slow, middle, fast]: [usize; 3], mut visi
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BoxError {
-    /// There are no cells along an axis.
+    /// No cells along an axis.
     NoCells {
         /// Number of cells along each axis.
         cells: [usize; 3],

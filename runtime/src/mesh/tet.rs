@@ -236,7 +236,7 @@ pub(crate) fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f
     masses
 }
 
-/// Why a tetrahedron has no shape.
+/// Reason why a tetrahedron has no shape.
 enum Fault {
     /// Its volume, m³, is not positive.
     Volume(f64),
@@ -277,7 +277,7 @@ impl Bounds {
         })
     }
 
-    /// Whether a point lies inside or on the boundary.
+    /// True if a point lies inside or on the boundary.
     #[must_use]
     pub fn contains(&self, x: [f64; 3]) -> bool {
         (0..3).all(|c| self.min[c] <= x[c] && x[c] <= self.max[c])
@@ -294,7 +294,7 @@ impl Bounds {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// There is no tetrahedron.
+    /// Mesh without tetrahedra.
     Empty,
     /// A coordinate is infinite or NaN.
     NotFinite {

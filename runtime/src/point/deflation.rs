@@ -37,7 +37,7 @@ pub(super) struct Deflation<R: Real> {
     /// The eigenvector v whose eigenvalue lies apart from the other two, and a basis p, q of the plane normal
     /// to it.
     pub(super) frame: [[R; 3]; 3],
-    /// Whether the eigenvalue of v is the largest one; otherwise it is the smallest one.
+    /// True if the eigenvalue of v is the largest one; otherwise it is the smallest one.
     pub(super) is_largest: R::Mask,
 }
 

@@ -17,7 +17,7 @@ pub struct DensePoint<R: Real> {
     /// dP/dF, filtered as asked, Pa: row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F.
     /// Exactly symmetric.
     pub tangent: [[R; 9]; 9],
-    /// Whether the results mean something, and whether the filter changed the tangent.
+    /// Status of the results: valid or not, and filtered or not.
     pub status: Status<R::Mask>,
 }
 
@@ -91,7 +91,7 @@ fn by_decomposition<R: Real>(
     DensePoint { stress: point.stress, tangent: point.tangent.to_matrix(), status: point.status }
 }
 
-/// Where the invariants serve, and what they give there; elsewhere that means nothing.
+/// Point by invariants, with a mask of the lanes for which it is valid; other lanes are meaningless.
 #[inline(always)]
 fn by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
     material: &(impl Response<R> + ?Sized),

@@ -83,8 +83,8 @@ pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool>(
     stress_of_terms::<R, HAS_SECOND>([F, &D, &C], [W1 + W1, W2 + W2, WJ])
 }
 
-/// Whether P by these derivatives is finite wherever the invariants are in range: entries of F, C and D are
-/// then below the powers 1/8, 2/8 and 3/8 of the largest finite number, but for small factors, and the
+/// True if P by these derivatives is finite whenever the invariants are in range: entries of F, C and D are
+/// then below the powers 1/8, 2/8 and 3/8 of the largest finite number, except for small factors, and the
 /// derivatives below its root.
 #[inline(always)]
 pub(crate) fn gradient_is_in_range<R: Real>([W1, W2, WJ]: [R; 3]) -> R::Mask {

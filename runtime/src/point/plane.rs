@@ -123,9 +123,9 @@ pub struct PlanePoint<R> {
     pub stress: Matrix2<R>,
     /// dP/dF in the plane, filtered as asked, Pa.
     pub tangent: PlaneTangent<R>,
-    /// Whether the results mean something, and whether the filter changed the tangent.
+    /// Status of the results: valid or not, and filtered or not.
     pub status: Status,
-    /// Whether the point is refused because no stretch normal to the plane frees it of stress.
+    /// True if the point is refused because no stretch normal to the plane makes the stress vanish.
     pub no_equilibrium: bool,
 }
 
@@ -198,7 +198,7 @@ pub fn plane_stress<R: Real<Mask = bool>>(
     }
 }
 
-/// Whether the stretch out of the plane is given or follows.
+/// Treatment of the stretch out of the plane: given, or to be found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Across {
     Held,

@@ -50,12 +50,14 @@ use crate::material::{Blocks, PAIRS};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Filter {
-    /// They stay: the exact derivative of the stress.
+    /// Leaves negative eigenvalues as they are: the exact derivative of the stress.
     #[default]
     None,
-    /// They become zero: the semidefinite matrix nearest in the Frobenius norm.
+    /// Sets negative eigenvalues to zero: the nearest positive semidefinite matrix in the Frobenius norm, the
+    /// usual PSD projection.
     Clamp,
-    /// They change sign \[CLLZJ24\]: directions of negative curvature are stiff instead of free.
+    /// Replaces negative eigenvalues by their absolute values \[CLLZJ24\]: directions of negative curvature
+    /// are stiff instead of free.
     Absolute,
 }
 
@@ -177,7 +179,7 @@ fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     (answer, smaller.min(nu))
 }
 
-/// Whether every eigenvalue is positive whatever rounding did: LDLᵀ of A − 64 u I has positive pivots.
+/// True if every eigenvalue is positive regardless of rounding: LDLᵀ of A − 64 u I has positive pivots.
 ///
 /// The computed factors of that matrix are exact for one that differs by a few u times its entries, which are
 /// below 4 here; the shift outweighs it [Rump 2006, *Verification of positive definiteness*].

@@ -181,7 +181,7 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.960_289_856_497_536_3, 0.101_228_536_290_376_26],
 ];
 
-/// Whether ‖H‖ < ½.
+/// True if ‖H‖ < ½.
 #[inline(always)]
 fn is_small<R: Real>(H: &Matrix3<R>) -> R::Mask {
     let squared = H.iter().flatten().fold(R::splat(0.0), |sum, x| x.mul_add(*x, sum));

@@ -104,7 +104,7 @@ pub(crate) fn may_have_axis<R: Real>(F: &Matrix3<R>) -> R::Mask {
     vanishes(a.mul_add(a, b.mul_add(b, c * c)))
 }
 
-/// Whether a number that is not negative is zero, or NaN.
+/// True if a number that is not negative is zero or NaN.
 #[inline(always)]
 fn vanishes<R: Real>(x: R) -> R::Mask {
     !R::splat(0.0).less(x)

@@ -153,7 +153,7 @@ impl Equilibrium {
         })
     }
 
-    /// Whether no element bears stress above rounding.
+    /// True if no element bears stress above rounding.
     #[must_use]
     pub fn is_stress_free(&self) -> bool {
         self.largest_force <= NO_STRESS * self.unit_force

@@ -117,7 +117,7 @@ impl State {
     }
 }
 
-/// How a stage of a step gets velocities v = (x − s)/τ and accelerations a = (v − w)/σ from positions x.
+/// Stage of a step: velocities v = (x − s)/τ and accelerations a = (v − w)/σ from positions x.
 #[derive(Clone, Debug)]
 pub struct Stage {
     /// s, m.
@@ -129,7 +129,7 @@ pub struct Stage {
     /// Accelerations in the stage before or, of the first one, at the end of the step before, m/s²; zero
     /// where there was none.
     pub(crate) accelerations: Vec<[f64; 3]>,
-    /// Whether errors of steps begin with changes of the accelerations, not with the accelerations.
+    /// True if errors of steps begin with changes of the accelerations, not with the accelerations.
     is_second_order: bool,
 }
 

@@ -27,7 +27,7 @@ pub struct LineSearchSettings {
     pub shrink: f64,
     /// Number of trials after which to give up.
     pub max_trials: usize,
-    /// Whether a step is accepted however the energy changes, unless it leaves the domain: Newton's method
+    /// True to accept a step even if the energy increases, unless it leaves the domain: Newton's method
     /// without a line search, for comparisons.
     pub accepts_increase: bool,
 }
@@ -71,7 +71,7 @@ pub(super) enum Outcome {
         trials: usize,
         /// Number of trials outside the domain.
         refused: usize,
-        /// Whether the change of the objective was noise, so that the slope decided.
+        /// True if the change of the objective was noise, so that the slope decided.
         by_slope: bool,
     },
     /// No step was accepted.

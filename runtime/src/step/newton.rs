@@ -179,7 +179,8 @@ where
         Ok(self.report)
     }
 
-    /// Whether what is left to go is small beside the error of the step, after the last displacement.
+    /// True if the remaining distance is small compared with the error of the step, after the last
+    /// displacement.
     fn is_close(&mut self) -> bool {
         if self.settings.error_share == 0.0 {
             return false;

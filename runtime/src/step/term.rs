@@ -197,7 +197,7 @@ impl Term for Vec<Spring> {
         }
     }
 
-    /// By ½ k (|q − t|² − |p − t|²) = k (q − p)·(½(p + q) − t), without a difference of energies.
+    /// Computes ½ k (|q − t|² − |p − t|²) as k (q − p)·(½(p + q) − t), without a difference of energies.
     fn change(&self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {
         let mut change = EnergyChange::default();
         for spring in self {

@@ -206,7 +206,7 @@ pub enum BodyError {
         /// Its mass, kg.
         mass: f64,
     },
-    /// There is neither one material for all elements of a part, nor one for each.
+    /// Wrong number of materials: neither one for all elements of a part nor one for each.
     MaterialsForPoints {
         /// Number of materials.
         materials: usize,
@@ -220,7 +220,7 @@ pub enum BodyError {
         /// The groups of tetrahedra that exist.
         existing: Vec<String>,
     },
-    /// There is no part of this index.
+    /// No part has this index.
     NoSuchPart {
         /// The index, from 0.
         part: usize,

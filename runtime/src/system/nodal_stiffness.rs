@@ -114,7 +114,7 @@ impl NodalStiffness {
         self.matrix.pattern().len()
     }
 
-    /// Whether there is no block, as for a body without elements.
+    /// True if there is no block, as for a body without elements.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0

@@ -81,7 +81,7 @@ pub enum PinError {
         /// The box around the body.
         body: Bounds,
     },
-    /// There is no group of this name.
+    /// No group has this name.
     NoSuchGroup {
         /// The missing group.
         name: String,

@@ -1,4 +1,4 @@
-//! Where a material's energy is from, the compiler or text, and what is made of both alike.
+//! Origin of a material's energy, compiler or text, and functions that treat both alike.
 
 use std::sync::{LazyLock, OnceLock};
 

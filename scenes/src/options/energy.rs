@@ -76,7 +76,7 @@ pub fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
     read(Path::new(name)).map(|energy| Some(MaterialSpec::declared(energy)))
 }
 
-/// Whether the name of a material is that of a file of Rust.
+/// True if the name of a material is that of a file of Rust.
 fn is_file(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|extension| extension == "rs")
 }

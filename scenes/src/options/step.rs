@@ -25,7 +25,8 @@ pub struct StepOptions {
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
 
-    /// How far each step is solved: one Newton iteration with line search, or until the residual is small.
+    /// Accuracy of each step: one Newton iteration with line search, or iterations until the residual is
+    /// small.
     #[arg(long, value_enum, default_value_t = Newton::Single)]
     pub newton: Newton,
 }

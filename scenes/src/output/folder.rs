@@ -83,7 +83,7 @@ impl Folder {
         &self.path
     }
 
-    /// Whether the run has written a file of this name.
+    /// True if the run has written a file of this name.
     #[must_use]
     pub fn contains(&self, name: &str) -> bool {
         self.listing.contains(name) && self.path.join(name).is_file()

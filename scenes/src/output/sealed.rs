@@ -48,7 +48,7 @@ pub fn unseal<T: DeserializeOwned>(text: &str) -> Result<T, SealError> {
     serde_json::from_str(line.content.get()).map_err(SealError::NotJson)
 }
 
-/// Why a line cannot be read.
+/// Reason why a line cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SealError {

@@ -11,7 +11,7 @@ use piola::step::Integrator;
 
 use crate::material::Parameters;
 
-/// How far each time step is solved.
+/// Accuracy to which each time step is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
@@ -101,13 +101,13 @@ impl fmt::Display for TensileReading {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FinalPlace {
-    /// In its rest shape: it was not given the time.
+    /// Rest shape: it was not given the time.
     Rest,
-    /// In a minimum of its energy elsewhere.
+    /// Minimum of its energy elsewhere.
     StableElsewhere,
-    /// At a saddle: some small motion would gain energy, though no force begins it.
+    /// Saddle: some small motion would reduce the energy, though the forces vanish.
     Saddle,
-    /// In an equilibrium elsewhere, with a smallest eigenvalue of zero within its error.
+    /// Equilibrium elsewhere, with a smallest eigenvalue of zero within its error.
     UndecidedElsewhere,
     /// Nowhere yet: forces are not in balance.
     NotAtRest,
@@ -136,7 +136,7 @@ pub struct FinalState {
     pub residual: f64,
     /// `residual` as a share of the largest force of an element on a node.
     pub relative_residual: f64,
-    /// Whether no element bears stress beyond rounding.
+    /// True if no element bears stress beyond rounding.
     pub stress_free: bool,
     /// The smallest eigenvalue ω² of the stiffness beyond rigid motions, 1/s²; negative at a saddle. `None`
     /// where nothing is free.
@@ -204,7 +204,7 @@ pub struct Summary {
     pub newton_iterations_mean: f64,
     /// Number of tetrahedra that are inside out before the first step: det F < 0.
     pub inverted_at_start: usize,
-    /// Whether no force acts on the body at the start although it is not at rest: it stays as it is.
+    /// True if no force acts on the body at the start although it is not at rest: it stays as it is.
     pub stationary_start: bool,
     /// The smallest determinant of a deformation gradient in any frame.
     pub min_det_f: f64,
@@ -225,9 +225,9 @@ pub struct Summary {
     pub tolerance: Option<f64>,
     /// Steps of time by which the frames were made.
     pub steps: StepCounts,
-    /// How far each step was solved.
+    /// Accuracy to which each step was solved.
     pub newton: Newton,
-    /// Whether the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].
+    /// True if the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].
     pub recovered: bool,
     /// Stretch and stress at the end of a tensile test; `None` for other scenes.
     #[serde(skip_serializing_if = "Option::is_none")]

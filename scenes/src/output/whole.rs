@@ -30,7 +30,7 @@ fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     }
 }
 
-/// Whether a path leads to something that is open already: another file in its place would reach nobody.
+/// True if a path leads to something that is open already: a file that replaced it would reach nobody.
 fn is_descriptor(path: &Path) -> bool {
     ["/dev/fd", "/dev/stdin", "/dev/stdout", "/dev/stderr", "/proc"].iter().any(|open| path.starts_with(open))
 }

@@ -113,7 +113,7 @@ fn difference(before: &Settings, now: &Settings) -> Option<String> {
     Some(format!("its setting `{name}` was {}, and is {} now", text(&before), text(&now)))
 }
 
-/// When the next state is to be written.
+/// Pace of writing states.
 #[derive(Debug)]
 pub(super) struct Pace {
     /// The first state is due at once.

@@ -40,7 +40,7 @@ pub enum Shape {
     },
     /// A box, [generated](piola::mesh::tetrahedral_box); the surface is its boundary.
     Box {
-        /// How many cells of six tetrahedra along each axis.
+        /// Number of cells, of six tetrahedra each, along each axis.
         cells: [usize; 3],
         /// Its lengths, m.
         size: [f64; 3],

@@ -1,4 +1,4 @@
-//! How the ends of a body are moved.
+//! Motions of the ends of a body.
 
 use piola::mesh::Bounds;
 
@@ -18,7 +18,7 @@ pub struct Pull {
 /// A motion of points that starts where the nodes are at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// In a straight line, by so many body heights.
+    /// Straight displacement, in body heights along each axis.
     Shift([f64; 3]),
     /// Around the upright line through the middle of the bounding box, so many turns from z towards x.
     Turn(f64),

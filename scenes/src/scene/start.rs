@@ -17,12 +17,12 @@ pub enum Start {
     Scrambled {
         /// Seed of the random displacements: equal seeds give equal starts on every machine.
         seed: u64,
-        /// How far a node may be displaced.
+        /// Largest displacement of a node.
         amplitude: Amplitude,
     },
     /// Reflected through the middle of the bounding box.
     Mirrored,
-    /// In the middle of the bounding box.
+    /// All nodes in the middle of the bounding box.
     Collapsed,
 }
 

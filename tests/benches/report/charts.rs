@@ -13,11 +13,11 @@ pub(crate) use point::{best_settings, materials};
 pub(crate) struct Chart {
     pub(crate) file: String,
     pub(crate) svg: String,
-    /// What is seen on it, in a sentence.
+    /// Caption, in a sentence.
     pub(crate) caption: String,
 }
 
-/// Those of the sections that were measured.
+/// Charts of the sections that were measured.
 ///
 /// # Errors
 /// Where one cannot be drawn.

@@ -1,4 +1,4 @@
-//! What the report measures, as `report.json` has it.
+//! Measurements of the report, as in `report.json`.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ pub(crate) struct Report {
     pub(crate) machine: String,
     /// Instructions of the lanes.
     pub(crate) back_end: String,
-    /// Of the sources, where they are a Git checkout.
+    /// Commit of the sources, if they are a Git checkout.
     pub(crate) commit: Option<String>,
     pub(crate) rows: Vec<PointRow>,
     pub(crate) steps: Vec<StepRow>,
@@ -32,9 +32,9 @@ pub(crate) struct PointRow {
     pub(crate) family: String,
     /// Number of reference cases.
     pub(crate) cases: usize,
-    /// Whether it takes any ψ(λ1, λ2, λ3).
+    /// True if it takes any ψ(λ1, λ2, λ3).
     pub(crate) is_general: bool,
-    /// Whether no other method for any ψ(λ) is both faster and more accurate in the worst case.
+    /// True if no other method for any ψ(λ) is both faster and more accurate in the worst case.
     pub(crate) is_on_front: bool,
 }
 

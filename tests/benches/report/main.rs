@@ -64,7 +64,7 @@ enum Section {
 /// Name of the page in its folder.
 const PAGE: &str = "report.md";
 
-/// Where the report goes.
+/// Output folder of the report.
 fn folder() -> PathBuf {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     workspace.canonicalize().unwrap_or(workspace).join("target/report")

@@ -120,7 +120,7 @@ fn methods(text: &mut String, rows: &[PointRow], material: &str, precision: &str
     writeln!(text)
 }
 
-/// Where no other method for any energy is both faster and more accurate, and where one is.
+/// Cases in which no other method for any energy is both faster and more accurate, and cases in which one is.
 fn fronts(text: &mut String, rows: &[PointRow]) -> fmt::Result {
     writeln!(text, "### Who is on the front\n")?;
     let ours: Vec<&PointRow> = rows.iter().filter(|row| row.method == OURS && row.family != HARD).collect();

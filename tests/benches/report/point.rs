@@ -26,7 +26,7 @@ pub(crate) const ORDINARY: &str = "ordinary";
 /// All families but [`ORDINARY`] in one row: the worst error, the median of errors, the mean of times.
 pub(crate) const HARD: &str = "every hard family";
 
-/// What is computed beside P.
+/// Outputs that are computed in addition to P.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Work {
     Tangent,
@@ -65,7 +65,7 @@ pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Re
     Ok(rows)
 }
 
-/// How many contests there are: the steps of the progress bar.
+/// Number of contests: the steps of the progress bar.
 pub(crate) fn count(cases: &[Case]) -> u64 {
     let mut count = 0;
     subject::for_each!(Subject => {

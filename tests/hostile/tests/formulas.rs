@@ -27,7 +27,7 @@ fn sum(length: usize, term: impl Fn(usize) -> String) -> String {
     text
 }
 
-/// What is repeated, so many times at most.
+/// Text of a repeated pattern, with its maximum number of repetitions.
 fn repeated(
     length: usize,
     before: &str,

@@ -34,7 +34,7 @@ pub fn matrix() -> Result<NeoHookean, MaterialError> {
     NeoHookean::new(3.8e5, 2e7)
 }
 
-/// How many times the declared energy is in the sum.
+/// Factor of the declared energy in the sum.
 pub const FACTOR: f64 = 0.25;
 
 /// The neo-Hookean solid and a multiple of the declared energy, deformed alike.

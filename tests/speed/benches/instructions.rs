@@ -20,10 +20,10 @@ use piola::batch::{Batch, Kernels, Layout};
 use piola::lanes::Backend;
 use piola_speed::{Arrays, Decompositions, IN_CACHE, Task, materials};
 
-/// By how much a kernel may grow.
+/// Factor by which a kernel may grow.
 const SLACK: f64 = 1.02;
 
-/// With this argument the program is what callgrind runs.
+/// Argument with which callgrind runs the program.
 const COUNTED: &str = "--counted";
 
 fn main() -> ExitCode {
@@ -69,7 +69,7 @@ fn run(argument: &str) -> Result<String, String> {
     }
 }
 
-/// What prevents counting.
+/// Missing prerequisite of counting.
 fn missing() -> Option<&'static str> {
     let mut version = Command::new("valgrind");
     let version = version.arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
@@ -127,7 +127,7 @@ fn kernels_in<E: Kernels>(backend: Backend, kernels: &mut Vec<(String, Call)>) {
     }
 }
 
-/// What callgrind knows by its name: instructions inside count.
+/// Function that callgrind knows by its name: instructions inside count.
 #[inline(never)]
 fn counted_by_callgrind(call: &mut dyn FnMut()) {
     call();

@@ -44,7 +44,7 @@ impl<E: Kernels> Arrays<E> {
         Self { task, layout, inputs, outputs, positions, tetrahedra }
     }
 
-    /// Does the task with the material, filter and back end of a batch.
+    /// Runs the task with the material, filter and back end of a batch.
     pub fn run(&mut self, batch: &Batch<'_, E>) {
         let batch = batch.with_layout(self.layout);
         black_box(self.call(&batch)).expect("slices of matching lengths");

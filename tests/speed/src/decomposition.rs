@@ -18,8 +18,8 @@ pub struct Decompositions<E> {
     svd: Aligned<E>,
 }
 
-/// From a number of a point to the next one. More than points: rows as far apart as a power of two would
-/// compete for the same places of the innermost cache.
+/// Distance from a number of a point to the next one. More than points: rows as far apart as a power of two
+/// would compete for the same places of the innermost cache.
 const ROW: usize = IN_CACHE + 16;
 
 impl<E: Scalar> Decompositions<E> {

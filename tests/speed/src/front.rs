@@ -14,7 +14,7 @@ pub fn front(pairs: &[Pair], unit: f64) -> Vec<bool> {
     pairs.iter().map(|&pair| is_finite(pair) && !is_beaten(pair)).collect()
 }
 
-/// Whether the first is faster and its error no larger, or as fast and its error smaller.
+/// True if the first is faster and its error is no larger, or as fast and its error is smaller.
 ///
 /// Times within the [`RESOLUTION`] are equal, and so are errors within a `unit`, the unit roundoff: which of
 /// two is smaller is then luck.

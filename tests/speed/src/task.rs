@@ -81,7 +81,7 @@ impl Task {
         }
     }
 
-    /// How many numbers it writes for each point.
+    /// Number of values written for each point.
     pub(super) fn outputs(self) -> [usize; 2] {
         match self {
             Self::Energies => [1, 0],

@@ -1,13 +1,13 @@
-//! How long calls take.
+//! Times of calls.
 
 use std::time::{Duration, Instant};
 
-/// How often something is timed.
+/// Effort of timing something.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
     /// Number of repeats of which the least and the median are taken.
     pub repeats: usize,
-    /// How long a repeat lasts at least; it consists of as many calls.
+    /// Minimum time of a repeat; it consists of as many calls as fit.
     pub at_least: Duration,
     /// After how much time for one call in all its repeats no further one is made, if there have been three.
     pub at_most: Duration,

@@ -92,7 +92,7 @@ type Fourth<R> = [[R; 6]; 6];
 /// The entries of a symmetric matrix.
 const ENTRIES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
-/// Where among them an entry is.
+/// Index of each entry (i, j) among them.
 const PLACE: [[usize; 3]; 3] = [[0, 3, 4], [3, 1, 5], [4, 5, 2]];
 
 /// Eigenvalues x of C, y of S, and ∂ya/∂xb.

@@ -1,5 +1,5 @@
-//! Other signed singular value decompositions F = U diag(λ) Vᵀ: those of two linear algebra libraries, and
-//! Jacobi's method on FᵀF.
+//! Alternative signed singular value decompositions F = U diag(λ) Vᵀ: those of two linear algebra libraries,
+//! and Jacobi's method on FᵀF.
 //!
 //! All have the conventions of [`Svd`](piola::point::Svd): det U = det V = 1 and λ1 ≥ λ2 ≥ |λ3|, so that any
 //! of them can stand in for [`piola::point::svd()`].

@@ -25,10 +25,10 @@ use piola::point::Svd;
 
 use super::matrix::{dot, multiply, scale_columns, transpose};
 
-/// Which of the 2×2 systems are regularised, and how much.
+/// Regularisation of the 2×2 systems: condition and amount.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regularization {
-    /// Those with |λl² − λk²| below it.
+    /// Systems with |λl² − λk²| below it are regularised.
     pub threshold: f64,
     /// The ε of AᵀA + εI.
     pub epsilon: f64,

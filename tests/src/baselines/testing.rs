@@ -1,4 +1,4 @@
-//! What the tests of the baselines share.
+//! Helpers shared by the tests of the baselines.
 
 use piola::Material;
 use piola::Real;
@@ -10,7 +10,7 @@ pub(super) const SHEARED: Matrix3<f64> = [[1.3, 0.2, -0.1], [0.0, 0.8, 0.3], [0.
 /// The rest state.
 pub(super) const IDENTITY: Matrix3<f64> = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Of another format.
+/// Matrix in another format.
 pub(super) fn convert<R: Real>(matrix: &Matrix3<f64>) -> Matrix3<R> {
     matrix.map(|row| row.map(R::splat))
 }

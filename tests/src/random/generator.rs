@@ -65,7 +65,7 @@ pub struct Parameter {
     pub name: String,
     /// Its value, or its entries.
     pub values: Vec<f64>,
-    /// Whether it is a list.
+    /// True if it is a list.
     pub is_list: bool,
     /// A value that it must exceed.
     pub above: Option<f64>,
@@ -87,7 +87,7 @@ pub struct Declaration {
     pub parameters: Vec<Parameter>,
     /// The terms of the energy.
     pub terms: Vec<Expression>,
-    /// Where it is defined.
+    /// Domain of the energy.
     pub domain: Domain,
     /// Words of the attribute besides the domain: `extend`, `prestressed`, `fit`.
     pub words: Vec<&'static str>,
@@ -209,7 +209,7 @@ impl Declaration {
         }
     }
 
-    /// Without the parameters that no term names.
+    /// Removes the parameters that no term names.
     fn with_used_parameters(mut self) -> Self {
         let mut places = vec![None; self.parameters.len()];
         self.terms.iter_mut().for_each(|term| {

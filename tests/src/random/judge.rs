@@ -26,8 +26,8 @@ const EPSILON: f64 = 1e-14;
 /// Far below what any modulus leaves of a stress that matters: what is less may have underflowed on the way.
 const UNDERFLOW: f64 = 1e-280;
 
-/// Where a part of the formula is larger than this, or smaller than its reciprocal, the powers of it in
-/// second derivatives may leave the range of `f64`, and a reciprocal of what has overflowed is zero.
+/// Bound on a part of the formula. If a part is larger than this, or smaller than its reciprocal, the powers
+/// of it in second derivatives may leave the range of `f64`, and a reciprocal of what has overflowed is zero.
 const RANGE: f64 = 1e75;
 
 /// Counts of judged declarations and values.

@@ -51,7 +51,7 @@ pub struct Point {
     pub twist: [Expected; 3],
 }
 
-/// By how much stretches are moved apart, relative to themselves.
+/// Relative distance by which stretches are moved apart.
 const NUDGE: f64 = 1.0 / (1u128 << 70) as f64;
 
 /// Quotients whose denominator is a larger share of the stretches than this may be computed as they are

@@ -33,10 +33,10 @@ pub const MONOMIALS: [[u8; 3]; 20] = [
     [1, 1, 1],
 ];
 
-/// How many coefficients a polynomial of degree 2 has.
+/// Number of coefficients of a polynomial of degree 2.
 pub const QUADRATIC: usize = 10;
 
-/// How many coefficients a polynomial of degree 3 has.
+/// Number of coefficients of a polynomial of degree 3.
 pub const CUBIC: usize = 20;
 
 /// Products of monomials: the places of both factors and of the product, by the last one.

@@ -121,7 +121,7 @@ fn derivatives_are_slopes() -> Result<(), MaterialError> {
     candidates().try_for_each(|(energy, material)| check_slopes(energy.name, &*material))
 }
 
-/// Whether it is a stress: energies are proportional to all of these together.
+/// True if it is a stress: energies are proportional to all of these together.
 fn is_stress(parameter: &Parameter) -> bool {
     parameter.unit == Some(Unit::Pascal)
 }

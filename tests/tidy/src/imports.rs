@@ -1,4 +1,5 @@
-//! Which module of a crate needs which: paths are followed through re-exports to where an item is defined.
+//! Dependencies between the modules of a crate: paths are followed through re-exports to where an item is
+//! defined.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 

@@ -25,7 +25,7 @@ pub struct Crate {
     pub name: String,
     /// Folder below [`root`].
     pub folder: PathBuf,
-    /// Whether it is meant for a registry.
+    /// True if it is published to a registry.
     pub is_published: bool,
     /// Its modules, the root first, parents before their children.
     pub modules: Vec<Module>,
@@ -178,7 +178,7 @@ fn other_path(attributes: &[Attribute]) -> Option<String> {
     })
 }
 
-/// Whether attributes say `#[cfg(test)]` or `#[cfg(all(test, …))]`.
+/// True if attributes say `#[cfg(test)]` or `#[cfg(all(test, …))]`.
 fn is_for_tests(attributes: &[Attribute]) -> bool {
     let condition = |attribute: &Attribute| attribute.meta.require_list().map(|list| list.tokens.clone());
     let conditions = attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"));

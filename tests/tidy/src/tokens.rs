@@ -33,7 +33,7 @@ fn collect(tokens: &[TokenTree], found: &mut Vec<Mention>) {
     }
 }
 
-/// Whether what follows is part of a path or a member of a value.
+/// True if the next token continues a path or is a member of a value.
 fn continues(before: &[TokenTree]) -> bool {
     match before {
         [.., TokenTree::Punct(a), TokenTree::Punct(b)] if a.as_char() == ':' && b.as_char() == ':' => true,

@@ -112,7 +112,7 @@ fn of_three(argument: &FnArg) -> Option<&Pat> {
     }
 }
 
-/// Whether a method with arguments of three numbers does something else with them than hand them on to one of
+/// True if a method with arguments of three numbers uses them in any way other than passing them on to one of
 /// `answers`.
 fn looks_at_stretches(signature: &Signature, body: &Block, answers: &BTreeSet<String>) -> bool {
     let body: Vec<_> = body.to_token_stream().into_iter().collect();
@@ -124,7 +124,7 @@ fn looks_at_stretches(signature: &Signature, body: &Block, answers: &BTreeSet<St
     })
 }
 
-/// Whether a name stands anywhere but alone among the arguments of a call to one of `answers`.
+/// True if a name stands anywhere except alone among the arguments of a call to one of `answers`.
 fn uses_otherwise(tokens: &[TokenTree], name: &str, answers: &BTreeSet<String>, is_answered: bool) -> bool {
     let is_comma = |token: Option<&TokenTree>| match token {
         None => true,

@@ -53,7 +53,7 @@ struct Request {
     material: String,
     /// All values of each parameter, several for a list.
     parameters: BTreeMap<String, Vec<f64>>,
-    /// Whether to compute in single precision.
+    /// True to compute in single precision.
     single: bool,
     /// Deformation gradients, row by row.
     #[serde(rename = "F")]
@@ -64,7 +64,7 @@ struct Request {
 #[derive(Serialize)]
 struct Answer {
     backend: &'static str,
-    /// Whether ψ, P or dP/dF of a point has no finite value in this format.
+    /// True if ψ, P or dP/dF of a point has no finite value in this format.
     nonfinite: Vec<bool>,
     psi: Vec<f64>,
     #[serde(rename = "P")]

@@ -68,7 +68,7 @@ impl C {
         }
     }
 
-    /// Whether conditions on parameters are in `double`, as the constructor has them.
+    /// True if conditions on parameters are in `double`, as in the constructor.
     fn has_double(&self) -> bool {
         !self.is_single || self.dialect != Dialect::OpenCl
     }

@@ -95,7 +95,7 @@ impl Ways {
     }
 }
 
-/// How far the terms of a sum exceed it at a point; NaN where a term has no value.
+/// Ratio of the terms of a sum to the sum at a point; NaN if a term has no value.
 fn ratio(graph: &Graph, sum: Id, point: &Point, memo: &mut Memo) -> f64 {
     let Node::Linear { constant, terms } = graph.node(sum) else { return 1.0 };
     let (mut value, mut size) = (constant.to_f64(), constant.to_f64().abs());

@@ -176,7 +176,7 @@ fn ln_beside_power(graph: &mut Graph, base: Id) -> Id {
     graph.ln(positive)
 }
 
-/// Whether a base of real powers, which is never negative, may be zero inside a domain: only sums may.
+/// True if a base of real powers, which is never negative, may be zero inside a domain: only sums may.
 fn may_vanish(graph: &Graph, base: Id) -> bool {
     match graph.node(base) {
         Node::Product(factors) => factors.iter().any(|&(factor, _)| may_vanish(graph, factor)),

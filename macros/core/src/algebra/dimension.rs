@@ -29,8 +29,8 @@ pub struct Dimensions<'a> {
 }
 
 impl<'a> Dimensions<'a> {
-    /// From the exponent of Pa in the unit of each parameter, of a function that of its values; `None`
-    /// without a unit.
+    /// Dimensions from the exponent of Pa in the unit of each parameter, or of the values of a function;
+    /// `None` without a unit.
     #[must_use]
     pub fn new(units: &'a [Option<i64>]) -> Self {
         Self { units, memo: FxHashMap::default() }

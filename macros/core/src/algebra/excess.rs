@@ -55,7 +55,7 @@ pub fn with_squares_in_sums(graph: &mut Graph, energy: Id) -> Id {
     Invariants::new(graph).rewritten_sums(graph, energy)
 }
 
-/// Whether an expression has such bases or arguments.
+/// True if an expression has such bases or arguments.
 #[must_use]
 pub fn has_squares(graph: &Graph, id: Id) -> bool {
     let is_sum_of_squares = |id: Id| matches!(graph.node(id), Node::Excess(..) | Node::Accurate(..));

@@ -108,7 +108,7 @@ fn multiplied(graph: &mut Graph, a: &[Term], b: &[Term]) -> Option<Vec<Term>> {
     (product.len() <= MOST_TERMS).then_some(product)
 }
 
-/// Whether a power changes from entry to entry of a list.
+/// True if a power changes from entry to entry of a list.
 fn has_entries(graph: &Graph, (base, exponent): (Id, Exponent)) -> bool {
     let roots: Vec<_> = [Some(base), exponent.real].into_iter().flatten().collect();
     graph.reachable(&roots).into_iter().any(|id| matches!(graph.node(id), Node::Entry(_)))

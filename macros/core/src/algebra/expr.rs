@@ -130,7 +130,7 @@ pub struct Graph {
     effort: usize,
     /// The largest size; `None` for as much as memory holds.
     most: Option<usize>,
-    /// Whether it was to be larger.
+    /// True if it was to be larger.
     is_full: Rc<Cell<bool>>,
 }
 
@@ -149,7 +149,7 @@ impl Graph {
         &self.nodes[id.0 as usize]
     }
 
-    /// Whether there were to be more nodes than there may be; results are then meaningless.
+    /// True if more nodes were requested than allowed; results are then meaningless.
     #[must_use]
     pub fn is_full(&self) -> bool {
         self.is_full.get()
@@ -165,13 +165,13 @@ impl Graph {
         }
     }
 
-    /// Whether a rational number has left 128 bits; results are then meaningless.
+    /// True if a rational number has left 128 bits; results are then meaningless.
     #[must_use]
     pub fn overflowed(&self) -> bool {
         self.overflowed
     }
 
-    /// Whether a rational number has left 128 bits since the last call.
+    /// True if a rational number has left 128 bits since the last call.
     pub fn take_overflow(&mut self) -> bool {
         std::mem::take(&mut self.overflowed)
     }
@@ -231,7 +231,7 @@ impl Graph {
         }
     }
 
-    /// Whether a node is 0.
+    /// True if a node is 0.
     #[must_use]
     pub fn is_zero(&self, id: Id) -> bool {
         self.as_constant(id).is_some_and(Rational::is_zero)

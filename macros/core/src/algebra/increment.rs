@@ -132,12 +132,12 @@ impl Increments {
     }
 }
 
-/// Whether an expression has powers whose exponents are parameters.
+/// True if an expression has powers whose exponents are parameters.
 fn has_whole_powers(graph: &Graph, e: Id) -> bool {
     graph.reachable(&[e]).into_iter().any(|id| matches!(graph.node(id), Node::WholePower(..)))
 }
 
-/// Whether an expression that depends on the stretches is zero at rest by its form.
+/// True if an expression that depends on the stretches is zero at rest by its form.
 fn is_zero_at_rest(graph: &mut Graph, e: Id) -> bool {
     let at_rest = substitute_rest(graph, e);
     at_rest != e && graph.is_zero(at_rest)

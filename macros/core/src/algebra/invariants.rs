@@ -20,7 +20,7 @@ use crate::algebra::simplify::simplify;
 pub struct ByInvariants {
     /// ψ.
     pub energy: Id,
-    /// Whether ψ is as accurate as by stretches.
+    /// True if ψ is as accurate as by stretches.
     pub has_energy: bool,
     /// W1, W2, WJ.
     pub gradient: [Id; 3],

@@ -43,7 +43,7 @@ pub enum Reflection {
 pub struct Twist {
     /// The quotient.
     pub value: Id,
-    /// Whether it has a pole at λi + λj = 0.
+    /// True if it has a pole at λi + λj = 0.
     pub has_pole: bool,
 }
 
@@ -218,8 +218,8 @@ impl<'a> Quotients<'a> {
         graph.add(terms[0], terms[1])
     }
 
-    /// By how much two terms exceed their sum where one stretch of the reflection is far below the other: the
-    /// median over the samples.
+    /// Cancellation of two terms if one stretch of the reflection is far below the other: their size relative
+    /// to their sum, the median over the samples.
     fn cancellation(&mut self, graph: &Graph, terms: [Id; 2], reflection: Reflection) -> f64 {
         let (Reflection::Flip(i, j) | Reflection::Twist(i, j)) = reflection;
         let mut factors: Vec<f64> = Vec::with_capacity(self.samples.len());

@@ -110,13 +110,13 @@ impl Rational {
         if self.is_negative() { self.negated() } else { self }
     }
 
-    /// Whether it is 0.
+    /// True if it is 0.
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.numerator == 0
     }
 
-    /// Whether it is less than 0.
+    /// True if it is less than 0.
     #[must_use]
     pub fn is_negative(self) -> bool {
         self.numerator < 0

@@ -92,7 +92,7 @@ fn with_values(declaration: &Declaration) -> TokenStream {
     }
 }
 
-/// For each number among the parameters, the array of the expressions that belong to its parameter.
+/// Arrays of the expressions that belong to the parameter of each number among the parameters.
 ///
 /// `of` writes the values whose derivatives these are, for a material. By the values of functions, and where
 /// a formula would need φ‴, they are differences of such values.

@@ -271,7 +271,7 @@ struct Lines<'a> {
     writer: &'a Writer<'a>,
     statements: TokenStream,
     names: Names,
-    /// How often each value is read.
+    /// Number of reads of each value.
     reads: FxHashMap<Value, usize>,
     /// Values read once, with their expressions, which the next statements may take in.
     waiting: Vec<(Value, Text)>,
@@ -386,11 +386,11 @@ impl<'a> Lines<'a> {
 /// A value where it is read.
 struct Text {
     tokens: TokenStream,
-    /// Whether it can be an operand without parentheses.
+    /// True if it can be an operand without parentheses.
     is_operand: bool,
 }
 
-/// How each value is written where it is read.
+/// Text of each value where it is read.
 #[derive(Default)]
 struct Names(FxHashMap<Value, Text>);
 

@@ -30,7 +30,7 @@ impl Argument {
         found
     }
 
-    /// Whether an expression is an argument in a part.
+    /// True if an expression is an argument in a part.
     pub(crate) fn is_in(graph: &Graph, part: Id, of: Id) -> bool {
         Self::all(graph, part).iter().any(|argument| argument.of == of)
     }

@@ -33,7 +33,7 @@ impl<'a> Source<'a> {
 /// The meaning of several parts of one expression that break a rule.
 #[derive(Clone, Copy, PartialEq)]
 enum Several {
-    /// They may break it together.
+    /// Parts that may break it together.
     StayTogether,
     /// Each breaks it.
     FirstIsMeant,

@@ -179,7 +179,7 @@ impl Explainer<'_, '_> {
         }
     }
 
-    /// How to state units, and how not to.
+    /// Advice on how to state units, and how not to.
     fn units(&self) -> &'static str {
         self.notation.either(
             "correct the energy, or the units that end the documentation of its parameters, as in \
@@ -358,7 +358,7 @@ impl Explainer<'_, '_> {
         format!("`domain({})`", conditions.join(", "))
     }
 
-    /// Whether parameters enter the exponent of a power.
+    /// True if parameters enter the exponent of a power.
     fn has_real_exponent(&self, power: Id) -> bool {
         matches!(self.graph.node(power), Node::Product(factors)
             if factors.iter().any(|(_, exponent)| exponent.real.is_some()))
@@ -404,7 +404,7 @@ impl Explainer<'_, '_> {
             .then(|| format!("{}, or ", self.with_admissible(vec![condition])))
     }
 
-    /// Whether a condition on an expression of parameters can be declared as it is printed: such conditions
+    /// True if a condition on an expression of parameters can be declared as it is printed: such conditions
     /// have no sums.
     fn is_declarable(&self, of: Id, condition: &str) -> bool {
         let is_sum = |&id: &Id| matches!(self.graph.node(id), Node::Sum(..));
@@ -420,12 +420,12 @@ impl Explainer<'_, '_> {
     }
 }
 
-/// Whether a printed expression stands for more than it says, so that it cannot be pasted.
+/// True if a printed expression is abbreviated, so that it cannot be pasted.
 fn is_cut(text: &str) -> bool {
     text.contains('…')
 }
 
-/// Whether an energy is written in stretches, and not in their isochoric parts.
+/// True if an energy is written in stretches, and not in their isochoric parts.
 fn names_stretches(source: &Source<'_>) -> bool {
     let body = identifiers(source.declaration.body.to_token_stream());
     let is_used = |name: &syn::Ident| body.contains(name);

@@ -38,7 +38,7 @@ pub(crate) enum Violation {
     ExtendedPower,
     /// The stress at rest is not finite.
     StressNotFinite,
-    /// There is stress at rest.
+    /// Stress at rest.
     Stressed(Stressed),
     /// The energy has no value where J has this sign, −1 or 0.
     NoValue { sign: f64 },
@@ -63,13 +63,13 @@ pub(crate) enum Violation {
 pub(crate) struct Stressed {
     /// ψ1 at rest.
     pub(crate) stress: Id,
-    /// Whether the energy contains the stress times ln J, so that subtracting it would only remove that term.
+    /// True if the energy contains the stress times ln J, so that subtracting it would only remove that term.
     pub(crate) has_logarithm: bool,
-    /// Whether I1b and I2b in place of I1 and I2 leave no stress.
+    /// True if replacing I1 and I2 by I1b and I2b removes the stress.
     pub(crate) is_isochoric_free: bool,
     /// The arguments that vanish inside the domain.
     pub(crate) vanishing: Vec<Vanishing>,
-    /// Whether the energy has a value for all volumes of its domain.
+    /// True if the energy has a value for all volumes of its domain.
     pub(crate) has_value: bool,
 }
 
@@ -98,7 +98,7 @@ impl Finding {
 }
 
 impl Violation {
-    /// Whether stress or stiffness at rest may be others once this is corrected.
+    /// True if correcting this may change stress or stiffness at rest.
     pub(crate) fn affects_rest(&self) -> bool {
         matches!(
             self,
@@ -127,7 +127,7 @@ impl<'a> Findings<'a> {
         Self { source, found: Vec::new(), blamed: Vec::new() }
     }
 
-    /// Whether a part that has been reported breaks this rule too.
+    /// True if a part that has already been reported breaks this rule too.
     pub(crate) fn is_known(&self, breaks: impl FnMut(Id) -> bool) -> bool {
         self.blamed.iter().copied().any(breaks)
     }

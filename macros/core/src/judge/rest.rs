@@ -78,7 +78,7 @@ fn legible(graph: &mut Graph, declaration: &Declaration, e: Id) -> Id {
     if expanded_length < length { expanded } else { left }
 }
 
-/// Whether the energy contains the stress times ln J, so that subtracting it would only remove that term.
+/// True if the energy contains the stress times ln J, so that subtracting it would only remove that term.
 fn has_logarithm(graph: &mut Graph, energy: Id, stress: Id) -> bool {
     let stretches = [0, 1, 2].map(|i| graph.stretch(i));
     let volume = graph.product_of(&stretches);

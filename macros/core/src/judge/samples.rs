@@ -128,12 +128,12 @@ pub(crate) fn with_equal_entries(mut point: Point) -> Point {
     point
 }
 
-/// Whether a value is zero but for rounding.
+/// True if a value is zero up to rounding.
 pub(crate) fn is_zero(Estimate { value, magnitude }: Estimate) -> bool {
     value.abs() <= NOISE * magnitude
 }
 
-/// Whether a value is below zero by more than rounding.
+/// True if a value is negative beyond rounding.
 pub(crate) fn is_negative(Estimate { value, magnitude }: Estimate) -> bool {
     value < -NOISE * magnitude
 }

@@ -25,13 +25,13 @@ pub(crate) struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// Whether the conditions of the domain hold, those on J apart.
+    /// True if the conditions of the domain hold, except for those on J.
     pub(crate) fn is_inside(&self, graph: &Graph, point: &Point) -> bool {
         self.bounds.iter().all(|&bound| evaluate(graph, bound, point).value > 0.0)
     }
 
-    /// Whether the parameters are admissible and give the energy a value at rest. At other stretches a
-    /// missing value may be the very mistake that is looked for.
+    /// True if the parameters are admissible and give the energy a value at rest. At other stretches a
+    /// missing value may be the very mistake to be found.
     pub(crate) fn is_good_at_rest(&self, graph: &Graph, point: &Point) -> bool {
         let rest = at_rest(point);
         self.admissible.iter().all(|&id| evaluate(graph, id, &rest).value > 0.0)
@@ -39,7 +39,7 @@ impl Source<'_> {
             && evaluate(graph, self.energy, &rest).value.is_finite()
     }
 
-    /// Which of I1 and I2 are written in the energy.
+    /// Invariants I1 and I2 that are written in the energy.
     pub(crate) fn invariants(&self) -> Vec<&'static str> {
         let names = identifiers(self.declaration.body.to_token_stream());
         ["I1", "I2"].into_iter().filter(|invariant| names.iter().any(|name| name == invariant)).collect()

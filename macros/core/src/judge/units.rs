@@ -1,4 +1,4 @@
-//! Whether the units of the parameters make ψ an energy density, in Pa.
+//! Check that the units of the parameters make ψ an energy density, in Pa.
 
 use super::finding::{Finding, Violation};
 use super::source::Source;

@@ -120,7 +120,7 @@ fn draws(graph: &Graph, source: &Source<'_>) -> Vec<Point> {
     points.filter(|point| source.is_good_at_rest(graph, point)).take(DRAWS).collect()
 }
 
-/// Whether the form of an expression shows that it is positive for positive stretches.
+/// True if the form of an expression shows that it is positive for positive stretches.
 fn is_positive(graph: &Graph, id: Id) -> bool {
     match graph.node(id) {
         Node::Stretch(_) | Node::Exp(_) => true,
@@ -135,7 +135,7 @@ fn is_positive(graph: &Graph, id: Id) -> bool {
     }
 }
 
-/// Whether an expression changes its sign on one of the [`PATHS`], with the parameters of the point, before
+/// True if an expression changes its sign on one of the [`PATHS`], with the parameters of the point, before
 /// the domain ends.
 fn changes_sign(graph: &Graph, bounds: &[Id], id: Id, point: &Point) -> bool {
     let sign = evaluate(graph, id, &at_rest(point)).value.signum();

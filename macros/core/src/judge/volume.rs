@@ -44,7 +44,7 @@ pub(crate) fn volumes(graph: &mut Graph, samples: &[Point], findings: &mut Findi
     findings.add(part, Violation::NoValueCollapsed { power, exponent, vanishing });
 }
 
-/// Whether the energy needs no further condition on J.
+/// True if the energy needs no further condition on J.
 pub(crate) fn has_value(graph: &mut Graph, source: &Source<'_>, samples: &[Point]) -> bool {
     sign_without_value(graph, source, samples).is_none() && without_value(graph, source).is_none()
 }
@@ -60,7 +60,7 @@ fn sign_without_value(graph: &mut Graph, source: &Source<'_>, samples: &[Point])
     signs.iter().copied().find(|sign| is_short(sign))
 }
 
-/// Whether a part has no value at the samples, given J of this sign, inside the domain.
+/// True if a part has no value at the samples, given J of this sign, inside the domain.
 fn has_no_value(graph: &mut Graph, source: &Source<'_>, part: Id, sign: f64, samples: &[Point]) -> bool {
     let known = known(graph, source, part);
     let with_sign = |point: &Point| {

@@ -38,7 +38,7 @@ pub(super) struct Prepared {
     pub(super) energy: Id,
     /// The bounds, evaluated.
     pub(super) bounds: Vec<Id>,
-    /// Whether real powers are taken of sums of squares, in the energy or in a bound.
+    /// True if real powers are taken of sums of squares, in the energy or in a bound.
     pub(super) has_squares: bool,
     /// The ways on which sums are tried for cancellation.
     pub(super) ways: Ways,

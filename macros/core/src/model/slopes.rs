@@ -43,7 +43,7 @@ impl Slopes {
     }
 }
 
-/// Whether a derivative of a function occurs that functions do not give.
+/// True if a derivative of a function occurs that functions do not provide.
 fn needs_third_derivative(graph: &Graph, expressions: &[Id]) -> bool {
     graph.reachable(expressions).into_iter().any(|id| match *graph.node(id) {
         Node::Function(_, order, _) => order > 2,

@@ -77,7 +77,7 @@ fn shared(graph: &Graph, roots: &[Id], order: &[Id]) -> Vec<Id> {
     order.iter().copied().filter(|id| parents[id] > 1).collect()
 }
 
-/// Whether the value of a node differs from term to term of a sum over lists.
+/// For each node, true if its value differs from term to term of a sum over lists.
 fn entries(graph: &Graph, order: &[Id]) -> HashMap<Id, bool> {
     let mut is_entry = HashMap::new();
     for &id in order {

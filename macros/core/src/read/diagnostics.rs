@@ -37,7 +37,7 @@ impl Diagnostics {
         result.map_err(|error| self.push(error)).ok()
     }
 
-    /// Whether there are no mistakes so far.
+    /// True if there are no mistakes so far.
     #[must_use]
     pub fn is_clean(&self) -> bool {
         self.found.is_none()

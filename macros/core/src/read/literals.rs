@@ -13,7 +13,7 @@ pub(crate) fn typed(condition: &Expr) -> TokenStream {
     rewrite(condition.to_token_stream(), real)
 }
 
-/// Whether an exponent of `powi` is a literal with or without a sign.
+/// True if an exponent of `powi` is a literal with or without a sign.
 pub(crate) fn is_number(exponent: &Expr) -> bool {
     match exponent {
         Expr::Lit(_) => true,

@@ -34,7 +34,7 @@ enum Level {
 const LEFT_OUT: &str = "__";
 
 impl Notation {
-    /// Whether the declaration is a formula.
+    /// True if the declaration is a formula.
     #[must_use]
     pub fn is_formula(self) -> bool {
         matches!(self, Self::Formula { .. })
@@ -146,7 +146,7 @@ fn formula(expression: &Expr, least: Level) -> Option<String> {
     Some(if level < least { format!("({text})") } else { text })
 }
 
-/// Whether the first factor of a product has a sign.
+/// True if the first factor of a product has a sign.
 fn is_negated(expression: &Expr) -> bool {
     match expression {
         Expr::Unary(_) => true,

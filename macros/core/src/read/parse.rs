@@ -65,7 +65,7 @@ pub struct Parameter {
     pub attributes: Vec<Attribute>,
     /// A number, a list or a function.
     pub kind: Kind,
-    /// Whether its numbers are whole, `u32`: exponents and nothing else.
+    /// True if its numbers are whole, `u32`: exponents and nothing else.
     pub is_whole: bool,
 }
 
@@ -95,7 +95,7 @@ impl Parameter {
         if self.is_whole { syn::parse_quote!(u32) } else { syn::parse_quote!(f64) }
     }
 
-    /// Whether the parameter is a function.
+    /// True if the parameter is a function.
     #[must_use]
     pub fn is_function(&self) -> bool {
         matches!(self.kind, Kind::Function(_))
@@ -117,14 +117,14 @@ impl Declaration {
         }
     }
 
-    /// Whether a parameter is a list whose length is known at run time alone.
+    /// True if a parameter is a list whose length is known at run time only.
     #[must_use]
     pub fn is_vector(&self, parameter: &Parameter) -> bool {
         parameter.length().is_some_and(|length| self.lengths[length].are_known_at_run_time())
     }
 
-    /// Whether a material is its real numbers and nothing else, so that it can be copied, and keep a value
-    /// for each lane in the place of each number.
+    /// True if all parameters are plain real numbers, so that a material can be copied and can keep a value
+    /// for each lane instead of each number.
     #[must_use]
     pub fn is_plain(&self) -> bool {
         !self.has_functions()
@@ -132,13 +132,13 @@ impl Declaration {
             && !self.lengths.iter().any(Entries::are_known_at_run_time)
     }
 
-    /// Whether some parameter is a whole exponent, or a list of such.
+    /// True if some parameter is a whole exponent or a list of whole exponents.
     #[must_use]
     pub fn has_whole_exponents(&self) -> bool {
         self.parameters.iter().any(|parameter| parameter.is_whole)
     }
 
-    /// Whether some parameter is a function, about which nothing is known here.
+    /// True if some parameter is a function, about which nothing is known here.
     #[must_use]
     pub fn has_functions(&self) -> bool {
         self.parameters.iter().any(Parameter::is_function)

@@ -65,7 +65,8 @@ pub struct Invariantly {
     pub energy: Id,
     /// The bounds of its domain.
     pub bounds: Vec<Id>,
-    /// Whether ψ is written so, and not in sums over the stretches that the invariants determine.
+    /// True if ψ is written in the invariants, and not in sums over the stretches that the invariants
+    /// determine.
     pub is_written_so: bool,
 }
 
@@ -429,7 +430,7 @@ impl<'a> Resolver<'a> {
         self.graph.leaf(UNKNOWN)
     }
 
-    /// Whether a value depends on a mistake.
+    /// True if a value depends on a mistake.
     fn is_unknown(&self, value: Id) -> bool {
         self.graph.reachable(&[value]).into_iter().any(|id| *self.graph.node(id) == UNKNOWN)
     }
@@ -456,7 +457,7 @@ fn sign(binary: &syn::ExprBinary) -> Option<Rational> {
     }
 }
 
-/// Whether a suffix is the name of a numeric type.
+/// True if a suffix is the name of a numeric type.
 fn is_numeric_type(suffix: &str) -> bool {
     const BITS: [&str; 6] = ["8", "16", "32", "64", "128", "size"];
     suffix.strip_prefix(['i', 'u']).is_some_and(|bits| BITS.contains(&bits))

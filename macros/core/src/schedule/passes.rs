@@ -102,7 +102,7 @@ pub(super) fn renumber(mut program: Program, values: usize) -> Program {
     program
 }
 
-/// Whether an operation is written where its value is used.
+/// True if an operation is written where its value is used.
 fn is_inlined(op: Op) -> bool {
     matches!(
         op,

@@ -84,7 +84,7 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
     }
 }
 
-/// Whether a base may differ from entry to entry: such a base stays in its sum.
+/// True if a base may differ from entry to entry: such a base stays in its sum.
 fn varies(graph: &Graph, id: Id) -> bool {
     graph.reachable(&[id]).into_iter().any(|id| matches!(graph.node(id), Node::Entry(_)))
 }

@@ -1,4 +1,4 @@
-//! What is said of a broken rule: its facts, and a remedy that helps.
+//! Messages of broken rules: their facts, and a remedy that helps.
 
 use super::*;
 

@@ -29,13 +29,13 @@ pub enum RecordedOperation {
     MulAdd(Id, Id, Id),
     /// The truth of a < b.
     Less(Id, Id),
-    /// Whether a number is ±0.
+    /// True if a number is ±0.
     IsZero(Id),
     /// The negation of a truth value.
     Not(Id),
-    /// Whether two truth values hold.
+    /// True if two truth values hold.
     And(Id, Id),
-    /// Whether one of two truth values holds.
+    /// True if one of two truth values holds.
     Or(Id, Id),
     /// The second value where the first holds, else the third.
     Select(Id, Id, Id),
@@ -112,7 +112,7 @@ macro_rules! functions {
                 }
             }
 
-            /// Whether there is a second result.
+            /// True if there is a second result.
             #[must_use]
             pub fn is_pair(self) -> bool {
                 matches!(self, Self::Logarithm | Self::Split)
@@ -144,7 +144,7 @@ pub(super) use calls;
 pub struct RecordedProgram {
     /// Number of arguments, those that no operation reads included.
     pub arguments: usize,
-    /// In an order in which they can be executed; all are needed.
+    /// Operations in an order in which they can be executed; all are needed.
     pub operations: Vec<RecordedOperation>,
     /// The results.
     pub results: Vec<Id>,

@@ -44,8 +44,8 @@ pub(super) struct Nearest {
 }
 
 impl Nearest {
-    /// Whether this one is nearer than another: holding the point is nearer than touching it, and the first
-    /// of equal ones is nearer.
+    /// True if this one is nearer than another: a tetrahedron that holds the point is nearer than one that
+    /// touches it, and the first of equal ones is nearer.
     fn is_before(&self, other: &Self) -> bool {
         match (self.holds_point, other.holds_point) {
             (true, false) => true,

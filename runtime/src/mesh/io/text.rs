@@ -119,7 +119,8 @@ pub(super) fn read_text<T>(
     })
 }
 
-/// Whether bytes begin with the mark of UTF-16, or with a character of two bytes, one of them zero.
+/// True if bytes begin with the byte order mark of UTF-16, or with a character of two bytes, one of them
+/// zero.
 fn is_utf_16(bytes: &[u8]) -> bool {
     match *bytes {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,

@@ -88,7 +88,7 @@ fn bounds<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
 
 /// Coordinates in which a tangent is wanted: the rows of W.
 pub(crate) trait Coordinates<R> {
-    /// Whether W = I.
+    /// True if W = I.
     const ARE_ENTRIES: bool;
 
     /// A Wᵀ.
@@ -229,8 +229,8 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
         self.bounds.0
     }
 
-    /// Whether dP/dF has the digits that it has by a decomposition, given the largest entry on its diagonal,
-    /// and nothing on the way to it or to P leaves the range.
+    /// True if dP/dF is as accurate as by a decomposition, given the largest entry on its diagonal, and
+    /// nothing on the way to it or to P leaves the range.
     #[inline(always)]
     pub(crate) fn keeps_digits(&self, largest: R) -> R::Mask {
         let (tangent, stress) = self.bounds;

@@ -46,7 +46,7 @@ pub(super) struct Side<R> {
 }
 
 impl<R: Real<Mask = bool>> Side<R> {
-    /// Whether the stress is zero up to rounding, at a stable stretch.
+    /// True if the stress is zero up to rounding, at a stable stretch.
     fn is_free(&self) -> bool {
         let rounding = R::splat(64.0 * R::UNIT_ROUNDOFF) * self.magnitude;
         R::splat(0.0).less(self.slope) && !rounding.less(self.stress.abs())
@@ -79,7 +79,7 @@ pub(super) fn release<R: Real<Mask = bool>>(
 struct Interval<R> {
     low: R,
     high: R,
-    /// Whether low and high are outside the domain; never both.
+    /// For low and high, true if it is outside the domain; never both.
     is_edge: [bool; 2],
 }
 

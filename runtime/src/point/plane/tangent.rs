@@ -12,7 +12,8 @@ pub struct PlaneTangent<R> {
     pub U: Matrix2<R>,
     /// Right rotation of F.
     pub V: Matrix2<R>,
-    /// Between the diagonal entries in the principal frames, condensed in plane stress: 11, 22, 12, Pa.
+    /// Stiffness between the diagonal entries in the principal frames, condensed in plane stress: 11, 22, 12,
+    /// Pa.
     pub hessian: [R; 3],
     /// Flip of the two stretches in the plane, Pa.
     pub flip: R,
@@ -83,7 +84,7 @@ impl<R: Real<Mask = bool>> PlaneTangent<R> {
         (Self { hessian, flip, twist, ..self }, is_filtered)
     }
 
-    /// Whether no entry of dP/dF can overflow, filtered or not.
+    /// True if no entry of dP/dF can overflow, filtered or not.
     pub(super) fn stays_finite(&self) -> bool {
         let mut numbers = self.hessian.into_iter().chain([self.flip, self.twist]);
         numbers.all(|number| (R::splat(16.0) * number).is_finite())

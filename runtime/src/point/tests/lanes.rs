@@ -15,7 +15,7 @@ fn parts(both: Two) -> [f64; 2] {
     parts
 }
 
-/// Whether a truth value is that of number k of a mask.
+/// True if lane k of a mask has this truth value.
 fn is_set(mask: <Two as Real>::Mask, k: usize) -> bool {
     Two::bits(mask) >> k & 1 == 1
 }

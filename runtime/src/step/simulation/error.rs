@@ -18,7 +18,7 @@ pub enum SetupError {
         /// The node, from 0.
         node: usize,
     },
-    /// There is not one entry for each node.
+    /// Wrong length: an array does not have one entry for each node.
     Length {
         /// Number of nodes.
         expected: usize,

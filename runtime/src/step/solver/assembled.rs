@@ -24,8 +24,8 @@ pub(super) struct Assembled<S> {
     matrix: LowerTriangle,
     /// Free nodes: nodes of the matrix without those in `held`.
     free: Vec<usize>,
-    /// Whether each free node of the matrix is pinned all the same, since it was not when that was made;
-    /// empty where no node is.
+    /// For each free node of the matrix, true if it has been pinned since the matrix was made; empty if no
+    /// node has.
     held: Vec<bool>,
     /// The right side, then the solution.
     unknowns: Vec<f64>,

@@ -13,7 +13,7 @@ pub(crate) trait Solver: Send + Sync {
     /// The nodes that are not pinned, in the order of the unknowns.
     fn free_nodes(&self) -> &[usize];
 
-    /// Whether its matrix has a block for two free nodes.
+    /// True if the matrix has a block for two free nodes.
     fn joins(&self, a: usize, b: usize) -> bool;
 
     /// Takes other pins; false if that demands a solver that is set up anew.
@@ -70,7 +70,7 @@ impl Solution {
     }
 }
 
-/// Why a linear system has no solution.
+/// Reason why a linear system has no solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SolveError {
     /// The matrix is not positive definite even with this multiple of inertia added.

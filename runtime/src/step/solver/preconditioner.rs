@@ -43,7 +43,7 @@ pub(super) struct Preconditioner {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum InUse {
-    /// To be chosen.
+    /// Not chosen yet.
     Nothing,
     Blocks,
     /// Levels of the current matrix.

@@ -91,7 +91,7 @@ fn gradients_are_the_slope_of_the_energy_and_stiffnesses_that_of_the_gradients()
     }
 }
 
-/// Whether λ2 + λ3 is so large that steps of a hundredth do not reach the pole.
+/// True if λ2 + λ3 is so large that steps of a hundredth do not reach the pole.
 fn positions_are_tame(element: &Tetrahedron, positions: &[[f64; 3]]) -> bool {
     let [_, second, third] = svd(&element.deformation_gradient(positions)).stretches;
     second + third > 0.3

@@ -74,7 +74,7 @@ impl Listing {
         self.file.write_all(HEADER.as_bytes())
     }
 
-    /// Whether piola has written the file of this name.
+    /// True if piola has written the file of this name.
     pub(super) fn contains(&self, name: &str) -> bool {
         self.names.contains(name)
     }

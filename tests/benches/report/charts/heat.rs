@@ -1,4 +1,4 @@
-//! Who loses how many digits where: methods against families of deformation gradients.
+//! Heat map of lost digits: methods against families of deformation gradients.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -8,7 +8,7 @@ use plotters::prelude::*;
 pub(crate) use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Of Okabe and Ito, which stay apart for all kinds of colour vision.
+/// Colours of Okabe and Ito, which stay apart for all kinds of colour vision.
 pub(crate) const VERMILION: RGBColor = RGBColor(213, 94, 0);
 pub(crate) const BLUE: RGBColor = RGBColor(0, 114, 178);
 pub(crate) const GREEN: RGBColor = RGBColor(0, 158, 115);
@@ -22,7 +22,7 @@ pub(super) const LINE: i32 = 14;
 /// A drawing area in pixels.
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// What is drawn over two axes.
+/// Drawing over two axes.
 pub(crate) struct Panel {
     pub(crate) title: String,
     pub(crate) x_axis: &'static str,
@@ -84,7 +84,7 @@ pub(crate) fn sheet(
     Ok(svg)
 }
 
-/// What is left of an area below a title and a note.
+/// Area that remains below a title and a note.
 pub(crate) fn headed<'a>(root: &Area<'a>, title: &str, note: &str) -> Result<Area<'a>, String> {
     root.fill(&WHITE).map_err(failed)?;
     let text = |size: f64, colour: RGBColor| (FONT, size).into_font().color(&colour);
@@ -198,12 +198,12 @@ struct Label<'a> {
     colour: RGBColor,
 }
 
-/// Where a label goes.
+/// Position of a label.
 #[derive(Clone, Copy)]
 struct Spot {
     /// Pixels.
     y: i32,
-    /// Of its mark, and not on the right.
+    /// True if the label is to the left of its mark.
     is_left: bool,
 }
 
@@ -249,8 +249,8 @@ fn spread<'a>(
     placed
 }
 
-/// From below the least finite number to above the greatest, by these shares of the decades between them; two
-/// decades at least, so that the axis has numbers.
+/// Range from below the least finite number to above the greatest, by these shares of the decades between
+/// them; two decades at least, so that the axis has numbers.
 fn range(numbers: impl Iterator<Item = f64>, below: f64, above: f64) -> Range<f64> {
     let finite = numbers.filter(|x| x.is_finite() && *x > 0.0);
     let (least, greatest) = finite.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));

@@ -17,7 +17,7 @@ pub(super) fn draw(rows: &[PointRow]) -> Result<Vec<Chart>, String> {
     Ok(charts)
 }
 
-/// In the order in which they were measured.
+/// Materials in the order in which they were measured.
 pub(crate) fn materials(rows: &[PointRow]) -> Vec<&'static str> {
     let mut materials: Vec<&str> = Vec::new();
     for row in rows {
@@ -58,7 +58,7 @@ fn of(material: &str, work: Work, rows: &[&PointRow]) -> Result<Chart, String> {
     Ok(Chart { svg: sheet([1280, 1100], 2, &title, note, &panels)?, file, caption })
 }
 
-/// Of each method the row with the least worst error; the fastest of equals.
+/// Row with the least worst error for each method; the fastest of equals.
 pub(crate) fn best_settings<'a>(rows: &[&'a PointRow]) -> Vec<&'a PointRow> {
     let mut best: Vec<&PointRow> = Vec::new();
     for &row in rows {

@@ -21,7 +21,7 @@ pub(crate) trait Number: Kernels + Real<Mask = bool> {
 
     fn widen(self) -> f64;
 
-    /// Whether the nearest number of the format is finite.
+    /// True if the nearest number of the format is finite.
     fn fits(x: f64) -> bool;
 
     /// [`eigen::clamp`]; NaN where it fails.
@@ -87,7 +87,7 @@ macro_rules! number {
 number!(f64, true);
 number!(f32, false);
 
-/// The same deformation gradients one by one and in lines.
+/// Deformation gradients, one by one and in lines.
 pub(crate) struct Points<E> {
     pub(crate) F: Vec<Matrix3<E>>,
     pub(crate) lines: Vec<E>,
@@ -131,7 +131,7 @@ impl<E: Number> Output<E> {
     }
 }
 
-/// What a method is called.
+/// Name and kind of a method.
 #[derive(Clone, Debug)]
 pub(crate) struct Label {
     pub(crate) method: &'static str,
@@ -149,7 +149,7 @@ impl Label {
         Self { setting: setting.to_string(), ..Self::new(method) }
     }
 
-    /// Of a method for particular energies.
+    /// Label of a method for particular energies.
     pub(crate) fn special(method: &'static str) -> Self {
         Self { is_general: false, ..Self::new(method) }
     }
@@ -161,7 +161,7 @@ type Run<E> = dyn FnMut(&Points<E>, &mut Output<E>);
 /// A method for one energy.
 pub(crate) struct Contestant<E> {
     pub(crate) label: Label,
-    /// In which it leaves its numbers.
+    /// Layout of its output.
     pub(crate) layout: Layout,
     pub(crate) run: Box<Run<E>>,
 }
@@ -187,7 +187,7 @@ impl<E: Number> Contestant<E> {
         Self { label, layout: Layout::Points, run: Box::new(run) }
     }
 
-    /// As many points side by side as a register holds.
+    /// Contestant that computes as many points side by side as a register holds.
     pub(crate) fn on_lanes(label: Label, method: impl OnLanes + 'static) -> Self {
         let run = move |points: &Points<E>, output: &mut Output<E>| {
             Backend::best().run(SideBySide { method: &method, F: &points.lines, output });
@@ -258,7 +258,7 @@ impl<T: OnLanes, E: Number> Kernel<E> for SideBySide<'_, T, E> {
     }
 }
 
-/// Where number k of the points from `at` on lies in lines.
+/// Position in lines of number k of the points from `at` on.
 #[inline(always)]
 fn place<E: Scalar>(at: usize, numbers: usize, k: usize) -> usize {
     (at / E::LINE * numbers + k) * E::LINE + at % E::LINE

@@ -16,9 +16,9 @@ pub(crate) trait Subject: Sized {
     const NAME: &'static str;
     const IN_CATALOGUE: &'static str;
 
-    /// As declared.
+    /// Material as declared.
     type Material: Material + Copy + 'static;
-    /// For hyper-dual numbers.
+    /// Potential for hyper-dual numbers.
     type Potential: Potential + Copy + 'static;
 
     /// # Errors
@@ -33,7 +33,7 @@ pub(crate) trait Subject: Sized {
     }
 }
 
-/// Does something for each of the energies, whose type has the name given.
+/// Repeats code for each of the energies, whose type has the name given.
 macro_rules! for_each {
     ($Subject:ident => $body:block) => {{
         subject::for_each!(@one $Subject = StVenantKirchhoff => $body);
@@ -123,7 +123,7 @@ of_two_moduli!(
 
 of_two_moduli!(Hencky, "Hencky", "hencky");
 
-/// With three terms: those that a case has fewer have a modulus of zero.
+/// Ogden's energy with three terms: those that a case has fewer have a modulus of zero.
 pub(crate) struct Ogden {
     mu: [f64; 3],
     alpha: [f64; 3],

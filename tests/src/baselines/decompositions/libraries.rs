@@ -17,8 +17,8 @@ use piola::point::{Matrix3, Svd};
 use super::descending;
 use crate::baselines::matrix::{cofactor, dot, transpose};
 
-/// By nalgebra, which takes V from the eigenvectors of FᵀF (tridiagonal QR iteration) and U from a QR
-/// decomposition of F V.
+/// Decomposition by nalgebra, which takes V from the eigenvectors of FᵀF (tridiagonal QR iteration) and U
+/// from a QR decomposition of F V.
 ///
 /// `None` where the iteration does not converge or F is not finite.
 #[must_use]
@@ -36,7 +36,7 @@ pub fn nalgebra<T: Real<Mask = bool> + RealField + Copy>(F: &Matrix3<T>) -> Opti
     Some(with_rotations(from_nalgebra(&U), stretches, transpose(&from_nalgebra(&Vt))))
 }
 
-/// By faer: bidiagonalisation and implicit QR iteration, in scratch memory on the stack.
+/// Decomposition by faer: bidiagonalisation and implicit QR iteration, in scratch memory on the stack.
 ///
 /// `None` where the iteration does not converge or F is not finite.
 #[must_use]

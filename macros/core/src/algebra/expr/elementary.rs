@@ -71,7 +71,7 @@ impl Elementary {
         }
     }
 
-    /// Whether its values are positive.
+    /// True if its values are positive.
     pub(crate) fn is_positive(self) -> bool {
         matches!(self, Self::Cosh | Self::Sigmoid | Self::Softplus)
     }

@@ -34,7 +34,7 @@ impl Exponent {
         if self.real.is_some() { None } else { self.rational.as_integer() }
     }
 
-    /// Whether it is n/3: negative numbers have cube roots, by [`cbrt`](f64::cbrt).
+    /// True if it is n/3: negative numbers have cube roots, by [`cbrt`](f64::cbrt).
     pub(crate) fn is_of_cube_root(self) -> bool {
         self.real.is_none() && self.rational.denominator() == 3
     }

@@ -16,7 +16,7 @@ pub enum Entries {
 }
 
 impl Entries {
-    /// Whether it is known at run time alone.
+    /// True if it is known at run time only.
     #[must_use]
     pub fn are_known_at_run_time(&self) -> bool {
         matches!(self, Self::AtRunTime(_))

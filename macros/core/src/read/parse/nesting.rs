@@ -126,7 +126,7 @@ fn check_to(deepest: usize, tokens: &TokenStream, notation: Notation) -> syn::Re
     Ok(())
 }
 
-/// Where a token begins.
+/// Start of a token.
 fn first(token: &TokenTree) -> Span {
     match token {
         TokenTree::Group(group) if group.delimiter() != Delimiter::None => group.span_open(),

@@ -20,7 +20,7 @@ pub struct Options {
     pub admissible: Vec<Expr>,
     /// Comparisons in parameters under which the extension restores; `None` without an extension.
     pub extend: Option<Vec<Expr>>,
-    /// Why there is no extension.
+    /// Reason why there is no extension.
     pub refuse: Option<LitStr>,
     /// Parameters of some real material.
     pub typical: Option<Typical>,

@@ -84,12 +84,12 @@ pub(super) fn named(signature: &Signature, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Whether a name is that of a type, or a keyword of Rust all the same.
+/// True if a name is a type, or a keyword of Rust.
 pub(crate) fn is_type(name: &Ident) -> bool {
     TYPES.iter().any(|ty| name == ty) || is_raw(name)
 }
 
-/// Whether a name is a keyword of Rust, written as `r#type`.
+/// True if a name is a keyword of Rust, written as `r#type`.
 fn is_raw(name: &Ident) -> bool {
     name.to_string().starts_with("r#")
 }
@@ -332,7 +332,7 @@ impl Mistake {
     }
 }
 
-/// Whether a parameter's type may be a function: any path but Rust's primitive types and likely typos of
+/// True if a parameter's type may be a function: any path but Rust's primitive types and likely typos of
 /// `f64`.
 pub(crate) fn may_be_function(ty: &Type) -> bool {
     const NEVER: [&str; 16] = [
@@ -349,7 +349,7 @@ pub(crate) fn may_be_function(ty: &Type) -> bool {
     })
 }
 
-/// Whether it is the type of a list whose length is known at run time.
+/// True if it is the type of a list whose length is known at run time.
 pub(crate) fn is_vector(ty: &Type) -> bool {
     matches!(ty, Type::Path(path) if path.path.segments.last().is_some_and(|last| last.ident == "Vec"))
 }
@@ -364,12 +364,12 @@ pub(crate) fn entry(ty: &Type) -> Option<&Type> {
     }
 }
 
-/// Whether it is the type of a whole exponent.
+/// True if it is the type of a whole exponent.
 pub(crate) fn is_u32(ty: &Type) -> bool {
     matches!(ty, Type::Path(path) if path.path.is_ident("u32"))
 }
 
-/// Whether it is the type of a whole exponent, or of a list of such.
+/// True if it is the type of a whole exponent or of a list of whole exponents.
 fn is_whole(ty: &Type) -> bool {
     match ty {
         Type::Array(array) => is_u32(&array.elem),
@@ -378,7 +378,7 @@ fn is_whole(ty: &Type) -> bool {
     }
 }
 
-/// Whether it is the type of a number.
+/// True if it is the type of a number.
 pub(crate) fn is_f64(ty: &Type) -> bool {
     matches!(ty, Type::Path(path) if path.path.is_ident("f64"))
 }
@@ -407,7 +407,7 @@ fn meaning(name: &Ident) -> String {
     format!("`{name}` has a meaning of its own: choose another name")
 }
 
-/// Whether a name is a word of energies, a member of materials, or a pattern or keyword to Rust.
+/// True if a name is reserved: a word of energies, a member of materials, or a pattern or keyword of Rust.
 #[must_use]
 pub fn is_reserved(name: &Ident) -> bool {
     let text = name.to_string();

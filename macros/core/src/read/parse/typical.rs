@@ -17,7 +17,7 @@ const FORM: &str = "typical parameters are written `typical(\"natural rubber\", 
 pub struct Typical {
     /// The argument's name, for mistakes.
     word: Ident,
-    /// Which material, and where the values are from.
+    /// Name of the material and source of the values.
     pub source: LitStr,
     /// The values as written; once checked, in the order of the parameters.
     pub values: Vec<(Ident, Values)>,

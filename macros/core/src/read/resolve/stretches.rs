@@ -33,7 +33,7 @@ impl<'a> Summand<'a> {
         (call.args.len() == 1).then_some(Self { names, body })
     }
 
-    /// Whether the name stands for stretches: it is read as a number, and in no list's brackets.
+    /// True if the name stands for stretches: it is read as a number and never inside the brackets of a list.
     pub(super) fn is_over_stretches(&self) -> bool {
         let [name] = self.names[..] else { return false };
         let body = self.body.to_token_stream();

@@ -17,7 +17,7 @@ pub(super) struct Index {
     pub(super) name: Ident,
     /// The length of the lists that it has indexed so far.
     pub(super) length: Option<Length>,
-    /// Whether it has indexed a mistaken list, so that the sum is not to blame.
+    /// True if it has indexed a mistaken list, so that the sum is not to blame.
     pub(super) is_excused: bool,
     /// Other names that were taken for it.
     others: Vec<Ident>,

@@ -26,7 +26,7 @@ pub(super) enum Tensor {
     CauchyGreen,
     /// C⁻¹ or b⁻¹.
     Inverse,
-    /// Another tensor.
+    /// Any other tensor.
     Other,
 }
 
