@@ -78,8 +78,8 @@ pub(crate) struct Run {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Go on with the run in the folder, to the last bit as if it had not been interrupted; needs the options
-    /// that it was begun with, but for --frames and --threads.
+    /// Continue the run in the folder, to the last bit as if it had not been interrupted; needs the same
+    /// options, except for --frames and --threads.
     #[arg(long)]
     resume: bool,
 
@@ -102,7 +102,7 @@ pub(crate) struct View {
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
 
-    /// Continue a saved state, to the last bit; it names its scene and options itself, but for the files of
+    /// Continue a saved state, to the last bit; it contains its scene and options, except for the files of
     /// another body: give --mesh and --surface again.
     #[arg(long, value_name = "FILE")]
     load: Option<PathBuf>,

@@ -67,7 +67,7 @@ pub fn main() -> ExitCode {
     })
 }
 
-/// Runs a scene; the progress bar goes to standard error, and nowhere if that is no terminal.
+/// Runs a scene; the progress bar goes to standard error, or nowhere if that is not a terminal.
 fn play(arguments: Run) -> Result<ExitCode, Error> {
     let (settings, output) = arguments.settings()?;
     let signals = Signals::listen().map_err(Error::Signals)?;

@@ -9,7 +9,7 @@ use crate::error::Error;
 /// An option that names a file, and the file.
 pub(crate) type Named = (&'static str, PathBuf);
 
-/// Refuses an output that is an input or another output, whatever path or link leads there.
+/// Refuses an output that is an input or another output, by any path or link.
 ///
 /// # Errors
 /// [`Error::NamedTwice`].

@@ -41,7 +41,7 @@ use server::Server;
 use token::Token;
 
 /// Orders that wait for the driver; connections with more of them wait themselves, in turn. A page waits
-/// behind so many orders of others, and one of each connection.
+/// behind at most this number of orders of others, and one of each connection.
 const ORDERS: usize = 16;
 
 /// Settings of a viewer.

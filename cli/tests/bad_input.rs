@@ -1,4 +1,4 @@
-//! Whatever is wrong with the input, `piola` says what and how to mend it, ends with status 2 and writes
+//! Wrong input of any kind: `piola` reports the mistake and how to correct it, ends with status 2 and writes
 //! nothing.
 
 use std::fs;
@@ -76,7 +76,7 @@ fn malformed_mesh_names_file_and_line() {
     check(&files, &arguments, &["skin.obj:4", "9"]);
 }
 
-/// Meshes from beside this file.
+/// Meshes next to this file.
 const HEXMIDDLE: &str = include_str!("meshes/hexmiddle.msh");
 const PRISMMIDDLE: &str = include_str!("meshes/prismmiddle.msh");
 const TET10: &str = include_str!("meshes/tet10.msh");

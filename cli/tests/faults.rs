@@ -11,7 +11,7 @@ use piola::__private::random::Random;
 
 /// Number of kills at random moments, unless the environment variable `PIOLA_KILLS` gives another.
 const KILLS: usize = 4;
-/// After one kill of so many, the run goes on to its end, and another one replaces it.
+/// Number of kills for each run that then continues to its end and is replaced by another one.
 const SEQUELS: usize = 4;
 /// Steps of a run of a cube: together about as long as the picture at its end.
 const FRAMES: usize = 1500;

@@ -1,4 +1,4 @@
-//! Files in the folder of a run: nobody else's are touched, and whatever ends a run leaves what it has made.
+//! Files in the folder of a run: those of others are left alone, and an interrupted run keeps its results.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -47,7 +47,7 @@ fn check(arguments: &[&str], scene: &str, frames: u64) -> Value {
     summary
 }
 
-/// The same, with these keys beside those of every summary.
+/// Same check with additional keys of the summary.
 #[track_caller]
 fn check_with(arguments: &[&str], scene: &str, frames: u64, more: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a scratch folder");
@@ -206,7 +206,7 @@ fn parametric_nodes_are_nodes() {
     assert!(surface(include_str!("meshes/param22.msh")) == plain);
 }
 
-/// A bar of three cubes with edges of 50, one above the other, in a unit that is so many times as long.
+/// A bar of three cubes with edges of 50, one above the other, in a unit that is `times` times as long.
 fn bar(times: f64) -> String {
     let place = |cells: usize| (50 * cells) as f64 / times;
     let mut nodes = String::new();

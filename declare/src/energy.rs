@@ -205,7 +205,7 @@ impl Energy {
         self.0.fit.as_ref().map(|fit| fit.domain_constraints(&material, stretches)).unwrap_or_default()
     }
 
-    /// The material with a value in the place of each number among its parameters that stands for it in a
+    /// The material with each number among its parameters replaced by the value that stands for it in a
     /// recorded program. Whole exponents keep theirs.
     pub(crate) fn with_marked_parameters(&self, material: &Interpreted) -> Interpreted {
         let mut k = 0;

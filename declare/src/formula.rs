@@ -46,7 +46,7 @@ use parse::{Parsed, parse};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FormulaOptions {
-    /// Names that are parameters, whatever they mean otherwise: those that have values. Each has its
+    /// Names that are parameters, regardless of any other meaning: those that have values. Each has its
     /// documentation, which may end with a unit, as in `Shear modulus, Pa.`. A name without a value is then a
     /// mistake. `None` to take every name that means nothing else.
     pub parameters: Option<Vec<(String, String)>>,

@@ -133,7 +133,7 @@ fn lives(parts: &[&Ordered]) -> BTreeMap<Name, usize> {
         }
         last.extend(ordered.outputs.iter().map(|&output| (named(output), usize::MAX)));
     }
-    // A stretch is in one register, whatever it is called.
+    // A stretch is in one register under all its names.
     for i in 0..3 {
         let of_stretch = |(part, ordered): (usize, &&Ordered)| {
             let values = ordered.statements.iter().filter_map(move |statement| match *statement {
@@ -461,7 +461,7 @@ impl Lowering<'_> {
         let registers = &mut self.registers[kind as usize];
         let register = registers.free.pop().unwrap_or_else(|| registers.add());
         self.places.insert(name, Place::Register(kind, register));
-        // A value that nothing reads is written all the same.
+        // A value that nothing reads is still written.
         if kind != Kind::Constant && !self.lives.contains_key(&name) {
             registers.free.push(register);
         }

@@ -1,5 +1,4 @@
-//! Measured points in CSV files: whatever they are, the reader and what follows it keep what `piola_hostile`
-//! says.
+//! Measured points in CSV files: the reader and its users keep the rules of `piola_hostile` for any bytes.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O csv fuzz/corpus/csv fuzz/seeds/csv

@@ -1,5 +1,5 @@
-//! Texts of energies: whatever they are, the compiler and the material that it makes keep what
-//! `piola_hostile` says.
+//! Texts of energies: the compiler and the material that it makes keep the rules of `piola_hostile` for any
+//! bytes.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O energy fuzz/corpus/energy fuzz/seeds/energy

@@ -1,4 +1,4 @@
-//! Tetrahedra of Gmsh: whatever they are, the reader and what follows it keep what `piola_hostile` says.
+//! Tetrahedra of Gmsh: the reader and its users keep the rules of `piola_hostile` for any bytes.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O msh fuzz/corpus/msh fuzz/seeds/msh

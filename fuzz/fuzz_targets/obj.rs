@@ -1,4 +1,4 @@
-//! Surfaces in OBJ files: whatever they are, the reader and what follows it keep what `piola_hostile` says.
+//! Surfaces in OBJ files: the reader and its users keep the rules of `piola_hostile` for any bytes.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O obj fuzz/corpus/obj fuzz/seeds/obj

@@ -1,4 +1,4 @@
-//! States of the viewer: whatever they are, the reader and what follows it keep what `piola_hostile` says.
+//! States of the viewer: the reader and its users keep the rules of `piola_hostile` for any bytes.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O state fuzz/corpus/state fuzz/seeds/state

@@ -1,5 +1,5 @@
-//! Tetrahedra of TetGen, nodes and elements in one text: whatever they are, the reader and what follows it
-//! keep what `piola_hostile` says.
+//! Tetrahedra of TetGen, nodes and elements in one text: the reader and its users keep the rules of
+//! `piola_hostile` for any bytes.
 //!
 //! ```sh
 //! cargo +nightly fuzz run -s none -O tetgen fuzz/corpus/tetgen fuzz/seeds/tetgen

@@ -194,7 +194,7 @@ pub enum Volume {
     /// The energy decides: free sides carry no stress.
     #[default]
     Free,
-    /// Kept, whatever the energy says of changes of volume: the incompressible solid.
+    /// Constant volume, regardless of the energy's resistance to changes of volume: the incompressible solid.
     Kept,
 }
 
@@ -210,8 +210,8 @@ pub struct Response {
     pub stress: f64,
     /// The weights that make up the stress: Σ weights · (ψ1, ψ2, ψ3).
     ///
-    /// Where the sides are free, the weights contain how these give way, so that for whatever the energy
-    /// depends on, the derivative of the stress is Σ weights · (∂ψ1, ∂ψ2, ∂ψ3) at the stretches held, by the
+    /// Where the sides are free, the weights contain how these give way, so that for any parameter of the
+    /// energy the derivative of the stress is Σ weights · (∂ψ1, ∂ψ2, ∂ψ3) at the stretches held, by the
     /// implicit function theorem.
     pub weights: [f64; 3],
 }

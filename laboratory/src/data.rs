@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(Measurements::read(&edge).map(|read| read.points.len()), Ok(4));
     }
 
-    /// The mark is no part of the first header, nor of a comment before it.
+    /// The mark is not a part of the first header, nor of a comment before it.
     #[test]
     fn a_byte_order_mark_is_skipped() {
         let text = format!("# by hand\n{HEADER}uniaxial,2,1\n");

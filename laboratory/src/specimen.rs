@@ -70,7 +70,7 @@ pub(crate) fn stretches(strains: [f64; 3]) -> [f64; 3] {
     strains.map(|strain| 1.0 + strain)
 }
 
-/// ψ1, ψ2, ψ3 along the axes of a test, Pa; `None` outside the domain and where they are no numbers.
+/// ψ1, ψ2, ψ3 along the axes of a test, Pa; `None` outside the domain and if they are NaN.
 pub(crate) fn gradient(specimen: &dyn Specimen, strains: [f64; 3]) -> Option<[f64; 3]> {
     let ordered = Ordered::new(strains);
     if !strains.iter().all(|strain| strain.is_finite()) || !specimen.admits(stretches(ordered.numbers)) {

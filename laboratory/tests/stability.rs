@@ -1,5 +1,4 @@
-//! Where energies of the catalogue keep the inequalities of a stable solid, beside searches and what is
-//! published of them.
+//! Stability of energies of the catalogue, compared with searches and published results.
 
 use piola::__private::random::Random;
 use piola::Material;
@@ -196,7 +195,7 @@ fn the_foam_of_blatz_and_ko_loses_ellipticity_where_knowles_and_sternberg_say() 
         met[usize::from(is_elliptic)] += 1;
     }
     assert!(met[0] > 100 && met[1] > 100, "{met:?}");
-    // Beside the limit, to the digits that are left where ψ12 is a thousand times the modulus.
+    // Near the limit, to the digits that are left where ψ12 is a thousand times the modulus.
     for [least, middle] in [[1.0, 1.0], [0.3, 0.3], [1.0, 2.0], [2.0, 9.0]] {
         for (share, is_elliptic) in [(1.0 - 1e-10, true), (1.0 + 1e-10, false)] {
             let largest = share * limit * least;
@@ -346,7 +345,7 @@ fn surveys_end_at_the_limits_of_the_range() -> Tested {
         assert_eq!(report.points, 84);
         assert!(map(specimen, &settings, "wide")?.contains("</svg>"));
     }
-    // Whatever a walk is to lead to.
+    // End that a walk must reach.
     for to in [0.0, 5e-324, f64::MAX, f64::INFINITY, f64::NAN] {
         let reached = Walk::along(Path::Uniaxial, &fung, to).reached;
         assert!((to.min(1.0)..=to.max(1.0)).contains(&reached), "{reached:e} of {to:e}");

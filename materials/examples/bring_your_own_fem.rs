@@ -1,5 +1,5 @@
-//! A finite-element code of one's own, with piola for the material: slices of deformation gradients in,
-//! slices of stresses and tangents out.
+//! Your own finite-element code with piola for the material: slices of deformation gradients in, slices of
+//! stresses and tangents out.
 //!
 //! The elements are trilinear hexahedra with 2×2×2 Gauss points, whose shape functions piola does not know.
 //! For these there is [`piola::batch::Batch`], and for sums over points [`piola::batch::Quadrature`]. The

@@ -17,7 +17,7 @@ use piola::material;
     admissible(mu > 0.0, f >= 0.0, f <= 1.0, beta > 0.0),
     extend((1.0 - f) * (beta - 1.0) >= 0.0),
     typical(
-        "the foamed polyurethane of the source, but for its β = 1/2, that is ν = 1/4, with which \
+        "the foamed polyurethane of the source, except for its β = 1/2, that is ν = 1/4, with which \
          it does not extend",
         mu = 2.2e5, f = 0.0, beta = 1.0
     ),

@@ -20,7 +20,7 @@ use piola::material;
 )]
 pub fn HorganSaccomandi(
     [l1, l2, l3]: [f64; 3],
-    /// Modulus μ, Pa: the shear modulus but for the factor (Jm/(Jm − 1))².
+    /// Modulus μ, Pa: the shear modulus except for the factor (Jm/(Jm − 1))².
     mu: f64,
     /// Square Jm of the greatest isochoric stretch, dimensionless.
     jm: f64,

@@ -219,7 +219,7 @@ fn points_with_and_without_invariants_share_a_tile() -> Outcome {
     Ok(())
 }
 
-/// By invariants and by stretches P is the same but for rounding, in either layout.
+/// By invariants and by stretches P is the same up to rounding, in either layout.
 #[test]
 fn stress_is_the_same_with_and_without_a_decomposition() -> Outcome {
     let (all, energy) = (deformations(), NeoHookean::new(1.0, 3.0)?.with_inversion(EXTEND)?);

@@ -3,9 +3,9 @@
 //! This is the interface for finite-element codes that have their own elements: it knows points, and of
 //! meshes the nodes of single elements ([`Batch::stiffnesses_at`], [`Quadrature`]). A [`Batch`] holds the
 //! material, the filter, the instructions and the layout of the slices; its methods are the kernels. They
-//! allocate nothing, but for some 80 kB of room on the first call in each thread. Points go through in tiles
-//! of 64: decomposition, energy, outputs, each stage with as many points side by side as the registers hold,
-//! and what lies between the stages stays in the inner caches.
+//! allocate nothing, except for some 80 kB of scratch memory on the first call in each thread. Points go
+//! through in tiles of 64: decomposition, energy, outputs, each stage with as many points side by side as the
+//! registers hold, and what lies between the stages stays in the inner caches.
 //!
 //! ```
 //! use piola::batch::{Batch, MatrixForm};
@@ -43,10 +43,10 @@
 //! **Other elements** than linear tetrahedra, hexahedra for one, sum what their points have by a
 //! [`Quadrature`].
 //!
-//! **Bits.** Within a back end a point's results are the same whatever the other points, its place, the
-//! number of points and of threads. Two back ends differ by rounding.
+//! **Bits.** Within a back end a point's results are the same regardless of the other points, its place, and
+//! the number of points and of threads. Two back ends differ by rounding.
 //!
-//! **Status.** A point that cannot be computed is no error of a call: its results mean nothing, and a
+//! **Status.** A point that cannot be computed is not an error of a call: its results are invalid, and a
 //! [`Survey`] counts such points and names the first.
 //!
 //! **Parameters.** A material is the same for all points; with [`PerPoint`](crate::material::PerPoint) every

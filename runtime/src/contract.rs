@@ -33,10 +33,10 @@
 //! | [`quotients`](Rule::Quotients) | flips and twists are accurate at every gap, 10⁻¹ … 10⁻¹⁶ and 0 |
 //! | [`strains`](Rule::Strains) | the gradient at strains s is that at stretches 1 + s |
 //! | [`invariants`](Rule::Invariants) | ψ and its gradient by I1, I2, J, where there are such, are those by stretches |
-//! | [`extension`](Rule::Extension) | P and dP/dF are exact beside the threshold, across it and deep below, where ψ drives inverted material back |
+//! | [`extension`](Rule::Extension) | P and dP/dF are exact next to the threshold, across it and deep below, where ψ drives inverted material back |
 //! | [`moduli`](Rule::Moduli) | the small-strain moduli that a declaration states are those of its Hessian |
 //! | [`single_precision`](Rule::SinglePrecision) | `f32` gives what `f64` does, to the rounding of `f32` |
-//! | [`lanes`](Rule::Lanes) | every lane of every back end gives what a scalar does, whatever its neighbours |
+//! | [`lanes`](Rule::Lanes) | every lane of every back end gives what a scalar does, regardless of its neighbours |
 //!
 //! A material is anything that implements [`Material`], by the macro or by hand; the rules on an extension or
 //! invariants apply to materials that have them. A check returns what it found or the first [`Violation`];
@@ -176,7 +176,7 @@ pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Vi
     report(|rule| check_rule(rule, material, settings))
 }
 
-/// Checks every rule that applies to the material, but for [`Rule::Lanes`].
+/// Checks every rule that applies to the material, except for [`Rule::Lanes`].
 ///
 /// What a material computes on lanes is compiled for each back end, which is wasted on materials whose lanes
 /// are judged elsewhere.

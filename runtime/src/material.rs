@@ -202,8 +202,8 @@ pub trait Material: Send + Sync {
     /// Computes a response of a tile, whose points have the materials `material(point)`; gives those inside
     /// the domain as bits.
     ///
-    /// For materials that pay for each operation whatever it is applied to, as an interpreter does. Called
-    /// where [`RESPONDS_TOGETHER`](Self::RESPONDS_TOGETHER) says so, and nowhere else.
+    /// For materials whose cost is per operation and not per point, such as an interpreter. Called only if
+    /// [`RESPONDS_TOGETHER`](Self::RESPONDS_TOGETHER) is true.
     #[doc(hidden)]
     fn respond_together<'m, E: Scalar>(
         material: impl Fn(usize) -> &'m Self + Copy,
@@ -271,7 +271,7 @@ impl Curvature {
 /// Treatment of deformations beyond a domain that ends at J = 0: J > 0 or J ≠ 0.
 ///
 /// Only that end is a matter of choice: where another condition of the domain fails, such as Gent's on I1, a
-/// point is refused whatever is chosen.
+/// point is refused with either choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde",

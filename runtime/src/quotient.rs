@@ -223,7 +223,7 @@ mod tests {
     /// The worst relative error, in units of u, over gaps t for which b (1 + t) is exact: powers of two, and
     /// some beside each switch between formulas.
     ///
-    /// Some bases b have large logarithms, which cancel but for their difference.
+    /// Some bases b have large logarithms, which cancel except for their difference.
     fn worst(error: impl Fn(f64, f64) -> f64) -> f64 {
         let bases = [1.0, 1.5, 3.0 / 1024.0, 1.5 * 2f64.powi(332), 1.25 * 2f64.powi(-332)];
         let gaps = (0..50).map(|k| 2f64.powi(-k)).chain([0.0]).chain((1..20).map(|k| 2f64.powi(k)));

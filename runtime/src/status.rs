@@ -41,7 +41,7 @@ impl<M: Mask> Status<M> {
     }
 }
 
-/// Union of two statuses: whatever one of them reports.
+/// Union of two statuses: all flags of either.
 impl<M: BitOr<Output = M>> BitOr for Status<M> {
     type Output = Self;
 

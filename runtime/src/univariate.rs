@@ -63,10 +63,10 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
 
     /// True if φ is defined at x; by default it is for every x.
     ///
-    /// A material refuses the points at which an argument of one of its functions is not admitted, whatever
-    /// its [`inversion`](crate::material::Material::inversion): an extension continues the energy around its
-    /// functions, not the functions themselves, which get the continued arguments. So beside `extend` a
-    /// function should admit what inverted points ask of it. The rest state must be admitted.
+    /// A material refuses the points at which an argument of one of its functions is not admitted, regardless
+    /// of its [`inversion`](crate::material::Material::inversion): an extension continues the energy around
+    /// its functions, not the functions themselves, which get the continued arguments. So with `extend` a
+    /// function should admit the arguments of inverted points. The rest state must be admitted.
     ///
     /// ```
     /// use piola::{Real, Univariate, material};
@@ -214,7 +214,7 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// φ should depend smoothly on each value, at least within 3 % of it.
     ///
     /// # Errors
-    /// [`MaterialError::Shape`] if there are more or fewer values; whatever else makes them inadmissible. By
+    /// [`MaterialError::Shape`] if there are more or fewer values; another error if they are inadmissible. By
     /// default there must be none.
     ///
     /// ```
@@ -260,7 +260,7 @@ impl<F: Univariate, const N: u8> Derivative<'_, F, N> {
     ///
     /// A mean of slopes is then wrong by up to the jump. Between close points a smooth slope is nearly
     /// straight: its second difference s(a) − 2 s(m) + s(b) is far below its first. A jump is in one half,
-    /// and both are as large as it is. What noise explains, 2¹⁴ u of the slopes, is no jump.
+    /// and both are as large as it is. A difference that noise explains, 2¹⁴ u of the slopes, is not a jump.
     #[inline(always)]
     fn bends<R: Real>(&self, a: R, b: R) -> R::Mask {
         if !self.0.breakpoints().is_empty() {

@@ -27,8 +27,8 @@ fn Rubber(
     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
 }
 
-/// The text of a value that comes back equal, and as the same text: the same bits but for NaN, which JSON has
-/// not.
+/// The text of a value that comes back equal, and as the same text: the same bits except for NaN, which JSON
+/// has not.
 #[track_caller]
 fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> String {
     let text = serde_json::to_string(value).expect("serialises");

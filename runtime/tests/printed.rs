@@ -55,7 +55,7 @@ fn Volumetric(
     mu * (sum(|l| l.powi(2) - 1.0) - 2.0 * J.ln()) + h(J)
 }
 
-/// Sums over the stretches and their pairs, and functions that are no powers.
+/// Sums over the stretches and their pairs, and functions that are not powers.
 #[piola::material(domain(J > 0.0))]
 fn Sums(
     [l1, l2, l3]: [f64; 3],

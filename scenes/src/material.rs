@@ -77,8 +77,8 @@ impl MaterialSpec {
         Self { material: material.into(), energy: None, parameters: Vec::new(), lame: None, inversion: None }
     }
 
-    /// The material of an energy that was declared at run time, still without parameters but for those that
-    /// the declaration calls typical.
+    /// Material of an energy that was declared at run time, with no parameters yet except for the typical
+    /// ones of the declaration.
     #[must_use]
     pub fn declared(energy: Energy) -> Self {
         let parameters = energy.description().parameters.iter().zip(energy.typical());

@@ -193,7 +193,7 @@ mod tests {
         let mut bent = POINTS;
         bent[4][1] += 0.5;
         let distance = max_distance(&POINTS, &aligned(&POINTS, &bent));
-        // At least half of the shift remains whatever the rotation: the other points hold it back.
+        // At least half of the shift remains under any rotation: the other points hold it back.
         assert!((0.2..0.5).contains(&distance), "{distance}");
         assert_eq!(max_distance(&POINTS, &bent), 0.5);
     }

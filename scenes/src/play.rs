@@ -125,7 +125,7 @@ impl Play {
         self.moduli
     }
 
-    /// Properties of the body that may not be meant, also beside what the scene does to it.
+    /// Properties of the body that may be unintended, also in view of what the scene does to it.
     #[must_use]
     pub fn warnings(&self, geometry: &Geometry) -> Vec<GeometryWarning> {
         let is_idle = self.pulls.iter().any(|springs| springs.nodes.is_empty());
@@ -169,7 +169,7 @@ impl Play {
         step::Spring { anchor, target, stiffness: self.stiffness }
     }
 
-    /// Replaces the springs that act beside those of the scene, from the next step on.
+    /// Replaces the springs that act in addition to those of the scene, from the next step on.
     pub fn hold(&mut self, pulls: Vec<step::Spring>) {
         self.drags = pulls;
     }
@@ -251,8 +251,8 @@ impl Play {
         }
     }
 
-    /// Sets the springs of the scene as they are at the end of this stretch of time, s, and those that act
-    /// beside them.
+    /// Sets the springs of the scene as they are at the end of this stretch of time, s, and those that act in
+    /// addition.
     fn pull(&mut self, start: f64, end: f64) -> Result<(), Error> {
         let scene = self.pulls.iter().flat_map(|springs| springs.during(start, end));
         let springs: Vec<step::Spring> = scene.chain(self.drags.iter().copied()).collect();
@@ -400,7 +400,7 @@ impl DragSprings {
         Self { pull, nodes, bounds, stiffness }
     }
 
-    /// Stiffness of the spring at each of so many nodes, N/m.
+    /// Stiffness of the spring at each of `nodes` nodes, N/m.
     #[must_use]
     pub fn stiffness_of_each(nodes: usize, bounds: Bounds, young: f64) -> f64 {
         DRAG_STIFFNESS * stiffness(young, bounds) / nodes.max(1) as f64

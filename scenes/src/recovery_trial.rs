@@ -8,7 +8,7 @@ use crate::play::Play;
 use crate::settings::Settings;
 use crate::statics::find_equilibrium;
 
-/// A body has recovered once it was near rest for so many frames in a row: passing by does not count.
+/// Number of consecutive frames near rest after which a body has recovered: passing by does not count.
 const STAY: usize = 10;
 
 /// Outcome of a trial.

@@ -66,7 +66,7 @@ pub struct Finished {
 
 /// Plays a scene to its end, or goes on with a run that was cut off.
 ///
-/// Whatever ends it after the first step, the frames before are kept with a summary that says what happened.
+/// If it ends early after the first step, the frames before are kept with a summary of what happened.
 ///
 /// # Errors
 /// An error of the settings, the body or the folder, and one of the first step or its files: nothing is

@@ -9,8 +9,8 @@ use crate::output::{FinalPlace, FinalState, Summary};
 use crate::play::Play;
 use crate::watch::Watch;
 
-/// Statics stops after so many calls of so many Newton iterations: a call that fails loses nothing of the
-/// calls before.
+/// Maximum number of calls of statics, and of Newton iterations in a call: a call that fails loses nothing of
+/// the calls before.
 const CALLS: usize = 20;
 const ITERATIONS: usize = 10;
 

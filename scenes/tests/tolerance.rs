@@ -1,8 +1,9 @@
 //! Steps chosen by a tolerance, in both scenes: what a frame adds to the error of the motion.
 //!
 //! A scene is played to a state, and the frame after it made twice: to the tolerance, and by third order to a
-//! small part of it. Beside that the error is judged, not beside a motion from the start: of the horse, which
-//! begins with all nodes in a plane, motions end a body height apart however short their steps are.
+//! small part of it. The error is judged relative to that, not relative to a motion from the start: of the
+//! horse, which begins with all nodes in a plane, motions end a body height apart however short their steps
+//! are.
 //!
 //! One frame of each scene, or frames all along, which take minutes:
 //! `PIOLA_LONG=1 cargo test --release -p piola-scenes --test tolerance -- --nocapture`.
@@ -22,7 +23,7 @@ struct State {
 }
 
 impl State {
-    /// After so many frames, as the scene makes them.
+    /// Number of frames of the scene after which the body is compared.
     fn after(scene: &'static Scene, frames: usize) -> Self {
         let settings = Settings::new(scene);
         let geometry = Geometry::load(&settings).expect("the body of the scene");

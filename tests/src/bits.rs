@@ -75,7 +75,7 @@ pub enum Family {
     /// Rotation times stretches of chosen spread times rotation, some of them equal, opposite, zero or
     /// reflected.
     Frames,
-    /// Sums of one or two products of vectors: rank 1 and, but for rounding, rank 2.
+    /// Sums of one or two products of vectors: rank 1 and, up to rounding, rank 2.
     Deficient,
     /// A rotation, or the identity, with a disturbance of any smaller magnitude.
     NearRest,
@@ -202,7 +202,7 @@ fn frames<R: Precision>(random: &mut Random) -> Matrix3<R> {
     let mut stretches: [f64; 3] =
         std::array::from_fn(|_| magnitude(random, window) * random.uniform(1.0, 2.0));
     if random.once_in(3) {
-        // Equal but for a gap of any size.
+        // Equal except for a gap of any size.
         stretches[1] = stretches[0] * (1.0 + 2f64.powi(-(random.below(60) as i32)));
     }
     if random.once_in(4) {

@@ -1,8 +1,8 @@
 //! Reference values of quotients of stresses, and how hard they are to compute.
 //!
-//! The oracle is the definition, (ψi ∓ ψj)/(λi ∓ λj), from the gradient in so many digits that no gap takes
-//! all of them. It shares the gradient with its subject, which the reference cases judge, and nothing of the
-//! calculus of quotients.
+//! The oracle is the definition, (ψi ∓ ψj)/(λi ∓ λj), from the gradient in enough digits for any gap. It
+//! shares the gradient with its subject, which the reference cases judge, and nothing of the calculus of
+//! quotients.
 
 use piola::material::PAIRS;
 use piola::{Material, Real};

@@ -1,5 +1,5 @@
-//! Checks of the status at any finite deformation gradient: results that mean nothing are flagged, and those
-//! that mean something are not.
+//! Checks of the status at any finite deformation gradient: invalid results are flagged, and valid ones are
+//! not.
 //!
 //! One half needs no oracle ([`check`], [`check_elements`]): where a status is clean, ψ, P, dP/dF, forces and
 //! stiffness are finite, and all evaluations of one deformation agree on whether it is refused. The other
@@ -101,8 +101,8 @@ impl fmt::Display for Fault {
 
 impl std::error::Error for Fault {}
 
-/// Whatever the entries of F: a clean status means finite numbers, and the status does not depend on what is
-/// asked for.
+/// For any entries of F a clean status means finite numbers, and the status does not depend on the requested
+/// results.
 ///
 /// # Errors
 /// The first fault found.

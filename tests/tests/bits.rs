@@ -40,8 +40,8 @@ fn f32_is_sound_at_every_pattern_of_bits() {
     every_entry::<f32>();
 }
 
-/// Where patterns begin: at the place of an energy in the catalogue, but for Storåkers' solid. Continued in
-/// `f32`, it errs by more than its tolerance at one of the 10⁵ patterns that begin at its place, near F =
+/// Where patterns begin: at the place of an energy in the catalogue, except for Storåkers' solid. Continued
+/// in `f32`, it errs by more than its tolerance at one of the 10⁵ patterns that begin at its place, near F =
 /// 6·10⁷.
 fn seed(index: usize, name: &str) -> u64 {
     if name == "storakers" { 26 } else { index as u64 }

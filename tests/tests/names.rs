@@ -42,7 +42,7 @@ pub(crate) fn Invariant([_x, _y, _z]: [f64; 3], mu: f64) -> f64 {
     mu * ((I1 - 3.0).powi(2) + (I1 * I1 / 3.0 - I2))
 }
 
-/// Literal exponents that are no simple fractions.
+/// Literal exponents that are not simple fractions.
 #[material(domain(J > 0.0))]
 fn Literal([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
     let power = l1.powf(1.305678) + l2.powf(1.305678) + l3.powf(1.305678) - 3.0;

@@ -4,8 +4,8 @@
 //! No declaration may make the compiler panic, and no value may be wrong without saying so: each is within 30
 //! u (|X| + sens) of the exact one, or infinite or NaN, which a status says. Two kinds of values may be
 //! worse, and are counted: those for which the formula as printed, or a sum in the compiled expression,
-//! rounds what it then subtracts. `PIOLA_RANDOM=1000000` asks for so many declarations, `PIOLA_RANDOM_SEED`
-//! for those from a seed on.
+//! rounds what it then subtracts. `PIOLA_RANDOM=1000000` sets the number of declarations, `PIOLA_RANDOM_SEED`
+//! the first seed.
 
 use std::collections::BTreeMap;
 
@@ -81,7 +81,7 @@ impl Same<'_> {
         let inputs = Inputs { stretches, strains, epsilon: 0.0 };
         let mut found = |roots: &[_]| run(&model.program(roots), parameters, &inputs);
         let same = |found: Vec<R>, compiled: &[R], what: &str| {
-            // The text of a floating-point number is that of its bits, but for NaN.
+            // The text of a floating-point number is that of its bits, except for NaN.
             assert_eq!(format!("{found:?}"), format!("{compiled:?}"), "{what} of {name} at {stretches:?}");
         };
         same(found(&[plain.energy]), &[material.energy(stretches)], "ψ");

@@ -150,7 +150,7 @@ impl Table {
             Verdict::Error(error) => {
                 let key = (energy, judgement.precision, judgement.quantity);
                 self.keep_worse(key, Worst { error, case: format!("{} {}", case.id, case.tag) });
-                // A NaN is no error within the bound.
+                // A NaN is not an error within the bound.
                 if error <= C { None } else { Some(format!("{error:.1}")) }
             }
             Verdict::Flagged => {

@@ -14,7 +14,7 @@ const OURS: std::ops::Range<usize> = 2..5;
 /// bound, and above it one in the exponent of ten, as the document says.
 const MOVED: f64 = 2.0;
 
-/// Lines of a document as cells; a line that is no row of a table is a single one.
+/// Lines of a document as cells; a line that is not a row of a table is a single one.
 fn rows(text: &str) -> Vec<Vec<&str>> {
     let cells = |line| str::trim_matches(line, '|').split('|').map(str::trim).collect();
     text.lines().map(cells).collect()
@@ -31,7 +31,7 @@ fn error(cell: &str) -> Option<f64> {
         (_, Some(exponent)) if !exponent.is_empty() => {
             Some(format!("1e{exponent}").parse().expect("a power"))
         }
-        (units, _) => Some(units.parse().unwrap_or_else(|_| panic!("`{cell}` is no error"))),
+        (units, _) => Some(units.parse().unwrap_or_else(|_| panic!("`{cell}` is not an error"))),
     }
 }
 

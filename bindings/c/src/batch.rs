@@ -33,7 +33,7 @@ pub enum Measure {
     /// The Cauchy stress and the spatial tangent of its Truesdell rate.
     Cauchy = 2,
     /// The Cauchy stress and the tangent of the Jaumann rate of the Kirchhoff stress by deformed volume,
-    /// which is DDSDDE of Abaqus but for the order: number I there is number {0, 1, 2, 5, 4, 3}[I] here.
+    /// which is DDSDDE of Abaqus except for the order: number I there is number {0, 1, 2, 5, 4, 3}[I] here.
     Jaumann = 3,
     /// The Cauchy stress and the tangent of the Green-Naghdi rate of the Kirchhoff stress by deformed volume.
     GreenNaghdi = 4,

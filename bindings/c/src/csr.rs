@@ -1,4 +1,4 @@
-//! Assembly into a sparse matrix of the caller's own.
+//! Assembly into a sparse matrix of the caller.
 
 use piola::batch::{Layout, Tetrahedra};
 use piola::system::CsrPlaces;

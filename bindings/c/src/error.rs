@@ -38,7 +38,7 @@ pub enum Code {
     Matrix = 8,
     /// A step finds no admissible next state. The state before is untouched.
     Step = 9,
-    /// A function of the caller's own has returned a value other than 0.
+    /// A user-defined function has returned a value other than 0.
     Callback = 10,
     /// Another call uses this handle. Nothing has been done.
     Busy = 11,

@@ -186,7 +186,8 @@ pub(crate) unsafe fn value_mut<'call, T>(name: &str, value: *mut T) -> Result<&'
 pub(crate) unsafe fn report<T>(name: &str, to: *mut T, result: T) -> Result<(), Failure> {
     if !to.is_null() {
         range(name, to, 1)?;
-        // SAFETY: aligned, and the caller vouches for the room; what was there is no value to be dropped.
+        // SAFETY: aligned, and the caller vouches for the memory; the old bytes are not a value to be
+        // dropped.
         unsafe { to.write(result) };
     }
     Ok(())
@@ -213,7 +214,7 @@ pub(crate) fn corners<'a>(slice: &'static str, nodes: &'a [usize]) -> Result<&'a
     Ok(nodes.as_chunks().0)
 }
 
-/// Checks that an array has so many components of each point.
+/// Checks that an array has this number of components for each point.
 pub(crate) fn demand_length(
     slice: &'static str,
     found: usize,

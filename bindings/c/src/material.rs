@@ -39,9 +39,9 @@ plain!(Parameter);
 
 /// Makes a material of an energy and values for all of its parameters, in any order.
 ///
-/// `points` is 0 for one material that serves any number of points. Otherwise it serves just so many, and
-/// parameters with a stride have values for each of them: those of point p begin at `values[p * stride]`. In
-/// a body, points are the tetrahedra of a part, in their order.
+/// `points` is 0 for one material that serves any number of points. Otherwise it has exactly `points` points,
+/// and parameters with a stride have values for each of them: those of point p begin at `values[p * stride]`.
+/// In a body, points are the tetrahedra of a part, in their order.
 ///
 /// `extension` says what happens outside the domain of the energy, such as to inverted elements. Between 0
 /// and 1 it is the stretch below which the energy is continued, which then restores them. 0: such points are

@@ -81,7 +81,8 @@ pub enum StatusFlag {
     Filtered = 8,
 }
 
-/// Counts of the statuses of many points. A point that cannot be computed is no error of a call: look here.
+/// Counts of the statuses of many points. A point that cannot be computed is not an error of a call: look
+/// here.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Survey {

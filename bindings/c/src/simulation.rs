@@ -337,8 +337,8 @@ pub unsafe extern "C" fn piola_simulation_step(
     unsafe { advance(simulation, report, |simulation| simulation.step(dt)) }
 }
 
-/// Moves the body towards a minimum of its energy with gravity, forces, springs and terms, as far as the
-/// settings allow. Then it is at rest. Otherwise as `piola_simulation_step`.
+/// Moves the body towards a minimum of its energy with gravity, forces, springs and terms, within the limits
+/// of the settings. Then it is at rest. Otherwise as `piola_simulation_step`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_simulation_equilibrate(
     simulation: *const Simulation,

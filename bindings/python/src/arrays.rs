@@ -1,8 +1,9 @@
 //! Arrays that are taken, and those that results go to.
 //!
-//! Whatever `numpy.asarray` makes an array of numbers of is taken; float32 stays what it is, all else becomes
-//! float64. Points are along the leading axes of an array, F of shape (..., 3, 3), which is what `Batch`
-//! takes: nothing is copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to these.
+//! Accepts anything that `numpy.asarray` turns into an array of numbers; float32 stays as it is, all else
+//! becomes float64. Points are along the leading axes of an array, F of shape (..., 3, 3), which is what
+//! `Batch` takes: nothing is copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to
+//! these.
 
 use numpy::{
     Element, IntoPyArray, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,

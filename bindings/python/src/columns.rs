@@ -54,7 +54,7 @@ impl<E: Number> Columns<'_, E> {
         surveys.into_iter().sum()
     }
 
-    /// Cuts the columns of all results into parts of so many points.
+    /// Cuts the columns of all results into parts of a given number of points.
     fn parts<'b>(&self, results: Vec<&'b mut [E]>, length: usize) -> Vec<Part<'b, E>> {
         let ranges = (0..self.count).step_by(length).map(|start| start..self.count.min(start + length));
         let empty = |points| Part { points, results: results.iter().map(|_| Vec::new()).collect() };

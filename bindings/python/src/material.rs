@@ -19,7 +19,7 @@ use crate::description::{Description, shown};
 use crate::errors::{MaterialError, of_material, of_parameters, of_point, of_text, type_error, value_error};
 use crate::shape;
 
-/// An energy with its parameters, whatever it is called by.
+/// An energy with its parameters, by whatever name.
 ///
 ///     Material(name, /, *, extend=None, **parameters)
 ///
@@ -271,7 +271,7 @@ impl Material {
 
     /// The material of a name with Young's modulus, Pa, and Poisson's ratio at small strain.
     ///
-    /// Its typical parameters are scaled to them, as far as they can be: `moduli` tells what came of it.
+    /// Its typical parameters are scaled to them where possible: `moduli` returns the result.
     #[staticmethod]
     #[pyo3(signature = (name, /, *, young, poisson, extend = None))]
     fn matching(name: &str, young: f64, poisson: f64, extend: Option<f64>) -> PyResult<Self> {
@@ -419,10 +419,10 @@ fn spec_extension(spec: &MaterialSpec) -> PyResult<Option<f64>> {
 /// text: a formula in the notation of papers, such as "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2", in the
 ///     stretches l1, l2, l3 or the invariants I1, I2, J, I1b, I2b, with conditions behind `where`; or the
 ///     function in Rust that piola's attribute `material` takes, which has documentation, domain and more.
-/// name: what the material is called, in messages too; None for the formula, or the name of the function.
-/// free_rest: whether a formula gets a term in ln J that frees the rest state of stress.
-/// extend, parameters: as of Material. Names of a formula that are given here are parameters, whatever else
-///     they are called by: b, C and E for example.
+/// name: name of the material, in messages too; None for the formula, or the name of the function.
+/// free_rest: True to add a term in ln J that makes the rest state of a formula free of stress.
+/// extend, parameters: as for Material. Names of a formula that are given here are parameters, regardless of
+///     any other meaning: b, C and E for example.
 ///
 /// Raises DeclarationError with all mistakes of the text, each at its place, and MaterialError as Material.
 #[pyfunction]

@@ -25,7 +25,7 @@ fn pool() -> PyResult<Arc<ThreadPool>> {
     }
 }
 
-/// Puts a pool of `count` threads in the place of the one before; 0 for one on each core.
+/// Replaces the pool of threads by one of `count` threads; 0 for one on each core.
 fn replace(current: &mut Option<(u32, Arc<ThreadPool>)>, count: usize) -> PyResult<Arc<ThreadPool>> {
     let pool = ThreadPoolBuilder::new().num_threads(count).thread_name(|k| format!("piola-{k}")).build();
     let pool = Arc::new(pool.map_err(|error| value_error(format!("cannot start threads: {error}")))?);
@@ -47,7 +47,7 @@ pub(crate) fn num_threads() -> PyResult<usize> {
 
 /// Sets the number of threads: 0 for the variable `RAYON_NUM_THREADS`, or one on each core without it.
 ///
-/// The results do not depend on it. Raises ValueError if so many cannot be started.
+/// The results do not depend on it. Raises ValueError if that number cannot be started.
 #[pyfunction]
 #[pyo3(signature = (count, /))]
 pub(crate) fn set_num_threads(count: usize) -> PyResult<()> {

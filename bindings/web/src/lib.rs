@@ -50,12 +50,12 @@ struct Browser;
 
 impl Host for Browser {
     fn now(&self) -> Duration {
-        // A clock that is no number, or runs backwards, stands still.
+        // A clock that is not a number, or runs backwards, stands still.
         Duration::try_from_secs_f64(1e-3 * now()).unwrap_or_default()
     }
 }
 
-/// Makes room for so many bytes, and says where.
+/// Allocates memory for `length` bytes, and returns its address.
 #[unsafe(no_mangle)]
 pub extern "C" fn room(length: usize) -> *mut u8 {
     BORDER.with_borrow_mut(|border| {

@@ -1,4 +1,4 @@
-//! `piola curve`: test curves of a material, beside measured ones.
+//! `piola curve`: test curves of a material, compared with measured ones.
 
 use std::path::PathBuf;
 
@@ -45,7 +45,7 @@ pub(crate) struct Curve {
     #[arg(conflicts_with_all = ["from", "to", "rows"])]
     at: Vec<f64>,
 
-    /// Keep the volume, whatever the bulk modulus.
+    /// Keep the volume constant, regardless of the bulk modulus.
     #[arg(long)]
     incompressible: bool,
 
@@ -135,7 +135,7 @@ impl Curve {
 }
 
 impl Curve {
-    /// Ranks all rubbers beside the data.
+    /// Ranks all rubbers by their agreement with the data.
     fn rank(self) -> Result<String, Error> {
         for (is_given, option) in [
             (!self.material.parameters.is_empty(), "--param"),
@@ -180,8 +180,8 @@ fn check_range(mode: Mode, from: f64, to: f64, rows: usize) -> Result<(), SceneE
 /// Decimals of the controls in a table, unless they are given one by one.
 const DECIMALS: usize = 4;
 
-/// A test as a table, with the points measured at the same controls if there are any. Controls have so many
-/// decimals, or all.
+/// A test as a table, with the points measured at the same controls if there are any. Controls have a given
+/// number of decimals, or all.
 fn table(
     specimen: &dyn Specimen,
     volume: Volume,

@@ -31,7 +31,8 @@ pub(crate) struct Fit {
     #[arg(long = "hold", value_name = "NAME")]
     held: Vec<String>,
 
-    /// Keep the volume, whatever the bulk modulus: the default unless the data have a volumetric test.
+    /// Keep the volume constant, regardless of the bulk modulus: the default unless the data have a
+    /// volumetric test.
     #[arg(long)]
     incompressible: bool,
 
@@ -39,7 +40,7 @@ pub(crate) struct Fit {
     #[arg(long, conflicts_with = "incompressible")]
     compressible: bool,
 
-    /// Descents from random parameters beside the one from those given.
+    /// Number of descents from random parameters, in addition to the one from those given.
     #[arg(long, value_name = "N", default_value_t = 20)]
     starts: usize,
 
@@ -115,7 +116,7 @@ impl Fit {
                     let ([difference, found], options) =
                         ([difference, found].map(|share| 100.0 * share), options(values));
                     text += &format!(
-                        "warning: another minimum has differences of {difference:.3} %, beside {found:.3} % of this one: {options}\n"
+                        "warning: another minimum has differences of {difference:.3} %, compared with {found:.3} % of this one: {options}\n"
                     );
                 }
                 // The table has it.

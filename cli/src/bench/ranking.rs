@@ -1,4 +1,4 @@
-//! `piola curve all`: every rubber of the catalogue beside measured curves.
+//! `piola curve all`: every rubber of the catalogue compared with measured curves.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use piola_scenes::output::write_whole;
 use super::data::{Data, Measured};
 use crate::error::Error;
 
-/// The word in the place of a material.
+/// The word given instead of a material.
 pub(super) const ALL: &str = "all";
 
 pub(super) const HELP: &str = "\

@@ -67,7 +67,7 @@ impl Server {
     }
 }
 
-/// One of so many connections, until dropped.
+/// One of a limited number of connections, until dropped.
 struct ConnectionSlot(Arc<AtomicUsize>);
 
 impl ConnectionSlot {
@@ -155,7 +155,7 @@ mod tests {
             stream.write_all(word.as_bytes()).expect("somebody reads");
             assert!(time_to_the_end(&mut stream) < SOON, "{word}");
         }
-        // A byte now and then is no request either.
+        // A byte now and then is not a request either.
         let mut stream = TcpStream::connect(address).expect("somebody listens");
         let start = Instant::now();
         while stream.write_all(b"G").is_ok() {

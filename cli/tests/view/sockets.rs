@@ -147,7 +147,7 @@ fn strangers_are_not_let_in() {
     let (host, origin) = (own.to_string(), format!("http://{own}"));
     assert!(socket(&host, "http://evil.example", token).starts_with("HTTP/1.1 403"));
     assert!(socket("evil.example", "http://evil.example", token).starts_with("HTTP/1.1 403"));
-    // Another user of this machine can say whatever a browser says, but for the token.
+    // Another user of this machine can send anything that a browser sends, except the token.
     assert!(socket(&host, &origin, "").starts_with("HTTP/1.1 403"));
     assert!(socket(&host, &origin, &wrong).starts_with("HTTP/1.1 403"));
     let get = |path: &str| ask(format!("GET {path} HTTP/1.1\r\nHost: {own}\r\n\r\n"));

@@ -45,7 +45,7 @@ pub(super) trait Language {
     fn variable(&self, kind: Kind, name: &str, is_zeroed: bool) -> String;
 
     fn parameter(&self, name: &str, entry: Option<usize>) -> String;
-    /// An entry of an output of so many numbers.
+    /// An entry of an output of `count` numbers.
     fn output(&self, name: &str, count: usize, entry: usize) -> String;
 
     fn absolute(&self, a: &str) -> String;

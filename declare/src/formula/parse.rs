@@ -132,7 +132,7 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
 
 struct Parser {
     tokens: Tokens,
-    /// Names that are parameters, whatever they mean otherwise.
+    /// Names that are parameters, regardless of any other meaning.
     given: HashSet<String>,
     /// Names that may be parameters, in the order of their first use: in the declaration, whether they are
     /// lists, and as they are written.
@@ -496,7 +496,7 @@ impl Tokens {
         Self { all, next: 0, end }
     }
 
-    /// The token so many behind the next one.
+    /// The token `by` positions after the next one.
     fn ahead(&self, by: usize) -> Option<&TokenTree> {
         self.all.get(self.next + by)
     }

@@ -96,7 +96,7 @@ fn quadratic_tetrahedra_come_to_rest_where_those_of_fenris_do() -> eyre::Result<
     compare(&mesh, &quadrature::total_order::tetrahedron(2)?)
 }
 
-/// The same energies, stresses and contractions as of fenris' materials, but for rounding.
+/// The same energies, stresses and contractions as of fenris' materials, up to rounding.
 fn check_values<M: HyperelasticMaterial<f64, U3, Parameters = LameParameters<f64>>, N>(fenris: &M, piola: N)
 where
     N: piola::Material + Copy + 'static,

@@ -108,7 +108,7 @@ impl Device {
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
     }
 
-    /// Runs programs one after the other, each in so many workgroups, and says how long that took.
+    /// Runs programs one after the other, each with its number of workgroups, and returns the time.
     ///
     /// # Errors
     /// The device is lost.

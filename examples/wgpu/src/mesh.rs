@@ -11,8 +11,8 @@ pub struct Mesh {
     pub rest: Vec<[f32; 10]>,
 }
 
-/// A bar of so many cubes along its axes, five tetrahedra each, stretched, twisted about its first axis, and
-/// waved so that each element has another deformation gradient. All J are positive.
+/// A bar with `cells` cubes along its axes, five tetrahedra each, stretched, twisted about its first axis,
+/// and waved so that each element has another deformation gradient. All J are positive.
 #[must_use]
 pub fn bar(cells: [usize; 3]) -> Mesh {
     let [nx, ny, nz] = cells.map(|count| count + 1);

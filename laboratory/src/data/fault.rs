@@ -56,9 +56,9 @@ pub enum Fault {
         /// The headers of the columns.
         found: [String; 2],
     },
-    /// A stress without a word of its kind stands beside a true strain.
+    /// Stress of an unnamed kind next to a true strain.
     #[error(
-        "`{}` stands beside a true strain: is it a true stress, or a nominal one, force by area at rest? Write `true stress` \
+        "`{}` stands next to a true strain: is it a true stress, or a nominal one, force by area at rest? Write `true stress` \
          or `nominal stress`",
         quoted(found)
     )]
@@ -94,7 +94,7 @@ pub enum Fault {
     StrainUnit {
         /// The header of the column.
         header: String,
-        /// The text in the place of a unit.
+        /// The text that stands for a unit.
         found: String,
     },
     /// Nothing names the test.

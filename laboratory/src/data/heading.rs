@@ -7,7 +7,7 @@ use super::unit::{StressUnit, plain};
 pub(super) enum Quantity {
     /// The name of a test.
     Mode,
-    /// λ; in canonical files the control of whatever test, γ and J included.
+    /// λ; in canonical files the control of any test, γ and J included.
     Stretch,
     /// The nominal strain λ − 1; γ of a simple shear and J − 1 of a volumetric test.
     Strain,
@@ -78,7 +78,7 @@ pub(super) enum Unit {
     Other,
 }
 
-/// Units of strain, force, length and whatever else stands in such files, as [`plain`] leaves them.
+/// Units of strain, force, length and other quantities in such files, as [`plain`] leaves them.
 const UNITS: [(Unit, &[&str]); 6] = [
     (
         Unit::Share(1.0),
@@ -128,7 +128,7 @@ pub(super) struct Heading {
     pub(super) text: String,
     pub(super) quantity: Quantity,
     pub(super) unit: Option<Unit>,
-    /// Text in the place of a unit that is not a known one.
+    /// Text instead of a known unit.
     pub(super) unknown: Option<String>,
     /// True if a word names one of two kinds of stress or strain.
     pub(super) is_specific: bool,

@@ -64,8 +64,8 @@ impl Separator {
         }
     }
 
-    /// The fields of a header above so many columns: where spaces separate, names with single spaces in them
-    /// stand two spaces or more apart.
+    /// The fields of a header above `columns` columns: where spaces separate, names with single spaces in
+    /// them stand two spaces or more apart.
     pub(super) fn header(self, line: &str, columns: usize) -> Vec<&str> {
         let fields = self.fields(line);
         if self != Self::Spaces || fields.len() == columns {

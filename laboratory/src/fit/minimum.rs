@@ -73,7 +73,7 @@ pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>>
 /// `None` if all or none are noticeable.
 ///
 /// The effect of the rest is less than the rounding of the others' effect, and steps that change it too are
-/// no better than random.
+/// random.
 fn approach<'a>(problem: &Problem<'a>, start: usize) -> Option<Minimum<'a>> {
     let slopes = problem.jacobian()?;
     let lengths: Vec<f64> = slopes.column_iter().map(|column| column.norm()).collect();

@@ -1,5 +1,5 @@
-//! Minima beside the best one: other solids that agree with the data about as well, and other parameters of
-//! the same solid.
+//! Minima other than the best one: other solids that agree with the data about as well, and other parameters
+//! of the same solid.
 //!
 //! Parameters tell solids badly apart. Terms of a sum exchange their places; the exponent of a term whose
 //! coefficient has vanished may be any; of two terms with the same exponent only the sum matters; and a
@@ -45,7 +45,7 @@ pub(super) struct Equivalent<'a, 'b> {
 
 impl<'a, 'b> Others<'a, 'b> {
     pub(super) fn of(best: &'a Minimum<'b>, minima: &'a [Minimum<'b>], numbers: &Numbers) -> Self {
-        // What is exact but for rounding is as good as what is exact.
+        // Values that are exact up to rounding are as good as exact ones.
         let limit = best.squares * ABOUT_AS_GOOD * ABOUT_AS_GOOD + best.problem.count() as f64 * 1e-24;
         let good = minima.iter().filter(|minimum| minimum.is_least && minimum.squares <= limit);
         let mut good: Vec<_> = good.collect();

@@ -14,12 +14,12 @@ pub struct Fit {
     pub values: Vec<Vec<f64>>,
     /// The parameters one by one, lists entry by entry.
     pub numbers: Vec<Number>,
-    /// R² of each mode and of all, whatever was made small.
+    /// R² of each mode and of all, regardless of what was minimised.
     pub agreement: Agreement,
     /// The root of the mean square of the differences that were made small: 0.05 is five percent.
     pub difference: f64,
     /// The condition number of ∂r/∂p for the parameters that were free at the minimum, columns scaled to one:
-    /// the fit determines the parameters so many times worse than the data determine the fit.
+    /// the fit determines the parameters worse by this factor than the data determine the fit.
     pub condition: f64,
     /// Index of the start that led to the best minimum: 0 is the one given, others are random.
     pub start: usize,
@@ -116,7 +116,7 @@ pub enum Warning {
     /// Equivalent parameters: one parameter grows without bound, a term has vanished, two terms have become
     /// one, or parameters compensate each other.
     EquivalentParameters {
-        /// Name, value, and value of the other, of the parameters that are not the same but for the order of
+        /// Name, value, and value of the other, of the parameters that differ by more than the order of
         /// terms; lists with all their entries.
         numbers: Vec<(String, f64, f64)>,
         /// True if the only difference is one parameter that runs off to infinity.
@@ -141,7 +141,7 @@ pub enum Warning {
         /// R² of all points, below 0.
         determination: f64,
     },
-    /// The best that was found is no minimum yet, and no edge keeps the search from going on.
+    /// The best result is not yet a minimum, and no edge stops the search.
     Unfinished,
 }
 
@@ -176,7 +176,7 @@ impl fmt::Display for Warning {
                     numbers.iter().map(|(name, value)| format!("{name} = {value:.4e}")).collect();
                 write!(
                     f,
-                    "another minimum has differences of {:.3} %, beside {:.3} % of this one: {}",
+                    "another minimum has differences of {:.3} %, compared with {:.3} % of this one: {}",
                     100.0 * difference,
                     100.0 * found,
                     numbers.join(", ")
@@ -231,7 +231,7 @@ impl fmt::Display for Warning {
                  curves",
                 short(*determination)
             ),
-            Self::Unfinished => f.write_str("this is no minimum yet: start from these parameters"),
+            Self::Unfinished => f.write_str("this is not a minimum yet: start from these parameters"),
         }
     }
 }

@@ -79,7 +79,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Judges a material at positive stretches, in whatever order they come.
+    /// Judges a material at positive stretches, in any order.
     ///
     /// `None` where the material does not admit them, or its derivatives are infinite or NaN.
     #[must_use]

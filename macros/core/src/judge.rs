@@ -62,7 +62,7 @@ pub(crate) fn is_out_of_domain(graph: &Graph, source: &Source<'_>, samples: &[Po
         || continued_value(&graph, source, continued, samples).is_some()
 }
 
-/// Derivatives of an energy, as far as they are judged.
+/// Derivatives of an energy that are judged.
 pub(crate) struct Derived {
     /// ψ1 inside the domain.
     pub(crate) gradient: Id,
@@ -76,7 +76,7 @@ pub(crate) struct Derived {
     pub(crate) is_exact: bool,
 }
 
-/// Checks an energy by its derivatives. What follows from a mistake is not reported beside it.
+/// Checks an energy by its derivatives. Consequences of a mistake are not reported in addition to it.
 pub(crate) fn derived(
     graph: &mut Graph,
     source: &Source<'_>,
@@ -202,7 +202,7 @@ fn continued_value(graph: &Graph, source: &Source<'_>, continued: Id, samples: &
     Some(Finding::new(word, Violation::NoContinuation { stretches }))
 }
 
-/// Elements so flat that whatever grows without bound where the volume vanishes exceeds every limit.
+/// Elements so flat that any value that is unbounded at vanishing volume exceeds every limit.
 const FLAT: [[f64; 3]; 2] = [[1.0, 1.0, 1e-30], [0.7, 1.0, 1e-30]];
 
 /// Checks that no condition of the domain excludes flat elements, where an extension begins if there is one.

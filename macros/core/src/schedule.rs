@@ -286,7 +286,7 @@ impl Scheduler<'_> {
         }
     }
 
-    /// Terms with one coefficient but for signs, or their negative: c s − c t is c (s − t).
+    /// Terms with one coefficient except for signs, or their negative: c s − c t is c (s − t).
     fn multiple(&mut self, terms: &[(Id, Rational)], is_negated: bool) -> Value {
         let sum = match terms {
             &[(term, _)] => self.value(term),

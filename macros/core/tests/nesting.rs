@@ -9,7 +9,7 @@ use proc_macro2::TokenStream;
 /// Rubber, free of stress at rest.
 const ENERGY: &str = "mu * (I1 - 3.0 - 2.0 * J.ln())";
 
-/// What can be nested, so many deep.
+/// Forms that can be nested, as functions of the depth.
 const FORMS: [fn(usize) -> String; 12] = [
     |n| format!("{}{ENERGY}{}", "(".repeat(n), ")".repeat(n)),
     |n| format!("{}{ENERGY}{}", "{".repeat(n), "}".repeat(n)),

@@ -55,7 +55,7 @@ fn reference() -> String {
     "fn f(x: f64, y: f64) -> f64 { let z = x * (y + 1.0) - y / 3.0; z.powi(2) + f(y, z) }\n".repeat(200)
 }
 
-/// Time of a processor that this thread has used, where Linux tells it: whatever else runs does not count.
+/// Time of a processor that this thread has used, if Linux reports it: other processes do not count.
 fn processor_time() -> Option<Duration> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)

@@ -86,7 +86,7 @@ pub struct Arguments<'a, E> {
 /// Declares the responses of a tile: for each a method of [`TileMaterial`] and the kernel behind it.
 ///
 /// A kernel writes the rows of a response for the points of a tile, and returns as bits the points outside
-/// the domain of the response and those where it is not finite, as far as that is asked of it.
+/// the domain of the response and, if requested, those where it is not finite.
 macro_rules! tile_responses {
     ($(
         $(#[$doc:meta])*
@@ -200,7 +200,7 @@ tile_responses! {
     tile_gradients_by_invariants: gradient_by_invariants (GradientByInvariants) within admits_invariants,
     3 rows by |gradient| gradient; finite where |at, _| anywhere(at);
 
-    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, but for what the material's
+    /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, except for those that the material's
     /// [`CURVATURE_BY_INVARIANTS`](Material::CURVATURE_BY_INVARIANTS) leaves out.
     tile_derivatives_by_invariants: derivatives_by_invariants (DerivativesByInvariants) within admits_invariants,
     9 rows by |derivatives| derivatives, without row k if
@@ -230,7 +230,7 @@ fn together<E: Scalar, P: Points>(
     )
 }
 
-/// Says of all points that their results are finite, as far as that is to be known.
+/// Placeholder for a check of finiteness: accepts every point.
 #[inline(always)]
 fn anywhere<R: Real>(_: [R; 3]) -> R::Mask {
     R::Mask::splat(true)

@@ -65,9 +65,8 @@ impl<E: Kernels> Batch<'_, E> {
 
     /// Stresses in another measure, six components of each F, and their tangents, 36, row by row, Pa.
     ///
-    /// Tangents are not filtered, whatever the filter of the batch, because a filter would leave no
-    /// derivative behind; see [`measures`](crate::point::measures). Otherwise as
-    /// [`Batch::measured_stresses`].
+    /// Tangents are not filtered, regardless of the filter of the batch, because a filtered tangent would not
+    /// be a derivative; see [`measures`](crate::point::measures). Otherwise as [`Batch::measured_stresses`].
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.

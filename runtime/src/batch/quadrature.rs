@@ -15,7 +15,8 @@ use super::LengthError;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::point::matrix::three;
 
-/// Elements of so many nodes and quadrature points each: sums over the points, and room to make them in.
+/// Elements with a given number of nodes and quadrature points each: sums over the points, with the scratch
+/// memory to compute them.
 ///
 /// Hexahedra, quadratic tetrahedra and all else whose shape functions a caller knows. Every slice has one
 /// element after the other:
@@ -42,7 +43,8 @@ pub struct Quadrature<E> {
 }
 
 impl<E: Scalar> Quadrature<E> {
-    /// Elements of so many nodes and points each, with the best instructions of this processor.
+    /// Elements with `nodes` nodes and `points` quadrature points each, computed with the best instructions
+    /// of this processor.
     #[must_use]
     pub fn new(nodes: usize, points: usize) -> Self {
         Self { nodes, points, backend: Backend::best(), room: Vec::new() }

@@ -35,8 +35,8 @@ impl<'a> Tetrahedra<'a> {
         self.nodes
     }
 
-    /// Stores Ds of the tetrahedra from `start` on, one in each of so many lanes; past the last one edges of
-    /// length 1 along the axes.
+    /// Stores Ds of the tetrahedra from `start` on, one in each lane; past the last one edges of length 1
+    /// along the axes.
     pub(super) fn set_edges<E: Scalar>(
         &self,
         start: usize,

@@ -51,7 +51,7 @@ impl Judge {
     ) -> Result<(), Violation> {
         let difference = (found - expected).abs();
         self.comparisons += 1;
-        // A NaN on either side is no agreement.
+        // A NaN on either side is not agreement.
         if difference <= tolerance {
             if difference > 0.0 {
                 self.worst = self.worst.max(difference / tolerance);

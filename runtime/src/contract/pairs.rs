@@ -55,8 +55,9 @@ fn by_definition(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3])
 /// Flips of stretches that are close to each other.
 fn close(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3], gap: f64) -> Result<(), Violation> {
     let [l1, l2, l3] = stretches;
-    // The pair is moved together around its mean, the other stretch stays; descending order is kept.
-    // In the last three cases all are close, the other one in the middle or as far as the end of the pair.
+    // The pair is moved together around its mean, the other stretch stays; descending order is kept. In the
+    // last three cases all are close, with the other one in the middle or at the distance of the end of the
+    // pair.
     let reach = 0.5 * gap * l2;
     let cases = [
         (0, 0.5 * (l1 + l2), l3),
@@ -116,7 +117,7 @@ fn opposite(
         let remedy = if gradient.iter().all(|slope| slope.is_finite()) {
             "bound its denominator from below by `quotient::pole_floor`"
         } else {
-            "the derivatives of the energy are no finite numbers here, either: see the rule `domain`"
+            "the derivatives of the energy are not finite here, either: see the rule `domain`"
         };
         return judge.finite(name, stored, twist[2], remedy);
     }
@@ -128,7 +129,7 @@ fn opposite(
     });
     let blocks = material.blocks(stored);
     let tolerance = tolerance(&blocks) + inexact;
-    let name = || format!("{}, which are opposite but for {gap:e} of stretch 2", pair_name("twist", 2));
+    let name = || format!("{}, which are opposite except for {gap:e} of stretch 2", pair_name("twist", 2));
     judge.compare(name, stored, blocks.twist[2], expected, tolerance)
 }
 

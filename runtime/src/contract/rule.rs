@@ -13,7 +13,7 @@ pub enum Rule {
     /// [`ends_at_zero_volume`](crate::Material::ends_at_zero_volume):
     ///
     /// * energy, gradient and blocks are finite at the samples, and so are energy and gradient where λ3 is
-    ///   only 2⁻¹⁰, 2⁻²⁰ and 2⁻³⁰ of λ1, of either sign, as far as such stretches are admitted;
+    ///   only 2⁻¹⁰, 2⁻²⁰ and 2⁻³⁰ of λ1, of either sign, if such stretches are admitted;
     /// * but at these small λ3 ψ may be +∞: an exponential in `I1b`, say, overflows as J falls, where the
     ///   range of numbers ends and not the domain. Such a point is `nonfinite`, and a solver takes a shorter
     ///   step. Where ψ > 2⁵¹² Pa, the root of the largest number, derivatives overflow before ψ does and are
@@ -80,17 +80,17 @@ pub enum Rule {
     /// samples, and where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64`
     /// is so in `f32`.
     ///
-    /// Likewise far from rest, as far as the range of `f32` goes: where one or two stretches of a sample are
-    /// 10⁻² … 10⁻⁴ of what they were, and all are 10⁻² … 10² times. A formula that cancels there loses digits
-    /// in `f32` first, and in `f64` on elements that are flatter still.
+    /// Likewise far from rest, within the range of `f32`: where one or two stretches of a sample are 10⁻² …
+    /// 10⁻⁴ of what they were, and all are 10⁻² … 10² times. A formula that cancels there loses digits in
+    /// `f32` first, and in `f64` on elements that are flatter still.
     SinglePrecision,
     /// Agreement of every result on lanes with that of its point alone:
     ///
     /// * on the portable back end, with the bits of a scalar;
-    /// * on any, with the same bits whatever its lane and its neighbours;
-    /// * on the fastest one of this processor, as a scalar but for rounding: it has other instructions.
+    /// * on any, with the same bits regardless of its lane and its neighbours;
+    /// * on the fastest one of this processor, as a scalar up to rounding: it has other instructions.
     ///
-    /// Neighbours differ as much as they can: beside one of the samples are the same stretches with two of
+    /// Neighbours differ as much as they can: next to one of the samples are the same stretches with two of
     /// them 10⁻⁹ apart and equal, so that what is done for some lanes alone shows. Truth values are compared
     /// as 0 and 1.
     Lanes,

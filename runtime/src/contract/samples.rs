@@ -20,7 +20,7 @@ pub(super) fn at_samples(
     judge.finding()
 }
 
-/// Random descending stretches within the range, plus inverted ones, as far as the material admits them.
+/// Random descending stretches within the range, plus inverted ones, if the material admits them.
 ///
 /// Around the threshold of an extension the third derivatives jump; samples keep a distance of 1/32 from it.
 pub(super) fn samples(material: &dyn Subject, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {

@@ -8,7 +8,7 @@ use crate::lanes::{Backend, Mask};
 use crate::material::{Inversion, Material, Moduli, Response};
 use crate::point::{self, Filter, Matrix3, Tangent};
 
-/// A material: its responses in `f64`, and whatever else a rule compares with them.
+/// Material under test: its responses in `f64`, and anything that a rule compares with them.
 pub(super) trait Subject: Response<f64> {
     /// [`Material::inversion`].
     fn inversion(&self) -> Inversion;

@@ -77,7 +77,7 @@ impl<M: Material> Material for Defective<M> {
                 R::select(l[2].less(R::splat(-0.1)), R::splat(f64::INFINITY), right)
             }
             Defect::EnergyLosesDigits => {
-                // Zero but for its rounding, which depends on the last digit of the stretch.
+                // Zero up to rounding, which depends on the last digit of the stretch.
                 let root = l[0].sqrt();
                 right + R::splat(1e6) * (root * root - l[0])
             }
@@ -371,7 +371,7 @@ fn stress_at_rest_that_is_meant_is_no_defect() {
     check_names_alone(&prestressed(), Rule::Rest, "derivative of the energy by stretch 1");
     let meant = Settings { stress_free_at_rest: false, ..Settings::default() };
     check(&prestressed(), &meant).unwrap_or_else(|violations| panic!("{violations}"));
-    // What else is wrong is found all the same, at rest as elsewhere.
+    // Other defects are still found, at rest as elsewhere.
     let broken =
         |defect| check(&Defective(prestressed(), defect), &meant).expect_err("a defect went unnoticed");
     for (defect, rule) in [
@@ -435,7 +435,7 @@ mod one_line {
         assert_eq!(neo_hookean::TESTS.map(|(rule, _)| rule), Rule::ALL);
     }
 
-    // Inside a function, what the macro writes is no test of this crate, and may fail.
+    // Inside a function, what the macro writes is not a test of this crate, and may fail.
     #[test]
     fn tests_fail_where_their_rule_is_broken_and_nowhere_else() {
         crate::contract!(overstated: Defective(NeoHookean, Defect::OverstatedShear), points: 8);

@@ -224,8 +224,8 @@ impl Interpreted {
         mask
     }
 
-    /// A response of a tile whose points have this material but for real numbers among its parameters;
-    /// results that nothing reads, as bits, are left out. Gives the points inside the domain as bits.
+    /// A response of a tile whose points have this material except for real numbers among its parameters;
+    /// results that nothing reads, as bits, are left out. Returns the points inside the domain as bits.
     fn respond<E: Scalar>(
         &self,
         response: ResponseKind,

@@ -18,7 +18,7 @@ type InTurns<R> = <R as Lanes>::Interleaved;
 #[cfg(unoptimised)]
 type InTurns<R> = R;
 
-/// Decomposes the points of a tile on these lanes, but for exact axes.
+/// Decomposes the points of a tile on these lanes, except for exact axes.
 macro_rules! decompose {
     ($R:ty, $F:ident, $count:ident, $served:ident, $is_signed:ident, $points:ident) => {
         if $is_signed {

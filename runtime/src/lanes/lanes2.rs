@@ -5,7 +5,7 @@
 //! each waits for its own last result.
 //!
 //! A structure and not an array, because a kernel has thousands of operations, and each would be a loop:
-//! compilers take minutes to unroll so many.
+//! compilers take minutes to unroll them.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 

@@ -152,7 +152,7 @@ pub trait Real:
 
     /// Powers of two (s, 1/s) that bring |self| into [1, 2): multiply by s, undo exactly by 1/s.
     ///
-    /// (1, 1) for zero, ∞ and NaN; subnormal numbers are brought as far as s stays finite.
+    /// (1, 1) for zero, ∞ and NaN; subnormal numbers are scaled up by the largest s that is finite.
     fn power_of_two_scale(self) -> (Self, Self);
 }
 

@@ -138,7 +138,7 @@ macro_rules! register {
                         // what `$transpose` needs.
                         unsafe {
                             let square = $transpose(from.add(i * FROM + j), FROM);
-                            // Rows that are no whole lines of the cache straddle them, and a store to two
+                            // Rows that are not whole lines of the cache straddle them, and a store to two
                             // lines waits for both: those of the next rows are asked for. With smaller
                             // registers, and of short or aligned rows, that costs more than it gains.
                             let next = (j + $lanes) * TO + i;

@@ -216,7 +216,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The next parameter, a list of so many numbers.
+    /// The next parameter, a list of `length` numbers.
     ///
     /// # Errors
     /// [`MaterialError::Shape`].

@@ -87,7 +87,7 @@ impl Parameter {
 
 /// Units that the documentation of a parameter can end with.
 ///
-/// `#[piola::material]` checks that ψ is in Pa, as far as its parameters have units. Without one nothing is
+/// `#[piola::material]` checks that ψ is in Pa, where its parameters have units. Without one nothing is
 /// checked, and nothing can be derived from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

@@ -98,7 +98,7 @@ impl fmt::Display for MaterialError {
             }
             Self::UnstableRest { moduli } if !(moduli.mu + moduli.bulk()).is_finite() => write!(
                 f,
-                "the small-strain moduli are no finite numbers, shear modulus {} Pa and bulk modulus {} Pa: \
+                "the small-strain moduli are not finite, shear modulus {} Pa and bulk modulus {} Pa: \
                  these parameters divide by zero or overflow somewhere in the energy",
                 number(moduli.mu),
                 number(moduli.bulk())

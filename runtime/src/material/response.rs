@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::{Blocks, Curvature, Inversion, Material, Moduli};
 use crate::lanes::{Backend, Real, Scalar};
 
-/// Hands every response of a [`Material`] to a macro: whatever forwards them all then forwards a new one too.
+/// Passes every response of a [`Material`] to a macro, so that code that forwards them all forwards a new one
+/// too.
 ///
 /// Linear responses add up where energies do; the others are masks of a domain.
 macro_rules! with_responses {

@@ -197,8 +197,8 @@ mod tests {
         check(&[(5, 0)], "");
     }
 
-    /// Every type that has a name has an order with one, and Gmsh's numbers of shapes and orders: so many
-    /// types are lines, and so on.
+    /// Every type that has a name has an order with one, and Gmsh's numbers of shapes and orders: the counts
+    /// are of lines, and so on.
     #[test]
     fn types_are_those_of_gmsh() {
         let known: Vec<(Shape, usize)> = (0..1000).filter_map(shape_and_order).collect();

@@ -27,8 +27,8 @@ pub struct TetMesh {
     pub tags: Vec<usize>,
     /// Named parts.
     pub groups: Vec<Group>,
-    /// Number of nodes that a reader has dropped because no tetrahedron names them; 0 for a mesh of one's
-    /// own.
+    /// Number of nodes that a reader has dropped because no tetrahedron names them; 0 for a mesh that no
+    /// reader has made.
     pub dropped_nodes: usize,
     /// Volume elements of the file that are not in the mesh because they are not linear tetrahedra; empty
     /// unless [`ReadError::only_tetrahedra`](super::ReadError::only_tetrahedra) has left some out.
@@ -125,7 +125,7 @@ impl TetMesh {
         }
     }
 
-    /// The first two tetrahedra that join the same four nodes, in whatever order.
+    /// First two tetrahedra that join the same four nodes, in any order.
     fn repeated(&self) -> Option<[usize; 2]> {
         let sorted = |(tet, nodes): (usize, &[usize; 4])| {
             let mut nodes = *nodes;
@@ -138,8 +138,8 @@ impl TetMesh {
         twice.map(|pair| [pair[0].1, pair[1].1]).min()
     }
 
-    /// Nodes that belong to no tetrahedron, ascending: they have neither mass nor stiffness, and a mesh with
-    /// one of them is no body. [`TetMesh::without_unused_nodes`] removes them.
+    /// Nodes that belong to no tetrahedron, ascending: they have neither mass nor stiffness, and a mesh that
+    /// has one is not a body. [`TetMesh::without_unused_nodes`] removes them.
     #[must_use]
     pub fn unused_nodes(&self) -> Vec<usize> {
         let mut is_used = vec![false; self.positions.len()];

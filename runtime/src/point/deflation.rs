@@ -2,7 +2,7 @@
 //!
 //! Two eigenvalues may be close, or equal, and then their eigenvectors are anything in a plane. The third one
 //! is never close to both unless all three are equal, when any frame will do. So its eigenvector is found
-//! first \[SD08\]; what is left is a problem of two dimensions, which one rotation solves whatever the gap.
+//! first \[SD08\]; what is left is a problem of two dimensions, which one rotation solves for any gap.
 //!
 //! **Eigenvalue.** With the deviator D = A − (tr A/3) I and p² = |D|²/6, the eigenvalues of B = D/p are
 //! 2 cos(φ + 2πk/3), cos 3φ = r = det B/2 \[Smith61\]. The one apart has the sign of r and the magnitude 2y,
@@ -194,8 +194,8 @@ mod tests {
         }
     }
 
-    /// The vector apart is an eigenvector to rounding, its eigenvalue is the largest or smallest one, and
-    /// the frame is a rotation, whatever the gaps.
+    /// The vector apart is an eigenvector to rounding, its eigenvalue is the largest or smallest one, and the
+    /// frame is a rotation, for any gaps.
     #[test]
     fn one_eigenvector_is_split_off() {
         let mut random = Random::new(1);

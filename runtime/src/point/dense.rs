@@ -21,9 +21,9 @@ pub struct DensePoint<R: Real> {
     pub status: Status<R::Mask>,
 }
 
-/// Stress and filtered tangent at F by their entries: [`evaluate`] and
-/// [`to_matrix`](super::Tangent::to_matrix), but for an energy of I1, I2 and J alone, without a filter and
-/// well inside its domain, with no decomposition.
+/// Stress and filtered tangent at F by their entries, as [`evaluate`] and
+/// [`to_matrix`](super::Tangent::to_matrix) give them. For an energy of I1, I2 and J alone, without a filter
+/// and well inside its domain, no decomposition is computed.
 ///
 /// That takes a fraction of the time (`cargo speed-report --only point`). The frames are then unknown: who
 /// needs products or principal stretches calls [`evaluate`].

@@ -117,8 +117,8 @@
 //! Textbooks give this modulus as (si − sj)/(λi² − λj²), with a limit for equal stretches \[Hol00\]. It is
 //! the same number, but here without the gap, since flip and twist come without one.
 //!
-//! **Together.** Pushing forward multiplies by one stretch for each index and puts U in the place of V; most
-//! of the division by J = λi λj λk then cancels. For i, j, k all different:
+//! **Together.** Pushing forward multiplies by one stretch for each index and replaces V by U; most of the
+//! division by J = λi λj λk then cancels. For i, j, k all different:
 //!
 //! ```text
 //!            stress       iiii                     iijj           ijij                             frame
@@ -165,9 +165,9 @@
 //!
 //! **Filters.** The tangents are derivatives if the blocks are: those of
 //! [`Filter::None`](super::Filter::None). A filter breaks the relation ψj = a λj − b λi. A filtered dP/dF is
-//! no longer the sum of a part with S and one that E alone decides, and behind it is no dS/dE. Of filtered
-//! blocks these functions make symmetric matrices that are no derivative and need not be semidefinite; a
-//! semidefinite element stiffness is made of the filtered dP/dF instead.
+//! no longer the sum of a part with S and one that E alone decides, and it does not belong to any dS/dE. From
+//! filtered blocks these functions make symmetric matrices that are not derivatives and need not be
+//! semidefinite; a semidefinite element stiffness is made of the filtered dP/dF instead.
 //!
 //! This module knows no particular material and no mesh.
 //!

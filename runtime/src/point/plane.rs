@@ -16,14 +16,10 @@
 //! }
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! // Nearly incompressible: the bulk modulus is a million times the shear modulus.
-//! let (mu, bulk) = (1.0, 1e6);
-//! let rubber = Rubber::new(mu, bulk)?;
-//! let F: [[f64; 2]; 2] = [[2.0, 0.0], [0.0, 1.0]];
-//! let sheet = plane_stress(&rubber, &F, Filter::None);
-//! assert!(sheet.status.is_clean());
-//! // The volume stays, but for μ/K. On paper P11 = μ (λ1 − 1/(λ1³ λ2²)).
-//! assert!((sheet.out_of_plane_stretch - 0.5).abs() < mu / bulk);
+//! // Nearly incompressible: the bulk modulus is a million times the shear modulus. let (mu, bulk) = (1.0,
+//! 1e6); let rubber = Rubber::new(mu, bulk)?; let F: [[f64; 2]; 2] = [[2.0, 0.0], [0.0, 1.0]]; let sheet =
+//! plane_stress(&rubber, &F, Filter::None); assert!(sheet.status.is_clean()); // The volume stays, up to μ/K.
+//! On paper P11 = μ (λ1 − 1/(λ1³ λ2²)). assert!((sheet.out_of_plane_stretch - 0.5).abs() < mu / bulk);
 //! assert!((sheet.stress[0][0] - mu * (2.0 - 1.0 / 8.0)).abs() < 10.0 * mu / bulk);
 //!
 //! // A little more stretch changes the stress by the tangent times that.
@@ -66,16 +62,16 @@
 //!
 //! # What floating point does here
 //!
-//! The free stretch is found to a few u, as `release.rs` describes, whatever the ratio of the moduli. What is
-//! left of ψ3 is taken from the stress to first order, ψi − ψi3/ψ33 ψ3, so that an error of λ3 in its last
-//! digit, which a bulk modulus of 10⁶ μ would turn into 10⁶ u μ, does not reach the stress. In the condensed
-//! tangent ψij − ψi3 ψj3/ψ33 cancels where the solid is nearly incompressible: it errs by a few u times the
-//! largest ψij, the bulk modulus.
+//! The free stretch is found to a few u, as `release.rs` describes, for any ratio of the moduli. What is left
+//! of ψ3 is taken from the stress to first order, ψi − ψi3/ψ33 ψ3, so that an error of λ3 in its last digit,
+//! which a bulk modulus of 10⁶ μ would turn into 10⁶ u μ, does not reach the stress. In the condensed tangent
+//! ψij − ψi3 ψj3/ψ33 cancels where the solid is nearly incompressible: it errs by a few u times the largest
+//! ψij, the bulk modulus.
 //!
-//! Out-of-plane stretches are positive, whatever the sign of det F̃. A deformation inverted in the plane is
+//! Out-of-plane stretches are positive for either sign of det F̃. A deformation inverted in the plane is
 //! refused or not as the material says. A point whose free stretch has no equilibrium, because its energy
-//! pulls or presses whatever the stretch or because the only equilibria are unstable, is `refused`, and says
-//! why by [`PlanePoint::no_equilibrium`].
+//! pulls or presses at every stretch or because the only equilibria are unstable, is `refused`, and says why
+//! by [`PlanePoint::no_equilibrium`].
 //!
 //! This module knows no particular material and no mesh.
 

@@ -1,8 +1,8 @@
 //! Filters that make a tangent positive semidefinite, exactly and eigenvalue by eigenvalue.
 //!
-//! In the basis of the diagonal entries and (ij ± ji)/√2 the tangent is diagonal but for one 3×3 block (see
-//! [`tangent`](super::tangent)): its nine eigenvalues are the flips, the twists and those of the Hessian ψij.
-//! Filtering them is filtering dP/dF, because the frames are orthogonal. Applied to an element, the filtered
+//! In the basis of the diagonal entries and (ij ± ji)/√2 the tangent is diagonal except for one 3×3 block
+//! (see [`tangent`](super::tangent)): its nine eigenvalues are the flips, the twists and those of the Hessian
+//! ψij. Filtering them is filtering dP/dF, because the frames are orthogonal. Applied to an element, the filtered
 //! dP/dF is pulled back: that is not the same as filtering the 12×12 stiffness, which some codes do, unless
 //! the element is regular.
 //!
@@ -14,14 +14,14 @@
 //! Let A be symmetric with eigenvalues of both signs, f the filter, |·| the spectral norm. Of the three
 //! eigenvalues the middle one is closer to one end than to the other; call the end that stands apart ν. The
 //! spread between the ends is at least |A|, or they would have the same sign, so that ν is |A|/2 or more away
-//! from both others, whatever these do. From this follows that nothing below loses digits, and no case is
+//! from both others, wherever these are. From this follows that nothing below loses digits, and no case is
 //! special: not two eigenvalues near zero, not two equal ones.
 //!
 //! **ν and its vector** p, with an orthonormal basis v, w of the plane normal to p, are split off in closed
 //! form (`point/deflation.rs`); ν = pᵀA p.
 //!
 //! **The other two** are those of the 2×2 matrix M of A in that basis: m ± r, with m half its trace and r² =
-//! −det of what M is beside m.
+//! −det of M − m I.
 //!
 //! **The filtered matrix** is f(ν) p pᵀ + (v w) f(M) (v w)ᵀ with
 //!
@@ -144,7 +144,8 @@ fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let nu = dot(p, Ap);
     let (m11, m12, m22) = (dot(v, Av), dot(v, Aw), dot(w, Aw));
     let (m, d) = (half * (m11 + m22), half * (m11 - m22));
-    // Beside an eigenvalue that is cut off the other two may be so small that their squares would underflow.
+    // Compared with an eigenvalue that is cut off, the other two may be so small that their squares would
+    // underflow.
     let (scale, back) = d.abs().max(m12.abs()).power_of_two_scale();
     let (scaled_d, scaled_m12) = (d * scale, m12 * scale);
     let r = scaled_d.mul_add(scaled_d, scaled_m12 * scaled_m12).sqrt() * back;

@@ -9,8 +9,8 @@
 //! What floating point does here. F is first multiplied by a power of two, which is exact, so that squares
 //! neither overflow nor, where they matter, underflow. FᵀF loses half of the digits of small stretches, but
 //! an error of u λ1² in it turns the vector apart so far only as changes F by u λ1. V is a product of
-//! rotations and U is built around its first column: both are rotations by construction, whatever the rank of
-//! F, instead of matrices that may turn out to be reflections. Each stretch is known to a few u λ1 and no
+//! rotations and U is built around its first column: both are rotations by construction, for any rank of F,
+//! instead of matrices that may turn out to be reflections. Each stretch is known to a few u λ1 and no
 //! better, as from any backward-stable method; when λ3 is smaller than that, so is its sign, unless
 //! [`svd_signed_by_determinant`] takes it from the determinant.
 //!
@@ -113,9 +113,9 @@ fn vanishes<R: Real>(x: R) -> R::Mask {
 /// The decomposition with every axis that is a principal direction exactly in the frames, and its stretch
 /// exact: zeros of F that a plane of symmetry makes are then zeros of P and dP/dF too.
 ///
-/// Nothing in [`right`] mixes the column of such an axis with the others, so that V is that exact already,
-/// but for the rounding of a one. Where U does not contain the axis to rounding, as at rank one, where
-/// nothing else tells two directions apart, it is left as it is.
+/// Nothing in [`right`] mixes the column of such an axis with the others, so that V is that exact already, up
+/// to the rounding of a one. Where U does not contain the axis to rounding, as at rank one, where nothing
+/// else tells two directions apart, it is left as it is.
 #[inline(always)]
 pub(crate) fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
     let Svd { mut U, mut stretches, mut V } = svd;
@@ -137,7 +137,7 @@ pub(crate) fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
             }
             U[k][column] = R::select(is_here, u, U[k][column]);
             V[k][column] = R::select(is_here, v, V[k][column]);
-            // Only the last is signed, whatever underflow has made of a direction.
+            // Only the last is signed, even if a direction has underflowed.
             let stretch = if column == 2 { F[k][k] * u * v } else { F[k][k].abs() };
             stretches[column] = R::select(is_here, stretch, stretches[column]);
         }

@@ -15,7 +15,7 @@
 use super::integrator::State;
 use super::staged::StagedSteps;
 
-/// Halvings after which a step is taken whatever its error.
+/// Number of halvings after which a step is taken regardless of its error.
 const MAX_HALVINGS: u32 = 12;
 
 /// Share of its allowance below which an error lets the next step be twice as long.

@@ -76,7 +76,7 @@ pub struct Linearised {
 pub enum Definiteness {
     /// An indefinite matrix is left unsolved.
     Required,
-    /// An indefinite matrix is made definite, or used as far as it goes.
+    /// An indefinite matrix is made definite, or used until the indefiniteness shows.
     Optional,
 }
 
@@ -253,7 +253,7 @@ where
         Ok(self.minimisation.descent() < 0.0)
     }
 
-    /// Moves x along the direction as far as it is good.
+    /// Moves x along the direction by a step that the line search accepts.
     fn search(&mut self) -> Result<Progress, M::Error> {
         let slope = self.minimisation.descent();
         if !slope.is_finite() {

@@ -117,7 +117,7 @@ impl<'a> Terms<'a> {
         iter::once(self.springs as &dyn Term).chain(self.others.iter().map(Arc::as_ref))
     }
 
-    /// Energy of the terms but for the springs; NaN where one has none.
+    /// Energy of the terms except for the springs; NaN if a term has none.
     pub(super) fn energy_of_others(self, x: &[[f64; 3]]) -> f64 {
         self.others.iter().map(|term| term.energy(x).unwrap_or(f64::NAN)).sum()
     }

@@ -41,11 +41,11 @@ use settings::check_settings;
 ///
 /// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear
 /// solver or integrator, except for the small lists of a report and the levels of multigrid. The same state
-/// gives the same bits for any number of threads of the rayon pool in which `step` is called, and whatever
-/// was before it.
+/// gives the same bits for any number of threads of the rayon pool in which `step` is called, and regardless
+/// of what was before it.
 ///
 /// A clone goes on with the same bits and is independent of the original: to try a step, or for ensembles. It
-/// takes as much memory again, but for the materials and the symbolic factorisation, which are shared; to
+/// takes as much memory again, except for the materials and the symbolic factorisation, which are shared; to
 /// undo steps later it is enough to keep positions and velocities.
 #[derive(Clone)]
 pub struct Simulation {
@@ -171,8 +171,8 @@ impl Simulation {
     }
 }
 
-/// Diagonal for each unit of mass, 1/s², that is small beside the stiffness of elements: a ten-thousandth of
-/// their stiffness over the mass of the body.
+/// Diagonal for each unit of mass, 1/s², that is small compared with the stiffness of elements: a
+/// ten-thousandth of their stiffness over the mass of the body.
 fn static_regularisation(body: &Body) -> f64 {
     let stiffness = |(material, elements): (&dyn TileMaterial<f64>, Range<usize>)| -> f64 {
         let lengths = body.elements()[elements].iter().map(|element| element.shape.volume.cbrt());

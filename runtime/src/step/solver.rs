@@ -1,6 +1,6 @@
 //! The linear systems of Newton's method, solved in one of several ways.
 //!
-//! A solver holds whatever form of the second derivatives it works on, so that memory is taken for the chosen
+//! A solver holds the form of the second derivatives that it works on, so that memory is taken for the chosen
 //! one alone. All see the same objective and find the same direction, up to their tolerance.
 
 mod assembled;
@@ -115,7 +115,7 @@ impl LinearSolver {
     }
 }
 
-/// The solver of a simulation: one of the settings, or a caller's own.
+/// Solver of a simulation: one of the settings, or a user-defined one.
 #[derive(Clone)]
 pub(crate) enum Choice {
     Setting(LinearSolver),

@@ -1,4 +1,5 @@
-//! Terms of the energy beside that of deformation: springs, contact, and whatever else acts on nodes.
+//! Terms of the energy in addition to that of deformation: springs, contact, and anything else that acts on
+//! nodes.
 //!
 //! A step minimises the sum of inertia, the energy of deformation and all terms together, so that contact
 //! obeys the same line search and the same refusal of a trial as an energy that ends at J = 0.
@@ -67,7 +68,7 @@ pub trait Term: Send + Sync {
     /// Change of the energy between positions; `None` if the second ones are outside the domain.
     ///
     /// The difference of two energies by default, each taken to err by ten roundings. A term whose energy is
-    /// large beside its changes does better.
+    /// large compared with its changes does better.
     fn change(&self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {
         let (from, to) = (self.energy(from)?, self.energy(to)?);
         let noise = 10.0 * f64::UNIT_ROUNDOFF * (from.abs() + to.abs());
@@ -115,7 +116,7 @@ impl NodeBlocks {
         self.blocks.push(NodeBlock { row, column, entries });
     }
 
-    /// Begins anew for so many nodes.
+    /// Clears all blocks and resizes to `nodes` nodes.
     pub(super) fn begin(&mut self, nodes: usize) {
         *self = Self { nodes, blocks: std::mem::take(&mut self.blocks), missing: None };
         self.blocks.clear();

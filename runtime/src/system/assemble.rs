@@ -11,10 +11,10 @@
 //!    the order of its list. Nodal vectors and energies are summed by one thread in the order of the
 //!    elements: that takes microseconds.
 //!
-//! Work is divided into groups of fixed size, whatever the number of threads, and no sum crosses a
-//! division. A sum therefore depends on the mesh alone. The price is the buffer between the stages, 720
-//! bytes of stiffness for each element. Bodies are assembled in waves of some thousand elements, which share
-//! one buffer that stays in the cache ([`NodalStiffness`](super::nodal_stiffness::NodalStiffness)).
+//! Work is divided into groups of fixed size, regardless of the number of threads, and no sum crosses a
+//! division. A sum therefore depends on the mesh alone. The price is the buffer between the stages, 720 bytes
+//! of stiffness for each element. Bodies are assembled in waves of some thousand elements, which share one
+//! buffer that stays in the cache ([`NodalStiffness`](super::nodal_stiffness::NodalStiffness)).
 //!
 //! Energies near an equilibrium differ by less than the rounding error of their sum. So differences are taken
 //! per element and then summed with compensation [Neu74], and [`Elastic::difference_noise`] bounds what is

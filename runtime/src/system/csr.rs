@@ -1,4 +1,4 @@
-//! Assembly into a sparse matrix of a caller's own: compressed rows given as slices of any kind of integer.
+//! Assembly into a sparse matrix of the caller: compressed rows given as slices of any kind of integer.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ const ACROSS: u32 = u32::MAX;
 /// Entry of a node that has no unknowns.
 const NONE: u32 = u32::MAX - 1;
 
-/// Places of the stiffnesses of tetrahedra in a sparse matrix of a caller's own, found once.
+/// Places of the stiffnesses of tetrahedra in a sparse matrix of the caller, found once.
 ///
 /// The matrix may be whole, or one of its triangles. Unknowns may have any numbers, and nodes may have none,
 /// such as pinned ones. Takes 576 bytes for each tetrahedron.

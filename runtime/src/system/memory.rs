@@ -1,8 +1,8 @@
-//! Vectors as long as a caller says: where there is no room for them, an error and no abort.
+//! Vectors of any length that a caller gives: an error instead of an abort if memory is too small.
 
 use super::linear::LinearError;
 
-/// An empty vector with room for so many entries.
+/// An empty vector with room for `capacity` entries.
 ///
 /// # Errors
 /// [`LinearError::OutOfMemory`].
@@ -12,7 +12,7 @@ pub(super) fn reserved<T>(capacity: usize) -> Result<Vec<T>, LinearError> {
     Ok(vector)
 }
 
-/// A vector of so many equal entries.
+/// A vector of `length` equal entries.
 ///
 /// # Errors
 /// [`LinearError::OutOfMemory`].

@@ -1,4 +1,4 @@
-//! Energy, forces and stiffness of a body at any positions, for an integrator or a solver of one's own.
+//! Energy, forces and stiffness of a body at any positions, for a user-defined integrator or solver.
 //!
 //! This module knows no time and no pins: a caller adds inertia and leaves pinned nodes out.
 
@@ -12,9 +12,9 @@ use crate::status::Survey;
 
 /// Memory to evaluate the energy of deformation of a body with its first and second derivatives.
 ///
-/// A survey counts elements in the order of [`Body::elements`]. What an evaluation returns means something
-/// where the survey [is clean](Survey::is_clean): a trial that takes an element out of the domain of its
-/// material does not.
+/// A survey counts elements in the order of [`Body::elements`]. The results of an evaluation are valid if the
+/// survey [is clean](Survey::is_clean): a trial that takes an element out of the domain of its material does
+/// not.
 ///
 /// ```
 /// use piola::mesh::tetrahedral_box;

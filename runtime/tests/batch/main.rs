@@ -1,5 +1,5 @@
 //! Batches of every format, back end and layout against the points of scalars, and against themselves in
-//! other places. Not among the unit tests, which are spared the kernels in `f32`.
+//! other places. Not among the unit tests, which do not compile the kernels in `f32`.
 #![cfg(feature = "batch")]
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
@@ -74,8 +74,7 @@ fn Isochoric(
     c1 * (I1b - 3.0) + c2 * (I2b - 3.0) + kappa / 2.0 * (J - 1.0).powi(2)
 }
 
-/// Rest shapes and deformation gradients of so many elements, inverted and collapsed ones among
-/// them.
+/// Rest shapes and deformation gradients of elements, inverted and collapsed ones among them.
 struct Sample<E> {
     F: Vec<[E; 9]>,
     rest: Vec<[E; REST]>,

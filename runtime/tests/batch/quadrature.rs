@@ -6,7 +6,7 @@ use piola::lanes::Backend;
 
 use crate::hand_written::SaintVenantKirchhoff;
 
-/// Sums of elements with random slopes are those that the formulas say, whatever elements stand beside.
+/// Sums of elements with random slopes agree with the formulas, regardless of the neighbouring elements.
 fn check<E: Kernels>(nodes: usize, points: usize) {
     const ELEMENTS: usize = 3;
     let mut random = Random::new(31);

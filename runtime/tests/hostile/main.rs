@@ -1,4 +1,4 @@
-//! Functions of bodies and batches that return a `Result` do so whatever they are given: wrong lengths, NaN,
+//! Functions of bodies and batches that return a `Result` do so for any arguments: wrong lengths, NaN,
 //! infinities, the ends of the range, nodes that are missing, repeated, or more than any memory holds.
 //!
 //! A module for each floor of the crate. `tests/tidy` sees to it that none of these functions is left out.

@@ -212,7 +212,7 @@ impl Candidate for Fitted {
 mod tests {
     use super::*;
 
-    /// A program is built with all energies or with two; what it makes of the others is no different.
+    /// A program is built with all energies or with two; the others give the same results either way.
     #[test]
     fn energies_that_are_not_compiled_are_those_that_are() {
         for known in CATALOGUE.iter() {

@@ -1,4 +1,4 @@
-//! Energies that are declared on the command line: `--energy FORMULA`, or a file in the place of a material's
+//! Energies that are declared on the command line: `--energy FORMULA`, or a file instead of a material's
 //! name.
 
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! A folder with the files of a run, in which nothing of anybody else's is touched.
 //!
-//! Files are written as the run goes on, so that whatever ends it leaves a shorter run. Each is entered in a
-//! list in the folder before it is created: what is not in the list is somebody else's. What is in it is
-//! removed when another run begins there.
+//! Files are written during the run, so that an interruption leaves a shorter run. Each is entered in a list
+//! in the folder before it is created: what is not in the list is somebody else's. What is in it is removed
+//! when another run begins there.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};

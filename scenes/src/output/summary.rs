@@ -16,7 +16,7 @@ use crate::material::Parameters;
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Newton {
-    /// One iteration with line search, whatever residual it leaves.
+    /// One iteration with line search, regardless of the residual that it leaves.
     #[default]
     Single,
     /// Until the residual is small.

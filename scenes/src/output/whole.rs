@@ -35,7 +35,7 @@ fn is_descriptor(path: &Path) -> bool {
     ["/dev/fd", "/dev/stdin", "/dev/stdout", "/dev/stderr", "/proc"].iter().any(|open| path.starts_with(open))
 }
 
-/// Writes a file beside its place, and moves it there.
+/// Writes a temporary file next to the final one, and moves it there.
 fn replace(path: &Path, content: &[u8], earlier: Option<Permissions>) -> io::Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -78,7 +78,7 @@ mod tests {
         Ok(())
     }
 
-    /// Shared memory is no descriptor, though it lies beside them.
+    /// Shared memory is not a descriptor, though it is listed next to them.
     #[test]
     fn descriptors_are_told_from_files_beside_them() {
         for (path, expected) in [

@@ -14,7 +14,7 @@ use crate::settings::Settings;
 const PAUSE: Duration = Duration::from_secs(1);
 /// Time between states on the disk, as a multiple of the time that it takes to write one.
 const SHARE: u32 = 20;
-/// A longer file is no state of a run, in bytes.
+/// Largest size of a state of a run, in bytes; a longer file is refused.
 pub(super) const MAX_LENGTH: u64 = 1 << 32;
 
 /// Figures of a run so far.

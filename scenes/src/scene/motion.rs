@@ -20,7 +20,7 @@ pub struct Pull {
 pub enum Motion {
     /// Straight displacement, in body heights along each axis.
     Shift([f64; 3]),
-    /// Around the upright line through the middle of the bounding box, so many turns from z towards x.
+    /// Rotation about the upright line through the middle of the bounding box, in turns from z towards x.
     Turn(f64),
 }
 

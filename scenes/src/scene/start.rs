@@ -30,7 +30,7 @@ pub enum Start {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Amplitude {
-    /// Each coordinate by up to so many mean edge lengths of the tetrahedra, either way.
+    /// Largest displacement of each coordinate, either way, in mean edge lengths of the tetrahedra.
     Edges(f64),
     /// Anywhere in the bounding box of the body.
     Box,

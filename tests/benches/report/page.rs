@@ -128,7 +128,7 @@ fn fronts(text: &mut String, rows: &[PointRow]) -> fmt::Result {
     writeln!(
         text,
         "Of {} contests (an energy, a precision, with or without projection, at ordinary F or at a hard family) piola is on the front of the \
-         methods for any ψ(λ) in {on_front}, each of these with whatever setting is best for that family, and times within {:.0} % and errors within a unit roundoff counting as equal. In \
+         methods for any ψ(λ) in {on_front}, each of these with the setting that is best for that family, and times within {:.0} % and errors within a unit roundoff counting as equal. In \
          the others a method is faster and its error no larger, or its error smaller in the same time:\n",
         ours.len(),
         100.0 * RESOLUTION

@@ -1,9 +1,9 @@
 //! Hostile files: for each reader of piola, a judge who takes any bytes, and mutations of good files.
 //!
 //! A judge feeds bytes to the reader and lets the program work with what it has read, for a step or a chart.
-//! Whatever the bytes are, there is no panic, no message without a word or with control characters of the
-//! file in it, and nothing infinite or NaN among results. `tests/mutations.rs` calls the judges with mutated
-//! seeds, and `fuzz/` with what libFuzzer thinks of.
+//! For any bytes there is no panic, no message without a word or with control characters of the file in it,
+//! and nothing infinite or NaN among results. `tests/mutations.rs` calls the judges with mutated seeds, and
+//! `fuzz/` with what libFuzzer thinks of.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
@@ -80,7 +80,7 @@ pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
     play(scratch, Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: Some(surface) })
 }
 
-/// Measured points, beside the curves of a material in a chart.
+/// Measured points, with the curves of a material in a chart.
 pub fn csv(_: &Path, bytes: &[u8]) -> bool {
     let options = ReadOptions::default().with_test(Mode::Uniaxial).with_unit("MPa".parse().expect("a unit"));
     let data = match Measurements::read_with(&decoded(bytes), &options) {

@@ -47,7 +47,7 @@ fn repeated(
     before.to_owned() + &parts.concat() + &closing
 }
 
-/// Formulas of about so many bytes.
+/// Formulas of about `length` bytes.
 fn formulas(length: usize) -> Vec<(&'static str, String)> {
     let none = |_: usize| String::new();
     vec![
@@ -120,7 +120,7 @@ fn processor_time() -> Option<Duration> {
     text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
 }
 
-/// Declarations in Rust of about so many bytes.
+/// Declarations in Rust of about `length` bytes.
 fn declarations(length: usize) -> Vec<(&'static str, String)> {
     let declared = |body: String| {
         format!("#[material(domain(J > 0.0), fit)] fn E([l1, l2, l3]: [f64; 3], m: f64) -> f64 {{ {body} }}")

@@ -30,7 +30,7 @@ pub use timing::{Effort, Times, time, time_all_in_turns, time_in_turns};
 /// Points whose numbers stay in the caches of a core.
 pub const IN_CACHE: usize = 128;
 
-/// Shear modulus of [`materials`], MPa, but for Ogden's.
+/// Shear modulus of [`materials`], MPa, except for Ogden's.
 pub const MU: f64 = 1.0;
 
 /// First Lamé parameter of [`materials`], MPa.

@@ -22,7 +22,7 @@ pub struct Times {
     pub median: f64,
 }
 
-/// Times calls that each work on so many points.
+/// Times calls that each work on `points` points.
 pub fn time(effort: Effort, points: usize, mut call: impl FnMut()) -> Times {
     let [times] = time_in_turns(effort, points, [&mut call]);
     times

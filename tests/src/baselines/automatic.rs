@@ -4,9 +4,9 @@
 //! [`through_stretches`] takes three variables: ψi and ψij are exact to rounding, flips and twists remain to
 //! be made of them, as plain quotients. [`through_decomposition`] takes all of F and needs no theory at all,
 //! for it sends the numbers through an eigenvalue iteration on FᵀF. That costs 91 numbers for each one, and
-//! is wrong where eigenvalues meet: the iteration ends when the *values* off the diagonal are zero, whatever
-//! their derivatives are, and at rest it never begins. Close to that point derivatives of the eigenvectors,
-//! gap⁻¹ and gap⁻² in size, cancel in the result.
+//! is wrong where eigenvalues meet: the iteration ends when the *values* off the diagonal are zero,
+//! regardless of their derivatives, and at rest it never begins. Close to that point derivatives of the
+//! eigenvectors, gap⁻¹ and gap⁻² in size, cancel in the result.
 
 #![expect(non_snake_case, reason = "F, P, C as in the literature")]
 

@@ -4,7 +4,7 @@
 //! limit)) Vᵀ, and dP/dF is assembled from the derivatives at the same clamped stretches. So a material with
 //! a domain J > 0 gets along with inverted elements, without being asked what it would do there.
 //!
-//! Where the clamp acts, this tangent is no derivative of this P: along the clamped direction P does not
+//! Where the clamp acts, this tangent is not the derivative of this P: along the clamped direction P does not
 //! change at all, while the tangent has the whole stiffness that the material has at the limit, and quotients
 //! take the clamped stretches for the true ones. Newton's method then takes another step than Newton's.
 //!

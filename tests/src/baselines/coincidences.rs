@@ -37,8 +37,8 @@
 //! Which formula is right is a matter of a threshold, and none is accurate near it. Before the switch
 //! differences of close numbers are divided by their gap, and the error is u/gap, or u/gap² where a pair that
 //! counts as equal is close to the third stretch; behind the switch the derivative is that of other
-//! stretches. Where two stretches have opposite signs their squares coincide all the same, and S is no
-//! function of C there unless the energy is even. A stretch of zero divides by zero.
+//! stretches. Where two stretches have opposite signs their squares still coincide, and S is not a function
+//! of C there unless the energy is even. A stretch of zero divides by zero.
 //!
 //! \[GKJD09\] Gao, Kim, James, Desai, as described by Sin et al., *Invertible Isotropic Hyperelasticity using
 //! SVD Gradients*, 2011. \[SPO08\] de Souza Neto, Perić, Owen, *Computational Methods for Plasticity*, 2008.

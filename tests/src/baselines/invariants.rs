@@ -22,7 +22,7 @@
 //! stretches, and nothing divides by one.
 //!
 //! There is no quotient in it, so no gap is special, and derivatives are by hand for every energy; those that
-//! are no functions of the invariants, Ogden's and all with the stretches themselves, are out. III is of
+//! are not functions of the invariants, Ogden's and all with the stretches themselves, are out. III is of
 //! degree six in the stretches: its square, which the logarithm's second derivative divides by, is the first
 //! number to leave the range of a format. And it has forgotten the sign of det F.
 //!

@@ -154,7 +154,7 @@ mod tests {
         compare::<f32>();
     }
 
-    /// Inside out, the orthogonal factor is no rotation.
+    /// Inside out, the orthogonal factor is not a rotation.
     #[test]
     fn points_inside_out_have_another_factor() {
         let (mu, lambda) = (1.0, 1.5);

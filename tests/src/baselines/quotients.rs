@@ -62,7 +62,7 @@ impl<M: Material> Material for Switched<M> {
     }
 }
 
-/// Flips and twists as (ψi ∓ ψj)/(λi ∓ λj), whatever the gap; NaN where it is zero.
+/// Flips and twists as (ψi ∓ ψj)/(λi ∓ λj), for any gap; NaN if it is zero.
 #[inline(always)]
 #[must_use]
 pub fn naive<R: Real>(material: &(impl Response<R> + ?Sized), stretches: [R; 3]) -> Blocks<R> {
@@ -71,7 +71,7 @@ pub fn naive<R: Real>(material: &(impl Response<R> + ?Sized), stretches: [R; 3])
     plain(stretches, gradient, hessian)
 }
 
-/// Flips and twists as (ψi ∓ ψj)/(λi ∓ λj), whatever the gap, from given derivatives.
+/// Flips and twists as (ψi ∓ ψj)/(λi ∓ λj), for any gap, from given derivatives.
 #[inline(always)]
 pub(super) fn plain<R: Real>(stretches: [R; 3], gradient: [R; 3], hessian: [R; 6]) -> Blocks<R> {
     with_quotients(stretches, gradient, hessian, |numerator, gap, _, _| numerator / gap)

@@ -13,7 +13,7 @@ impl<const LIMBS: usize> Multiprecision<LIMBS> {
         if self.kind != Kind::Finite || (self.negative && n > 1) {
             return Self::NOT_A_NUMBER;
         }
-        // self = a 2^(n e), so that the start fits an f64 whatever the exponent.
+        // self = a 2^(n e), so that the start fits an f64 for any exponent.
         let e = self.exponent.div_euclid(i64::from(n));
         let a = Self { negative: false, ..self }.scaled(-e * i64::from(n));
         let one = Self::splat(1.0);

@@ -94,7 +94,7 @@ pub fn judge(seed: u64, points: usize) -> Tally {
     let declaration = Declaration::random(seed);
     let mut tally = judge_declaration(&declaration, seed, points);
     if tally.failed + tally.panics > 0 {
-        // The simplest declaration that still fails, as far as parts can be left out one by one.
+        // A simplest declaration that still fails: no single part can be left out.
         let mut smallest = declaration;
         let mut found = tally.clone();
         let fails = |tally: &Tally| tally.failed + tally.panics > 0;

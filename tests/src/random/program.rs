@@ -174,7 +174,9 @@ impl<R: Real> Machine<'_, R> {
             | Op::FunctionQuotient(..)
             | Op::WholePower(..)
             | Op::WholePowerQuotient(..) => {
-                unreachable!("{op:?} is no number, or of a function or an exponent that is a parameter")
+                unreachable!(
+                    "{op:?} is not a number, or belongs to a function or an exponent that is a parameter"
+                )
             }
         }
     }

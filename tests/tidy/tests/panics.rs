@@ -15,8 +15,8 @@ const MACROS: [&str; 7] =
 const METHODS: [&str; 4] = ["unwrap", "unwrap_err", "expect", "expect_err"];
 
 /// A function that panics on purpose says so under `# Panics`, and does not return a `Result` beside it. So
-/// nothing that a function with a `Result` calls panics unannounced, but for an index, a division by zero or
-/// an overflow: hostile arguments are tried on each of these functions in `runtime/tests/hostile/`.
+/// nothing that a function with a `Result` calls panics unannounced, except for an index, a division by zero
+/// or an overflow: hostile arguments are tried on each of these functions in `runtime/tests/hostile/`.
 #[test]
 fn what_panics_says_so_and_returns_no_result() {
     let mut found = Vec::new();

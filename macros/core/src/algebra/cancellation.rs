@@ -27,8 +27,8 @@ const FAR: [f64; 2] = [1e-3, 1e-6];
 /// Terms may exceed their sum by this much, at 1e-6 of a stretch: three of sixteen digits.
 const BEARABLE: f64 = 1e3;
 
-/// The least growth of a cancellation, from the first factor to the second, that is no chance: a root of the
-/// stretch grows by so much, a chance crossing of zero by nothing.
+/// The least growth of a cancellation, from the first factor to the second, that is not by chance: a root of
+/// the stretch grows by this much, a chance crossing of zero not at all.
 const GROWTH: f64 = 30.0;
 
 /// Nodes that are evaluated to find the sums that matter: a few tenths of a second.
@@ -43,7 +43,7 @@ pub struct Ways {
 }
 
 impl Ways {
-    /// Ways to flat, thin and huge material from points near rest, as far as they are inside the domain.
+    /// Paths to flat, thin and huge material from points near rest, where they are inside the domain.
     #[must_use]
     pub fn new(samples: &[Point], is_inside: impl Fn(&Point) -> bool) -> Self {
         let moved = |sample: &Point, chosen: [bool; 3], factor: f64| {
@@ -123,7 +123,7 @@ fn rewrite(graph: &mut Graph, id: Id, ways: &Ways, memo: &mut FxHashMap<Id, Id>)
     result
 }
 
-/// A sum of fractions as one fraction, if that spares a cancellation.
+/// A sum of fractions as one fraction, if that avoids a cancellation.
 fn joined(graph: &mut Graph, sum: Id, ways: &Ways) -> Option<Id> {
     let Node::Linear { constant, terms } = graph.node(sum).clone() else { return None };
     let mut denominator: Vec<(Id, Exponent)> = Vec::new();
@@ -153,7 +153,7 @@ fn joined(graph: &mut Graph, sum: Id, ways: &Ways) -> Option<Id> {
     let numerator = graph.linear(Rational::ZERO, &numerator);
     let numerator = expand_products(graph, numerator);
     if graph.overflowed() != earlier {
-        // What was only tried is no mistake.
+        // Failed trials are not mistakes.
         graph.take_overflow();
         return None;
     }

@@ -17,7 +17,7 @@ pub type Dimension = Option<Rational>;
 pub enum Clash {
     /// Two terms of a sum.
     Terms([(Id, Rational); 2]),
-    /// Something with a dimension, in the place of a number without one.
+    /// Something with a dimension, used as a number without one.
     Argument(Id, Rational),
 }
 

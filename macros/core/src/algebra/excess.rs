@@ -16,7 +16,7 @@
 //!
 //! An expression in them, such as (1 − β) I1b + β I2b − 3 or (I1b − 3)/(Λ² − 3), is found by writing 3 + X
 //! for I1b and 3 + Y for I2b and multiplying out: if what is left vanishes with X and Y, it is the sum of
-//! squares. [`Node::Excess`] holds it beside the expression as written, which is for readers.
+//! squares. [`Node::Excess`] holds it together with the expression as written, which is for readers.
 //!
 //! # Small constants
 //!
@@ -31,7 +31,7 @@
 //!
 //! X is of second order in the strains. So Xⁿ is twice continuously differentiable for n > 1, not only for n
 //! ≥ 2: its stiffness n (n − 1) Xⁿ⁻² X′ X′ + n Xⁿ⁻¹ X″ falls with the strain to the power 2n − 2. At rest
-//! itself Xⁿ⁻² may be infinite beside X′ = 0, and so the base of a power is kept from zero by the smallest
+//! itself Xⁿ⁻² may be infinite with X′ = 0, and so the base of a power is kept from zero by the smallest
 //! positive number: then the product is 0, as it should be. That needs derivatives of the squares, which
 //! vanish where they do: those of I1b − 3 as it is written would leave u, times a power that may be infinite.
 
@@ -225,7 +225,7 @@ impl Invariants {
         Some(graph.sum_of(&products))
     }
 
-    /// The expression with 3 + X in the place of I1b and 3 + Y in that of I2b.
+    /// The expression with I1b replaced by 3 + X and I2b by 3 + Y.
     fn shifted(&self, graph: &mut Graph, e: Id) -> Id {
         rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| {
             let Node::Product(factors) = graph.node(id).clone() else { return None };
@@ -258,7 +258,7 @@ fn accurate(graph: &mut Graph, written: Id, others: Id, squares: Id) -> Id {
     graph.accurate(value, written)
 }
 
-/// Squares in the place of what is kept from zero.
+/// Squares that replace the quantities kept from zero.
 fn excess_alone(graph: &mut Graph, id: Id) -> Option<Id> {
     match *graph.node(id) {
         Node::Excess(value, _) => Some(value),

@@ -135,8 +135,8 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// A graph of so many nodes and operands at most. Beyond, every node is the first one, so that whatever
-    /// goes on comes to an end soon, with results that mean nothing; the cell then says so.
+    /// A graph with a limit on nodes and operands. Beyond it, every node is the first one, so that the
+    /// computation ends soon, with invalid results; the cell is then true.
     pub fn with_most(most: Option<usize>) -> (Self, Rc<Cell<bool>>) {
         let graph = Self { most, ..Self::default() };
         let is_full = graph.is_full.clone();

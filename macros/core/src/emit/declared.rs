@@ -21,7 +21,7 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let moduli = moduli.each_ref().map(text);
     let parameters = declaration.parameters.iter().map(|parameter| {
         let (name, doc) = (parameter.name.to_string(), &parameter.doc);
-        // An exponent has no unit, whatever its documentation leaves out.
+        // An exponent has no unit, even if its documentation leaves that out.
         let unit = if parameter.is_whole { Some(Unit::Dimensionless) } else { parameter.unit() };
         let unit = option(unit.map(|unit| format_ident!("{unit:?}")).map(|unit| quote!(__p::Unit::#unit)));
         let form = match &parameter.kind {

@@ -1,4 +1,4 @@
-//! The domain of an energy as far as functions that are parameters decide it.
+//! The part of the domain of an energy that functions among the parameters decide.
 
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -10,7 +10,8 @@ use crate::read::parse::{
     Function, entry, identifiers, is_f64, is_reserved, is_type, is_u32, is_vector, may_be_function,
 };
 
-/// The mistakes of an item, and as much of a type as its tokens allow; what is no function stays as it is.
+/// The mistakes of an item, and as much of a type as its tokens allow; an item that is not a function stays
+/// as it is.
 #[must_use]
 pub fn inert(mistakes: &syn::Error, item: TokenStream) -> TokenStream {
     let errors = mistakes.to_compile_error();

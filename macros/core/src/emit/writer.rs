@@ -266,7 +266,7 @@ pub(super) fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident
 /// The statements of a program as they are written, in the order of the program.
 ///
 /// A value that is read once, by the next statement to be written, is written there and needs no name:
-/// operations still take place in their order, but for operands of one operation.
+/// operations still take place in their order, except for operands of one operation.
 struct Lines<'a> {
     writer: &'a Writer<'a>,
     statements: TokenStream,
@@ -301,7 +301,7 @@ impl<'a> Lines<'a> {
     fn push(&mut self, value: Value, op: &Op) {
         let writer = self.writer;
         let parameter = |k: usize| &writer.declaration.parameters[k].name;
-        // A whole exponent is no value of type `R`: it is read from the material where it is needed.
+        // A whole exponent is not a value of type `R`: it is read from the material where it is needed.
         let is_whole = |k: usize| writer.declaration.parameters[k].is_whole;
         match *op {
             Op::Literal(bits) => self.names.set(value, literal(f64::from_bits(bits))),

@@ -267,7 +267,7 @@ impl Explainer<'_, '_> {
         }
     }
 
-    /// The isochoric stretches in the place of the stretches.
+    /// The isochoric stretches instead of the stretches.
     fn isochoric_stretches(&self) -> String {
         let [l1, l2, l3] = &self.source.declaration.stretches;
         format!("`{l1} / J.cbrt()` for `{l1}`, and so on for `{l2}` and `{l3}`")

@@ -118,8 +118,8 @@ pub(crate) fn candidates(
     })
 }
 
-/// The point with the first entry of each list in the place of all of them, so that a condition on their sum
-/// holds for each.
+/// The point with all entries of each list replaced by its first one, so that a condition on their sum holds
+/// for each.
 pub(crate) fn with_equal_entries(mut point: Point) -> Point {
     for entries in Rc::make_mut(&mut point.parameters) {
         let first = entries.first().copied().unwrap_or_default();

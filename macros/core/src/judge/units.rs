@@ -6,8 +6,8 @@ use crate::algebra::dimension::Dimensions;
 use crate::algebra::expr::Graph;
 use crate::algebra::rational::Rational;
 
-/// Checks that ψ is in Pa, as far as the units of its parameters are known. A declaration without units is
-/// not checked.
+/// Checks that ψ is in Pa, where the units of its parameters are known. A declaration without units is not
+/// checked.
 pub(crate) fn units(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
     let units = source.declaration.pascals();
     if units.iter().all(Option::is_none) {

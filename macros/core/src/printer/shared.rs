@@ -27,7 +27,7 @@ pub fn formulas_by_invariants(graph: &Graph, declaration: &Declaration, roots: &
     share(Printer::by_invariants(graph, declaration), roots)
 }
 
-/// Formulas with at most so many characters are not divided.
+/// Longest formula, in characters, that is not divided.
 const LONGEST: usize = 120;
 
 /// A part with fewer characters is written wherever it occurs.

@@ -90,7 +90,7 @@ fn quotation(code: &str) -> String {
     let written = syn::parse_str::<Expr>(&text).ok().and_then(|code| formula(&code, Level::Sum));
     match written {
         Some(written) => written.replace(LEFT_OUT, "…"),
-        // Words between dots are no expression.
+        // Words between dots are not an expression.
         None if code.starts_with("sum(|") => {
             code.replacen("sum(|", "sum(", 1).replacen("| ", ", ", 1).replace("r#", "")
         }

@@ -116,7 +116,7 @@ impl Nodes {
         self.0.get(&std::ptr::from_ref(expression)).copied()
     }
 
-    /// Puts another node in the place of each.
+    /// Replaces each node by another one.
     pub(crate) fn replace(&mut self, mut with: impl FnMut(Id) -> Id) {
         self.0.values_mut().for_each(|id| *id = with(*id));
     }

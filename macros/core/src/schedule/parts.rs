@@ -58,7 +58,7 @@ impl Parts {
         };
         let are_alike =
             |a: Rational, b: Rational| a.magnitude() == b.magnitude() && a.magnitude() != Rational::ONE;
-        // A single multiple that other sums need too is no reason for a second multiplication here.
+        // A single multiple that other sums need too does not justify a second multiplication here.
         let all_alike = constant.is_zero() && terms.iter().all(|&(_, c)| are_alike(c, terms[0].1));
         let one_group = all_alike && terms.iter().filter(is_shared).count() <= 1;
         let mut groups: Vec<Vec<(Id, Rational)>> = Vec::new();

@@ -106,7 +106,7 @@ fn what_vanishes_elsewhere_is_a_limit() {
         assert!(message.contains(&format!("declare `{domain}`")), "{term}: {message}");
         check(&domain, &energy(term), &[]);
     }
-    // Conditions come at once, but for those that follow from the others; what is meant is underlined.
+    // Conditions come at once, except for those that follow from the others; what is meant is underlined.
     let two = "{ let x = 1 - b * (I1b - 3); -mu * x.ln() - mu * mu * (1 - b * (I2b - 3).powi(2)).ln() + mu / x - mu }";
     let limits = "1.0 - b * (I1b - 3.0) > 0.0, 1.0 - b * (I2b - 3.0).powi(2) > 0.0";
     let [(tokens, message)] = &mistakes("domain(J > 0.0)", &energy(two))[..] else { panic!("{two}") };

@@ -249,7 +249,7 @@ fn independent_mistakes_come_at_once() {
     check(&format!("prestressed, {both}"), &energy, &[]);
 }
 
-/// A term that breaks several rules is reported once, by whatever name it goes.
+/// A term that breaks several rules is reported once, under any of its names.
 #[test]
 fn one_term_is_one_mistake() {
     let check = |arguments: &str, body: &str, tokens: &str, message: &str| {

@@ -299,7 +299,7 @@ fn half_a_body_is_one_mistake() {
     check("", "fn E([a, b, c]: [f64; 3], mu) -> f64 { mu }", &[(")", "a declaration is `fn Name(")]);
 }
 
-/// The messages of the cases of `piola-macros`, whatever way the compiler underlines tokens.
+/// The messages of the cases of `piola-macros`, regardless of how the compiler underlines tokens.
 #[test]
 fn the_compiler_shows_these_messages() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui");

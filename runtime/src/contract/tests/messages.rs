@@ -128,7 +128,7 @@ impl Material for Exponential {
         let (scale, i1) = Self::measures(l);
         let (two, third, rate) = (R::splat(2.0), R::splat(1.0 / 3.0), R::splat(self.rate));
         let slope = R::splat(self.size) * rate * (rate * (scale * i1 - R::splat(3.0))).exp();
-        // Of I1b: its derivatives, ∂²/∂λi∂λj but for what i = j adds, and what that is.
+        // Derivatives of I1b: ∂²/∂λi∂λj without the term for i = j, and that term.
         let first = l.map(|l| two * scale * (l - third * i1 / l));
         let mixed = |i: usize, j: usize| {
             let product = first[i] / l[j] + two * scale * l[j] / l[i];

@@ -88,7 +88,8 @@ pub(in super::super) fn two_product<P: Primitive>(a: P, b: P) -> (P, P) {
     (product, al * bl - (((product - ah * bh) - al * bh) - ah * bl))
 }
 
-/// a b + c if c cancels the product but for a few bits: with all digits, whether or not products are fused.
+/// a b + c if c cancels the product except for a few bits: with all digits, whether or not products are
+/// fused.
 #[inline(always)]
 pub(super) fn residual<P: Primitive>(a: P, b: P, c: P) -> P {
     if P::IS_FUSED {

@@ -162,7 +162,7 @@ pub struct Recording {
     pub functions: BTreeMap<Function, RecordedProgram>,
 }
 
-/// A computation has used a parameter as a number of Rust, so that it is no program of the parameter.
+/// A computation has used a parameter as a plain number, so that it is not a program of the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UnrecordedParameter;
 

@@ -56,7 +56,7 @@ impl Tape {
             Unary(super::program::Unary::Negate, a) => self.literal(a).map(|a| -a),
             Binary(operator, a, b) => match (self.literal(a), self.literal(b)) {
                 (Some(a), Some(b)) => E::compute(operator, a, b),
-                // Exact, whatever the other operand.
+                // Exact for any other operand.
                 (_, Some(1.0))
                     if matches!(
                         operator,

@@ -101,7 +101,7 @@ pub(super) fn read<T>(path: &Path, parse: impl FnOnce(&str) -> Result<T, Problem
         let problem = "the file is in UTF-16; save it as UTF-8".to_owned();
         return Err(ReadError::Malformed { path: path.to_owned(), line: 1, problem });
     }
-    // Names in other encodings are no reason to refuse a mesh.
+    // Names in other encodings must not make a mesh invalid.
     read_text(path, &String::from_utf8_lossy(&bytes), parse)
 }
 

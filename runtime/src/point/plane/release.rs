@@ -67,7 +67,7 @@ pub(super) fn release<R: Real<Mask = bool>>(
     side: impl Fn(R) -> Option<Side<R>>,
     isochoric: R,
 ) -> Result<R, Unreleased> {
-    // What is left of a stretch below the range is no stretch.
+    // Below the range too little is left of a stretch.
     let smallest = R::splat(R::MIN_POSITIVE);
     let side = |stretch: R| if smallest.less(stretch) { side(stretch) } else { None };
     let interval = enclose(|stretch| side(stretch).map(|side| side.stress), isochoric)?;

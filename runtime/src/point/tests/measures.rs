@@ -398,8 +398,7 @@ fn without_volume_only_the_Kirchhoff_stress_is_finite() {
     assert!(numbers.into_iter().all(f64::is_nan));
 }
 
-/// What the essay says of filters: behind a filtered dP/dF there is no dS/dE, behind an unfiltered one there
-/// is.
+/// Statement of the essay on filters: a filtered dP/dF does not belong to any dS/dE, an unfiltered one does.
 #[test]
 fn a_filtered_tangent_has_no_material_part() {
     let mut random = Random::new(75);

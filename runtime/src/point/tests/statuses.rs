@@ -1,4 +1,4 @@
-//! What is not finite is said, whatever the entry point: in F, in H, and in what comes of them.
+//! Values that are not finite are reported by every entry point: in F, in H, and in results.
 
 use super::*;
 use crate::hand_written::ExtendedNeoHookean;
@@ -37,7 +37,7 @@ fn check<R: Real<Mask = bool> + Into<f64>>(
     said
 }
 
-/// The same for four materials, with F in the place of H too.
+/// Checks four materials, with F instead of H too.
 #[track_caller]
 fn everywhere<R: Real<Mask = bool> + Into<f64>>(F: &Matrix3<R>) -> Vec<bool> {
     [

@@ -4,8 +4,7 @@ use crate::step::{Damping, NewtonSettings, Simulation, SimulationSettings};
 use crate::system::testing::{NEO_HOOKEAN, beam};
 use crate::system::{Body, Pins};
 
-/// The order conditions: Σ bj = 1, Σ bj cj = 1/2, Σ bj cj² = 1/3, Σ bi aij cj = 1/6, as far as the order
-/// goes.
+/// The order conditions: Σ bj = 1, Σ bj cj = 1/2, Σ bj cj² = 1/3, Σ bi aij cj = 1/6, up to the order.
 #[test]
 fn coefficients_have_their_order() {
     let methods = [(Integrator::ImplicitEuler, 1), (Integrator::Sdirk2, 2), (Integrator::Sdirk3, 3)];

@@ -44,7 +44,7 @@ impl Simulation {
     }
 
     /// Moves the body towards a minimum of its energy with gravity and springs, without inertia and damping,
-    /// as far as the settings of Newton's method allow. Then it is at rest: its velocities are zero.
+    /// within the limits of the settings of Newton's method. Then it is at rest: its velocities are zero.
     ///
     /// Where the second derivatives are not positive definite, small parts of the stiffness are added to
     /// them; for a body with fewer than three pinned nodes, which may move as a whole at no cost, one

@@ -48,8 +48,8 @@ enum InUse {
     Blocks,
     /// Levels of the current matrix.
     Fresh,
-    /// Levels of an earlier matrix, but for the finest, and the iterations for each digit that they took
-    /// fresh.
+    /// Levels of an earlier matrix, except for the finest, and the number of iterations for each digit that
+    /// they needed when fresh.
     Old {
         for_a_digit: f64,
     },
@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(after(old, 40, End::Limit, 1e-2), (InUse::Wanted, true));
         assert_eq!(after(old, 7, End::NotFinite, 1e-2), (InUse::Wanted, true));
         assert_eq!(after(InUse::Fresh, 9, End::NegativeCurvature, 1e-3), (InUse::Wanted, false));
-        // Whatever fresh levels cannot solve is not begun again.
+        // A system that fresh levels cannot solve is not retried.
         assert_eq!(after(InUse::Fresh, 900, End::Limit, 1e-3), (InUse::Wanted, false));
     }
 }

@@ -102,7 +102,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             })
         };
         let one = run(1);
-        // Equal floating-point numbers are equal bits but for the sign of zero, which cannot pass on.
+        // Equal floating-point numbers are equal bits except for the sign of zero, which cannot pass on.
         assert!(one == run(2), "{linear:?}");
     }
 }

@@ -73,7 +73,7 @@ fn springs(random: &mut Random) -> Vec<Spring> {
     vec![spring([0, 1, 2, 3]), spring([4, 1, 4, 4]), spring([3, 0, 4, 1])]
 }
 
-/// Energies, gradients and second derivatives of springs are quadratic, so that differences are exact but for
+/// Energies, gradients and second derivatives of springs are quadratic, so that differences are exact up to
 /// rounding.
 #[test]
 fn derivatives_of_springs_are_those_of_their_energy() {

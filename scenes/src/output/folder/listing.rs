@@ -15,7 +15,7 @@ const HEADER: &str = "Files that piola has written here; it replaces and removes
 
 /// The names of the files that piola has written into a folder, and the right to write there.
 ///
-/// A name is added before its file is created: whatever ends the program, each file of piola is in the list.
+/// A name is added before its file is created: however the program ends, each file of piola is in the list.
 /// The list is locked for as long as it is open, by the system, which ends the lock with the program.
 #[derive(Debug)]
 pub(super) struct Listing {
@@ -56,7 +56,7 @@ impl Listing {
             // A line without an end was being written when the program ended; its file does not exist.
             let whole = names.rfind('\n').map_or(0, |end| end + 1);
             listing.file.set_len((HEADER.len() + whole) as u64).map_err(failed)?;
-            // Whatever a list says, no file is touched that a run would not write.
+            // Regardless of the list, no file is touched that a run would not write.
             listing.names = names[..whole].lines().filter(|name| is_result(name)).map(String::from).collect();
         } else if HEADER.starts_with(&*text) {
             // The program ended before it wrote anything.

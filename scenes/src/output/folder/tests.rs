@@ -20,7 +20,7 @@ fn check(folder: &Path, expected: &[(&str, &str)]) {
     assert_eq!(files, expected);
 }
 
-/// Writes so many frames, with a text.
+/// Writes `frames` frames, with a text.
 fn fill(folder: &mut Folder, frames: usize, text: &str) -> Result<(), Error> {
     for frame in 0..frames {
         folder.write(&super::super::frame_file(frame), |file| file.write_all(text.as_bytes()))?;

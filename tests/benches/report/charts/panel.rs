@@ -52,7 +52,7 @@ pub(crate) enum Line {
     Dashed,
 }
 
-/// A place and what is written beside it; an error that is no number goes to the upper edge.
+/// Place and label of a mark; an error that is NaN goes to the upper edge.
 #[derive(Clone)]
 pub(crate) struct Point {
     pub(crate) x: f64,
@@ -60,7 +60,7 @@ pub(crate) struct Point {
     pub(crate) label: String,
 }
 
-/// Draws panels in rows of so many, below a title and a line that explains.
+/// Draws panels in rows of `columns`, below a title and a line that explains.
 ///
 /// # Errors
 /// What the library of charts says.
@@ -103,7 +103,7 @@ impl Panel {
         let x_range = range(points().map(|point| point.x), 0.05, 0.45);
         let y_range = range(points().map(|point| point.y), 0.05, 0.05);
         let is_lost = points().any(|point| !point.y.is_finite());
-        // A band at the upper edge for what is no number.
+        // A band at the upper edge for NaN.
         let ceiling = y_range.end;
         let top = if is_lost { ceiling * (ceiling / y_range.start).powf(0.08) } else { ceiling };
         let lost = (ceiling * top).sqrt();

@@ -1,6 +1,6 @@
 //! The depth of tokens, measured without descending into them: parser and resolver do descend.
 //!
-//! A level is whatever the syntax nests: a pair of parentheses, one sign before another, one call behind
+//! A level is anything that the syntax nests: a pair of parentheses, one sign before another, one call behind
 //! another, a value behind a `|` or a `=`. Terms and factors are none: a sum may be as long as it likes.
 
 use proc_macro2::{Delimiter, Group, Punct, Span, TokenStream, TokenTree};

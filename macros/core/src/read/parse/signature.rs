@@ -219,7 +219,7 @@ pub(super) fn parameters(
     lists
 }
 
-/// Reports a result that is no energy density.
+/// Reports a result that is not an energy density.
 pub(super) fn result(signature: &Signature, generics: &Generics, diagnostics: &mut Diagnostics) {
     match &signature.output {
         ReturnType::Type(_, ty) if generics.is_number(ty) => {}

@@ -85,7 +85,10 @@ impl Typical {
             let names: Vec<_> = parameters.iter().map(|parameter| parameter.name.to_string()).collect();
             diagnostics.error(
                 &name,
-                format!("`{name}` is no parameter, or is given twice: the parameters are {}", list(&names)),
+                format!(
+                    "`{name}` is not a parameter, or is given twice: the parameters are {}",
+                    list(&names)
+                ),
             );
         }
         if !missing.is_empty() {

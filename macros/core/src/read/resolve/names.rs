@@ -100,7 +100,7 @@ impl Resolver<'_> {
         self.mistake(name, &format!("unknown name `{text}`: {hint}"))
     }
 
-    /// The mistake of a whole exponent in the place of a number.
+    /// Error for an integer exponent used where a number is required.
     pub(super) fn whole_as_number(&mut self, name: &Ident, text: &str) -> Id {
         let message = if self.scope == Scope::Parameters {
             "the constructor checks that exponents are at most 64: remove this condition".to_owned()

@@ -108,7 +108,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// An entry of a list in the place of a number.
+    /// An entry of a list instead of a number.
     pub(super) fn entry(&mut self, expression: &ExprIndex) -> Id {
         let entry = self.any_entry(expression);
         match (self.graph.node(entry), plain_name(&expression.expr)) {
@@ -182,7 +182,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// The message about an index that is no name.
+    /// The message about an index that is not a name.
     fn not_an_index(&self, list: &str, index: &Expr) -> String {
         let place = match self.scope {
             Scope::Parameters => "which holds for each",

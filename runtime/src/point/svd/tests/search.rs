@@ -157,7 +157,7 @@ fn is_in_range<R: Bits>(F: &Exact) -> bool {
     F.iter().flatten().all(|x| x.is_finite()) && largest.log2().abs() <= f64::from(R::RANGE)
 }
 
-/// How long a search goes on at least: so many candidates, and so much time.
+/// Least effort of a search: a number of candidates, and a time.
 #[derive(Clone, Copy)]
 struct Budget {
     steps: usize,

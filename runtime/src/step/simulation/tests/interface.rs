@@ -73,7 +73,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         })
     };
     let (one, two) = (run(1), run(2));
-    // Equal floating-point numbers are equal bits but for the sign of zero, which cannot pass on.
+    // Equal floating-point numbers are equal bits except for the sign of zero, which cannot pass on.
     assert_eq!(one, two);
     assert_eq!(one, run(3));
 }
