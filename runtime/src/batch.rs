@@ -144,8 +144,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
         Self { layout, ..self }
     }
 
-    /// Sets whether tangents are written past the caches: about twice as fast where they are larger than the
-    /// last one, and slower where they would have stayed. Needs [`Layout::Lines`] and slices aligned to 64
+    /// Sets whether tangents are written past the caches: about twice as fast if they exceed the last-level
+    /// cache, and slower if they would have stayed in it. Needs [`Layout::Lines`] and slices aligned to 64
     /// bytes, else it does nothing.
     #[must_use]
     pub fn with_streams(self, streams: bool) -> Self {
@@ -270,8 +270,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
         })
     }
 
-    /// Gradients and stiffnesses as of [`Batch::stiffnesses`] for tetrahedra whose nodes are at `positions`,
-    /// m: F = Ds Dm⁻¹ is made on the way.
+    /// Gradients and stiffnesses as in [`Batch::stiffnesses`] for tetrahedra whose nodes are at `positions`,
+    /// m: F = Ds Dm⁻¹ is computed on the way.
     ///
     /// `rest` says how many there are. In [`Layout::Lines`] it goes on to the end of the last line; what
     /// stands there is for tetrahedra with edges of length 1 along the axes.
@@ -390,18 +390,18 @@ impl<'a, E: Kernels> Batch<'a, E> {
 /// Components of an element's rest shape: Dm⁻¹ row by row, 1/m, then the volume, m³.
 pub const REST: usize = 10;
 
-/// Slices whose lengths do not fit together.
+/// Error of slices whose lengths do not match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LengthError {
-    /// The slice that does not fit, as the method calls it.
+    /// Name of the slice that does not match, as in the signature of the method.
     pub slice: &'static str,
-    /// Its length.
+    /// Length of that slice.
     pub found: usize,
-    /// Components that it holds for each point.
+    /// Number of components that it must hold for each point.
     pub components: usize,
     /// Number of points.
     pub points: usize,
-    /// Divisor that the layout demands of the number of points.
+    /// Divisor of the number of points that the layout requires.
     pub group: usize,
 }
 

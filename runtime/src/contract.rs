@@ -1,4 +1,4 @@
-//! Rules that every [`Material`] must keep, as tests that a crate declaring one has in one line.
+//! Rules that every [`Material`] must keep, and a macro that tests all of them in one line.
 //!
 //! ```
 //! use piola::{Inversion, material};
@@ -92,8 +92,8 @@ pub use violation::{Violation, Violations};
 use judge::Judge;
 use subject::{OnLanes, Subject};
 
-/// Stack, bytes, of the threads in which [`contract!`](crate::contract!) judges: what code without
-/// optimisation may need.
+/// Stack size, bytes, of the threads in which [`contract!`](crate::contract!) runs: enough for code without
+/// optimisation.
 pub const STACK: usize = 1 << 26;
 
 /// Choice of the points that are checked, and of the demands on the rest state.
@@ -133,7 +133,7 @@ impl Default for Settings {
     }
 }
 
-/// Points and comparisons that a rule was judged on and kept.
+/// Result of a rule that holds: its number of comparisons, and the worst of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
     /// The rule.

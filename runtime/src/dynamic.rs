@@ -5,8 +5,8 @@ use crate::batch::TileMaterial as Tiles;
 use crate::lanes::Scalar;
 use crate::material::{Material, Response};
 
-/// A material of any type: the bound to write wherever one is taken or kept, except for
-/// [`contract`](mod@crate::contract), which takes a [`Material`].
+/// Material of any type, behind `dyn`: the bound for functions and structs that take or keep a material,
+/// except for [`contract`](mod@crate::contract), which takes a [`Material`].
 ///
 /// Every [`Material`] is one, in `f64` and `f32`, and `dyn DynMaterial<f64>` is one whose type is known at
 /// run time only. Points and batches take it by reference, bodies by value; a part of a body takes it in a
@@ -57,7 +57,7 @@ pub trait DynMaterial<E: Scalar>: Response<E> + Tiles<E> {}
 
 impl<E: Scalar, M: Material> DynMaterial<E> for M {}
 
-/// Nothing where there are no batches.
+/// Empty trait without the feature `batch`.
 #[cfg(not(feature = "batch"))]
 pub trait Tiles<E> {}
 

@@ -40,12 +40,12 @@ pub trait Outputs<const REST: usize>: Scalar {
     type Form: Copy;
     #[doc(hidden)]
     fn stress(backend: Backend, kernel: Stress<'_, Self, REST>) -> Status<u64>;
-    /// The points served.
+    /// Returns the points that have results.
     #[doc(hidden)]
     fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, REST>) -> u64;
     #[doc(hidden)]
     fn tangents(backend: Backend, form: Self::Form, kernel: Tangents<'_, Self, REST>) -> Status<u64>;
-    /// The points served.
+    /// Returns the points that have results.
     #[doc(hidden)]
     fn tangents_by_invariants(
         backend: Backend,
@@ -74,7 +74,7 @@ pub trait Kernels: Outputs<0, Form = MatrixForm> + Outputs<10, Form = StiffnessF
     fn measured_stress(backend: Backend, kernel: MeasuredStress<'_, Self>) -> Status<u64>;
     #[doc(hidden)]
     fn measured_tangent(backend: Backend, kernel: MeasuredTangent<'_, Self>) -> Status<u64>;
-    /// Lends this thread's workspace; allocates one where it is lent already, or none was before.
+    /// Lends the workspace of this thread; allocates one if it is in use already or there is none yet.
     #[doc(hidden)]
     fn with_workspace<T>(body: impl FnOnce(&mut Workspace<Self>) -> T) -> T;
 }

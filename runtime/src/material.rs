@@ -1,5 +1,4 @@
-//! The seam between an energy and everything else: what `#[piola::material]` writes and the rest of piola
-//! reads.
+//! Interface of an energy: what `#[piola::material]` implements and the rest of piola uses.
 //!
 //! An isotropic energy density ψ(λ1, λ2, λ3), in Pa, is a function of the signed principal stretches λ1 ≥ λ2
 //! ≥ |λ3| of a deformation gradient. All that its stress and tangent need are its first and second
@@ -112,11 +111,12 @@ pub trait Material: Send + Sync {
     /// is ignored, and dP/dF takes half as many operations.
     const HAS_SECOND_INVARIANT: bool = true;
 
-    /// Second derivatives of ψ by invariants that do not vanish everywhere. The others are taken for zero,
-    /// and dP/dF takes fewer operations.
+    /// Second derivatives of ψ by invariants that do not vanish everywhere. The others count as zero, and
+    /// dP/dF takes fewer operations.
     const CURVATURE_BY_INVARIANTS: Curvature = Curvature::All;
 
-    /// True if ψ itself is computed from the invariants too. Near rest Σ (λ² − 1)², for one, has more digits.
+    /// True if ψ itself is computed from the invariants too. Near rest Σ (λ² − 1)², for example, has more
+    /// digits.
     const HAS_ENERGY_BY_INVARIANTS: bool = Self::HAS_INVARIANTS;
 
     /// True if the invariants give the responses of this particular material.
@@ -127,19 +127,19 @@ pub trait Material: Send + Sync {
         Self::HAS_INVARIANTS
     }
 
-    /// [`HAS_SECOND_INVARIANT`](Self::HAS_SECOND_INVARIANT) of this very material.
+    /// [`HAS_SECOND_INVARIANT`](Self::HAS_SECOND_INVARIANT) of this particular material.
     #[inline]
     fn has_second_invariant(&self) -> bool {
         Self::HAS_SECOND_INVARIANT
     }
 
-    /// [`CURVATURE_BY_INVARIANTS`](Self::CURVATURE_BY_INVARIANTS) of this very material.
+    /// [`CURVATURE_BY_INVARIANTS`](Self::CURVATURE_BY_INVARIANTS) of this particular material.
     #[inline]
     fn curvature_by_invariants(&self) -> Curvature {
         Self::CURVATURE_BY_INVARIANTS
     }
 
-    /// [`HAS_ENERGY_BY_INVARIANTS`](Self::HAS_ENERGY_BY_INVARIANTS) of this very material.
+    /// [`HAS_ENERGY_BY_INVARIANTS`](Self::HAS_ENERGY_BY_INVARIANTS) of this particular material.
     #[inline]
     fn has_energy_by_invariants(&self) -> bool {
         Self::HAS_ENERGY_BY_INVARIANTS
@@ -189,8 +189,8 @@ pub trait Material: Send + Sync {
         Inversion::Refuse
     }
 
-    /// Small-strain moduli, where they are known from elsewhere than the Hessian at rest, as those of a
-    /// declaration are; for comparison with it by the [`contract`](mod@crate::contract).
+    /// Small-strain moduli from a source other than the Hessian at rest, such as a declaration; the
+    /// [`contract`](mod@crate::contract) compares the two.
     fn stated_moduli(&self) -> Option<Moduli> {
         None
     }
@@ -199,7 +199,7 @@ pub trait Material: Send + Sync {
     #[doc(hidden)]
     const RESPONDS_TOGETHER: bool = false;
 
-    /// Computes a response of a tile, whose points have the materials `material(point)`; gives those inside
+    /// Computes a response of a tile, whose points have the materials `material(point)`; returns those inside
     /// the domain as bits.
     ///
     /// For materials whose cost is per operation and not per point, such as an interpreter. Called only if
@@ -226,7 +226,7 @@ pub enum Curvature {
     Volume,
     /// W11 and WJJ: f(I1) + d I2 + g(J).
     Separate,
-    /// Any of them.
+    /// All of them.
     All,
 }
 
@@ -282,7 +282,7 @@ pub enum Inversion {
     /// Refuses such points by their status, so that a line search takes a shorter step.
     #[default]
     Refuse,
-    /// ln λ and real or negative powers of a stretch continue below `epsilon` as their quadratic Taylor
+    /// Continues ln λ and real or negative powers of a stretch below `epsilon` as their quadratic Taylor
     /// polynomials.
     ///
     /// The energy stays twice continuously differentiable, isotropic and restoring, and stress and tangent
@@ -368,7 +368,7 @@ pub trait Declared: Material + Sized {
     /// Names, formula, parameters and domain of the declaration.
     const DESCRIPTION: Description;
 
-    /// The material with these values, one slice for each entry of [`Description::parameters`].
+    /// Builds the material from these values, one slice for each entry of [`Description::parameters`].
     ///
     /// # Errors
     /// [`MaterialError::Shape`] if the lengths do not fit; the others as the constructor of the type.

@@ -1,4 +1,4 @@
-//! Tetrahedral bodies and the surfaces drawn in their place: geometry at rest, boxes, files, embedding.
+//! Tetrahedral bodies and the surfaces drawn instead of them: geometry at rest, boxes, files, embedding.
 //!
 //! This module knows no materials, no forces and no time. Coordinates are in f64.
 

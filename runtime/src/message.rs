@@ -1,4 +1,4 @@
-//! Numbers and foreign text in messages: short, and harmless to a terminal.
+//! Formatting of numbers and foreign text in messages: short, and harmless to a terminal.
 //!
 //! Errors of all crates quote what they were given through these functions.
 
@@ -7,8 +7,8 @@ const LONGEST: usize = 40;
 /// Names of a list beyond which it is cut.
 const MOST_NAMES: usize = 20;
 
-/// A number as it is written by hand: very large and very small ones with an exponent, so that 10³⁰⁸ does not
-/// take a line of zeros.
+/// Number in the usual form: very large and very small ones with an exponent, so that 10³⁰⁸ does not take a
+/// line of zeros.
 ///
 /// ```
 /// # use piola::__private::message::number;
@@ -21,7 +21,7 @@ pub fn number(x: f64) -> String {
     if is_short { x.to_string() } else { format!("{x:e}") }
 }
 
-/// A word of a file or a name: escaped as by [`printable`], and cut where it is long.
+/// Word of a file, or a name: escaped as by [`printable`], and cut if it is long.
 ///
 /// ```
 /// # use piola::__private::message::quoted;
@@ -36,7 +36,7 @@ pub fn quoted(text: &str) -> String {
     }
 }
 
-/// A text with all characters that a terminal obeys, or does not show, in the form `\u{1b}`: control
+/// Text with all characters that a terminal interprets, or does not show, in the form `\u{1b}`: control
 /// characters, and those that hide or turn others.
 #[must_use]
 pub fn printable(text: &str) -> String {
@@ -50,7 +50,7 @@ pub fn printable(text: &str) -> String {
     printable
 }
 
-/// Names one after the other, each [`quoted`]; of many the first ones and how many more there are.
+/// List of names, each [`quoted`]; a long list is cut after the first ones, with the number of the others.
 ///
 /// ```
 /// # use piola::__private::message::names;

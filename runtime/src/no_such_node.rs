@@ -1,11 +1,11 @@
-//! Names of nodes that do not exist, which every module that takes nodes refuses.
+//! Error of node numbers that do not exist, for every module that takes nodes.
 
 use std::fmt;
 
-/// The error of a node number beyond the number of nodes.
+/// Error of a node number beyond the number of nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoSuchNode {
-    /// The tetrahedron that names it, if one does: its tag in a mesh with tags, else its index from 0.
+    /// The tetrahedron that uses it, if one does: its tag in a mesh with tags, else its index from 0.
     pub element: Option<usize>,
     /// The missing node.
     pub node: usize,

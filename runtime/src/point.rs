@@ -1,4 +1,4 @@
-//! One point: a deformation gradient F, and the energy density, stress and tangent there.
+//! One point: a deformation gradient F, and the energy density, stress and tangent at F.
 //!
 //! F = U diag(λ) Vᵀ ([`svd()`]); an energy gives its derivatives in the stretches λ
 //! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`stress()`]) and dP/dF
@@ -83,14 +83,14 @@ pub struct Point<R: Real> {
     pub stretches: [R; 3],
     /// First Piola stress P, Pa.
     pub stress: Matrix3<R>,
-    /// dP/dF, filtered as asked, Pa.
+    /// dP/dF, filtered as requested, Pa.
     pub tangent: Tangent<R>,
     /// Status of the results: valid or not, and filtered or not.
     pub status: Status<R::Mask>,
 }
 
 impl<R: Real> Point<R> {
-    /// The decomposition of F that stress and tangent were made with.
+    /// Decomposition of F from which stress and tangent were computed.
     #[inline(always)]
     #[must_use]
     pub fn decomposition(&self) -> Svd<R> {
@@ -98,8 +98,8 @@ impl<R: Real> Point<R> {
     }
 }
 
-/// The energy density ψ, Pa, at a deformation. Computes no derivative, and for an energy of I1, I2 and J
-/// alone, well inside its domain, no decomposition of F.
+/// Energy density ψ, Pa, at a deformation. Computes no derivative, and for an energy of I1, I2 and J alone,
+/// well inside its domain, no decomposition of F.
 #[inline(always)]
 #[must_use]
 pub fn evaluate_energy<D: Deformation>(
@@ -109,8 +109,8 @@ pub fn evaluate_energy<D: Deformation>(
     deformation.energy(material)
 }
 
-/// The first Piola stress P, Pa, at a deformation. Computes no second derivative, and for an energy of I1, I2
-/// and J alone, well inside its domain, no decomposition of F.
+/// First Piola stress P, Pa, at a deformation. Computes no second derivative, and for an energy of I1, I2 and
+/// J alone, well inside its domain, no decomposition of F.
 #[inline(always)]
 #[must_use]
 pub fn evaluate_stress<D: Deformation>(
@@ -120,7 +120,7 @@ pub fn evaluate_stress<D: Deformation>(
     deformation.stress(material)
 }
 
-/// Stress and tangent at a deformation, the tangent filtered.
+/// Stress and filtered tangent at a deformation.
 ///
 /// Outside the domain of the energy the status is `refused` and the results mean nothing. Where it is not
 /// `nonfinite`, stress and tangent are finite, and so are [`Tangent::to_matrix`] and [`Tangent::apply`] to
@@ -240,7 +240,7 @@ pub(crate) fn stress_is_finite<R: Real>(stretches: [R; 3], P: &Matrix3<R>) -> R:
     stretches_in_range(stretches) & entries_are_finite(P)
 }
 
-/// Decomposes F as every evaluation of the material does: with [`svd_signed_by_determinant`] where its domain
+/// Decomposes F as every evaluation of the material does: with [`svd_signed_by_determinant`] if its domain
 /// ends at det F = 0, else with [`svd()`].
 #[inline(always)]
 #[must_use]
@@ -248,7 +248,7 @@ pub fn decompose<R: Real>(material: &(impl Response<R> + ?Sized), F: &Matrix3<R>
     if material.ends_at_zero_volume() { svd_signed_by_determinant(F) } else { svd(F) }
 }
 
-/// Zero if all are finite, else NaN: one comparison asks for many.
+/// Zero if all are finite, else NaN: one comparison tests many.
 #[inline(always)]
 fn none_infinite<R: Real, const N: usize>(numbers: [R; N]) -> R {
     let zero = R::splat(0.0);

@@ -170,8 +170,8 @@ pub fn ln_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
     R::select(in_range, ln, (l1.ln() + l3.ln()) + l2.ln())
 }
 
-/// The base of a real power that vanishes at rest alone, kept from zero: at least the smallest positive
-/// number over u², so that its reciprocal leaves room for other factors.
+/// The base of a real power that vanishes only at rest, kept from zero: at least the smallest positive number
+/// over u², so that its reciprocal leaves room for other factors.
 ///
 /// So 0^(n − 2) 0 is 0 and not NaN, as the stiffness of (I1b − 3)ⁿ at rest is for n > 1. A negative base,
 /// which no sum of squares has, is NaN.
@@ -221,7 +221,7 @@ mod tests {
     }
 
     /// The worst relative error, in units of u, over gaps t for which b (1 + t) is exact: powers of two, and
-    /// some beside each switch between formulas.
+    /// some near each switch between formulas.
     ///
     /// Some bases b have large logarithms, which cancel except for their difference.
     fn worst(error: impl Fn(f64, f64) -> f64) -> f64 {

@@ -1,4 +1,4 @@
-//! Reproducible random numbers: SplitMix64 \[SLF14\], small enough that no dependency is worth its place.
+//! Reproducible random numbers: SplitMix64 \[SLF14\], too small to justify a dependency.
 //!
 //! Whoever draws samples states a seed, and gets the same samples on every machine and from every later
 //! version.
@@ -16,7 +16,7 @@
 pub struct Random(u64);
 
 impl Random {
-    /// The stream of a seed.
+    /// Starts the stream of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
@@ -43,7 +43,7 @@ impl Random {
         (self.bits() % count.max(1) as u64) as usize
     }
 
-    /// True once in `count` times.
+    /// True on average once in `count` times.
     pub fn once_in(&mut self, count: usize) -> bool {
         self.below(count) == 0
     }

@@ -14,7 +14,7 @@ use crate::lanes::Mask;
 pub struct Status<M = bool> {
     /// The deformation lies outside the domain of the energy, and the results are meaningless.
     pub refused: M,
-    /// λ2 + λ3 is at a pole of the twist, and the tangent has a bounded value in place of an infinite one.
+    /// λ2 + λ3 is at a pole of the twist, and the tangent has a bounded value instead of an infinite one.
     pub bounded: M,
     /// The deformation gradient or a result is infinite or NaN, or a stretch or the tangent comes within a
     /// factor 16 of it.
@@ -87,7 +87,7 @@ impl Status<u64> {
     }
 }
 
-/// Room for the status of a point of a batch, which any thread may write.
+/// Status of a point of a batch, which any thread may write.
 ///
 /// One byte, which other languages may lend: bit 0 says refused, 1 bounded, 2 nonfinite, 3 filtered.
 #[derive(Debug, Default)]

@@ -1,4 +1,4 @@
-//! Time: implicit steps as minimisations, by Newton's method with a line search; and statics.
+//! Time integration: implicit steps as minimisations, by Newton's method with a line search; and statics.
 //!
 //! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of
 //! which minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
@@ -44,8 +44,8 @@ pub use solver::{LinearSolver, SparseSolver};
 pub use spring::Spring;
 pub use term::{EnergyChange, NodeBlocks, Term};
 
-/// Interfaces for codes that divide a body among machines: they minimise, and advance in time, as a
-/// [`Simulation`] does, with their own elements, linear systems and sums.
+/// Interfaces for codes that divide a body among machines: Newton's method and time steps of a [`Simulation`]
+/// for their own elements, linear systems and sums.
 ///
 /// [`StagedSteps`](divided::StagedSteps) holds the state of the nodes of one machine; its stages are moved to
 /// a minimum by [`minimize`](divided::minimize), and lengths of steps are found by

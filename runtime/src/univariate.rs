@@ -149,7 +149,7 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
         sum
     }
 
-    /// The argument at which φ is 0 if [`value`](Univariate::value) is the default.
+    /// Argument at which φ is 0 if [`value`](Univariate::value) is the default.
     ///
     /// 1 by default; 3 suits a function of I1 or I2.
     fn origin(&self) -> f64 {
@@ -162,7 +162,7 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// φ″(x).
     fn second_derivative<R: Real>(&self, x: R) -> R;
 
-    /// The points at which φ is not smooth, in increasing order; the defaults below integrate between them.
+    /// Points at which φ is not smooth, in increasing order; the default methods integrate between them.
     ///
     /// None by default. Where φ has a kink that is not among them, the defaults notice it and take the plain
     /// quotient, which loses digits in proportion to the gap.
@@ -201,7 +201,7 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
         })
     }
 
-    /// The values that a fit may change, such as ordinates or coefficients; see
+    /// Values that a fit may change, such as ordinates or coefficients; see
     /// [`Fittable`](crate::material::Fittable).
     ///
     /// None by default: then a fit holds the function as it is.
@@ -209,7 +209,7 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
         Vec::new()
     }
 
-    /// The function with other [`values`](Univariate::values), all else being equal.
+    /// Builds the function with other [`values`](Univariate::values), all else being equal.
     ///
     /// φ should depend smoothly on each value, at least within 3 % of it.
     ///

@@ -33,7 +33,7 @@ pub(crate) struct Elements {
     /// Dm⁻¹ row by row and the volume of each.
     rest: Lines<f64, 10>,
     F: Lines<f64, 9>,
-    /// The decomposition of F; `None` while the invariants serve all elements.
+    /// Decomposition of F; `None` if the invariants are used for all elements.
     svd: Option<Box<SvdTile<f64>>>,
 }
 

@@ -18,7 +18,7 @@ pub(super) struct Work<'a, E, const I: usize, const O: usize> {
 }
 
 impl<'a, E: Scalar, const I: usize, const O: usize> Work<'a, E, I, O> {
-    /// Takes the first `tiles` tiles away; all that is left, if there are fewer.
+    /// Splits off the first `tiles` tiles, or all that are left if there are fewer.
     fn split_off(&mut self, tiles: usize) -> Self {
         let points = tiles * TILE;
         let inputs = self.inputs.each_mut().map(|(slice, numbers)| {

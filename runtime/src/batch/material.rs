@@ -1,4 +1,4 @@
-//! A material as batches see it: one dynamic dispatch for each response of a tile.
+//! Materials over tiles of points: one dynamic dispatch for each response of a tile.
 
 use crate::kernels::rows::{ROW, Rows, first_bits, for_each_group, to_rows};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
@@ -20,7 +20,8 @@ trait Points: Send + Sync {
     /// All the materials: one, or one for each point.
     fn materials(&self) -> &[Self::Material];
 
-    /// Number of points with a material of their own; `None` if one serves any number of points.
+    /// Number of points with a material of their own; `None` if one material is used for any number of
+    /// points.
     fn count(&self) -> Option<usize>;
 
     fn properties(&self) -> Properties {
@@ -107,7 +108,7 @@ macro_rules! tile_responses {
             #[doc(hidden)]
             fn properties(&self) -> Properties;
 
-            /// Largest ψ11 at rest, Pa: how stiff the material is, and so how large the rounding error of an
+            /// Largest ψ11 at rest, Pa: a measure of the stiffness, and so of the rounding error of an
             /// energy.
             #[cfg(feature = "bodies")]
             #[doc(hidden)]
@@ -208,7 +209,7 @@ tile_responses! {
     finite where |at, _| anywhere(at);
 }
 
-/// Hands a whole tile to the material. Gives the points inside the domain as bits.
+/// Passes a whole tile to the material. Returns the points inside the domain as bits.
 fn together<E: Scalar, P: Points>(
     points: &P,
     response: ResponseKind,

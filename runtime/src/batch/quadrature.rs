@@ -56,7 +56,8 @@ impl<E: Scalar> Quadrature<E> {
         Self { backend, ..self }
     }
 
-    /// Deformation gradients of all points, whose numbers the elements of `positions` say.
+    /// Computes the deformation gradients of all points of the elements, whose number follows from the length
+    /// of `positions`.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not fit together.
@@ -143,7 +144,7 @@ impl<E: Scalar> Quadrature<E> {
         Ok(())
     }
 
-    /// Number of elements that these slices are of.
+    /// Number of elements in these slices.
     fn elements(&self, slopes: &[E], volumes: &[E]) -> Result<usize, LengthError> {
         let elements = volumes.len().checked_div(self.points).unwrap_or(0);
         fit("volumes", volumes, self.points, elements)?;
@@ -169,7 +170,7 @@ fn chunks<E>(of: &[E], size: usize) -> impl Iterator<Item = &[E]> {
     of.chunks_exact(size.max(1))
 }
 
-/// Nodes, and as many more as fill whole registers of any back end.
+/// Number of nodes, rounded up to whole registers of any back end.
 fn stride<E: Scalar>(nodes: usize) -> usize {
     nodes.next_multiple_of(E::LINE)
 }
@@ -184,7 +185,7 @@ struct StiffnessSums<'a, E> {
     stiffness: &'a mut [E],
 }
 
-/// Numbers of one point, and sums over all points.
+/// Scratch memory: values of one point, and sums over all points.
 struct Room<'a, E> {
     /// The slopes along each axis, node by node.
     axes: &'a mut [E],

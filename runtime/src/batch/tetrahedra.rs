@@ -1,10 +1,10 @@
-//! Linear tetrahedra of a mesh: which nodes they join, and how the positions of these become edges.
+//! Linear tetrahedra of a mesh: their nodes, and their edges from the positions of the nodes.
 
 use crate::NoSuchNode;
 use crate::kernels::sink::Lines;
 use crate::lanes::Scalar;
 
-/// The nodes of linear tetrahedra, four of each, seen to exist once for many calls.
+/// Nodes of linear tetrahedra, four of each, checked once for many calls.
 #[derive(Clone, Copy, Debug)]
 pub struct Tetrahedra<'a> {
     nodes: usize,

@@ -1,4 +1,4 @@
-//! A tile on its way through the stages: by the invariants where they serve, by a decomposition elsewhere.
+//! Stages of a tile: by the invariants if possible, by a decomposition elsewhere.
 //!
 //! Batches lend each tile the memory of a thread. Bodies keep F, shapes at rest and decompositions of their
 //! tiles between calls ([`element`](super::element)).
@@ -45,7 +45,7 @@ impl<'a, E: Kernels> Call<'a, E> {
         Tile { call: self, start, count, F, rest: Source::NONE, svd, is_decomposed: false, scratch }
     }
 
-    /// A sink for the points that are not served yet.
+    /// Sink for the points that are not in `served`.
     pub(super) fn sink<'t>(&self, to: &'t mut [E], served: u64) -> Sink<'t, E> {
         Sink { to, layout: self.layout, non_temporal: None, served }
     }
@@ -132,8 +132,8 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         (refused | E::stress(call.backend, kernel)) & !served
     }
 
-    /// Stresses and tangents, or gradients and stiffnesses of elements; energies, too, if there is room for
-    /// them.
+    /// Stresses and tangents, or gradients and stiffnesses of elements; energies, too, if there is an output
+    /// for them.
     pub(super) fn tangents(
         &mut self,
         form: <E as Outputs<REST>>::Form,
@@ -186,8 +186,8 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         (E::tangents(call.backend, form, kernel) | stressed | status) & !served
     }
 
-    /// Decomposes F where points are not served, unless that has been done. Elsewhere frames and stretches
-    /// may be those of another tile: what is computed from them is thrown away.
+    /// Decomposes F at the points that are not in `served`, unless that has been done. Elsewhere frames and
+    /// stretches may be those of another tile: results computed from them are discarded.
     pub(super) fn decompose(&mut self, served: u64) {
         if !self.is_decomposed {
             let is_signed = self.call.properties.ends_at_zero_volume;
@@ -216,7 +216,8 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
             )
     }
 
-    /// The invariants, if the energy is one of them. Returns the points in range: none for any other.
+    /// Computes the invariants if the energy depends on them alone. Returns the points in range: none for any
+    /// other energy.
     fn invariants(&mut self) -> u64 {
         let Properties { has_invariants, has_second_invariant, .. } = self.call.properties;
         if !has_invariants {
@@ -228,7 +229,8 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         self.accepted(in_range)
     }
 
-    /// Derivatives by the invariants, where they give the tangents. Returns these points.
+    /// Computes the derivatives by the invariants if these give the tangents. Returns the points for which
+    /// they do.
     fn derivatives_by_invariants(&mut self) -> u64 {
         // What a filter changes is seen in the principal frames alone.
         if self.call.filter != Filter::None {
@@ -244,7 +246,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         self.accepted(in_range & !(status.refused | status.nonfinite))
     }
 
-    /// Energies of the points that the invariants serve, which it returns.
+    /// Computes energies by the invariants. Returns the points for which these are used.
     fn energies_by_invariants(&mut self, in_range: u64, energies: &mut [E]) -> u64 {
         if in_range == 0 {
             return 0;
@@ -256,7 +258,8 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         self.accepted(in_range & !(status.refused | status.nonfinite))
     }
 
-    /// Energies of the points of a decomposed tile that are not served yet, and the status of all.
+    /// Computes the energies of the points of a decomposed tile that are not in `served`. Returns the status
+    /// of all points.
     fn energies_by_stretches(&mut self, served: u64, energies: &mut [E]) -> Status<u64> {
         let arguments = self.arguments(&self.svd.stretches);
         let densities = &mut self.scratch.energies;
@@ -267,7 +270,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         status
     }
 
-    /// The points that the invariants serve, given those that they can serve.
+    /// Points for which the invariants are used, given those for which they can be.
     fn accepted(&self, served: u64) -> u64 {
         if self.call.keeps_svd && served != first_bits(self.count) { 0 } else { served }
     }

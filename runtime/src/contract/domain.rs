@@ -1,4 +1,4 @@
-//! The rule on a material's domain as it states it, which decides how exactly the sign of λ3 is found.
+//! The rule on the domain that a material declares, which determines how exactly the sign of λ3 is computed.
 
 use super::results::{name, results};
 use super::samples::at_samples;

@@ -1,4 +1,4 @@
-//! The rule on extensions: smooth beside and across the threshold, restoring below it.
+//! The rule on extensions: smooth next to and across the threshold, restoring below it.
 
 use super::slopes::{Approach, energy_along, stress_along};
 use super::subject::Subject;

@@ -39,7 +39,7 @@ impl Judge {
         self.compare_or(component, stretches, found, 0.0, tolerance, Some(remedy))
     }
 
-    /// Demands |found − expected| ≤ tolerance, with advice for where it fails.
+    /// Demands |found − expected| ≤ tolerance, with advice if it fails.
     fn compare_or(
         &mut self,
         component: impl FnOnce() -> String,
@@ -125,7 +125,7 @@ impl Judge {
         self.demand(found.is_finite(), FINITE, words, stretches, found)
     }
 
-    /// Demands that a condition be met; component and remedy are put into words only where it isn't.
+    /// Demands that a condition be met; component and remedy are put into words only if it is not.
     fn demand(
         &mut self,
         is_met: bool,

@@ -1,4 +1,4 @@
-//! The contract as tests of a user's own crate.
+//! The contract as tests of a user's crate.
 
 /// A module of tests, one for each [`Rule`](crate::contract::Rule), for one material.
 ///

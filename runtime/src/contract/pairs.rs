@@ -133,14 +133,14 @@ fn opposite(
     judge.compare(name, stored, blocks.twist[2], expected, tolerance)
 }
 
-/// Second derivatives are known to some u times the largest of them, and to as much again from the stretches'
-/// rounding.
+/// Error of second derivatives: some u times the largest of them, and as much again from the rounding of the
+/// stretches.
 fn tolerance(blocks: &Blocks<f64>) -> f64 {
     200.0 * UNIT * stiffness(blocks)
 }
 
-/// The mean of f over [0, end] and how inexact it may be: four times by how much rules with fewer panels
-/// differ from it, zero up to rounding for a smooth f.
+/// Mean of f over [0, end] with a bound of its error: four times the difference to rules with fewer panels,
+/// zero up to rounding for a smooth f.
 pub(super) fn mean(end: f64, f: impl Fn(f64) -> f64) -> (f64, f64) {
     let [whole, halves, quarters] = [1, 2, 4].map(|panels| {
         let width = end / f64::from(panels);

@@ -1,5 +1,5 @@
-//! The rule on formats: `f32` against `f64`, at stretches that both know. It shows where a formula loses
-//! digits.
+//! The rule on formats: `f32` against `f64`, at stretches that both represent exactly. It shows where a
+//! formula loses digits.
 
 use super::results::name;
 use super::samples::{at_samples, together};
@@ -33,7 +33,7 @@ enum Overflow {
     Expected,
 }
 
-/// The stretches of flat elements, of lines, of huge and tiny elements, beside one of moderate stretches.
+/// Stretches of flat elements, of lines, of huge and tiny elements, and moderate stretches.
 ///
 /// What a formula loses there, it loses in `f32` first: 1 + B with B near −1 has lost half of its 24 bits
 /// where λ3 = 0.01, and half of the 53 of `f64` only where λ3 = 1e-4.

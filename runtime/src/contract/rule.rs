@@ -1,4 +1,4 @@
-//! The rules by name, and what each of them asks for.
+//! Rules of the contract by name, with their requirements.
 
 use std::fmt;
 
@@ -97,7 +97,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// All of them, in the order of the table at the head of the module.
+    /// All rules, in the order of the table at the head of the module.
     pub const ALL: [Self; 15] = [
         Self::Rest,
         Self::Domain,

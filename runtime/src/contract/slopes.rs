@@ -1,5 +1,5 @@
-//! Rules on derivatives: a difference quotient approaches a right derivative at a known rate, until rounding
-//! takes over.
+//! Rules on derivatives: a difference quotient approaches a correct derivative at a known rate, until
+//! rounding takes over.
 //!
 //! Closeness at one step size cannot tell a small mistake from truncation; the rate can. A wrong derivative
 //! leaves an error that does not shrink with h.
@@ -98,8 +98,8 @@ impl Approach {
     }
 }
 
-/// A random frame and direction at these stretches, as long as the reach. Stretches move by no more than F
-/// does [Weyl's inequality], so steps below 1 keep to where the approach is as said.
+/// Random frame and direction at these stretches, as long as the reach. Stretches move by no more than F does
+/// [Weyl's inequality], so steps below 1 stay where the stated order holds.
 fn line(stretches: [f64; 3], reach: f64, random: &mut Random) -> (Matrix3<f64>, Matrix3<f64>) {
     let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());
     let A = random.matrix();

@@ -1,4 +1,5 @@
-//! A material as the rules see it: behind `dyn`, so that they are compiled once and not for each material.
+//! Interface of a material to the rules: behind `dyn`, so that they are compiled once and not for each
+//! material.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 

@@ -11,7 +11,7 @@ use super::{stiffness, stress_scale};
 /// answers to relative changes of the stretches, since what is computed of them first, such as J or a bound
 /// that the energy nears, is rounded.
 pub(super) fn known(material: &dyn Subject, stretches: [f64; 3]) -> Option<([f64; COUNT], [f64; COUNT])> {
-    /// Long beside rounding, short beside what an energy changes over.
+    /// Relative step: large compared with rounding, small compared with the scale on which an energy changes.
     const STEP: f64 = 1.0 / 4096.0;
     let values = results(material, stretches);
     let blocks = material.blocks(stretches);

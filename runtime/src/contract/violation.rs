@@ -43,7 +43,7 @@ const DIGITS: &str = "so small a difference is likelier digits lost than a mista
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Violation {
-    /// Two values that must agree don't.
+    /// Two values that must agree differ.
     Differs {
         /// The rule.
         rule: Rule,
@@ -60,7 +60,7 @@ pub enum Violation {
         /// Advice on what to write instead, if any; shown if the difference is too large to be lost digits.
         remedy: Option<String>,
     },
-    /// A value that must be positive, negative or finite isn't.
+    /// A value that must be positive, negative or finite is not.
     WrongKind {
         /// The rule.
         rule: Rule,
@@ -80,8 +80,7 @@ pub enum Violation {
         /// The rule.
         rule: Rule,
     },
-    /// The material has nothing that the rule is about, which [`check_rule`](super::check_rule) would not
-    /// have asked for.
+    /// The material lacks the subject of the rule. [`check_rule`](super::check_rule) skips such a rule.
     DoesNotApply {
         /// The rule.
         rule: Rule,

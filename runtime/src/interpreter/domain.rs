@@ -14,7 +14,7 @@ pub enum Volume {
     Nonzero,
 }
 
-/// The volumes for which a material is defined, by what its responses have for arguments.
+/// Volumes for which a material is defined, as a condition on the arguments of a response.
 #[derive(Clone, Copy)]
 pub(super) struct VolumeBound {
     pub(super) volume: Volume,

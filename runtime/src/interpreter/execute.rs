@@ -42,7 +42,7 @@ pub(super) struct Request<'a, E> {
     pub(super) volume: VolumeBound,
 }
 
-/// Executes a program for a tile of points. Gives the points at which its bounds are positive and whose
+/// Executes a program for a tile of points. Returns the points at which its bounds are positive and whose
 /// volume is inside the domain, as bits.
 ///
 /// One kernel for all programs, in each format: what differs between them is data.

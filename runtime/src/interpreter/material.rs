@@ -79,7 +79,7 @@ pub struct Calls {
     pub functions: Vec<usize>,
 }
 
-/// A material whose energy was declared at run time, as the crate `piola-declare` makes it.
+/// Material whose energy was declared at run time, made by the crate `piola-declare`.
 ///
 /// It computes what a material compiled from the same declaration does, to the last bit, and is as good
 /// behind `dyn` [`DynMaterial`](crate::DynMaterial). Batches and bodies execute each operation for a tile of
@@ -87,7 +87,7 @@ pub struct Calls {
 /// as long as compiled.
 #[derive(Clone, Debug)]
 pub struct Interpreted {
-    /// Tells materials apart whose values differ; clones share it.
+    /// Identity of the parameter values; shared by clones.
     number: u64,
     programs: Arc<Programs>,
     values: ParameterValues,
@@ -188,7 +188,7 @@ impl Interpreted {
     }
 
     /// Programs of the domain: expressions that are positive inside of it, and calls of functions; `None`
-    /// where there are no invariants.
+    /// without invariants.
     fn domain(&self, is_by_invariants: bool) -> Option<(&Program, &[Calls])> {
         if !is_by_invariants {
             return Some((&self.programs.bounds, &self.variant().calls));

@@ -29,7 +29,7 @@ impl ParameterValues {
         &self.0
     }
 
-    /// An entry of a list, or the value of a number; NaN where there is none.
+    /// Entry of a list, or the value of a number; NaN if there is none.
     #[inline(always)]
     pub(super) fn number(&self, parameter: usize, entry: usize) -> f64 {
         match self.0.get(parameter) {
@@ -59,9 +59,9 @@ impl ParameterValues {
 /// The parameters of the materials at all points of a program.
 #[derive(Clone, Copy)]
 pub(super) struct Parameters<'a> {
-    /// The values of some point, of which all have the lengths, functions and whole exponents.
+    /// Values of one of the points; lengths, functions and whole exponents are the same at all points.
     pub(super) some: &'a ParameterValues,
-    /// The values of each point where these differ, in real numbers alone.
+    /// Values of each point if these differ, in real numbers only.
     pub(super) each: Option<&'a dyn Fn(usize) -> &'a ParameterValues>,
     /// The number of points side by side in a group.
     pub(super) lanes: usize,

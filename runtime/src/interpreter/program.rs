@@ -45,7 +45,7 @@ pub struct Sizes {
     pub constants: usize,
     /// Registers for logarithms with extra digits, from which powers are made.
     pub logarithms: usize,
-    /// Registers for what the divided differences of two values share.
+    /// Registers for the common parts of the divided differences of two values.
     pub pairs: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The registers of a program, and how operations see them.
+//! Registers of a program, and the views of them that operations use.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};

@@ -14,7 +14,8 @@ use crate::point::svd::{along_axes, may_have_axis, unaligned, unaligned_signed_b
 /// Lanes of points that are decomposed in turns; the bits of a point do not depend on the others.
 #[cfg(not(unoptimised))]
 type InTurns<R> = <R as Lanes>::Interleaved;
-/// Without optimisation every intermediate result has its own place on the stack, and a thread has 2 MiB.
+/// Lanes of points that are decomposed one after the other. Without optimisation every intermediate result
+/// has its own place on the stack, and a thread has 2 MiB.
 #[cfg(unoptimised)]
 type InTurns<R> = R;
 
@@ -39,7 +40,7 @@ pub(crate) struct Decompose<'a, E> {
     pub(crate) count: usize,
     /// Points whose decomposition nothing reads, as bits.
     pub(crate) served: u64,
-    /// True if the sign of det F decides over the domain.
+    /// True if the sign of det F decides about the domain.
     pub(crate) is_signed: bool,
     pub(crate) points: &'a mut SvdTile<E>,
 }

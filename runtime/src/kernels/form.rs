@@ -46,7 +46,7 @@ pub enum StiffnessForm {
 
 /// Form of N components, made from a point's judged tangent and the REST components of its rest shape.
 pub(crate) trait Output<const REST: usize, const N: usize> {
-    /// Changes blocks where the form asks for more than the filter does.
+    /// Changes blocks if the form requires more than the filter.
     #[inline(always)]
     fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; REST], has_pole: bool) -> Status<R::Mask> {
         let _ = (blocks, rest, has_pole);
@@ -195,7 +195,7 @@ const fn packed<const SIZE: usize>() -> [[usize; SIZE]; SIZE] {
 pub(crate) static PACKED_9: [[usize; 9]; 9] = packed();
 pub(crate) static PACKED_12: [[usize; 12]; 12] = packed();
 
-/// Dm⁻¹ row by row, its volume last: what an element's forms need of its shape at rest.
+/// Rest shape of an element: Dm⁻¹ row by row, then its volume.
 struct Rest<R> {
     inverse: [[R; 3]; 3],
     volume: R,
@@ -221,8 +221,8 @@ impl<R: Real> Rest<R> {
         three!(n => three!(x => factor * self.inverse[n][x]))
     }
 
-    /// W: row n is the gradient of the barycentric coordinate of node n + 1, seen from the principal frame at
-    /// rest, times √volume.
+    /// W: row n is the gradient of the barycentric coordinate of node n + 1, in the principal frame at rest,
+    /// times √volume.
     #[inline(always)]
     fn shape_gradients(&self, V: &[[R; 3]; 3]) -> [[R; 3]; 3] {
         let gradients = self.scaled_gradients();
@@ -246,7 +246,7 @@ fn largest<R: Real, const N: usize>(numbers: [R; N]) -> R {
 /// ordinary, far below 1/u. The collapsed horse recovers to the same digits with anything from 1e2 to 1e8.
 pub(crate) const MAX_STIFFNESS_RATIO: f64 = 1e6;
 
-/// Bounds twists that a factorisation could not resolve; true where one was bounded.
+/// Bounds twists that a factorisation could not resolve; true if one was bounded.
 ///
 /// Where a stress jumps in the restoring sense, as of a rotated linear solid at λ2 + λ3 = 0 with λ(λ1 − 3) >
 /// 2μ, the energy has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the
@@ -299,7 +299,7 @@ pub(crate) fn put_gradient<R: Real>(
     });
 }
 
-/// Puts coordinate a of what belongs to the nodes 1, 2, 3, and minus the sum at node 0: that of node n at
+/// Writes coordinate a of vectors of the nodes 1, 2, 3, and minus their sum at node 0: that of node n at
 /// 3n+a.
 #[inline(always)]
 fn put_at_nodes<R: Real>(a: usize, [g1, g2, g3]: [R; 3], to: &mut (impl Components<R> + ?Sized)) {
@@ -316,8 +316,7 @@ trait Places {
     fn places(i: usize, a: usize, j: usize, c: usize) -> (usize, Option<usize>);
 }
 
-/// The stiffness from the blocks of the tangent: [`assemble_blocks`] with W in place of V, with no 9×12
-/// product.
+/// Stiffness from the blocks of the tangent: [`assemble_blocks`] with W instead of V, with no 9×12 product.
 ///
 /// Node 0 takes minus the sums over the others, so that a common translation is resisted by rounding alone.
 struct StiffnessPlace<'a, F, C: ?Sized>(F, &'a mut C);

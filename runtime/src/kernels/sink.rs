@@ -141,7 +141,7 @@ pub(crate) struct Sink<'a, E> {
     pub(crate) layout: Layout,
     /// Fence for non-temporal stores past the caches; ordinary stores without one.
     pub(crate) non_temporal: Option<&'a NonTemporal>,
-    /// Points that keep what they have, as bits.
+    /// Points whose output is left unchanged, as bits.
     pub(crate) served: u64,
 }
 
@@ -169,7 +169,7 @@ impl<E: Scalar> Sink<'_, E> {
         self.layout == Layout::Lines && self.non_temporal.is_none() && self.served == 0
     }
 
-    /// Brings what is in a place to the slice; `count` is how many points the tile has.
+    /// Copies a place to the slice; `count` is the number of points of the tile.
     #[inline(always)]
     pub(crate) fn finish<R: Lanes<Scalar = E>, const N: usize>(
         &mut self,

@@ -127,7 +127,7 @@ pub(crate) fn put_stress<R: Lanes, const REST: usize>(
     gradient_is_finite(stress, &shape)
 }
 
-/// Brings what [`put_stress`] has put to the slice.
+/// Copies the output of [`put_stress`] to the slice.
 #[inline(always)]
 pub(crate) fn finish_stress<R: Lanes, const REST: usize>(
     to: &mut Sink<'_, R::Scalar>,

@@ -1,4 +1,4 @@
-//! One tetrahedron on any real number: what the stages of a tile do with it, for programs that are recorded.
+//! One tetrahedron on any real number: all stages of a tile in one function, for recorded programs.
 
 #![expect(non_snake_case, reason = "F, U, V, Ds as in the literature")]
 
@@ -15,7 +15,7 @@ use crate::status::Status;
 pub struct DenseTetrahedron<R: Real> {
     /// The gradient of its energy, N: coordinate a of node i at 3i+a.
     pub gradient: [R; 12],
-    /// Its stiffness, filtered as asked, N/m: row and column as the gradient.
+    /// Its stiffness, filtered as requested, N/m: row and column as the gradient.
     pub stiffness: [R; 144],
     /// Status of the results: valid or not, and filtered or not.
     pub status: Status<R::Mask>,

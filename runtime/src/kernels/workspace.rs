@@ -16,7 +16,7 @@ pub struct Workspace<E> {
     pub(crate) scratch: Scratch<E>,
 }
 
-/// Memory of which nothing outlasts the call of a tile.
+/// Memory that is used only during the call of a tile.
 #[derive(Debug)]
 pub(crate) struct Scratch<E> {
     pub(crate) energies: Rows<E, 1>,

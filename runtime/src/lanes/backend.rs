@@ -28,7 +28,7 @@ pub trait Kernel<E: Scalar> {
     fn run<R: Lanes<Scalar = E>>(self) -> Self::Output;
 }
 
-/// A set of instructions that this processor has, to run kernels with.
+/// Instruction set of this processor, which kernels run with.
 ///
 /// ```
 /// use piola::lanes::Backend;

@@ -1,4 +1,4 @@
-//! Two of a kind side by side, and pairs of pairs.
+//! Pairs of numbers or registers, and pairs of pairs.
 //!
 //! Pairs of scalars are the portable back end, which a compiler turns into the vector instructions of its
 //! target. Pairs of registers are interleaved: independent batches in one body keep a processor busy while

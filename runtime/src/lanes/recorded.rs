@@ -1,4 +1,4 @@
-//! A real number that records what is done to it, so that any computation over [`Real`] becomes a
+//! Real number that records the operations on it, so that any computation over [`Real`] becomes a
 //! straight-line program, for back ends that print it in another language.
 //!
 //! A computation runs once. There is no branch on a value to miss, since a `Real` has none; where code asks
@@ -101,8 +101,8 @@ fn recorded<E: Recordable>(
     RecordedProgram { arguments: count, ..tape.into_program(results) }
 }
 
-/// The results of a function, which is recorded when it is first called. The second means something if the
-/// function [is a pair](Function::is_pair).
+/// Results of a function, which is recorded when it is first called. The second is valid only if the function
+/// [is a pair](Function::is_pair).
 fn call<E: Recordable>(
     function: Function,
     arguments: &[Recorded<E>],

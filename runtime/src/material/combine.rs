@@ -68,7 +68,7 @@ pub struct Scaled<M, P = f64> {
 }
 
 impl<M> Scaled<M> {
-    /// The energy times a dimensionless factor s.
+    /// Multiplies the energy by a dimensionless factor s.
     ///
     /// # Errors
     /// [`MaterialError::NotFinite`] if the factor is infinite or NaN.
@@ -189,7 +189,7 @@ macro_rules! sum_responses {
             fn ends_at_zero_volume(&self) -> bool {
                 self.a.ends_at_zero_volume() || self.b.ends_at_zero_volume()
             }
-            /// An extension of both parts, or of one where the other is defined everywhere; of two, that with
+            /// Extension of both parts, or of one if the other is defined everywhere; of two, the one with
             /// the larger ε.
             fn inversion(&self) -> Inversion {
                 match (self.a.inversion(), self.b.inversion()) {

@@ -1,4 +1,4 @@
-//! Common parts of the constructors of declared materials: checks of parameters, and how they are read.
+//! Common parts of the constructors of declared materials: reading and checking of parameters.
 
 use std::borrow::Cow;
 
@@ -15,7 +15,7 @@ pub fn check_numbers<M: Declared>(values: &[&[f64]]) -> Result<(), MaterialError
     check_parameters(&M::DESCRIPTION.parameters, values.iter().copied())
 }
 
-/// Checks that numbers are finite and, where they are exponents, whole and not too large.
+/// Checks that numbers are finite and, if they are exponents, whole and not too large.
 ///
 /// # Errors
 /// [`MaterialError::NotFinite`], [`MaterialError::NotWhole`] with the first that is not.
@@ -177,7 +177,7 @@ pub struct Values<'a> {
 }
 
 impl<'a> Values<'a> {
-    /// One slice for each parameter of a declared material.
+    /// Values from one slice for each parameter of a declared material.
     ///
     /// # Errors
     /// As [`Values::new`].
@@ -185,7 +185,7 @@ impl<'a> Values<'a> {
         Self::new(values, M::DESCRIPTION.parameters)
     }
 
-    /// One slice for each parameter.
+    /// Values from one slice for each parameter.
     ///
     /// # Errors
     /// [`MaterialError::Shape`] if there are more or fewer.
@@ -199,7 +199,7 @@ impl<'a> Values<'a> {
         Err(MaterialError::Shape { expected })
     }
 
-    /// The next parameter, however many numbers describe it.
+    /// The next parameter, described by any number of values.
     pub fn slice(&mut self) -> &'a [f64] {
         self.read += 1;
         self.values.get(self.read - 1).copied().unwrap_or_default()
@@ -256,7 +256,7 @@ impl<'a> Values<'a> {
         Ok(list)
     }
 
-    /// The next parameter, whole exponents, however many.
+    /// The next parameter, a list of any number of whole exponents.
     ///
     /// # Errors
     /// [`MaterialError::NotWhole`].
@@ -270,7 +270,7 @@ impl<'a> Values<'a> {
         &self.parameters[self.read - 1]
     }
 
-    /// The error of a parameter that has been read.
+    /// Error of a parameter that has been read.
     fn shape(&self, expected: &str) -> MaterialError {
         MaterialError::Shape { expected: format!("`{}` must {expected}", self.latest().name) }
     }

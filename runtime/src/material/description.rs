@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// Text of a declaration: part of the program, or owned where the energy was declared at run time.
+/// Text of a declaration: part of the program, or owned if the energy was declared at run time.
 pub type Text = Cow<'static, str>;
 
 /// Texts and data of a declaration.
@@ -37,10 +37,9 @@ pub struct Parameter {
     pub name: Text,
     /// Its documentation, units included.
     pub doc: Text,
-    /// The unit that its documentation states, as in `Shear modulus μ, Pa.`; of a function that of its
-    /// values.
+    /// Unit in the documentation, as in `Shear modulus μ, Pa.`; for a function, the unit of its values.
     pub unit: Option<Unit>,
-    /// Its form as values at run time.
+    /// Form of its values at run time.
     pub form: Form,
 }
 
@@ -57,8 +56,8 @@ impl Parameter {
         matches!(self.form, Form::Exponent | Form::Exponents)
     }
 
-    /// Multiplies by powers of a factor what is in powers of Pa among the values of this parameter, so that
-    /// an energy whose parameters are all rescaled is multiplied by the factor. Gives whether that is known:
+    /// Multiplies those values of this parameter that are in powers of Pa by powers of a factor, so that an
+    /// energy whose parameters are all rescaled is multiplied by the factor. Returns true if that is known:
     /// the parameter has a unit, and a function in Pa is given by points.
     ///
     /// ```
@@ -159,7 +158,7 @@ pub enum Form {
     Exponents,
     /// Points of a function or of one of its derivatives: x1, y1, x2, y2, ….
     Points,
-    /// Numbers from which a function is built in a way of its own, if it can be built from numbers.
+    /// Numbers from which a function is built by its own constructor, if it can be built from numbers.
     Function,
 }
 
@@ -169,6 +168,6 @@ pub struct Typical {
     /// One slice for each parameter of the description, in its order, as
     /// [`Declared::from_values`](super::Declared::from_values) takes them.
     pub values: Cow<'static, [Cow<'static, [f64]>]>,
-    /// The material, and where the values are from.
+    /// Name of the material and source of the values.
     pub source: Text,
 }

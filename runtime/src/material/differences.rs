@@ -1,11 +1,11 @@
-//! Derivatives by the values of a function that is a parameter, which no declaration knows as a formula.
+//! Derivatives by the values of a function that is a parameter, for which no declaration has a formula.
 
 use crate::lanes::Real;
 
 /// Weights w1, w2, w3 of the central difference of sixth order.
 const WEIGHTS: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
 
-/// The derivative of each of N results by each value; NaN by a value beside which there are no results.
+/// Derivatives of each of N results by each value; NaN by a value next to which there are no results.
 ///
 /// The difference of sixth order, with a step h,
 ///

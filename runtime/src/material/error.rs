@@ -1,4 +1,4 @@
-//! Reasons why parameters make no material.
+//! Errors of constructors of materials.
 
 use std::fmt;
 
@@ -38,14 +38,14 @@ pub enum MaterialError {
         /// Poisson's ratio.
         poisson: f64,
     },
-    /// The rest state is outside the domain, whose end parameters decide.
+    /// The rest state is outside the domain, whose boundary depends on parameters.
     RestOutside {
         /// The condition of the domain as declared.
         condition: Text,
         /// The numbers among the parameters that it names, as given.
         given: Vec<Argument>,
     },
-    /// The rest state is outside the domain, which functions given as parameters narrow.
+    /// The rest state is outside the domain, which is narrowed by functions given as parameters.
     UndefinedRest,
     /// The rest state carries stress, which functions given as parameters do not cancel.
     StressedRest {
@@ -64,7 +64,7 @@ pub enum MaterialError {
         /// Reason that its declaration states.
         reason: Option<Text>,
     },
-    /// The material does not know the derivatives of its stress by its parameters.
+    /// The derivatives of the stress by the parameters are not available.
     NotFittable {
         /// Name of the material.
         material: Text,
@@ -172,8 +172,7 @@ impl fmt::Display for MaterialError {
 
 impl std::error::Error for MaterialError {}
 
-/// A parameter as a constructor was given it: printed as `mu = -1` and, the entry of a list, as `alpha[2] =
-/// 0`.
+/// Parameter of a constructor, as given: printed as `mu = -1` or, for an entry of a list, as `alpha[2] = 0`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Argument {
     /// Name of the parameter.

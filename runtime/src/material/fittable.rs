@@ -2,7 +2,7 @@
 
 use super::{Declared, Inversion, MaterialError, Text};
 
-/// A material that knows how its stress changes with its parameters: one declared with the word `fit`.
+/// Material with derivatives of its stress by its parameters: one declared with the word `fit`.
 ///
 /// The derivatives come from the expressions that all others come from; without the word nothing is
 /// generated.
@@ -42,12 +42,12 @@ use super::{Declared, Inversion, MaterialError, Text};
     note = "add `fit` to its `#[material(…)]`"
 )]
 pub trait Fittable: Declared {
-    /// The values of the parameters, one list for each parameter of the description in its order, as
-    /// [`with_values`](Fittable::with_values) takes them: those of a number or a list as
-    /// [`Declared::from_values`] does, those of a function as its `Univariate::values` has them.
+    /// Values of the parameters, one list for each parameter of the description in its order, in the form of
+    /// [`with_values`](Fittable::with_values): numbers and lists as in [`Declared::from_values`], functions
+    /// as in `Univariate::values`.
     fn values(&self) -> Vec<Vec<f64>>;
 
-    /// The material with other values, as [`values`](Fittable::values) lists them, without extension.
+    /// Builds the material with other values, as [`values`](Fittable::values) lists them, without extension.
     ///
     /// A function without values stays what it is.
     ///
@@ -58,17 +58,17 @@ pub trait Fittable: Declared {
         Self::from_values(values, Inversion::Refuse)
     }
 
-    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of
+    /// Derivatives ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of
     /// [`values`](Fittable::values), lists entry by entry. Pa for each unit of p. Whole exponents do not
     /// change, and have zeros. Those by the values of a function are central differences of sixth order, with
-    /// steps of about 1/128 of each value; NaN where the function refuses such values.
+    /// steps of about 1/128 of each value; NaN if the function refuses such values.
     ///
     /// Meant inside the domain: an extension is not in use, and outside the domain the numbers are
     /// meaningless and may be NaN.
     fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]>;
 
-    /// The conditions that the constructor checks, apart from finite values and `!=`: the comparisons of
-    /// `admissible(…)`, one for each entry where they are on entries, and positive moduli at rest unless the
+    /// Conditions that the constructor checks, except for finite values and `!=`: the comparisons of
+    /// `admissible(…)`, one for each entry if they are on entries, and positive moduli at rest unless the
     /// material is `prestressed`.
     ///
     /// ```
@@ -92,8 +92,8 @@ pub trait Fittable: Declared {
     /// ```
     fn constraints(&self) -> Vec<Constraint>;
 
-    /// The conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0, those on J alone left out: at stretches
-    /// that are kept, these are conditions on the parameters too.
+    /// Conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0, except for those on J alone: at stretches that
+    /// are kept, these are conditions on the parameters too.
     fn domain_constraints(&self, stretches: [f64; 3]) -> Vec<Constraint> {
         let _ = stretches;
         Vec::new()
@@ -136,7 +136,7 @@ impl Constraint {
         all.map(|(k, (limit, value))| Self { limit, value, gradient: gradient(k) }).collect()
     }
 
-    /// A constraint that depends on a few numbers alone, each given by parameter, place in its list, and
+    /// Constraint that depends on a few numbers only, each given by parameter, place in its list, and
     /// derivative; `values` are those of the material.
     #[doc(hidden)]
     #[must_use]

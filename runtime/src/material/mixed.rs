@@ -5,8 +5,8 @@ use super::response::with_responses;
 use super::{Blocks, Curvature, Inversion, Material, Moduli};
 use crate::lanes::{Mask, Real};
 
-/// A material for each lane, at most 16: how materials are [`Graded`](super::Graded) whose parameters are not
-/// numbers alone.
+/// Material for each lane, at most 16: the form of [`Graded`](super::Graded) materials whose parameters are
+/// not only numbers.
 ///
 /// Each material is evaluated on all lanes, and those that have it take its results: a lane has the bits that
 /// it has alone. Materials count as one where they are equal (`==`), so that the time grows with the
@@ -75,7 +75,7 @@ impl<R: Real> Lanewise<R> for (R, Blocks<R>) {
     }
 }
 
-/// The response of each lane's material, given how those of two materials are put together.
+/// Response of each lane's material, given a way to combine the responses of two materials.
 macro_rules! each_lane {
     ($self:ident, $response:ident, $at:ident, |$lanes:ident, $of_lanes:ident, $others:ident| $together:expr) => {{
         let mut $others = $self.materials[0].$response($at);

@@ -134,7 +134,7 @@ pub struct PerPoint<M, S = Vec<M>> {
 }
 
 impl<M: Graded, S: AsRef<[M]>> PerPoint<M, S> {
-    /// A material for each point; all must do the same outside their domain.
+    /// Builds the list from a material for each point; all must have the same [`Inversion`].
     ///
     /// # Errors
     /// [`PerPointError`] if there is no material, or if two differ in their [`Inversion`].
@@ -158,7 +158,7 @@ impl<M: Graded, S: AsRef<[M]>> PerPoint<M, S> {
         self.materials.as_ref()
     }
 
-    /// The materials of the points from `start` on; the last one serves for lanes beyond.
+    /// Materials of the points from `start` on; the last one is repeated for lanes beyond.
     #[cfg(feature = "batch")]
     #[inline(always)]
     pub(crate) fn from(&self, start: usize) -> M::OnLanes<'_> {

@@ -2,7 +2,7 @@
 
 use super::{Curvature, Material};
 
-/// Properties of the materials of many points that no deformation decides.
+/// Properties of the materials of many points that do not depend on the deformation.
 #[derive(Clone, Copy, Debug)]
 pub struct Properties {
     /// True if ψ is a function of I1, I2 and J alone: [`Material::HAS_INVARIANTS`].
@@ -17,7 +17,8 @@ pub struct Properties {
     pub(crate) has_pole: bool,
     /// True if the domain of any of the materials ends at J = 0: [`Material::ends_at_zero_volume`].
     pub(crate) ends_at_zero_volume: bool,
-    /// Number of points with a material of their own; `None` if one serves any number of points.
+    /// Number of points with a material of their own; `None` if one material is used for any number of
+    /// points.
     pub(crate) points: Option<usize>,
 }
 

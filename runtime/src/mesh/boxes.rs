@@ -12,7 +12,7 @@ use std::fmt;
 use super::TetMesh;
 use crate::message::number;
 
-/// Orders of the three axes, and whether each is an odd permutation: its path turns the other way.
+/// Orders of the three axes, each with true if it is an odd permutation: its path turns the other way.
 const PATHS: [([usize; 3], bool); 6] = [
     ([0, 1, 2], false),
     ([1, 2, 0], false),
@@ -125,7 +125,7 @@ pub enum BoxError {
         /// Lengths of the sides, m.
         size: [f64; 3],
     },
-    /// The mesh does not fit into memory.
+    /// Too many cells: the mesh does not fit into memory.
     TooManyCells {
         /// Number of cells along each axis.
         cells: [usize; 3],

@@ -151,7 +151,7 @@ fn shape_and_order(kind: usize) -> Option<(Shape, usize)> {
     })
 }
 
-/// Number of nodes of an element of second order, of which some shapes have two types. Of higher orders, it
+/// Number of nodes of an element of second order, of which some shapes have two types. For higher orders, it
 /// has changed between versions of Gmsh.
 fn second_order_nodes(kind: usize) -> Option<usize> {
     match kind {

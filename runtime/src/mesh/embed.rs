@@ -119,7 +119,7 @@ pub enum EmbedError {
         /// The distance as given, m.
         tolerance: f64,
     },
-    /// The mesh is not a body.
+    /// The mesh of the tetrahedra is not a body.
     Mesh(MeshError),
 }
 
@@ -182,8 +182,8 @@ impl Cage<'_> {
     }
 }
 
-/// Distance from a point to a triangle: to its plane where the foot of the perpendicular is inside, else to
-/// an edge.
+/// Distance from a point to a triangle: to its plane if the foot of the perpendicular is inside, else to an
+/// edge.
 fn distance_to_triangle(x: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> f64 {
     let normal = cross(subtract(b, a), subtract(c, a));
     let inside = [[a, b], [b, c], [c, a]]

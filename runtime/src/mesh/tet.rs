@@ -27,7 +27,7 @@ pub struct TetMesh {
     pub tags: Vec<usize>,
     /// Named parts.
     pub groups: Vec<Group>,
-    /// Number of nodes that a reader has dropped because no tetrahedron names them; 0 for a mesh that no
+    /// Number of nodes that a reader has dropped because no tetrahedron uses them; 0 for a mesh that no
     /// reader has made.
     pub dropped_nodes: usize,
     /// Volume elements of the file that are not in the mesh because they are not linear tetrahedra; empty
@@ -240,7 +240,7 @@ pub(crate) fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f
 enum Fault {
     /// Its volume, m³, is not positive.
     Volume(f64),
-    /// Its volume is out of the range of f64, its longest edge, m, being that long.
+    /// Its volume is out of the range of f64; the value is the length of its longest edge, m.
     Scale(f64),
 }
 
@@ -301,7 +301,7 @@ pub enum MeshError {
         /// The node, from 0.
         node: usize,
     },
-    /// A tetrahedron names a node that does not exist.
+    /// A tetrahedron uses a node that does not exist.
     NoSuchNode(NoSuchNode),
     /// A node belongs to no tetrahedron; it would have no mass.
     UnusedNode {
@@ -449,7 +449,7 @@ mod tests {
         assert!(mesh.rest_shapes().is_ok());
     }
 
-    /// A regular and a flat tetrahedron of all sizes: the message is about what is wrong.
+    /// A regular and a flat tetrahedron of all sizes: the message names the actual mistake.
     #[test]
     fn sizes_whose_volume_leaves_the_range_are_no_flat_tetrahedra() {
         let scaled = |scale: f64, height: f64| {

@@ -1,4 +1,4 @@
-//! Deformation of a point, which its energy, stress and tangent are computed from.
+//! Deformation of a point, the input of its energy, stress and tangent.
 //!
 //! This module knows no formula: `point.rs` has those from F, `small_strain.rs` those from F − I.
 

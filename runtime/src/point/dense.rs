@@ -14,7 +14,7 @@ use crate::status::Status;
 pub struct DensePoint<R: Real> {
     /// First Piola stress P, Pa.
     pub stress: Matrix3<R>,
-    /// dP/dF, filtered as asked, Pa: row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F.
+    /// dP/dF, filtered as requested, Pa: row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F.
     /// Exactly symmetric.
     pub tangent: [[R; 9]; 9],
     /// Status of the results: valid or not, and filtered or not.

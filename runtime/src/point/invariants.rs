@@ -28,8 +28,8 @@ use crate::lanes::Real;
 
 pub(crate) mod tangent;
 
-/// I1, I2, J; and whether all of them, and what is computed from them, stay in range. I2 is zero where it is
-/// not asked for.
+/// Invariants I1, I2, J, with a mask of whether they and the results computed from them stay in range. I2 is
+/// zero if it is not requested.
 #[inline(always)]
 pub(crate) fn invariants<R: Real>(F: &Matrix3<R>, has_second: bool) -> ([R; 3], R::Mask) {
     let I1 = square(F);
@@ -55,7 +55,7 @@ pub(crate) fn invariants<R: Real>(F: &Matrix3<R>, has_second: bool) -> ([R; 3], 
     ([I1, I2, J], R::splat(0.0).less(room))
 }
 
-/// Minors of the first row of F, each within 2u of itself where no product underflows.
+/// Minors of the first row of F, each within 2u of itself if no product underflows.
 #[inline(always)]
 fn exact_minors<R: Real>(F: &Matrix3<R>) -> [R; 3] {
     three!(j => {
@@ -72,7 +72,7 @@ fn square<R: Real>(A: &Matrix3<R>) -> R {
     dot(A[0], A[0]) + dot(A[1], A[1]) + dot(A[2], A[2])
 }
 
-/// P = 2 W1 F + 2 W2 D + WJ C, Pa; without `HAS_SECOND` W2 is taken for zero.
+/// P = 2 W1 F + 2 W2 D + WJ C, Pa; without `HAS_SECOND` W2 counts as zero.
 #[inline(always)]
 pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool>(
     F: &Matrix3<R>,

@@ -1,4 +1,4 @@
-//! Stresses and tangents as engineering codes want them: S and dS/dE, τ, σ and the spatial tangents.
+//! Stress measures and tangents of engineering codes: S and dS/dE, τ, σ and the spatial tangents.
 //!
 //! A code that has its own elements seldom asks for P and dP/dF. A total Lagrangian one wants the second
 //! Piola–Kirchhoff stress S = F⁻¹P and the material tangent dS/dE, an updated one the Cauchy stress σ and a

@@ -117,7 +117,7 @@ pub struct PlanePoint<R> {
     pub gradient: [R; 2],
     /// First Piola stress P in the plane, Pa.
     pub stress: Matrix2<R>,
-    /// dP/dF in the plane, filtered as asked, Pa.
+    /// dP/dF in the plane, filtered as requested, Pa.
     pub tangent: PlaneTangent<R>,
     /// Status of the results: valid or not, and filtered or not.
     pub status: Status,
@@ -141,7 +141,7 @@ impl<R: Real> PlanePoint<R> {
     }
 }
 
-/// The deformation gradient in space, diag(F, λ3), where [`evaluate`](super::evaluate) knows the same point.
+/// Deformation gradient in space, diag(F, λ3), at which [`evaluate`](super::evaluate) gives the same point.
 #[must_use]
 pub fn in_space<R: Real>(F: &Matrix2<R>, out_of_plane_stretch: R) -> super::Matrix3<R> {
     let zero = R::splat(0.0);

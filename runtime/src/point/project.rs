@@ -81,7 +81,7 @@ pub(super) fn filtered<R: Real>(eigenvalue: R, slope: R) -> R {
     R::select(eigenvalue.less(zero), eigenvalue.mul_add(slope, zero), eigenvalue)
 }
 
-/// The filtered map, and whether an eigenvalue was negative by more than the rounding of the largest one.
+/// The filtered map, and true if an eigenvalue was negative by more than the rounding of the largest one.
 #[inline(always)]
 #[must_use]
 pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Mask) {
@@ -104,8 +104,8 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
     (Blocks { gradient, hessian, flip, twist }, is_filtered)
 }
 
-/// The filtered symmetric matrix, stored as 11, 22, 33, 12, 13, 23, and its smallest eigenvalue or, where it
-/// is positive beyond doubt, zero.
+/// The filtered symmetric matrix, stored as 11, 22, 33, 12, 13, 23, and its smallest eigenvalue or, if it is
+/// positive beyond doubt, zero.
 #[inline(always)]
 fn project_symmetric<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let [a11, a22, a33, a12, a13, a23] = A;

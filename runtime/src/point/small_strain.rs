@@ -194,7 +194,7 @@ fn plus_identity<R: Real>(H: &Matrix3<R>) -> Matrix3<R> {
     std::array::from_fn(|i| std::array::from_fn(|j| if i == j { R::splat(1.0) + H[i][j] } else { H[i][j] }))
 }
 
-/// P = S + H S for ‖H‖ < ½; anything where H is larger.
+/// P = S + H S for ‖H‖ < ½; meaningless for larger H.
 #[inline(always)]
 fn stress_near_rest<R: Real>(material: &(impl Response<R> + ?Sized), H: &Matrix3<R>) -> StressPoint<R> {
     let one = R::splat(1.0);

@@ -11,8 +11,8 @@ use super::matrix::{multiply_transposed, three};
 use super::svd::Svd;
 use crate::lanes::Real;
 
-/// P = U diag(ψi) Vᵀ, Pa, for the gradient ψ1, ψ2, ψ3 of the energy density in the stretches, of which equal
-/// stretches take the same.
+/// P = U diag(ψi) Vᵀ, Pa, for the gradient ψ1, ψ2, ψ3 of the energy density in the stretches; equal stretches
+/// use the same derivative.
 #[inline(always)]
 #[must_use]
 pub fn stress<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {

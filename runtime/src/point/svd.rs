@@ -90,14 +90,14 @@ pub(crate) fn unaligned_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R>
     Svd { U, stretches: [s1 * back, s2 * back, s3 * back], V }
 }
 
-/// The decomposition with every axis exact that F maps to itself; see [`along_axes`].
+/// The decomposition with every axis that F maps to itself made exact; see [`along_axes`].
 #[inline(always)]
 pub(crate) fn aligned<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
     if may_have_axis(F).any() { along_axes(F, svd) } else { svd }
 }
 
-/// False only where F maps no axis to itself. If it does so with axis k, Fkk is alone in its row and
-/// column, and of the three entries above the diagonal two are zero, and so all products of two.
+/// False only if F maps no axis to itself. If it does so with axis k, Fkk is alone in its row and column, and
+/// of the three entries above the diagonal two are zero, and so all products of two.
 #[inline(always)]
 pub(crate) fn may_have_axis<R: Real>(F: &Matrix3<R>) -> R::Mask {
     let [a, b, c] = [F[0][1] * F[0][2], F[0][1] * F[1][2], F[0][2] * F[1][2]];

@@ -1,5 +1,5 @@
-//! The tangent dP/dF of a point as a block-diagonal map, and how the singular vectors drop out of its
-//! derivation.
+//! Tangent dP/dF of a point as a block-diagonal map, with a derivation that eliminates the derivatives of the
+//! singular vectors.
 //!
 //! # From the singular value decomposition to fifteen numbers
 //!
@@ -110,7 +110,7 @@ use super::matrix::{dot, three, to_principal, to_world};
 use crate::lanes::Real;
 use crate::material::{Blocks, PAIRS};
 
-/// dP/dF at a point, as the frames and the numbers it is made of.
+/// dP/dF at a point, as frames and the numbers between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tangent<R> {
     /// Left rotation of F.
@@ -196,7 +196,7 @@ pub(crate) trait Assemble<R> {
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>);
 }
 
-/// The symmetric matrix K = (U ⊗ W) A (U ⊗ W)ᵀ of the [`Blocks`] A, handed out as 3×3 blocks.
+/// The symmetric matrix K = (U ⊗ W) A (U ⊗ W)ᵀ of the [`Blocks`] A, passed on as 3×3 blocks.
 ///
 /// `to` takes the blocks of the six a ≤ c with `block[x][y]` = K between (a, x) and (c, y), where a and c
 /// are coordinates of the deformed space and x and y rows of W. Each block with a = c is exactly symmetric; K

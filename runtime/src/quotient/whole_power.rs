@@ -1,4 +1,4 @@
-//! Powers whose whole exponent is known at run time, and their divided differences.
+//! Powers with a whole exponent that is known at run time, and their divided differences.
 
 use crate::lanes::Real;
 

@@ -1,4 +1,4 @@
-//! Damping of a motion beyond that of implicit Euler itself.
+//! Damping of a motion in addition to that of implicit Euler.
 //!
 //! Both kinds are terms of the function that a step minimises, with h the time step, xₙ the positions before
 //! it and K the stiffness there, its negative eigenvalues clamped:
@@ -20,7 +20,7 @@ use crate::system::assemble::Elastic;
 use crate::system::element::StiffnessBlocks;
 use crate::system::stiffnesses::ElementStiffnesses;
 
-/// Forces against velocity.
+/// Damping: forces against velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -29,17 +29,17 @@ use crate::system::stiffnesses::ElementStiffnesses;
 )]
 #[non_exhaustive]
 pub enum Damping {
-    /// No damping but that of implicit Euler itself.
+    /// No damping except that of implicit Euler.
     #[default]
     None,
-    /// Force −α m v on each node: slows every motion alike, falling too.
+    /// Mass-proportional damping: the force −α m v on each node slows every motion alike, falling too.
     Mass {
         /// Rate α, 1/s.
         rate: f64,
     },
-    /// Force −β K v with the stiffness K at the start of each step: slows deformation the more the faster it
-    /// oscillates. It is zero for a body that moves as a whole without stress. Costs 720 bytes for each
-    /// element, and one more evaluation of the stiffness in each step.
+    /// Stiffness-proportional damping: the force −β K v, with the stiffness K at the start of each step,
+    /// slows fast oscillations of deformation the most. It is zero for a body that moves as a whole without
+    /// stress. Costs 720 bytes for each element, and one more evaluation of the stiffness in each step.
     Stiffness {
         /// Time β, s: a mode of the angular frequency ω decays like exp(−β ω² t/2).
         time: f64,

@@ -1,4 +1,4 @@
-//! Classification of a body that has come to rest, wherever that is.
+//! Classification of a body at rest, in its rest shape or elsewhere.
 //!
 //! A body may stay in another state than its rest shape: in a minimum of its energy elsewhere, at a saddle
 //! that nothing pushes it off, where an energy is blind to reflection, or at a kink of an energy, where λ2 +
@@ -29,14 +29,14 @@ use super::term::NodeBlocks;
 
 mod rigid;
 
-/// Residual, as a share of the largest force, at which forces are in balance.
+/// Residual, as a share of the largest force, below which forces are in balance.
 const BALANCE: f64 = 1e-6;
 
-/// Largest force, as a share of [`Equilibrium::unit_force`], at which a body is free of stress.
+/// Largest force, as a share of [`Equilibrium::unit_force`], below which a body is free of stress.
 const NO_STRESS: f64 = 1e-9;
 
-/// The first shift σ, as a share of the largest entry of M⁻¹K on the diagonal, and what the next ones are
-/// multiplied by.
+/// The first shift σ, as a share of the largest entry of M⁻¹K on the diagonal, and the factor from one shift
+/// to the next.
 const FIRST_SHIFT: f64 = 1e-6;
 const NEXT_SHIFT: f64 = 10.0;
 
@@ -55,14 +55,14 @@ pub struct Equilibrium {
     pub largest_force: f64,
     /// Estimated force of the stiffest element on a face of its size at a strain of one, N.
     pub unit_force: f64,
-    /// The smallest eigenvalue of the stiffness beyond the rigid motions; `None` where nothing else can move.
+    /// The smallest eigenvalue of the stiffness beyond the rigid motions; `None` if nothing else can move.
     pub smallest_eigenvalue: Option<Eigenvalue>,
     /// Number of rigid motions that pins and springs leave: six for a free body.
     pub rigid_motions: usize,
     /// Number of inverted elements.
     pub inverted: usize,
-    /// The smallest λ2 + λ3 of an element: 0 where it is flattened to a line or reflected, and where energies
-    /// of λ have kinks.
+    /// The smallest λ2 + λ3 of an element: 0 if it is flattened to a line or reflected, where energies of λ
+    /// have kinks.
     pub smallest_sum: f64,
 }
 
@@ -80,18 +80,18 @@ pub struct Eigenvalue {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Stability {
-    /// Forces are not in balance: the body will move.
+    /// Unbalanced forces: the body will move.
     Unbalanced,
-    /// Every small motion that is not rigid costs energy.
+    /// Stable: the stiffness is positive on all motions that are not rigid.
     Stable,
-    /// Some small motion gains energy, though no force begins it.
+    /// Unstable: the stiffness has a negative eigenvalue, though forces are in balance.
     Saddle,
-    /// The smallest eigenvalue is zero within its error.
+    /// Undecided: the smallest eigenvalue is zero within its error.
     Undecided,
 }
 
 impl Equilibrium {
-    /// Analyses a body at its current positions, as if it did not move.
+    /// Analyses a body at its current positions, regardless of its velocities.
     ///
     /// Takes memory for the stiffness, a factor of it and at most a hundred vectors, and about as long as ten
     /// to a hundred Newton iterations.
@@ -159,7 +159,7 @@ impl Equilibrium {
         self.largest_force <= NO_STRESS * self.unit_force
     }
 
-    /// Classifies it by the residual and the smallest eigenvalue.
+    /// Classifies the equilibrium by the residual and the smallest eigenvalue.
     #[must_use]
     pub fn stability(&self) -> Stability {
         if self.residual > BALANCE * self.largest_force && !self.is_stress_free() {

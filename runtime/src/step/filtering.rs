@@ -17,14 +17,14 @@ use crate::point::Filter;
 pub enum Filtering {
     /// One filter in all iterations.
     Always(Filter),
-    /// No filter where the matrix is positive definite without one, and clamped eigenvalues where it is not,
-    /// which costs a second linearisation and factorisation: half the iterations of clamping always, or
-    /// fewer, where steps are solved to their end (`cargo speed-report --only steps`).
+    /// No filter if the matrix is positive definite without one, and clamped eigenvalues if it is not, which
+    /// costs a second linearisation and factorisation. Compared with clamping always, it takes half the
+    /// iterations or fewer if steps are solved to their end (`cargo speed-report --only steps`).
     OnDemand,
 }
 
 impl Filtering {
-    /// The filter to begin an iteration with.
+    /// The filter of the first linearisation of an iteration.
     pub(super) fn choice(self) -> Filter {
         match self {
             Self::Always(filter) => filter,

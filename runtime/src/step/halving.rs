@@ -1,4 +1,4 @@
-//! Steps whose length follows from their error.
+//! Adaptive steps, whose length follows from their error.
 //!
 //! A step of length h with the result x₁ is made again as two of h/2, with x₂. Of a method of order p both
 //! have an error near C hᵖ⁺¹, and 2ᵖ times smaller that of x₂, which is therefore about
@@ -21,17 +21,18 @@ const MAX_HALVINGS: u32 = 12;
 /// Share of its allowance below which an error lets the next step be twice as long.
 const GROWS_BELOW: f64 = 0.1;
 
-/// A body whose steps can be made again from an earlier state, so that [`advance_within`] finds their length.
+/// System whose steps can be repeated from an earlier state, so that [`advance_within`] can choose their
+/// length.
 pub trait Repeatable {
     /// Report of a step.
     type Report;
     /// Reason why a step fails.
     type Error;
 
-    /// State of the nodes, and what drives them.
+    /// State of the nodes, with pins and springs.
     fn steps(&self) -> &StagedSteps;
 
-    /// [`Repeatable::steps`], to be changed.
+    /// [`Repeatable::steps`] for changes.
     fn steps_mut(&mut self) -> &mut StagedSteps;
 
     /// Makes a step of `dt`, s.
@@ -48,14 +49,14 @@ pub trait Repeatable {
         distance
     }
 
-    /// True if an error leaves nothing to try again.
+    /// True if repeating the step cannot help after this error.
     fn is_final(error: &Self::Error) -> bool {
         let _ = error;
         false
     }
 }
 
-/// The steps that [`advance_within`] has made.
+/// Report of the steps that [`advance_within`] has made.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Pace<R> {
@@ -73,8 +74,8 @@ pub struct Pace<R> {
     pub error: f64,
 }
 
-/// Advances a body over a time, s, in steps so short that they make no error of positions above `allowed`, m,
-/// in all of it.
+/// Integrates over a time span, s, with adaptive steps that keep the sum of their position errors below
+/// `allowed`, m.
 ///
 /// [`Simulation::advance_within`](super::Simulation::advance_within) is made of it. The first attempt takes
 /// the whole time at once; the shortest step is 2⁻¹² of it.
@@ -101,10 +102,10 @@ pub fn advance_within<B: Repeatable>(
     }
 }
 
-/// The time that a body is advanced over.
+/// Time span of the integration.
 struct Course<'a, B: Repeatable> {
     body: &'a mut B,
-    /// The state at the start, with what drives the nodes until the end.
+    /// State at the start, with the prescribed motion of the nodes until the end.
     whole: StagedSteps,
     duration: f64,
     reports: Vec<B::Report>,
@@ -204,7 +205,7 @@ impl<B: Repeatable> Course<'_, B> {
 
 /// A step that was made as two halves.
 struct Attempt {
-    /// Largest distance along an axis of a node from where the whole step takes it, m.
+    /// Largest distance along an axis between a node after the two halves and after the whole step, m.
     distance: f64,
     first_half: State,
 }

@@ -1,4 +1,4 @@
-//! Integrators in time: how a step is made of minimisations.
+//! Time integrators, each as one or several minimisations for each step.
 //!
 //! Every method here is made of stages, and each stage finds positions x from its start s, w and two lengths
 //! τ, σ:
@@ -35,17 +35,17 @@ use super::spring::Spring;
 )]
 #[non_exhaustive]
 pub enum Integrator {
-    /// Implicit Euler: first order. Calms a body down, the more so the longer its steps.
+    /// Implicit Euler: first order. Numerical damping, stronger for longer steps.
     #[default]
     ImplicitEuler,
-    /// Two stages \[Alexander77\]: second order. A step costs a little more than two of implicit Euler
-    /// (`cargo speed-report --only steps`).
+    /// SDIRK method with two stages \[Alexander77\]: second order. A step costs a little more than two of
+    /// implicit Euler (`cargo speed-report --only steps`).
     Sdirk2,
-    /// Three stages \[Alexander77\]: third order, for smooth motions and small errors.
+    /// SDIRK method with three stages \[Alexander77\]: third order, for smooth motions and small errors.
     Sdirk3,
 }
 
-/// Coefficients of a Runge–Kutta method, whose last stage is the state after the step.
+/// Coefficients of a Runge–Kutta method whose last stage is the state after the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Method {
     /// γ.
@@ -68,7 +68,7 @@ impl Integrator {
         }
     }
 
-    /// The power of the step's length with which errors of smooth motions fall.
+    /// Order of the integrator: the power of the step's length with which errors of smooth motions fall.
     pub(super) fn order(self) -> i32 {
         match self {
             Self::ImplicitEuler => 1,
@@ -89,7 +89,7 @@ impl Method {
         [self.diagonal * dt; 2]
     }
 
-    /// The share of their way that pinned nodes have gone in a stage.
+    /// Share of the motion of pinned nodes that is done in a stage.
     pub(super) fn share(&self, stage: usize) -> f64 {
         if stage + 1 == self.rows.len() { 1.0 } else { self.rows[stage].iter().sum::<f64>() + self.diagonal }
     }
@@ -129,12 +129,12 @@ pub struct Stage {
     /// Accelerations in the stage before or, of the first one, at the end of the step before, m/s²; zero
     /// where there was none.
     pub(crate) accelerations: Vec<[f64; 3]>,
-    /// True if errors of steps begin with changes of the accelerations, not with the accelerations.
+    /// True if the leading error of steps is in changes of the accelerations, not in the accelerations.
     is_second_order: bool,
 }
 
 impl Stage {
-    /// Statics: no velocities and no accelerations, wherever the nodes are.
+    /// Statics: no velocities and no accelerations, at any positions.
     pub(super) fn at_rest(nodes: usize) -> Self {
         let zero = || vec![[0.0; 3]; nodes];
         Self {
@@ -157,8 +157,8 @@ impl Stage {
         [v, std::array::from_fn(|c| (v[c] - self.velocities[node][c]) / sigma)]
     }
 
-    /// Scale of the error that the step has anyway with its nodes at `x`, m: the largest τ σ |a|, or of
-    /// methods of higher order τ σ times the change of a.
+    /// Scale of the error in time of the step with its nodes at `x`, m: the largest τ σ |a|, or for methods
+    /// of higher order τ σ times the change of a.
     #[must_use]
     pub fn error_scale(&self, x: &[[f64; 3]]) -> f64 {
         let [tau, sigma] = self.lengths;
@@ -172,13 +172,13 @@ impl Stage {
     }
 }
 
-/// The current stage of a step, and what those before it have left.
+/// The current stage of a step, and the results of the earlier ones.
 #[derive(Clone, Debug)]
 pub(super) struct Stages {
     pub(super) current: Stage,
     /// Springs with their targets in this stage.
     pub(super) springs: Vec<Spring>,
-    /// v, m/s, and a, m/s², of each stage done but the last.
+    /// v, m/s, and a, m/s², of each completed stage except for the last.
     done: Vec<[Vec<[f64; 3]>; 2]>,
 }
 
@@ -205,7 +205,7 @@ impl Stages {
         }
     }
 
-    /// Sets the springs for this stage, whose targets have gone this share of their way.
+    /// Sets the springs for this stage, with their targets at this share of their motion.
     pub(super) fn pull(&mut self, springs: &[Spring], targets_before: &[[f64; 3]], share: f64) {
         let at_share = |(&spring, &before): (&Spring, &[f64; 3])| Spring {
             target: on_the_way(before, spring.target, share),
@@ -232,7 +232,7 @@ impl Stages {
     }
 }
 
-/// The point at a share of the way between two, and these themselves without rounding.
+/// Point at a share of the way between two points; exactly these at the ends.
 pub(super) fn on_the_way(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
     match share {
         0.0 => from,

@@ -21,11 +21,11 @@ use super::term::EnergyChange;
 )]
 #[non_exhaustive]
 pub struct LineSearchSettings {
-    /// Share δ of the decrease predicted by the slope that is enough, 0 < δ < ½.
+    /// Share δ of the decrease predicted by the slope that suffices, 0 < δ < ½.
     pub sufficient_decrease: f64,
     /// Factor from the length of one trial to the next, between 0 and 1.
     pub shrink: f64,
-    /// Number of trials after which to give up.
+    /// Maximum number of trials.
     pub max_trials: usize,
     /// True to accept a step even if the energy increases, unless it leaves the domain: Newton's method
     /// without a line search, for comparisons.
@@ -47,7 +47,7 @@ crate::chained::chained!(LineSearchSettings {
 
 /// Objective along a line, relative to its start.
 pub trait Line {
-    /// Reason why it cannot be evaluated, other than a point outside its domain.
+    /// Reason why the objective cannot be evaluated, other than a point outside its domain.
     type Error;
 
     /// The objective at a step minus that at the start, with a bound for its rounding error; `None` outside
@@ -83,7 +83,7 @@ pub(super) enum Outcome {
     },
 }
 
-/// Tries the step `first`, then that times shrink, shrink², … until one is acceptable; `slope` < 0 is the
+/// Backtracks from the step `first` by shrink, shrink², … until a step is acceptable; `slope` < 0 is the
 /// derivative at the start.
 pub(super) fn backtrack<L: Line>(
     line: &mut L,

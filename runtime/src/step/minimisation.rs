@@ -43,7 +43,7 @@ impl NewtonWorkspace {
         matches!(self.choice, Choice::Own(_))
     }
 
-    /// Replaces the pins, with a solver that is set up anew if the old one cannot handle them.
+    /// Replaces the pins; sets the solver up anew if it cannot handle them.
     pub(super) fn set_pins(&mut self, body: &Body, pins: &Pins) -> Result<(), LinearError> {
         if !self.solver.set_pins(pins) {
             self.solver = self.choice.set_up(body, pins, &[])?;
@@ -52,7 +52,7 @@ impl NewtonWorkspace {
         Ok(())
     }
 
-    /// Sets the solver up anew if the terms' blocks join nodes that its matrix does not.
+    /// Sets the solver up anew if the blocks of the terms join nodes without a block in its matrix.
     fn join(&mut self, body: &Body, blocks: &NodeBlocks) -> Result<(), LinearError> {
         let is_free = |node: &usize| self.pins.nodes().binary_search(node).is_err();
         let is_missing = |[a, b]: &[usize; 2]| is_free(a) && is_free(b) && !self.solver.joins(*a, *b);
@@ -84,7 +84,7 @@ pub(super) struct StageMinimisation<'a> {
 }
 
 impl<'a> StageMinimisation<'a> {
-    /// Begins at `x`, where the energies have been evaluated last, with this survey.
+    /// Starts at `x`, where the energies have been evaluated last, with this survey.
     pub(super) fn new(
         objective: Objective<'a>,
         workspace: &'a mut NewtonWorkspace,
@@ -219,7 +219,7 @@ impl Minimisation for StageMinimisation<'_> {
     }
 }
 
-/// Checks that all elements are admissible where the energies were evaluated last.
+/// Checks that all elements were admissible at the last evaluation of the energies.
 pub(super) fn demand_admissible(
     survey: &Evaluated,
     body: &Body,
@@ -235,7 +235,7 @@ pub(super) fn demand_admissible(
     Err(NewtonError::Inadmissible { element, stretches })
 }
 
-/// Tag of the first element without a meaningful energy, if any.
+/// Tag of the first element without a valid energy, if any.
 fn inadmissible(evaluated: &Evaluated, body: &Body) -> Option<usize> {
     evaluated.survey.first.map(|element| body.elements()[element].tag)
 }

@@ -15,7 +15,7 @@ pub use error::NewtonError;
 pub use report::{Convergence, NewtonReport};
 pub use settings::NewtonSettings;
 
-/// An objective with the memory to minimise it: its variables x, the gradient g at x, a direction d, and the
+/// Objective with the memory to minimise it: its variables x, the gradient g at x, a direction d, and the
 /// trial x + step d of a line search.
 ///
 /// [`Simulation`](crate::step::Simulation) has an implementation for one body. Codes whose variables are
@@ -39,7 +39,7 @@ pub trait Minimisation: Line {
     /// g·d over the free variables, J.
     fn descent(&self) -> f64;
 
-    /// Share of the direction with which a line search begins, at most 1.
+    /// Share of the direction that a line search tries first, at most 1.
     fn longest_step(&self) -> f64 {
         1.0
     }
@@ -56,7 +56,7 @@ pub trait Minimisation: Line {
     /// Largest displacement of a node along d, m.
     fn displacement(&self) -> f64;
 
-    /// Scale of the error in time that the step has anyway with the nodes at x, m.
+    /// Scale of the error in time of the step with the nodes at x, m.
     fn error_scale(&self) -> f64;
 }
 
@@ -87,7 +87,7 @@ pub struct Solution {
     pub shift: f64,
     /// Number of iterations of the linear solver.
     pub iterations: usize,
-    /// True if the system was given up before its tolerance.
+    /// True if the iteration stopped before the tolerance.
     pub truncated: bool,
 }
 
@@ -110,7 +110,7 @@ where
     Newton { minimisation, settings, line_search, report, moved: None }.run(pins_move)
 }
 
-/// A minimisation under way.
+/// State of a running minimisation.
 struct Newton<'a, M> {
     minimisation: &'a mut M,
     settings: &'a NewtonSettings,
@@ -124,9 +124,9 @@ struct Newton<'a, M> {
 #[derive(PartialEq, Eq)]
 enum Progress {
     Decrease,
-    /// The objective changed by no more than noise; the slope has decided.
+    /// The objective changed by no more than rounding noise; the slope was decisive.
     BelowNoise,
-    /// Nothing is left to gain but noise.
+    /// Any further gain is below rounding noise.
     Nothing,
 }
 
@@ -194,21 +194,20 @@ where
         step == 1.0 && ratio < 1.0 && left <= enough && enough.is_finite()
     }
 
-    /// Evaluates the gradient; true where it is small enough.
+    /// Evaluates the gradient; returns true if it is small enough.
     fn note_gradient(&mut self) -> Result<bool, M::Error> {
         let residual = self.minimisation.gradient()?;
         Ok(self.report.note_residual(residual, self.settings)?)
     }
 
-    /// A relative tolerance for the next system [EW96, choice 2], no tighter than the last one of all needs
-    /// to be.
+    /// Relative tolerance for the next system [EW96, choice 2], not tighter than the last system requires.
     fn forcing(&self, before: f64) -> f64 {
         let NewtonReport { residual, first_residual, .. } = self.report;
         let enough = 0.5 * self.settings.tolerance * first_residual / residual;
         (0.9 * (residual / before).powi(2)).max(enough).max(f64::EPSILON)
     }
 
-    /// Linearises and solves for a direction; false where the gradient is small enough already.
+    /// Linearises and solves for a direction; returns false if the gradient is small enough already.
     ///
     /// Moving pins enter the first linear system with their displacement d: K p = −g − K d. Its tangent is
     /// that of the state before they move, when elements next to them are not yet distorted; the line search
@@ -237,7 +236,7 @@ where
         Ok(residual)
     }
 
-    /// Solves for the direction; false if the matrix is indefinite and definiteness is required.
+    /// Solves for the direction; returns false if the matrix is indefinite and definiteness is required.
     fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<bool, M::Error> {
         let Some(solution) = self.minimisation.solve(tolerance, definiteness)? else { return Ok(false) };
         self.report.shift = self.report.shift.max(solution.shift);
@@ -246,7 +245,8 @@ where
         Ok(true)
     }
 
-    /// Moves the pins; false where the direction, found before they moved, does not descend behind the move.
+    /// Moves the pins; returns false if the direction, found before the move, is not a descent direction
+    /// after it.
     fn move_pins(&mut self) -> Result<bool, M::Error> {
         self.minimisation.move_pins()?;
         self.note_gradient()?;

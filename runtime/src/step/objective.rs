@@ -137,7 +137,7 @@ impl<'a> Terms<'a> {
         self.each().for_each(|term| term.add_second_derivatives(x, blocks));
     }
 
-    /// The share of a displacement, 1 or less, with which a line search begins.
+    /// Share of a displacement, at most 1, that a line search tries first.
     pub(super) fn longest_step(self, x: &[[f64; 3]], d: &[[f64; 3]]) -> f64 {
         self.others.iter().fold(1.0, |step: f64, term| step.min(term.longest_step(x, d)))
     }
@@ -163,7 +163,7 @@ pub(crate) struct Objective<'a> {
 }
 
 impl Objective<'_> {
-    /// Evaluates the energies at `x`, where gradients and second derivatives are taken after that.
+    /// Evaluates the energies at `x`; gradients and second derivatives then refer to `x`.
     pub(crate) fn evaluate(&mut self, x: &[[f64; 3]]) -> Evaluated {
         self.elastic.evaluate(self.body, x)
     }
@@ -197,7 +197,7 @@ impl Objective<'_> {
         }
     }
 
-    /// Rounding error of a difference of energies near `x`, where the energies were evaluated last, J.
+    /// Rounding error of a difference of energies near `x`, the last point of evaluation, J.
     pub(super) fn noise(&self, x: &[[f64; 3]]) -> f64 {
         let of_terms = self.terms.change(x, x).map_or(0.0, |change| change.noise);
         self.elastic.difference_noise(self.body) + of_terms

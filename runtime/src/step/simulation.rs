@@ -78,8 +78,7 @@ impl fmt::Debug for Simulation {
 }
 
 impl Simulation {
-    /// A simulation that starts at rest in the rest shape. Does the symbolic part of all linear algebra to
-    /// come.
+    /// A simulation at rest in the rest shape. Does the symbolic part of all later linear algebra.
     ///
     /// # Errors
     /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`], [`SetupError::Linear`].
@@ -121,7 +120,7 @@ impl Simulation {
         self.steps.velocities()
     }
 
-    /// Acceleration of each node at the end of the last step, m/s², as its integrator defines it: of
+    /// Acceleration of each node at the end of the last step, m/s², as its integrator defines it: for
     /// Runge–Kutta methods that of the last stage. Zero before the first step and after
     /// [`Simulation::equilibrate`].
     #[must_use]
@@ -141,7 +140,7 @@ impl Simulation {
         &self.forces
     }
 
-    /// Survey of the elastic energies at the current positions, where they are evaluated unless they were.
+    /// Survey of the elastic energies at the current positions, evaluated if necessary.
     fn survey(&mut self) -> Evaluated {
         let x = self.steps.positions();
         *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, x))
@@ -152,7 +151,7 @@ impl Simulation {
         Terms { springs: self.steps.springs(), others: &self.terms }
     }
 
-    /// The terms of the energy but deformation, gravity and springs.
+    /// Terms of the energy except for deformation, gravity and springs.
     #[must_use]
     pub fn terms(&self) -> &[Arc<dyn Term>] {
         &self.terms
@@ -171,8 +170,8 @@ impl Simulation {
     }
 }
 
-/// Diagonal for each unit of mass, 1/s², that is small compared with the stiffness of elements: a
-/// ten-thousandth of their stiffness over the mass of the body.
+/// Small diagonal for each unit of mass, 1/s²: a ten-thousandth of the stiffness of elements over the mass of
+/// the body.
 fn static_regularisation(body: &Body) -> f64 {
     let stiffness = |(material, elements): (&dyn TileMaterial<f64>, Range<usize>)| -> f64 {
         let lengths = body.elements()[elements].iter().map(|element| element.shape.volume.cbrt());

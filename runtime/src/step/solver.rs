@@ -1,4 +1,4 @@
-//! The linear systems of Newton's method, solved in one of several ways.
+//! Solvers of the linear systems of Newton's method.
 //!
 //! A solver holds the form of the second derivatives that it works on, so that memory is taken for the chosen
 //! one alone. All see the same objective and find the same direction, up to their tolerance.
@@ -41,7 +41,7 @@ pub(super) use interface::{SolveError, Solver};
 )]
 #[non_exhaustive]
 pub enum LinearSolver {
-    /// Chosen by the number of elements: [`LinearSolver::for_elements`].
+    /// Solver chosen by the number of elements: [`LinearSolver::for_elements`].
     #[default]
     Automatic,
     /// Sparse Cholesky factorisation.
@@ -49,9 +49,9 @@ pub enum LinearSolver {
     /// The fastest for bodies of up to a few thousand elements (`cargo speed-report --only growth`), and the
     /// only one without a tolerance. An indefinite matrix gets inertia until it is definite.
     Cholesky,
-    /// Conjugate gradients until ‖b − A p‖ ≤ tolerance ‖b‖, preconditioned by the 3×3 blocks on the
-    /// diagonal or, where these take many iterations, by multigrid (smoothed aggregation), whose iterations
-    /// hardly grow with the number of elements.
+    /// Conjugate gradients until ‖b − A p‖ ≤ tolerance ‖b‖, preconditioned by the 3×3 blocks on the diagonal
+    /// or, if these take many iterations, by multigrid (smoothed aggregation), whose iterations hardly grow
+    /// with the number of elements.
     ///
     /// From some thousand elements on the fastest. Memory grows with the elements alone: about a kilobyte
     /// each, and as much again where levels of multigrid are made. The choice between the two
@@ -59,9 +59,9 @@ pub enum LinearSolver {
     /// The system is given up at negative curvature, with the direction so far or that of steepest descent
     /// in the first iteration, as in Nocedal and Wright, *Numerical Optimization*, algorithm 7.1.
     ConjugateGradients {
-        /// ‖b − A p‖/‖b‖ at which to stop.
+        /// Relative residual ‖b − A p‖/‖b‖ at which to stop.
         tolerance: f64,
-        /// Number of iterations after which to give up.
+        /// Maximum number of iterations.
         max_iterations: usize,
     },
 }
@@ -95,8 +95,8 @@ impl LinearSolver {
         }
     }
 
-    /// Allocates all the memory that the solver will need.
-    /// It serves matrices with blocks for all pairs of nodes that share an element, and for these.
+    /// Allocates all memory of the solver, for matrices with blocks for all pairs of nodes that share an
+    /// element, and for these pairs.
     pub(super) fn set_up(
         self,
         body: &Body,
@@ -137,7 +137,7 @@ impl Choice {
     }
 }
 
-/// A [`SparseSolver`] of any type, to begin with.
+/// A [`SparseSolver`] of any type, before it is set up.
 pub(crate) trait SetUp: Send + Sync {
     fn set_up(&self, body: &Body, pins: &Pins, pairs: &[[usize; 2]]) -> Result<Box<dyn Solver>, LinearError>;
 }

@@ -1,4 +1,4 @@
-//! The state of nodes between steps, what drives them, and the stages by which a step advances them.
+//! State of nodes between steps, their prescribed motion, and the stages of a step.
 //!
 //! This module knows no forces: stages couple no two nodes, so that each part of a body may have its own.
 
@@ -46,7 +46,7 @@ pub struct StagedSteps {
     pub(super) state: State,
     next: State,
     stages: Stages,
-    /// Ascending.
+    /// Indices of the pinned nodes, ascending.
     pinned: Vec<usize>,
     /// Position of each pinned node, and only of those, after the next step, m.
     targets: Vec<[f64; 3]>,
@@ -57,7 +57,7 @@ pub struct StagedSteps {
 }
 
 impl StagedSteps {
-    /// Nodes at rest at these positions, m, some of them pinned.
+    /// State of nodes at rest at these positions, m, some of them pinned.
     ///
     /// # Errors
     /// [`SetupError::NoSuchNode`].
@@ -109,8 +109,8 @@ impl StagedSteps {
         &self.state.v
     }
 
-    /// Acceleration of each node as [`Simulation::accelerations`](super::Simulation::accelerations) has it,
-    /// m/s².
+    /// Acceleration of each node, m/s², as in
+    /// [`Simulation::accelerations`](super::Simulation::accelerations).
     #[must_use]
     pub fn accelerations(&self) -> &[[f64; 3]] {
         &self.state.a
@@ -186,7 +186,7 @@ impl StagedSteps {
         &self.springs
     }
 
-    /// Replaces the springs. A spring at the same index and anchor as one before has its target moved: evenly
+    /// Replaces the springs. If a spring has the same index and anchor as one before, its target moves evenly
     /// in the course of the next step.
     ///
     /// # Errors
@@ -215,7 +215,7 @@ impl StagedSteps {
     }
 
     /// Begins a stage of the step, counted from 0: pinned nodes and targets of springs are at its share of
-    /// their way through the step. Returns true if a pinned node moves.
+    /// their motion through the step. Returns true if a pinned node moves.
     ///
     /// # Panics
     /// If there is no such stage.
@@ -241,7 +241,7 @@ impl StagedSteps {
         &self.stages.current
     }
 
-    /// The stage begun last, as its minimisation takes it.
+    /// The stage begun last, as the input of its minimisation.
     pub fn in_stage(&mut self) -> InStage<'_> {
         let Stages { current: stage, springs, .. } = &self.stages;
         InStage { stage, springs, pins_move: &self.pins_move, end: &mut self.next.x }
@@ -266,7 +266,7 @@ impl StagedSteps {
         }
     }
 
-    /// Drives pinned nodes and springs from one share of the way that `whole` prescribes to another.
+    /// Moves pinned nodes and springs from one share of the motion that `whole` prescribes to another.
     pub(super) fn drive(&mut self, whole: &Self, start: f64, end: f64) {
         for &node in &whole.pinned {
             self.targets[node] = on_the_way(whole.state.x[node], whole.targets[node], end);
@@ -300,7 +300,7 @@ impl StagedSteps {
     }
 }
 
-/// A stage of a step, as its minimisation takes it.
+/// Stage of a step as the input of its minimisation.
 #[derive(Debug)]
 pub struct InStage<'a> {
     /// The stage.
@@ -309,7 +309,7 @@ pub struct InStage<'a> {
     pub springs: &'a Vec<Spring>,
     /// Displacement of each pinned node, m; zero for others.
     pub pins_move: &'a [[f64; 3]],
-    /// Positions of the nodes, m: where the minimisation starts, and to be moved to the minimum.
+    /// Positions of the nodes, m: the start of the minimisation, to be replaced by the minimum.
     pub end: &'a mut [[f64; 3]],
 }
 

@@ -44,7 +44,7 @@ use super::spring::Spring;
 /// }
 /// ```
 pub trait Term: Send + Sync {
-    /// Energy, J; `None` outside the domain of the term, to where no step will go.
+    /// Energy, J; `None` outside the domain of the term, which no step will enter.
     fn energy(&self, positions: &[[f64; 3]]) -> Option<f64>;
 
     /// Adds the gradient of the energy, N, at each node.
@@ -56,7 +56,7 @@ pub trait Term: Send + Sync {
     /// left out.
     fn add_second_derivatives(&self, positions: &[[f64; 3]], blocks: &mut NodeBlocks);
 
-    /// The largest share of a displacement with which a line search may begin, above 0: all of it by default.
+    /// Largest share of a displacement that a line search may try first, above 0: all of it by default.
     ///
     /// A barrier that a long step could jump over, to where its energy is finite again, returns a share that
     /// stops before it.
@@ -90,7 +90,7 @@ pub struct EnergyChange {
 pub struct NodeBlocks {
     nodes: usize,
     blocks: Vec<NodeBlock>,
-    /// A node that does not exist, where one was named.
+    /// First node that was named but does not exist.
     missing: Option<usize>,
 }
 
@@ -103,8 +103,7 @@ struct NodeBlock {
 }
 
 impl NodeBlocks {
-    /// Adds the block ∂²E/∂x_row∂x_column and, for two different nodes, its transpose as that of `column` and
-    /// `row`: each pair of nodes comes once.
+    /// The entries ∂²E/∂x_row∂x_column.
     ///
     /// The two need not share an element. A pair that no element and no earlier step has joined costs a new
     /// symbolic analysis.
@@ -116,7 +115,8 @@ impl NodeBlocks {
         self.blocks.push(NodeBlock { row, column, entries });
     }
 
-    /// Clears all blocks and resizes to `nodes` nodes.
+    /// Adds the block ∂²E/∂x_row∂x_column and, for two different nodes, its transpose as the block of
+    /// `column` and `row`: add each pair of nodes once.
     pub(super) fn begin(&mut self, nodes: usize) {
         *self = Self { nodes, blocks: std::mem::take(&mut self.blocks), missing: None };
         self.blocks.clear();

@@ -12,7 +12,7 @@ use crate::message::{names, number, quoted};
 
 /// Material and density of a part of a mesh.
 pub struct Part {
-    /// Name of the group of tetrahedra; `None` for all that no other part names.
+    /// Name of the group of tetrahedra; `None` for all tetrahedra that no other part names.
     pub group: Option<String>,
     /// Anything that implements [`Material`](crate::Material), or a
     /// [`PerPoint`](crate::material::PerPoint) of them.
@@ -92,7 +92,8 @@ impl Body {
         Ok(Self { rest: mesh.positions.clone(), masses, elements, runs })
     }
 
-    /// Replaces the material of a part, counted as [`Body::from_parts`] took them; [`Body::new`] makes one.
+    /// Replaces the material of a part, numbered as in [`Body::from_parts`]; [`Body::new`] makes a body of
+    /// one part.
     ///
     /// # Errors
     /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
@@ -143,7 +144,7 @@ impl Body {
         self.runs.iter().zip(starts).map(|(run, start)| (run.material.as_ref(), start..run.end))
     }
 
-    /// The elements in groups of one material that fill a tile, except for the last of a material.
+    /// Elements in groups of one material that fill a tile, except for the last group of a material.
     pub(crate) fn groups(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
         self.materials().flat_map(|(material, run)| {
             run.clone().step_by(TILE).map(move |start| (material, start..run.end.min(start + TILE)))
@@ -151,7 +152,7 @@ impl Body {
     }
 }
 
-/// Checks that a material is one for all elements of a part, or that there is one for each.
+/// Checks that a material is one for all elements of a part, or has one for each.
 fn fits(material: &dyn TileMaterial<f64>, elements: usize) -> Result<(), BodyError> {
     match material.properties().points {
         Some(materials) if materials != elements => {

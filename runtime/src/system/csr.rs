@@ -6,10 +6,11 @@ use super::memory::reserved;
 use crate::batch::{Layout, LengthError, Tetrahedra};
 use crate::lanes::Scalar;
 
-/// Entry of an element that the matrix does not store because it stores the one across the diagonal.
+/// Mark of an entry of an element that the matrix does not store because it stores the one across the
+/// diagonal.
 const ACROSS: u32 = u32::MAX;
 
-/// Entry of a node that has no unknowns.
+/// Mark of a node that has no unknowns.
 const NONE: u32 = u32::MAX - 1;
 
 /// Places of the stiffnesses of tetrahedra in a sparse matrix of the caller, found once.
@@ -96,9 +97,9 @@ impl CsrPlaces {
         Ok(Self { places, entries: columns.len() })
     }
 
-    /// Adds the stiffnesses of all tetrahedra, 144 entries each as
-    /// [`Batch::stiffnesses`](crate::batch::Batch::stiffnesses) writes them in this layout, to the values of
-    /// the matrix, in the order of the tetrahedra.
+    /// Adds the stiffnesses of all tetrahedra, 144 entries each in the layout of
+    /// [`Batch::stiffnesses`](crate::batch::Batch::stiffnesses), to the values of the matrix, in the order of
+    /// the tetrahedra.
     ///
     /// # Errors
     /// [`LengthError`] if there are not as many stiffnesses as tetrahedra, or values as entries. The values
@@ -132,7 +133,7 @@ impl CsrPlaces {
     }
 }
 
-/// Reason why a matrix cannot take the stiffnesses of tetrahedra.
+/// Reason why the stiffnesses of tetrahedra do not fit into a matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CsrError {
@@ -141,7 +142,7 @@ pub enum CsrError {
         /// The row, from 0.
         row: usize,
     },
-    /// A node has an unknown for which there is no row.
+    /// A node has an unknown without a row.
     NoRow {
         /// The missing row.
         row: usize,
@@ -155,7 +156,7 @@ pub enum CsrError {
         /// The column, from 0.
         column: usize,
     },
-    /// The places do not fit into memory, or the entries are more than four thousand millions.
+    /// The places do not fit into memory, or there are more than four thousand million entries.
     OutOfMemory,
 }
 

@@ -42,7 +42,8 @@ pub struct Tetrahedron {
 }
 
 impl Tetrahedron {
-    /// Deformation gradient F = Ds Dm⁻¹, as its rows; `positions` holds one of each node of the mesh.
+    /// Deformation gradient F = Ds Dm⁻¹, as its rows; `positions` holds the position of each node of the
+    /// mesh.
     ///
     /// # Panics
     /// If there is no position of one of its nodes.
@@ -68,7 +69,7 @@ pub(crate) const fn pair(i: usize, j: usize) -> usize {
     i * (i + 1) / 2 + j
 }
 
-/// Statuses of evaluated elements, and how far they are compressed.
+/// Statuses of evaluated elements, and their smallest det F.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Evaluated {
     /// Counts over elements in the order of [`Body::elements`](super::Body::elements).
@@ -78,7 +79,7 @@ pub(crate) struct Evaluated {
 }
 
 impl Evaluated {
-    /// No elements.
+    /// Result without elements.
     pub(crate) const NONE: Self = Self {
         survey: Survey { refused: 0, bounded: 0, nonfinite: 0, filtered: 0, first: None },
         min_det: f64::INFINITY,
@@ -168,7 +169,7 @@ pub(super) fn determinant([[a, b, c], [d, e, f], [g, h, i]]: &Matrix3<f64>) -> f
     a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
 }
 
-/// The status of derivatives alone: the evaluation of the energies has reported refused elements before.
+/// Status of derivatives alone: the evaluation of the energies has reported refused elements before.
 fn of_derivatives(status: Status<u64>) -> Status<u64> {
     Status { refused: 0, nonfinite: status.nonfinite & !status.refused, ..status }
 }

@@ -1,4 +1,4 @@
-//! The graph of a symmetric matrix of blocks: which rows have a block in common.
+//! Graph of a symmetric matrix of blocks: pairs of rows with a block in common.
 
 use super::linear::LinearError;
 use super::memory::{filled, reserved};

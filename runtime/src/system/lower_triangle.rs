@@ -36,7 +36,7 @@ pub struct LowerTriangle {
 }
 
 impl LowerTriangle {
-    /// A matrix of zeros, which [`LowerTriangle::fill`] replaces by the entries of the stiffness.
+    /// Matrix of zeros, which [`LowerTriangle::fill`] replaces by the entries of the stiffness.
     ///
     /// # Errors
     /// [`LinearError::NoSuchNode`] for a pin, [`LinearError::OutOfMemory`].
@@ -88,7 +88,7 @@ impl LowerTriangle {
         })
     }
 
-    /// Replaces the values by those of the stiffness that this was made for, and adds `diagonal(node)`, N/m,
+    /// Replaces the values by those of the stiffness for which this was made, and adds `diagonal(node)`, N/m,
     /// to the diagonal for each free node, such as a mass over the square of a time step.
     ///
     /// # Errors
@@ -111,8 +111,8 @@ impl LowerTriangle {
         Ok(())
     }
 
-    /// Adds to the block of two nodes and to its transpose; nothing where a node is pinned or no element has
-    /// both.
+    /// Adds to the block of two nodes and to its transpose; does nothing if a node is pinned or no element
+    /// has both.
     pub(crate) fn add_block(&mut self, row: usize, column: usize, block: &[[f64; 3]; 3]) {
         let Some((i, j)) = self.free_of_node[row].zip(self.free_of_node[column]) else { return };
         for c in 0..3 {
@@ -139,7 +139,7 @@ impl LowerTriangle {
         }
     }
 
-    /// The nodes that are not pinned: rows and columns 3k, 3k+1 and 3k+2 are the coordinates of node
+    /// Free nodes, which are not pinned: rows and columns 3k, 3k+1 and 3k+2 are the coordinates of node
     /// `free_nodes()[k]`.
     #[must_use]
     pub fn free_nodes(&self) -> &[usize] {
@@ -174,7 +174,7 @@ impl LowerTriangle {
         starts[..starts.len() - 1].iter().map(|&start| self.values[start])
     }
 
-    /// Computes A x of the whole matrix, both triangles.
+    /// Computes A x for the whole matrix, both triangles.
     ///
     /// # Errors
     /// [`LinearError::Length`] unless `x` and `product` have one entry for each row.

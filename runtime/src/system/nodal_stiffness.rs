@@ -1,4 +1,4 @@
-//! The stiffness of a body as a matrix of one 3×3 block for each two nodes that share an element.
+//! Stiffness of a body as a matrix of one 3×3 block for each pair of nodes that share an element.
 //!
 //! Assembled in waves: the stiffnesses of some thousand elements, 720 bytes each, are evaluated into a
 //! buffer that stays in the cache, and each chunk of the matrix gathers its part of them in a fixed order
@@ -26,8 +26,8 @@ use crate::point::Filter;
 /// Tiles of a wave: 2.9 MB of stiffnesses.
 const WAVE: usize = 64;
 
-/// Stiffness of a body as one 3×3 block for each node and each two nodes that share an element, N/m; pinned
-/// nodes have rows too. Zero at first, and filled by
+/// Stiffness of a body as one 3×3 block for each node and each pair of nodes that share an element, N/m;
+/// pinned nodes have rows too. Zero at first, and filled by
 /// [`ElasticResponse::stiffness`](super::ElasticResponse::stiffness).
 ///
 /// [`NodalStiffness::blocks`] are triplets for a sparse matrix in any format;
@@ -45,7 +45,7 @@ pub struct NodalStiffness {
 struct Shape {
     /// Number of elements.
     elements: usize,
-    /// Number of tiles that these fill.
+    /// Number of tiles of these elements.
     tiles: usize,
     graph: Graph,
     order: Vec<u32>,
@@ -108,7 +108,7 @@ impl NodalStiffness {
         Ok(())
     }
 
-    /// Number of blocks that [`NodalStiffness::blocks`] goes through.
+    /// Number of blocks that [`NodalStiffness::blocks`] returns.
     #[must_use]
     pub fn len(&self) -> usize {
         self.matrix.pattern().len()
@@ -189,8 +189,8 @@ impl NodalStiffness {
         &self.shape.order
     }
 
-    /// Takes gradients and the filtered stiffness where the energies were evaluated last, plus `more` of
-    /// some of the tiles.
+    /// Computes gradients and the filtered stiffness at the last point of evaluation, plus `more` for some of
+    /// the tiles.
     pub(crate) fn linearise(
         &mut self,
         body: &Body,
@@ -275,7 +275,7 @@ fn gather(body: &Body, pattern: &Pattern) -> Result<Vec<Gather>, LinearError> {
     Ok(all)
 }
 
-/// The nodes along a Z-order curve through the body at rest, which keeps neighbours together [Mor66].
+/// Nodes along a Z-order curve through the body at rest, which keeps neighbours together [Mor66].
 ///
 /// [Mor66] Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, 1966.
 fn along_a_curve(positions: &[[f64; 3]]) -> Vec<u32> {

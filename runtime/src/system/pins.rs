@@ -1,4 +1,4 @@
-//! Sets of nodes that are held.
+//! Sets of nodes with prescribed positions.
 //!
 //! Where they are held, and how they move, belongs to the [simulation](crate::step::Simulation).
 

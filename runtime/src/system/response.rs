@@ -76,7 +76,7 @@ impl ElasticResponse {
         Self { elastic: Elastic::new(body), nodes, elements }
     }
 
-    /// Energy of deformation, J, with the nodes at `positions`, of the body that this memory was made for.
+    /// Energy of deformation, J, with the nodes at `positions`, of the body for which this memory was made.
     ///
     /// # Errors
     /// [`LengthError`] if there are not as many positions or elements as the body had.
@@ -119,8 +119,8 @@ impl ElasticResponse {
         self.stiffness_here(body, filter, gradient, matrix)
     }
 
-    /// Replaces `gradient` by that of the energy, N, at the positions where it was evaluated last: cheaper
-    /// than [`ElasticResponse::gradient`], for a line search that has been there.
+    /// Replaces `gradient` by that of the energy, N, at the last evaluated positions: cheaper than
+    /// [`ElasticResponse::gradient`], for use after a line search.
     ///
     /// # Errors
     /// [`LengthError`] if `gradient` or the body does not have the length of the body that this was made for.
@@ -156,20 +156,20 @@ impl ElasticResponse {
         Ok(self.sum(energies, body, gradient))
     }
 
-    /// Makes the energies evaluated last those that [`ElasticResponse::difference`] is taken from.
+    /// Makes the energies evaluated last the base of [`ElasticResponse::difference`].
     pub fn set_base(&mut self) {
         self.elastic.set_base();
     }
 
     /// Energy evaluated last minus that of the base, J: a sum of differences of elements, which keeps digits
-    /// that a difference of sums has lost.
+    /// that a difference of sums loses.
     #[must_use]
     pub fn difference(&self) -> f64 {
         self.elastic.difference()
     }
 
-    /// Bound for the rounding error of [`ElasticResponse::difference`], J, of the body that this memory was
-    /// made for.
+    /// Bound for the rounding error of [`ElasticResponse::difference`], J, of the body for which this memory
+    /// was made.
     ///
     /// # Errors
     /// [`LengthError`] for another body.
@@ -189,8 +189,8 @@ impl ElasticResponse {
         Ok(self.elastic.evaluate(body, positions))
     }
 
-    /// Sums the gradients of all elements. Returns the survey of the energies or, where these are clean, of
-    /// the derivatives.
+    /// Sums the gradients of all elements. Returns the survey of the energies or, if these are clean, of the
+    /// derivatives.
     fn sum(&self, energies: Evaluated, body: &Body, gradient: &mut [[f64; 3]]) -> Survey {
         gradient.fill([0.0; 3]);
         self.elastic.add_gradient(body, gradient);
@@ -263,7 +263,7 @@ mod tests {
         }
     }
 
-    /// Blocks and differences of elements, at the positions evaluated last, are those of the plain
+    /// Blocks and differences of elements at the last evaluated positions agree with those of the plain
     /// methods.
     #[test]
     fn what_is_taken_here_is_what_positions_give() {

@@ -1,5 +1,4 @@
-//! The stiffnesses of all elements, block by block, on their way into a matrix: see
-//! [assembly](super::assemble).
+//! Stiffnesses of all elements, block by block, as the input of [assembly](super::assemble).
 
 use std::ops::Range;
 

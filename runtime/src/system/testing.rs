@@ -1,4 +1,4 @@
-//! Materials and meshes for the tests of bodies: the runtime knows no particular material.
+//! Materials and meshes for the tests of bodies, since the runtime contains no particular material.
 
 use crate::batch::{Batch, MatrixForm};
 use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff};

@@ -1,4 +1,4 @@
-//! A force curve through control points, and the energy that it is the derivative of.
+//! Force curves through control points, and the energy as their integral.
 
 use super::{Piecewise, Univariate, by_pieces};
 use crate::lanes::Real;
@@ -232,13 +232,13 @@ impl Univariate for Spline {
         Self::through(points)
     }
 
-    /// The ordinates φ′ of the control points, Pa, apart from one at x = 1: it is kept, and with it a rest
-    /// state without stress.
+    /// Ordinates φ′ of the control points, Pa, except for one at x = 1: it is kept, and with it a rest state
+    /// without stress.
     fn values(&self) -> Vec<f64> {
         self.points().filter(|&[x, _]| x != REST).map(|[_, force]| force).collect()
     }
 
-    /// Replaces the ordinates of the control points, apart from one at x = 1.
+    /// Replaces the ordinates of the control points, except for one at x = 1.
     fn with_values(&self, values: &[f64]) -> Result<Self, MaterialError> {
         let mut rest = values.iter();
         let mut next = || rest.next().copied();

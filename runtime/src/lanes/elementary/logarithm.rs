@@ -85,7 +85,7 @@ pub(in super::super) fn logarithm<P: Primitive>(x: P) -> Logarithm<P> {
     Logarithm { high, low }
 }
 
-/// A correction below 1, or 1 in place of NaN, which ∞ − ∞ makes of it if the logarithm is infinite.
+/// A correction below 1, or 1 instead of NaN, which ∞ − ∞ yields if the logarithm is infinite.
 #[inline(always)]
 fn without_nan<P: Primitive>(correction: P) -> P {
     correction.min(P::splat(1.0))

@@ -162,7 +162,8 @@ pub struct Recording {
     pub functions: BTreeMap<Function, RecordedProgram>,
 }
 
-/// A computation has used a parameter as a plain number, so that it is not a program of the parameter.
+/// Error of a computation that has used a parameter as a plain number, so that its record is not a program of
+/// the parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UnrecordedParameter;
 

@@ -1,4 +1,4 @@
-//! A tree of boxes, which finds the nearest of many bodies without looking at most of them.
+//! Tree of boxes, which finds the nearest of many bodies without visiting most of them.
 //!
 //! The bodies of a branch are halved at the median of the middles of their boxes, along the axis on which
 //! these lie farthest apart, until a leaf holds a few. Both halves hold as many bodies however these are
@@ -11,7 +11,7 @@ use std::ops::Range;
 use crate::mesh::Bounds;
 use crate::mesh::tet::norm;
 
-/// Bodies of a leaf at most: looking at one costs about as much as looking at a few boxes.
+/// Largest number of bodies of a leaf: visiting one costs about as much as visiting a few boxes.
 const LEAF: usize = 4;
 
 /// Growth of a body's box by its longest side: what lies in the body by rounding alone lies in its box.
@@ -149,7 +149,7 @@ mod tests {
         (!bounds.contains(x)).then(|| norm(gap))
     }
 
-    /// The nearest of boxes, and how many were looked at.
+    /// The nearest of boxes, and the number of boxes that were visited.
     fn found(tree: &Tree, boxes: &[Bounds], x: [f64; 3]) -> (Option<Nearest>, usize) {
         let looks = Cell::new(0);
         let nearest = tree.nearest(x, |body| {

@@ -16,8 +16,8 @@ mod version4;
 /// Command that converts files of other versions, and binary ones.
 const CONVERTED: &str = "`gmsh OLD.msh -save -format msh41 -o NEW.msh` of Gmsh 4.1 or later converts it";
 
-/// Sections whose names speak of nodes or elements and that hold none: fields on them, and lists of their
-/// tags.
+/// Sections with names like those of nodes or elements that contain neither: fields on them, and lists of
+/// their tags.
 const WITHOUT_MESH: [&str; 4] = ["$NodeData", "$ElementData", "$ElementNodeData", "$GhostElements"];
 
 /// Reads the linear tetrahedra of a Gmsh file, MSH 4.1 or 2.2 in ASCII, with its physical groups.
@@ -47,7 +47,7 @@ pub fn parse_msh(text: &str, name: impl AsRef<Path>) -> Result<TetMesh, ReadErro
     read_text(name, text, parse).and_then(|mesh| whole(name, mesh))
 }
 
-/// Refuses a mesh of which something is left out.
+/// Refuses a mesh if anything is left out of it.
 fn whole(path: &Path, mesh: TetMesh) -> Result<TetMesh, ReadError> {
     match mesh.left_out.is_empty() {
         true => Ok(mesh),

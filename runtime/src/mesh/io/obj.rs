@@ -65,8 +65,8 @@ fn parse(text: &str) -> Result<Surface, Problem> {
     Ok(surface)
 }
 
-/// Adds the triangles of a polygon, of which halves of halves are compact. In a fan all of them would reach
-/// from the first vertex across the polygon, and whoever draws a fan of many looks at every pixel for each.
+/// Adds the triangles of a polygon by repeated halving, which makes them compact. In a fan all of them would
+/// reach from the first vertex across the polygon, and drawing a large fan would visit every pixel for each.
 fn halve(polygon: &[usize], triangles: &mut Vec<[usize; 3]>) {
     if let [first, _, .., last] = *polygon {
         let middle = polygon.len() / 2;

@@ -10,8 +10,8 @@ use super::text::{Cursor, Line, Problem, ReadError, read};
 use crate::mesh::elements::{ElementCounts, TETRAHEDRON_10};
 use crate::mesh::{Group, TetMesh};
 
-/// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file beside it; either may be
-/// named.
+/// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file next to it; `path` may be
+/// either.
 ///
 /// Nodes may be numbered in any way. The format promises no orientation: negative tetrahedra are turned. The
 /// first attribute of a tetrahedron, the number of its region, makes a group of dimension 3, and the boundary
@@ -36,7 +36,7 @@ struct Nodes {
     marked: BTreeMap<i64, Vec<usize>>,
 }
 
-/// Format of the lines of a `.node` file, as its first line says, for readers that take the file in parts.
+/// Format of the lines of a `.node` file, from its first line, for readers that take the file in parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct NodeLines {
@@ -67,7 +67,7 @@ impl NodeLines {
         Self::read(&mut filled(line).unwrap_or(Line::new(0, ""))).map_err(|problem| problem.text)
     }
 
-    /// Reads a line behind the first; `None` for a blank one or a comment.
+    /// Reads a line after the first; `None` for a blank one or a comment.
     ///
     /// # Errors
     /// What is wrong with it.
@@ -107,7 +107,7 @@ pub struct TetLines {
     has_regions: bool,
 }
 
-/// A line of a `.ele` file.
+/// Format of the lines of a `.ele` file, from its first line, for readers that take the file in parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TetLine {
@@ -128,7 +128,7 @@ impl TetLines {
         Self::read(&mut filled(line).unwrap_or(Line::new(0, ""))).map_err(|problem| problem.text)
     }
 
-    /// Reads a line behind the first; `None` for a blank one or a comment.
+    /// Reads a line after the first; `None` for a blank one or a comment.
     ///
     /// # Errors
     /// What is wrong with it.
@@ -170,10 +170,10 @@ impl TetLines {
     }
 }
 
-/// The node of a tetrahedron, as errors call it.
+/// Name of a node of a tetrahedron in errors.
 const NODE: &str = "the number of a node";
 
-/// A line without its comment, unless nothing is left.
+/// Line without its comment; `None` if nothing is left.
 fn filled(line: &str) -> Option<Line<'_>> {
     Cursor::with_comments(line, '#').next_filled()
 }
@@ -264,7 +264,8 @@ mod tests {
         5  1 1 1  0.5 0\n\
         6  8 8 8  0.5 2\n";
 
-    /// The second tetrahedron is in the other order.
+    /// Corners of a tetrahedron of these nodes, m, in the order of positive volume, unless it is zero: TetGen
+    /// guarantees no orientation.
     const TETS: &str = "2 4 1\n  1  1 2 3 4  7\n  2  3 2 4 5  -1\n";
 
     #[test]

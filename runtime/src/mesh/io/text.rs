@@ -27,12 +27,12 @@ pub enum ReadError {
     Malformed {
         /// The file.
         path: PathBuf,
-        /// The line, from 1; one past the last where the file ends too early.
+        /// The line, from 1; one past the last if the file ends too early.
         line: usize,
         /// Description of the problem.
         problem: String,
     },
-    /// The volume is not made of linear tetrahedra alone.
+    /// The volume is not made of linear tetrahedra only.
     OtherElements {
         /// The file.
         path: PathBuf,
@@ -42,7 +42,7 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// The linear tetrahedra of a mesh that is refused for its other volume elements: a body that lacks their
+    /// Linear tetrahedra of a mesh that is refused for its other volume elements: a body that lacks their
     /// volume. [`TetMesh::left_out`] counts them.
     ///
     /// ```

@@ -86,7 +86,7 @@ fn bounds<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
     (tangent, d.mul_add(two * W2, stress))
 }
 
-/// Coordinates in which a tangent is wanted: the rows of W.
+/// Coordinates of a tangent: the rows of W.
 pub(crate) trait Coordinates<R> {
     /// True if W = I.
     const ARE_ENTRIES: bool;
@@ -382,7 +382,7 @@ fn gram<R: Real>(A: &Matrix3<R>) -> Matrix3<R> {
     symmetric!(i, j => dot(A[i], A[j]))
 }
 
-/// The index beside two different ones.
+/// The index different from two different ones.
 const fn third(i: usize, j: usize) -> usize {
     (6 - i - j) % 3
 }

@@ -1,4 +1,4 @@
-//! The measures as values, for codes that choose one at run time, and for batches.
+//! Stress measures as values, for codes that choose one at run time, and for batches.
 
 use super::voigt::Matrix6;
 use super::{
@@ -10,12 +10,12 @@ use crate::material::Blocks;
 use crate::point::matrix::three;
 use crate::point::svd::Svd;
 
-/// A measure of stress with a tangent that belongs to it.
+/// Measure of stress with a tangent that belongs to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Measure {
     /// The second Piola–Kirchhoff stress S and the material tangent dS/dE.
     SecondPiola,
-    /// The Kirchhoff stress τ and the tangent J c of its Lie derivative, finite also where F is singular.
+    /// The Kirchhoff stress τ and the tangent J c of its Lie derivative, finite even if F is singular.
     Kirchhoff,
     /// The Cauchy stress σ and the spatial tangent c of its Truesdell rate.
     Cauchy,
@@ -26,12 +26,12 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// Every measure, in the order above.
+    /// All measures, in the order above.
     pub const ALL: [Self; 5] =
         [Self::SecondPiola, Self::Kirchhoff, Self::Cauchy, Self::Jaumann, Self::GreenNaghdi];
 
-    /// The six numbers of the stress, Pa, in the order of [`voigt`](super::voigt), for the gradient ψ1, ψ2,
-    /// ψ3.
+    /// The six components of the stress, Pa, in the order of [`voigt`](super::voigt), for the gradient ψ1,
+    /// ψ2, ψ3.
     #[inline(always)]
     #[must_use]
     pub fn stress<R: Real>(self, svd: &Svd<R>, gradient: [R; 3]) -> [R; 6] {

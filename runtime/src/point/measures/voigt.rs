@@ -1,4 +1,4 @@
-//! Voigt's notation: symmetric tensors as six numbers, tangents between them as 6×6 matrices.
+//! Voigt notation: symmetric tensors as six components, tangents between them as 6×6 matrices.
 //!
 //! **Order.** 11, 22, 33, 23, 13, 12, as Voigt wrote it and most textbooks do: the shears by the direction
 //! that they lack. Among codes Project Chrono and Ferrite's Tensors.jl have it. Abaqus/Standard has 11, 22,
@@ -17,17 +17,17 @@ use crate::lanes::Real;
 use crate::material::PAIRS;
 use crate::point::Matrix3;
 
-/// A tangent as its rows: `C[I][J]` takes number J of a strain to number I of a stress.
+/// Tangent as its rows: `C[I][J]` maps component J of a strain to component I of a stress.
 pub type Matrix6<R> = [[R; 6]; 6];
 
-/// Row and column, counted from zero, of each of the six numbers: 11, 22, 33, 23, 13, 12.
+/// Row and column, counted from zero, of each of the six components: 11, 22, 33, 23, 13, 12.
 pub const ORDER: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
 
 /// The place of entry (i, j) in the [`ORDER`]: component ijkl of a tangent C is
 /// `C[INDEX[i][j]][INDEX[k][l]]`.
 pub const INDEX: [[usize; 3]; 3] = [[0, 5, 4], [5, 1, 3], [4, 3, 2]];
 
-/// The six numbers of a stress; where the matrix is not quite symmetric, of its symmetric part.
+/// The six components of a stress; if the matrix is not quite symmetric, of its symmetric part.
 #[inline(always)]
 #[must_use]
 pub fn from_stress<R: Real>(stress: &Matrix3<R>) -> [R; 6] {
@@ -39,7 +39,7 @@ pub fn from_stress<R: Real>(stress: &Matrix3<R>) -> [R; 6] {
     numbers
 }
 
-/// The stress of six numbers.
+/// The stress with these six components.
 #[inline(always)]
 #[must_use]
 pub fn to_stress<R: Real>(numbers: &[R; 6]) -> Matrix3<R> {
@@ -47,7 +47,7 @@ pub fn to_stress<R: Real>(numbers: &[R; 6]) -> Matrix3<R> {
     [[s11, s12, s13], [s12, s22, s23], [s13, s23, s33]]
 }
 
-/// The six numbers of a strain, shears doubled; where the matrix is not quite symmetric, of its symmetric
+/// The six components of a strain, shears doubled; if the matrix is not quite symmetric, of its symmetric
 /// part.
 #[inline(always)]
 #[must_use]

@@ -30,8 +30,8 @@ use crate::lanes::Real;
 /// Widenings of the interval: 1 + 2⁻¹⁰ to the power of 2²⁰ leaves the range of `f64`.
 const WIDENINGS: usize = 20;
 
-/// Steps after which an iteration that rounding keeps from ending is given up; some ten are the rule, and
-/// halving an interval of f64 to nothing takes 120.
+/// Maximum number of steps of an iteration that rounding keeps from ending; some ten are usual, and halving
+/// an interval of f64 to nothing takes 120.
 const STEPS: usize = 300;
 
 /// Stress of a free side at a stretch.
@@ -53,12 +53,12 @@ impl<R: Real<Mask = bool>> Side<R> {
     }
 }
 
-/// Reason why no stretch frees the side.
+/// Reason why the side cannot be made free of stress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unreleased {
     /// The energy is not defined, or not finite, at any of the stretches tried.
     Undefined,
-    /// The side is pulled, or pressed, at every stretch, or only an unstable one frees it.
+    /// The side is pulled, or pressed, at every stretch, or is free of stress only at an unstable one.
     NoEquilibrium,
 }
 

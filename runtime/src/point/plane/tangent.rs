@@ -1,11 +1,11 @@
-//! dP/dF in the plane, as frames and the five numbers between them.
+//! dP/dF in the plane, as two frames and the five numbers between them.
 
 #![expect(non_snake_case, reason = "U, V, dF, dP as in the essay of the module above")]
 
 use super::{Filter, Matrix2, filtered};
 use crate::lanes::Real;
 
-/// dP/dF in the plane, as the frames and the numbers it is made of.
+/// dP/dF in the plane, as frames and the numbers between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneTangent<R> {
     /// Left rotation of F.
@@ -54,7 +54,7 @@ impl<R: Real> PlaneTangent<R> {
 }
 
 impl<R: Real<Mask = bool>> PlaneTangent<R> {
-    /// The tangent with its negative eigenvalues filtered, and whether there was one beyond rounding.
+    /// The tangent with its negative eigenvalues filtered, and true if there was one beyond rounding.
     ///
     /// Flip and twist are eigenvalues. Those of the 2×2 matrix are m ± r, with m half its trace; the filtered
     /// matrix is h I + k (A − m I), as [`project`](mod@crate::point::project) derives it.

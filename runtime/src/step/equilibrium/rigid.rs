@@ -5,11 +5,10 @@ use crate::system::linear::LinearError;
 use crate::system::linear::dense::eigen;
 use crate::system::linear::lanczos::{add, dot, norm};
 
-/// A held point forbids a motion that moves it by more than this share of the body's size.
+/// Share of the body's size above which a motion moves a held point too far.
 const HELD: f64 = 1e-6;
 
-/// A motion smaller than this share of its parts counts as zero: a turn of a body in one line or point about
-/// it.
+/// Share of its parts below which a motion counts as zero: a turn of a body in one line or point about it.
 const NO_MOTION: f64 = 1e-9;
 
 /// Motions of the free nodes that deform nothing and change no energy, three entries for each node,

@@ -29,12 +29,12 @@ pub enum NewtonError {
         /// Tag of the element.
         element: usize,
     },
-    /// A term has no energy before the step, or where the pins move.
+    /// A term has no energy before the step, or after the pins have moved.
     TermRefuses {
         /// Index of the term, from 0.
         term: usize,
     },
-    /// A term names a node that does not exist.
+    /// A term uses a node that does not exist.
     NoSuchNode(NoSuchNode),
     /// The matrix is not positive definite with any multiple of inertia added.
     NotPositive {

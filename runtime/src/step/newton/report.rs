@@ -2,15 +2,15 @@
 
 use super::{NewtonError, NewtonSettings};
 
-/// Reason why Newton's method stopped, from the best on.
+/// Reason why Newton's method stopped, in order from the best.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Convergence {
-    /// The gradient, or what was left to go, fell below the tolerance.
+    /// The gradient, or the remaining distance, fell below the tolerance.
     Tolerance,
     /// All further gain is below the rounding error of the objective.
     Rounding,
-    /// The limit of iterations is reached, as always in the mode of one iteration.
+    /// The limit of iterations was reached, as always in the mode of one iteration.
     Limit,
 }
 
@@ -21,10 +21,10 @@ pub enum Convergence {
 pub struct NewtonReport {
     /// Reason why it stopped; the worst one of several stages.
     pub convergence: Convergence,
-    /// Number of directions that were found.
+    /// Number of directions found.
     pub iterations: usize,
-    /// Norm of the gradient over the free nodes before the first iteration, N. Where pins move, right after
-    /// they have.
+    /// Norm of the gradient over the free nodes before the first iteration, N; if pins move, after their
+    /// motion.
     pub first_residual: f64,
     /// Norm of the gradient evaluated last, N: in the mode of one iteration equal to the first.
     pub residual: f64,
@@ -39,19 +39,19 @@ pub struct NewtonReport {
     pub filtered: usize,
     /// Largest number of elements in an iteration whose tangent is at a pole.
     pub bounded: usize,
-    /// Largest multiple of inertia, or in statics of a small part of the stiffness, that had to be added for
-    /// a positive definite matrix; 0 as a rule.
+    /// Largest multiple of inertia, or in statics of a small part of the stiffness, that was added to make
+    /// the matrix positive definite; usually 0.
     pub shift: f64,
     /// Number of iterations of the linear solver, over all systems: 0 for
     /// [`LinearSolver::Cholesky`](crate::step::LinearSolver::Cholesky).
     pub linear_iterations: usize,
-    /// Number of linear systems that were given up before their tolerance, for negative curvature or at the
-    /// limit of iterations. Their directions descend, but do not make for fast convergence.
+    /// Number of linear systems that were stopped before their tolerance, at negative curvature or at the
+    /// limit of iterations. Their directions descend, but convergence is slower.
     pub truncated: usize,
 }
 
 impl NewtonReport {
-    /// The report before the first iteration.
+    /// Report before the first iteration.
     pub(crate) fn before(settings: &NewtonSettings) -> Self {
         Self {
             convergence: Convergence::Limit,
@@ -69,7 +69,7 @@ impl NewtonReport {
         }
     }
 
-    /// The report of this minimisation and those before it in a step.
+    /// Merges this report with those of earlier minimisations of the step.
     pub(crate) fn after(self, before: Option<Self>) -> Self {
         let Some(before) = before else { return self };
         let mut step_lengths = before.step_lengths;
@@ -90,7 +90,7 @@ impl NewtonReport {
         }
     }
 
-    /// Keeps the norm of a gradient; true where it is small enough.
+    /// Records the norm of a gradient; returns true if it is small enough.
     pub(super) fn note_residual(
         &mut self,
         residual: f64,

@@ -15,12 +15,12 @@ use crate::step::solver::LinearSolver;
 pub struct NewtonSettings {
     /// Treatment of negative eigenvalues of dP/dF.
     pub filtering: Filtering,
-    /// Number of iterations after which to stop; 1 is the mode of the paper.
+    /// Maximum number of iterations; 1 is the mode of the paper.
     pub max_iterations: usize,
-    /// Share of the first gradient's norm at which the minimum counts as found.
+    /// Relative tolerance of the gradient: the share of its first norm at which the minimum counts as found.
     pub tolerance: f64,
-    /// Share of the error in time that a step has anyway at which the minimum counts as found as well; 0 for
-    /// the tolerance alone. Has no effect in statics.
+    /// Tolerance relative to the time error of the step: the share of it at which the minimum counts as found
+    /// as well; 0 for the tolerance alone. Has no effect in statics.
     ///
     /// The error is judged by accelerations: by τ² |a|, or by τ² times the change of a of methods of higher
     /// order, for the length τ of a stage. The error of the minimum is judged by the displacements d of two
@@ -33,8 +33,8 @@ pub struct NewtonSettings {
 }
 
 impl Default for NewtonSettings {
-    /// Full Newton to a relative 10⁻⁶ from the positions before, with eigenvalues clamped where the matrix
-    /// demands it and a linear solver chosen by the size of the body.
+    /// Full Newton to a relative 10⁻⁶ from the positions before, with eigenvalues clamped if the matrix
+    /// requires it and a linear solver chosen by the size of the body.
     fn default() -> Self {
         Self {
             filtering: Filtering::OnDemand,

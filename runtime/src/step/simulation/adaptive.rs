@@ -13,11 +13,11 @@ pub struct AdaptiveReport {
     /// Energies and smallest det F at the end, and the minimisations of all steps together, those of refused
     /// attempts included.
     pub step: StepReport,
-    /// Number of steps that were taken, each made as two halves.
+    /// Number of steps taken, each made as two halves.
     pub taken: usize,
     /// Number of attempts whose error was too large, or which failed.
     pub refused: usize,
-    /// Number of steps that were taken although their error was too large, since they were the shortest.
+    /// Number of steps taken at the shortest length although their error was too large.
     pub unresolved: usize,
     /// Length of the shortest step that was taken, s.
     pub shortest: f64,
@@ -25,13 +25,13 @@ pub struct AdaptiveReport {
     pub error: f64,
 }
 
-/// Share of the error of a step to which its minimum is found, at least: a tenth to a third of the iterations
-/// less than with a tolerance of 10⁻⁶, and the same steps.
+/// Tolerance of each minimisation, as a share of the error of the step: it saves a tenth to a third of the
+/// iterations compared with a tolerance of 10⁻⁶, with the same steps.
 const ENOUGH: f64 = 0.03;
 
 impl Simulation {
-    /// Advances by a time, s, in steps so short that they make no error of positions above `tolerance`, m/s,
-    /// times the time. Errors of the mesh are not its concern.
+    /// Advances by a time span, s, with adaptive steps that keep the error of positions below `tolerance`,
+    /// m/s, times the span. Errors of the mesh are not included.
     ///
     /// Pinned nodes and targets of springs move evenly over the whole time. The first attempt takes it all at
     /// once, so that nothing but the state before decides. Motions too fast for any tolerance, as those of a

@@ -87,7 +87,7 @@ impl Simulation {
         })
     }
 
-    /// Moves the nodes to the end of a stage.
+    /// Minimises over the positions at the end of a stage.
     fn minimize_stage(
         &mut self,
         stage: usize,

@@ -1,4 +1,4 @@
-//! Forces on all nodes, and the forces of pins that follow from their balance.
+//! Forces on all nodes, and the reactions of pins, which follow from the balance of forces.
 
 use crate::step::minimisation::demand_admissible;
 use crate::step::newton::NewtonError;
@@ -6,7 +6,7 @@ use crate::step::newton::NewtonError;
 use super::Simulation;
 
 impl Simulation {
-    /// Gradient of all energies at the current state, damping included and inertia not, N. The elastic
+    /// Gradient of all energies at the current state, N, with damping but without inertia. The elastic
     /// energies must have been evaluated there last.
     fn balance(&mut self) -> Vec<[f64; 3]> {
         let (x, v) = (self.steps.positions(), self.steps.velocities());
@@ -28,8 +28,8 @@ impl Simulation {
         total
     }
 
-    /// Force of the pins on each pinned node, N, in the order of [`Simulation::pinned`]: what the node needs
-    /// beside all other forces to have its acceleration, at the end of the last step.
+    /// Reaction of the pins on each pinned node, N, in the order of [`Simulation::pinned`]: the force that,
+    /// together with all other forces, gives the node its acceleration at the end of the last step.
     ///
     /// In statics their sum balances gravity, given forces and springs.
     ///

@@ -14,8 +14,7 @@ use super::settings::check_settings;
 use super::{SetupError, Simulation, SimulationSettings, static_regularisation};
 
 impl Simulation {
-    /// Sets the position of each node, m, however deformed or collapsed the body then is. Pins hold their
-    /// nodes there.
+    /// Sets the position of each node, m, for any deformation, even collapsed. Pins hold their nodes there.
     ///
     /// # Errors
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
@@ -63,8 +62,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Replaces the material of a part of the body, counted as
-    /// [`Body::from_parts`](crate::system::Body::from_parts) took them, from the next step on.
+    /// Replaces the material of a part of the body, numbered as in
+    /// [`Body::from_parts`](crate::system::Body::from_parts), from the next step on.
     ///
     /// # Errors
     /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
@@ -79,8 +78,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Sets a force on each node, N, that keeps its size and direction from the next step on; an empty slice
-    /// removes them.
+    /// Sets a constant force on each node, N, from the next step on; an empty slice removes all forces.
     ///
     /// # Errors
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite force for each node.
@@ -93,7 +91,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Replaces all [terms](Term) of the energy but deformation, gravity and springs, from the next step on.
+    /// Replaces all [terms](Term) of the energy except for deformation, gravity and springs, from the next
+    /// step on.
     ///
     /// ```
     /// # use piola::step::{NodeBlocks, Term};
@@ -168,8 +167,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Solves the linear systems of Newton's method by a solver that is not piola's own, until the settings
-    /// are replaced.
+    /// Solves the linear systems of Newton's method by a user-defined solver, until the settings are
+    /// replaced.
     ///
     /// # Errors
     /// [`SetupError::Linear`] with what the solver returns for the pattern. The solver before then stays.

@@ -1,4 +1,4 @@
-//! Reasons why a simulation cannot be set up, or a step not be made.
+//! Errors of setting up and stepping a simulation.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use crate::system::LinearError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SetupError {
-    /// A pin or spring names a node that does not exist.
+    /// A pin or spring uses a node that does not exist.
     NoSuchNode(NoSuchNode),
     /// A motion is prescribed for a node that is not pinned.
     NotPinned {
@@ -75,7 +75,7 @@ pub enum StepError {
         /// The time step, s.
         dt: f64,
     },
-    /// The tolerance of steps is not positive and finite.
+    /// The tolerance of adaptive steps is not positive and finite.
     Tolerance {
         /// The tolerance, m/s.
         tolerance: f64,

@@ -1,4 +1,4 @@
-//! Settings of a simulation, and whether they make sense.
+//! Settings of a simulation, and their checks.
 
 use crate::step::damping::Damping;
 use crate::step::integrator::Integrator;
@@ -24,7 +24,7 @@ pub struct SimulationSettings {
     pub integrator: Integrator,
     /// Settings of the minimisation in each stage of a step.
     pub newton: NewtonSettings,
-    /// Settings that shorten Newton steps.
+    /// Settings of the line search, which shortens Newton steps.
     pub line_search: LineSearchSettings,
 }
 

@@ -10,7 +10,7 @@ use crate::system::{Body, LowerTriangle, NodalStiffness, Pins};
 use super::interface::{SolveError, Solver};
 use super::own::SparseSolver;
 
-/// The largest tolerance that a solver is asked for.
+/// The largest tolerance that a solver receives.
 const TOLERANCE: f64 = 1e-3;
 
 /// [`LinearSolver::Cholesky`](super::LinearSolver::Cholesky), or a user-defined solver.

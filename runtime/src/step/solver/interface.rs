@@ -1,4 +1,4 @@
-//! The interface of the linear solvers: what Newton's method asks of each, and how each may answer.
+//! Interface of the linear solvers to Newton's method.
 
 use crate::point::Filter;
 use crate::step::newton::{Definiteness, Solution};
@@ -16,11 +16,11 @@ pub(crate) trait Solver: Send + Sync {
     /// True if the matrix has a block for two free nodes.
     fn joins(&self, a: usize, b: usize) -> bool;
 
-    /// Takes other pins; false if that demands a solver that is set up anew.
+    /// Replaces the pins; returns false if the solver has to be set up anew for them.
     fn set_pins(&mut self, pins: &Pins) -> bool;
 
-    /// Forgets what earlier systems have taught, before the first one of a step: a step depends on the state
-    /// before it and on nothing else.
+    /// Discards information from earlier systems, before the first one of a step: a step depends only on the
+    /// state before it.
     fn begin(&mut self) {}
 
     /// Evaluates gradients and filtered second derivatives where the energies were evaluated last.

@@ -3,14 +3,14 @@
 use crate::system::LowerTriangle;
 use crate::system::linear::{Cholesky, LinearError};
 
-/// Solver of the linear systems A x = b of Newton's method that is not piola's own: see
+/// User-defined solver of the linear systems A x = b of Newton's method: see
 /// [`Simulation::set_linear_solver`](crate::step::Simulation::set_linear_solver).
 ///
 /// Three rows and columns of A belong to each of [`LowerTriangle::free_nodes`]. A function of the form of
 /// [`SparseSolver::solve`] is such a solver, and [`Cholesky`] is another.
 pub trait SparseSolver: Clone + Send + Sync + 'static {
-    /// Takes the pattern of the matrices to come, for a symbolic factorisation: before the first one, and
-    /// where terms of the energy join other nodes or pins change. Does nothing by default.
+    /// Analyses the pattern of the matrices to come, for a symbolic factorisation: before the first one, and
+    /// whenever terms of the energy join other nodes or pins change. Does nothing by default.
     ///
     /// # Errors
     /// Any [`LinearError`]; [`LinearError::OutOfMemory`] as a rule.
@@ -19,8 +19,8 @@ pub trait SparseSolver: Clone + Send + Sync + 'static {
         Ok(())
     }
 
-    /// Replaces b by x with ‖b − A x‖ ≤ `tolerance` ‖b‖, or as good as it can be. Returns the number of
-    /// iterations, 0 of a direct solver.
+    /// Replaces b by x with ‖b − A x‖ ≤ `tolerance` ‖b‖, or as close as possible. Returns the number of
+    /// iterations, 0 for a direct solver.
     ///
     /// # Errors
     /// [`LinearError::NotPositive`], with b unchanged, if A is not positive definite: it comes again then,

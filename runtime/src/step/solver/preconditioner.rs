@@ -1,5 +1,5 @@
-//! Choice of the preconditioner of conjugate gradients: the blocks on the diagonal where these take few
-//! iterations, multigrid where they take many.
+//! Choice of the preconditioner of conjugate gradients: the blocks on the diagonal if these take few
+//! iterations, otherwise multigrid.
 //!
 //! Blocks cost next to nothing. They serve bodies that are soft for their time step: there inertia holds
 //! each node by itself. Without inertia, and in a fine mesh, their iterations grow with the number of
@@ -21,16 +21,16 @@ use crate::system::linear::conjugate_gradients::{End, Iteration};
 use crate::system::linear::multigrid::Multigrid;
 use crate::system::nodal_stiffness::NodalStiffness;
 
-/// Iterations for each digit of the solution that blocks on the diagonal are given.
+/// Number of iterations for each digit of the solution above which blocks on the diagonal are replaced.
 const BLOCKS: f64 = 20.0;
 
-/// Share of inertia in the diagonal from which on blocks are chosen.
+/// Share of inertia in the diagonal above which blocks are chosen.
 ///
 /// With a share s the condition of D⁻¹A is about 2.8/s, and blocks take 1.15 √(2.8/s) iterations for each
 /// digit: here fourteen, the time that levels take.
 const SOFT: f64 = 0.02;
 
-/// Iterations in the time of which levels can be made anew.
+/// Number of iterations that take as long as making new levels.
 const SET_UP: f64 = 10.0;
 
 /// A positive definite approximation of the inverse of a matrix, zero at pinned nodes.
@@ -53,7 +53,7 @@ enum InUse {
     Old {
         for_a_digit: f64,
     },
-    /// Levels are to be made.
+    /// Levels must be made.
     Wanted,
 }
 
@@ -62,7 +62,7 @@ impl Preconditioner {
         Self { blocks: BlockJacobi::new(nodes), multigrid: Multigrid::default(), in_use: InUse::Nothing }
     }
 
-    /// Forgets all that earlier systems have taught.
+    /// Discards all information from earlier systems.
     pub(super) fn forget(&mut self) {
         self.in_use = InUse::Nothing;
     }
@@ -103,7 +103,7 @@ impl Preconditioner {
         }
     }
 
-    /// Number of iterations after which a system that is solved to this tolerance is begun again with another
+    /// Number of iterations after which a system with this tolerance is restarted with another
     /// preconditioner.
     pub(super) fn patience(&self, tolerance: f64) -> usize {
         let digits = -tolerance.log10();
@@ -114,8 +114,8 @@ impl Preconditioner {
         }
     }
 
-    /// Chooses the preconditioner of the next system by how one was solved to this tolerance; true if that
-    /// one is to be solved again.
+    /// Chooses the preconditioner of the next system by the iterations of the last one; returns true if that
+    /// one must be solved again.
     pub(super) fn judge(&mut self, Iteration { iterations, end }: Iteration, tolerance: f64) -> bool {
         let (digits, iterations) = (-tolerance.log10(), iterations as f64);
         let has_failed = matches!(end, End::Limit | End::NotFinite);
