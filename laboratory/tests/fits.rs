@@ -256,7 +256,9 @@ fn pure_shear_cannot_tell_the_invariants_apart() -> Outcome {
     let text = found.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
     assert!(text.contains("they change the fit by less than 0.0001 %; hold one of them"), "{text}");
     assert!(
-        text.contains("another minimum has differences of 0.000 %, compared with 0.000 % of this one: c10 = "),
+        text.contains(
+            "another minimum has differences of 0.000 %, compared with 0.000 % of this one: c10 = "
+        ),
         "{text}"
     );
     Ok(())
