@@ -50,7 +50,7 @@ impl Material {
         }
     }
 
-    /// The material with these parameters and else typical ones.
+    /// Specification of the material with these parameters, the others having typical values.
     pub(crate) fn spec(self) -> Result<MaterialSpec, Error> {
         let name = self.material.unwrap_or_default();
         let material = match self.formula.spec(&self.parameters)? {
@@ -64,7 +64,7 @@ impl Material {
     }
 }
 
-/// The small-strain moduli of a material in a line, and a warning where they are odd.
+/// The small-strain moduli of a material in a line, and a warning if they are odd.
 pub(crate) fn at_rest(moduli: Moduli, volume: Volume) -> String {
     let at_rest = AtRest { moduli, volume };
     let warning = at_rest.warning().map(|warning| format!("warning: {warning}\n"));

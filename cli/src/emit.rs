@@ -11,7 +11,7 @@ use crate::bench::Material;
 use crate::error::Error;
 
 /// One file without a dependency: a structure of the parameters, a check of them, and the functions of a
-/// point. What it holds and how it is compiled stands at its top.
+/// point. The comment at its top describes contents and compilation.
 #[derive(Debug, Args)]
 pub(crate) struct Emit {
     #[command(flatten)]

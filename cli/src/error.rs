@@ -15,13 +15,13 @@ use piola_viewer::error::Error as ViewerError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A scene cannot start or go on.
+    /// A scene cannot start or continue.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// A viewer cannot take or write a file.
     #[error(transparent)]
     Viewer(ViewerError),
-    /// A file that names its scene is given beside a scene or its options.
+    /// A file that names its scene is given together with a scene or its options.
     #[error(
         "the file names its scene and options itself; leave out all but --load, --mesh and --surface of its body, \
          --port and --save"
@@ -92,22 +92,22 @@ pub enum Error {
     /// The bench refuses the material, the stretches or the chart.
     #[error(transparent)]
     Bench(Box<dyn std::error::Error + Send + Sync>),
-    /// All rubbers are to be ranked, beside nothing.
+    /// Ranking of all rubbers without data.
     #[error("`piola curve all` compares energies with measured points: add --data FILE, or --data treloar")]
     RankedWithoutData,
-    /// All rubbers are to be ranked, with an option for one material.
+    /// Ranking of all rubbers with an option for one material.
     #[error("`piola curve all` has no use for {0}: it fits all parameters to all points, at constant volume")]
     RankedWith(
         /// The option, such as `--param`.
         &'static str,
     ),
-    /// All rubbers are to be ranked beside a test that changes the volume.
+    /// Ranking of all rubbers with a test that changes the volume.
     #[error("{files}: `piola curve all` fits solids that keep their volume; leave the volumetric test out")]
     RankedByVolume {
         /// The files.
         files: String,
     },
-    /// An option that files of measured points need has another number of values than there are files.
+    /// Wrong number of values of an option: neither one for all files of measured points nor one for each.
     #[error(
         "{given} values of {option} and {files} of --data: give one for all files, or one for each in their order"
     )]
@@ -119,7 +119,7 @@ pub enum Error {
         /// Number of files.
         files: usize,
     },
-    /// A file has no points of the tests that are asked for.
+    /// A file has no points of the requested tests.
     #[error("{}: has points of {} alone, and none of the tests of --mode", path.display(), known.join(", "))]
     NoSuchTest {
         /// The file.

@@ -35,8 +35,8 @@ use error::Error;
 use signals::Signals;
 use view::Viewer;
 
-/// Parses the command line and obeys it; returns the exit status: 2 if the command line makes no sense, 1 if
-/// something failed on the way, and 128 with the number of a signal that has ended a run.
+/// Parses the command line and runs the command; returns the exit status: 2 if the command line is invalid, 1
+/// if something failed on the way, and 128 with the number of a signal that has ended a run.
 #[must_use]
 pub fn main() -> ExitCode {
     let command = match Cli::try_parse() {
@@ -88,7 +88,7 @@ fn play(arguments: Run) -> Result<ExitCode, Error> {
     report(&finished.close()?, &output.folder, signals.exit_code())
 }
 
-/// Says what a run has left, and returns the exit status.
+/// Prints the results of a run, and returns the exit status.
 fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCode, Error> {
     let place = folder.display();
     say(format_args!("{summary}\n  surfaces, frames.png and summary.json are in {place}"))?;
@@ -137,7 +137,7 @@ fn say(text: impl Display) -> Result<ExitCode, Error> {
     heard(said).map(|()| ExitCode::SUCCESS).map_err(Error::StandardOutput)
 }
 
-/// Forgives a reader who has gone away: no more was wanted.
+/// Ignores the error of a closed reader, such as `head`.
 fn heard(said: io::Result<()>) -> io::Result<()> {
     match said {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -150,8 +150,8 @@ fn warn_of(warning: &String) {
     warn(format_args!("warning: {warning}"));
 }
 
-/// Writes a line to standard error, if anybody listens there. Names of files and what they say cannot speak
-/// to the terminal.
+/// Writes a line to standard error, if it is open, with control characters of file names and contents
+/// escaped.
 fn warn(line: impl Display) {
     let _ = writeln!(io::stderr(), "{}", printable(&line.to_string()));
 }

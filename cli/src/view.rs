@@ -140,7 +140,7 @@ impl Viewer {
         self.address
     }
 
-    /// Properties of the body that may not be meant.
+    /// Properties of the body that may be unintended.
     #[must_use]
     pub fn warnings(&self) -> &[String] {
         &self.warnings

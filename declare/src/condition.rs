@@ -12,7 +12,7 @@ use syn::{BinOp, Expr, Lit, UnOp};
 
 /// A comparison in parameters, such as `mu[p] * alpha[p] > 0.0`, which holds for every entry of its lists.
 pub(crate) struct Condition {
-    /// The comparison as people write it.
+    /// The comparison in the usual notation.
     pub(crate) text: Text,
     pub(crate) sides: [Term; 2],
     /// `>`, `<`, `>=`, `<=` or `!=`.

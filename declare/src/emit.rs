@@ -22,7 +22,7 @@ use piola::{Inversion, Material, Status};
 
 use crate::energy::Energy;
 
-/// A language that energies are printed in.
+/// Languages of emitted source text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Target {
@@ -113,7 +113,7 @@ impl PointFunction {
         Self::Svd,
     ];
 
-    /// The word for it, which its name ends with.
+    /// Word for the function, the last part of its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -142,7 +142,7 @@ impl FromStr for PointFunction {
     }
 }
 
-/// A word for a choice that there is not.
+/// Error of an unknown word for a choice.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("unknown {kind} `{word}`; known are: {known}")]
 pub struct UnknownWord {
@@ -206,7 +206,7 @@ impl Emission {
     }
 }
 
-/// An energy cannot be printed as asked.
+/// Reason why an energy cannot be printed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EmitError {
@@ -226,10 +226,10 @@ pub enum EmitError {
     /// The language has no numbers of that precision.
     #[error("WGSL has no numbers of 64 bits: ask for the precision f32, or for another target")]
     Precision,
-    /// No function is asked for.
+    /// No function is requested.
     #[error("no function is asked for; there are: {}", PointFunction::ALL.map(PointFunction::name).join(", "))]
     Nothing,
-    /// A parameter decides on the program.
+    /// A parameter selects the program, which cannot be recorded.
     #[error(transparent)]
     Unrecorded(#[from] UnrecordedParameter),
 }
@@ -240,7 +240,7 @@ struct PointProgram {
     recording: Recording,
 }
 
-/// All that a printer needs of an energy.
+/// Input of a printer: an energy with its programs and parameters.
 struct File<'a> {
     energy: &'a Energy,
     target: Target,
@@ -394,7 +394,7 @@ fn recorded<E: Recordable>(
     })
 }
 
-/// Twice the shear modulus and three times the bulk modulus at rest, and whether rest is inside the domain.
+/// Twice the shear modulus and three times the bulk modulus at rest, and true if rest is inside the domain.
 fn at_rest<E: Recordable>(material: &Interpreted) -> Result<Recording, UnrecordedParameter> {
     record(0, |_: &[Recorded<E>]| {
         let one = Recorded::splat(1.0);

@@ -155,8 +155,8 @@ impl Energy {
         self.0.fit.is_some()
     }
 
-    /// The values of the parameters of a material of this energy, one list for each, as
-    /// [`with_values`](Self::with_values) takes them: [`Fittable::values`].
+    /// Values of the parameters of a material of this energy, one list for each, in the form of
+    /// [`with_values`](Self::with_values): [`Fittable::values`].
     #[must_use]
     pub fn values(&self, material: &Interpreted) -> Vec<Vec<f64>> {
         let values = material.values().all().iter();

@@ -222,7 +222,7 @@ impl Parsed {
     }
 }
 
-/// The declaration as a person would write it.
+/// The declaration in the usual style of Rust.
 fn source(arguments: &TokenStream, item: &TokenStream) -> String {
     let function = match syn::parse2(item.clone()) {
         Ok(file) => prettyplease::unparse(&file),
@@ -234,7 +234,7 @@ fn source(arguments: &TokenStream, item: &TokenStream) -> String {
     format!("use piola::material;\n\n{documentation}#[material({arguments})]\npub fn {function}")
 }
 
-/// The advice for a name that papers have for something that an energy writes in another way.
+/// Advice for a name of papers for which declarations have another notation.
 fn advice(name: &str) -> Option<String> {
     let formula = Language::Formula { free_rest: None };
     read::resolve::advice(name).map(|advice| formula.message(advice))

@@ -11,7 +11,7 @@ use piola_codegen::algebra::expr::Elementary as Function;
 use piola_codegen::read::parse::Declaration;
 use piola_codegen::schedule::{Op, Program as Ordered, Statement, Value};
 
-/// The most registers of one kind: a tile of them takes two mebibytes.
+/// Maximum number of registers of one kind: a tile of them takes two mebibytes.
 const MOST_REGISTERS: usize = 4096;
 
 /// The program of ordered operations for the interpreter; `None` if it needs too many registers.

@@ -24,7 +24,7 @@ pub struct Place {
     pub length: usize,
 }
 
-/// All mistakes of a text. Displayed as a compiler does, each with the line that it is in.
+/// All mistakes of a text. Displayed in the style of a compiler, each with the line that it is in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistakes {
     /// Name of the text: a file, or `energy`.
@@ -35,7 +35,7 @@ pub struct Mistakes {
     pub list: Vec<Mistake>,
 }
 
-/// The most mistakes that are shown of a text.
+/// Maximum number of mistakes that are shown for a text.
 const MOST: usize = 100;
 
 impl Mistakes {

@@ -74,7 +74,7 @@ pub(crate) fn check_size(text: &str) -> Result<(), Mistakes> {
     Err(Mistakes::of_all("", message))
 }
 
-/// Functions of other types are Rust of their own.
+/// Checks that all functions are splines: other types would need Rust code.
 fn only_splines(declaration: &Declaration) -> syn::Result<()> {
     let is_spline = |ty: &Type| matches!(ty, Type::Path(path) if path.path.segments.last().is_some_and(|last| last.ident == "Spline"));
     let others = declaration.parameters.iter().filter_map(|parameter| match &parameter.kind {

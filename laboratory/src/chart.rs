@@ -31,8 +31,7 @@ const HEIGHT: u32 = 520;
 /// Pixels for title and note.
 const HEAD: u32 = 62;
 
-/// The SVG text of a chart with a title, a line that explains, and R² of each mode if there are data to have
-/// it of.
+/// The SVG text of a chart with a title, an explanatory line, and R² of each mode if there are data.
 ///
 /// # Errors
 /// [`ChartError`] if there is neither a point of a curve nor one of the data, if one is too large for an
@@ -63,9 +62,9 @@ pub fn draw(
 /// Modes with axes in common.
 struct Group {
     modes: &'static [Mode],
-    /// The label of what the machine sets.
+    /// Label of the control.
     control: &'static str,
-    /// The label of what it reads.
+    /// Label of the stress.
     stress: &'static str,
 }
 

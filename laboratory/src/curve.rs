@@ -29,23 +29,23 @@ use piola::__private::message::{number, quoted};
 use crate::specimen::{self, Specimen};
 use lateral::Side;
 
-/// The test: what the machine does to the specimen.
+/// Test mode: the motion that the machine prescribes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Mode {
-    /// Pulled or pressed along one axis, free across.
+    /// Tension or compression along one axis, free across.
     Uniaxial,
-    /// Pulled or pressed along two axes alike, free through the thickness.
+    /// Equal tension or compression along two axes, free through the thickness.
     Equibiaxial,
-    /// Pulled along one axis, held across, free through the thickness: planar tension.
+    /// Tension along one axis, held across, free through the thickness: planar tension.
     PureShear,
-    /// Sheared between parallel plates that keep their distance.
+    /// Shear between parallel plates that keep their distance.
     SimpleShear,
-    /// Pulled or pressed from all sides alike.
+    /// Equal tension or compression from all sides.
     Volumetric,
 }
 
 impl Mode {
-    /// Every mode, in the order of reports.
+    /// All modes, in the order of reports.
     pub const ALL: [Self; 5] =
         [Self::Uniaxial, Self::Equibiaxial, Self::PureShear, Self::SimpleShear, Self::Volumetric];
 
@@ -191,7 +191,7 @@ pub struct ModeError(
 /// Treatment of the volume of a specimen: free or constant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Volume {
-    /// The energy decides: free sides carry no stress.
+    /// Free volume: the energy determines it, and free sides carry no stress.
     #[default]
     Free,
     /// Constant volume, regardless of the energy's resistance to changes of volume: the incompressible solid.
@@ -203,10 +203,10 @@ pub enum Volume {
 pub struct Response {
     /// The control that the machine has set: λ, γ or J.
     pub control: f64,
-    /// Principal stretches: along, across in the plane, through the thickness. Of simple shear the greatest,
-    /// the least, and 1.
+    /// Principal stretches: along, across in the plane, through the thickness. For simple shear: the
+    /// greatest, the least, and 1.
     pub stretches: [f64; 3],
-    /// The stress it reads, Pa.
+    /// Measured stress, Pa.
     pub stress: f64,
     /// The weights that make up the stress: Σ weights · (ψ1, ψ2, ψ3).
     ///
@@ -239,8 +239,8 @@ pub enum ResponseError {
     /// The deformation is outside the domain of the energy, or its stress is NaN or infinite.
     #[error("outside the domain of the energy")]
     OutsideDomain,
-    /// No stretch of the sides between a thousandth and a thousand times that of constant volume frees them
-    /// of stress.
+    /// No stretch of the sides between a thousandth and a thousand times that of constant volume makes them
+    /// free of stress.
     #[error("no lateral stretch frees the sides of stress")]
     NoEquilibrium,
     /// A volumetric test of a specimen whose volume is kept.

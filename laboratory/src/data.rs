@@ -1,4 +1,4 @@
-//! Measured test curves, and how well an energy agrees with them.
+//! Measured test curves, and the agreement of an energy with them.
 //!
 //! A file that says everything itself is a table with a header; lines that begin with `#`, `//` or `**` are
 //! comments:

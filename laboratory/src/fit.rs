@@ -43,7 +43,7 @@ pub enum Difference {
     #[default]
     Relative,
     /// The difference by the greatest measured stress of all, so that stiff tests and large strains decide.
-    /// It is what makes R² great.
+    /// This maximises R² of all points.
     Absolute,
 }
 
@@ -123,7 +123,7 @@ impl FitSettings {
     }
 }
 
-/// The parameters with which an energy agrees best with data, sought from those that it has.
+/// Fits the parameters of an energy to data, starting from those that it has.
 ///
 /// Trials stay where the constructor accepts the parameters and every measured point has a stress. Where the
 /// best fit is beyond that, the search goes along the edge to the best fit there: [`Warning::Edge`].
@@ -205,7 +205,7 @@ fn held(numbers: &Numbers, names: &[String]) -> Result<Vec<Option<Standing>>, Fi
     Ok(held)
 }
 
-/// The points that count, each with what its difference is divided by, Pa.
+/// The points that count, each with the divisor of its difference, Pa.
 fn points(data: &Measurements, difference: Difference) -> Result<Vec<(Measured, f64)>, FitError> {
     let greatest = data.points.iter().fold(0.0_f64, |greatest, point| greatest.max(point.stress.abs()));
     let size = |point: &Measured| match difference {

@@ -1,5 +1,4 @@
-//! Several energies fitted to the same measurements and put in an order: the comparison that reviews of
-//! rubber print.
+//! Several energies fitted to the same measurements and put in an order, as reviews of rubber do.
 //!
 //! Each energy is fitted as an incompressible solid, and stands by four numbers:
 //!
@@ -69,7 +68,7 @@ impl Place {
         self.fit.numbers.iter().filter(|number| number.standing == Standing::Free).count()
     }
 
-    /// R²/n of all points; `None` where their stresses do not vary.
+    /// R²/n of all points; `None` if their stresses do not vary.
     #[must_use]
     pub fn share(&self) -> Option<f64> {
         // A fit without a free parameter is an error.

@@ -1,4 +1,4 @@
-//! A material as a bench sees it, with its type erased.
+//! Interface of a material to the bench, with its type erased.
 
 use piola::Material;
 use piola::lanes::Mask;
@@ -39,7 +39,7 @@ impl<M: Material> Specimen for M {
     }
 }
 
-/// Three numbers along the axes of a test, and the order in which a material wants them.
+/// Three numbers along the axes of a test, and the order that a material requires.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ordered {
     /// Values from the greatest to the least.

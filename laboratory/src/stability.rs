@@ -1,4 +1,4 @@
-//! Stability of a material: where it keeps the inequalities of a stable solid.
+//! Stability of a material: the stretches at which it keeps the inequalities of a stable solid.
 //!
 //! An energy that fits its measurements may still be one that no solid has: a specimen of it would narrow
 //! under a growing pull, or fold into bands as fine as the mesh allows. Three inequalities say where that
@@ -46,7 +46,7 @@ use criteria::{Criterion, Judgement};
 pub use map::{MapError, Plane, map};
 pub use path::{Path, Walk};
 
-/// The stretches that a survey looks at.
+/// Range of stretches that a survey covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SurveySettings {
@@ -82,7 +82,7 @@ impl SurveySettings {
 /// The result of a survey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// The stretches that were looked at.
+    /// Range of stretches that was surveyed.
     pub settings: SurveySettings,
     /// Moduli at rest, in whose μ others are shown.
     pub moduli: Moduli,
@@ -111,7 +111,7 @@ pub struct Finding {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SurveyError {
-    /// The range of stretches does not contain the rest state, or goes beyond what any solid is stretched to.
+    /// The range of stretches does not contain the rest state, or exceeds the stretches of any solid.
     #[error(
         "the stretches are from {} to {}; they must be at least {:e} and at most {:e}, with the rest state, 1, between them",
         number(*from), number(*to), STRETCHES.0, STRETCHES.1
@@ -143,7 +143,7 @@ const STRETCHES: (f64, f64) = (1e-6, 1e6);
 /// Limits of [`SurveySettings::resolution`]: 400 are 10.7 million points.
 const LIMITS: (usize, usize) = (2, 400);
 
-/// Looks at a material over a box of stretches and along paths.
+/// Surveys a material over a box of stretches and along paths.
 ///
 /// # Errors
 /// [`SurveyError`] if the settings are out of range, or the material has no positive shear modulus at rest.

@@ -1,5 +1,5 @@
-//! Makes the header of piola for C from the sources: without arguments checks that `include/piola.h` is what
-//! they say, with `write` writes it.
+//! Generator of the header of piola for C: without arguments checks that `include/piola.h` agrees with the
+//! sources, with `write` writes it.
 
 use std::path::Path;
 

@@ -112,8 +112,8 @@ pub unsafe extern "C" fn piola_stresses_f32(
     unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
 }
 
-/// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81 or 45
-/// numbers for each point.
+/// Stresses P, Pa, and filtered tangents dP/dF, Pa, in one of the forms of `piola_form`: 81 or 45 numbers for
+/// each point.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_tangents(
     material: *const Material,
@@ -215,7 +215,7 @@ pub unsafe extern "C" fn piola_energies_and_tangents_f32(
 }
 
 /// Stresses in one of the measures of `piola_measure`, Pa, six numbers for each F. Their tangents, Pa, 36
-/// numbers for each F and without a filter, are computed where there is room for them: `tangents` may be
+/// numbers for each F and without a filter, are computed if there is an array for them: `tangents` may be
 /// null, with a length of 0.
 ///
 /// A point is nonfinite where its stress is, as the Cauchy stress is where F is singular.
@@ -322,7 +322,7 @@ pub(crate) fn matrix_form(form: i32) -> Result<MatrixForm, Failure> {
     lent::choice("form", form, [MatrixForm::Full, MatrixForm::Packed])
 }
 
-/// Stresses in a measure, and tangents where there is room for them.
+/// Stresses in a measure, and tangents if there is an array for them.
 fn in_measure<E: Precision>(
     batch: &Batch<'_, E>,
     measure: i32,

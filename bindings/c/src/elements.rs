@@ -48,9 +48,9 @@ pub unsafe extern "C" fn piola_rest_shapes(
     })
 }
 
-/// Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and stiffnesses, N/m,
-/// after the filter, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
-/// numbers each as of `piola_rest_shapes`.
+/// Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and filtered
+/// stiffnesses, N/m, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
+/// numbers each as from `piola_rest_shapes`.
 ///
 /// Of the gradients there are 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Of the
 /// stiffnesses 144 or 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
@@ -111,8 +111,8 @@ pub unsafe extern "C" fn piola_stiffnesses_f32(
     }
 }
 
-/// Gradients and stiffnesses as of `piola_stiffnesses`, with the nodes at `positions`, three numbers for
-/// each, m: F = Ds Dm⁻¹ is made on the way. `corners` has four nodes, from 0, for each tetrahedron.
+/// Gradients and stiffnesses as from `piola_stiffnesses`, with the nodes at `positions`, three numbers for
+/// each, m: F = Ds Dm⁻¹ is computed on the way. `corners` has four nodes, from 0, for each tetrahedron.
 ///
 /// In lines, `rest`, `gradients` and `stiffnesses` go on to the end of the last line; what stands there is
 /// for tetrahedra with edges of length 1 along the axes.

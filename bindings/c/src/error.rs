@@ -14,27 +14,27 @@ use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, CsrError};
 use piola_declare::Mistakes;
 
-/// Result of a function: 0, or the kind of what went wrong. `piola_error_message` says it in words.
+/// Result of a function: 0, or the kind of the error. `piola_error_message` returns its text.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Code {
-    /// Nothing went wrong.
+    /// Success.
     Ok = 0,
     /// A pointer is null or not aligned, or an array that is written overlaps another one.
     Pointer = 1,
-    /// The lengths of arrays do not fit together.
+    /// The lengths of arrays do not match.
     Length = 2,
     /// A text is not UTF-8.
     Text = 3,
-    /// An option, a setting or an entry of an array is none of those that are allowed.
+    /// An option, a setting or an entry of an array has a value that is not allowed.
     Value = 4,
     /// No energy has this name, these parameters, or these values of them.
     Material = 5,
-    /// A text declares no energy; the message shows each mistake at its place.
+    /// A text does not declare an energy; the message shows each mistake at its place.
     Energy = 6,
-    /// Nodes, tetrahedra, parts and densities make no body.
+    /// Nodes, tetrahedra, parts and densities are not a valid body.
     Body = 7,
-    /// A sparse matrix cannot take the stiffnesses of these tetrahedra.
+    /// A sparse matrix does not fit the stiffnesses of these tetrahedra.
     Matrix = 8,
     /// A step finds no admissible next state. The state before is untouched.
     Step = 9,
@@ -42,7 +42,7 @@ pub enum Code {
     Callback = 10,
     /// Another call uses this handle. Nothing has been done.
     Busy = 11,
-    /// A mistake in piola itself. A handle that was being changed cannot be used any more, but freed.
+    /// A bug in piola. A handle that was being changed can only be freed.
     Panic = 12,
 }
 
@@ -108,7 +108,7 @@ pub extern "C" fn piola_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
-/// The code of what is done, its message kept for the thread; panics end here.
+/// Runs the body of a call: returns its code, and keeps its message for the thread; panics end here.
 ///
 /// State that a panic leaves half changed is behind a lock, which is poisoned by it.
 #[inline]

@@ -44,7 +44,7 @@ pub(crate) fn wait<T>(value: &Mutex<T>) -> Result<MutexGuard<'_, T>, Failure> {
     value.lock().map_err(|_| poisoned())
 }
 
-/// Fails where another call uses this handle, which may be the one that a callback belongs to.
+/// Fails if another call uses this handle, which may be the one that a callback belongs to.
 pub(crate) fn enter<T>(value: &Mutex<T>) -> Result<MutexGuard<'_, T>, Failure> {
     value.try_lock().map_err(|error| match error {
         TryLockError::WouldBlock => Failure::new(Code::Busy, "another call uses this handle"),

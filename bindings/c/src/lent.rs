@@ -178,7 +178,7 @@ pub(crate) unsafe fn value_mut<'call, T>(name: &str, value: *mut T) -> Result<&'
     unsafe { value.as_mut() }.ok_or_else(|| null(name))
 }
 
-/// Writes to where a caller wants a result, unless that is nowhere.
+/// Writes a result to the pointer of the caller, unless it is null.
 ///
 /// # Safety
 /// `to` is null, or there is room for a value, which nobody else uses during the call.

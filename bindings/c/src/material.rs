@@ -31,8 +31,7 @@ pub struct Parameter {
     pub values: *const f64,
     /// Number of its values at a point: 1, or more for a list.
     pub length: usize,
-    /// Distance from the values of a point to those of the next one; 0 where they are the same for all
-    /// points.
+    /// Distance from the values of a point to those of the next one; 0 if they are the same for all points.
     pub stride: usize,
 }
 plain!(Parameter);
@@ -172,7 +171,7 @@ enum Kind {
     Uniform {
         spec: MaterialSpec,
         elements: Box<dyn TileMaterial<f64>>,
-        /// The material as a program, from when single precision is first asked for.
+        /// The material as a program, made when single precision is first used.
         interpreted: OnceLock<Interpreted>,
     },
     /// One for each point.

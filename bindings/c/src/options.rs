@@ -42,7 +42,7 @@ pub enum Instructions {
     Portable = 1,
 }
 
-/// Options of a batch. `piola_options options = {sizeof options};` has the defaults, as null has.
+/// Options of a batch. `piola_options options = {sizeof options};` has the defaults, and so does null.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Options {
@@ -51,17 +51,17 @@ pub struct Options {
     pub size: usize,
     /// One of `piola_filter`. Stresses in other measures have tangents without a filter.
     pub filter: i32,
-    /// One of `piola_layout`, of all arrays of a call but positions, tetrahedra and statuses.
+    /// One of `piola_layout`, of all arrays of a call except for positions, tetrahedra and statuses.
     pub layout: i32,
     /// One of `piola_instructions`.
     pub instructions: i32,
     /// 1 to share the points among as many threads as there are processors, or as the environment variable
     /// RAYON_NUM_THREADS says; 0 for the thread of the caller alone. Results have the same bits.
     pub threads: i32,
-    /// 1 to write tangents past the caches, which is faster where they are larger than these, needs lines,
-    /// and arrays aligned to 64 bytes; else 0.
+    /// 1 to write tangents past the caches, which is faster if they are larger than the caches, and needs
+    /// lines and arrays aligned to 64 bytes; else 0.
     pub streams: i32,
-    /// Room for the status of each point, flags of `piola_status`; or null.
+    /// Array for the status of each point, flags of `piola_status`; or null.
     pub statuses: *mut u8,
     /// Number of statuses: that of the points, or 0.
     pub statuses_length: usize,
@@ -71,11 +71,11 @@ pub struct Options {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub enum StatusFlag {
-    /// The deformation is outside the domain of the energy, and the results mean nothing.
+    /// The deformation is outside the domain of the energy, and the results are invalid.
     Refused = 1,
-    /// The tangent is at a pole, and has a bounded value in place of an infinite one.
+    /// The tangent is at a pole, and has a bounded value instead of an infinite one.
     Bounded = 2,
-    /// The deformation gradient or a result is infinite or NaN, or nearly so: the results mean nothing.
+    /// The deformation gradient or a result is infinite or NaN, or nearly so: the results are invalid.
     Nonfinite = 4,
     /// The filter has changed the tangent.
     Filtered = 8,
@@ -94,7 +94,7 @@ pub struct Survey {
     pub nonfinite: usize,
     /// Number of points where the filter has changed the tangent.
     pub filtered: usize,
-    /// Index of the first point whose results mean nothing, refused or nonfinite; SIZE_MAX if there is none.
+    /// Index of the first point with invalid results, refused or nonfinite; SIZE_MAX if there is none.
     pub first: usize,
 }
 
@@ -105,7 +105,7 @@ impl From<PointSurvey> for Survey {
     }
 }
 
-/// The batch of a material with the options behind a pointer, or with the defaults where that is null.
+/// The batch of a material with the options behind a pointer, or with the defaults if that is null.
 ///
 /// # Safety
 /// `options` is null, or points to as many bytes as its first field says, and to as many statuses as it says.

@@ -31,7 +31,8 @@ pub unsafe extern "C" fn piola_response_new(body: *const Body, response: *mut *m
 }
 
 /// Energy of deformation, J, with the nodes at `positions`, three numbers each, m, and its gradient, N, three
-/// numbers for each node: **forces are minus this**. Where the length of `gradient` is 0, the energy alone.
+/// numbers for each node: **forces are minus this**. If the length of `gradient` is 0, only the energy is
+/// computed.
 ///
 /// The survey, which may go to null, counts tetrahedra; energy and gradient mean something where none is
 /// refused or nonfinite. Shared among threads.

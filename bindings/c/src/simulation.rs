@@ -26,15 +26,15 @@ struct State {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub enum Quantity {
-    /// Positions, m. Pins hold their nodes where positions are written.
+    /// Positions, m. If positions are written, pins hold their nodes there.
     Positions = 0,
     /// Velocities, m/s.
     Velocities = 1,
     /// Accelerations at the end of the last step, m/s².
     Accelerations = 2,
-    /// Given forces, N, which keep their size and direction. None, where an array of length 0 is written.
+    /// Given forces, N, of constant size and direction. Write an array of length 0 to remove them.
     Forces = 3,
-    /// Forces of the pins, N: three numbers for each pinned node, in ascending order. To be read only.
+    /// Forces of the pins, N: three numbers for each pinned node, in ascending order. Read-only.
     Reactions = 4,
 }
 
@@ -58,7 +58,7 @@ plain!(Spring);
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub enum Convergence {
-    /// The gradient, or what was left to go, fell below the tolerance.
+    /// The gradient, or the remaining distance, fell below the tolerance.
     Tolerance = 0,
     /// All further gain is below rounding.
     Rounding = 1,
@@ -251,8 +251,8 @@ pub unsafe extern "C" fn piola_simulation_set_pins(
     }
 }
 
-/// Prescribes where pinned nodes are after the next step and from then on: three numbers for each of `nodes`,
-/// m. They move evenly through the step.
+/// Prescribes the positions of pinned nodes after the next step and from then on: three numbers for each of
+/// `nodes`, m. They move evenly through the step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_simulation_prescribe(
     simulation: *const Simulation,
@@ -298,7 +298,7 @@ pub unsafe extern "C" fn piola_simulation_set_springs(
     }
 }
 
-/// Replaces all terms of the energy but deformation, gravity and springs.
+/// Replaces all terms of the energy except for deformation, gravity and springs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_simulation_set_terms(
     simulation: *const Simulation,
@@ -321,7 +321,7 @@ pub unsafe extern "C" fn piola_simulation_set_terms(
     }
 }
 
-/// Advances by `dt`, s; the report may go to null. Shared among threads, with the same bits for any number of
+/// Advances by `dt`, s; the report may be null. Shared among threads, with the same bits for any number of
 /// them.
 ///
 /// Errors: PIOLA_CODE_STEP where there is no admissible next state: the state before is untouched, and a

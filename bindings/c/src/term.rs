@@ -19,7 +19,7 @@ use crate::lent::{self, Arrays, plain};
 pub struct Term {
     /// First argument of the functions. It must live as long as the simulation has this term.
     pub context: *mut c_void,
-    /// Writes the energy, J; infinity outside of its domain, to where no step will go.
+    /// Writes the energy, J; infinity outside of its domain, which no step will enter.
     pub energy: Option<
         unsafe extern "C" fn(
             context: *mut c_void,
@@ -38,7 +38,7 @@ pub struct Term {
         ) -> i32,
     >,
     /// Adds the second derivatives of the energy, N/m, by calls of `piola_blocks_add`. Newton's method
-    /// converges where they are positive semidefinite, so that negative eigenvalues are best left out.
+    /// converges if they are positive semidefinite, so that negative eigenvalues are best left out.
     pub add_second_derivatives: Option<
         unsafe extern "C" fn(
             context: *mut c_void,
@@ -61,11 +61,11 @@ pub struct Term {
 }
 plain!(Term);
 
-/// Second derivatives of a term, valid during the call that it was handed to.
+/// Second derivatives of a term, valid during the call that receives it.
 pub struct Blocks<'a>(&'a mut NodeBlocks);
 
 /// Adds the block of second derivatives by the positions of two nodes, nine numbers row by row, N/m, and, for
-/// two different nodes, its transpose as that of `column` and `row`: each pair of nodes comes once.
+/// two different nodes, its transpose as the block of `column` and `row`: add each pair of nodes once.
 ///
 /// The two need not share a tetrahedron. A pair that none and no earlier step has joined costs a new symbolic
 /// analysis. A node that does not exist ends the step.

@@ -1,5 +1,5 @@
-//! Times of the batch in Rust, ns a point, beside which `times.py` puts those from Python:
-//! `cargo bench -p piola-python --bench batch -- POINTS THREADS`.
+//! Times of the batch in Rust, ns a point, to compare with those from Python by `times.py`: `cargo bench -p
+//! piola-python --bench batch -- POINTS THREADS`.
 
 use std::error::Error;
 use std::hint::black_box;

@@ -1,4 +1,4 @@
-//! Arrays that are taken, and those that results go to.
+//! Input arrays, and output arrays for results.
 //!
 //! Accepts anything that `numpy.asarray` turns into an array of numbers; float32 stays as it is, all else
 //! becomes float64. Points are along the leading axes of an array, F of shape (..., 3, 3), which is what

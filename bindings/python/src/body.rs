@@ -99,8 +99,8 @@ impl Body {
         self.memory.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Evaluates something, on threads, without the interpreter; complains of tetrahedra outside of the
-    /// domain.
+    /// Evaluates something, on threads, without the interpreter; raises an error for tetrahedra outside of
+    /// the domain.
     fn evaluate<T: Send>(
         &self,
         py: Python<'_>,

@@ -1,4 +1,4 @@
-//! Declarations in words.
+//! Descriptions of declarations.
 
 use piola::material::{self, Unit};
 use piola_materials::DECLARATIONS;
@@ -15,7 +15,7 @@ pub(crate) struct Parameter {
     name: String,
     /// Its documentation.
     doc: String,
-    /// Its unit: "Pa", "1/Pa", "1" for a number without unit, or None where the declaration states none.
+    /// Its unit: "Pa", "1/Pa", "1" for a number without unit, or None if the declaration states none.
     unit: Option<&'static str>,
     /// True if it takes a sequence of numbers.
     is_list: bool,
@@ -30,7 +30,7 @@ impl Parameter {
     }
 }
 
-/// An energy in words.
+/// Description of an energy.
 #[pyclass(frozen, get_all, module = "piola")]
 pub(crate) struct Description {
     /// The name.
@@ -107,7 +107,7 @@ pub(crate) fn catalogue() -> Vec<&'static str> {
     DECLARATIONS.iter().map(|declaration| declaration.name).collect()
 }
 
-/// An energy of the catalogue in words. Raises MaterialError for a name that is not there.
+/// Description of an energy of the catalogue. Raises MaterialError for an unknown name.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn describe(name: &str) -> PyResult<Description> {

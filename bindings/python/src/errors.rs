@@ -35,7 +35,7 @@ fn in_python(message: &str) -> String {
     message.replace("Inversion::Refuse", "extend=None")
 }
 
-/// A text that declares no energy: its mistakes, and for each its line, its column and its length.
+/// A text that does not declare an energy: its mistakes, and for each its line, its column and its length.
 pub(crate) fn of_text(mistakes: Mistakes) -> PyErr {
     let place = |mistake: &piola_declare::Mistake| {
         let place = mistake.place.map(|place| (place.line, place.column, place.length));
@@ -45,7 +45,7 @@ pub(crate) fn of_text(mistakes: Mistakes) -> PyErr {
     DeclarationError::new_err((mistakes.to_string(), places))
 }
 
-/// A mesh, pin or setting that makes no body, or no simulation.
+/// A mesh, pin or setting that is not valid for a body or a simulation.
 pub(crate) fn of_body(error: impl std::error::Error) -> PyErr {
     BodyError::new_err(error.to_string())
 }

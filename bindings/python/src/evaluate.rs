@@ -34,7 +34,7 @@ struct Call<'a, 'py> {
 }
 
 impl<'py> Call<'_, 'py> {
-    /// Computes a quantity of each F, and gives its results.
+    /// Computes a quantity of each F, and returns its results.
     fn run(
         &self,
         material: &Material,
@@ -124,7 +124,7 @@ fn flags(cell: &StatusCell) -> u8 {
         .fold(0, |bits, (k, flag)| bits | u8::from(flag) << k)
 }
 
-/// The exception for points whose results mean nothing.
+/// The exception for points with invalid results.
 fn outside(survey: Survey, first: usize, points: &[usize]) -> PyErr {
     let index = shape::index(first, points);
     let Survey { refused, nonfinite, .. } = survey;
@@ -249,7 +249,7 @@ impl Material {
         tuple(py, call.run(self, F, Quantity::Tangent)?)
     }
 
-    /// Energy, stress and tangent of one decomposition: (energy, P, dP_dF), as of `energy` and `tangent`.
+    /// Energy, stress and tangent of one decomposition: (energy, P, dP_dF), as from `energy` and `tangent`.
     ///
     ///     evaluate(F, /, *, filter=None, trailing=False, out=None, status=None, threads=None)
     #[pyo3(signature = (F, /, *, filter = None, trailing = false, out = None, status = None, threads = None))]

@@ -59,7 +59,8 @@ impl Material {
         py.import("piola.results")?.call_method1("Curve", arguments)
     }
 
-    /// The material with the parameters that agree best with measurements, sought from those it has.
+    /// Fits the parameters to measurements, starting from the current ones; returns the material with the
+    /// best parameters.
     ///
     ///     fit(data, /, *, incompressible=True, relative=True, held=(), restarts=20, seed=1)
     ///
@@ -269,7 +270,8 @@ fn path(path: Path) -> &'static str {
     }
 }
 
-/// Treloar's measurements of vulcanised rubber, 1944, as `Material.fit` takes them: control and stress, Pa.
+/// Treloar's measurements of vulcanised rubber, 1944, in the form that `Material.fit` takes: control and
+/// stress, Pa.
 #[pyfunction]
 pub(crate) fn treloar(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let data = Measurements::read(TRELOAR_1944).map_err(|error| value_error(error.to_string()))?;

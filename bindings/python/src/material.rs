@@ -327,7 +327,7 @@ impl Material {
         &self.name
     }
 
-    /// The energy in words.
+    /// Description of the energy.
     #[getter]
     fn description(&self) -> PyResult<Description> {
         Ok(Description::new(&self.name, self.spec.description().map_err(of_material)?))
@@ -367,7 +367,7 @@ impl Material {
         PyTuple::new(py, self.shape())
     }
 
-    /// Moduli at small strain, Pa, and Poisson's ratio: those of the first point, where parameters differ.
+    /// Moduli at small strain, Pa, and Poisson's ratio: those of the first point, if parameters differ.
     #[getter]
     fn moduli<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let Moduli { mu, lambda } = self.moduli;

@@ -1,4 +1,4 @@
-//! Settings as keywords, and reports as dictionaries: what serde makes of them.
+//! Settings from keywords, and reports as dictionaries, by serde.
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -128,7 +128,7 @@ impl Simulation {
         self.with(py, |simulation| simulation.set_forces(&forces)).map_err(of_body)
     }
 
-    /// Prescribes where pinned nodes will be after the next step, and from then on.
+    /// Prescribes the positions of pinned nodes after the next step, and from then on.
     ///
     ///     prescribe(nodes, positions, /)
     ///
@@ -168,8 +168,8 @@ impl Simulation {
         to_dict(py, &self.with(py, |simulation| *simulation.settings()))
     }
 
-    /// Energies now, J, as a dictionary: elastic, kinetic, gravity, springs, forces, terms. An energy that is
-    /// not defined is None.
+    /// Current energies, J, as a dictionary: elastic, kinetic, gravity, springs, forces, terms. An energy
+    /// that is not defined is None.
     fn energies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         to_dict(py, &self.with(py, step::Simulation::energies))
     }

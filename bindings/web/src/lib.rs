@@ -18,20 +18,20 @@ use piola_viewer::error::Error;
 use piola_viewer::session::Session;
 use piola_viewer::topology;
 
-/// Kinds of messages, as [`next`] gives them.
+/// Kinds of messages that [`next`] returns.
 const NOTHING: u32 = 0;
 const TEXT: u32 = 1;
 const NUMBERS: u32 = 2;
 
-/// All that is between two calls.
+/// State between two calls.
 #[derive(Default)]
 struct Border {
     /// Message written by the page.
     heard: Vec<u8>,
     behind: Option<(Driver<Browser>, Conversation)>,
-    /// Messages for the page that wait.
+    /// Queue of messages for the page.
     words: VecDeque<Words>,
-    /// The message that it reads.
+    /// Message that the page reads now.
     said: Option<Words>,
 }
 
@@ -65,8 +65,8 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
     })
 }
 
-/// Begins the scene whose name has been written, and says whether there is one: if not, the next message is
-/// the reason.
+/// Starts the scene whose name is in the buffer. Returns false if there is none; the reason is then the next
+/// message.
 #[unsafe(no_mangle)]
 pub extern "C" fn begin() -> bool {
     BORDER.with_borrow_mut(|border| match session(&String::from_utf8_lossy(&border.heard)) {
@@ -86,8 +86,7 @@ fn session(scene: &str) -> Result<Session, Error> {
     Session::new(Settings::new(Scene::find(scene)?))
 }
 
-/// Hears the message that has been written, and says whether it is one: if not, the next message is the
-/// reason.
+/// Handles the message in the buffer. Returns false if it is malformed; the reason is then the next message.
 #[unsafe(no_mangle)]
 pub extern "C" fn hear() -> bool {
     BORDER.with_borrow_mut(|Border { heard, behind, words, .. }| {
@@ -105,7 +104,7 @@ pub extern "C" fn hear() -> bool {
     })
 }
 
-/// Makes a step if one is due, and says after how many milliseconds the next one is; ∞ if none is.
+/// Makes a step if one is due. Returns the milliseconds until the next one; ∞ if none is due.
 #[unsafe(no_mangle)]
 pub extern "C" fn turn() -> f64 {
     BORDER.with_borrow_mut(|Border { behind, words, .. }| {
@@ -116,8 +115,7 @@ pub extern "C" fn turn() -> f64 {
     })
 }
 
-/// Takes the next message from the queue, and says of which kind it is: 0 for none, 1 for text, 2 for
-/// numbers.
+/// Takes the next message from the queue. Returns its kind: 0 for none, 1 for text, 2 for numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn next() -> u32 {
     BORDER.with_borrow_mut(|border| {

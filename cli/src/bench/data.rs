@@ -1,4 +1,4 @@
-//! Measured points on the command line: files, and what they leave unsaid.
+//! Options for measured points: files, and the tests and units that they do not name.
 
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ Files of measured points, as test machines, spreadsheets and papers have them:
   decks       blocks such as *UNIAXIAL TEST DATA, with nominal stress and nominal strain, and --unit
 What was read, and what was left out, is said for each file.";
 
-/// Measured points, and what their files leave unsaid.
+/// Measured points, with tests and units that their files do not name.
 #[derive(Debug, Args)]
 pub(crate) struct Data {
     /// Measured points: a file, or `treloar`; may be repeated, as for a file of each test.
@@ -31,7 +31,7 @@ pub(crate) struct Data {
     pub(super) files: Vec<PathBuf>,
 
     /// Tests, separated by commas or repeated: uniaxial, equibiaxial, pure_shear, simple_shear, volumetric.
-    /// Of files that name their tests only these are used. Of others it is the test: one for all files, or
+    /// From files that name their tests only these are used. For others it is the test: one for all files, or
     /// one for each --data in their order [default: those of the data, or else the first three].
     #[arg(long = "mode", value_name = "MODE,MODE", value_delimiter = ',')]
     pub(super) tests: Vec<Test>,

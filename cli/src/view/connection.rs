@@ -1,4 +1,4 @@
-//! The socket of a page: passes its messages on as orders, and answers back.
+//! The socket of a page: turns its messages into orders, and sends back the answers.
 //!
 //! One thread reads and writes in turn. While a page waits for a frame, it listens in short turns; otherwise
 //! in long ones.
@@ -117,7 +117,7 @@ impl Connection<'_> {
         }
     }
 
-    /// Passes on what has come for the page.
+    /// Sends the messages that are ready for the page.
     fn reply(&mut self) -> Result<(), End> {
         for words in self.conversation.words() {
             self.send(match words {
@@ -128,7 +128,7 @@ impl Connection<'_> {
         Ok(())
     }
 
-    /// Asks a page that is silent for a sign of life, and gives it up if there is none.
+    /// Pings a silent page, and disconnects it if there is no answer.
     fn ping(&mut self) -> Result<(), End> {
         let silence = self.heard.elapsed();
         if silence > self.patience.silence {

@@ -4,17 +4,16 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-/// Times after which a connection is given up: it holds one of a few places.
+/// Times after which a connection is closed: it holds one of a few places.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
     /// Limit for a whole request; a browser sends it at once.
     pub(super) request: Duration,
     /// Limit for sending one answer, frame or message; on one machine that takes milliseconds.
     pub(super) answer: Duration,
-    /// Silence of a page after which it is asked for a sign of life. One that is paused may say nothing for
-    /// hours.
+    /// Silence of a page after which it is pinged. A paused page may be silent for hours.
     pub(super) ping: Duration,
-    /// Silence after which a page is given up. A browser answers a ping by itself, even for a page in the
+    /// Silence after which a page is disconnected. A browser answers a ping by itself, even for a page in the
     /// background or one that computes; while the machine sleeps, this clock stands still.
     pub(super) silence: Duration,
 }

@@ -1,4 +1,4 @@
-//! The secret that opens the page: whoever was given the printed address has it.
+//! Secret token that opens the page; it is part of the printed address.
 
 use std::fmt;
 

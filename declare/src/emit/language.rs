@@ -1,4 +1,4 @@
-//! Languages as the printer sees them: words, literals, and the lines around a function.
+//! Interface of languages to the printer: words, literals, and the lines around a function.
 
 mod c;
 mod wgsl;
@@ -24,7 +24,7 @@ pub(super) enum Argument {
     Output(&'static str, usize),
 }
 
-/// A field of the structure of the parameters, with what is said of it.
+/// A field of the structure of the parameters, with its comment.
 pub(super) enum Field {
     /// A parameter without a place.
     Absent(String),

@@ -75,7 +75,8 @@ impl Notation {
     }
 }
 
-/// The mistake of characters that make no tokens: a parenthesis alone, or what is in no formula.
+/// Error for characters that do not form tokens: an unmatched parenthesis, or characters without a meaning in
+/// formulas.
 fn unreadable(formula: &str) -> Mistake {
     let mut open: Vec<(char, usize)> = Vec::new();
     for (k, character) in formula.chars().enumerate() {

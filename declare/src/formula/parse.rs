@@ -29,7 +29,7 @@ pub(super) const STRETCHES: [&str; 3] = ["l1", "l2", "l3"];
 /// Levels of parentheses and exponents: fewer than the compiler bears.
 const DEEPEST: usize = 48;
 
-/// Names without values that are told at once: nobody reads more.
+/// Maximum number of names without values in one message.
 const MOST_ASKED: usize = 20;
 
 /// A formula as the parts of a declaration.
@@ -404,7 +404,7 @@ impl Parser {
         Ok(declared)
     }
 
-    /// Asks for the values of all names that have none.
+    /// Reports all names without a value.
     fn ask(&self, options: &FormulaOptions) -> syn::Result<()> {
         let missing = self.names.iter().filter(|(_, _, text)| !self.given.contains(text));
         let mistakes = missing.take(MOST_ASKED).map(|(name, _, text)| {
@@ -609,7 +609,7 @@ fn span(tokens: &TokenStream) -> Span {
     tokens.clone().into_iter().next().map_or_else(Span::call_site, |token| token.span())
 }
 
-/// A number with a decimal point, as Rust wants it.
+/// A number with a decimal point, as Rust requires.
 fn real(literal: Literal) -> syn::Result<Literal> {
     /// More characters than any number needs, for numbers are read digit by digit.
     const LONGEST: usize = 100;

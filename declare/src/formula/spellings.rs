@@ -105,12 +105,12 @@ const MODULES: [&str; 14] = [
     "special",
 ];
 
-/// A function that makes a number of tensors.
+/// Function from tensors to a number.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Invariant {
     Trace,
     Determinant,
-    /// The sum of the products of all entries of two tensors, which are one, or powers of one.
+    /// Sum of the products of all entries of two equal tensors, or of two powers of one.
     Product,
 }
 

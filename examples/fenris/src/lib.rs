@@ -9,7 +9,7 @@ use piola::point::{
     evaluate_stress,
 };
 
-/// A material of piola as fenris asks for one.
+/// Material of piola with the interfaces of fenris.
 ///
 /// Where a point lies outside the domain of the energy, or a result is infinite or NaN, the energy is
 /// infinite, and stress and contraction are NaN, as of fenris' own materials.

@@ -7,7 +7,7 @@ use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline, ErrorFilter, Limits
 
 use crate::Error;
 
-/// No adapter answers to Vulkan.
+/// No adapter supports Vulkan.
 #[derive(Debug)]
 pub struct NoAdapter(wgpu::RequestAdapterError);
 
@@ -24,7 +24,7 @@ impl std::error::Error for NoAdapter {}
 /// An open device.
 #[derive(Debug)]
 pub struct Device {
-    /// The adapter as it calls itself.
+    /// Name of the adapter.
     pub name: String,
     /// All that the adapter allows.
     pub limits: Limits,
@@ -96,7 +96,7 @@ impl Device {
         })
     }
 
-    /// Buffers in the order of the bindings that a program has; those it does not use are `None`.
+    /// Buffers in the order of the bindings of a program; `None` for those that it does not use.
     #[must_use]
     pub fn bind(&self, program: &ComputePipeline, buffers: &[Option<&Buffer>]) -> BindGroup {
         let entries: Vec<_> = (0u32..)

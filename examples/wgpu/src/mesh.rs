@@ -52,8 +52,8 @@ pub fn bar(cells: [usize; 3]) -> Mesh {
     mesh
 }
 
-/// Where a point of the bar goes: half of a turn over its length, a stretch between 0.5 and 1.5 along it, and
-/// one between 0.6 and 1.4 across.
+/// Deformed position of a point of the bar: half of a turn over its length, a stretch between 0.5 and 1.5
+/// along it, and one between 0.6 and 1.4 across.
 fn deformed([x, y, z]: [f64; 3], middle: [f64; 2]) -> [f64; 3] {
     use std::f64::consts::PI;
     let across = 1.0 + 0.4 * (4.0 * PI * x).cos();

@@ -16,7 +16,7 @@ pub(super) const GREY: RGBColor = RGBColor(90, 90, 90);
 /// Pixels of a line of the legend.
 const LINE: i32 = 20;
 
-/// Colours of Okabe and Ito, which all kinds of colour vision tell apart.
+/// Colours of Okabe and Ito, which stay apart for all kinds of colour vision.
 pub(super) fn colour(mode: Mode) -> RGBColor {
     match mode {
         Mode::Uniaxial => RGBColor(0, 114, 178),

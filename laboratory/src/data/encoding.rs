@@ -1,4 +1,4 @@
-//! Text from the bytes of a file: what spreadsheets and test machines write.
+//! Text from the bytes of a file in any encoding of spreadsheets and test machines.
 
 use std::borrow::Cow;
 

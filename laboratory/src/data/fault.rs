@@ -37,7 +37,7 @@ pub enum Fault {
         /// The header as given.
         found: String,
     },
-    /// A force or an elongation stands where a stress or a strain is needed.
+    /// A force or an elongation instead of a stress or a strain.
     #[error(
         "`{}` is a force or a length, from which no stress or strain follows without the size of the specimen: divide \
          forces by the cross-section at rest and elongations by the length at rest, and name the columns `stress [MPa]` \
@@ -127,7 +127,7 @@ pub enum Fault {
         #[from]
         ModeError,
     ),
-    /// Something else stands where a finite number is needed.
+    /// Text instead of a finite number.
     #[error("`{}` under `{}` is not a number", quoted(found), quoted(column))]
     Number {
         /// The header of its column.
@@ -154,7 +154,7 @@ pub enum Fault {
         /// Advice about what the number may be instead, to be put behind the reason.
         remedy: &'static str,
     },
-    /// A stretch, a shear or a volume is beyond all bounds.
+    /// A stretch, a shear or a volume is out of bounds.
     #[error(
         "{} is {}; it must be at most {:e}{}", mode.quantity(), number(*control), CONTROLS.1,
         if *mode == Mode::SimpleShear { "" } else { " and at least 1e-6" }
@@ -165,7 +165,7 @@ pub enum Fault {
         /// The control as given.
         control: f64,
     },
-    /// A stress is beyond all bounds.
+    /// A stress is out of bounds.
     #[error(
         "the stress is {} Pa; it must be at most {:e} Pa, and at least {:e} Pa if it is not 0: does the header name the right unit?",
         number(*stress), STRESSES.1, STRESSES.0
@@ -197,7 +197,7 @@ pub enum Fault {
         /// The stress, Pa.
         stress: f64,
     },
-    /// A test called compression goes beyond rest.
+    /// A test called compression with points beyond rest.
     #[error(
         "a compression reaches {} = {} with {} Pa: strain and stress of compression are negative, or positive in columns \
          named `compressive strain` and `compressive stress`",

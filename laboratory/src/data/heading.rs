@@ -1,4 +1,4 @@
-//! Headers of columns: from the words that people write to a quantity and its unit.
+//! Headers of columns: parsing of names into a quantity and its unit.
 
 use super::unit::{StressUnit, plain};
 

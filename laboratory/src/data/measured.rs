@@ -1,4 +1,4 @@
-//! Points of measured curves, and how well an energy agrees with them.
+//! Points of measured curves, and the agreement of an energy with them.
 
 use std::fmt;
 
@@ -102,9 +102,9 @@ impl Measurements {
 /// R² by mode and of all points together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Agreement {
-    /// R² of each mode by itself; `None` where its stresses do not vary.
+    /// R² of each mode by itself; `None` if its stresses do not vary.
     pub modes: Vec<(Mode, Option<f64>)>,
-    /// R² of the points of all modes; `None` where their stresses do not vary.
+    /// R² of the points of all modes; `None` if their stresses do not vary.
     pub total: Option<f64>,
 }
 

@@ -1,9 +1,9 @@
-//! Options for what a file of measurements leaves unsaid.
+//! Options for test and unit of a file of measurements that does not name them.
 
 use super::test::Test;
 use super::unit::StressUnit;
 
-/// Test and unit where a file of measurements names none.
+/// Test and unit for a file of measurements that names none.
 ///
 /// ```
 /// use piola_laboratory::curve::Mode;

@@ -1,5 +1,4 @@
-//! Numbers that are fit for a computer and not for a test: strains under `stretch`, percent without a word,
-//! signs of compression.
+//! Plausibility of measurements: strains under `stretch`, percent without a word, signs of compression.
 
 use super::fault::{DataError, Fault};
 use super::heading::{Heading, Quantity};
@@ -7,14 +6,13 @@ use super::measured::Measured;
 use super::test::Test;
 use crate::curve::Mode;
 
-/// No rubber is seldom below this stretch, and hardly any reaches the next: numbers that are all beyond the
-/// first, or some beyond the second, are strains in percent unless their header has a unit.
+/// Stretches that are unlikely for rubber: numbers that are all beyond the first, or some beyond the second,
+/// are strains in percent unless their header has a unit.
 const FAR: (f64, f64) = (8.0, 20.0);
-/// Strains that are noise or slack: this much, or a tenth of the greatest where that is less.
+/// Strains that are noise or slack: this value, or a tenth of the greatest if that is less.
 const SMALL: f64 = 0.02;
 
-/// Refuses points of a table, with line and test of each, that are likely to be something else than their
-/// header says.
+/// Refuses points of a table, with line and test of each, that are unlikely to be what their header names.
 pub(super) fn check(points: &[Measured], rows: &[(u64, Test)], heading: &Heading) -> Result<(), DataError> {
     for mode in Mode::ALL {
         let points: Vec<_> = points.iter().zip(rows).filter(|(point, _)| point.mode == mode).collect();

@@ -31,7 +31,7 @@ impl fmt::Display for Reading {
 }
 
 impl Measurements {
-    /// Reads the text of a file that says everything itself.
+    /// Reads the text of a file that names its tests and units.
     ///
     /// ```
     /// use piola_laboratory::curve::Mode;
@@ -53,7 +53,7 @@ impl Measurements {
         Self::read_with(text, &ReadOptions::default()).map(|reading| reading.measurements)
     }
 
-    /// Reads the text of a file, with a test and a unit where it names none.
+    /// Reads the text of a file, with a test and a unit if it names none.
     ///
     /// # Errors
     /// [`DataError`] of the first malformed line, if the columns or their numbers may mean two things, or if

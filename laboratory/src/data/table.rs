@@ -32,7 +32,7 @@ impl Separator {
         best.or_else(most).unwrap_or(Self::Comma)
     }
 
-    /// The separator that a first line such as `sep=;` tells spreadsheets.
+    /// The separator that a first line such as `sep=;` declares for spreadsheets.
     pub(super) fn declared(line: &str) -> Option<Self> {
         match &*line.trim_matches('"').to_ascii_lowercase() {
             "sep=;" => Some(Self::Semicolon),

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::curve::{Mode, ModeError};
 
-/// A test by its name in data: a mode, and whether the name says that it compresses.
+/// A test by its name in data: a mode, with a flag for compression.
 ///
 /// ```
 /// use piola_laboratory::curve::Mode;

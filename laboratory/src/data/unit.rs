@@ -1,4 +1,4 @@
-//! Units of stress, by the names that people write.
+//! Units of stress, with their usual names.
 
 use std::fmt;
 use std::str::FromStr;

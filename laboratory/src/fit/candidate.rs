@@ -5,7 +5,7 @@ use piola::material::{Constraint, Description, Fittable, Form, MaterialError, Te
 
 use crate::specimen::Specimen;
 
-/// A [`Specimen`] that can be made anew with other parameters: any [`Fittable`] material.
+/// A [`Specimen`] that can be rebuilt with other parameters: any [`Fittable`] material.
 pub trait Candidate: Specimen {
     /// Names, formula and domain of the declaration.
     fn description(&self) -> Description;

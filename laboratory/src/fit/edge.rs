@@ -1,4 +1,4 @@
-//! Edges of what the energy accepts, where they keep a search from its minimum.
+//! Edges of the admissible parameters that keep a search from its minimum.
 //!
 //! Where the Gauss–Newton step d that minimises |r + J d| is worth taking and is refused however short, the
 //! search stands at an edge. Its normal is the gradient of the constraint that refuses, which the declaration
@@ -16,8 +16,7 @@ use nalgebra_34::{DMatrix, DVector};
 use super::problem::Problem;
 use super::trial::TrialError;
 
-/// A step that lessens Σ r² by a smaller share is not worth taking. The Levenberg–Marquardt method itself
-/// stops at 1e-14.
+/// Smallest share by which a step must reduce Σ r². The Levenberg–Marquardt method itself stops at 1e-14.
 const GAIN: f64 = 1e-10;
 /// Residuals whose squares are below this are rounding errors.
 const EXACT: f64 = 1e-24;
@@ -31,10 +30,10 @@ const PROBE: f64 = 1e-3;
 const MARGINS: [f64; 2] = [1e-7, 1e-3];
 /// Normals that have less than this outside the span of others belong to one curved edge.
 const TURN: f64 = 1e-3;
-/// Singular values below this by the greatest belong to directions that the residuals do not feel.
+/// Singular values below this by the greatest belong to directions that do not change the residuals.
 const SILENCE: f64 = 1e-10;
 
-/// The edges that stopped a search, and the ways along them.
+/// The edges that stopped a search, and the directions along them.
 pub(super) struct Stop {
     /// The reason of each edge for refusing.
     pub(super) reasons: Vec<TrialError>,
@@ -82,7 +81,7 @@ fn normals(edges: &[Edge]) -> DMatrix<f64> {
     DMatrix::from_columns(&normals)
 }
 
-/// An orthonormal basis of what is orthogonal to all normals.
+/// An orthonormal basis of the space orthogonal to all normals.
 fn along(edges: &[Edge], unknowns: usize) -> DMatrix<f64> {
     let mut projection = DMatrix::identity(unknowns, unknowns);
     if !edges.is_empty() {
@@ -175,7 +174,7 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         place.component_div(&self.scales)
     }
 
-    /// Directions by coordinates as such by free numbers.
+    /// Directions by coordinates, converted to directions by free numbers.
     fn columns(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
         DMatrix::from_fn(basis.nrows(), basis.ncols(), |row, column| basis[(row, column)] / self.scales[row])
     }

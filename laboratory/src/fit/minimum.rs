@@ -1,4 +1,4 @@
-//! One descent: down to a minimum, and along the edges of what the energy accepts where these are in the way.
+//! One descent: down to a minimum, and along active constraints.
 
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 
@@ -11,8 +11,8 @@ use super::trial::TrialError;
 const PATIENCE: usize = 400;
 /// Maximum number of restarts of a descent along an active constraint: two or three suffice if it is flat.
 const WAYS: usize = 12;
-/// A number that changes the residuals by less than this share of what the most telling one does is drowned:
-/// rounding is then more than a ten-millionth of what it does.
+/// Share of the effect of the most influential number on the residuals below which another number is drowned:
+/// rounding is then more than a ten-millionth of its effect.
 const DROWNED: f64 = 1e-9;
 
 pub(super) struct Minimum<'a> {

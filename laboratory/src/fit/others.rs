@@ -11,12 +11,12 @@ use super::outcome::change;
 
 /// Bound for another minimum to count as about as good: its differences, relative to those of the best.
 const ABOUT_AS_GOOD: f64 = 1.1;
-/// Parameters are the same if they differ by no more than this share of themselves.
+/// Parameters are the same if their relative difference is no more than this.
 const SAME: f64 = 0.01;
-/// A parameter that is less than this share of the one given is zero, which it comes to be at an edge.
+/// A parameter that is less than this share of the one given counts as zero, as happens at an edge.
 const ZERO: f64 = 1e-9;
-/// Solids are the same if no stress differs by more than this share of the greatest there, which no machine
-/// measures.
+/// Solids are the same if no stress differs by more than this share of the greatest there, below what
+/// machines can measure.
 const SAME_STRESS: f64 = 1e-3;
 /// A parameter that grew by this factor and no longer affects the fit is reported as unbounded (random starts
 /// vary by ten at most).

@@ -1,4 +1,4 @@
-//! The outcome of a fit: parameters, how well they agree with the data, and warnings; or why there is none.
+//! Outcome of a fit: parameters, their agreement with the data, and warnings; or the reason for failure.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use piola::__private::message::quoted;
 use super::trial::TrialError;
 use crate::data::{Agreement, Fault, short};
 
-/// Parameters that fit, and how well.
+/// Fitted parameters, and their agreement with the data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The parameters as [`Declared::from_values`](piola::material::Declared::from_values) takes them.
@@ -16,7 +16,7 @@ pub struct Fit {
     pub numbers: Vec<Number>,
     /// R² of each mode and of all, regardless of what was minimised.
     pub agreement: Agreement,
-    /// The root of the mean square of the differences that were made small: 0.05 is five percent.
+    /// Root mean square of the differences that were minimised: 0.05 is five percent.
     pub difference: f64,
     /// The condition number of ∂r/∂p for the parameters that were free at the minimum, columns scaled to one:
     /// the fit determines the parameters worse by this factor than the data determine the fit.
@@ -42,8 +42,8 @@ pub struct Number {
     pub value: f64,
     /// Status of the parameter in the search.
     pub standing: Standing,
-    /// Standard error of the value to first order, the differences being independent and alike, if it was
-    /// sought from more points than unknowns, and no edge of what the energy accepts ended the search.
+    /// Standard error of the value to first order, assuming independent differences of equal variance, if it
+    /// was sought from more points than unknowns, and no edge of the admissible parameters ended the search.
     pub error: Option<f64>,
 }
 
@@ -89,17 +89,17 @@ impl fmt::Display for Ended {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
-    /// The data say nothing about a parameter, such as a bulk modulus at constant volume.
+    /// The data do not determine a parameter, such as a bulk modulus at constant volume.
     Unidentifiable {
         /// Its name.
         parameter: String,
     },
-    /// The data say little about a combination of parameters.
+    /// The data hardly determine a combination of parameters.
     Collinear {
-        /// Relative changes of parameters that make up for each other, the greatest being 1; absolute where
-        /// one is zero. A single one where no other makes up for it.
+        /// Relative changes of parameters that compensate each other, the greatest being 1; absolute if one
+        /// is zero. A single one if no other compensates it.
         changes: Vec<(String, f64)>,
-        /// The root of the mean square of what such a change changes of the differences, to first order.
+        /// Root mean square of the effect of such a change on the differences, to first order.
         effect: f64,
     },
     /// Another minimum, about as good, of a solid with other stresses.
@@ -122,13 +122,13 @@ pub enum Warning {
         /// True if the only difference is one parameter that runs off to infinity.
         is_runaway: bool,
     },
-    /// A better fit is beyond an edge of what the energy accepts: these are the best parameters that were
-    /// found along it. One warning for each edge.
+    /// A better fit is beyond an edge of the admissible parameters: these are the best parameters found along
+    /// it. One warning for each edge.
     Edge {
         /// Reason why the parameters next beyond are refused.
         reason: TrialError,
     },
-    /// The volume was kept, but the energy with these parameters gives way in volume: a body of it is another
+    /// The volume was kept, but the energy with these parameters yields in volume: a body of it is another
     /// solid than the one fitted.
     Compressible {
         /// Poisson's ratio at small strain.
@@ -260,10 +260,10 @@ pub enum FitError {
         /// The names that exist, list by entry.
         known: Vec<String>,
     },
-    /// No parameter is left that could change, or that the data say anything about.
+    /// No parameter is left that could change, or that the data determine.
     #[error("no parameter is left to fit: hold fewer, or add data of other tests")]
     NothingFree,
-    /// Too many starts were asked for.
+    /// Too many starts were requested.
     #[error("the number of random starts is {restarts}; it must be at most {MOST_RESTARTS}")]
     Restarts {
         /// The number as given.

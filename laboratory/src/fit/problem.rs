@@ -24,7 +24,7 @@ pub(super) struct Problem<'a> {
     pub(super) free: Vec<usize>,
     /// All numbers, those held included.
     pub(super) values: Vec<f64>,
-    /// The free numbers as the Levenberg–Marquardt method sees them.
+    /// The free numbers in the units of the Levenberg–Marquardt method.
     coordinates: Coordinates,
     trial: Trial,
 }
@@ -71,7 +71,8 @@ struct Coordinates {
     place: DVector<f64>,
 }
 
-/// The energy with its parameters and what it answers at each point, or why it does not.
+/// Result of a trial: the energy with its parameters and its response at each point, or the reason for a
+/// refusal.
 enum Trial {
     Answers(Box<dyn Candidate>, Vec<Response>),
     Refused(TrialError),

@@ -23,8 +23,8 @@ pub enum TrialError {
 }
 
 impl TrialError {
-    /// The entries of lists that a constructor speaks of, each with its name among the numbers, which count
-    /// from 1: `beta[0]` and `beta_1`.
+    /// The entries of lists that a constructor names, each with its name among the numbers, which count from
+    /// 1: `beta[0]` and `beta_1`.
     pub(super) fn entries(&self) -> Vec<(String, String)> {
         let Self::Inadmissible(MaterialError::Violated { given, .. }) = self else { return Vec::new() };
         let names =

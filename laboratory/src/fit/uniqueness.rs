@@ -11,8 +11,8 @@ use super::candidate::Numbers;
 use super::outcome::Warning;
 use super::problem::Problem;
 
-/// A parameter that changes a residual by less than this share of what the most telling one does tells
-/// nothing of it: rounding, such as that of a bulk modulus at constant volume.
+/// Share of the largest effect on a residual below which a parameter is not determined by it: rounding, such
+/// as that of a bulk modulus at constant volume.
 const SILENCE: f64 = 1e-9;
 /// The greatest singular value by another, from which on \[BKW80\] call the dependence moderate to strong.
 const CONDITION: f64 = 30.0;
@@ -20,7 +20,7 @@ const CONDITION: f64 = 30.0;
 /// combination.
 const SHARE: f64 = 0.01;
 
-/// The numbers that the data say nothing about: at all these places none of them changes any residual.
+/// The numbers that the data do not determine: at all these places none of them changes any residual.
 ///
 /// At one place alone a number may only be drowned, by an exponential at large stretches, or by a factor that
 /// is zero there.
@@ -102,8 +102,7 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
     Analysis { errors, condition: greatest / singular.min(), warnings: warnings(combinations) }
 }
 
-/// Changes of parameters by name, and what they change of the differences, as [`Warning::Collinear`] has
-/// them.
+/// Changes of parameters by name, and their effect on the differences, as in [`Warning::Collinear`].
 struct Combination {
     changes: Vec<(String, f64)>,
     effect: f64,

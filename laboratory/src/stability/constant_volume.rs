@@ -20,7 +20,7 @@ const PENALTY: f64 = 1e6;
 const HALVINGS: u32 = 32;
 
 /// The first control at which each of [`Criterion::ALL`](super::criteria::Criterion::ALL) is lost on the way
-/// from rest to a control, the volume being kept; rest itself where it does not hold there.
+/// from rest to a control, the volume being kept; rest itself if it does not hold there.
 ///
 /// The steps are as many as those of a [`Walk`](super::Walk), equal in ln λ or in γ. A volumetric test has no
 /// way that keeps the volume and loses nothing; nor does a way beyond the domain.

@@ -51,7 +51,7 @@ pub enum Criterion {
 }
 
 impl Criterion {
-    /// Every criterion, in the order of every list of them.
+    /// All criteria, in the order of every list of them.
     pub const ALL: [Self; 3] = [Self::BakerEricksen, Self::Hill, Self::StrongEllipticity];
 }
 

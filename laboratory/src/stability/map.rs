@@ -14,7 +14,7 @@ use super::{SurveyError, SurveySettings};
 use crate::curve::lateral::{Side, release};
 use crate::specimen::{self, Specimen};
 
-/// A plane of stretches λ1, λ2, and what becomes of the third.
+/// Plane of stretches λ1, λ2, and the condition on the third.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {
     /// A sheet: no stress through its thickness.
@@ -24,7 +24,7 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// The three stretches; `None` where nothing frees a sheet of stress.
+    /// The three stretches; `None` if no thickness makes a sheet free of stress.
     #[must_use]
     pub fn stretches(self, specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
         match self {
@@ -109,7 +109,7 @@ impl Cell {
         }
     }
 
-    /// Colours of Okabe and Ito, which all kinds of colour vision tell apart; pale where all criteria are
+    /// Colours of Okabe and Ito, which stay apart for all kinds of colour vision; pale where all criteria are
     /// kept.
     fn colour(self) -> RGBColor {
         match self {

@@ -1,4 +1,4 @@
-//! Straight ways out of the rest state, and where a criterion is lost first along each.
+//! Straight paths out of the rest state, and the first loss of a criterion along each.
 //!
 //! A path is walked from rest outwards, in 256 equal steps of the logarithm of its stretch; between the last
 //! step that keeps a criterion and the first that loses it, the edge is found by halving. A loss regained
@@ -28,11 +28,11 @@ pub enum Path {
 }
 
 impl Path {
-    /// Every path, in the order of the report.
+    /// All paths, in the order of the report.
     pub const ALL: [Self; 5] =
         [Self::Uniaxial, Self::Equibiaxial, Self::PureShear, Self::Confined, Self::Hydrostatic];
 
-    /// The stretches along the axes; `None` where nothing frees the sides of stress.
+    /// The stretches along the axes; `None` if nothing makes the sides free of stress.
     #[must_use]
     pub fn stretches(self, specimen: &dyn Specimen, stretch: f64) -> Option<[f64; 3]> {
         let free =
@@ -64,13 +64,13 @@ impl fmt::Display for Path {
 pub struct Walk {
     /// The path.
     pub path: Path,
-    /// The stretch that it was to be walked to from 1.
+    /// End of the walk that starts at a stretch of 1.
     pub to: f64,
-    /// The stretch that was reached: short of `to` where nothing beyond frees the sides of stress, or the
+    /// The stretch that was reached: short of `to` if the sides cannot be free of stress beyond it, or the
     /// domain ends.
     pub reached: f64,
-    /// The first stretch at which each of [`Criterion::ALL`] is lost, to eight digits; 1 where it does not
-    /// hold at rest.
+    /// The first stretch at which each of [`Criterion::ALL`] is lost, to eight digits; 1 if it does not hold
+    /// at rest.
     pub lost: [Option<f64>; 3],
 }
 

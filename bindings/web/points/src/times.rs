@@ -1,4 +1,4 @@
-//! Time of a point on every back end, beside points one by one.
+//! Time of a point on every back end, compared with points one by one.
 
 use std::error::Error;
 use std::hint::black_box;

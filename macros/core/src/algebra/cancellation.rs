@@ -1,4 +1,4 @@
-//! Sums that cancel far from rest: where an element is flat, a line, or huge.
+//! Sums that cancel far from rest: if an element is flat, a line, or huge.
 //!
 //! Near rest every energy cancels, and rounding of the deformation gradient alone explains what is lost. Far
 //! from there nothing does. Papers write 1 + B with B = κ² (s − 1)/(s + κ)², which for s → 0 is s (2/κ + 1),
@@ -24,7 +24,7 @@ use crate::algebra::rational::Rational;
 /// Factors of a stretch, from near to far.
 const FAR: [f64; 2] = [1e-3, 1e-6];
 
-/// Terms may exceed their sum by this much, at 1e-6 of a stretch: three of sixteen digits.
+/// Largest cancellation that is accepted, at 1e-6 of a stretch: three of sixteen digits.
 const BEARABLE: f64 = 1e3;
 
 /// The least growth of a cancellation, from the first factor to the second, that is not by chance: a root of
