@@ -1,5 +1,5 @@
-//! Tells the crate by `cfg(unoptimised)` that it is compiled without optimisation, where stack frames are
-//! many times as large.
+//! Sets `cfg(unoptimised)` for a crate that is compiled without optimisation, whose stack frames are many
+//! times as large.
 
 use std::env;
 

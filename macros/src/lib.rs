@@ -1,4 +1,4 @@
-//! The attribute `#[piola::material]`: a thin shim over `piola-codegen`, where everything happens.
+//! The attribute `#[piola::material]`: a thin shim over `piola-codegen`, which does all the work.
 
 use proc_macro::TokenStream;
 

@@ -143,7 +143,7 @@ impl<'a> Bar<'a> {
         Ok(())
     }
 
-    /// Elastic energy, J; infinite where a point lies outside the domain of the material.
+    /// Elastic energy, J; infinite if a point lies outside the domain of the material.
     fn energy(&mut self, x: &DVector<f64>) -> Result<f64> {
         self.deform(x)?;
         let Slices { F, energies, .. } = &mut self.slices;
@@ -184,13 +184,13 @@ fn sign(corner: usize, axis: usize) -> f64 {
     if corner >> axis & 1 == 1 { 1.0 } else { -1.0 }
 }
 
-/// A number between −1 and 1 that looks like no other.
+/// Irregular number between −1 and 1, reproducible from n.
 fn irregular(n: usize) -> f64 {
     (1.0 + 17.0 * n as f64).sin()
 }
 
-/// Newton's method: where the gradient of the energy equals the load. Returns the residual of each iteration
-/// too, N.
+/// Solves for the state in which the gradient of the energy equals the load, by Newton's method. Returns the
+/// residual of each iteration too, N.
 ///
 /// Far from there the filtered tangent makes every step one downhill, whose length a line search finds; near
 /// it the tangent itself makes steps that square the residual.
@@ -223,8 +223,8 @@ fn solve(bar: &mut Bar<'_>, load: &DVector<f64>) -> Result<(DVector<f64>, Vec<f6
     Err(format!("no equilibrium: the residuals are {residuals:.1?} N").into())
 }
 
-/// Forces must be the slope of the energy and the stiffness that of the forces: halving the step of a central
-/// difference must divide its error by four.
+/// Checks that forces are the slope of the energy and the stiffness that of the forces: halving the step of a
+/// central difference must divide its error by four.
 fn check_slopes(bar: &mut Bar<'_>) -> Result<()> {
     let unknowns = bar.X.len();
     // Strained by a tenth or so, every element in another way.

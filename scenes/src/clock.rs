@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Steps that a number of double precision counts exactly; nobody lives to see the last of them.
+/// Largest number of steps that double precision counts exactly.
 const MAX_FRAME: u64 = 1 << 53;
 
-/// A count of steps from 0, of a length that may change between them.
+/// Clock of a scene: a count of steps from 0, with a length that may change between them.
 ///
 /// Time is the number of steps of the present length, times that length, after the time when it last changed:
 /// a sum over all steps would gather a rounding error with each.
@@ -25,7 +25,7 @@ impl Clock {
         Self { frame: 0, dt, since_frame: 0, since_time: 0.0 }
     }
 
-    /// Number of steps that have been made.
+    /// Number of steps made so far.
     #[must_use]
     pub fn frame(&self) -> usize {
         self.frame

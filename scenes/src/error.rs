@@ -25,7 +25,7 @@ pub enum Error {
         /// The names that exist.
         known: Vec<&'static str>,
     },
-    /// An option for random starts is given for a scene that starts elsewhere.
+    /// An option for random starts is given for a scene with another start.
     #[error("the scene `{scene}` has no use for {option}: only {} displace nodes at random", list(known))]
     NotScrambled {
         /// The option, such as `--seed`.
@@ -86,7 +86,7 @@ pub enum Error {
         /// The names that exist.
         known: Vec<Text>,
     },
-    /// A parameter was given no value, and none is right for everybody.
+    /// A parameter has no value, and there is no default that suits everybody.
     #[error("{material} needs a value for {}", list(missing))]
     MissingParameters {
         /// Name of the material.
@@ -139,7 +139,7 @@ pub enum Error {
         /// Reason why it is not a box.
         source: RegionError,
     },
-    /// A pin holds no node.
+    /// A pin does not hold any node.
     #[error("the pin {pin} holds nothing: {source}")]
     Pin {
         /// The pin.
@@ -158,7 +158,7 @@ pub enum Error {
         /// Reason, without the name of the file.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// Mesh and material make no body.
+    /// Mesh and material are not a valid body.
     #[error(transparent)]
     Body(#[from] BodyError),
     /// The solver refuses a setting, a position or a velocity.
@@ -172,7 +172,7 @@ pub enum Error {
         /// Error of the system.
         source: io::Error,
     },
-    /// The folder holds files with names of results that no run has written.
+    /// The folder contains files that have names of results but were not written by a run.
     #[error("the folder {} holds files that piola has not written: {}", folder.display(), some(names))]
     ForeignFiles {
         /// The folder.
@@ -192,7 +192,7 @@ pub enum Error {
         /// The folder.
         folder: PathBuf,
     },
-    /// The run in the folder cannot go on with these settings.
+    /// The run in the folder cannot continue with these settings.
     #[error("the run in {} cannot go on: {reason}", folder.display())]
     Resume {
         /// The folder.
@@ -220,7 +220,7 @@ pub enum Error {
     /// A moment belongs to another body.
     #[error("the state belongs to another body than {body}")]
     OtherBody {
-        /// The body that it was to go on with, or the file of its mesh.
+        /// The body with which it should continue, or the file of its mesh.
         body: String,
     },
     /// No steps lead to such a moment.
@@ -255,7 +255,7 @@ fn explained(error: &StepError) -> String {
     }
 }
 
-/// The first names in backquotes, and how many there are beside them.
+/// The first names in backquotes, and the number of the others.
 fn some(names: &[String]) -> String {
     const SHOWN: usize = 4;
     let shown = list(&names[..names.len().min(SHOWN)]);

@@ -1,4 +1,4 @@
-//! The geometry of a run: tetrahedra and the surface that is drawn in their place.
+//! The geometry of a run: tetrahedra, and the surface that is drawn instead of them.
 
 use std::collections::{HashMap, HashSet};
 use std::error;
@@ -21,10 +21,10 @@ use crate::settings::Settings;
 /// Extrapolation magnifies the motion of a tetrahedron by the distance over the tetrahedron's size.
 pub const REACH: f64 = 0.02;
 
-/// Lengths of bodies, m, outside of which their coordinates may be in another unit.
+/// Usual lengths of bodies, m; beyond these, coordinates may be in another unit.
 const USUAL: RangeInclusive<f64> = 1e-4..=20.0;
 
-/// Tetrahedra and the surface that is drawn in their place.
+/// Tetrahedra, and the surface that is drawn instead of them.
 #[derive(Clone, Debug)]
 pub struct Geometry {
     /// The tetrahedra at rest.
@@ -83,7 +83,7 @@ impl Geometry {
         }
     }
 
-    /// Properties of the mesh that its maker may not have meant.
+    /// Properties of the mesh that may be unintended.
     #[must_use]
     pub fn warnings(&self) -> Vec<GeometryWarning> {
         let mut warnings = Vec::from_iter(size_warning(self.mesh.bounds()));
@@ -190,14 +190,14 @@ pub fn check_bounds(bounds: Bounds) -> Result<f64, Error> {
     Ok(diagonal)
 }
 
-/// Warns of a bounding box, m, that is seldom as large or as small.
+/// Warns of an unusually large or small bounding box, m.
 #[must_use]
 pub fn size_warning(bounds: Bounds) -> Option<GeometryWarning> {
     let length = bounds.size().into_iter().fold(0.0, f64::max);
     (!USUAL.contains(&length)).then_some(GeometryWarning::UnusualSize { length })
 }
 
-/// A property of a mesh that is seldom meant. A body can be made of it.
+/// Property of a mesh that is rarely intended. A body can be made of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryWarning {
@@ -214,7 +214,7 @@ pub enum GeometryWarning {
         /// Counts by type.
         elements: ElementCounts,
     },
-    /// A scene pulls where the body has no node.
+    /// A scene pulls at a region without nodes of the body.
     #[error("no node of the body lies where the scene pulls, and nothing is pulled there")]
     NothingPulled,
     /// The file has nodes of no tetrahedron, which are not part of the body.
@@ -223,7 +223,7 @@ pub enum GeometryWarning {
         /// Number of nodes.
         nodes: usize,
     },
-    /// The tetrahedra do not hang together.
+    /// The tetrahedra are not connected.
     #[error(
         "the mesh is in {pieces} pieces that share no node and move independently, the largest of {largest} of the \
          {tetrahedra} tetrahedra; nodes that are meant to be one must be merged in the mesh generator"

@@ -1,4 +1,4 @@
-//! Bodies that collapse, invert and recover: scenes, and what a run of one measures and writes.
+//! Bodies that collapse, invert and recover: scenes, and the measurements and files of a run.
 //!
 //! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) override what
 //! it says; [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces and a

@@ -1,4 +1,4 @@
-//! Materials of bodies, chosen by name. No other file here but `origin` knows the catalogue.
+//! Materials of bodies, chosen by name. Of the files here only `origin` uses the catalogue.
 //!
 //! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment
 //! for incompressible rubberlike solids*, 1972.
@@ -21,7 +21,7 @@ use origin::Origin;
 
 mod origin;
 
-/// The stretch below which a material is extended unless its specification says otherwise.
+/// Stretch below which a material is extended unless its specification has another.
 ///
 /// Small enough that no body in equilibrium gets there, large enough that the extension's stiffness, of the
 /// order of μ/ε², does not swamp that of the body.
@@ -64,14 +64,14 @@ pub struct MaterialSpec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     energy: Option<Energy>,
     parameters: Vec<(String, Vec<f64>)>,
-    /// Small-strain moduli [μ, λ] that the parameters follow from if none is given.
+    /// Small-strain moduli [μ, λ] from which the parameters follow if none is given.
     #[serde(rename = "moduli")]
     lame: Option<[f64; 2]>,
     inversion: Option<StoredInversion>,
 }
 
 impl MaterialSpec {
-    /// The material of a name, still without parameters; ignores case, spaces, `_` and `-`.
+    /// The material of a name, with no parameters yet; ignores case, spaces, `_` and `-`.
     #[must_use]
     pub fn new(material: &str) -> Self {
         Self { material: material.into(), energy: None, parameters: Vec::new(), lame: None, inversion: None }
@@ -169,7 +169,7 @@ impl MaterialSpec {
         self.energy.is_none() && same_name(&self.material, material)
     }
 
-    /// The declaration of the material in words.
+    /// The description of the material's declaration.
     ///
     /// # Errors
     /// [`Error::UnknownMaterial`].
@@ -187,7 +187,7 @@ impl MaterialSpec {
         given.map_or(&[], |(_, values)| values)
     }
 
-    /// Looks the material up and checks its parameters.
+    /// Finds the material and checks its parameters.
     ///
     /// # Errors
     /// [`Error::UnknownMaterial`], [`Error::UnknownParameter`], [`Error::MissingParameters`] or
@@ -237,8 +237,8 @@ impl MaterialSpec {
         self.resolve(|origin, values, inversion| origin.candidate(values, inversion))
     }
 
-    /// Looks the material up, gives each parameter its values in the order of the declaration, and makes
-    /// something of them.
+    /// Finds the material, gives each parameter its values in the order of the declaration, and builds
+    /// something from them.
     fn resolve<T>(
         &self,
         make: impl FnOnce(&Origin<'_>, &[&[f64]], Inversion) -> Result<T, MaterialError>,

@@ -7,8 +7,8 @@ use std::collections::HashSet;
 use nalgebra_34::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
 use piola::mesh::TetMesh;
 
-/// Coordinates of a few edge lengths give det F of a flat tetrahedron an error of some thousand roundings at
-/// most.
+/// Bound of det F of a flat tetrahedron: coordinates of a few edge lengths give it an error of some thousand
+/// roundings at most.
 const FLAT: f64 = 1e-12;
 
 type Point = Vector3<f64>;
@@ -30,7 +30,7 @@ fn dets(rest: &[[f64; 3]], positions: &[[f64; 3]], tets: &[[usize; 4]]) -> impl 
     tets.iter().map(|tet| volume(positions, tet) / volume(rest, tet))
 }
 
-/// The volume of a tetrahedron, m³; negative where it is inside out.
+/// The volume of a tetrahedron, m³; negative if it is inside out.
 fn volume(nodes: &[[f64; 3]], tet: &[usize; 4]) -> f64 {
     let [a, b, c, d] = tet.map(|node| Point::from(nodes[node]));
     (b - a).cross(&(c - a)).dot(&(d - a)) / 6.0
@@ -57,7 +57,8 @@ pub fn mean_edge_length(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
     total / seen.len().max(1) as f64
 }
 
-/// Share of a gauge length that its nodes must span: over a shorter one, errors of the solver are a stretch.
+/// Share of a gauge length that its nodes must span: over a shorter one, errors of the solver would look like
+/// a stretch.
 const LEAST_SPAN: f64 = 0.01;
 
 /// Mean stretch along y of the part of a body that lies at rest between two heights, m: the slope of the

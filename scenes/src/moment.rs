@@ -9,8 +9,8 @@ use crate::geometry::Geometry;
 use crate::play::Play;
 use crate::settings::{Files, Settings};
 
-/// Everything that determines the steps to come of a scene, to the last bit; JSON keeps every bit of it. Only
-/// backward differences begin anew, without the step before.
+/// Complete state of a scene in motion, which determines all later steps to the last bit; JSON keeps every
+/// bit of it. Only backward differences begin anew, without the step before.
 ///
 /// A body from files is not part of it, nor are their names: [`with_files`](Self::with_files) gives them
 /// again, and a checksum tells whether it is the body that it was.
@@ -25,14 +25,14 @@ pub struct Moment {
     positions: Vec<[f64; 3]>,
     /// Velocity of each node, m/s.
     velocities: Vec<[f64; 3]>,
-    /// Acceleration of each node, m/s², after steps of an integrator that knows it: beside it is judged how
-    /// far the next step is solved.
+    /// Acceleration of each node, m/s², after steps of an integrator that has them: they determine the
+    /// accuracy to which the next step is solved.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     accelerations: Vec<[f64; 3]>,
 }
 
 impl Moment {
-    /// The present moment of a body that moves as these settings say.
+    /// The present moment of a body with these settings.
     #[must_use]
     pub fn of(settings: &Settings, geometry: &Geometry, play: &Play) -> Self {
         let simulation = play.simulation();
@@ -124,7 +124,7 @@ mod tests {
         assert_eq!(play.clock().frame(), 4);
     }
 
-    /// Integrators of higher order judge beside them how far a step is solved.
+    /// Integrators of higher order use them to judge the accuracy of a step.
     #[test]
     fn accelerations_go_on_as_well() {
         for integrator in [Integrator::Sdirk2, Integrator::Sdirk3] {

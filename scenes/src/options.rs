@@ -1,4 +1,4 @@
-//! Options of a command line that choose a scene and replace what it says, for every program that plays one.
+//! Options of a command line that choose a scene and override its defaults, for every program that plays one.
 
 mod energy;
 mod step;
@@ -28,7 +28,7 @@ pub struct SceneOptions {
     pub scene: String,
 
     /// Material, as listed by `piola materials`, or a file of Rust that declares one [default: the scene's].
-    /// One that is listed is as stiff as the scene's without --param.
+    /// A listed one gets the stiffness of the scene's material without --param.
     #[arg(long, value_name = "NAME|FILE.rs")]
     pub material: Option<String>,
 
@@ -37,13 +37,13 @@ pub struct SceneOptions {
     pub formula: Formula,
 
     /// Value of a parameter of the material, in SI units or with a unit of stress behind it, such as MPa or
-    /// psi, or /MPa for one by a stress; lists as NAME=V,V,V. Of another material than the scene's, all or
-    /// none.
+    /// psi, or /MPa for one by a stress; lists as NAME=V,V,V. For another material than the scene's, give all
+    /// or none.
     #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
     pub parameters: Vec<Given>,
 
-    /// Beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below which the
-    /// energy is extended by polynomials [default: 0.1 where it can be].
+    /// Behaviour beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below
+    /// which the energy is extended by polynomials [default: 0.1 if it can be extended].
     #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, allow_negative_numbers = true)]
     pub inversion: Option<Inversion>,
 
@@ -51,7 +51,8 @@ pub struct SceneOptions {
     #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
     pub density: Option<f64>,
 
-    /// Gravity in m/s², downwards [default: 0].
+    /// Nodes to hold instead of the scene's: a physical group of the mesh, or a box
+    /// LOW:HIGH,LOW:HIGH,LOW:HIGH in m, open where a side is left out, such as `:,:0.05,:`; may be repeated.
     #[arg(long, value_name = "G", allow_negative_numbers = true)]
     pub gravity: Option<f64>,
 
@@ -91,7 +92,7 @@ pub struct SceneOptions {
 }
 
 impl SceneOptions {
-    /// The scene with the overrides; with a surface to embed in the tetrahedra of `--mesh`, in place of their
+    /// The scene with the overrides; with a surface to embed in the tetrahedra of `--mesh`, instead of their
     /// boundary.
     ///
     /// # Errors
@@ -126,7 +127,7 @@ impl SceneOptions {
     }
 }
 
-/// The scene's start, with another seed or amplitude if it is a random one.
+/// The scene's start, with another seed or amplitude if it is random.
 fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>) -> Result<Start, Error> {
     let is_random = |scene: &&&Scene| matches!(scene.start, Start::Scrambled { .. });
     match (scene.start, seed, amplitude) {
@@ -143,7 +144,7 @@ fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>)
     }
 }
 
-/// The scenes with what happens in them, to be shown behind the options.
+/// List of the scenes with their descriptions, to be shown behind the options.
 #[must_use]
 pub fn scenes() -> String {
     let mut text = String::from("Scenes:\n");

@@ -1,4 +1,4 @@
-//! Files of a run: surfaces, a summary, and a state from which the run can go on.
+//! Files of a run: surfaces, a summary, and a state from which the run can continue.
 //!
 //! This module knows files only: no bodies, no scenes.
 
@@ -34,13 +34,13 @@ pub const CAGES_FILE: &str = "frames.pvd";
 /// Name of the file with a picture of some frames.
 pub const PICTURE_FILE: &str = "frames.png";
 
-/// Name of the file with the state from which a run can go on.
+/// Name of the file with the state from which a run can continue.
 pub const STATE_FILE: &str = "state.json";
 
 /// Name of the file with the summary.
 pub const SUMMARY_FILE: &str = "summary.json";
 
-/// Name of a file that keeps room on the disk while a run goes on.
+/// Name of a file that reserves disk space during a run.
 const RESERVE: &str = ".piola-reserve";
 
 /// Name of a file that is being written.

@@ -21,7 +21,7 @@ mod start;
 /// Stiffness of all springs of a pull together, relative to a cube of the body's material and height.
 const DRAG_STIFFNESS: f64 = 10.0;
 
-/// Share of a frame below which an event and the frame's end are the same instant: times of frames are
+/// Share of a frame below which an event and the frame's end count as simultaneous: times of frames are
 /// rounded.
 const NEAR: f64 = 1e-6;
 
@@ -72,7 +72,7 @@ impl Play {
         Ok(play)
     }
 
-    /// Checks that the material is defined where the body is.
+    /// Checks that the material is defined at the positions of the body.
     ///
     /// # Errors
     /// [`Error::StartOutsideDomain`], with the materials that could start there.
@@ -182,14 +182,14 @@ impl Play {
         Ok(self.simulation.set_settings(settings)?)
     }
 
-    /// The steps of time by which the last frame was made.
+    /// Counts of the time steps of the last frame.
     #[must_use]
     pub fn steps(&self) -> StepCounts {
         self.steps
     }
 
-    /// Makes the next frame, in the rayon pool of the caller: one step of time, or as many as the tolerance
-    /// takes. A step ends wherever a pull changes at once, between two frames too.
+    /// Makes the next frame, in the rayon pool of the caller: one time step, or as many as the tolerance
+    /// requires. A step also ends whenever a pull changes abruptly, even between two frames.
     ///
     /// # Errors
     /// [`Error::Step`] or [`Error::Setup`], or [`Error::OutOfRange`] where no time is left; the state before
@@ -260,7 +260,7 @@ impl Play {
     }
 }
 
-/// A part of a frame in which no pull changes at once.
+/// Part of a frame in which no pull changes abruptly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Stretch {
@@ -272,8 +272,7 @@ pub struct Stretch {
     pub length: f64,
 }
 
-/// The stretches of time that the frame after the present one is made of: those that end where a pull changes
-/// at once, and the last.
+/// Parts of the next frame: those that end when a pull changes abruptly, and the last.
 #[must_use]
 pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch) {
     let next = clock.next();
@@ -294,7 +293,7 @@ pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch)
     (first, Stretch { start, end: last, length: if is_whole { next.dt() } else { last - start } })
 }
 
-/// Checks that forces on bodies of such a material stay in the range of f64, and their squares.
+/// Checks that forces on bodies of such a material, and their squares, stay in the range of f64.
 fn check_young(moduli: Moduli) -> Result<(), Error> {
     let (quantity, value) = ("Young's modulus of the material", moduli.young());
     match value {
@@ -317,7 +316,7 @@ fn at_start(
     Ok(simulation)
 }
 
-/// Positions of the nodes before the first step, m, of which pinned ones are at rest.
+/// Positions of the nodes before the first step, m; pinned ones are at rest.
 #[must_use]
 pub fn start_positions(settings: &Settings, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
     start::positions(settings.start, geometry, pins)
@@ -440,7 +439,7 @@ mod tests {
         assert_eq!(play.clock(), late);
     }
 
-    /// Of the bar, drawn sideways by its upper end and let go after 0.2 s.
+    /// The bar, drawn sideways by its upper end and let go after 0.2 s.
     fn drawn(dt: f64) -> Play {
         const PULL: Pull = Pull {
             region: Bounds { min: [f64::NEG_INFINITY, 0.9, f64::NEG_INFINITY], max: [f64::INFINITY; 3] },

@@ -1,4 +1,4 @@
-//! A scene played to see whether the body recovers its shape, without files.
+//! Trial of the recovery of a body: a scene without files.
 
 use crate::error::Error;
 use crate::geometry::Geometry;
@@ -20,7 +20,7 @@ pub struct TrialOutcome {
     pub inverted_at_start: usize,
     /// True if every position after every step was finite.
     pub finite: bool,
-    /// The largest increase of what a step minimises, as a share of the energies before it and of Young's
+    /// The largest increase of the minimised function, as a share of the energies before it and of Young's
     /// modulus over the volume: rounding, or a mistake.
     pub largest_rise: f64,
     /// Equilibrium of a body that has not recovered.

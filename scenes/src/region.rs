@@ -43,7 +43,7 @@ pub fn parse(text: &str) -> Result<Bounds, RegionError> {
     if ranges.next().is_none() && is_box { Ok(region) } else { Err(RegionError) }
 }
 
-/// A text that is not a box; the message says how one is written.
+/// Error of a text that is not a box; the message describes the format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "a box is three ranges LOW:HIGH in metres with LOW ≤ HIGH, separated by commas, where either side of a range may be \

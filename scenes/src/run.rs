@@ -1,4 +1,4 @@
-//! A scene played to its end, with files.
+//! Run of a scene to its end, with files.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter};
@@ -17,7 +17,7 @@ mod progress;
 
 use course::{Course, Setup};
 
-/// Files that a run leaves.
+/// Files of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Output {
@@ -64,7 +64,7 @@ pub struct Finished {
     vtu: bool,
 }
 
-/// Plays a scene to its end, or goes on with a run that was cut off.
+/// Plays a scene to its end, or continues an interrupted run.
 ///
 /// If it ends early after the first step, the frames before are kept with a summary of what happened.
 ///

@@ -1,4 +1,4 @@
-//! Descriptions of what happens to a body: each [`Scene`] has a file.
+//! Descriptions of scenes, one file for each [`Scene`].
 //!
 //! Places and distances are shares of the body's bounding box and height, so that any body can take any part.
 //! y points upwards.
@@ -31,18 +31,18 @@ use serde::{Deserialize, Deserializer, Serializer};
 use crate::error::Error;
 use crate::material::{MaterialSpec, soft_moduli};
 
-/// Every scene, in the order in which they are listed.
+/// All scenes, in the order in which they are listed.
 pub const SCENES: &[&Scene] =
     &[&HORSE, &DINOSAUR, &DINOSAUR_OVERSTRETCHED, &TWIST, &STRETCH, &SCRAMBLE, &INSIDE_OUT, &POINT];
 
-/// A body, its material and what is done to it.
+/// A body, its material, and the loads and motions of a scene.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Name on the command line.
     pub name: &'static str,
     /// A sentence that describes the scene.
     pub about: &'static str,
-    /// The body to which it happens.
+    /// The body of the scene.
     pub body: Body,
     /// The material of the body.
     pub material: fn() -> MaterialSpec,

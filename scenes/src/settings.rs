@@ -1,4 +1,4 @@
-//! Settings of a run, and whether they make sense.
+//! Settings of a run, and their checks.
 
 use std::path::PathBuf;
 
@@ -11,9 +11,9 @@ use crate::output::Newton;
 use crate::scene::{Amplitude, Body, Scene, Start};
 use crate::unit::Unit;
 
-/// More would take longer to start than any scene to run.
+/// Maximum number of threads: more would take longer to start than any scene to run.
 const MAX_THREADS: f64 = 1024.0;
-/// Each is looked for among all nodes.
+/// Maximum number of pins: each is searched for among all nodes.
 const MAX_PINS: f64 = 1000.0;
 
 /// Settings of a run: a scene and overrides of its defaults.
@@ -26,7 +26,7 @@ pub struct Settings {
     pub scene: &'static Scene,
     /// The body, unless `files` describe another.
     pub body: Body,
-    /// Files of another body; they are named where they are read, and nowhere else.
+    /// Files of another body; their names appear only in errors of reading.
     #[serde(skip)]
     pub files: Option<Files>,
     /// Unit of the coordinates in the files.
@@ -49,13 +49,13 @@ pub struct Settings {
     pub dt: f64,
     /// Number of time steps.
     pub frames: usize,
-    /// Boxes or names of groups to pin, in place of those of the scene.
+    /// Boxes or names of groups to pin, instead of those of the scene.
     pub pins: Vec<String>,
     /// Method by which steps advance in time.
     #[serde(default)]
     pub integrator: Integrator,
-    /// Largest error of the motion that steps of time may make, body heights per second: each frame is made
-    /// in steps as short as that takes, and in one without it.
+    /// Largest error of the motion from time steps, body heights per second: each frame is made in steps as
+    /// short as that requires, or in one step without it.
     #[serde(default)]
     pub tolerance: Option<f64>,
     /// Accuracy to which each step is solved.
@@ -67,7 +67,7 @@ pub struct Settings {
 /// Files of a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Files {
-    /// Tetrahedra: TetGen where the name ends in `.node` or `.ele`, else Gmsh MSH 4.1 or 2.2 in ASCII.
+    /// Tetrahedra: TetGen if the name ends in `.node` or `.ele`, else Gmsh MSH 4.1 or 2.2 in ASCII.
     pub mesh: PathBuf,
     /// The surface to embed in them, OBJ; `None` for their own boundary.
     pub surface: Option<PathBuf>,
@@ -130,13 +130,13 @@ impl Settings {
         with_dt: dt = f64;
         /// Replaces the number of time steps.
         with_frames: frames = usize;
-        /// Pins these boxes or groups in place of those of the scene, unless there are none.
+        /// Pins these boxes or groups instead of those of the scene, unless there are none.
         with_pins: pins = Vec<String>;
         /// Replaces the integrator.
         with_integrator: integrator = Integrator;
-        /// Replaces the tolerance of steps of time, body heights per second.
+        /// Replaces the tolerance of time steps, body heights per second.
         with_tolerance: tolerance = Option<f64>;
-        /// Replaces how far each step is solved.
+        /// Replaces the accuracy of each step.
         with_newton: newton = Newton;
         /// Replaces the number of threads; 0 for one per core.
         with_threads: threads = usize;
@@ -148,7 +148,7 @@ impl Settings {
         self.files.as_ref().map_or(self.body.name.into(), |files| files.mesh.display().to_string())
     }
 
-    /// Checks that all values are in range: a simulation of anything else would say nothing, or never end.
+    /// Checks that all values are in range, so that a simulation is meaningful and ends.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the first that is not.

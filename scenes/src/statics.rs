@@ -14,7 +14,7 @@ use crate::watch::Watch;
 const CALLS: usize = 20;
 const ITERATIONS: usize = 10;
 
-/// Takes a body without inertia to the equilibrium that it is drawn to, and examines it there.
+/// Takes a body without inertia to the equilibrium to which it is drawn, and examines it there.
 ///
 /// Works in the rayon pool of the caller; between calls of statics, `watch` may stop it.
 ///

@@ -1,6 +1,6 @@
 //! Observers of long computations.
 
-/// Observer of a run, who may end it.
+/// Observer of a run, which may end it.
 pub trait Watch: Send {
     /// Called when the files of a frame have been written; 0 is the start.
     fn frame(&mut self, frame: usize) {
@@ -13,5 +13,5 @@ pub trait Watch: Send {
     }
 }
 
-/// An observer who does nothing.
+/// An observer that does nothing.
 impl Watch for () {}

@@ -1,4 +1,4 @@
-//! A page's share in a driver: its messages become orders, and answers become messages for it.
+//! Conversation of a page with a driver: its messages become orders, and answers become messages for it.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,8 +8,8 @@ use crate::driver::{Answer, Order};
 use crate::protocol::{Act, Message};
 use crate::typed;
 
-/// Bound of the numbers that a page gives its drags; that of its conversation tells them from those of other
-/// pages.
+/// Bound of the numbers that a page gives its drags; the number of its conversation distinguishes them from
+/// those of other pages.
 const DRAGS: u64 = 1 << 32;
 
 /// A message for a page.
@@ -35,7 +35,7 @@ pub struct Conversation {
 }
 
 impl Conversation {
-    /// A conversation with a number that no other of the driver has.
+    /// A conversation with a number that is unique in the driver.
     #[must_use]
     pub fn new(number: u64) -> Self {
         let (answer, answers) = channel();
@@ -61,7 +61,7 @@ impl Conversation {
         Order::Leave { drags: self.drags.clone() }
     }
 
-    /// The order that a message of the page is; `None` if it asks once more for the frame that is under way,
+    /// The order in a message of the page; `None` if it requests the frame again that is already under way,
     /// and if the energy in it is refused.
     ///
     /// An energy is compiled here, by the caller, and not by the driver: the body moves on.

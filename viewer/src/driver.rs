@@ -1,4 +1,5 @@
-//! The body in motion: takes orders between steps, steps in real time, and answers pages that ask for frames.
+//! The body in motion: executes orders between steps, steps in real time, and answers pages that request
+//! frames.
 //!
 //! It waits for no page. A page gets a frame for each time it asks, made of the state at that moment; for one
 //! that does not ask nothing is made and nothing is kept.
@@ -28,9 +29,9 @@ const TIMED: usize = 32;
 /// time is played slowly, and does not race when it could.
 const LAG: Duration = Duration::from_millis(100);
 
-/// Surroundings of a driver: a clock, and what makes steps.
+/// Environment of a driver: a clock, and the execution of steps.
 pub trait Host {
-    /// Time since some moment that stays the same.
+    /// Time since a fixed moment.
     fn now(&self) -> Duration;
 
     /// Makes a step.
@@ -56,7 +57,7 @@ pub enum Order {
     },
     /// A change of when steps are made.
     Run(Run),
-    /// A frame is wanted, of a later state than the one with this number.
+    /// Request for a frame of a later state than the one with this number.
     Look {
         /// The number of the state.
         seen: u64,
@@ -107,7 +108,7 @@ pub struct Driver<H> {
     /// Counts the states that could be seen.
     state: u64,
     revision: u64,
-    /// Scene and material in words, and whether they have changed since.
+    /// Description of scene and material, with true if they have changed since.
     setup: Arc<str>,
     is_setup_stale: bool,
 }
@@ -265,8 +266,7 @@ impl<H: Host> Driver<H> {
     }
 }
 
-/// Message of an error for a page: of a file the name, and of the system's error the kind, which names no
-/// path.
+/// Message of an error for a page: the name of a file and the kind of a system error, without any path.
 fn for_page(error: &Error) -> String {
     match error {
         Error::Scene(SceneError::Write { path, source }) => {

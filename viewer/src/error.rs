@@ -10,7 +10,7 @@ use piola_scenes::output::SealError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A scene cannot start or go on.
+    /// A scene cannot start or continue.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// A file cannot be read.
@@ -29,7 +29,7 @@ pub enum Error {
         /// Reason.
         source: SealError,
     },
-    /// The text of an energy is longer than the viewer takes.
+    /// The text of an energy is longer than the limit of the viewer.
     #[error(
         "the text of an energy has at most {most} bytes here, and this one has {bytes}; put a longer one into a file, for `piola view --material FILE.rs`"
     )]

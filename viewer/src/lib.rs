@@ -1,4 +1,5 @@
-//! A scene to be pulled with the mouse: what a page asks for, the body in motion, and what the page is shown.
+//! Viewer of a scene that is pulled with the mouse: requests of a page, the body in motion, and messages to
+//! the page.
 //!
 //! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same
 //! acts; [`driver`] makes its steps when they are due and waits for no page; [`conversation`] turns what the

@@ -21,7 +21,7 @@ pub enum Message {
     Act(Act),
     /// Changes when steps are made.
     Run(Run),
-    /// Asks for one frame: the present one, or the next if the page has seen that.
+    /// Requests one frame: the present one, or the next if the page has seen that.
     Look {},
 }
 
@@ -43,7 +43,7 @@ pub enum Act {
         /// Number of the drag.
         drag: u64,
     },
-    /// Ends all pulls but those of the scene.
+    /// Ends all pulls except for those of the scene.
     ReleaseAll {},
     /// Replaces the material; the body stays where it is.
     Material {
@@ -56,8 +56,8 @@ pub enum Act {
     Energy {
         /// A formula, or a declaration in Rust.
         text: String,
-        /// Values of parameters, several for a list. One that is left out has that of the present material,
-        /// if there is one of its name, and else a value for the body to be about as stiff as before.
+        /// Values of parameters, several for a list. A missing one is taken from a parameter of the same name
+        /// in the present material, or else chosen so that the body is about as stiff as before.
         parameters: BTreeMap<String, Vec<f64>>,
     },
     /// Changes a parameter of the material.
@@ -72,11 +72,11 @@ pub enum Act {
         /// The length, s.
         seconds: f64,
     },
-    /// Puts the body of the present material where the scene starts.
+    /// Resets the body, with the present material, to the start of the scene.
     Reset {},
     /// Saves the state.
     Save {},
-    /// Goes back to the state that was saved last, material and time step included.
+    /// Returns to the state that was saved last, material and time step included.
     Restore {},
 }
 
@@ -84,7 +84,7 @@ pub enum Act {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Run {
-    /// Pauses, or goes on.
+    /// Pauses or resumes.
     Pause {
         /// True to pause.
         paused: bool,

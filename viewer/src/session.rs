@@ -1,5 +1,5 @@
-//! A scene to interact with: every act has its effect before some step, and the same acts before the same
-//! steps give the same bits.
+//! Interactive scene: every act takes effect before some step, and the same acts before the same steps give
+//! the same bits.
 //!
 //! This module knows no threads, no clock on the wall and no sockets.
 
@@ -20,9 +20,9 @@ use crate::protocol::Act;
 use crate::state::{Drag, MAX_DRAG, State};
 use crate::typed;
 
-/// Most pulls at a time; people have fewer fingers.
+/// Maximum number of simultaneous pulls.
 const MAX_PULLS: usize = 64;
-/// Greatest distance of a pull's target from where the vertex is at rest, in body heights.
+/// Greatest distance of a pull's target from the rest position of the vertex, in body heights.
 const REACH: f64 = 100.0;
 /// Greatest speed of a drag, in body heights per second.
 ///
@@ -34,7 +34,7 @@ const SPEED: f64 = 4.0;
 #[derive(Debug)]
 pub struct Session {
     geometry: Geometry,
-    /// Settings with material and time step as they are now.
+    /// Settings with the current material and time step.
     settings: Settings,
     material_at_start: MaterialSpec,
     play: Play,
@@ -87,7 +87,7 @@ impl Session {
         &self.geometry
     }
 
-    /// The scene and its overrides, with material and time step as they are now.
+    /// The scene and its overrides, with the current material and time step.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
@@ -213,7 +213,7 @@ impl Session {
         }
     }
 
-    /// Makes the body another one where it is, with the speed that it has.
+    /// Replaces the body by another one with the same positions and velocities.
     fn change(&mut self, settings: Settings) -> Result<(), Error> {
         let mut play = Play::new(&settings, &self.geometry)?;
         let simulation = self.play.simulation();
@@ -222,7 +222,7 @@ impl Session {
         Ok(())
     }
 
-    /// Makes the state what it was. All or nothing.
+    /// Restores a state. All or nothing.
     fn go_to(&mut self, state: &State) -> Result<(), Error> {
         let play = play_of(state, &self.geometry)?;
         self.play = play;
@@ -249,7 +249,7 @@ fn play_of(state: &State, geometry: &Geometry) -> Result<Play, Error> {
     Ok(play)
 }
 
-/// The point of the body that a pull holds, if there is that vertex and the target is not out of the world.
+/// The point of the body that a pull holds, if the vertex exists and the target is within reach.
 fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<Anchor, SceneError> {
     let anchor = geometry.anchor(vertex).ok_or(SceneError::OutOfRange {
         quantity: "the vertex of a pull",
@@ -271,7 +271,7 @@ fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<An
     }
 }
 
-/// The body where the scene starts, if its material is defined there.
+/// The body at the start of the scene, if its material is defined there.
 fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Play, SceneError> {
     let mut play = Play::new(settings, geometry)?;
     play.check_start(settings, geometry)?;

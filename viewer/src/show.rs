@@ -1,4 +1,4 @@
-//! Messages to a page: the surface's triangles once, then frames as it asks for them.
+//! Messages to a page: the surface's triangles once, then frames as the page requests them.
 //!
 //! Texts are JSON objects with one key that says what they are: `setup`, `figures` or `refused`.
 
@@ -23,7 +23,7 @@ use crate::session::Session;
 pub struct Frame {
     /// Counts states; a page that has seen this one waits for another.
     pub(crate) state: u64,
-    /// Counts changes of the setup; a page that knows this one needs no other.
+    /// Counts changes of the setup; a page that has this one needs no other.
     pub(crate) revision: u64,
     pub(crate) setup: Arc<str>,
     pub(crate) figures: Arc<str>,
@@ -77,7 +77,7 @@ pub(crate) fn positions(session: &Session) -> Arc<[u8]> {
     header.into_iter().flat_map(u32::to_le_bytes).chain(coordinates.flat_map(f32::to_le_bytes)).collect()
 }
 
-/// The scene and its material, which change with acts only.
+/// The scene and its material, which change only with acts.
 pub(crate) fn setup(session: &Session, file: Option<&str>) -> Arc<str> {
     let settings = session.settings();
     let mesh = &session.geometry().mesh;
@@ -126,7 +126,7 @@ pub(crate) fn setup(session: &Session, file: Option<&str>) -> Arc<str> {
     json!({ "setup": setup }).to_string().into()
 }
 
-/// The text of the energy in use, as it is typed: for one of the catalogue the declaration in Rust.
+/// The text of the energy in use: for one of the catalogue the declaration in Rust.
 fn text(material: &MaterialSpec) -> &str {
     let known = || DECLARATIONS.iter().find(|known| material.is(known.name));
     let source = material.energy().map(Energy::text).or_else(|| known().map(|known| known.source));

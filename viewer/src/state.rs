@@ -18,7 +18,7 @@ use crate::error::Error;
 const FORMAT: &str = "piola state 2";
 /// The longest file that is written or read, in bytes: a state of two million nodes.
 const MAX_LENGTH: u64 = 256 << 20;
-/// Bound of the numbers of drags in files, above which there are others for drags to come.
+/// Bound of the numbers of drags in files, which leaves numbers for later drags.
 pub(crate) const MAX_DRAG: u64 = 1 << 62;
 
 /// A state that determines all steps to come, to the last bit, with the pulls of pages at it.
@@ -26,7 +26,7 @@ pub(crate) const MAX_DRAG: u64 = 1 << 62;
 #[serde(deny_unknown_fields)]
 pub struct State {
     format: Format,
-    /// The scene in motion, with material and time step as they are now.
+    /// The scene in motion, with the current material and time step.
     pub moment: Moment,
     /// The material as it was at the start.
     pub material_at_start: MaterialSpec,
@@ -46,7 +46,7 @@ pub struct Drag {
     pub place: [f64; 3],
 }
 
-/// Stands in a file for [`FORMAT`].
+/// The mark [`FORMAT`] of a file.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub(crate) struct Format;

@@ -1,4 +1,4 @@
-//! An energy as it is typed on the page, and values for the parameters that have none yet.
+//! Energies typed on the page, and values for the parameters that have none yet.
 
 use std::collections::BTreeMap;
 
@@ -11,11 +11,11 @@ use crate::error::Error;
 
 /// The longest text, in bytes: several times the longest declaration of the catalogue.
 const MAX_TEXT: usize = 12 * 1024;
-/// New parameters of which all combinations of values are tried; any more begin with 1.
+/// Maximum number of new parameters for which all combinations of values are tried; any more begin with 1.
 const MOST_TRIED: usize = 6;
 
-/// The material of an energy with these values. A parameter without one has that of the present material, if
-/// that has one of its name and form, and else begins with [a value of its own](begin).
+/// The material of an energy with these values. A missing parameter has the value of the present material, if
+/// that has one of its name and form, or else begins with [another value](begin).
 ///
 /// # Errors
 /// An error of the material.
@@ -51,8 +51,8 @@ pub(crate) fn energy(text: &str, given: &BTreeMap<String, Vec<f64>>) -> Result<E
     Ok(Energy::from_text_with(text, &options).map_err(SceneError::Declaration)?)
 }
 
-/// Gives each parameter without a value the shear modulus of the body, or 1: of all combinations the one with
-/// which the material is about as stiff as the body was.
+/// Gives each parameter without a value the shear modulus of the body, or 1: the combination with which the
+/// material is about as stiff as the body was.
 ///
 /// A formula does not say which of its parameters are moduli.
 fn begin(spec: MaterialSpec, body: Moduli) -> Result<MaterialSpec, SceneError> {

@@ -20,8 +20,8 @@ pub(crate) struct Check {
     #[command(flatten)]
     material: Material,
 
-    /// Beyond the domain of a material: `refuse` leaves stretches out, a number is the stretch below which
-    /// the energy is extended by polynomials.
+    /// Behaviour beyond the domain of a material: `refuse` leaves stretches out, a number is the stretch
+    /// below which the energy is extended by polynomials.
     #[arg(long, value_name = "refuse|STRETCH", value_parser = inversion, default_value = "refuse")]
     #[arg(allow_negative_numbers = true)]
     inversion: Inversion,

@@ -431,7 +431,7 @@ impl Parser {
     }
 }
 
-/// The mistake of a number before a parenthesis.
+/// Error for a name before a parenthesis that is not a function.
 fn no_function(name: &Ident) -> syn::Error {
     syn::Error::new(name.span(), format!("`{name}` is not a function: write `{name} * ( … )` for a product"))
 }

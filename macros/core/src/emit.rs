@@ -82,20 +82,19 @@ impl Texts {
     }
 }
 
-/// Text as documentation, a line at a time as people write it.
+/// Text as documentation, one line at a time in the usual format.
 fn doc(text: &str) -> TokenStream {
     let lines = text.lines().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
     quote!(#(#[doc = #lines])*)
 }
 
-/// A condition as people write it: `mu[p] * alpha[p] > 0`.
+/// A condition in the usual format: `mu[p] * alpha[p] > 0`.
 #[must_use]
 pub fn condition_text(condition: &Expr) -> String {
     spaced(&condition.to_token_stream()).replace(".0 ", " ").trim_end_matches(".0").replace("r#", "")
 }
 
-/// Tokens with spaces where people write them: inside of the compiler they are printed with others than
-/// outside.
+/// Tokens with the usual spaces: inside of the compiler they are printed with different ones than outside.
 #[must_use]
 pub fn spaced(tokens: &TokenStream) -> String {
     let printed = tokens.to_string();
@@ -128,7 +127,7 @@ fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     }
 }
 
-/// The type parameter of a material for how its parameters are kept, if it is nothing but numbers.
+/// The type parameter of a material for the representation of its parameters, if these are only numbers.
 fn value_parameter(declaration: &Declaration) -> Option<Ident> {
     if !declaration.is_plain() || declaration.parameters.is_empty() {
         return None;
@@ -138,7 +137,7 @@ fn value_parameter(declaration: &Declaration) -> Option<Ident> {
     names.into_iter().find(is_free).or_else(|| Some(format_ident!("ParameterValue")))
 }
 
-/// The attribute that allows names of papers, such as `K`, in spite of the lint on their case.
+/// The attribute that allows names of papers, such as `K`, despite the lint on their case.
 fn naming(declaration: &Declaration) -> Option<TokenStream> {
     let parameters = declaration.parameters.iter().map(|parameter| &parameter.name);
     let mut names = parameters.chain(&declaration.stretches).map(ToString::to_string);

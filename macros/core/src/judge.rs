@@ -1,5 +1,5 @@
-//! Rules that an energy keeps for all parameters: it is isotropic, has a value wherever its domain reaches,
-//! and at rest it is free of stress and resists shear.
+//! Rules that an energy keeps for all parameters: it is isotropic, has a value everywhere in its domain, and
+//! at rest it is free of stress and resists shear.
 //!
 //! They are decided by evaluation at random points with random parameters, relative to what rounding could
 //! hide: a normal form would call (x + y)² and x² + 2xy + y² different. The judges return [`Finding`]s;
@@ -29,7 +29,7 @@ mod units;
 mod vanishing;
 mod volume;
 
-/// Checks an energy as it is written, and gives samples of its domain if nothing is mistaken.
+/// Checks an energy as it is written, and returns samples of its domain if there is no mistake.
 pub(crate) fn written(
     graph: &mut Graph,
     source: &Source<'_>,
@@ -146,7 +146,7 @@ fn differs(graph: &Graph, [one, other]: [Id; 2], [i, j]: [usize; 2], samples: &[
     })
 }
 
-/// Checks that the energy has a value wherever its domain reaches, and no stress at rest.
+/// Checks that the energy has a value everywhere in its domain, and no stress at rest.
 fn values(graph: &mut Graph, source: &Source<'_>, derived: &Derived, samples: &[Point]) -> Vec<Finding> {
     let mut findings = Findings::new(source);
     vanishing::powers_at_rest(graph, samples, &mut findings);
@@ -171,7 +171,7 @@ fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding> {
     findings
 }
 
-/// Checks that no real power of what vanishes at rest is to be continued.
+/// Checks that no real power of an expression that vanishes at rest is to be continued.
 fn continued_powers(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
     let options = &source.declaration.options;
     let word = options.words.iter().find(|word| *word == "extend");
@@ -179,7 +179,7 @@ fn continued_powers(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
         .then(|| Finding::new(word, Violation::ExtendedPower))
 }
 
-/// Checks that the continuation of an energy has a value where elements are nearly flat, flat and inverted.
+/// Checks that the continuation of an energy has a value at elements that are nearly flat, flat and inverted.
 fn continued_value(graph: &Graph, source: &Source<'_>, continued: Id, samples: &[Point]) -> Option<Finding> {
     /// λ3 where the continuation begins at 0.1.
     const THIRD: [f64; 7] = [0.05, 0.01, 1e-3, 0.0, -0.01, -0.3, -1.0];
@@ -222,7 +222,7 @@ fn flat(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding> {
     conditions.filter_map(finding).collect()
 }
 
-/// Checks that some shear modulus is positive: the constructor would refuse all parameters else.
+/// Checks that some shear modulus is positive: otherwise the constructor would refuse all parameters.
 fn stiffness(graph: &Graph, source: &Source<'_>, shear: Id, samples: &[Point]) -> Option<Finding> {
     let vanishes = samples.iter().all(|point| is_zero(evaluate(graph, shear, point)));
     (vanishes && !source.declaration.has_functions())

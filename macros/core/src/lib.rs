@@ -44,8 +44,8 @@ pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
     }
 }
 
-/// The declaration `#[material(arguments)] item` with its energy, derived and checked. Its expressions,
-/// derivatives included, may have this size at most, `None` for as large a one as memory holds.
+/// The declaration `#[material(arguments)] item` with its energy, derived and checked. The size of its
+/// expressions, derivatives included, is limited; `None` for no limit except memory.
 ///
 /// # Errors
 /// All mistakes of form and meaning, each at its tokens.
@@ -57,7 +57,7 @@ pub fn analyse(
     analyse_in(Notation::Attribute, arguments, item, most)
 }
 
-/// A declaration in any notation, which is that of the messages, with its energy: see [`analyse`].
+/// A declaration in any notation, which is also that of the messages, with its energy: see [`analyse`].
 ///
 /// # Errors
 /// All mistakes of form and meaning, each at its tokens.

@@ -51,17 +51,17 @@ pub struct Model {
     pub invariants: Option<ByInvariants>,
     /// Expressions that are positive inside the domain, J apart.
     pub bounds: Vec<Id>,
-    /// The values at rest of those bounds that parameters decide there, with their places.
+    /// Values at rest of the bounds that depend on parameters there, with their places.
     pub bounds_at_rest: Vec<(usize, Id)>,
     /// The volumes J for which the energy is defined.
     pub volume: Volume,
     /// Small-strain μ and λ.
     pub moduli: [Id; 2],
-    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p inside the domain for each parameter p, where asked for.
+    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p inside the domain for each parameter p, if requested.
     pub by_parameters: Option<Vec<[Id; 3]>>,
-    /// Conditions that keep parameters admissible, where asked for; those on the entries of lists come last.
+    /// Conditions that keep parameters admissible, if requested; those on the entries of lists come last.
     pub constraints: Vec<Constraint>,
-    /// Conditions on parameters that keep given stretches inside the domain, where asked for.
+    /// Conditions on parameters that keep given stretches inside the domain, if requested.
     pub domain_constraints: Vec<Constraint>,
     /// The parameters that a pair of Young's modulus and Poisson's ratio determines, if it does.
     pub from_young_poisson: Option<YoungPoisson>,
@@ -104,12 +104,12 @@ impl Model {
     }
 }
 
-/// A condition on parameters: an expression that is positive, or at least not negative, where it holds.
+/// A condition on parameters: an expression that is positive, or at least not negative, if it holds.
 #[derive(Clone, Debug)]
 pub struct Constraint {
     /// Origin of the condition.
     pub limit: Limit,
-    /// The length of the lists whose entries it holds for, one by one.
+    /// The length of the lists for whose entries it holds, one by one.
     pub length: Option<Length>,
     /// The expression.
     pub value: Id,
@@ -177,15 +177,14 @@ pub fn model(declaration: &Declaration) -> syn::Result<Model> {
     diagnostics.finish(model)
 }
 
-/// The most parameters of an energy whose size is limited: each needs a register.
+/// Maximum number of parameters of an energy whose size is limited: each needs a register.
 pub const MOST_PARAMETERS: usize = 512;
 
-/// The most expressions one inside the other in an energy whose size is limited: algebra descends into them.
+/// Maximum depth of expressions in an energy whose size is limited: algebra descends into them.
 const DEEPEST: usize = 256;
 
-/// The model of a declaration whose expressions, derivatives included, have this size at most; `None` for as
-/// large a one as memory holds. Of one with mistakes of form names are resolved, and nothing further is
-/// checked.
+/// The model of a declaration whose expressions, derivatives included, have at most this size; `None` for no
+/// limit except memory. If the declaration has mistakes of form, only its names are resolved and checked.
 pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics, most: Option<usize>) -> Option<Model> {
     let parameters = declaration.parameters.len();
     if most.is_some() && parameters > MOST_PARAMETERS {
@@ -210,8 +209,8 @@ pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics, most: Opti
     None
 }
 
-/// The stages of a model: names are resolved, forms prepared and derivatives derived; what is written is
-/// judged before, and all else after.
+/// The stages of a model: names are resolved, forms prepared and derivatives derived; the energy is judged as
+/// written before, and by its derivatives after.
 fn read_into(
     mut graph: Graph,
     declaration: &Declaration,
@@ -252,7 +251,7 @@ fn read_into(
     Some(model)
 }
 
-/// All derivatives of an energy in its prepared form, and those that are judged.
+/// All derivatives of an energy in its prepared form, and the subset that is judged.
 fn derive(
     mut graph: Graph,
     source: &Source<'_>,
@@ -354,7 +353,7 @@ fn constraint(graph: &mut Graph, variables: &[Node], limit: Limit, value: Id) ->
     Constraint { limit, length, value, by_parameters }
 }
 
-/// The values at rest of bounds that parameters decide there, unless a condition on parameters says the same.
+/// Values at rest of bounds that depend on parameters there, unless a condition on parameters is equivalent.
 fn bounds_at_rest(
     graph: &mut Graph,
     declaration: &Declaration,

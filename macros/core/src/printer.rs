@@ -38,8 +38,8 @@ pub fn combination(terms: &[(&str, Rational)], constant: Rational) -> String {
     Notation::Formula.sum(parts, constant).1
 }
 
-/// Nodes after which a text is cut off: a graph can be exponentially smaller than the formula that it stands
-/// for.
+/// Maximum number of nodes of a text before it is cut off: a graph can be exponentially smaller than the
+/// formula that it stands for.
 const LONGEST: usize = 400;
 
 /// The surroundings of a text, which decide on parentheses.

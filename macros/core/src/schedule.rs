@@ -30,8 +30,8 @@ mod program;
 mod shifts;
 pub(crate) mod sorted;
 
-/// Orders the computation of the roots and of nothing else. The collector keeps its findings for the next
-/// program of the same graph.
+/// Orders the computation of the roots only. The collector keeps its findings for the next program of the
+/// same graph.
 #[must_use]
 pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> Program {
     let powers = Powers::used_by(graph, &graph.reachable(roots));
@@ -87,7 +87,7 @@ struct OpenLoop {
 }
 
 impl Scheduler<'_> {
-    /// Sums first, in the order in which they need each other, those of one length together.
+    /// Puts sums first, in the order of their dependencies, those of one length together.
     fn loops(&mut self, reachable: &[Id]) {
         let mut depth: FxHashMap<Id, usize> = FxHashMap::default();
         let mut sums: Sorted<(usize, Length), Vec<(Id, Id)>> = Sorted::new();

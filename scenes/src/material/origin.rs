@@ -18,7 +18,7 @@ pub(super) struct Known {
     declaration: &'static Declaration,
     /// The compiled energy, if the program was built with it.
     compiled: Option<&'static Entry>,
-    /// The energy declared at run time, from when it is first asked for.
+    /// The energy declared at run time, made when it is first used.
     energy: OnceLock<Energy>,
 }
 

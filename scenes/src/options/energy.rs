@@ -15,7 +15,7 @@ use super::value::modulus;
 /// Options of a formula.
 #[derive(Clone, Debug, Default, PartialEq, Args)]
 pub struct Formula {
-    /// Energy as a formula, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`, in place of a material.
+    /// Energy as a formula, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`, instead of a material.
     ///
     /// Its names are those that --param gives values to, and else the stretches l1, l2, l3 and the
     /// invariants I1, I2, J, I1b and I2b, also as lambda_1, tr(C), det(F) and more. Conditions may follow,
@@ -37,8 +37,8 @@ pub struct Formula {
 const BULK: &str = "kappa";
 
 impl Formula {
-    /// The formula for curves at constant volume. A stress at rest is a pressure, which does no work there:
-    /// it is left out, as by `--free-rest`.
+    /// The formula for curves at constant volume. A stress at rest is a pressure, which does no work then: it
+    /// is left out, as by `--free-rest`.
     #[must_use]
     pub fn at_constant_volume(self) -> Self {
         Self { free_rest: self.free_rest || self.energy.is_some(), ..self }

@@ -1,4 +1,4 @@
-//! Options for the steps of time.
+//! Options for the time steps.
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -20,8 +20,8 @@ pub struct StepOptions {
     #[arg(long, value_name = "METHOD", value_parser = integrators(), default_value = "implicit-euler")]
     pub integrator: Integrator,
 
-    /// Largest error of the motion that steps of time may make, in body heights per second: each frame is
-    /// made in steps as short as that takes. Best with --integrator sdirk2 and --newton full.
+    /// Largest error of the motion from time steps, in body heights per second: each frame is made in steps
+    /// as short as that requires. Best with --integrator sdirk2 and --newton full.
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
 

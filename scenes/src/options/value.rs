@@ -1,4 +1,4 @@
-//! Values of options that have a notation of their own: parameters, and how inverted material is treated.
+//! Values of options with their own notation: parameters, and the treatment of inverted material.
 
 use piola::__private::message::quoted;
 use piola::Inversion;
@@ -13,7 +13,7 @@ pub struct Given {
     pub name: String,
     /// Its values in SI units, several to a list.
     pub values: Vec<f64>,
-    /// The kind of the unit that they were given with, if there was one: a stress, or one by a stress.
+    /// The kind of their unit, if they were given with one: a stress, or one by a stress.
     pub unit: Option<Unit>,
 }
 

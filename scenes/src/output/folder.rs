@@ -1,4 +1,4 @@
-//! A folder with the files of a run, in which nothing of anybody else's is touched.
+//! Folder with the files of a run, which leaves all other files alone.
 //!
 //! Files are written during the run, so that an interruption leaves a shorter run. Each is entered in a list
 //! in the folder before it is created: what is not in the list is somebody else's. What is in it is removed
@@ -18,7 +18,7 @@ mod tests;
 
 use listing::{LISTING, Listing};
 
-/// Room that is kept for the closing files of a run that has filled the disk, in bytes.
+/// Disk space reserved for the closing files of a run that has filled the disk, in bytes.
 const ROOM: usize = 64 * 1024;
 
 /// A folder that is being filled with the files of a run.
@@ -66,7 +66,7 @@ impl Folder {
         }
     }
 
-    /// Opens the folder of a run, to go on with it.
+    /// Opens the folder of a run to continue it.
     ///
     /// # Errors
     /// Like [`Folder::prepare`], and [`Error::NothingToResume`] if the folder holds no run.
@@ -89,7 +89,7 @@ impl Folder {
         self.listing.contains(name) && self.path.join(name).is_file()
     }
 
-    /// Writes one file, which `content` fills. It appears when it is complete, in place of one that the run
+    /// Writes one file, which `content` fills. It appears when it is complete, and replaces one that the run
     /// has written before.
     ///
     /// # Errors
@@ -138,7 +138,8 @@ impl Folder {
         })
     }
 
-    /// Keeps room for the closing files of a run that fills the disk, until [`release`](Self::release).
+    /// Reserves disk space for the closing files of a run that fills the disk, until
+    /// [`release`](Self::release).
     ///
     /// # Errors
     /// Like [`Folder::write`].
@@ -146,7 +147,7 @@ impl Folder {
         self.write(RESERVE, |file| file.write_all(&[0; ROOM]))
     }
 
-    /// Gives the room back that was kept.
+    /// Frees the reserved disk space.
     pub fn release(&mut self) {
         let _ = fs::remove_file(self.path.join(RESERVE));
     }
@@ -160,7 +161,7 @@ impl Folder {
     }
 }
 
-/// Refuses a folder with something that has the name of a result and is not in the list.
+/// Refuses a folder that contains a file with the name of a result that is not in the list.
 fn refuse_foreign(folder: &Path, listing: Option<&Listing>) -> Result<(), Error> {
     let failed = |source| Error::Folder { path: folder.into(), source };
     let mut names = Vec::new();

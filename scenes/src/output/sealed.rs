@@ -1,4 +1,4 @@
-//! A line of JSON that carries a checksum, so that a file that was changed or cut off is noticed.
+//! A line of JSON with a checksum, by which changes and truncation are detected.
 //!
 //! ```text
 //! {"crc32":"1a2b3c4d","content":{…}}
@@ -12,7 +12,7 @@ use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Serialize};
 use serde_json::value::{RawValue, to_raw_value};
 
-/// The longest message about a line that is not as expected, in characters: it may repeat a text of the file.
+/// Longest message about an unexpected line, in characters: it may repeat a text of the file.
 const MAX_MESSAGE: usize = 1024;
 
 #[derive(Serialize, Deserialize)]
@@ -52,15 +52,15 @@ pub fn unseal<T: DeserializeOwned>(text: &str) -> Result<T, SealError> {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SealError {
-    /// The line is not sealed JSON, or its content is something else than expected.
+    /// The line is not sealed JSON, or its content is not as expected.
     #[error("{}", printable(&shortened(.0.to_string())))]
     NotJson(#[source] serde_json::Error),
-    /// The checksum belongs to another content.
+    /// The checksum does not match the content.
     #[error("the checksum is wrong: the file has been changed or cut off")]
     Checksum,
 }
 
-/// A message, cut where it is long.
+/// A message, cut if it is long.
 fn shortened(mut message: String) -> String {
     if let Some((end, _)) = message.char_indices().nth(MAX_MESSAGE) {
         message.truncate(end);
@@ -73,8 +73,8 @@ fn checksum(content: &RawValue) -> String {
     format!("{:08x}", crc32fast::hash(content.get().as_bytes()))
 }
 
-/// The error of a line that is not sealed. One without a checksum may be of an older format, and its content
-/// says so.
+/// The error of a line that is not sealed. A line without a checksum may be of an older format, named by its
+/// content.
 fn unsealed<T: DeserializeOwned>(text: &str, error: serde_json::Error) -> serde_json::Error {
     #[derive(Deserialize)]
     struct Probe {

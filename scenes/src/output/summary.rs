@@ -19,19 +19,19 @@ pub enum Newton {
     /// One iteration with line search, regardless of the residual that it leaves.
     #[default]
     Single,
-    /// Until the residual is small.
+    /// Iterations until the residual is small.
     Full,
 }
 
-/// Steps of time by which frames were made.
+/// Counts of the time steps of the frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StepCounts {
-    /// Steps that were taken.
+    /// Number of steps taken.
     pub taken: usize,
-    /// Steps that were too long for the tolerance, or failed, and were made again in halves.
+    /// Number of steps that were too long for the tolerance, or failed, and were made again in halves.
     pub refused: usize,
-    /// Steps that were taken although their error was above the tolerance, since they were the shortest.
+    /// Number of steps taken at the shortest length although their error was above the tolerance.
     pub unresolved: usize,
 }
 
@@ -69,7 +69,7 @@ pub struct TensileReading {
 }
 
 impl TensileReading {
-    /// Measurement that is missing, and why.
+    /// The missing measurement, with the reason.
     #[must_use]
     pub fn missing(&self) -> Option<&'static str> {
         match (self.uniaxial_stress, self.stretch) {
@@ -109,7 +109,7 @@ pub enum FinalPlace {
     Saddle,
     /// Equilibrium elsewhere, with a smallest eigenvalue of zero within its error.
     UndecidedElsewhere,
-    /// Nowhere yet: forces are not in balance.
+    /// No equilibrium yet: forces are not in balance.
     NotAtRest,
 }
 
@@ -125,7 +125,7 @@ impl fmt::Display for FinalPlace {
     }
 }
 
-/// Equilibrium of a body that has not recovered, where statics has taken it from the final frame.
+/// Equilibrium of a body that has not recovered, found by statics from the final frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FinalState {
     /// Kind of the equilibrium.
@@ -139,9 +139,9 @@ pub struct FinalState {
     /// True if no element bears stress beyond rounding.
     pub stress_free: bool,
     /// The smallest eigenvalue ω² of the stiffness beyond rigid motions, 1/s²; negative at a saddle. `None`
-    /// where nothing is free.
+    /// if nothing is free.
     pub smallest_eigenvalue: Option<f64>,
-    /// An exact eigenvalue is no farther from it than this, 1/s².
+    /// Bound of the distance of an exact eigenvalue, 1/s².
     pub eigenvalue_error: Option<f64>,
     /// Number of elements that are inside out.
     pub inverted: usize,
@@ -178,7 +178,7 @@ pub struct Summary {
     pub material: String,
     /// Parameters of the material by name, in SI units.
     pub parameters: Parameters,
-    /// Poisson's ratio of the material at rest; `None` where it has none.
+    /// Poisson's ratio of the material at rest; `None` if it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson: Option<f64>,
     /// Number of tetrahedra.
@@ -187,16 +187,16 @@ pub struct Summary {
     pub nodes: usize,
     /// Number of vertices of the embedded surface.
     pub surface_vertices: usize,
-    /// Number of time steps that have been made; frame 0, before the first of them, is not counted.
+    /// Number of time steps made; frame 0, before the first of them, is not counted.
     pub frames: usize,
-    /// Number of time steps that were to be made.
+    /// Number of time steps requested.
     pub frames_wanted: usize,
     /// End of the run.
     pub ended: Ended,
     /// Reasons why something is missing: a step that failed, a file that could not be written, an equilibrium
     /// that could not be examined.
     pub failures: Vec<String>,
-    /// Properties of the mesh and the material that may not be meant, and measurements that are missing.
+    /// Properties of the mesh and the material that may be unintended, and measurements that are missing.
     pub warnings: Vec<String>,
     /// Time step, s.
     pub dt: f64,
@@ -208,8 +208,8 @@ pub struct Summary {
     pub stationary_start: bool,
     /// The smallest determinant of a deformation gradient in any frame.
     pub min_det_f: f64,
-    /// The largest distance of a node from its rest position in the final frame, in body heights. After the
-    /// best rigid motion where fewer than three nodes are pinned.
+    /// The largest distance of a node from its rest position in the final frame, in body heights; after the
+    /// best rigid motion if fewer than three nodes are pinned.
     pub max_distance_from_rest: f64,
     /// Elastic energy of the final frame, J.
     pub energy: f64,
@@ -219,11 +219,11 @@ pub struct Summary {
     pub steps_per_second: Option<f64>,
     /// Method by which steps advanced in time.
     pub integrator: Integrator,
-    /// Largest error of the motion that steps of time were to make, body heights per second; `None` for one
+    /// Largest error of the motion that was allowed for time steps, body heights per second; `None` for one
     /// step in each frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Steps of time by which the frames were made.
+    /// Counts of the time steps of the frames.
     pub steps: StepCounts,
     /// Accuracy to which each step was solved.
     pub newton: Newton,
@@ -237,7 +237,8 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// A body has recovered if no node is farther from its place than this share of the body's height.
+    /// Largest distance of a node from its place, as a share of the body's height, at which a body has
+    /// recovered.
     pub const RECOVERED: f64 = 1e-3;
 
     /// Writes the summary as JSON.

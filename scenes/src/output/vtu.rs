@@ -21,7 +21,7 @@ pub struct Field<'a> {
     pub values: &'a [f64],
 }
 
-/// Writes tetrahedra at their present positions, m, with fields of nodes and of tetrahedra, as VTU.
+/// Writes tetrahedra at their current positions, m, with fields of nodes and of tetrahedra, as VTU.
 ///
 /// # Errors
 /// If `target` cannot be written to.

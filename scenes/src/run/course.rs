@@ -31,13 +31,13 @@ use crate::watch::Watch;
 /// still.
 const NO_FORCE: f64 = 1e-11;
 
-/// A scene with all that it takes to be played.
+/// A scene with everything that is needed to play it.
 pub(super) struct Setup<'a> {
     settings: &'a Settings,
     pub(super) geometry: Geometry,
     pub(super) play: Play,
     threads: ThreadPool,
-    /// The material where tetrahedra are written, too.
+    /// The material if tetrahedra are written, too.
     cages_of: Option<Box<dyn TileMaterial<f64>>>,
 }
 
@@ -58,13 +58,13 @@ pub(super) struct Course<'a> {
     progress: Progress,
     /// Positions of the nodes in the last frame that was written, m.
     positions: Vec<[f64; 3]>,
-    /// Times of the steps since the run has begun or gone on.
+    /// Times of the steps since the run was started or resumed.
     times: Vec<Duration>,
     failures: Vec<String>,
 }
 
 impl<'a> Course<'a> {
-    /// A run that begins, with its frame 0.
+    /// A new run, with its frame 0.
     pub(super) fn begin(setup: Setup<'a>, folder: Folder) -> Result<Self, Error> {
         let mesh = &setup.geometry.mesh;
         let simulation = setup.play.simulation();
@@ -88,7 +88,7 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// A run that goes on from its last state, in this folder.
+    /// A run that continues from its last state, in this folder.
     pub(super) fn resume(mut setup: Setup<'a>, folder: Folder) -> Result<Self, Error> {
         let target = folder.path().to_owned();
         let refused = |reason| Error::Resume { folder: target.clone(), reason };
@@ -190,7 +190,7 @@ impl<'a> Course<'a> {
         self.folder.replace(STATE_FILE, |file| file.write_all(&saved.to_line()?))
     }
 
-    /// Leaves nothing of a run that has made no step.
+    /// Removes all files of a run that has made no step.
     fn abandon(self, error: Error) -> Error {
         self.folder.abandon();
         error
@@ -270,7 +270,7 @@ impl<'a> Course<'a> {
         Finished { summary, geometry, motion: progress.motion, folder, vtu: cages_of.is_some() }
     }
 
-    /// The equilibrium that the body is drawn to.
+    /// Finds the equilibrium to which the body is drawn.
     fn examine(&mut self, watch: &mut dyn Watch) -> Result<Option<FinalState>, Error> {
         let Setup { play, geometry, threads, .. } = &mut self.setup;
         threads.install(|| find_equilibrium(play, &geometry.mesh, watch)).map(Some)

@@ -1,4 +1,4 @@
-//! Figures of a run so far, and the state from which it goes on.
+//! Figures of a run so far, and the state from which it continues.
 
 use std::time::{Duration, Instant};
 
@@ -10,7 +10,7 @@ use crate::moment::Moment;
 use crate::output::{StepCounts, seal, unseal};
 use crate::settings::Settings;
 
-/// Time between states on the disk, at least: so much of a run that is killed must be computed again.
+/// Minimum time between states on the disk: a run that is killed must recompute at most this much.
 const PAUSE: Duration = Duration::from_secs(1);
 /// Time between states on the disk, as a multiple of the time that it takes to write one.
 const SHARE: u32 = 20;
@@ -48,7 +48,7 @@ impl Progress {
     }
 }
 
-/// A state of a run, from which it goes on as if it had not been interrupted.
+/// A state of a run, from which it continues as if it had not been interrupted.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Saved {
@@ -74,7 +74,7 @@ impl Saved {
         Ok(seal(self)?)
     }
 
-    /// Reads a state, and checks that a run with these settings can go on from it.
+    /// Reads a state, and checks that a run with these settings can continue from it.
     pub(super) fn read(text: &str, settings: &Settings, vtu: bool) -> Result<Self, String> {
         let saved: Self = unseal(text).map_err(|error| format!("its state cannot be read: {error}"))?;
         let frame = saved.moment.clock().frame();
@@ -96,8 +96,8 @@ impl Saved {
     }
 }
 
-/// The first setting in which two runs differ, apart from the number of frames and threads, which change no
-/// bit of a frame.
+/// The first setting in which two runs differ, apart from the numbers of frames and threads, which do not
+/// affect any frame.
 fn difference(before: &Settings, now: &Settings) -> Option<String> {
     let values = |settings: &Settings| match serde_json::to_value(settings) {
         Ok(Value::Object(values)) => values,

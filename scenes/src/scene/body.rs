@@ -13,7 +13,7 @@ pub struct Body {
     pub name: &'static str,
     /// Its tetrahedra and its surface.
     pub shape: Shape,
-    /// Its colour and the side that it is seen from.
+    /// Its colour, and the side from which it is seen.
     pub style: Style,
 }
 
@@ -84,7 +84,7 @@ impl Body {
         style: Style { colour: [0.12, 0.24, 0.42], azimuth: 30.0, elevation: 16.0 },
     };
 
-    /// Every body, in the order in which they are listed.
+    /// All bodies, in the order in which they are listed.
     pub const ALL: &[Self] = &[Self::HORSE, Self::DINOSAUR, Self::BAR];
 
     /// The body of a name.

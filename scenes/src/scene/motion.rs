@@ -9,9 +9,9 @@ pub struct Pull {
     pub region: Bounds,
     /// Motion of the points.
     pub motion: Motion,
-    /// The motion is steady until this time, s, and the points then stay.
+    /// Time, s, until which the motion is steady; the points then stay.
     pub reached: f64,
-    /// The springs vanish at this time, s.
+    /// Time, s, at which the springs vanish.
     pub released: f64,
 }
 
@@ -37,7 +37,7 @@ impl Pull {
         (start < self.released).then(|| (end / self.reached).clamp(0.0, 1.0))
     }
 
-    /// Times, s, when the motion changes at once.
+    /// Times, s, of abrupt changes of the motion.
     #[must_use]
     pub fn events(&self) -> [f64; 2] {
         [self.reached, self.released]

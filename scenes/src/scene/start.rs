@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub enum Start {
     /// The positions of the mesh.
     Rest,
-    /// Straight down, or up, in the horizontal plane under the surface's lowest vertex.
+    /// Flattened vertically into the horizontal plane under the surface's lowest vertex.
     Flattened,
     /// Displaced at random.
     Scrambled {

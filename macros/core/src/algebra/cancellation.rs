@@ -68,7 +68,7 @@ impl Ways {
         Self { ways, values: RefCell::new(values) }
     }
 
-    /// The ways by invariants, for energies in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
+    /// Paths by invariants, for energies in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
     #[must_use]
     pub fn by_invariants(&self) -> Self {
         let moved = |point: &Point| {
@@ -79,8 +79,7 @@ impl Ways {
         Self::through(self.ways.iter().map(|way| way.each_ref().map(moved)).collect())
     }
 
-    /// The ways on which the cancellation of a sum grows beyond what is bearable, each with its size at the
-    /// end.
+    /// Paths on which the cancellation of a sum grows beyond the limit, each with its size at the end.
     fn cancelling<'a>(&'a self, graph: &'a Graph, sum: Id) -> impl Iterator<Item = (f64, &'a [Point; 2])> {
         self.ways.iter().enumerate().filter_map(move |(place, way)| {
             let mut values = self.values.borrow_mut();
@@ -89,7 +88,7 @@ impl Ways {
         })
     }
 
-    /// The largest cancellation of a sum, 1 where none grows.
+    /// The largest cancellation of a sum, 1 if none grows.
     fn worst(&self, graph: &Graph, sum: Id) -> f64 {
         self.cancelling(graph, sum).fold(1.0, |worst, (ratio, _)| worst.max(ratio))
     }
@@ -107,8 +106,8 @@ fn ratio(graph: &Graph, sum: Id, point: &Point, memo: &mut Memo) -> f64 {
     size / value.abs()
 }
 
-/// The energy with sums of fractions over one denominator, wherever the sum cancels and the numerator,
-/// multiplied out, does not.
+/// The energy with sums of fractions over one denominator, if the sum cancels and the numerator, multiplied
+/// out, does not.
 pub fn over_one_denominator(graph: &mut Graph, energy: Id, ways: &Ways) -> Id {
     rewrite(graph, energy, ways, &mut FxHashMap::default())
 }
@@ -160,16 +159,16 @@ fn joined(graph: &mut Graph, sum: Id, ways: &Ways) -> Option<Id> {
     (ways.worst(graph, numerator) * BEARABLE < before).then(|| graph.div(numerator, denominator))
 }
 
-/// The sums in an energy that cancel far from rest and cost its first or its second derivatives digits there.
+/// Sums in an energy that cancel far from rest, so that its first or second derivatives lose digits there.
 ///
 /// A sum may cancel without harm, beside larger ones. So each is changed by a fraction of its terms, as
 /// rounding would: it matters if the derivatives change by more than a hundred times that fraction of
 /// themselves and of what they change by with the stretches.
 #[must_use]
 pub fn lossy(graph: &Graph, energy: Id, derivatives: [&[Id]; 2], ways: &Ways) -> Vec<Id> {
-    /// Far above rounding, far below the values at the first point of a way.
+    /// Relative change far above rounding, far below the values at the first point of a path.
     const CHANGE: f64 = 1.0 / (1u64 << 36) as f64;
-    /// Roundings that are not noticed.
+    /// Number of roundings below which a change does not matter.
     const UNNOTICED: f64 = 100.0;
     let values = |derivatives: &[Id], point: &Point, mut memo: Memo| -> Vec<f64> {
         derivatives.iter().map(|&id| evaluate_with(graph, id, point, &mut memo).value).collect()
@@ -209,7 +208,7 @@ pub fn lossy(graph: &Graph, energy: Id, derivatives: [&[Id]; 2], ways: &Ways) ->
 mod tests {
     use quote::quote;
 
-    /// What cancels in an energy, with the constants of its fractions joined where that helps.
+    /// Sums that cancel in an energy, with the constants of its fractions joined where that helps.
     fn found(energy: proc_macro2::TokenStream) -> Vec<String> {
         let item = quote! {
             fn E([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, k: f64) -> f64 { #energy }

@@ -13,12 +13,12 @@ use crate::algebra::rational::Rational;
 #[derive(Debug, Default)]
 pub struct Differentiator {
     memo: FxHashMap<(Id, Id), Id>,
-    /// The only expressions that may depend on the variable, where that is known.
+    /// The only expressions that may depend on the variable, if that is known.
     within: Option<FxHashSet<Id>>,
 }
 
 impl Differentiator {
-    /// Derivatives by variables on which only these expressions may depend: no other is looked at.
+    /// Derivatives by variables on which only these expressions may depend: others are skipped.
     #[must_use]
     pub fn within(expressions: FxHashSet<Id>) -> Self {
         Self { memo: FxHashMap::default(), within: Some(expressions) }

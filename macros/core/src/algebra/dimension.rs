@@ -9,10 +9,10 @@ use rustc_hash::FxHashMap;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
-/// The exponent of Pa; `None` where that depends on a parameter without a unit.
+/// The exponent of Pa; `None` if it depends on a parameter without a unit.
 pub type Dimension = Option<Rational>;
 
-/// Two parts of an expression whose dimensions do not go together.
+/// Two parts of an expression with inconsistent dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clash {
     /// Two terms of a sum.
@@ -104,7 +104,7 @@ impl<'a> Dimensions<'a> {
         }
     }
 
-    /// No dimension, as that of an argument must be.
+    /// Checks that an argument has no dimension, as it must.
     fn without(&mut self, graph: &Graph, argument: Id) -> Result<Dimension, Clash> {
         match self.of(graph, argument)? {
             Some(dimension) if !dimension.is_zero() => Err(Clash::Argument(argument, dimension)),

@@ -106,8 +106,8 @@ impl Elementary {
         }
     }
 
-    /// φ\[a, b\] in `f64`: the plain one where little cancels, else the mean of φ′ over
-    /// the interval by Gauss's rule with three points, whose error is below 10⁻¹⁶ for |a − b| ≤ 10⁻³.
+    /// φ\[a, b\] in `f64`: the plain one if little cancels, else the mean of φ′ over the interval by Gauss's
+    /// rule with three points, whose error is below 10⁻¹⁶ for |a − b| ≤ 10⁻³.
     pub(crate) fn quotient_value(self, a: f64, b: f64) -> f64 {
         if (a - b).abs() > 1e-3 {
             return (self.value(a) - self.value(b)) / (a - b);

@@ -1,4 +1,4 @@
-//! I1b − 3 and I2b − 3 as sums of squares, where real powers are taken of them.
+//! I1b − 3 and I2b − 3 as sums of squares in the bases of real powers.
 //!
 //! Isochoric invariants are at least 3, but I1b − 3 as it is written is known to u alone, and is negative at
 //! rest as often as not: near rest it has no digit, and a real power of it no value. With a = λ1^(2/3), b and
@@ -43,13 +43,13 @@ use crate::algebra::increment::substitute_rest;
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::rewrite;
 
-/// An energy, or a bound of a domain, with the bases of its real powers as sums of squares, wherever they are
-/// found to be such.
+/// An energy, or a bound of a domain, with the bases of its real powers as sums of squares, if they are
+/// recognised as such.
 pub fn with_squares(graph: &mut Graph, energy: Id) -> Id {
     Invariants::new(graph).rewritten(graph, energy)
 }
 
-/// The energy with I1b − 3 and its kind as sums of squares also where parameters are added to them in
+/// The energy with I1b − 3 and similar terms as sums of squares also if parameters are added to them in
 /// arguments of real powers and functions, and in arguments of functions that are parameters.
 pub fn with_squares_in_sums(graph: &mut Graph, energy: Id) -> Id {
     Invariants::new(graph).rewritten_sums(graph, energy)
@@ -62,7 +62,8 @@ pub fn has_squares(graph: &Graph, id: Id) -> bool {
     graph.reachable(&[id]).into_iter().any(is_sum_of_squares)
 }
 
-/// The expression without what its sums of squares were written as, before it is scheduled.
+/// The expression with its sums of squares only, without the forms in which they were written, before it is
+/// scheduled.
 pub fn squares_alone(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
     rewrite(graph, e, memo, &|graph, id| match *graph.node(id) {
         Node::Excess(value, _) => Some(graph.excess(value, value)),
@@ -156,8 +157,8 @@ impl Invariants {
         (!graph.is_zero(others)).then(|| accurate(graph, e, others, squares))
     }
 
-    /// The parameters, without numbers, and the combination of X and Y that an expression is the sum of, if
-    /// it is.
+    /// The parameters, without numbers, and the combination of X and Y whose sum an expression is, if it is
+    /// one.
     fn split(&self, graph: &mut Graph, e: Id) -> Option<(Id, Id)> {
         let shifted = self.shifted(graph, e);
         let expanded = expand_products(graph, shifted);
@@ -206,7 +207,8 @@ impl Invariants {
         Some(graph.excess(value, base))
     }
 
-    /// X − β X + β Y as (1 − β) X + β Y, in which nothing cancels; `None` for what is not linear in X and Y.
+    /// X − β X + β Y as (1 − β) X + β Y, in which nothing cancels; `None` for expressions that are not linear
+    /// in X and Y.
     fn collected(&self, graph: &mut Graph, terms: &[(Id, Rational)]) -> Option<Id> {
         let mut factors = [0, 1].map(|k: usize| (self.both[k].excess, Vec::new()));
         for &(term, coefficient) in terms {

@@ -14,10 +14,10 @@
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
-/// Sums with more terms than this read no better than products.
+/// Largest number of terms of a sum that reads better than a product.
 const MOST_TERMS: usize = 24;
 
-/// Powers of a sum beyond this have more terms in any case.
+/// Highest power of a sum that is multiplied out; higher ones have more terms in any case.
 const HIGHEST_POWER: i64 = 8;
 
 /// A product and its coefficient.

@@ -55,7 +55,7 @@ pub enum Node {
     /// Π base^exponent, in the order of the bases; rational coefficients live in `Linear`.
     Product(Vec<(Id, Exponent)>),
     /// An expression that is zero at rest and positive elsewhere, as a sum of squares and, for readers, as it
-    /// is written. Its value is kept from zero, so that powers of it have one.
+    /// is written. Its value is kept from zero, so that powers of it have a value.
     Excess(Id, Id),
     /// An expression in a form that keeps its digits, for its value, and as it is written, for its
     /// derivatives and for readers.
@@ -86,7 +86,7 @@ pub enum Node {
     ShareAbove(Stretch, Stretch),
     /// Fraction of the interval between two stretches that lies below ε.
     ShareBelow(Stretch, Stretch),
-    /// The second operand where the first is negative, else the third.
+    /// The second operand if the first is negative, else the third.
     WhereNegative(Id, Id, Id),
     /// (ln a − ln b) / (a − b).
     LnQuotient(Id, Id),
@@ -100,7 +100,7 @@ pub enum Node {
     WholePowerQuotient(Id, Id, Id, u8),
     /// (a^r − b^r) / (a − b) for a real exponent.
     PowerQuotient(Id, Id, Exponent),
-    /// a / max(b, floor), where b may vanish and the quotient then has a pole.
+    /// a / max(b, floor), for b that may vanish, which gives the quotient a pole.
     PoleQuotient(Id, Id),
 }
 
@@ -126,11 +126,11 @@ pub struct Graph {
     overflowed: bool,
     /// The number of nodes and of their operands.
     size: usize,
-    /// The number of operands of all sums and products that were to be made, be they new or not.
+    /// The number of operands of all sums and products that were requested, whether new or not.
     effort: usize,
-    /// The largest size; `None` for as much as memory holds.
+    /// The largest size; `None` for no limit except memory.
     most: Option<usize>,
-    /// True if it was to be larger.
+    /// True if more was requested than the limit.
     is_full: Rc<Cell<bool>>,
 }
 

@@ -155,7 +155,7 @@ mod tests {
     use crate::algebra::interpret::{Estimate, Point, evaluate};
     use crate::algebra::testing::expressions;
 
-    /// Compares with e(λ) − e(1, 1, 1) where nothing cancels.
+    /// Compares with e(λ) − e(1, 1, 1) if nothing cancels.
     #[test]
     fn every_rule_gives_the_difference_from_rest() {
         for (name, mut graph, e) in expressions() {

@@ -33,11 +33,11 @@ pub struct ByInvariants {
 /// Second derivatives by invariants that do not vanish everywhere, of which the runtime compiles terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curvature {
-    /// WJJ alone.
+    /// WJJ only.
     Volume,
     /// W11 and WJJ.
     Separate,
-    /// Any of them.
+    /// All of them.
     All,
 }
 

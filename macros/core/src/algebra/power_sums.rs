@@ -18,8 +18,8 @@ use crate::algebra::rational::Rational;
 /// c0 + c1 t + c2 t² with t = λ² − 1.
 type Polynomial = [Rational; 3];
 
-/// An expression of I1, I2, J, which stand in the places of the stretches, and of stretches, for which
-/// strains stand: without the latter, if they occur in such sums alone.
+/// An expression of I1, I2, J, which replace the stretches, and of stretches, which are represented by
+/// strains: without the latter, if they occur in such sums only.
 pub fn without_stretches(graph: &mut Graph, e: Id) -> Option<Id> {
     let mut done = FxHashMap::default();
     let rewritten = rewrite(graph, e, &mut done);
@@ -109,7 +109,7 @@ fn polynomial(graph: &Graph, e: Id) -> Option<(Option<Stretch>, Polynomial)> {
     }
 }
 
-/// The stretch of two expressions together, unless they have two.
+/// The common stretch of two expressions, unless they have two.
 fn same(a: Option<Stretch>, b: Option<Stretch>) -> Option<Option<Stretch>> {
     (a.is_none() || b.is_none() || a == b).then_some(a.or(b))
 }

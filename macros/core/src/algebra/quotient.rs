@@ -62,13 +62,14 @@ pub struct Quotients<'a> {
 /// The pair of stretches whose signs are changed, if any.
 type Negated = Option<(Stretch, Stretch)>;
 
-/// Three orders of magnitude above rounding errors, eleven below a term that is really there.
+/// Noise threshold: three orders of magnitude above rounding errors, eleven below a term that is really
+/// there.
 const NOISE: f64 = 1e-12;
 
-/// A ratio of stretches at which terms that cancel on flat elements are seen.
+/// Ratio of stretches at which terms that cancel on flat elements are detected.
 const FLAT: f64 = 1e-6;
 
-/// Terms of a product rule may exceed their sum by a digit and a half.
+/// Largest accepted ratio of the terms of a product rule to their sum: a digit and a half.
 const BEARABLE: f64 = 32.0;
 
 /// The largest degree of a product of sums that is multiplied out to separate odd from even terms.
@@ -452,7 +453,7 @@ fn extended_quotient(graph: &mut Graph, function: Extended, order: u8, i: Stretc
 }
 
 /// A factor times a quotient. The quotient of an extended function is a sum over the pieces above and below
-/// ε, each of which is multiplied by the factor: λ times a piece in λ⁻² stays in range where the piece does
+/// ε, each of which is multiplied by the factor: λ times a piece in λ⁻² stays in range even if the piece does
 /// not.
 fn multiply_pieces(graph: &mut Graph, factor: Id, quotient: Id) -> Id {
     let Node::Linear { constant, terms } = graph.node(quotient).clone() else {
@@ -528,7 +529,7 @@ fn slope_pair_quotient(graph: &mut Graph, exponent: Exponent, i: Stretch, j: Str
     graph.leaf(Node::WhereNegative(r, negative, positive))
 }
 
-/// NaN for nodes without a rule, which no energy leads to: it would be noticed.
+/// NaN for nodes without a rule, which no energy reaches: it would be noticed.
 fn undefined(graph: &mut Graph) -> Id {
     graph.leaf(Node::Float(f64::NAN.to_bits()))
 }

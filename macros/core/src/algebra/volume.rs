@@ -34,7 +34,7 @@ use crate::algebra::rational::Rational;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Evaluation for positive stretches: real powers go into sums, and ln J stays, which is computed by a
-    /// single logarithm wherever J is in range.
+    /// single logarithm if J is in range.
     Evaluation,
     /// Extension: a product of sums and of functions of single stretches.
     Extension,

@@ -101,7 +101,8 @@ fn new(declaration: &Declaration, model: &mut Model) -> TokenStream {
     }
 }
 
-/// Returns an error unless rest is inside the domain of the material of this name, if parameters decide that.
+/// Returns an error unless rest is inside the domain of the material of this name, if that depends on
+/// parameters.
 fn inside_at_rest(declaration: &Declaration, model: &mut Model, material: &Ident) -> Option<TokenStream> {
     let (places, values): (Vec<_>, Vec<_>) = model.bounds_at_rest.iter().copied().unzip();
     if values.is_empty() {
@@ -161,7 +162,7 @@ fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream
     let parameters = (!names.is_empty()).then(|| quote!(let Self { #(#names,)* .. } = self;));
     let restores = conditions.iter().map(|condition| check(declaration, condition, &quote!(restoring)));
     quote! {
-        /// Replaces what the material does outside its domain.
+        /// Replaces the behaviour outside the domain.
         ///
         /// # Errors
         /// Where the extension would not restore, or its threshold is outside 0 < ε < 1.
@@ -226,7 +227,7 @@ fn getter(declaration: &Declaration, parameter: &Parameter) -> TokenStream {
     }
 }
 
-/// Returns an error unless a condition holds, for every entry if it is written for one.
+/// Returns an error unless a condition holds, for every entry if it names one.
 fn check(declaration: &Declaration, condition: &Expr, check: &TokenStream) -> TokenStream {
     let text = condition_text(condition);
     let list = indexed_list(condition);

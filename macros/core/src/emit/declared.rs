@@ -82,8 +82,7 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     }
 }
 
-/// Each parameter as `values` give it; `function` writes those that are functions, from their names and
-/// types.
+/// Each parameter as `values` has it; `function` writes those that are functions, from their names and types.
 pub(super) fn read(
     declaration: &Declaration,
     function: &dyn Fn(&Ident, &Type) -> TokenStream,

@@ -77,7 +77,7 @@ fn outside(declaration: &Declaration) -> String {
     }
 }
 
-/// The sums that lose digits, those alone that are not the same by isotropy.
+/// The sums that lose digits, except those that are equal to others by isotropy.
 fn digits(declaration: &Declaration, model: &mut Model) -> String {
     let mut sums: Vec<(Vec<String>, String)> = Vec::new();
     for sum in model.lossy.clone() {
@@ -104,7 +104,7 @@ fn digits(declaration: &Declaration, model: &mut Model) -> String {
     )
 }
 
-/// The derivatives and quotients that are not the same by isotropy, and those by the invariants.
+/// The derivatives and quotients that are not equal to others by isotropy, and those by the invariants.
 fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
     let plain = &model.plain;
     let by_stretches = [

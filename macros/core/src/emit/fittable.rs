@@ -1,5 +1,5 @@
 //! The implementation of `Fittable`: the values of the parameters, the derivatives of the gradient with
-//! respect to them, and what keeps them admissible.
+//! respect to them, and the conditions that keep them admissible.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -12,7 +12,7 @@ use crate::algebra::expr::Id;
 use crate::model::{Constraint, Group, Limit, Model, Slopes};
 use crate::read::parse::{Declaration, Kind, Parameter};
 
-/// `impl Fittable`, where it is asked for.
+/// `impl Fittable`, if it is requested.
 pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let Some(by_parameters) = model.by_parameters.clone() else { return TokenStream::new() };
     let name = &declaration.name;
@@ -80,7 +80,7 @@ pub(super) fn fittable(declaration: &Declaration, model: &mut Model) -> TokenStr
     }
 }
 
-/// The method that makes the material anew around functions with other values.
+/// The method that rebuilds the material around functions with other values.
 fn with_values(declaration: &Declaration) -> TokenStream {
     let values =
         read(declaration, &|name, _| quote!(::piola::Univariate::with_values(&self.#name, values.slice())?));
@@ -168,7 +168,7 @@ fn differences(
     }
 }
 
-/// The constraints, one for each entry where they are on entries.
+/// The constraints, one for each entry if they are on entries.
 fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Constraint]) -> TokenStream {
     let (of_entries, of_numbers): (Vec<_>, Vec<_>) =
         constraints.iter().partition(|constraint| constraint.length.is_some());

@@ -20,7 +20,8 @@ pub(super) fn documentation(declaration: &Declaration) -> String {
     }
 }
 
-/// A block that gives where every function in an energy is defined at its argument; `None` without functions.
+/// A block that tells whether every function in an energy is defined at its argument; `None` without
+/// functions.
 pub(super) fn defined(
     declaration: &Declaration,
     model: &mut Model,

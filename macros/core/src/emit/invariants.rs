@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::read::domain::Volume;
 use crate::read::parse::Declaration;
 
-/// The constant that says so and the methods, if the energy is one of invariants.
+/// The constant for it and the methods, if the energy is one of invariants.
 pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Writer<'_>) -> TokenStream {
     let Some(invariants) = model.invariants.clone() else { return quote!() };
     let variables = ["I1", "I2", "J"].map(|name| format_ident!("{name}"));

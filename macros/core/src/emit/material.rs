@@ -78,7 +78,8 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     }
 }
 
-/// Properties of a material that no deformation decides: its pole, the end of its domain, its moduli.
+/// Properties of a material that do not depend on the deformation: its pole, the end of its domain, its
+/// moduli.
 fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let program = model.program(&model.moduli.clone());
     let (statements, outputs) = Writer::new(declaration).program(&program);
@@ -136,7 +137,7 @@ fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
     }
 }
 
-/// The methods that compute.
+/// The methods that evaluate the energy.
 fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let writer = &Writer::new(declaration);
     let [l1, l2, l3] = &declaration.stretches;
@@ -214,7 +215,8 @@ fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
     }
 }
 
-/// Below the threshold of an extension strains are not small, and the gradient by stretches is as good.
+/// The gradient at strains. Below the threshold of an extension strains are not small, and the gradient by
+/// stretches is as good.
 fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3]) -> TokenStream {
     let program = model.program(&model.at_strains.clone());
     let (statements, outputs) = writer.program(&program);
@@ -242,8 +244,8 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
     }
 }
 
-/// J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0, the last stretch being the smallest and carrying the sign; the
-/// other bounds are positive expressions, and functions know where they are defined.
+/// The test of the domain: J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0, the last stretch being the smallest and
+/// carrying the sign; the other bounds are positive expressions, and functions test their own arguments.
 fn admits(declaration: &Declaration, model: &mut Model, writer: &Writer<'_>) -> TokenStream {
     let program = model.program(&model.bounds.clone());
     let (statements, outputs) = writer.program(&program);

@@ -7,7 +7,7 @@ use quote::quote;
 use super::generics;
 use crate::read::parse::{Declaration, Entries, Kind};
 
-/// `impl Serialize` and `impl Deserialize`, if the attribute asks for them.
+/// `impl Serialize` and `impl Deserialize`, if the attribute requests them.
 ///
 /// Both go through a struct of the parameters with lists as vectors, because serde has no arrays of any
 /// length. Nothing but the two implementations leaves the block.

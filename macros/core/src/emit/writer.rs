@@ -16,7 +16,7 @@ pub(super) struct Writer<'a> {
     variables: [Ident; 3],
     /// The material whose parameters are read.
     material: Ident,
-    /// Before the number of a value; such that no declared name looks like a value.
+    /// Prefix of the number of a value; such that no declared name looks like a value.
     prefix: &'static str,
     /// The index of sums.
     pub(super) index: Ident,
@@ -223,8 +223,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A call of a function that is a parameter. No expression needs a higher derivative than there is; NaN
-    /// would not go unnoticed.
+    /// A call of a function that is a parameter. No expression needs a derivative of higher order than
+    /// exists; NaN would be noticed.
     fn function(&self, parameter: usize, method: Option<&&str>, arguments: &[impl ToTokens]) -> TokenStream {
         let Some(method) = method else { return literal(f64::NAN) };
         let (name, method) = (&self.declaration.parameters[parameter].name, format_ident!("{method}"));
@@ -247,7 +247,7 @@ impl<'a> Writer<'a> {
 const LOOKALIKES: [(&str, &str); 8] =
     [("α", "a"), ("γ", "y"), ("ι", "i"), ("ν", "v"), ("ο", "o"), ("ρ", "p"), ("σ", "o"), ("υ", "u")];
 
-/// The first of the names that the declaration has not taken, and that look like none that it has.
+/// The first of the names that the declaration has not taken, and that resembles none that it has.
 pub(super) fn free_name(declaration: &Declaration, candidates: &[&str]) -> Ident {
     let parameters = declaration.parameters.iter().map(|parameter| &parameter.name);
     let taken: Vec<_> = declaration.stretches.iter().chain(parameters).collect();
@@ -404,7 +404,7 @@ impl Names {
         self.0.get(&value).map(|text| &text.tokens)
     }
 
-    /// The value beside an operator, or as the receiver of a method.
+    /// The value next to an operator, or as the receiver of a method.
     fn operand(&self, value: Value) -> Option<TokenStream> {
         self.0.get(&value).map(|Text { tokens, is_operand }| match is_operand {
             true => tokens.clone(),

@@ -23,7 +23,7 @@ impl<'a> Source<'a> {
         smallest(&self.declaration.body, breaks, operands, Several::StayTogether)
     }
 
-    /// The smallest operand that holds what breaks a rule, the first one if it is written more than once.
+    /// The smallest operand that contains the culprit, the first one if it is written more than once.
     pub(crate) fn first_operand(&self, mut holds: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
         let holds = |part: &Expr| self.nodes.of(part).is_some_and(&mut holds);
         smallest(&self.declaration.body, holds, operands, Several::FirstIsMeant)

@@ -1,4 +1,4 @@
-//! The English of all findings: what is wrong, and what to write instead, ready to paste.
+//! Texts of all findings: the mistake, and a correction that is ready to paste.
 
 use quote::ToTokens;
 
@@ -14,7 +14,7 @@ use crate::read::notation::Notation;
 use crate::read::parse::identifiers;
 use crate::read::spelling::list;
 
-/// The longest term, in bytes, that a message quotes: a longer one is better read where it stands.
+/// The longest term, in bytes, that a message quotes: a longer one is better read in the source.
 const QUOTABLE: usize = 40;
 
 /// The longest stress, in bytes, to be appended: a longer one is better avoided than balanced.
@@ -256,7 +256,7 @@ impl Explainer<'_, '_> {
         format!("this leaves the stress `{stress}` at rest: {remedies}{meant}{mistyped}")
     }
 
-    /// The option for an energy whose stress at rest is meant, or is that of an incompressible solid.
+    /// The option for an energy whose stress at rest is intended, or is that of an incompressible solid.
     fn stress_is_meant(&self) -> String {
         match self.notation {
             Notation::Formula { free_rest: Some(option) } => {

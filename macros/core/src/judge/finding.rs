@@ -1,4 +1,4 @@
-//! The rules that an energy can break, as values: their English is in [`explain`](super::explain).
+//! The rules that an energy can break, as values: their texts are in [`explain`](super::explain).
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
@@ -25,7 +25,7 @@ pub(crate) enum Violation {
     NoSamples,
     /// Two stretches cannot be exchanged. The term is `None` if it is the whole energy.
     Anisotropic { exchanged: [usize; 2], term: Option<Id> },
-    /// Parts whose units do not go together.
+    /// Parts with inconsistent units.
     UnitsClash(Box<Clash>),
     /// The energy is in another power of Pa than the first.
     NotInPascals(Rational),
@@ -59,7 +59,7 @@ pub(crate) enum Violation {
     ExtendWithoutDomain,
 }
 
-/// Stress at rest, with what decides how it can be removed.
+/// Stress at rest, with the data that decide how it can be removed.
 pub(crate) struct Stressed {
     /// ψ1 at rest.
     pub(crate) stress: Id,

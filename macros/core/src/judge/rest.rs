@@ -15,7 +15,7 @@ use crate::printer::rust;
 use crate::read::parse::Declaration;
 use crate::read::resolve::isochoric;
 
-/// Finds what keeps ψ1, the gradient, from vanishing at λ = 1.
+/// Finds the stress that keeps ψ1, the gradient, from vanishing at λ = 1.
 pub(crate) fn rest(graph: &mut Graph, gradient: Id, samples: &[Point], findings: &mut Findings<'_>) {
     let source = findings.source;
     let declaration = source.declaration;

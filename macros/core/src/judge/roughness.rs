@@ -1,4 +1,4 @@
-//! Real powers of I1b − 3 and its kind: the stiffness at rest must be finite.
+//! Real powers of I1b − 3 and similar terms: the stiffness at rest must be finite.
 //!
 //! The stiffness of (I1b − 3)ⁿ goes with the strain to the power 2n − 2 (see [`excess`]): it is infinite at
 //! rest for n < 1. Roots may still occur where a sum is smooth, as in ln(1 − √X) + √X = −X/2 − …, so the
@@ -87,7 +87,8 @@ fn powers(graph: &Graph, energy: Id) -> Vec<(Id, Exponent)> {
     of_squares.filter_map(|argument| Some((argument.of, argument.real_exponent()?))).collect()
 }
 
-/// Points with parameters that are good at rest, and whether these are positive where conditions allow it.
+/// Points with parameters that are good at rest, each with true if these are positive where conditions allow
+/// it.
 fn draws(graph: &Graph, source: &Source<'_>) -> impl Iterator<Item = (Point, bool)> {
     let good = |seed, attempts: std::ops::Range<usize>| {
         let points = candidates(source, seed, attempts).map(with_equal_entries);

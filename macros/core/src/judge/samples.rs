@@ -1,4 +1,4 @@
-//! Points of the domain at which an energy is tried.
+//! Points of the domain for tests of an energy.
 
 use std::rc::Rc;
 
@@ -32,7 +32,7 @@ pub(crate) const POSITIVE: usize = CANDIDATES / 20;
 /// Fewer samples than this prove nothing.
 const FEWEST: usize = 2;
 
-/// Entries of a list beyond these are like those before.
+/// Longest list in samples: further entries are like the ones before.
 const LONGEST: usize = 8;
 
 /// Rounding errors of a few hundred operations, relative to the magnitudes that enter, stay below this.

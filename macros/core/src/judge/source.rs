@@ -1,4 +1,4 @@
-//! A declaration as the judges see it: its tokens and the expressions that they stand for.
+//! Interface of a declaration to the judges: its tokens and the expressions that they stand for.
 
 use quote::ToTokens;
 

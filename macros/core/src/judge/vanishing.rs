@@ -1,5 +1,5 @@
 //! Denominators and the arguments of logarithms, roots and real powers: they must stay away from zero, at
-//! rest and wherever the domain reaches.
+//! rest and everywhere in the domain.
 
 use super::argument::Argument;
 use super::finding::{Findings, Remedy, Vanishing, Violation};
@@ -67,8 +67,8 @@ pub(crate) fn limits(graph: &mut Graph, samples: &[Point], findings: &mut Findin
     }
 }
 
-/// The arguments that vanish inside the domain, each where the conditions on those before it hold, and what
-/// would help.
+/// The arguments that vanish inside the domain, each under the conditions on those before it, with a
+/// correction.
 pub(crate) fn vanishing(graph: &mut Graph, source: &Source<'_>) -> Vec<Vanishing> {
     let mut draws = draws(graph, source);
     let mut bounds = source.bounds.to_vec();

@@ -40,7 +40,7 @@ pub(super) struct Prepared {
     pub(super) bounds: Vec<Id>,
     /// True if real powers are taken of sums of squares, in the energy or in a bound.
     pub(super) has_squares: bool,
-    /// The ways on which sums are tried for cancellation.
+    /// The paths on which sums are tested for cancellation.
     pub(super) ways: Ways,
 }
 

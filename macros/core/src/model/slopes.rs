@@ -8,8 +8,8 @@ use crate::read::parse::Declaration;
 pub struct Slopes {
     /// Derivatives by formulas, a group for the numbers and one for the lists of each length.
     pub groups: Vec<Group>,
-    /// Parameters by which no formula differentiates: functions, and what would need a third derivative of
-    /// one.
+    /// Parameters by which no formula differentiates: functions, and those that would need a third derivative
+    /// of one.
     pub differences: Vec<usize>,
 }
 

@@ -32,7 +32,7 @@ impl Diagnostics {
         self.push(syn::Error::new_spanned(tokens, self.notation.message(&message.to_string())));
     }
 
-    /// Adds the mistake of a failed step and goes on.
+    /// Adds the mistake of a failed step and continues.
     pub fn take<T>(&mut self, result: syn::Result<T>) -> Option<T> {
         result.map_err(|error| self.push(error)).ok()
     }

@@ -1,4 +1,4 @@
-//! Number literals of a condition on parameters, with the types that Rust wants.
+//! Number literals of a condition on parameters, with the types that Rust requires.
 //!
 //! A condition is emitted as it is written. In an energy all numbers are real and need no types; in Rust the
 //! type of `3.0.sqrt()` is unknown, `mu > 0` compares with an integer, and `mu.powi(2.0)` is an error.

@@ -1,4 +1,4 @@
-//! The notation of a declaration, which is that of all code in messages about it.
+//! Notation of a declaration, which is also that of all code in messages about it.
 //!
 //! Messages quote Rust. About a formula, each piece of code in backticks is read as the expression that it is
 //! and written as formulas are: `J.powi(2)` as `J^2`, `domain(J > 0.0)` as `where J > 0`.
@@ -16,7 +16,7 @@ pub enum Notation {
     Rust,
     /// A formula, from which the declaration has been made.
     Formula {
-        /// The option that frees the rest state of stress, as the user writes it, if there is one.
+        /// The option that makes the rest state free of stress, as the user writes it, if there is one.
         free_rest: Option<&'static str>,
     },
 }
@@ -68,7 +68,7 @@ pub fn plain_name(name: &impl ToString) -> String {
     name.strip_prefix("r#").map(str::to_owned).unwrap_or(name)
 }
 
-/// Code of a message as a formula; what is none stays as it is.
+/// Code of a message as a formula; other text stays as it is.
 fn quotation(code: &str) -> String {
     match code {
         ".powi(2)" => return "x^2".to_owned(),
@@ -161,7 +161,7 @@ fn is_left_out(expression: &Expr) -> bool {
     matches!(expression, Expr::Path(path) if path.path.is_ident(LEFT_OUT))
 }
 
-/// A number without the decimal point that Rust wants.
+/// A number without the decimal point that Rust requires.
 fn number(literal: &Lit) -> Option<String> {
     let text = match literal {
         Lit::Int(number) => number.base10_digits().to_owned(),

@@ -20,7 +20,8 @@ mod stretches;
 mod sums;
 mod tensors;
 
-/// The advice for a name that papers use for what an energy writes in another way, such as `trC`.
+/// The advice for a name that papers use for an expression with another notation in declarations, such as
+/// `trC`.
 #[must_use]
 pub fn advice(name: &str) -> Option<&'static str> {
     paper_notation::name(name)
@@ -49,7 +50,7 @@ pub struct Resolver<'a> {
 /// Terms of a sum that is built and underlined as a whole, and not from the sum of all terms but the last.
 pub(crate) const LONG_SUM: usize = 64;
 
-/// The node of a mistake: NaN, which no literal is.
+/// The node of a mistake: NaN, which no literal has.
 const UNKNOWN: Node = Node::Float(f64::NAN.to_bits());
 
 /// The message about a power in the notation of another language.
@@ -162,7 +163,8 @@ impl<'a> Resolver<'a> {
         energy
     }
 
-    /// The difference that a comparison of the domain wants positive, `left − right` or `right − left`.
+    /// The difference that a comparison of the domain requires to be positive, `left − right` or `right −
+    /// left`.
     pub fn bound(&mut self, comparison: &Expr) -> Option<Id> {
         let difference = self.difference(comparison);
         if difference.is_none() {
@@ -174,8 +176,8 @@ impl<'a> Resolver<'a> {
         difference
     }
 
-    /// The difference that a comparison of parameters wants positive. One of entries `mu[p]` is summed:
-    /// enough to steer samples, which use equal signs for all entries.
+    /// The difference that a comparison of parameters requires to be positive. A comparison of entries
+    /// `mu[p]` is summed: enough to steer samples, which use equal signs for all entries.
     pub fn condition(&mut self, comparison: &Expr) -> Option<Id> {
         let outer = std::mem::replace(&mut self.scope, Scope::Parameters);
         self.index = indexed_list(comparison).map(|(_, index)| Index::new(index));
@@ -268,7 +270,7 @@ impl<'a> Resolver<'a> {
         self.note(expression, id)
     }
 
-    /// Keeps the node of an expression.
+    /// Records the node of an expression.
     fn note(&mut self, expression: &Expr, mut id: Id) -> Id {
         // The innermost expression that overflows reports it and is marked as a mistake.
         if self.graph.take_overflow() {

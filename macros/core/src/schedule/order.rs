@@ -17,7 +17,7 @@ use crate::algebra::rational::Rational;
 /// A base with an exponent, one of those into which [`parts`] takes powers.
 type Factor = (Id, Exponent);
 
-/// Data that decide on the order: degrees, and the products of a program.
+/// Data for the order: degrees, and the products of a program.
 pub(super) struct Order<'d> {
     degrees: &'d mut Degrees,
     /// The factors of each product, the n-th of one kind with the index of the set of products that have n or
@@ -95,7 +95,7 @@ impl<'d> Order<'d> {
     }
 }
 
-/// Powers split into factors that stay in range: x^(−7/3) may leave it where x^(−1/3) and x^(−1) do not.
+/// Powers split into factors that stay in range: x^(−7/3) may leave it although x^(−1/3) and x^(−1) do not.
 fn apart(factors: &[Factor]) -> Vec<Factor> {
     let mut apart = Vec::with_capacity(factors.len());
     for &(base, exponent) in factors {

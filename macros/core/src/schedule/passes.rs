@@ -2,7 +2,7 @@
 
 use super::program::{Op, Program, Statement, Value};
 
-/// Fuses a b + c, c − a b and a b − c into one operation where the product is used nowhere else, given the
+/// Fuses a b + c, c − a b and a b − c into one operation if the product is used nowhere else, given the
 /// number of values.
 pub(super) fn fuse_multiply_add(mut program: Program, values: usize) -> Program {
     let mut uses = vec![0; values];

@@ -1,4 +1,4 @@
-//! Powers of each base: which ones are needed, and which one of them is computed.
+//! Powers of each base: those that are needed, and the one that is computed.
 
 use rustc_hash::FxHashMap;
 
@@ -6,7 +6,7 @@ use crate::algebra::divided::LARGEST_ROOT;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
-/// The powers of each base that are needed, to choose the one that is computed.
+/// The powers of each base that are needed, from which the computed one is chosen.
 pub(super) struct Powers {
     /// Common denominator of the simple fractional exponents of a base.
     denominators: FxHashMap<Id, i128>,

@@ -71,7 +71,7 @@ pub enum Op {
     AboveZero(Value),
     /// min(first − second, 0).
     Below(Value, Value),
-    /// The second value where the first is negative, else the third.
+    /// The second value if the first is negative, else the third.
     WhereNegative(Value, Value, Value),
     /// Fraction of the interval between the first two that lies above the third.
     ShareAbove(Value, Value, Value),

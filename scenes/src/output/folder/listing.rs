@@ -98,7 +98,7 @@ impl Listing {
         Ok(())
     }
 
-    /// Takes the name back that was added last, whose file somebody else may have created.
+    /// Removes the name that was added last, whose file somebody else may have created.
     pub(super) fn withdraw(&mut self, name: &str) {
         self.names.remove(name);
         let length = self.file.metadata().map(|metadata| metadata.len());

@@ -62,7 +62,7 @@ impl Elementary {
         Self::ALL.into_iter().find(|function| function.name() == name)
     }
 
-    /// Its value at zero where that is a whole number.
+    /// Its value at zero if that is a whole number.
     pub(crate) fn at_zero(self) -> Option<i64> {
         match self {
             Self::Cos | Self::Cosh => Some(1),

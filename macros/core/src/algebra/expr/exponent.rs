@@ -28,7 +28,7 @@ impl Exponent {
         Self::rational(Rational::integer(value))
     }
 
-    /// The whole number it is, if it is one.
+    /// The exponent as a whole number, if it is one.
     #[must_use]
     pub fn as_integer(self) -> Option<i64> {
         if self.real.is_some() { None } else { self.rational.as_integer() }

@@ -1,4 +1,4 @@
-//! Lengths of lists, and which lists have the same one.
+//! Lengths of lists, and the lists that share one.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote};
@@ -37,7 +37,7 @@ impl Entries {
         }
     }
 
-    /// The number as people write it: `3`, `N`, or `N_mu` where `N` alone could be another length.
+    /// The number in the usual notation: `3`, `N`, or `N_mu` if `N` alone could be another length.
     #[must_use]
     pub fn text(&self, declaration: &Declaration) -> String {
         let is_other = |other: &Self| other.are_known_at_run_time() && other.first() != self.first();

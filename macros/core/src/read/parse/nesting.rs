@@ -7,12 +7,12 @@ use proc_macro2::{Delimiter, Group, Punct, Span, TokenStream, TokenTree};
 
 use crate::read::notation::Notation;
 
-/// Levels that a declaration may have. Each takes up to 20 kB of stack where a macro is compiled without
+/// Maximum depth of a declaration. Each level takes up to 20 kB of stack if a macro is compiled without
 /// optimisation, and an editor may expand it in a thread of 2 MiB.
 const DEEPEST: usize = 64;
 
-/// Terms of a sum, or factors of a product, that a declaration read at run time may have: syntax nests a term
-/// in all that follow it.
+/// Maximum number of terms of a sum, or factors of a product, in a declaration that is read at run time:
+/// syntax nests a term in all that follow it.
 const LONGEST: usize = 1000;
 
 /// The tokens of a group that are left, and their depth.
@@ -84,8 +84,8 @@ pub(super) fn check(tokens: &TokenStream, notation: Notation) -> syn::Result<()>
     check_to(DEEPEST, tokens, notation)
 }
 
-/// Checks that the tokens of a file are nested no deeper than its parser bears. What is in it is checked
-/// later, with its own limit.
+/// Checks that the tokens of a file are not nested too deeply for its parser. Its contents are checked later,
+/// with their own limit.
 ///
 /// # Errors
 /// A mistake at the token that is too deep.

@@ -27,7 +27,7 @@ pub struct Options {
     /// The rest state may carry stress or lack stiffness: the stress is meant, or the energy is a part of a
     /// sum.
     pub prestressed: bool,
-    /// Derivatives by the parameters are asked for.
+    /// Derivatives by the parameters are requested.
     pub fit: bool,
     /// The material is written and read by serde.
     pub serde: bool,
@@ -49,7 +49,7 @@ const FORMS: [(&str, &str); 9] = [
 ];
 
 impl Options {
-    /// Understands what it can and reports the rest.
+    /// Reads all valid arguments and reports the rest.
     pub(super) fn read(arguments: TokenStream, diagnostics: &mut Diagnostics) -> Self {
         let mut options = Self::default();
         if diagnostics.take(nesting::check(&arguments, diagnostics.notation())).is_none() {

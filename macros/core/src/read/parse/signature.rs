@@ -12,7 +12,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::notation::Notation;
 use crate::read::spelling::taken;
 
-/// Members of every material, which the method of a parameter of that name would hide.
+/// Members of every material, which a method for a parameter of the same name would hide.
 const MEMBERS: [&str; 37] = [
     // Of the type and of the traits of the language.
     "new",
@@ -58,7 +58,7 @@ const MEMBERS: [&str; 37] = [
     "on_lanes",
 ];
 
-/// Values that are patterns wherever they stand, so that no argument can have their name.
+/// Values that are patterns everywhere, so that no argument can have their name.
 const PATTERNS: [&str; 4] = ["Some", "None", "Ok", "Err"];
 
 /// The parameters of a signature, with the lengths of the lists among them.
@@ -69,8 +69,8 @@ pub(super) struct Lists {
     pub(super) mistaken: Vec<Ident>,
 }
 
-/// Types and crates that a material of their name would hide from its own expansion, and that a length of
-/// their name would be taken for.
+/// Types and crates that a material of the same name would hide from its own expansion, and for which a
+/// length of the same name would be taken.
 const TYPES: [&str; 22] = [
     "bool", "char", "f16", "f32", "f64", "f128", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8",
     "u16", "u32", "u64", "u128", "usize", "core", "std", "__p",
@@ -94,7 +94,7 @@ fn is_raw(name: &Ident) -> bool {
     name.to_string().starts_with("r#")
 }
 
-/// Reports what only functions that run can have.
+/// Reports features that only executable functions can have.
 pub(super) fn plain(signature: &Signature, diagnostics: &mut Diagnostics) {
     let safety = (!matches!(signature.safety, Safety::Default)).then_some(&signature.safety);
     let superfluous = [
@@ -115,7 +115,7 @@ pub(super) fn plain(signature: &Signature, diagnostics: &mut Diagnostics) {
 pub(super) struct Generics {
     /// Lengths of lists.
     pub(super) lengths: Vec<Ident>,
-    /// Types, which a declaration cannot have: wherever they stand, `f64` was meant.
+    /// Types, which a declaration cannot have: `f64` was meant.
     types: Vec<Ident>,
 }
 
@@ -125,7 +125,7 @@ impl Generics {
     }
 }
 
-/// The lengths of lists, and what is none.
+/// The lengths of lists, and all other generics.
 pub(super) fn generics(signature: &Signature, diagnostics: &mut Diagnostics) -> Generics {
     let Generics { lengths: mut names, mut types } = Generics::default();
     for generic in &signature.generics.params {

@@ -34,7 +34,7 @@ pub struct Values {
 }
 
 impl Typical {
-    /// Understands the argument; which parameters there are is not known yet.
+    /// Reads the argument; the names of the parameters are not known yet.
     pub(super) fn read(word: &Ident, tokens: &TokenStream, diagnostics: &mut Diagnostics) -> Option<Self> {
         let parser = |input: syn::parse::ParseStream<'_>| {
             let source = input.parse()?;

@@ -25,7 +25,7 @@ const METHODS: [(&str, &str); 10] = [
     ("log", ".log(2.0)"),
 ];
 
-/// Methods that a message offers where no name is near, each with an example; [`Elementary`] has more.
+/// Methods that a message offers if no similar name exists, each with an example; [`Elementary`] has more.
 const OFFERED: [&str; 6] = [".powi(2)", ".powf(alpha)", ".ln()", ".exp()", ".sqrt()", ".tanh()"];
 
 /// Functions of `f64` whose derivatives jump.
@@ -204,7 +204,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// The message about an exponent that is made of whole ones.
+    /// The message about an exponent that is computed from whole ones.
     fn no_whole_exponent(&self, argument: &Expr) -> Option<String> {
         if let Expr::Paren(inner) = argument {
             return self.no_whole_exponent(&inner.expr);

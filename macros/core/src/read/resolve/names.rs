@@ -118,7 +118,7 @@ impl Resolver<'_> {
         parameters.find(|parameter| parameter.length().is_some()).map(|parameter| &parameter.name)
     }
 
-    /// The message about the index of a sum in place of a number.
+    /// The message about the index of a sum used as a number.
     fn index_as_number(&self, index: &str) -> String {
         let list = self.first_list().map_or("mu".to_owned(), Ident::to_string);
         let exponents = if index == "n" { "k" } else { "n" };
@@ -133,7 +133,7 @@ impl Resolver<'_> {
         message + self.diagnostics.notation().either(&in_rust, "")
     }
 
-    /// The mistake of a name of the deformation in a condition on parameters.
+    /// Error for a name of the deformation in a condition on parameters.
     fn deformation(&mut self, name: &Ident) -> Id {
         let message =
             format!("`{name}` is not a parameter: conditions on the deformation stand in `domain(…)`");

@@ -1,4 +1,4 @@
-//! Notation of papers that a declaration writes in another way.
+//! Notation of papers that has another form in declarations.
 
 use super::tensors;
 use crate::read::notation::Notation;

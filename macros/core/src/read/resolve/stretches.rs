@@ -75,7 +75,7 @@ impl Resolver<'_> {
         join_sums(self.graph, sum)
     }
 
-    /// A stretch; by invariants, what stands for one.
+    /// A stretch; by invariants, its replacement.
     pub(super) fn stretch(&mut self, i: Stretch) -> Id {
         match self.scope {
             Scope::Invariants => self.graph.leaf(Node::Strain(i)),

@@ -196,7 +196,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Marks the enclosing sum as not to blame: an entry in it has a mistake of its own.
+    /// Marks the enclosing sum as correct: an entry in it has a mistake of its own.
     pub(super) fn excuse(&mut self) {
         if let Some(index) = &mut self.index {
             index.is_excused = true;
