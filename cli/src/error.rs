@@ -23,7 +23,7 @@ pub enum Error {
     Viewer(ViewerError),
     /// A file that names its scene is given together with a scene or its options.
     #[error(
-        "the file names its scene and options itself; leave out all but --load, --mesh and --surface of its body, \
+        "the file contains its scene and options; leave out all options except --load, --mesh and --surface of its body, \
          --port and --save"
     )]
     ScenesOwn,
@@ -96,7 +96,7 @@ pub enum Error {
     #[error("`piola curve all` compares energies with measured points: add --data FILE, or --data treloar")]
     RankedWithoutData,
     /// Ranking of all rubbers with an option for one material.
-    #[error("`piola curve all` has no use for {0}: it fits all parameters to all points, at constant volume")]
+    #[error("`piola curve all` cannot use {0}: it fits all parameters to all points, at constant volume")]
     RankedWith(
         /// The option, such as `--param`.
         &'static str,
@@ -129,7 +129,7 @@ pub enum Error {
     },
     /// A unit is given without measured points.
     #[error(
-        "--unit is of measured points: add --data FILE, or leave it out; units of parameters are written behind them"
+        "--unit applies to measured points: add --data FILE, or leave it out; units of parameters are written behind them"
     )]
     UnitWithoutData,
     /// Parameters cannot be fitted to the data.

@@ -93,7 +93,7 @@ fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCo
     let place = folder.display();
     say(format_args!("{summary}\n  surfaces, frames.png and summary.json are in {place}"))?;
     summary.warnings.iter().for_each(warn_of);
-    let again = format!("; the same command with --out {place} --resume goes on from there");
+    let again = format!("; the same command with --out {place} --resume continues from there");
     let frames = summary.frames;
     match summary.ended {
         Ended::Interrupted => warn(format_args!("interrupted after {frames} steps{again}")),

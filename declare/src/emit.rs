@@ -214,20 +214,18 @@ pub enum EmitError {
     #[error(transparent)]
     Parameters(#[from] MaterialError),
     /// A parameter is a function.
-    #[error(
-        "the parameter `{0}` is a function, which has no text that could be printed: write it into the energy"
-    )]
+    #[error("the parameter `{0}` is a function, which cannot be printed: write its formula into the energy")]
     Function(Text),
     /// A prefix is not a name.
     #[error(
-        "`{0}` is not a name: letters of ASCII, digits and `_` make one, a letter in front and no `_` at the end or beside another; choose another prefix"
+        "`{0}` is not a name: letters of ASCII, digits and `_` make one, a letter in front and no `_` at the end or next to another; choose another prefix"
     )]
     Prefix(String),
     /// The language has no numbers of that precision.
-    #[error("WGSL has no numbers of 64 bits: ask for the precision f32, or for another target")]
+    #[error("WGSL has no numbers of 64 bits: choose the precision f32, or for another target")]
     Precision,
     /// No function is requested.
-    #[error("no function is asked for; there are: {}", PointFunction::ALL.map(PointFunction::name).join(", "))]
+    #[error("no function is requested; there are: {}", PointFunction::ALL.map(PointFunction::name).join(", "))]
     Nothing,
     /// A parameter selects the program, which cannot be recorded.
     #[error(transparent)]

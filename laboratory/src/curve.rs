@@ -241,7 +241,7 @@ pub enum ResponseError {
     OutsideDomain,
     /// No stretch of the sides between a thousandth and a thousand times that of constant volume makes them
     /// free of stress.
-    #[error("no lateral stretch frees the sides of stress")]
+    #[error("no lateral stretch makes the sides free of stress")]
     NoEquilibrium,
     /// A volumetric test of a specimen whose volume is kept.
     #[error("a volumetric test changes the volume; leave it free, or leave the test out")]

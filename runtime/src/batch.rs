@@ -414,7 +414,7 @@ impl fmt::Display for LengthError {
             points.saturating_mul(*components)
         )?;
         if *group > 1 {
-            write!(f, ", and the layout in lines wants a multiple of {group} points")?;
+            write!(f, ", and the layout in lines requires a multiple of {group} points")?;
         }
         Ok(())
     }

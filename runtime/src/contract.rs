@@ -147,7 +147,7 @@ pub struct Finding {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { rule, comparisons, worst } = self;
-        write!(f, "{rule}: {comparisons} comparisons, the worst at {worst:.2} of what rounding explains")
+        write!(f, "{rule}: {comparisons} comparisons, the worst at {worst:.2} of its tolerance")
     }
 }
 

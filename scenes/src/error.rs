@@ -26,7 +26,7 @@ pub enum Error {
         known: Vec<&'static str>,
     },
     /// An option for random starts is given for a scene with another start.
-    #[error("the scene `{scene}` has no use for {option}: only {} displace nodes at random", list(known))]
+    #[error("the scene `{scene}` does not use {option}: only {} displace nodes at random", list(known))]
     NotScrambled {
         /// The option, such as `--seed`.
         option: &'static str,
@@ -173,7 +173,7 @@ pub enum Error {
         source: io::Error,
     },
     /// The folder contains files that have names of results but were not written by a run.
-    #[error("the folder {} holds files that piola has not written: {}", folder.display(), some(names))]
+    #[error("the folder {} contains files that piola has not written: {}", folder.display(), some(names))]
     ForeignFiles {
         /// The folder.
         folder: PathBuf,
@@ -187,13 +187,13 @@ pub enum Error {
         folder: PathBuf,
     },
     /// No run to continue.
-    #[error("the folder {} holds no run that could go on", folder.display())]
+    #[error("the folder {} contains no run to continue", folder.display())]
     NothingToResume {
         /// The folder.
         folder: PathBuf,
     },
     /// The run in the folder cannot continue with these settings.
-    #[error("the run in {} cannot go on: {reason}", folder.display())]
+    #[error("the run in {} cannot continue: {reason}", folder.display())]
     Resume {
         /// The folder.
         folder: PathBuf,

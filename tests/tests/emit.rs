@@ -256,7 +256,7 @@ fn mistakes_say_what_to_do() {
     );
     assert!("fortran".parse::<Target>().expect_err("unknown").to_string().contains("known are: c"));
     let double = emit(Emission::new(Target::Wgsl).with_precision(Precision::F64));
-    assert!(double.contains("ask for the precision f32"), "{double}");
+    assert!(double.contains("choose the precision f32"), "{double}");
     assert!("f16".parse::<Precision>().expect_err("unknown").to_string().contains("f32, f64"));
 }
 

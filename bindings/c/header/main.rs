@@ -12,7 +12,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if std::env::args().nth(1).is_some_and(|argument| argument == "write") {
         std::fs::write(&file, &made)?;
     } else if made != std::fs::read(&file)? {
-        return Err("include/piola.h is out of date: the same command with `write` makes it anew".into());
+        return Err("include/piola.h is out of date: run the same command with `write` to update it".into());
     }
     Ok(())
 }

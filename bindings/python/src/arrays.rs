@@ -144,7 +144,7 @@ impl<'py, E: Element> Input<'py, E> {
                 let array = given.cast::<PyArrayDyn<E>>().map_err(|_| {
                     let (found, wanted) = (kind(given), dtype::<E>(py));
                     type_error(format!(
-                        "out is {found}; it must be an array of {wanted}, which the result is"
+                        "out is {found}; it must be an array of {wanted}, the type of the result"
                     ))
                 })?;
                 if array.shape() != shape {
@@ -237,7 +237,7 @@ pub(crate) fn indices<const N: usize>(name: &str, given: &Bound<'_, PyAny>) -> P
     let is_whole = matches!(array.dtype().kind(), b'i' | b'u');
     if !is_whole && array.len() > 0 {
         let (found, is_mask) = (kind(&array), array.dtype().kind() == b'b');
-        let advice = if is_mask { ", which numpy.flatnonzero makes of a mask" } else { "" };
+        let advice = if is_mask { ", such as numpy.flatnonzero returns for a mask" } else { "" };
         return Err(type_error(format!("{name} is {found}; it must be an array of whole numbers{advice}")));
     }
     let array: Bound<'_, PyArrayDyn<i64>> = converted(&array)?;

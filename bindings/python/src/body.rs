@@ -165,7 +165,7 @@ impl Body {
         match &part_of {
             None if materials.len() != 1 => {
                 return Err(BodyError::new_err(
-                    "several materials need `parts`, which says where each of them is",
+                    "several materials need `parts`, the material of each tetrahedron",
                 ));
             }
             Some(part_of) if part_of.len() != mesh.tets.len() => {
@@ -247,7 +247,7 @@ impl Body {
     ) -> PyResult<Bound<'py, PyAny>> {
         let sparse = py.import("scipy.sparse").map_err(|cause| {
             let error = PyImportError::new_err(
-                "Body.stiffness makes a matrix of scipy: install scipy, or take Body.stiffness_blocks, which gives arrays",
+                "Body.stiffness returns a matrix of scipy: install scipy, or use Body.stiffness_blocks, which returns arrays",
             );
             error.set_cause(py, Some(cause));
             error

@@ -207,7 +207,7 @@ def test_an_energy_is_printed_as_c():
     assert "unsigned rubber_stress(const rubber_parameters *p, const float F[9], float P[9])" in text
     assert "rubber_tangent" not in text and "{1000000.0f, 5000000.0f}" in text
     assert "fn rubber_stress(" in rubber.emit("wgsl", name="rubber", functions=["stress"])
-    assert "ask for the precision f32" in message(piola.MaterialError, lambda: rubber.emit("wgsl", precision="f64"))
+    assert "choose the precision f32" in message(piola.MaterialError, lambda: rubber.emit("wgsl", precision="f64"))
     assert "known are: c" in message(ValueError, lambda: rubber.emit("fortran"))
     assert "unknown function `forces`" in message(ValueError, lambda: rubber.emit("c", functions=["forces"]))
     assert "is not a name" in message(piola.MaterialError, lambda: rubber.emit("c", name="a b"))

@@ -124,7 +124,7 @@ impl Curve {
         match &agreement {
             None => {}
             Some(Ok(agreement)) => text += &format!("R²: {agreement}\n"),
-            Some(Err(unanswered)) => text += &format!("R²: none, for there is no stress in {unanswered}\n"),
+            Some(Err(unanswered)) => text += &format!("R²: none, since there is no stress in {unanswered}\n"),
         }
         if let Some(file) = &self.svg {
             let compared = data.as_ref().zip(agreement.as_ref().and_then(|found| found.as_ref().ok()));

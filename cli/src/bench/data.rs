@@ -10,18 +10,18 @@ use crate::overlap::refuse_overlaps;
 
 /// Contents of files, below the help of each command that reads measurements.
 pub(super) const HELP: &str = "\
-Files of measured points, as test machines, spreadsheets and papers have them:
+Files of measured points, as written by test machines and spreadsheets:
   separators  commas, semicolons, tabs or spaces; decimals with a point or a comma
   columns     by the words of their headers: `stretch`; `strain` (nominal), `true strain`, `shear strain`,
               `volume ratio`, `volume strain`; `stress` (nominal), `true stress`, `pressure`; `mode`.
-              True stress σ becomes nominal stress P = σ/λ, as of an incompressible solid
+              True stress σ becomes nominal stress P = σ/λ, as for an incompressible solid
   units       behind the name or in a row below, as in `strain [%]`, `stress (MPa)`: Pa, kPa, MPa, GPa, psi,
               ksi, bar, atm, kgf/cm2, kgf/mm2, dyn/cm2, N/mm2
   tests       uniaxial (UT, tension, compression), equibiaxial (ET, EB, BT, biaxial), pure_shear (PS, planar),
               simple_shear (SS), volumetric (hydrostatic), in a column `mode` or by --mode
   without a header: a stretch and a nominal stress, with --mode and --unit
   decks       blocks such as *UNIAXIAL TEST DATA, with nominal stress and nominal strain, and --unit
-What was read, and what was left out, is said for each file.";
+The output names what was read and what was left out of each file.";
 
 /// Measured points, with tests and units that their files do not name.
 #[derive(Debug, Args)]

@@ -91,7 +91,7 @@ impl Fit {
                 }
                 (Standing::Free, None) => text.push('\n'),
                 (Standing::Held, _) => text += " held\n",
-                (Standing::Unidentifiable, _) => text += " held: the data say nothing about it\n",
+                (Standing::Unidentifiable, _) => text += " held: the data do not determine it\n",
             }
         }
         text += &format!("  R²           {}\n", fit.agreement);

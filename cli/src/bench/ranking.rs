@@ -22,12 +22,12 @@ pub(super) const HELP: &str = "\
 The ranking of `piola curve all --data FILE`:
   energy     those of `piola materials` whose typical parameters are of rubber, from which each fit begins,
              at constant volume and such that R² is greatest
-  n          how many parameters were fitted: those that say nothing at constant volume do not count
+  n          number of fitted parameters, without those that have no effect at constant volume
   R²         1 − Σ (P − P̂)²/Σ (P − P̄)² of all points together, rest among them as in a spreadsheet, P̄ being
              the mean of the measured stresses P; then that of the points of each test, with the mean of these
-  R²/n       R² of all points by n: it compares energies of like R²
-  stability  whether Baker–Ericksen (BE), Hill and strong ellipticity (SE) hold for all changes of shape at
-             constant volume from rest to the ends of the data, or where each is lost nearest to rest";
+  R²/n       R² of all points divided by n, to compare energies with similar R²
+  stability  Baker–Ericksen (BE), Hill and strong ellipticity (SE), for all changes of shape at constant
+             volume from rest to the ends of the data: kept, or lost at the test and stretch nearest to rest";
 
 /// The note below the title of the chart.
 const NOTE: &str = "fitted so that R² of all points is greatest; n parameters; stability up to the ends of the data: \

@@ -132,7 +132,7 @@ impl Connection<'_> {
     fn ping(&mut self) -> Result<(), End> {
         let silence = self.heard.elapsed();
         if silence > self.patience.silence {
-            return Err(End::Because(CloseCode::Away, "the page has given no sign of life".into()));
+            return Err(End::Because(CloseCode::Away, "the page does not answer".into()));
         }
         if silence > self.patience.ping && !self.is_pinged {
             self.is_pinged = true;

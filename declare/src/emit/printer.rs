@@ -95,7 +95,7 @@ impl<'a> Printer<'a> {
  * inputs.
  *
  * Functions return bits: 1 refused (outside of the domain), 2 bounded (at a pole), 4 not finite, 8 filtered.
- * With 1 or 4 the results mean nothing. Call {prefix}_check once for each set of parameters. Those that the
+ * With 1 or 4 the results are invalid. Call {prefix}_check once for each set of parameters. Those that the
  * file was made with: {}.
  *
  * {}

@@ -99,7 +99,7 @@ fn unreadable(formula: &str) -> Mistake {
     let is_known = |c: char| c.is_alphanumeric() || c.is_whitespace() || "_+-*/^()[].,<>=!".contains(c);
     let strange = formula.chars().position(|c| !is_known(c) && raised(c).is_none() && lowered(c).is_none());
     Mistake {
-        message: "this is in no formula: names are made of letters, digits and `_`, numbers are written as `1.5e6`, and \
+        message: "this cannot be part of a formula: names are made of letters, digits and `_`, numbers are written as `1.5e6`, and \
                   parts are joined by `+ - * / ^`"
             .to_owned(),
         place: strange.and_then(|k| Place::at(formula, k)),

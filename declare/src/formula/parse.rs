@@ -416,7 +416,9 @@ impl Parser {
                     let value =
                         value.map_or("give it one".to_owned(), |form| format!("give it one by `{form}`"));
                     match advice {
-                        Some(advice) => format!("{value}, or, if it is what papers mean by it, {advice}"),
+                        Some(advice) => {
+                            format!("{value}, or, if it has its usual meaning in papers, {advice}")
+                        }
                         None => value,
                     }
                 }
@@ -583,7 +585,7 @@ impl Tokens {
             Some(token) => {
                 let message = match token.to_string().as_str() {
                     "." => "functions are written before their arguments, as in `ln(J)`".to_owned(),
-                    "=" => "an equation has nothing to do here: write the energy alone".to_owned(),
+                    "=" => "an equation is not expected here: write the energy alone".to_owned(),
                     "," => "parts of a formula are joined by `+ - * / ^`; a decimal point is `.`".to_owned(),
                     other => format!(
                         "`{other}` is not expected here: parts of a formula are joined by `+ - * / ^`"

@@ -79,7 +79,7 @@ impl fmt::Display for Ended {
             Self::Exact => "the curves go through the data",
             Self::Stationary => "no change of the parameters improves the fit",
             Self::Settled => "the parameters no longer change except by rounding",
-            Self::Edge => "at an edge of what the energy accepts",
+            Self::Edge => "at an edge of the admissible parameters",
             Self::Unfinished => "not at a minimum yet when the evaluations were exhausted",
         })
     }
@@ -149,12 +149,12 @@ impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unidentifiable { parameter } => {
-                write!(f, "the data say nothing about {parameter}, which keeps its value")
+                write!(f, "the data do not determine {parameter}, which keeps its value")
             }
             Self::Collinear { changes, effect } => match changes.as_slice() {
                 [(name, _)] => write!(
                     f,
-                    "the data say little about {name}: a change by 1 % changes the fit by {}; hold it (`--hold {name}`, \
+                    "the data hardly determine {name}: a change by 1 % changes the fit by {}; hold it (`--hold {name}`, \
                      `FitSettings::with_held`), or add data of other tests",
                     Percent(*effect)
                 ),
@@ -164,7 +164,7 @@ impl fmt::Display for Warning {
                     let name = changes.first().map_or("", |(name, _)| name);
                     write!(
                         f,
-                        "the data say little about {}: changed together in this proportion, they change the fit by {}; \
+                        "the data hardly determine {}: changed together in this proportion, they change the fit by {}; \
                          hold one of them (such as `--hold {name}`, `FitSettings::with_held`), or add data of other tests",
                         together.join(", "),
                         Percent(*effect)
@@ -201,14 +201,14 @@ impl fmt::Display for Warning {
                     false => write!(
                         f,
                         "the solid is the same with {there} as with {here}: a term has vanished, two terms have become \
-                         one, or parameters make up for each other; hold one of them {hold}, or leave the term out"
+                         one, or parameters compensate each other; hold one of them {hold}, or leave the term out"
                     ),
                 }
             }
             Self::Edge { reason } => {
                 write!(
                     f,
-                    "the search ended at an edge of what the energy accepts, and a better fit is beyond: there {reason}"
+                    "the search ended at an edge of the admissible parameters, and a better fit is beyond: there {reason}"
                 )?;
                 for (entry, number) in reason.entries() {
                     write!(f, " ({entry} is the number {number})")?;

@@ -228,7 +228,7 @@ fn read_into(
     let admissible: Vec<_> = restoring.chain(constrained.iter().copied().flatten()).collect();
     let mut nodes = resolver.into_nodes();
     if deepest < usize::MAX && graph.depth(&[energy]) > deepest {
-        let message = format!("this is nested more than {deepest} deep, what `let` names included");
+        let message = format!("this is nested more than {deepest} deep, names of `let` included");
         diagnostics.error(&declaration.body, message);
         return None;
     }

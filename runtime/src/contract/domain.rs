@@ -43,7 +43,7 @@ pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Find
         let decides = material.admits([l1, l2, tiny]) != material.admits([l1, l2, -tiny]);
         let is_true = !decides || material.ends_at_zero_volume();
         let name = || "truth of `ends_at_zero_volume`".into();
-        let advice = "the material admits these stretches or their mirror image, but not both: let `ends_at_zero_volume` give `true`";
+        let advice = "the material admits these stretches or their mirror image, but not both: let `ends_at_zero_volume` return `true`";
         judge.holds(name, [l1, l2, tiny], is_true, advice)
     })
 }
@@ -52,7 +52,7 @@ pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Find
 fn remedy(material: &dyn Subject, [_, _, l3]: [f64; 3], found: f64) -> String {
     const NONE: &str = "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of \
                         something negative?): add a condition to `domain(…)`, or to `admissible(…)` if a parameter divides by zero; \
-                        let a function that is a parameter say by `admits` where it is defined; or, where I1 − 3 may not be \
+                        let `admits` of a function that is a parameter tell where it is defined; or, where I1 − 3 may not be \
                         negative, write `I1b` for `I1`, which is 3 or more wherever J > 0";
     const BEYOND: &str = "the domain admits these stretches, but the number overflows there: where a denominator or the argument of \
                           a logarithm vanishes, add a condition to `domain(…)`, or to `admissible(…)` if it is one of parameters \

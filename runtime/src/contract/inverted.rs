@@ -113,8 +113,8 @@ fn admitted(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> R
     if !material.admits([l1, l2, l3.abs()]) {
         return Ok(false);
     }
-    let remedy = "a limit of the domain other than J > 0 denies this inverted point and grants its mirror image: write that limit \
-                  in what no sign changes, such as I1, I2 or J * J, or let the function that ends there go on";
+    let remedy = "a limit of the domain other than J > 0 excludes this inverted point and admits its mirror image: write that limit \
+                  in terms that are independent of signs, such as I1, I2 or J * J, or continue the function that ends there";
     judge.holds(|| "admission".into(), stretches, material.admits(stretches), remedy)?;
     Ok(true)
 }

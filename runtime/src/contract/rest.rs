@@ -23,7 +23,7 @@ pub(super) fn rest(material: &dyn Subject, settings: &Settings) -> Result<Findin
 }
 
 /// Advice for stress at rest, be it a mistake or meant.
-const STRESSED: &str = "append to the energy what cancels this stress, such as `- mu * J.ln()`; or, where the rest state carries it \
+const STRESSED: &str = "append to the energy a term that cancels this stress, such as `- mu * J.ln()`; or, where the rest state carries it \
                         on purpose, as that of a material declared `prestressed`, set `stress_free_at_rest: false`, as in \
                         `piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`";
 

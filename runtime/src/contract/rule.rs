@@ -135,7 +135,7 @@ impl Rule {
             }
             Self::Strains => "`gradient_at_strains` is the gradient at the stretches 1 + s",
             Self::Invariants => "energy and derivatives by I1, I2 and J are those by stretches",
-            Self::Extension => "beyond its domain the energy goes on smoothly and restores",
+            Self::Extension => "beyond its domain the energy continues smoothly and restores",
             Self::Moduli => "the stated moduli are those of the Hessian at rest",
             Self::SinglePrecision => "in `f32` all numbers are those of `f64`, to the rounding of `f32`",
             Self::Lanes => "on lanes every number is what it is by itself",

@@ -10,8 +10,8 @@ pub(super) const FINITE: &str = "a finite number";
 /// Ratio of a difference to its tolerance above which a formula is wrong; wrong ones mostly exceed 1e10.
 const MISTAKE: f64 = 1e6;
 /// Advice for a difference below [`MISTAKE`], which is likelier lost digits.
-const DIGITS: &str = "so small a difference is likelier digits lost than a mistake in the formula: where something nearly cancels, such \
-                      as I1b - 3 beside a small constant, write it so that it doesn't, or choose other parameters (the \
+const DIGITS: &str = "a difference as small as this is more likely a loss of digits than a mistake in the formula: where terms nearly cancel, such \
+                      as I1b - 3 next to a small constant, rewrite them so that they do not, or choose other parameters (the \
                       documentation of a declared type names sums that cancel far from rest under **Digits**); where an \
                       exponent is large, narrow the stretches of the test, as in `range: (0.7, 1.4)`";
 

@@ -105,8 +105,8 @@ impl fmt::Display for MaterialError {
             ),
             Self::UnstableRest { moduli } if moduli.mu > 0.0 => write!(
                 f,
-                "the rest state would be unstable: the small-strain bulk modulus is {} Pa and must not be negative, which a greater \
-                 resistance to changes of volume mends",
+                "the rest state would be unstable: the small-strain bulk modulus is {} Pa and must not be negative; increase the \
+                 resistance to changes of volume",
                 number(moduli.bulk())
             ),
             Self::UnstableRest { moduli } => write!(
@@ -117,7 +117,7 @@ impl fmt::Display for MaterialError {
             Self::YoungPoisson { young, poisson } => write!(
                 f,
                 "Young's modulus is {} Pa and Poisson's ratio {}; give a finite E > 0 and -1 < ν < 0.5, such as 0.499 for \
-                 what hardly changes its volume",
+                 a nearly incompressible solid",
                 number(*young),
                 number(*poisson)
             ),

@@ -37,7 +37,7 @@ use super::{Declared, Inversion, MaterialError, Text};
 /// # }
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` does not know the derivatives of its stress by its parameters",
+    message = "`{Self}` has no derivatives of its stress by its parameters",
     label = "not declared with `fit`",
     note = "add `fit` to its `#[material(…)]`"
 )]

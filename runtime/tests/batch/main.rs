@@ -442,7 +442,7 @@ fn lengths_that_do_not_fit_are_errors() {
     assert_eq!(error.slice, "F");
     let lines = batch.with_layout(Layout::Lines);
     let error = lines.stresses(&[1.0; 18], &mut [0.0; 18]).unwrap_err();
-    assert!(error.to_string().ends_with("the layout in lines wants a multiple of 8 points"), "{error}");
+    assert!(error.to_string().ends_with("the layout in lines requires a multiple of 8 points"), "{error}");
     assert_eq!(batch.stresses(&[], &mut []), Ok(Survey::default()));
 }
 

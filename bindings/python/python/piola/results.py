@@ -16,11 +16,11 @@ class Status(enum.IntFlag):
     """Flags of a point, in the arrays of uint8 that `status=` takes."""
 
     REFUSED = 1
-    """The deformation is outside the domain of the energy, and the results mean nothing."""
+    """The deformation is outside the domain of the energy, and the results are invalid."""
     BOUNDED = 2
-    """The tangent is at a pole, and has a bounded value in place of an infinite one."""
+    """The tangent is at a pole, and has a bounded value instead of an infinite one."""
     NONFINITE = 4
-    """The deformation or a result is infinite or NaN, or nearly so, and the results mean nothing."""
+    """The deformation or a result is infinite or NaN, or nearly so, and the results are invalid."""
     FILTERED = 8
     """The filter changed the tangent."""
 

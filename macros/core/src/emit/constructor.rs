@@ -50,7 +50,7 @@ fn new(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let lengths = declaration.parameters.iter().filter_map(|parameter| same_length(declaration, parameter));
     let lengths: Vec<_> = lengths.collect();
     let new_doc = format!(
-        "The material with these parameters.\n\n{}\n\n# Errors\nWhere a parameter is not finite or not admissible{}{}.",
+        "The material with these parameters.\n\n{}\n\n# Errors\nIf a parameter is not finite or not admissible{}{}.",
         documented.collect::<Vec<_>>().join("\n"),
         if model.bounds_at_rest.is_empty() { "" } else { ", or rest is outside of the domain" },
         if lengths.is_empty() { "" } else { ", or the lists of one sum are not equally long" },
@@ -192,7 +192,7 @@ fn replacement(declaration: &Declaration, parameter: &Parameter) -> TokenStream 
     });
     let inversion = declaration.options.extend.is_some().then(|| quote!(?.with_inversion(self.inversion)));
     let documentation = doc(&format!(
-        "Replaces `{name}`.\n\n# Errors\nIf the parameters are not admissible together, as of `new`."
+        "Replaces `{name}`.\n\n# Errors\nIf the parameters are not admissible together, as for `new`."
     ));
     quote! {
         #documentation

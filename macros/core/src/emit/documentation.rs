@@ -70,7 +70,7 @@ fn outside(declaration: &Declaration) -> String {
         (Some(conditions), _) if conditions.is_empty() => " It can be continued beyond J > 0.".to_owned(),
         (Some(conditions), _) => {
             let conditions: Vec<_> = conditions.iter().map(condition_text).collect();
-            format!(" It can be continued beyond J > 0 where `{}`.", conditions.join(", "))
+            format!(" It can be continued beyond J > 0 if `{}`.", conditions.join(", "))
         }
         (None, Some(reason)) => format!(" It cannot be continued beyond that: {}.", reason.value()),
         (None, None) => String::new(),
@@ -126,7 +126,7 @@ fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
     if let Some(invariants) = &model.invariants {
         let names = ["∂ψ/∂I1", "∂ψ/∂I2", "∂ψ/∂J"];
         let by_invariants = formulas_by_invariants(&model.graph, declaration, &invariants.gradient);
-        text += "\n\n**By the invariants**, from which the stress needs no stretches:\n\n";
+        text += "\n\n**By the invariants**, which give the stress without the stretches:\n\n";
         text += &block(&names, &by_invariants);
     }
     text

@@ -36,7 +36,7 @@ pub(super) fn from_young_poisson(declaration: &Declaration, determined: &YoungPo
         .chain(others.iter().map(|parameter| format!("* `{}`: {}", parameter.name, parameter.doc)));
     let documentation = doc(&format!(
         "The material with this stiffness at small strain.\n\n{}\n\nWith μ = E/(2 (1 + ν)) and λ = E ν/((1 + ν) (1 − 2 ν)), {} and {}.\n\n\
-         # Errors\nWhere E or ν is outside its range, or what follows from them is not admissible.",
+         # Errors\nIf E or ν is outside its range, or the parameters that follow from them are not admissible.",
         described.collect::<Vec<_>>().join("\n"),
         formulas[0],
         formulas[1],

@@ -95,7 +95,7 @@ impl Explainer<'_, '_> {
                 )
             }
             Violation::ExtendedPower => {
-                "the energy has a real power of what vanishes at rest, which is not continued beyond J > 0: remove `extend`"
+                "the energy has a real power of an expression that vanishes at rest, which is not continued beyond J > 0: remove `extend`"
                     .into()
             }
             Violation::NoContinuation { stretches: [l1, l2, l3] } => format!(
@@ -135,7 +135,7 @@ impl Explainer<'_, '_> {
                 let names = identifiers(tokens.clone());
                 let has = |words: [&str; 2]| words.iter().any(|word| names.iter().any(|name| name == word));
                 let instead = if has(["I1b", "I2b"]) {
-                    "bound what stays moderate there, such as I1 in place of I1b"
+                    "bound a quantity that stays moderate there, such as I1 instead of I1b"
                 } else if has(["I1", "I2"]) {
                     "this condition, and write `I1b` for `I1` in the energy, which is 3 or more wherever J > 0"
                 } else {
@@ -149,7 +149,7 @@ impl Explainer<'_, '_> {
             Violation::NoShearModulus => format!(
                 "the shear modulus of this energy is zero at rest: add a term that resists shear, \
                 such as `mu / 2.0 * (I1b - 3.0)`{}",
-                self.notation.either(", or say `part` in the attribute if it is a part of a sum", "")
+                self.notation.either(", or add `part` to the attribute if it is a part of a sum", "")
             ),
             Violation::Overflow => {
                 "the exact fractions in the derivatives of this energy leave 128 bits: use smaller numbers"
@@ -240,7 +240,7 @@ impl Explainer<'_, '_> {
                 true => in_place(&source.invariants()),
                 false if !source.invariants().is_empty() => {
                     return format!(
-                        "this leaves stress at rest: take it away by a term in `J.ln()`{domain}{meant}{mistyped}"
+                        "this leaves stress at rest: remove it by a term in `J.ln()`{domain}{meant}{mistyped}"
                     );
                 }
                 false => self.isochoric_stretches(),
@@ -263,7 +263,7 @@ impl Explainer<'_, '_> {
                 format!("; or give the option `{option}`, which appends that term")
             }
             Notation::Formula { free_rest: None } => String::new(),
-            Notation::Attribute | Notation::Rust => "; or say `prestressed` in the attribute".to_owned(),
+            Notation::Attribute | Notation::Rust => "; or add `prestressed` to the attribute".to_owned(),
         }
     }
 

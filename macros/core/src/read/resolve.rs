@@ -317,7 +317,7 @@ impl<'a> Resolver<'a> {
             }
             Expr::Array(_) | Expr::Repeat(_) => self.mistake(
                 expression,
-                "lists are parameters, as `mu: [f64; N]`: numbers of the energy's own are written out, term by term",
+                "lists are parameters, as `mu: [f64; N]`: numbers of the energy itself are written out, term by term",
             ),
             Expr::Closure(closure) => self.mistake(closure, NO_HELPERS),
             other => self.mistake(

@@ -44,7 +44,7 @@ fn arguments() {
 #[test]
 fn signatures() {
     const FIRST: &str = "the first argument names the three stretches: `[l1, l2, l3]: [f64; 3]`";
-    check("", "struct E;", &[("struct", "`#[material]` stands on a function")]);
+    check("", "struct E;", &[("struct", "`#[material]` applies to a function")]);
     check("", "fn E() -> f64 { 1.0 }", &[("E", FIRST)]);
     check("", "fn E([a, b]: [f64; 2]) -> f64 { a }", &[("[a, b]: [f64; 2]", FIRST)]);
     check("", "fn E([a, b, c]: [f32; 3]) -> f64 { a }", &[("[a, b, c]: [f32; 3]", FIRST)]);

@@ -190,11 +190,11 @@ fn what_cannot_be_written_is_not_offered() {
              sum(|p| c[p] * (I1 - 3.0).powi(i[p]) * (I2 - 3.0).powi(j[p])) + {term} }}"
         );
         let [(_, message)] = &mistakes("domain(J > 0.0)", &item)[..] else { panic!("{term}") };
-        let start = format!("this leaves stress at rest: {remedy}; or say `prestressed` in the attribute");
+        let start = format!("this leaves stress at rest: {remedy}; or add `prestressed` to the attribute");
         assert!(message.starts_with(&start) && !message.contains('…'), "{message}");
     };
     check("sum(|p| c[p]) * (J - 1.0).powi(2)", "write `I1b`, `I2b` for `I1`, `I2`, which leaves none");
-    check("sum(|p| c[p]) * J", "take it away by a term in `J.ln()`");
+    check("sum(|p| c[p]) * J", "remove it by a term in `J.ln()`");
 }
 
 #[test]

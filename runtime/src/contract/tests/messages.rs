@@ -53,7 +53,7 @@ fn lost_digits_are_not_told_as_a_mistake() {
         .to_string()
     };
     let (lost, mistaken) = (text(1.0 + 1e-11), text(1.0 + 1e-3));
-    assert!(lost.contains("likelier digits lost than a mistake in the formula"), "{lost}");
+    assert!(lost.contains("more likely a loss of digits than a mistake in the formula"), "{lost}");
     assert!(!lost.contains("state another"), "{lost}");
     assert!(mistaken.ends_with("1.0e-13\n    remedy      state another"), "{mistaken}");
 }
@@ -92,7 +92,7 @@ fn why_nothing_was_compared_is_told() {
 fn stress_at_rest_is_told_how_to_say_that_it_is_meant() {
     let verdict = rest(&Defective(NeoHookean, Defect::Prestress), &Settings::default());
     let text = verdict.expect_err("stress at rest").to_string();
-    assert!(text.contains("    remedy      append to the energy what cancels this stress"), "{text}");
+    assert!(text.contains("    remedy      append to the energy a term that cancels this stress"), "{text}");
     assert!(
         text.contains("`piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`"),
         "{text}"

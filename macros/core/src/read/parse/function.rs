@@ -25,7 +25,7 @@ impl Function {
             let message = if is_function {
                 format!("{error}; a declaration is `fn Name([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {{ … }}`")
             } else {
-                "`#[material]` stands on a function from the stretches to the energy density".to_owned()
+                "`#[material]` applies to a function from the stretches to the energy density".to_owned()
             };
             syn::Error::new(error.span(), message)
         })

@@ -110,7 +110,7 @@ fn unknown(name: &str) -> String {
 
 fn reason(tokens: &TokenStream, diagnostics: &mut Diagnostics) -> Option<LitStr> {
     let reason = syn::parse2(tokens.clone()).map_err(|error| {
-        let message = "say in a string why the energy has no extension: `refuse(\"…\")`";
+        let message = "give as a string the reason why the energy has no extension: `refuse(\"…\")`";
         syn::Error::new(error.span(), message)
     });
     diagnostics.take(reason)

@@ -150,7 +150,7 @@ pub(super) fn generics(signature: &Signature, diagnostics: &mut Diagnostics) -> 
                 }
                 if !identifiers(signature.inputs.to_token_stream()).contains(name) {
                     let message = format!(
-                        "`{name}` is the length of no list: write a parameter `[f64; {name}]` or remove it"
+                        "`{name}` is not the length of a list: write a parameter `[f64; {name}]` or remove it"
                     );
                     diagnostics.error(name, message);
                 }
@@ -404,7 +404,7 @@ fn reserved(name: &Ident, diagnostics: &mut Diagnostics) {
 }
 
 fn meaning(name: &Ident) -> String {
-    format!("`{name}` has a meaning of its own: choose another name")
+    format!("`{name}` is reserved: choose another name")
 }
 
 /// True if a name is reserved: a word of energies, a member of materials, or a pattern or keyword of Rust.

@@ -79,7 +79,7 @@ impl Resolver<'_> {
                 let rust = self
                     .diagnostics
                     .notation()
-                    .either("is Rust of its own, where numbers have", "on parameters has");
+                    .either("is plain Rust, whose numbers have", "on parameters has");
                 let message = format!("a condition {rust} no `{name}`");
                 return self.mistake(&call.method, &message);
             }

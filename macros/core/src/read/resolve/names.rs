@@ -65,7 +65,7 @@ impl Resolver<'_> {
             return word;
         }
         if text == "PI" && self.scope == Scope::Parameters {
-            return self.mistake(name, "a condition is Rust of its own: write `std::f64::consts::PI`");
+            return self.mistake(name, "a condition is plain Rust: write `std::f64::consts::PI`");
         }
         if text == "PI" {
             return self.graph.leaf(Node::Float(consts::PI.to_bits()));

@@ -78,11 +78,13 @@ impl Resolver<'_> {
 
     fn no_list(&self, index: &Ident) -> String {
         match self.first_list() {
-            Some(list) => format!("this sum runs over no list: write `{list}[{index}]` in it"),
+            Some(list) => format!("this sum does not run over a list: write `{list}[{index}]` in it"),
             None => {
                 let list =
                     self.diagnostics.notation().either(", or declare a list, `mu: [f64; N]`, and", ", or");
-                format!("this sum runs over no list: write it without `sum`{list} write `mu[{index}]` in it")
+                format!(
+                    "this sum does not run over a list: write it without `sum`{list} write `mu[{index}]` in it"
+                )
             }
         }
     }
