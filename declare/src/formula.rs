@@ -1,8 +1,8 @@
 //! Formulas in the notation of papers: `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`.
 //!
 //! A formula is translated into the Rust function that `#[piola::material]` takes, token by token, so that
-//! its mistakes are told at their places in the formula. Names that mean nothing else are parameters, in the
-//! order in which they occur, and so are all names that the caller has values for.
+//! its mistakes are reported at their places in the formula. Names without another meaning are parameters, in
+//! the order in which they occur, and so are all names that the caller has values for.
 //!
 //! The domain is stated behind the formula, `… where J > 0, I1 < 3 + Jm`, together with conditions on the
 //! parameters. If nothing is said, the energy is defined for every J, for J > 0 and continued beyond, or for

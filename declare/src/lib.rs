@@ -26,8 +26,7 @@
 //! # What it does not do
 //!
 //! No function is a parameter but a [`Spline`](piola::Spline): other types need the declaration to be
-//! compiled. No derivative of a formula is looked for that the compiler does not know, and no branch is
-//! understood.
+//! compiled. There are no other derivatives of formulas than those of the compiler, and no branches.
 
 mod condition;
 mod constructor;

@@ -111,7 +111,7 @@ impl fmt::Display for Mistakes {
 
 impl Mistakes {
     fn write(&self, Mistake { message, place }: &Mistake, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // What is quoted from the text cannot speak to the terminal.
+        // Quotations from the text contain no control characters.
         f.write_str(&message.replace(|c: char| c.is_control() && c != '\n', "�"))?;
         let Some(Place { line, column, length }) = *place else { return Ok(()) };
         let source = self.text.lines().nth(line - 1).unwrap_or_default();

@@ -1,7 +1,6 @@
 //! Measured test curves, and the agreement of an energy with them.
 //!
-//! A file that says everything itself is a table with a header; lines that begin with `#`, `//` or `**` are
-//! comments:
+//! A self-contained file is a table with a header; lines that begin with `#`, `//` or `**` are comments:
 //!
 //! ```text
 //! mode,stretch,nominal_stress_MPa
@@ -9,14 +8,15 @@
 //! ```
 //!
 //! The modes are those of [`Mode`](crate::curve::Mode); under `stretch` stands the control, which is γ for
-//! `simple_shear` and J for `volumetric`. The stress is what [`crate::curve`](mod@crate::curve) says of each
-//! mode. Columns may come in any order, with others beside them.
+//! `simple_shear` and J for `volumetric`. The stress of each mode is that of
+//! [`crate::curve`](mod@crate::curve). Columns may come in any order, among others.
 //!
 //! # Files of test machines, spreadsheets and decks
 //!
 //! * Columns are separated by commas, semicolons, tabs or spaces; decimals have a point or a comma. What
 //!   stands above the header is passed over; a row of units may stand below it.
-//! * A header says by its words what a column is, in letters of any size, with the words in any order:
+//! * The words of a header name the quantity of a column, in letters of any case, with the words in any
+//!   order:
 //!
 //! | quantity | words, of which one is enough | becomes |
 //! |---|---|---|
@@ -42,13 +42,13 @@
 //! * In input decks the blocks `*UNIAXIAL TEST DATA`, `*BIAXIAL …`, `*PLANAR …`, `*SIMPLE SHEAR …` have
 //!   nominal stress and nominal strain, `*VOLUMETRIC TEST DATA` pressure and J.
 //! * A first line `sep=;`, as spreadsheets write and read it, names the separator.
-//! * [`ReadOptions`] has the test and the unit where a file names none. [`Reading`] says in a line what was
-//!   used and what was left out: with a test in the options also a column `Test` whose cells name none.
+//! * [`ReadOptions`] has the test and the unit for a file that names none. [`Reading`] describes in a line
+//!   what was used and what was left out: with a test in the options also a column `Test` whose cells name
+//!   none.
 //!
-//! What may mean two things is asked about by an error: stretches that are all above 8, or some above 20,
-//! without a unit (percent?), stresses of another sign than their strain (strains under `stretch`?
-//! compression with positive numbers?), a stress without a word beside a true strain, numbers with commas and
-//! points.
+//! Ambiguous data are errors: stretches that are all above 8, or some above 20, without a unit (percent?),
+//! stresses of another sign than their strain (strains under `stretch`? compression with positive numbers?),
+//! a stress without a word beside a true strain, numbers with commas and points.
 //!
 //! Stretches and volumes are from 10⁻⁶ to 10⁶, shears up to 10⁶, stresses 0 or from 10⁻¹⁰⁰ to 10¹⁰⁰ Pa in
 //! size: far beyond what is measured, and well inside of what can be squared and divided.

@@ -5,10 +5,9 @@
 //! How a stress changes with a parameter follows from what `fit` in the declaration generates, the sides that
 //! give way included ([`Response::weights`](crate::curve::Response::weights)).
 //!
-//! Such fits are easily ambiguous \[OSS04\]: data may say nothing about a parameter, or much about some
-//! combination of parameters only, and there may be several minima; or the energy refuses the best
-//! parameters, or gives way in volume where the fit keeps it. All five are looked for and reported:
-//! [`Warning`].
+//! Such fits are easily ambiguous \[OSS04\]: data may not determine a parameter, or determine only some
+//! combination of parameters, and there may be several minima; or the energy refuses the best parameters, or
+//! gives way in volume where the fit keeps it. All five are looked for and reported: [`Warning`].
 //!
 //! \[Mor78\] Moré, *The Levenberg–Marquardt algorithm: implementation and theory*, 1978.
 //! \[OSS04\] Ogden, Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004.

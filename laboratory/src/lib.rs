@@ -9,8 +9,8 @@
 //! * [`chart`]: all of these in pictures, with the feature `charts`, which is on unless you turn it off;
 //! * [`stability`]: where an energy keeps the inequalities of a stable solid, as a table and as a map.
 //!
-//! The crate knows materials only through the traits of [`piola::material`](mod@piola::material), so that
-//! your own energy works as well as one of the catalogue. There are no bodies here: each specimen is deformed
+//! The crate uses materials only through the traits of [`piola::material`](mod@piola::material), so that your
+//! own energy works as well as one of the catalogue. There are no bodies here: each specimen is deformed
 //! homogeneously and slowly, so that neither buckling nor viscosity, softening or friction at the plates is
 //! seen.
 

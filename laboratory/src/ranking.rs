@@ -2,8 +2,8 @@
 //!
 //! Each energy is fitted as an incompressible solid, and stands by four numbers:
 //!
-//! * *n*, how many of its parameters were fitted: lists count by their entries, and what says nothing at
-//!   constant volume, such as a bulk modulus, does not count;
+//! * *n*, the number of fitted parameters: lists count by their entries, and parameters without effect at
+//!   constant volume, such as a bulk modulus, do not count;
 //! * *R²* of all points together, and of those of each test ([`Measurements::agreement`]);
 //! * *R²/n*, the former by the number of parameters, so that of two energies that agree alike the one with
 //!   fewer parameters is ahead. It compares energies of like R²: a single parameter with R² = 0.5 has more of

@@ -1,9 +1,9 @@
 //! Stability of a material: the stretches at which it keeps the inequalities of a stable solid.
 //!
 //! An energy that fits its measurements may still be one that no solid has: a specimen of it would narrow
-//! under a growing pull, or fold into bands as fine as the mesh allows. Three inequalities say where that
-//! cannot be, [`Criterion`]; [`survey`] looks at them over a box of stretches and along
-//! the tests that laboratories make:
+//! under a growing pull, or fold into bands as fine as the mesh allows. Three inequalities exclude that,
+//! [`Criterion`]; [`survey`] evaluates them over a box of stretches and along the tests that laboratories
+//! make:
 //!
 //! ```
 //! use piola_laboratory::stability::criteria::Criterion;
@@ -25,8 +25,8 @@
 //!
 //! [`constant_volume`] has the same for solids that keep their volume.
 //!
-//! [`criteria`] has the inequalities and how they imply each other; [`wave`] tells how strong ellipticity is
-//! decided without a search.
+//! [`criteria`] has the inequalities and how they imply each other; [`wave`] derives a test of strong
+//! ellipticity without a search.
 
 pub mod constant_volume;
 pub mod criteria;

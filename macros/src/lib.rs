@@ -30,8 +30,8 @@ use proc_macro::TokenStream;
 /// others are `Copy`.
 ///
 /// Names may be those of the paper, such as `K`, `C10` or `β`: none of them needs an `allow` on its case.
-/// Where a crate's only Greek letters look like Latin ones, as β and α do, the compiler's
-/// `mixed_script_confusables` says so of the crate; calling the stretches `[λ1, λ2, λ3]` is enough for it.
+/// Where a crate's only Greek letters look like Latin ones, as β and α do, the compiler warns by
+/// `mixed_script_confusables`; calling the stretches `[λ1, λ2, λ3]` is enough for it.
 ///
 /// Parentheses, blocks, signs and calls may be nested 64 deep; a sum may have thousands of terms.
 ///
@@ -51,8 +51,8 @@ use proc_macro::TokenStream;
 ///   `l1` being the largest: a limit of all of them is one of `l1`. `J != 0.0` excludes flat
 ///   elements alone: inverted ones then have an energy as upright ones have, and no stress in the mirror
 ///   image of rest if the energy is even in J;
-/// * `admissible(mu > 0.0, alpha[p] != 0.0, …)`: conditions that `new` checks, beside finite numbers and a
-///   stable rest state;
+/// * `admissible(mu > 0.0, alpha[p] != 0.0, …)`: conditions that `new` checks, in addition to finite numbers
+///   and a stable rest state;
 /// * `extend` or `extend(mu[p] * alpha[p] > 0.0, …)`: the energy can be continued beyond `J > 0`, under these
 ///   conditions;
 /// * `refuse("why")`: the energy cannot be continued;

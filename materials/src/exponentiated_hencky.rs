@@ -8,7 +8,7 @@ use piola::material;
 ///
 /// Neff, Ghiba, Lankeit, *The exponentiated Hencky-logarithmic strain energy. Part I: Constitutive issues and
 /// rank-one convexity*, 2015; the constants are taken off, so that ψ vanishes at rest. Defined for J > 0. Far
-/// from rest the exponentials leave the range of the numbers, and the status of the point says so.
+/// from rest the exponentials leave the range of the numbers, and the status of the point is `nonfinite`.
 #[material(
     domain(J > 0.0),
     admissible(mu > 0.0, k > 0.0, kappa > 0.0, k_hat > 0.0),

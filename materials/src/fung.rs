@@ -8,7 +8,7 @@ use piola::material;
 ///
 /// Fung, *Biomechanics: Mechanical Properties of Living Tissues*, 2nd ed. 1993, §7.10, in its isotropic form.
 /// Defined for every deformation; the exponential leaves the range of the numbers at moderate strain, and the
-/// status of the point says so.
+/// status of the point is `nonfinite`.
 #[material(
     admissible(c > 0.0),
     typical(

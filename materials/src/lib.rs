@@ -19,8 +19,8 @@
 //!
 //! # Energies
 //!
-//! [`CATALOGUE`] lists them with their names and features; the page of each type has its domain and says
-//! whether it extends beyond J > 0. Each energy has a cargo feature. Eighteen are on by default, and the
+//! [`CATALOGUE`] lists them with their names and features; the page of each type has its domain and its
+//! extension beyond J > 0, if any. Each energy has a cargo feature. Eighteen are on by default, and the
 //! feature `all` compiles all 55. A program that needs one compiles one:
 //!
 //! ```toml
@@ -31,7 +31,7 @@
 //! makes energies of them at run time, with the bits of compiled ones.
 //!
 //! Those that extend do so below a threshold stretch ε, with [`Inversion::Extend`](piola::Inversion::Extend);
-//! some only for parameters with which the extension restores, as each says. A point of one that extends
+//! some only for parameters with which the extension restores, as documented. A point of one that extends
 //! comes back from every inverted or collapsed state that was tried if ε is small enough for how
 //! incompressible it is: where −ln J alone keeps the volume from vanishing, in `ciarlet_geymonat`,
 //! `ciarlet_neo_hookean` and those with an isochoric part, an ε above about 2μ/κ leaves a second equilibrium,
@@ -45,7 +45,7 @@
 //! rubber under various types of deformation*, Trans. Faraday Soc. 40, 1944, measured in uniaxial tension,
 //! equibiaxial tension and pure shear. With them goes a bulk modulus of 20 MPa, Poisson's ratio 0.49, as is
 //! common in simulation; rubber itself has about 2 GPa. The command `piola fit NAME --data treloar` prints
-//! them with more digits; where some were held or stretches left out, the source says so.
+//! them with more digits; if some were held or stretches left out, the source notes it.
 //!
 //! The crate holds no derivative and no algorithm: those come from the macro and from `piola`.
 

@@ -9,7 +9,7 @@ use piola::material;
 /// Mansouri, Darijani, *Constitutive modeling of isotropic hyperelastic materials in an exponential framework
 /// using a self-contained approach*, 2014. The source is incompressible; the last term, of Simo, Hughes,
 /// *Computational Inelasticity*, 1998, §9.2, penalises changes of volume. Defined for J > 0. Far from rest
-/// the exponentials leave the range of the numbers, and the status of the point says so.
+/// the exponentials leave the range of the numbers, and the status of the point is `nonfinite`.
 #[material(
     domain(J > 0.0),
     admissible(kappa > 0.0),

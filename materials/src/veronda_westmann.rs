@@ -9,7 +9,7 @@ use piola::material;
 /// Veronda, Westmann, *Mechanical characterization of skin—finite deformations*, 1970. The source is
 /// incompressible; the last term, of Simo, Hughes, *Computational Inelasticity*, 1998, §9.2, penalises
 /// changes of volume. Defined for J > 0. Far from rest the exponential leaves the range of the numbers, and
-/// the status of the point says so.
+/// the status of the point is `nonfinite`.
 #[material(
     domain(J > 0.0),
     admissible(c1 > 0.0, alpha > 0.0, kappa > 0.0),

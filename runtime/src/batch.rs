@@ -1,8 +1,8 @@
 //! Many points at once: slices of deformation gradients in, slices of energies, stresses and tangents out.
 //!
-//! This is the interface for finite-element codes that have their own elements: it knows points, and of
-//! meshes the nodes of single elements ([`Batch::stiffnesses_at`], [`Quadrature`]). A [`Batch`] holds the
-//! material, the filter, the instructions and the layout of the slices; its methods are the kernels. They
+//! This is the interface for finite-element codes that have their own elements: it handles points, and of
+//! meshes only the nodes of single elements ([`Batch::stiffnesses_at`], [`Quadrature`]). A [`Batch`] holds
+//! the material, the filter, the instructions and the layout of the slices; its methods are the kernels. They
 //! allocate nothing, except for some 80 kB of scratch memory on the first call in each thread. Points go
 //! through in tiles of 64: decomposition, energy, outputs, each stage with as many points side by side as the
 //! registers hold, and what lies between the stages stays in the inner caches.
@@ -60,9 +60,9 @@
 //! that these determine, energies, stresses, and tangents and stiffnesses without a filter come from the
 //! invariants, two to four times as fast. A point outside the domain, near its end, out of range, or where
 //! the terms by invariants cancel takes the way of all others.
-//! [`HAS_INVARIANTS`](crate::Material::HAS_INVARIANTS) says whether an energy is of this kind.
+//! [`HAS_INVARIANTS`](crate::Material::HAS_INVARIANTS) is true for such an energy.
 //!
-//! This module knows no sparsity and no particular material.
+//! This module is independent of sparsity and of any particular material.
 
 #![expect(non_snake_case, reason = "F, P, dF, dP as in the literature")]
 
@@ -273,8 +273,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// Gradients and stiffnesses as in [`Batch::stiffnesses`] for tetrahedra whose nodes are at `positions`,
     /// m: F = Ds Dm⁻¹ is computed on the way.
     ///
-    /// `rest` says how many there are. In [`Layout::Lines`] it goes on to the end of the last line; what
-    /// stands there is for tetrahedra with edges of length 1 along the axes.
+    /// The length of `rest` gives their number. In [`Layout::Lines`] it extends to the end of the last line;
+    /// fill it up with shapes of tetrahedra with edges of length 1 along the axes.
     ///
     /// ```
     /// use piola::batch::{Batch, MatrixForm, Tetrahedra};

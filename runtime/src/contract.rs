@@ -48,7 +48,7 @@
 //! tangent times the quantity it multiplies. That is what a backward-stable evaluation may lose; a wrong sign
 //! or factor exceeds it by ten orders of magnitude.
 //!
-//! This module knows materials only through their trait, and no way to repair them.
+//! This module uses materials only through their trait, and does not repair them.
 
 use std::fmt;
 

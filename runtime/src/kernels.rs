@@ -1,10 +1,10 @@
-//! Kernels that know no material, compiled once for each format and back end.
+//! Kernels that are independent of the material, compiled once for each format and back end.
 //!
 //! A tile of points goes through them in stages: decomposition, the material's response, which is not here,
 //! and its outputs. Between two stages a tile's numbers lie in [`Rows`](rows::Rows): frames and stretches,
 //! then the fifteen numbers of the energy. Each stage keeps few enough numbers alive for the registers.
 //!
-//! Must not know: materials, threads, slices of callers other than a tile's part of them.
+//! Independent of materials, threads, and slices of callers other than a tile's part of them.
 
 pub(crate) mod deformation;
 pub(crate) mod form;

@@ -13,7 +13,7 @@
 //!
 //! \[SGK19\] Smith, de Goes, Kim, *Analytic Eigensystems for Isotropic Distortion Energies*, 2019.
 //!
-//! This module knows no matrices: how the derivatives become a stress is the business of [`crate::point`].
+//! This module is independent of matrices: [`crate::point`] computes the stress from the derivatives.
 
 use crate::lanes::{Mask, Real, Scalar};
 
@@ -103,8 +103,8 @@ pub trait Material: Send + Sync {
     ///
     /// Each number is as accurate, relative to the terms that it is a sum of, as by stretches: near rest
     /// these cancel, so that P errs by u times the moduli, however small the strains;
-    /// [`Material::gradient_at_strains`] knows more. The range is that of I2 and J, which ends at the cube
-    /// root of that of stretches.
+    /// [`Material::gradient_at_strains`] is more accurate. The range is that of I2 and J, which ends at the
+    /// cube root of that of stretches.
     const HAS_INVARIANTS: bool = false;
 
     /// True if ψ by invariants depends on I2. If not, W2, W22, W12 and W2J count as zero, the argument for I2

@@ -1,6 +1,6 @@
 //! Tetrahedral bodies and the surfaces drawn instead of them: geometry at rest, boxes, files, embedding.
 //!
-//! This module knows no materials, no forces and no time. Coordinates are in f64.
+//! This module is independent of materials, forces and time. Coordinates are in f64.
 
 mod boxes;
 mod elements;

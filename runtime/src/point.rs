@@ -13,7 +13,7 @@
 //! Where a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of
 //! P and a column for each entry of F.
 //!
-//! This module knows no particular material and no mesh.
+//! This module is independent of any particular material and of meshes.
 
 #![expect(non_snake_case, reason = "F, P, U, V as in the literature")]
 
@@ -122,7 +122,7 @@ pub fn evaluate_stress<D: Deformation>(
 
 /// Stress and filtered tangent at a deformation.
 ///
-/// Outside the domain of the energy the status is `refused` and the results mean nothing. Where it is not
+/// Outside the domain of the energy the status is `refused` and the results are invalid. If it is not
 /// `nonfinite`, stress and tangent are finite, and so are [`Tangent::to_matrix`] and [`Tangent::apply`] to
 /// any dF with ‖dF‖ ≤ 1.
 #[inline(always)]

@@ -89,7 +89,7 @@ impl Status<u64> {
 
 /// Status of a point of a batch, which any thread may write.
 ///
-/// One byte, which other languages may lend: bit 0 says refused, 1 bounded, 2 nonfinite, 3 filtered.
+/// One byte, which may belong to another language: bit 0 means refused, 1 bounded, 2 nonfinite, 3 filtered.
 #[derive(Debug, Default)]
 #[repr(transparent)]
 pub struct StatusCell(AtomicU8);

@@ -1,10 +1,10 @@
 //! Time integration: implicit steps as minimisations, by Newton's method with a line search; and statics.
 //!
-//! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` says of
-//! which minimisations a step is made, `newton` minimises, `solver` solves its linear systems, `line_search`
-//! shortens steps, `objective` is the function that decreases, to which a `term` adds what acts in addition
-//! to the material; `minimisation` hands it to `newton`. `staged` keeps the state between steps.
-//! `equilibrium` classifies a body that has come to rest. Reports are values; nothing prints.
+//! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` divides a
+//! step into minimisations, `newton` minimises, `solver` solves its linear systems, `line_search` shortens
+//! steps, `objective` is the function that decreases, to which a `term` adds what acts in addition to the
+//! material; `minimisation` passes it to `newton`. `staged` keeps the state between steps. `equilibrium`
+//! classifies a body that has come to rest. Reports are values; nothing prints.
 //!
 //! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
 //!

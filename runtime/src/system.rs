@@ -1,7 +1,7 @@
 //! Linear tetrahedral finite elements: elements, masses, sparsity, assembly, pins, linear solvers.
 //!
-//! This module knows no time: inertia and damping belong to [`crate::step`]. All of it is in f64, materials
-//! included.
+//! This module is independent of time: inertia and damping belong to [`crate::step`]. All of it is in f64,
+//! materials included.
 
 pub(crate) mod assemble;
 mod body;

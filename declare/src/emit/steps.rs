@@ -1,6 +1,6 @@
 //! The order in which a recorded program is printed, with branches where code may be skipped.
 //!
-//! A selection by a mask that the computation has asked about is a branch: what only one of its values needs
+//! A selection by a mask that the computation has tested is a branch: what only one of its values needs
 //! stands inside. Otherwise the order of the record is kept.
 
 use std::collections::{BTreeSet, HashMap};

@@ -104,7 +104,7 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
     }
     if let (Some(all), false) = (&options.parameters, options.further) {
         parser.ask(options)?;
-        // One that the formula does not use is told.
+        // One that the formula does not use is reported.
         for mut name in all.iter().filter_map(|(name, _)| syn::parse_str::<Ident>(name).ok()) {
             // It stands nowhere in the formula.
             name.set_span(Span::call_site());

@@ -3,7 +3,7 @@
 //! Newton's method with the slope that the energy has, inside an interval with a side too narrow at one end
 //! and too wide at the other, halved where the step would leave it or falls behind halving \[PTVF07\].
 //!
-//! This module knows no materials.
+//! This module is independent of materials.
 //!
 //! \[PTVF07\] Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, 3rd edition, 2007, section 9.4.
 

@@ -1,9 +1,9 @@
 //! Minima other than the best one: other solids that agree with the data about as well, and other parameters
 //! of the same solid.
 //!
-//! Parameters tell solids badly apart. Terms of a sum exchange their places; the exponent of a term whose
-//! coefficient has vanished may be any; of two terms with the same exponent only the sum matters; and a
-//! parameter that grows without end changes less and less. So it is stresses that are compared.
+//! Different parameters may describe the same solid. Terms of a sum exchange their places; the exponent of a
+//! term whose coefficient has vanished may be any; of two terms with the same exponent only the sum matters;
+//! and a parameter that grows without end changes less and less. So it is stresses that are compared.
 
 use super::candidate::Numbers;
 use super::minimum::Minimum;

@@ -41,8 +41,8 @@ pub(super) struct Bound {
 }
 
 impl Bound {
-    /// True if this may be the violated constraint. The entries of a list are told apart by their index
-    /// alone.
+    /// True if this may be the violated constraint. The entries of a list are distinguished by their index
+    /// only.
     pub(super) fn refuses(&self, error: &TrialError) -> bool {
         match (error, &self.limit) {
             (TrialError::Inadmissible(MaterialError::Violated { condition, .. }), Limit::Admissible(own)) => {

@@ -36,7 +36,7 @@ pub(super) fn unidentifiable<'a>(places: impl Iterator<Item = Problem<'a>>, numb
                 (number, (slope * if value == 0.0 { 1.0 } else { value }).abs())
             };
             let changes: Vec<_> = row.iter().zip(&place.free).map(change).collect();
-            // Where numbers leave their range, none tells anything.
+            // If numbers leave their range, none is determined.
             let greatest = changes.iter().fold(0.0, |greatest: f64, &(_, change)| greatest.max(change));
             for (number, change) in changes {
                 is_silent[number] &= change.is_nan() || change <= SILENCE * greatest;

@@ -1,10 +1,11 @@
 //! Loss of a criterion of incompressible solids on the way from rest to the end of a test.
 //!
-//! At constant volume an energy says nothing of the pressure, and no criterion may depend on it. So each is
-//! asked only for changes that keep the volume: Hill's for tr d ln U = 0, strong ellipticity for waves with m
-//! · F⁻ᵀN = 0. To these it is restricted by a penalty K/2 (J − 1)², with K a million times the greatest of
-//! the moduli, which at J = 1 adds K/(λi λj) to ψij and nothing else. Pressures and bulk moduli of the energy
-//! vanish beside it, and what coupling takes from the other modes is a millionth of the greatest.
+//! At constant volume an energy does not determine the pressure, and no criterion may depend on it. So each
+//! is required only for changes that keep the volume: Hill's for tr d ln U = 0, strong ellipticity for waves
+//! with m · F⁻ᵀN = 0. To these it is restricted by a penalty K/2 (J − 1)², with K a million times the
+//! greatest of the moduli, which at J = 1 adds K/(λi λj) to ψij and nothing else. Pressures and bulk moduli
+//! of the energy vanish beside it, and what coupling takes from the other modes is a millionth of the
+//! greatest.
 
 use piola::material::{Blocks, PAIRS};
 

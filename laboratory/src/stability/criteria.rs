@@ -13,10 +13,10 @@
 //! strong ellipticity every plane wave has a real speed                                     ρ0 c² of the slowest
 //! ```
 //!
-//! Equal stretches are nothing special: where Baker and Ericksen's condition says nothing, a is its limit,
-//! which [`piola::Material::blocks`] has without a gap; and the second kind of Hill's moduli is a (λi + λj)
-//! times the logarithmic mean (λi − λj)/(ln λi − ln λj). So Hill's condition implies Baker and Ericksen's;
-//! strong ellipticity does, too, as a is the modulus of a shear wave along a principal axis. Between Hill's
+//! Equal stretches are nothing special: where Baker and Ericksen's condition is void, a is its limit, which
+//! [`piola::Material::blocks`] has without a gap; and the second kind of Hill's moduli is a (λi + λj) times
+//! the logarithmic mean (λi − λj)/(ln λi − ln λj). So Hill's condition implies Baker and Ericksen's; strong
+//! ellipticity does, too, as a is the modulus of a shear wave along a principal axis. Between Hill's
 //! condition and strong ellipticity there is no such order: Hencky's energy keeps the first everywhere and
 //! loses the second; the polyconvex energy μ/2 I1 + κ/2 (J − c)² with a large κ does the opposite where J <
 //! c/2.

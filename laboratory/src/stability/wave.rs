@@ -2,7 +2,7 @@
 //!
 //! A small wave with the front's unit normal N in the rest shape and the unit polarisation m has dF = m ⊗ N,
 //! and travels with the speed c that the *acoustic modulus* gives, ρ0 c² = (m ⊗ N) : dP/dF (m ⊗ N), ρ0 the
-//! density at rest. Strong ellipticity, which is convexity along rank-one directions, asks that it be
+//! density at rest. Strong ellipticity, which is convexity along rank-one directions, requires that it be
 //! positive for all m and N. Where it is not, a front stands still or grows: the deformation localises in
 //! bands.
 //!
@@ -27,7 +27,7 @@
 //! choice of signs up to a common one, are positive for all non-negative |p| ≠ 0: *strictly copositive*. This
 //! is the theorem of \[SS83\]; for two stretches it is that of \[KS77\]; \[Dac01\] has it in any dimension.
 //!
-//! We want to know how much there is to spare, and to which wave. As m and N are unit vectors,
+//! We look for the margin, and for the wave that has it. As m and N are unit vectors,
 //!
 //! ```text
 //! 1 = |m|² |N|² = Σi pi² + Σ_i<j (xij² + xji²),
@@ -59,7 +59,8 @@
 //! \[Dac01\] Dacorogna, *Necessary and sufficient conditions for strong ellipticity of isotropic functions in
 //! any dimension*, Discrete Contin. Dyn. Syst. B 1, 2001.
 //!
-//! This module knows the derivatives at a point, and neither a material nor where the point is.
+//! This module depends on the derivatives at a point only, neither on a material nor on the place of the
+//! point.
 
 #![expect(non_snake_case, reason = "M as in the essay above")]
 

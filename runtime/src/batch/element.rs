@@ -1,8 +1,8 @@
 //! A tile of linear tetrahedra whose memory is kept between calls, for solvers that come back.
 //!
-//! One decomposition of each element serves the energy, the gradient and the stiffness. For an energy of I1,
-//! I2 and J alone there is none, unless a filter asks for one or an element is outside of what the invariants
-//! serve: then all elements of the tile are decomposed.
+//! One decomposition of each element is used for the energy, the gradient and the stiffness. For an energy of
+//! I1, I2 and J alone there is none, unless a filter requires one or an element is outside of the range of
+//! the invariants: then all elements of the tile are decomposed.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 

@@ -18,8 +18,8 @@ use crate::point::matrix::three;
 /// Elements with a given number of nodes and quadrature points each: sums over the points, with the scratch
 /// memory to compute them.
 ///
-/// Hexahedra, quadratic tetrahedra and all else whose shape functions a caller knows. Every slice has one
-/// element after the other:
+/// Hexahedra, quadratic tetrahedra and any element whose shape functions the caller provides. Every slice has
+/// one element after the other:
 ///
 /// | slice | of | numbers |
 /// |---|---|---|

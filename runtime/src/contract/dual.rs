@@ -1,8 +1,8 @@
 //! Dual numbers x + x′ε, ε² = 0: arithmetic on them differentiates any program exactly \[Clifford73\].
 //!
-//! They know nothing of how a material found its own derivatives: `energy`, run with them, is an oracle for
-//! the gradient, and `gradient` one for the Hessian. Values are those of `f64`, bit for bit, so that a
-//! program takes the same way.
+//! They are independent of the material's own derivatives: `energy`, run with them, is an oracle for the
+//! gradient, and `gradient` one for the Hessian. Values are those of `f64`, bit for bit, so that a program
+//! takes the same way.
 //!
 //! | operation | derivative |
 //! |---|---|

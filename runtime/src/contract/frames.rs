@@ -58,8 +58,8 @@ fn rotated(
     let F = multiply(&multiply(Q, &diagonal(stretches)), W);
     let blocks = material.blocks(stretches);
     let scale = stress_scale(&blocks, stretches);
-    // The product and the decomposition know F to some 30 u, and each of the rotations Q, W is one to a few
-    // u.
+    // The product and the decomposition represent F to some 30 u, and each of the rotations Q, W is one to a
+    // few u.
     let tolerance = 100.0 * UNIT * scale;
     let expected = material.energy(stretches);
     let energy_tolerance = tolerance * stretches[0] + 100.0 * UNIT * expected.abs();

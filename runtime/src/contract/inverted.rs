@@ -19,7 +19,7 @@ pub(super) fn extension(material: &dyn Subject, settings: &Settings) -> Result<F
     let mut random = Random::new(settings.seed);
     let (_, high) = settings.range;
     for point in 0..settings.points {
-        // λ2 clear of the threshold, unless a rule says otherwise.
+        // λ2 clear of the threshold, unless a rule has another value.
         let l2 = random.uniform(1.1 * epsilon, high);
         let l1 = random.uniform(l2, high.max(1.01 * l2));
         let near = [0.0, 1e-3, -1e-3, 1e-8, -1e-8][point % 5];

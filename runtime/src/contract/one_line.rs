@@ -12,10 +12,10 @@
 /// # fn main() {}
 /// ```
 ///
-/// `cargo test` then shows `rubber::rest`, `rubber::objectivity` and so on, and what fails says which
-/// component is wrong, at which stretches, and both values. After the name is the module's, and the
-/// expression is what the tests are about, of any type that implements [`Material`](crate::Material); it sees
-/// what the place of the macro sees and may use `?` on any error.
+/// `cargo test` then shows `rubber::rest`, `rubber::objectivity` and so on, and a failure names the wrong
+/// component, the stretches, and both values. The first word names the module; the expression is the material
+/// under test, of any type that implements [`Material`](crate::Material). It may use any name in scope at the
+/// macro, and `?` on any error.
 ///
 /// [`Settings`](crate::contract::Settings) other than the default ones follow by name:
 ///

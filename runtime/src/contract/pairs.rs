@@ -10,9 +10,9 @@
 //! for every gap 2T, zero included. On x = t + m, y = t − m the sum ψx + ψy of an even energy does likewise
 //! with ψxx + 2ψxy + ψyy, and gives D⁺. Gauss's rule with eight points takes the mean of a smooth function to
 //! full accuracy over gaps of a tenth of the stretches; where higher derivatives jump in between, as at the
-//! threshold of an extension or a knot of a spline, finer rules tell how far off it is. Elsewhere nothing
-//! cancels and the quotients are what their definition says. Stretches 1 and 3 can only be close together
-//! with stretch 2 between them.
+//! threshold of an extension or a knot of a spline, finer rules estimate its error. Elsewhere nothing cancels
+//! and the quotients agree with their definition. Stretches 1 and 3 can only be close together with stretch 2
+//! between them.
 
 use super::samples::at_samples;
 use super::subject::Subject;
@@ -78,7 +78,7 @@ fn close(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3], gap: f6
             continue;
         }
         let (i, j) = PAIRS[pair];
-        // The gap that floating point stores is not quite the one asked for.
+        // The gap that floating point stores is not quite the requested one.
         let stored = at(half);
         let exact = 0.5 * (stored[i] - stored[j]);
         let slope = |t: f64| {

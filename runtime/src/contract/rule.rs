@@ -23,9 +23,9 @@ pub enum Rule {
     Domain,
     /// Objectivity: ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
     ///
-    /// A material sees stretches alone, which no rotation changes but by rounding: it breaks this where that
-    /// is enough to change its results beyond their tolerance, or makes them NaN. Else the rule judges how
-    /// [`point`](crate::point) rotates.
+    /// A material depends on stretches alone, which a rotation changes by rounding only: it breaks this if
+    /// that is enough to change its results beyond their tolerance, or makes them NaN. Else the rule judges
+    /// how [`point`](crate::point) rotates.
     Objectivity,
     /// Isotropy: ψ(F W) = ψ(F), P(F W) = P(F) W for rotations W, F = diag(λ); and where λi = λj,
     /// ψi = ψj and ψii = ψjj.

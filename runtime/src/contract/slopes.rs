@@ -1,8 +1,8 @@
 //! Rules on derivatives: a difference quotient approaches a correct derivative at a known rate, until
 //! rounding takes over.
 //!
-//! Closeness at one step size cannot tell a small mistake from truncation; the rate can. A wrong derivative
-//! leaves an error that does not shrink with h.
+//! Closeness at one step size cannot distinguish a small mistake from truncation; the rate can. A wrong
+//! derivative leaves an error that does not shrink with h.
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
@@ -28,8 +28,7 @@ pub(super) fn stress_slope(material: &dyn Subject, settings: &Settings) -> Resul
 /// ψ(to) − ψ(from) against the integral of ψ1 dλ1 + ψ2 dλ2 + ψ3 dλ3 on the straight line, where the material
 /// admits it.
 ///
-/// Gauss's rule says how far off it is, and each ψ is known to some u times its own size and that of its
-/// terms.
+/// Gauss's rule estimates its error, and each ψ is known to some u times its own size and that of its terms.
 fn work(judge: &mut Judge, material: &dyn Subject, from: [f64; 3], to: [f64; 3]) -> Result<(), Violation> {
     let at = |t: f64| std::array::from_fn(|k| from[k] + t * (to[k] - from[k]));
     // On the way through λ3 = 0 there may be a pole.
@@ -151,8 +150,8 @@ pub(super) fn stress_along(
 
 /// Compares difference quotients at steps from 2⁻⁶ down to 2⁻²² with a derivative.
 ///
-/// The three longest steps say how much truncation there is per h^order; twice that bounds all others. One
-/// step alone would not do: its error may happen to vanish between two orders of opposite sign.
+/// The three longest steps give the truncation per h^order; twice that bounds all others. One step alone
+/// would not do: its error may happen to vanish between two orders of opposite sign.
 fn slope(
     judge: &mut Judge,
     name: impl Fn() -> String + Copy,

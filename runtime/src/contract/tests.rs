@@ -152,7 +152,7 @@ impl<M: Material> Material for Defective<M> {
                 }
             }
             Defect::AnyLaneDecides => {
-                // By less than any other rule could tell.
+                // By less than any other rule could detect.
                 if l[2].less(R::splat(0.6)).any() {
                     blocks.hessian[0] = h11 * R::splat(1.0 + 4.0 * UNIT);
                 }

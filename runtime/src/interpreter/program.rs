@@ -9,7 +9,7 @@ pub type Register = u16;
 
 /// Operations in order, the registers that they begin with, and those that hold the results.
 ///
-/// A register may serve several values one after the other.
+/// A register may hold several values one after the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     /// Constants that the declaration writes as numbers.

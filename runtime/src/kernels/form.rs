@@ -248,7 +248,7 @@ pub(crate) const MAX_STIFFNESS_RATIO: f64 = 1e6;
 
 /// Bounds twists that a factorisation could not resolve; true if one was bounded.
 ///
-/// Where a stress jumps in the restoring sense, as of a rotated linear solid at λ2 + λ3 = 0 with λ(λ1 − 3) >
+/// Where a stress jumps in the restoring sense, as for a rotated linear solid at λ2 + λ3 = 0 with λ(λ1 − 3) >
 /// 2μ, the energy has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the
 /// factors of a matrix that holds it beside ordinary entries lose all digits of those. A stiffness
 /// [`MAX_STIFFNESS_RATIO`] times the others is rigid enough.

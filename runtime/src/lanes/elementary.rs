@@ -3,8 +3,8 @@
 //!
 //! A power is e^(y ln x), and an error of the logarithm is multiplied by y ln x, which reaches 745. So
 //! logarithms come with ten more digits than the format has, as an unevaluated sum of two numbers, and one of
-//! them serves all powers of a base. There are no tables, since lanes would have to gather from them, and no
-//! branch.
+//! them is enough for all powers of a base. There are no tables, since lanes would have to gather from them,
+//! and no branch.
 //!
 //! Coefficients are minimax fits of the series' tails on the stated intervals. The leading terms stay exact,
 //! so that the functions are exact where they should be: ln 1 = 0, e⁰ = 1, x⁰ = 1, 1ʸ = 1, ∛(n³) = n, and

@@ -4,8 +4,8 @@
 
 /// A guard of stores past the caches: once it is dropped, later stores are seen after them.
 ///
-/// The processor does not order such stores with the ordinary ones by which threads tell each other of their
-/// work. Therefore only this crate makes a guard, and lets no other thread see what was written until it is
+/// The processor does not order such stores with the ordinary ones by which threads synchronise their work.
+/// Therefore only this crate makes a guard, and lets no other thread see what was written until it is
 /// dropped.
 #[derive(Debug)]
 pub struct NonTemporal(());

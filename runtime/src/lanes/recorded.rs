@@ -1,7 +1,7 @@
 //! Real number that records the operations on it, so that any computation over [`Real`] becomes a
 //! straight-line program, for back ends that print it in another language.
 //!
-//! A computation runs once. There is no branch on a value to miss, since a `Real` has none; where code asks
+//! A computation runs once. There is no branch on a value to miss, since a `Real` has none; where code tests
 //! whether *any* lane of a mask is set, the answer is yes unless the mask is known, so that both ways are
 //! recorded. The question itself is kept: what only one way needs stands behind a condition again, once the
 //! program is printed ([`RecordedProgram::guards`]).
@@ -314,7 +314,7 @@ impl<E: Recordable> Real for Recorded<E> {
 }
 
 impl<E: Recordable> Primitive for Recorded<E> {
-    // `two_product`, which alone needs to know, is a function of the program.
+    // `two_product`, the only one that depends on it, is a function of the program.
     const IS_FUSED: bool = false;
 
     fn is_zero(self) -> RecordedMask {

@@ -105,7 +105,7 @@ pub const fn stated_moduli(mu: f64, lambda: f64) -> Option<Moduli> {
 /// A material that has no extension.
 ///
 /// # Errors
-/// [`MaterialError::NoExtension`] if one is asked for.
+/// [`MaterialError::NoExtension`] if one is requested.
 pub fn unextended<M: Declared>(material: M, inversion: Inversion) -> Result<M, MaterialError> {
     match inversion {
         Inversion::Refuse => Ok(material),

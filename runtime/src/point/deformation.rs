@@ -1,6 +1,6 @@
 //! Deformation of a point, the input of its energy, stress and tangent.
 //!
-//! This module knows no formula: `point.rs` has those from F, `small_strain.rs` those from F − I.
+//! This module has no formulas: `point.rs` has those from F, `small_strain.rs` those from F − I.
 
 use super::{EnergyPoint, Filter, Point, StressPoint};
 use crate::lanes::Real;

@@ -25,8 +25,8 @@ pub struct DensePoint<R: Real> {
 /// [`to_matrix`](super::Tangent::to_matrix) give them. For an energy of I1, I2 and J alone, without a filter
 /// and well inside its domain, no decomposition is computed.
 ///
-/// That takes a fraction of the time (`cargo speed-report --only point`). The frames are then unknown: who
-/// needs products or principal stretches calls [`evaluate`].
+/// That takes a fraction of the time (`cargo speed-report --only point`). The frames are then unknown: for
+/// products or principal stretches call [`evaluate`].
 ///
 /// ```
 /// use piola::material;

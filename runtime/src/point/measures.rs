@@ -1,8 +1,8 @@
 //! Stress measures and tangents of engineering codes: S and dS/dE, τ, σ and the spatial tangents.
 //!
-//! A code that has its own elements seldom asks for P and dP/dF. A total Lagrangian one wants the second
+//! A code that has its own elements rarely uses P and dP/dF. A total Lagrangian one needs the second
 //! Piola–Kirchhoff stress S = F⁻¹P and the material tangent dS/dE, an updated one the Cauchy stress σ and a
-//! spatial tangent. They are made here from what a point knows already, its decomposition F = U diag(λ) Vᵀ
+//! spatial tangent. They are computed here from the results of a point, its decomposition F = U diag(λ) Vᵀ
 //! and the [`Blocks`] of its energy: F is never inverted, and no tensor pushed forward by four sums. Tangents
 //! are 6×6, in the notation of [`voigt`].
 //!
@@ -151,9 +151,8 @@
 //!
 //! Stresses and tangents are exactly symmetric: each number is computed once. Nothing cancels in a stress,
 //! however near or far apart the stretches are. In the tangents ψii ∓ ψi/λi and D⁻ ± D⁺ may cancel; of either
-//! remains an error of a few u M, where M is the largest magnitude among ψij, ψi/λi, D⁻ and D⁺. Divided as
-//! the table says and turned into the world, it is at most a few u M/λ3² in dS/dE, and a few u M λ1²/|J| in c
-//! and c°.
+//! remains an error of a few u M, where M is the largest magnitude among ψij, ψi/λi, D⁻ and D⁺. Divided as in
+//! the table and rotated into space, it is at most a few u M/λ3² in dS/dE, and a few u M λ1²/|J| in c and c°.
 //!
 //! Near rest a stress has an error of u ‖dP/dF‖, as has everything that comes through F. Where that matters,
 //! τ = P + P Hᵀ keeps the digits of a stress
@@ -161,7 +160,7 @@
 //!
 //! **Singular F.** All but τ are divided by stretches. Where λ3 = 0, or a product of stretches leaves the
 //! range, the results are what division gives, infinity and NaN included; the status of the point does not
-//! speak for them. Where F inverts, J is negative, and σ, c and c° are τ and its tangents divided by that.
+//! cover them. Where F inverts, J is negative, and σ, c and c° are τ and its tangents divided by that.
 //!
 //! **Filters.** The tangents are derivatives if the blocks are: those of
 //! [`Filter::None`](super::Filter::None). A filter breaks the relation ψj = a λj − b λi. A filtered dP/dF is
@@ -169,7 +168,7 @@
 //! filtered blocks these functions make symmetric matrices that are not derivatives and need not be
 //! semidefinite; a semidefinite element stiffness is made of the filtered dP/dF instead.
 //!
-//! This module knows no particular material and no mesh.
+//! This module is independent of any particular material and of meshes.
 //!
 //! \[Hol00\] Holzapfel, *Nonlinear Solid Mechanics*, 2000.
 

@@ -37,7 +37,7 @@
 //!
 //! The normal of the plane is a principal direction of F = diag(F̃, λ3) with the 2×2 matrix F̃, and so the
 //! stretches of F are those of F̃ = U diag(λ1, λ2) Vᵀ and λ3, each belonging to its axis. With derivatives of
-//! ψ(λ1, λ2, λ3) by the stretches of the axes, and dF̂ = Uᵀ dF̃ V, `point/tangent.rs` says that
+//! ψ(λ1, λ2, λ3) by the stretches of the axes, and dF̂ = Uᵀ dF̃ V, by `point/tangent.rs`
 //!
 //! ```text
 //! P̃ = U diag(ψ1, ψ2) Vᵀ,     P33 = ψ3
@@ -47,18 +47,18 @@
 //! dP̂12 + dP̂21 = D⁻ (dF̂12 + dF̂21),     dP̂12 − dP̂21 = D⁺ (dF̂12 − dF̂21)
 //! ```
 //!
-//! **Plane strain** is dλ3 = 0. **Plane stress** is ψ3 = 0, one equation for λ3 which knows U and V no more,
-//! and stays satisfied:
+//! **Plane strain** is dλ3 = 0. **Plane stress** is ψ3 = 0, one equation for λ3, which no longer contains U
+//! and V, and stays satisfied:
 //!
 //! ```text
 //! dλ3 = −(ψ13 dF̂11 + ψ23 dF̂22)/ψ33
 //! dP̂ii = Σj (ψij − ψi3 ψj3/ψ33) dF̂jj,     i, j = 1, 2.
 //! ```
 //!
-//! This is static condensation of the component 33 of dP/dF; the shears know nothing of it. The condensed
-//! tangent is the second derivative of the smallest energy that λ3 can give, and therefore symmetric. Its
-//! eigenvalues are flip, twist and the two of the condensed 2×2 matrix, so that a filter is as simple as in
-//! space: of the condensed tangent, which is what a membrane assembles.
+//! This is static condensation of the component 33 of dP/dF; the shears do not enter. The condensed tangent
+//! is the second derivative of the smallest energy that λ3 can give, and therefore symmetric. Its eigenvalues
+//! are flip, twist and the two of the condensed 2×2 matrix, so that a filter is as simple as in space: of the
+//! condensed tangent, which is what a membrane assembles.
 //!
 //! # What floating point does here
 //!
@@ -68,12 +68,12 @@
 //! ψij − ψi3 ψj3/ψ33 cancels where the solid is nearly incompressible: it errs by a few u times the largest
 //! ψij, the bulk modulus.
 //!
-//! Out-of-plane stretches are positive for either sign of det F̃. A deformation inverted in the plane is
-//! refused or not as the material says. A point whose free stretch has no equilibrium, because its energy
-//! pulls or presses at every stretch or because the only equilibria are unstable, is `refused`, and says why
-//! by [`PlanePoint::no_equilibrium`].
+//! Out-of-plane stretches are positive for either sign of det F̃. The material decides whether a deformation
+//! inverted in the plane is refused. A point whose free stretch has no equilibrium, because its energy pulls
+//! or presses at every stretch or because the only equilibria are unstable, is `refused`, with
+//! [`PlanePoint::no_equilibrium`] as the reason.
 //!
-//! This module knows no particular material and no mesh.
+//! This module is independent of any particular material and of meshes.
 
 #![expect(non_snake_case, reason = "F, P, U, V as in the essay above")]
 

@@ -3,7 +3,7 @@
 //! # What is lost in F, and how it is kept
 //!
 //! Vibrations and stiff parts have strains of 10⁻⁶ and less. F = I + H then spends its digits on the
-//! identity: u is all that a diagonal entry tells of H, and a stress that is linear in H comes out with an
+//! identity: u is the error of H in a diagonal entry, and a stress that is linear in H comes out with an
 //! error of u ‖dP/dF‖ instead of u ‖P‖. No care taken after that brings the digits back, so the way from H to
 //! P must not pass F.
 //!
@@ -55,7 +55,7 @@
 //! however small these are: no square of a strain can underflow where it matters. (The tangent needs none of
 //! this; it changes by its own rounding when F does.)
 //!
-//! This module knows no particular material.
+//! This module is independent of any particular material.
 
 #![expect(non_snake_case, reason = "H, F, E, V, S, P as in the essay above")]
 

@@ -14,7 +14,7 @@
 //! better, as from any backward-stable method; when λ3 is smaller than that, so is its sign, unless
 //! [`svd_signed_by_determinant`] takes it from the determinant.
 //!
-//! This module knows no material. Reading V by columns vk and U by columns uk, F vk = λk uk.
+//! This module is independent of materials. Reading V by columns vk and U by columns uk, F vk = λk uk.
 //!
 //! \[ITF04\] Irving, Teran, Fedkiw, *Invertible finite elements for robust simulation of large deformation*,
 //! 2004. \[DV92\] Demmel, Veselić, *Jacobi's method is more accurate than QR*, 1992. \[Duff17\] Duff et al.,
@@ -61,7 +61,7 @@ pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
 /// Decomposes F, with λ3 = det F / (λ1 λ2) from a determinant in twice the working precision.
 ///
 /// For energies whose domain ends at det F = 0: there the sign of a tiny λ3 decides whether a deformation is
-/// admissible, and its logarithm wants all the relative accuracy that F can give. The sign is right wherever
+/// admissible, and its logarithm needs all the relative accuracy that F can give. The sign is right wherever
 /// the determinant exceeds 2⁵u²·λ1³ (in `f64` 4·10⁻³¹ λ1³) and no product of three entries of F/λ1 comes
 /// within 1/u of underflow. Error bounds are those of [`svd()`].
 #[inline(always)]
@@ -115,7 +115,7 @@ fn vanishes<R: Real>(x: R) -> R::Mask {
 ///
 /// Nothing in [`right`] mixes the column of such an axis with the others, so that V is that exact already, up
 /// to the rounding of a one. Where U does not contain the axis to rounding, as at rank one, where nothing
-/// else tells two directions apart, it is left as it is.
+/// else distinguishes two directions, it is left as it is.
 #[inline(always)]
 pub(crate) fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
     let Svd { mut U, mut stretches, mut V } = svd;

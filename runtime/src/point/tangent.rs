@@ -37,8 +37,8 @@
 //! (Uᵀ dP V)ii = Σj ψij dF̂jj                  (eq. 5, which needs the whole row, not ψii alone)
 //! ```
 //!
-//! **A pair i < j.** Two entries of dF̂ know the two unknowns Ωij and Θij, and the same unknowns give two
-//! entries of the answer:
+//! **A pair i < j.** Two entries of dF̂ depend on the two unknowns Ωij and Θij, and the same unknowns give
+//! two entries of the result:
 //!
 //! ```text
 //! dF̂ij =  Ωij λj + λi Θij         (Uᵀ dP V)ij =  Ωij ψj + ψi Θij
@@ -48,7 +48,7 @@
 //! (For a dF with a single 1 at (i, j), dF̂kl = u_ik v_jl: the right sides of eq. 6 are that and −u_il v_jk.)
 //!
 //! The system on the left has the determinant λi² − λj²; solving it is where the paper regularises. Take sums
-//! and differences instead, and each line knows one unknown only:
+//! and differences instead, and each line contains only one unknown:
 //!
 //! ```text
 //! dF̂ij + dF̂ji = (λj − λi)(Ωij − Θij)       (Uᵀ dP V)ij + (Uᵀ dP V)ji = (ψj − ψi)(Ωij − Θij)
@@ -94,11 +94,11 @@
 //!
 //! The first term is symmetric in x and y, the second one antisymmetric, and it vanishes for a = c.
 //! [`assemble_blocks`] evaluates both once for each x ≤ y, with the products of V shared among all (a, c) and
-//! those of U among all (x, y). Nothing in it asks V to be orthogonal, nor to be about columns of F: with
-//! √volume·Dm⁻ᵀ-transformed rows in place of V it gives an element's stiffness, whose product of 9×12, 9×9
-//! and 12×9 matrices is thereby never formed.
+//! those of U among all (x, y). Nothing in it requires V to be orthogonal, nor to belong to columns of F:
+//! with √volume·Dm⁻ᵀ-transformed rows in place of V it gives an element's stiffness, whose product of 9×12,
+//! 9×9 and 12×9 matrices is thereby never formed.
 //!
-//! This module knows no material and no mesh.
+//! This module is independent of materials and meshes.
 //!
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
 //! 2011.

@@ -8,7 +8,7 @@
 //! \[HZ05\] Hager, Zhang, *A New Conjugate Gradient Method with Guaranteed Descent and an Efficient Line
 //! Search*, 2005.
 //!
-//! This module knows a function of one variable and nothing else.
+//! This module depends on a function of one variable and on nothing else.
 
 use super::term::EnergyChange;
 
@@ -102,7 +102,7 @@ pub(super) fn backtrack<L: Line>(
             Some(EnergyChange { difference, noise }) => {
                 let enough = difference <= delta * step * slope;
                 let noisy = difference.abs() <= noise;
-                // φ'(step) ≤ (2δ − 1) φ'(0) says for a quadratic what the sufficient decrease says, without
+                // φ'(step) ≤ (2δ − 1) φ'(0) is equivalent to the sufficient decrease for a quadratic, without
                 // differences.
                 let is_free = settings.accepts_increase && difference.is_finite();
                 if is_free || (enough && !noisy) || (noisy && line.slope()? <= (2.0 * delta - 1.0) * slope) {

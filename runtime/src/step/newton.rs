@@ -1,6 +1,6 @@
 //! Newton's method with filtered second derivatives and a line search.
 //!
-//! This module knows neither nodes nor masses nor terms: it sees a [`Minimisation`].
+//! This module is independent of nodes, masses and terms: it uses a [`Minimisation`].
 
 use crate::point::Filter;
 
@@ -161,8 +161,8 @@ where
                 break;
             }
             if std::mem::take(&mut pins_move) && !self.move_pins()? {
-                // The tangent before the move says nothing about the state behind it; the next iteration
-                // takes its own.
+                // The tangent before the move is not that of the state after it; the next iteration takes its
+                // own.
                 self.report.step_lengths.push(0.0);
                 continue;
             }

@@ -44,9 +44,9 @@ use settings::check_settings;
 /// gives the same bits for any number of threads of the rayon pool in which `step` is called, and regardless
 /// of what was before it.
 ///
-/// A clone goes on with the same bits and is independent of the original: to try a step, or for ensembles. It
-/// takes as much memory again, except for the materials and the symbolic factorisation, which are shared; to
-/// undo steps later it is enough to keep positions and velocities.
+/// A clone continues with the same bits and is independent of the original: to try a step, or for ensembles.
+/// It takes as much memory again, except for the materials and the symbolic factorisation, which are shared;
+/// to undo steps later it is enough to keep positions and velocities.
 #[derive(Clone)]
 pub struct Simulation {
     body: Body,

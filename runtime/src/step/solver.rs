@@ -23,14 +23,15 @@ pub(super) use interface::{SolveError, Solver};
 
 /// Solver of the linear systems A p = b of Newton's method, b being minus the gradient.
 ///
-/// Norms are Euclidean ones over the free nodes, N, as of
+/// Norms are Euclidean ones over the free nodes, N, as for
 /// [`NewtonReport::residual`](super::NewtonReport::residual): where Newton's method takes whole steps,
 /// `tolerance` is about the share of the gradient that an iteration leaves. It must be between 0 and 1;
 /// residuals below the rounding of the matrix, u ‖A‖ ‖p‖, cannot be reached. It holds for the first system of
 /// a step; later ones are solved the better the faster the residual r falls, to 0.9 (r/r before)² \[EW96,
-/// choice 2\] but not beyond what [`NewtonSettings::tolerance`](super::NewtonSettings::tolerance) asks for,
-/// so that Newton's method keeps its fast convergence. A system given up before its tolerance still leaves a
-/// direction of descent, and a report counts it as [`truncated`](super::NewtonReport::truncated).
+/// choice 2\] but not beyond the requirement of
+/// [`NewtonSettings::tolerance`](super::NewtonSettings::tolerance), so that Newton's method keeps its fast
+/// convergence. A system given up before its tolerance still leaves a direction of descent, and a report
+/// counts it as [`truncated`](super::NewtonReport::truncated).
 ///
 /// \[EW96\] Eisenstat, Walker, *Choosing the forcing terms in an inexact Newton method*, 1996.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,6 +1,7 @@
 //! State of nodes between steps, their prescribed motion, and the stages of a step.
 //!
-//! This module knows no forces: stages couple no two nodes, so that each part of a body may have its own.
+//! This module is independent of forces: stages couple no two nodes, so that each part of a body may have its
+//! own.
 
 use super::integrator::{Integrator, Method, Stage, Stages, State, on_the_way};
 use super::simulation::SetupError;
@@ -11,8 +12,8 @@ use crate::NoSuchNode;
 /// [`Simulation`](super::Simulation), or of a body divided among machines.
 ///
 /// A step is [begun](StagedSteps::begin), its stages are minimised one by one, and it is
-/// [finished](StagedSteps::finish); a step that is begun anew instead leaves the state as it was. The minimum
-/// of a stage is where
+/// [finished](StagedSteps::finish); a step that is begun again instead leaves the state as it was. The
+/// minimum of a stage is where
 ///
 /// ```text
 /// M a = −∇Ψ(x) + other forces at x and v, with v = (x − s)/τ and a = (v − w)/σ

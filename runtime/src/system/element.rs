@@ -17,7 +17,7 @@
 //! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
 //! 2011.
 //!
-//! This module knows no sparsity and no time.
+//! This module is independent of sparsity and time.
 
 #![expect(non_snake_case, reason = "the letters of the paper: Ds, B")]
 

@@ -6,7 +6,8 @@
 //! and the sums have the same bits for any number of threads. Factorisations, which take more memory anyway,
 //! keep the stiffnesses of all elements for products with a displacement of few nodes.
 //!
-//! Pinned nodes have rows too, so that what moves them enters the right side; this module knows no pins.
+//! Pinned nodes have rows too, so that their motion enters the right side; this module is independent of
+//! pins.
 
 use std::fmt;
 use std::ops::Range;

@@ -1,6 +1,6 @@
 //! Energy, forces and stiffness of a body at any positions, for a user-defined integrator or solver.
 //!
-//! This module knows no time and no pins: a caller adds inertia and leaves pinned nodes out.
+//! This module is independent of time and pins: a caller adds inertia and leaves pinned nodes out.
 
 use super::assemble::Elastic;
 use super::body::Body;

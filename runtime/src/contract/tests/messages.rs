@@ -259,8 +259,8 @@ fn what_never_restores_is_not_told_to_begin_later() {
     assert!(!steeper.contains("smaller `epsilon`"), "{steeper}");
 }
 
-/// Σ f(λ), f′ = 1 + c λ, which pulls elements flat. It is declared for all stretches, and only says that it
-/// is extended.
+/// Σ f(λ), f′ = 1 + c λ, which pulls elements flat. It is declared for all stretches, and only claims to be
+/// extended.
 struct Pulling {
     curvature: f64,
 }

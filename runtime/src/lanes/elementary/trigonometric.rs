@@ -1,6 +1,6 @@
 //! sin and cos.
 //!
-//! |x| = k π/2 + r with an integer k and |r| ≤ π/4, and k mod 4 tells which of ±sin r and ±cos r is meant.
+//! |x| = k π/2 + r with an integer k and |r| ≤ π/4, and k mod 4 selects one of ±sin r and ±cos r.
 //!
 //! π/2 is the sum of three parts so short that k times each is exact, and of a last one with all digits
 //! \[CW80\]. What one product leaves may be as small as the next, hence differences with their errors. For

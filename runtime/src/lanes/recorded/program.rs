@@ -148,8 +148,8 @@ pub struct RecordedProgram {
     pub operations: Vec<RecordedOperation>,
     /// The results.
     pub results: Vec<Id>,
-    /// Masks of which the computation asked whether any lane is set: a selection by one of them is a branch,
-    /// in which stands what only one of its values needs.
+    /// Masks that the computation has tested for any lane that is set: a selection by one of them is a
+    /// branch, which contains the operations that only one of its values needs.
     pub guards: HashSet<Id>,
 }
 

@@ -83,7 +83,7 @@ impl Tape {
                     (Some(truth), _) => return if truth == decides { a } else { b },
                     (_, Some(truth)) => return if truth == decides { b } else { a },
                     _ if a == b => return a,
-                    // What is asked where a guard does not hold needs no answer where it does.
+                    // A test under the negation of a guard needs no result where the guard holds.
                     _ if !decides => match (self.guard_of_negation(a), self.guard_of_negation(b)) {
                         (Some(guard), _) => return self.unless(guard, b),
                         (_, Some(guard)) => return self.unless(guard, a),

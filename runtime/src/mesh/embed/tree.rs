@@ -4,7 +4,7 @@
 //! these lie farthest apart, until a leaf holds a few. Both halves hold as many bodies however these are
 //! spread: one that lies far away enlarges the boxes above its leaf, and no others.
 //!
-//! This module knows no tetrahedra.
+//! This module is independent of tetrahedra.
 
 use std::ops::Range;
 

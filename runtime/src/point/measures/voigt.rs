@@ -9,7 +9,7 @@
 //! 11, 22, 33, 2·23, 2·13, 2·12. The scalar product of the two is then the double contraction, which is work,
 //! and a tangent that is stored by its components takes strains to stresses.
 //!
-//! This module knows no stretches and no blocks.
+//! This module is independent of stretches and blocks.
 
 #![expect(non_snake_case, reason = "C, Q as in the literature")]
 

@@ -21,7 +21,7 @@
 //! across, t g′, is not much smaller than its other moduli, incompressible ones included. Where g jumps over
 //! zero, there is no root.
 //!
-//! This module knows no material.
+//! This module is independent of materials.
 //!
 //! \[PTVF07\] Press, Teukolsky, Vetterling, Flannery, *Numerical Recipes*, 3rd edition, 2007, section 9.4.
 

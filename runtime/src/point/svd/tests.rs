@@ -279,8 +279,8 @@ fn bounds_hold_for_small_integers() {
     check::<f32>();
 }
 
-/// Lanes without instructions of their own do what a number does alone, and no lane knows what the others
-/// hold.
+/// Lanes without instructions of their own compute as a single number does, and no lane depends on the
+/// others.
 #[test]
 fn portable_lanes_give_the_bits_of_a_scalar() {
     let mut random = Random::new(7);

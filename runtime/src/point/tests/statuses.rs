@@ -6,8 +6,8 @@ use crate::material::{Material, Scaled};
 
 const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
 
-/// Which entry points say `nonfinite`, each after a look at its own numbers: those of F at F, the others at
-/// H.
+/// Entry points that report `nonfinite`, each after a check of its own numbers: those of F at F, the others
+/// at H.
 #[track_caller]
 fn check<R: Real<Mask = bool> + Into<f64>>(
     material: &impl Material,

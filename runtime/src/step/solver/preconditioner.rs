@@ -1,15 +1,15 @@
 //! Choice of the preconditioner of conjugate gradients: the blocks on the diagonal if these take few
 //! iterations, otherwise multigrid.
 //!
-//! Blocks cost next to nothing. They serve bodies that are soft for their time step: there inertia holds
-//! each node by itself. Without inertia, and in a fine mesh, their iterations grow with the number of
+//! Blocks cost next to nothing. They are suitable for bodies that are soft for their time step: there inertia
+//! holds each node by itself. Without inertia, and in a fine mesh, their iterations grow with the number of
 //! elements along an edge, and those of [multigrid](crate::system::linear::multigrid) do not; an iteration of
 //! it costs six times as much, and its levels take the time of ten more to make.
 //!
 //! So blocks are chosen where inertia has enough of a share in the diagonal, and are left where they do not
 //! get on. Levels are made for the first system of a step that needs them. For later systems the finest level
-//! takes the current matrix, and the others serve on while they cost no more iterations than making them anew
-//! would, measured by what fresh ones took for each digit.
+//! takes the current matrix, and the others stay in use while they cost no more iterations than new ones
+//! would, measured by the iterations of fresh ones for each digit.
 //!
 //! All of this is decided by the matrix and by numbers of iterations, never by a clock, and nothing is kept
 //! from one step for the next: a step depends on the state before it alone, to the last bit, whether a run
@@ -127,7 +127,7 @@ impl Preconditioner {
             InUse::Fresh if end == End::Converged => {
                 self.in_use = InUse::Old { for_a_digit: iterations / digits };
             }
-            // A matrix that is not definite says nothing about the next one.
+            // A matrix that is not definite gives no information about the next one.
             InUse::Fresh => self.in_use = InUse::Wanted,
             InUse::Old { .. } if has_failed => {
                 self.in_use = InUse::Wanted;

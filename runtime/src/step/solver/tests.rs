@@ -107,8 +107,8 @@ fn any_number_of_threads_gives_the_same_bits() {
     }
 }
 
-/// What a solver learns in a step is nothing to the next one: a run that is taken up again goes on as if it
-/// had not been interrupted.
+/// Information from one step has no effect on the next one: a run that is resumed continues as if it had not
+/// been interrupted.
 #[test]
 fn a_step_depends_on_the_state_before_it_alone() {
     let mesh = tetrahedral_box([12, 4, 4], [1.2, 0.4, 0.4]).expect("a box");
@@ -291,8 +291,7 @@ fn tolerances_and_limits_that_make_no_sense_are_refused() {
     assert_eq!(message(LinearSolver::ConjugateGradients { tolerance: 0.1, max_iterations: 0 }), rule);
 }
 
-/// A factorisation handed in from outside is the built-in one to the last bit, and what a solver answers ends
-/// the step.
+/// A user-defined factorisation gives the bits of the built-in one, and the error of a solver ends the step.
 #[test]
 fn solvers_of_ones_own_serve_until_the_settings_are_replaced() {
     let mesh = beam(4);

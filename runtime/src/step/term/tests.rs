@@ -230,7 +230,7 @@ fn reactions_balance_all_other_forces() {
     }
 }
 
-/// Pins come and go: with a pattern that serves, and with one made anew.
+/// Pins come and go: with a pattern that fits, and with a new one.
 #[test]
 fn changed_pins_are_those_of_a_new_simulation() {
     let mesh = beam(4);

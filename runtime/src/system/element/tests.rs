@@ -135,7 +135,7 @@ fn invariants_give_what_a_decomposition_gives() {
     assert!((1..30).contains(&refused), "{refused} of 40 are inside out");
 }
 
-/// Elements that the invariants do not serve take all of their tile along, and their digits are kept.
+/// Elements for which the invariants cannot be used make the whole tile decompose, and their digits are kept.
 #[test]
 fn an_element_out_of_range_is_decomposed() {
     let (element, positions) = sample(0, 0.02);

@@ -2,9 +2,9 @@
 //!
 //! `found.txt` holds one matrix per line: the kernel, the quantity, the precision, the error in eps when it
 //! was found on the worst back end of its machine, and nine entries as bit patterns, row by row. The first
-//! lines were found for Jacobi's method, the last ten for the present kernels. The search that writes
-//! such lines climbs on from them and from new starts. It takes the same few steps every time;
-//! `PIOLA_SEARCH_SECONDS` lets it go on for as long as that:
+//! lines were found for Jacobi's method, the last ten for the present kernels. The search that writes such
+//! lines climbs on from them and from new starts. It takes the same few steps every time;
+//! `PIOLA_SEARCH_SECONDS` sets its duration:
 //!
 //! ```text
 //! PIOLA_SEARCH_SECONDS=1200 cargo test -p piola --lib search_for_the_worst -- --nocapture

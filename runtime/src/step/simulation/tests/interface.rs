@@ -168,7 +168,7 @@ fn the_solver_fits_the_body_and_may_be_chosen() {
     assert_eq!(run(LinearSolver::Automatic), run(LinearSolver::Cholesky));
 }
 
-/// A copy taken in the middle of a motion goes on with the same bits, and does not move the original.
+/// A copy taken in the middle of a motion continues with the same bits, and does not move the original.
 #[test]
 fn a_clone_is_independent_and_exact() {
     let mesh = beam(4);
