@@ -2,7 +2,7 @@
 //!
 //! Other programs can use [`render`], which draws a deforming surface in software, and [`view`], which plays
 //! a scene for a page in a browser, where it can be pulled with the mouse. Scenes themselves are in
-//! `piola-scenes`, which knows nothing of this crate.
+//! `piola-scenes`, which is independent of this crate.
 
 mod bench;
 mod command;

@@ -4,7 +4,7 @@
 //! all seen by one camera that fits the whole of it. Everything is deterministic, and no graphics device is
 //! needed.
 //!
-//! This module knows surfaces and colours only: no meshes of tetrahedra, no scenes, no files.
+//! This module depends on surfaces and colours only: not on meshes of tetrahedra, scenes or files.
 
 mod camera;
 mod image;

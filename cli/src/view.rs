@@ -6,7 +6,7 @@
 //!
 //! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. A random token in the
 //! [address of the page](Viewer::url) keeps out other users of this machine; whoever has that address can
-//! pull, and save to the file that was named at the start. Of files the page is told that name, and no path.
+//! pull, and save to the file that was named at the start. The page gets the names of files, without paths.
 
 mod connection;
 mod driver;
@@ -161,7 +161,7 @@ impl Viewer {
     /// Serves until the process is ended from outside.
     pub fn wait(mut self) {
         if let Some(server) = self.server.take() {
-            // A server that panics has nothing to say.
+            // A server that panics has no message.
             let _ = server.join();
         }
     }

@@ -1,10 +1,10 @@
 //! Bodies that collapse, invert and recover: scenes, and the measurements and files of a run.
 //!
-//! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) override what
-//! it says; [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces and a
+//! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) override its
+//! defaults; [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces and a
 //! summary in a folder.
 //!
-//! The crate holds no mechanics, draws no pictures, and knows nothing of the command `piola`, whose crate is
+//! The crate holds no mechanics, draws no pictures, and is independent of the command `piola`, whose crate is
 //! `piola-cli`.
 
 pub mod clock;

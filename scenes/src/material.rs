@@ -248,7 +248,7 @@ impl MaterialSpec {
             None => find(&self.material)?,
         };
         let refused = |mut source| {
-            // Its declaration has a name that says nothing, where it is a formula.
+            // Its declaration has a meaningless name if it is a formula.
             if let (
                 Origin::Declared(_),
                 MaterialError::NoExtension { material, .. } | MaterialError::NotFittable { material },

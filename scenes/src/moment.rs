@@ -13,7 +13,7 @@ use crate::settings::{Files, Settings};
 /// bit of it. Only backward differences begin anew, without the step before.
 ///
 /// A body from files is not part of it, nor are their names: [`with_files`](Self::with_files) gives them
-/// again, and a checksum tells whether it is the body that it was.
+/// again, and a checksum detects another body.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Moment {

@@ -1,6 +1,6 @@
 //! Files of a run: surfaces, a summary, and a state from which the run can continue.
 //!
-//! This module knows files only: no bodies, no scenes.
+//! This module handles files only: no bodies, no scenes.
 
 mod folder;
 mod ply;

@@ -3,7 +3,7 @@
 //! Places and distances are shares of the body's bounding box and height, so that any body can take any part.
 //! y points upwards.
 //!
-//! This module knows no solver: [`crate::play`] turns a description into motion.
+//! This module is independent of the solver: [`crate::play`] turns a description into motion.
 
 mod body;
 mod dinosaur;

@@ -2,7 +2,7 @@
 //! reach the regions which independent entries miss, such as rank 1, equal stretches, or all entries
 //! subnormal.
 //!
-//! This module knows no material.
+//! This module is independent of materials.
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 

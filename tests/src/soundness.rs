@@ -6,7 +6,7 @@
 //! half compares `f32` with `f64` ([`check_single`]): what every deformation within rounding of F has
 //! comfortably inside the range of `f32` may not be flagged there, and must be right there.
 //!
-//! This module knows no particular material, and draws no samples.
+//! This module is independent of any particular material, and draws no samples.
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
@@ -215,7 +215,7 @@ pub fn check_elements(material: &dyn TileMaterial<f64>, F: &[Matrix3<f64>]) -> V
 
 /// Stretches, and their reciprocals, up to which `f32` must have an answer wherever there is one. Beyond, a
 /// power of a stretch, or a product of two, may leave the format though the answer does not, and it is enough
-/// that the status says so.
+/// that the status reports it.
 pub const ORDINARY: f64 = 30.0;
 
 /// `f32` against `f64` on the same numbers; whether it is flagged early, at stretches that are not

@@ -1,8 +1,8 @@
 //! The body in motion: executes orders between steps, steps in real time, and answers pages that request
 //! frames.
 //!
-//! It waits for no page. A page gets a frame for each time it asks, made of the state at that moment; for one
-//! that does not ask nothing is made and nothing is kept.
+//! It waits for no page. A page gets a frame for each request, made of the state at that moment; without a
+//! request nothing is made and nothing is kept.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -246,7 +246,7 @@ impl<H: Host> Driver<H> {
             return;
         }
         if self.is_setup_stale {
-            // The page is told no more of this machine than the name of its file.
+            // The page gets no information about this machine but the name of its file.
             let file = self.save.as_deref().map(name_of);
             self.setup = show::setup(&self.session, file.as_deref());
             self.revision += 1;

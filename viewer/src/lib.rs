@@ -2,9 +2,8 @@
 //! the page.
 //!
 //! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same
-//! acts; [`driver`] makes its steps when they are due and waits for no page; [`conversation`] turns what the
-//! [`protocol`] allows a page to say into orders for it, and its answers into messages. [`state`] is the
-//! file.
+//! acts; [`driver`] makes its steps when they are due and waits for no page; [`conversation`] turns messages
+//! of the [`protocol`] into orders for it, and its answers into messages. [`state`] is the file.
 //!
 //! The crate opens no socket and has no thread of its own. The time, by which steps are due, it learns from
 //! its [`Host`](driver::Host): a server on this machine, or a page without one.

@@ -31,7 +31,7 @@ pub enum Message {
 pub enum Act {
     /// Draws a vertex of the surface towards a point, by a spring, until it is released.
     Pull {
-        /// Number by which a page tells its drags apart; a drag that has begun moves on.
+        /// Number by which a page identifies its drags; a drag that has begun moves on.
         drag: u64,
         /// The vertex, from 0.
         vertex: usize,

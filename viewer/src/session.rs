@@ -1,7 +1,7 @@
 //! Interactive scene: every act takes effect before some step, and the same acts before the same steps give
 //! the same bits.
 //!
-//! This module knows no threads, no clock on the wall and no sockets.
+//! This module is independent of threads, clocks and sockets.
 
 use std::collections::BTreeMap;
 

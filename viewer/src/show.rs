@@ -1,6 +1,6 @@
 //! Messages to a page: the surface's triangles once, then frames as the page requests them.
 //!
-//! Texts are JSON objects with one key that says what they are: `setup`, `figures` or `refused`.
+//! Texts are JSON objects with one key that names their kind: `setup`, `figures` or `refused`.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -131,7 +131,7 @@ fn text(material: &MaterialSpec) -> &str {
     let known = || DECLARATIONS.iter().find(|known| material.is(known.name));
     let source = material.energy().map(Energy::text).or_else(|| known().map(|known| known.source));
     let text = source.unwrap_or_default();
-    // What the file says of itself, and what it imports, is not the energy.
+    // Documentation and imports of the file are not part of the energy.
     text.find("\n///").map_or(text, |begin| &text[begin + 1..])
 }
 

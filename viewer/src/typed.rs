@@ -54,7 +54,7 @@ pub(crate) fn energy(text: &str, given: &BTreeMap<String, Vec<f64>>) -> Result<E
 /// Gives each parameter without a value the shear modulus of the body, or 1: the combination with which the
 /// material is about as stiff as the body was.
 ///
-/// A formula does not say which of its parameters are moduli.
+/// A formula does not declare which of its parameters are moduli.
 fn begin(spec: MaterialSpec, body: Moduli) -> Result<MaterialSpec, SceneError> {
     let is_new = |parameter: &&Parameter| spec.values_of(&parameter.name).is_empty();
     let parameters = &spec.description()?.parameters;

@@ -52,7 +52,7 @@ pub unsafe extern "C" fn piola_energies(
     survey: *mut Survey,
 ) -> Code {
     let (inputs, outputs) = ([("F", F, F_length)], [("energies", energies, energies_length)]);
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [energies]| {
             Ok(batch.energies(F, energies)?)
@@ -72,7 +72,7 @@ pub unsafe extern "C" fn piola_energies_f32(
     survey: *mut Survey,
 ) -> Code {
     let (inputs, outputs) = ([("F", F, F_length)], [("energies", energies, energies_length)]);
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [energies]| {
             Ok(batch.energies(F, energies)?)
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn piola_stresses(
     survey: *mut Survey,
 ) -> Code {
     let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length)]);
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
 }
 
@@ -108,7 +108,7 @@ pub unsafe extern "C" fn piola_stresses_f32(
     survey: *mut Survey,
 ) -> Code {
     let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length)]);
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
 }
 
@@ -128,7 +128,7 @@ pub unsafe extern "C" fn piola_tangents(
     survey: *mut Survey,
 ) -> Code {
     let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)]);
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [P, dP_dF]| {
             Ok(batch.tangents(matrix_form(form)?, F, P, dP_dF)?)
@@ -151,7 +151,7 @@ pub unsafe extern "C" fn piola_tangents_f32(
     survey: *mut Survey,
 ) -> Code {
     let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)]);
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [P, dP_dF]| {
             Ok(batch.tangents(matrix_form(form)?, F, P, dP_dF)?)
@@ -179,7 +179,7 @@ pub unsafe extern "C" fn piola_energies_and_tangents(
         [("F", F, F_length)],
         [("energies", energies, energies_length), ("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)],
     );
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [energies, P, dP_dF]| {
             Ok(batch.energies_and_tangents(MatrixForm::Full, F, energies, P, dP_dF)?)
@@ -206,7 +206,7 @@ pub unsafe extern "C" fn piola_energies_and_tangents_f32(
         [("F", F, F_length)],
         [("energies", energies, energies_length), ("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)],
     );
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [energies, P, dP_dF]| {
             Ok(batch.energies_and_tangents(MatrixForm::Full, F, energies, P, dP_dF)?)
@@ -236,7 +236,7 @@ pub unsafe extern "C" fn piola_stresses_in(
         [("F", F, F_length)],
         [("stresses", stresses, stresses_length), ("tangents", tangents, tangents_length)],
     );
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [stresses, tangents]| {
             in_measure(&batch, measure, F, stresses, tangents)
@@ -262,7 +262,7 @@ pub unsafe extern "C" fn piola_stresses_in_f32(
         [("F", F, F_length)],
         [("stresses", stresses, stresses_length), ("tangents", tangents, tangents_length)],
     );
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [stresses, tangents]| {
             in_measure(&batch, measure, F, stresses, tangents)
@@ -273,7 +273,7 @@ pub unsafe extern "C" fn piola_stresses_in_f32(
 /// Runs a batch on borrowed arrays.
 ///
 /// # Safety
-/// Pointers are null or point to what the header says, and arrays are as long as is said.
+/// Pointers are null or point to what the header requires, and arrays are as long as stated.
 #[inline]
 pub(crate) unsafe fn call<E: Precision, const I: usize, const O: usize>(
     material: *const Material,

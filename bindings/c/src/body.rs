@@ -47,7 +47,7 @@ pub unsafe extern "C" fn piola_body_new(
 ) -> Code {
     guard(|| {
         let mut arrays = Arrays::new();
-        // SAFETY: arrays as long as is said, handles, and room for a handle.
+        // SAFETY: arrays as long as stated, handles, and room for a handle.
         unsafe {
             let positions =
                 lent::vectors("positions", arrays.input("positions", positions, positions_length)?)?;
@@ -77,7 +77,7 @@ pub unsafe extern "C" fn piola_body_masses(
     masses_length: usize,
 ) -> Code {
     guard(|| {
-        // SAFETY: a handle, and an array as long as is said.
+        // SAFETY: a handle, and an array as long as stated.
         let (body, masses) =
             unsafe { (lent::value("body", body)?, Arrays::new().output("masses", masses, masses_length)?) };
         lent::demand_length("masses", masses.len(), 1, body.0.masses().len())?;

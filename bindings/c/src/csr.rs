@@ -39,7 +39,7 @@ pub unsafe extern "C" fn piola_csr_new_i32(
 ) -> Code {
     let (corners, unknowns) = ((corners, corners_length), (unknowns, unknowns_length));
     let (row_starts, columns) = ((row_starts, row_starts_length), (columns, columns_length));
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe { new(nodes, corners, unknowns, row_starts, columns, csr) }
 }
 
@@ -59,7 +59,7 @@ pub unsafe extern "C" fn piola_csr_new_i64(
 ) -> Code {
     let (corners, unknowns) = ((corners, corners_length), (unknowns, unknowns_length));
     let (row_starts, columns) = ((row_starts, row_starts_length), (columns, columns_length));
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe { new(nodes, corners, unknowns, row_starts, columns, csr) }
 }
 
@@ -75,7 +75,7 @@ pub unsafe extern "C" fn piola_csr_add(
     values: *mut f64,
     values_length: usize,
 ) -> Code {
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe { add(csr, layout, (stiffnesses, stiffnesses_length), (values, values_length)) }
 }
 
@@ -89,7 +89,7 @@ pub unsafe extern "C" fn piola_csr_add_f32(
     values: *mut f32,
     values_length: usize,
 ) -> Code {
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe { add(csr, layout, (stiffnesses, stiffnesses_length), (values, values_length)) }
 }
 
@@ -101,7 +101,7 @@ pub unsafe extern "C" fn piola_csr_free(csr: *mut Csr) {
 }
 
 /// # Safety
-/// Pointers are null or point to what the header says, and arrays are as long as is said.
+/// Pointers are null or point to what the header requires, and arrays are as long as stated.
 unsafe fn new<I: Plain + TryInto<usize>>(
     nodes: usize,
     corners: (*const usize, usize),
@@ -134,7 +134,7 @@ unsafe fn new<I: Plain + TryInto<usize>>(
 }
 
 /// # Safety
-/// Pointers are null or point to what the header says, and arrays are as long as is said.
+/// Pointers are null or point to what the header requires, and arrays are as long as stated.
 unsafe fn add<E: Plain + piola::lanes::Scalar>(
     csr: *const Csr,
     layout: i32,

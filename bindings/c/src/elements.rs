@@ -28,7 +28,7 @@ pub unsafe extern "C" fn piola_rest_shapes(
 ) -> Code {
     guard(|| {
         let mut arrays = Arrays::new();
-        // SAFETY: arrays as long as is said.
+        // SAFETY: arrays as long as stated.
         let (positions, corners, rest) = unsafe {
             (
                 arrays.input("positions", positions, positions_length)?,
@@ -75,7 +75,7 @@ pub unsafe extern "C" fn piola_stiffnesses(
         [("F", F, F_length), ("rest", rest, rest_length)],
         [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
     );
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
             Ok(batch.stiffnesses(matrix_form(form)?, F, rest, gradients, stiffnesses)?)
@@ -103,7 +103,7 @@ pub unsafe extern "C" fn piola_stiffnesses_f32(
         [("F", F, F_length), ("rest", rest, rest_length)],
         [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
     );
-    // SAFETY: what the header asks of its caller.
+    // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
             Ok(batch.stiffnesses(matrix_form(form)?, F, rest, gradients, stiffnesses)?)
@@ -141,7 +141,7 @@ pub unsafe extern "C" fn piola_stiffnesses_at(
     );
     guard(|| {
         let mut arrays = Arrays::new();
-        // SAFETY: what the header asks of its caller.
+        // SAFETY: the requirements of the header on its caller.
         unsafe {
             let corners = lent::corners("corners", arrays.input("corners", corners, corners_length)?)?;
             call_with(
@@ -183,7 +183,7 @@ pub unsafe extern "C" fn piola_stiffnesses_at_f32(
     );
     guard(|| {
         let mut arrays = Arrays::new();
-        // SAFETY: what the header asks of its caller.
+        // SAFETY: the requirements of the header on its caller.
         unsafe {
             let corners = lent::corners("corners", arrays.input("corners", corners, corners_length)?)?;
             call_with(

@@ -181,7 +181,7 @@ pub unsafe extern "C" fn piola_energy_named(name: *const c_char, energy: *mut *m
 /// An energy that a text declares, in one of the notations of `piola_notation`. It is compiled here, within
 /// milliseconds to seconds, and computes what the same declaration compiled by Rust does, to the last bit.
 ///
-/// Errors: PIOLA_CODE_ENERGY for mistakes, all of which the message tells, each with the line that it is in.
+/// Errors: PIOLA_CODE_ENERGY for mistakes; the message lists all of them, each with its line.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_energy_declared(
     text: *const c_char,

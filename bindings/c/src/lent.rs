@@ -42,7 +42,7 @@ impl<'call> Arrays<'call> {
     /// An array to read. It may be null if it is empty.
     ///
     /// # Safety
-    /// `data` points to as many initialised values as `length` says, which nobody changes during the call.
+    /// `data` points to `length` initialised values, which nobody changes during the call.
     #[inline]
     pub(crate) unsafe fn input<T: Plain>(
         &mut self,
@@ -67,7 +67,7 @@ impl<'call> Arrays<'call> {
     /// An array to write. It may be null if it is empty.
     ///
     /// # Safety
-    /// `data` points to room for as many values as `length` says, which nobody else uses during the call.
+    /// `data` points to room for `length` values, which nobody else uses during the call.
     #[inline]
     pub(crate) unsafe fn output<T: Plain>(
         &mut self,

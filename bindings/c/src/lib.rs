@@ -1,11 +1,12 @@
 //! piola for programs in C: the functions that `include/piola.h` declares, which is made from this crate.
 //!
-//! A function checks what it is lent, calls piola, and returns a [`Code`](error::Code); what went wrong is
-//! told by [`piola_error_message`](error::piola_error_message). Nothing unwinds into a caller, and nothing is
-//! computed here: no mathematics belongs into this crate.
+//! A function checks what it is lent, calls piola, and returns a [`Code`](error::Code);
+//! [`piola_error_message`](error::piola_error_message) returns the text of the error. Nothing unwinds into a
+//! caller, and nothing is computed here: no mathematics belongs into this crate.
 //!
 //! **Unsafe code** is what a border is made of. That of arrays and texts is in `lent`, that of handles in
-//! `handle`; functions have one block each, whose reason is what their documentation asks of the caller.
+//! `handle`; functions have one block each, whose reason is the requirements of their documentation on the
+//! caller.
 
 #![deny(unsafe_op_in_unsafe_fn)]
 #![allow(non_snake_case)] // F, P, dP_dF as in the literature, and `F_length` beside them

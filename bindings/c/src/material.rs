@@ -42,7 +42,7 @@ plain!(Parameter);
 /// and parameters with a stride have values for each of them: those of point p begin at `values[p * stride]`.
 /// In a body, points are the tetrahedra of a part, in their order.
 ///
-/// `extension` says what happens outside the domain of the energy, such as to inverted elements. Between 0
+/// `extension` is the behaviour outside the domain of the energy, such as for inverted elements. Between 0
 /// and 1 it is the stretch below which the energy is continued, which then restores them. 0: such points are
 /// refused. Negative: 0.1 where the energy can be continued, else 0.
 ///

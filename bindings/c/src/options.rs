@@ -46,7 +46,7 @@ pub enum Instructions {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Options {
-    /// `sizeof(piola_options)`, by which the library knows the fields of the header that a program was
+    /// `sizeof(piola_options)`, from which the library determines the fields of the header that a program was
     /// compiled with.
     pub size: usize,
     /// One of `piola_filter`. Stresses in other measures have tangents without a filter.
@@ -56,7 +56,7 @@ pub struct Options {
     /// One of `piola_instructions`.
     pub instructions: i32,
     /// 1 to share the points among as many threads as there are processors, or as the environment variable
-    /// RAYON_NUM_THREADS says; 0 for the thread of the caller alone. Results have the same bits.
+    /// RAYON_NUM_THREADS gives; 0 for the thread of the caller alone. Results have the same bits.
     pub threads: i32,
     /// 1 to write tangents past the caches, which is faster if they are larger than the caches, and needs
     /// lines and arrays aligned to 64 bytes; else 0.
@@ -108,7 +108,7 @@ impl From<PointSurvey> for Survey {
 /// The batch of a material with the options behind a pointer, or with the defaults if that is null.
 ///
 /// # Safety
-/// `options` is null, or points to as many bytes as its first field says, and to as many statuses as it says.
+/// `options` is null, or points to as many bytes as its first field gives, and to its number of statuses.
 #[inline]
 pub(crate) unsafe fn batch<'call, E: Precision>(
     options: *const Options,

@@ -48,7 +48,7 @@ pub unsafe extern "C" fn piola_response_evaluate(
 ) -> Code {
     guard(|| {
         let mut arrays = Arrays::new();
-        // SAFETY: a handle, arrays as long as is said, and room for results.
+        // SAFETY: a handle, arrays as long as stated, and room for results.
         unsafe {
             let Response { body, response } = lent::value("response", response)?;
             let positions =

@@ -146,7 +146,7 @@ pub unsafe extern "C" fn piola_simulation_new(
     simulation: *mut *mut Simulation,
 ) -> Code {
     guard(|| {
-        // SAFETY: handles, an array as long as is said, a text or null.
+        // SAFETY: handles, an array as long as stated, a text or null.
         unsafe {
             let body = lent::value("body", body)?;
             let pins = Pins::at(Arrays::new().input("pins", pins, pins_length)?.iter().copied());
@@ -177,7 +177,7 @@ pub unsafe extern "C" fn piola_simulation_read(
     numbers: *mut f64,
     numbers_length: usize,
 ) -> Code {
-    // SAFETY: a handle, and arrays as long as is said.
+    // SAFETY: a handle, and arrays as long as stated.
     unsafe {
         change(simulation, |State { simulation, .. }| {
             let numbers = Arrays::new().output("numbers", numbers, numbers_length)?;
@@ -213,7 +213,7 @@ pub unsafe extern "C" fn piola_simulation_write(
     numbers: *const f64,
     numbers_length: usize,
 ) -> Code {
-    // SAFETY: a handle, and arrays as long as is said.
+    // SAFETY: a handle, and arrays as long as stated.
     unsafe {
         change(simulation, |State { simulation, .. }| {
             let numbers = Arrays::new().input("numbers", numbers, numbers_length)?;
@@ -242,7 +242,7 @@ pub unsafe extern "C" fn piola_simulation_set_pins(
     pins: *const usize,
     pins_length: usize,
 ) -> Code {
-    // SAFETY: a handle, and arrays as long as is said.
+    // SAFETY: a handle, and arrays as long as stated.
     unsafe {
         change(simulation, |State { simulation, .. }| {
             let pins = Arrays::new().input("pins", pins, pins_length)?;
@@ -261,7 +261,7 @@ pub unsafe extern "C" fn piola_simulation_prescribe(
     positions: *const f64,
     positions_length: usize,
 ) -> Code {
-    // SAFETY: a handle, and arrays as long as is said.
+    // SAFETY: a handle, and arrays as long as stated.
     unsafe {
         change(simulation, |State { simulation, .. }| {
             let mut arrays = Arrays::new();
@@ -284,7 +284,7 @@ pub unsafe extern "C" fn piola_simulation_set_springs(
     springs: *const Spring,
     springs_length: usize,
 ) -> Code {
-    // SAFETY: a handle, and arrays as long as is said.
+    // SAFETY: a handle, and arrays as long as stated.
     unsafe {
         change(simulation, |State { simulation, .. }| {
             let springs = Arrays::new().input("springs", springs, springs_length)?;
@@ -305,7 +305,7 @@ pub unsafe extern "C" fn piola_simulation_set_terms(
     terms: *const Term,
     terms_length: usize,
 ) -> Code {
-    // SAFETY: a handle, and arrays as long as is said.
+    // SAFETY: a handle, and arrays as long as stated.
     unsafe {
         change(simulation, |State { simulation, terms: kept }| {
             let terms = Arrays::new().input("terms", terms, terms_length)?;

@@ -107,7 +107,7 @@ unsafe impl Sync for Callbacks {}
 
 impl Callbacks {
     /// # Safety
-    /// The functions do what the documentation of [`Term`] says, as long as this value lives.
+    /// The functions do what the documentation of [`Term`] requires, as long as this value lives.
     pub(crate) unsafe fn new(term: Term) -> Result<Self, Failure> {
         let missing = |name: &str| Failure::new(Code::Pointer, format_args!("`terms[].{name}` is null"));
         Ok(Self {

@@ -9,7 +9,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::errors::value_error;
 
-/// The pool of a process, which its number tells from that of its parent.
+/// The pool of a process, whose number distinguishes it from that of its parent.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
 /// Computes on the threads of the pool.
@@ -33,7 +33,7 @@ fn replace(current: &mut Option<(u32, Arc<ThreadPool>)>, count: usize) -> PyResu
     if let Some((process, pool)) = before
         && process != process::id()
     {
-        // Its threads are those of the parent: nobody is there to be told to end.
+        // Its threads are those of the parent: there is none to be ended.
         std::mem::forget(pool);
     }
     Ok(pool)

@@ -1,10 +1,10 @@
 //! The viewer of piola behind a page without a server: the driver and the conversation of `piola view`, in
 //! WebAssembly.
 //!
-//! What passes the border is text and numbers, as `piola-viewer` describes them. The page asks for
-//! [`room`] and writes there what it has to say, a scene for [`begin`] or a message for [`hear`]; and lets
-//! the driver work with [`turn`], which says for how long there is nothing to do. What the page is told waits
-//! in a queue: [`next`] takes the first message, whose bytes are at [`message`], as many as [`length`] says.
+//! What passes the border is text and numbers, as `piola-viewer` describes them. The page requests [`room`]
+//! and writes its input there, a scene for [`begin`] or a message for [`hear`]; and lets the driver work with
+//! [`turn`], which returns the time for which there is nothing to do. Messages for the page wait in a queue:
+//! [`next`] takes the first one, whose [`length`] bytes are at [`message`].
 
 use std::cell::RefCell;
 use std::collections::VecDeque;

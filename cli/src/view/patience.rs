@@ -53,7 +53,7 @@ impl TimedStream {
 
     fn left(&self) -> io::Result<Duration> {
         let left = self.until.saturating_duration_since(Instant::now());
-        // What systems say when a read or a write takes too long.
+        // Errors of systems when a read or a write takes too long.
         if left.is_zero() { Err(ErrorKind::WouldBlock.into()) } else { Ok(left) }
     }
 }

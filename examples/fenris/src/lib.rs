@@ -97,7 +97,7 @@ impl<T: Number, M: Response<T> + Clone + 'static> HyperelasticMaterial<T, U3> fo
         }
     }
 
-    // Without this fenris would ask for each pair of nodes by itself.
+    // Without this fenris would call it for each pair of nodes by itself.
     fn accumulate_stress_contractions_du_into(
         &self,
         output: DMatrixViewMut<'_, T>,

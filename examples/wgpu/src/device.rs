@@ -1,4 +1,4 @@
-//! A graphics processor: its buffers, programs and calls of them. It knows no energy.
+//! A graphics processor: its buffers, programs and calls of them. It is independent of energies.
 
 use std::fmt;
 use std::time::{Duration, Instant};

@@ -22,7 +22,7 @@ const BOUND: f64 = 30.0;
 /// Unit roundoff of `f32`.
 const U: f64 = 1.0 / (1 << 24) as f64;
 
-/// What is asked of the shader, and of a batch.
+/// Functions of the shader, and the filters of a batch.
 const FUNCTIONS: [(PointFunction, Filter); 2] =
     [(PointFunction::Tetrahedron, Filter::None), (PointFunction::ProjectedTetrahedron, Filter::Clamp)];
 

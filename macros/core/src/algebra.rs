@@ -1,6 +1,6 @@
 //! Calculus on expression graphs: exact fractions, derivatives, quotients, continuation and normal forms.
 //!
-//! It knows no declaration and no Rust: neither `read` nor any later stage.
+//! It is independent of declarations and of Rust: of `read` and of all later stages.
 
 pub mod by_parameters;
 pub mod calls;

@@ -15,8 +15,8 @@
 //! Imports point from later stages to earlier ones. [`printer`] writes expressions as text, for messages and
 //! documentation.
 //!
-//! An ordinary library, so that tests and tools can call each step. It knows scalars only: no matrices, lanes
-//! or meshes.
+//! An ordinary library, so that tests and tools can call each step. It handles scalars only: no matrices,
+//! lanes or meshes.
 
 pub mod algebra;
 pub mod emit;

@@ -237,7 +237,7 @@ fn read_into(
     let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
 
     let samples = judge::written(&mut graph, &source, is_well_formed, diagnostics)?;
-    // Of a formula more than one domain is tried, and the mistakes of the last are told.
+    // For a formula more than one domain is tried, and the mistakes of the last are reported.
     let is_trial =
         diagnostics.notation().is_formula() && (options.domain.is_empty() || options.extend.is_some());
     if is_trial && judge::is_out_of_domain(&graph, &source, &samples) {

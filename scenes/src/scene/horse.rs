@@ -10,8 +10,8 @@ use crate::region::EVERYWHERE;
 /// and released.
 ///
 /// Rotated linear elasticity needs no extension: it is defined for every deformation gradient. Here most of
-/// them have rank two or less, where the directions of the singular vectors say nothing about where the
-/// volume has gone.
+/// them have rank two or less, where the directions of the singular vectors carry no information about the
+/// lost volume.
 pub const HORSE: Scene = Scene {
     name: "horse",
     about: "a horse is flattened into the ground under its pinned hooves and stands up again",

@@ -1,6 +1,6 @@
 //! Formulas of 64 kB and less: a material or a refusal, and neither takes long.
 //!
-//! Time is that of the processor where Linux tells it, so that a busy machine makes no difference.
+//! Time is that of the processor if Linux reports it, so that a busy machine makes no difference.
 
 use std::io::Write;
 use std::panic::catch_unwind;

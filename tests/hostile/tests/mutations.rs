@@ -1,6 +1,6 @@
 //! Mutated files of each format: no panic, no hang, no result that is not finite.
 //!
-//! 300 files of each format, or as many as the environment variable `PIOLA_MUTATIONS` says. `PIOLA_BLESS=1`
+//! 300 files of each format, or as many as the environment variable `PIOLA_MUTATIONS` gives. `PIOLA_BLESS=1`
 //! writes the seed of the viewer's states anew, after their format has changed.
 
 use std::any::Any;

@@ -73,7 +73,7 @@ impl<E: Kernels> Arrays<E> {
     }
 }
 
-/// Numbers from the start of a cache line on, as stores past the caches want them.
+/// Numbers from the start of a cache line on, as stores past the caches require.
 #[derive(Debug)]
 pub(super) struct Aligned<E> {
     numbers: Vec<E>,

@@ -1,11 +1,11 @@
 //! Work to be timed and counted: the kernels of a batch on fixed points, for the table of speeds and
 //! the counts of instructions.
 //!
-//! * [`Task`]: what a batch is asked for; [`Arrays`]: the numbers that go in and come out;
-//! * [`materials`]: of which energies;
+//! * [`Task`]: the work of a batch; [`Arrays`]: its input and output;
+//! * [`materials`]: the energies;
 //! * [`Decompositions`]: the singular value decomposition alone;
-//! * [`deformation_gradients`]: at which points;
-//! * [`time`]: how long calls take.
+//! * [`deformation_gradients`]: the points;
+//! * [`time`]: the timing of calls.
 //!
 //! It has few dependencies, so that instructions are counted without building the judges.
 

@@ -1,6 +1,6 @@
 //! Description of the machine that measures.
 
-/// The processor's name, where the system says it.
+/// The processor's name, if the system reports it.
 #[must_use]
 pub fn processor() -> String {
     let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();

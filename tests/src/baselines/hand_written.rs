@@ -1,7 +1,7 @@
 //! Energies with derivatives by hand, with as few operations as their author could find: the baselines that
 //! compute by invariants or by automatic differentiation take them from here.
 //!
-//! Each agrees with the energy of the same name in the catalogue, which says the formula and its source.
+//! Each agrees with the energy of the same name in the catalogue, which has the formula and its source.
 
 #![expect(non_snake_case, reason = "J as in the literature")]
 

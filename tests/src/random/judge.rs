@@ -39,7 +39,7 @@ pub struct Tally {
     pub refused: usize,
     /// Values judged.
     pub judged: usize,
-    /// Judged values that are infinite or NaN, which a status says.
+    /// Judged values that are infinite or NaN, as a status reports.
     pub flagged: usize,
     /// Flagged values that are finite, of formulas with no part near the ends of the range of `f64`.
     pub needless: usize,
@@ -204,7 +204,7 @@ fn judge_stretches(
         }
         for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
             value(["D-12", "D-13", "D-23"][pair], blocks[9 + pair], &point.flip[pair], variant.flip[pair]);
-            // At a pole the value is bounded, and the status says so.
+            // At a pole the value is bounded, and the status reports it.
             if !(variant.has_pole && stretches[i] + stretches[j] < pole_floor(stretches)) {
                 value(
                     ["D+12", "D+13", "D+23"][pair],

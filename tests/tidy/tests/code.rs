@@ -9,7 +9,7 @@ use quote::ToTokens;
 use syn::{Block, FnArg, ImplItem, Item, Pat, Signature, TraitItem};
 
 /// Vector instructions are unsafe, and at home in `lanes`; so are the functions of PETSc, a library of C, at
-/// the border to it, and what programs in other languages lend; there every block says why it is sound.
+/// the border to it, and the memory of programs in other languages; there every block states why it is sound.
 #[test]
 fn unsafe_code_stays_in_its_places_and_says_why() {
     let mut found = Vec::new();
@@ -27,7 +27,7 @@ fn unsafe_code_stays_in_its_places_and_says_why() {
             let is_at_home = path.components().any(|part| part.as_os_str() == "lanes")
                 || path.starts_with("bindings")
                 || path == Path::new("distributed/src/petsc.rs");
-            // What a function is for other languages says the documentation of their header.
+            // The documentation of the header describes a function for other languages.
             let is_foreign = lines[line - 1].contains("unsafe extern \"C\" fn");
             if is_foreign || lines[line - 1] == "#[unsafe(no_mangle)]" {
                 continue;

@@ -69,7 +69,7 @@ fn what_returns_a_result_is_tried_with_hostile_arguments() {
             {
                 judged += 1;
                 let name = function.signature.ident.to_string();
-                // Of constructors the name of the type tells them apart.
+                // Constructors are distinguished by the name of the type.
                 let called = if name == "new" { function.owner.clone().unwrap_or(name) } else { name };
                 if !tried.contains(&called) {
                     found.push(format!("{}: {called}", module.file.display()));
@@ -81,7 +81,7 @@ fn what_returns_a_result_is_tried_with_hostile_arguments() {
     assert!(judged > 30, "{judged} functions");
 }
 
-/// A function of an item, with what these tests ask of it.
+/// A function of an item, with the facts that these tests need.
 struct Function {
     signature: Signature,
     body: TokenStream,

@@ -2,7 +2,7 @@
 //! WebAssembly.
 //!
 //! Each line of standard input is a request in JSON, and each line of standard output an answer with the name
-//! of the back end; `--functions` and `--time` ask for something else, and read nothing:
+//! of the back end; `--functions` and `--time` do something else, and read nothing:
 //!
 //! ```text
 //! {"material": "gent", "parameters": {"mu": [1.0], …}, "single": false, "F": [[…9…], …]}

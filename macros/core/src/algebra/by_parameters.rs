@@ -9,9 +9,8 @@
 //! ∂e/∂m_q = Σ_T ∂e/∂T · ∂b/∂m (m_q, …)     over all sums T in e
 //! ```
 //!
-//! The factor on the right has an entry outside any sum: [`Node::Entry`] there is entry q, for whichever q is
-//! asked. The factor on the left has no entry, so that an entry inside a sum is never mistaken for one
-//! outside.
+//! The factor on the right has an entry outside any sum: [`Node::Entry`] there is entry q, for any q. The
+//! factor on the left has no entry, so that an entry inside a sum is never mistaken for one outside.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 

@@ -5,7 +5,7 @@
 //! of two numbers, and x·x⁻¹ never survives. Products are not multiplied out, and sums with a coefficient
 //! other than ±1 stay what they are, so an energy keeps the shape in which it was written.
 //!
-//! The graph knows no derivative: see [`crate::algebra::diff`] and [`crate::algebra::quotient`].
+//! The graph has no derivatives: see [`crate::algebra::diff`] and [`crate::algebra::quotient`].
 
 use std::cell::Cell;
 use std::rc::Rc;

@@ -100,7 +100,7 @@ impl Increments {
                 let (f, g) = (graph.power(base, exponent), graph.product(others));
                 let (df, dg) = (self.increment(graph, f), self.increment(graph, g));
                 let f_at_rest = substitute_rest(graph, f);
-                // Whether a whole power vanishes at rest, only its exponent tells.
+                // Only its exponent decides whether a whole power vanishes at rest.
                 let g = if has_whole_powers(graph, g) { self.accurate(graph, g) } else { g };
                 let (left, right) = (graph.mul(df, g), graph.mul(f_at_rest, dg));
                 graph.add(left, right)

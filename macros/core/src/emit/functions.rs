@@ -20,7 +20,7 @@ pub(super) fn documentation(declaration: &Declaration) -> String {
     }
 }
 
-/// A block that tells whether every function in an energy is defined at its argument; `None` without
+/// A block that evaluates to true if every function in an energy is defined at its argument; `None` without
 /// functions.
 pub(super) fn defined(
     declaration: &Declaration,

@@ -94,7 +94,7 @@ fn inert_type(function: &Function) -> TokenStream {
     let name = &signature.ident;
     let generics = lengths(signature);
     let (types, methods) = parameters(signature, &generics);
-    // Two parameters are found from the stiffness; which two, only a correct declaration tells.
+    // Two parameters follow from the stiffness; only a correct declaration determines which two.
     let from_young_poisson = types.len().checked_sub(2).map(|others| {
         let others = vec![quote!(impl ::core::marker::Sized); others];
         quote! {

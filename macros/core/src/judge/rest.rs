@@ -43,7 +43,7 @@ pub(crate) fn rest(graph: &mut Graph, gradient: Id, samples: &[Point], findings:
             !is_zero(Estimate { value: evaluate(graph, stress, &rest).value, magnitude })
         })
     };
-    // Only the constructor knows the slopes of functions.
+    // Only the constructor has the slopes of functions.
     if declaration.has_functions() || !is_stressed(graph, gradient) {
         return;
     }

@@ -1,6 +1,6 @@
 //! Energies as formulas in the stretches, for numbers of any kind.
 //!
-//! Each is the formula of the same name in the catalogue, which says its source.
+//! Each is the formula of the same name in the catalogue, which names its source.
 
 #![expect(non_snake_case, reason = "I1, J as in the literature")]
 

@@ -1,6 +1,6 @@
 //! Energies as functions of I = tr C, II = C:C and III = det C, with derivatives by hand.
 //!
-//! Each agrees with the energy of the same name in the catalogue, which says its source.
+//! Each agrees with the energy of the same name in the catalogue, which names its source.
 
 #![expect(non_snake_case, reason = "I, II, III as in the paper")]
 
