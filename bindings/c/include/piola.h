@@ -28,33 +28,33 @@
 #define PIOLA_NO_UNKNOWN SIZE_MAX
 
 
-// Result of a function: 0, or the kind of what went wrong. `piola_error_message` says it in words.
+// Result of a function: 0, or the kind of the error. `piola_error_message` returns its text.
 typedef enum piola_code {
-    // Nothing went wrong.
+    // Success.
     PIOLA_CODE_OK = 0,
     // A pointer is null or not aligned, or an array that is written overlaps another one.
     PIOLA_CODE_POINTER = 1,
-    // The lengths of arrays do not fit together.
+    // The lengths of arrays do not match.
     PIOLA_CODE_LENGTH = 2,
     // A text is not UTF-8.
     PIOLA_CODE_TEXT = 3,
-    // An option, a setting or an entry of an array is none of those that are allowed.
+    // An option, a setting or an entry of an array has a value that is not allowed.
     PIOLA_CODE_VALUE = 4,
-    // There is no energy of this name, or it has not these parameters, or not these values of them.
+    // No energy has this name, these parameters, or these values of them.
     PIOLA_CODE_MATERIAL = 5,
-    // A text declares no energy; the message shows each mistake at its place.
+    // A text does not declare an energy; the message shows each mistake at its place.
     PIOLA_CODE_ENERGY = 6,
-    // Nodes, tetrahedra, parts and densities make no body.
+    // Nodes, tetrahedra, parts and densities are not a valid body.
     PIOLA_CODE_BODY = 7,
-    // A sparse matrix cannot take the stiffnesses of these tetrahedra.
+    // A sparse matrix does not fit the stiffnesses of these tetrahedra.
     PIOLA_CODE_MATRIX = 8,
     // A step finds no admissible next state. The state before is untouched.
     PIOLA_CODE_STEP = 9,
-    // A function of the caller's own has returned a value other than 0.
+    // A user-defined function has returned a value other than 0.
     PIOLA_CODE_CALLBACK = 10,
     // Another call uses this handle. Nothing has been done.
     PIOLA_CODE_BUSY = 11,
-    // A mistake in piola itself. A handle that was being changed cannot be used any more, but freed.
+    // A bug in piola. A handle that was being changed can only be freed.
     PIOLA_CODE_PANIC = 12,
 } piola_code;
 
@@ -63,8 +63,8 @@ typedef enum piola_notation {
     // The Rust function that `#[piola::material]` takes, such as
     // `fn Rubber([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu / 2.0 * (I1 - 3.0) - mu * J.ln() }`.
     PIOLA_NOTATION_RUST = 0,
-    // A formula as papers write it, such as `mu/2*(I1 - 3) - mu*ln(J) where J > 0`. Names that mean nothing
-    // else are its parameters, in the order in which they occur.
+    // A formula as papers write it, such as `mu/2*(I1 - 3) - mu*ln(J) where J > 0`. Names without another
+    // meaning are its parameters, in the order in which they occur.
     PIOLA_NOTATION_FORMULA = 1,
 } piola_notation;
 
@@ -82,11 +82,11 @@ typedef enum piola_parameter_unit {
 
 // Treatment of the negative eigenvalues of dP/dF.
 typedef enum piola_filter {
-    // They stay: the exact derivative of the stress.
+    // Leaves negative eigenvalues as they are: the exact derivative of the stress.
     PIOLA_FILTER_NONE = 0,
-    // They become zero.
+    // Sets negative eigenvalues to zero.
     PIOLA_FILTER_CLAMP = 1,
-    // They become positive.
+    // Replaces negative eigenvalues by their absolute values.
     PIOLA_FILTER_ABSOLUTE = 2,
 } piola_filter;
 
@@ -94,9 +94,9 @@ typedef enum piola_filter {
 typedef enum piola_layout {
     // Point by point: component k of point p at p N + k.
     PIOLA_LAYOUT_POINTS = 0,
-    // In lines of L points, 8 in double precision and 16 in single precision: component k of point p at
-    // (p/L N + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line up
-    // with identities.
+    // Lines of L points, 8 in double precision and 16 in single precision: component k of point p at (p/L N
+    // + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line up with
+    // identities.
     PIOLA_LAYOUT_LINES = 1,
 } piola_layout;
 
@@ -104,17 +104,17 @@ typedef enum piola_layout {
 typedef enum piola_instructions {
     // The best that the processor has.
     PIOLA_INSTRUCTIONS_BEST = 0,
-    // Those that every processor has.
+    // Instructions that every processor has.
     PIOLA_INSTRUCTIONS_PORTABLE = 1,
 } piola_instructions;
 
 // Flags of the status of a point.
 typedef enum piola_status {
-    // The deformation is outside the domain of the energy, and the results mean nothing.
+    // The deformation is outside the domain of the energy, and the results are invalid.
     PIOLA_STATUS_REFUSED = 1,
-    // The tangent is at a pole, and has a bounded value in place of an infinite one.
+    // The tangent is at a pole, and has a bounded value instead of an infinite one.
     PIOLA_STATUS_BOUNDED = 2,
-    // The deformation gradient or a result is infinite or NaN, or nearly so: the results mean nothing.
+    // The deformation gradient or a result is infinite or NaN, or nearly so: the results are invalid.
     PIOLA_STATUS_NONFINITE = 4,
     // The filter has changed the tangent.
     PIOLA_STATUS_FILTERED = 8,
@@ -131,7 +131,7 @@ typedef enum piola_form {
 
 // A measure of stress with the tangent that belongs to it.
 //
-// Symmetric tensors are six numbers, 11, 22, 33, 23, 13, 12; tangents 36, row by row, which take strains
+// Symmetric tensors are six numbers, 11, 22, 33, 23, 13, 12; tangents 36, row by row, which act on strains
 // with doubled shears.
 typedef enum piola_measure {
     // The second Piola-Kirchhoff stress S and dS/dE.
@@ -141,7 +141,7 @@ typedef enum piola_measure {
     // The Cauchy stress and the spatial tangent of its Truesdell rate.
     PIOLA_MEASURE_CAUCHY = 2,
     // The Cauchy stress and the tangent of the Jaumann rate of the Kirchhoff stress by deformed volume,
-    // which is DDSDDE of Abaqus but for the order: number I there is number {0, 1, 2, 5, 4, 3}[I] here.
+    // which is DDSDDE of Abaqus except for the order: number I there is number {0, 1, 2, 5, 4, 3}[I] here.
     PIOLA_MEASURE_JAUMANN = 3,
     // The Cauchy stress and the tangent of the Green-Naghdi rate of the Kirchhoff stress by deformed volume.
     PIOLA_MEASURE_GREEN_NAGHDI = 4,
@@ -149,21 +149,21 @@ typedef enum piola_measure {
 
 // Vectors of the nodes of a simulation, three numbers each.
 typedef enum piola_quantity {
-    // Positions, m. Pins hold their nodes where positions are written.
+    // Positions, m. If positions are written, pins hold their nodes there.
     PIOLA_QUANTITY_POSITIONS = 0,
     // Velocities, m/s.
     PIOLA_QUANTITY_VELOCITIES = 1,
     // Accelerations at the end of the last step, m/s².
     PIOLA_QUANTITY_ACCELERATIONS = 2,
-    // Given forces, N, which keep their size and direction. None, where an array of length 0 is written.
+    // Given forces, N, of constant size and direction. Write an array of length 0 to remove them.
     PIOLA_QUANTITY_FORCES = 3,
-    // Forces of the pins, N: three numbers for each pinned node, in ascending order. To be read only.
+    // Forces of the pins, N: three numbers for each pinned node, in ascending order. Read-only.
     PIOLA_QUANTITY_REACTIONS = 4,
 } piola_quantity;
 
-// Why the iteration of a step has ended.
+// Reason why the iteration of a step has ended.
 typedef enum piola_convergence {
-    // The gradient, or what was left to go, fell below the tolerance.
+    // The gradient, or the remaining distance, fell below the tolerance.
     PIOLA_CONVERGENCE_TOLERANCE = 0,
     // All further gain is below rounding.
     PIOLA_CONVERGENCE_ROUNDING = 1,
@@ -171,7 +171,7 @@ typedef enum piola_convergence {
     PIOLA_CONVERGENCE_LIMIT = 2,
 } piola_convergence;
 
-// Second derivatives of a term, valid during the call that it was handed to.
+// Second derivatives of a term, valid during the call that receives it.
 typedef struct piola_blocks piola_blocks;
 
 // An elastic body at rest. Immutable: threads may share it.
@@ -191,8 +191,8 @@ typedef struct piola_material piola_material;
 // Memory to evaluate the energy of a body. Threads may share it: calls wait for each other.
 typedef struct piola_response piola_response;
 
-// A body with positions and velocities, which steps change. A call while another thread's is under way
-// returns PIOLA_CODE_BUSY.
+// A body with positions and velocities, which steps change. A call during a call of another thread returns
+// PIOLA_CODE_BUSY.
 typedef struct piola_simulation piola_simulation;
 
 // Description of a parameter.
@@ -215,11 +215,11 @@ typedef struct piola_parameter_description {
 typedef struct piola_energy_description {
     // The name by which it is chosen.
     const char *name;
-    // What it is, in a sentence or two.
+    // Short description, in a sentence or two.
     const char *summary;
     // The energy density as a formula in one line.
     const char *formula;
-    // Where it is defined, such as `J > 0`; empty if everywhere.
+    // Domain of the energy, such as `J > 0`; empty if it is defined everywhere.
     const char *domain;
     // 1 if it can be continued beyond its domain, for inverted elements; 0 if not.
     int32_t extends;
@@ -237,35 +237,35 @@ typedef struct piola_parameter {
     const double *values;
     // Number of its values at a point: 1, or more for a list.
     size_t length;
-    // Distance from the values of a point to those of the next one; 0 where they are the same for all
-    // points.
+    // Distance from the values of a point to those of the next one; 0 if they are the same for all points.
     size_t stride;
 } piola_parameter;
 
-// How a batch computes. `piola_options options = {sizeof options};` has the defaults, as null has.
+// Options of a batch. `piola_options options = {sizeof options};` has the defaults, and so does null.
 typedef struct piola_options {
-    // `sizeof(piola_options)`, by which the library knows the fields of the header that a program was
+    // `sizeof(piola_options)`, from which the library determines the fields of the header that a program was
     // compiled with.
     size_t size;
     // One of `piola_filter`. Stresses in other measures have tangents without a filter.
     int32_t filter;
-    // One of `piola_layout`, of all arrays of a call but positions, tetrahedra and statuses.
+    // One of `piola_layout`, of all arrays of a call except for positions, tetrahedra and statuses.
     int32_t layout;
     // One of `piola_instructions`.
     int32_t instructions;
     // 1 to share the points among as many threads as there are processors, or as the environment variable
-    // RAYON_NUM_THREADS says; 0 for the thread of the caller alone. Results have the same bits.
+    // RAYON_NUM_THREADS gives; 0 for the thread of the caller alone. Results have the same bits.
     int32_t threads;
-    // 1 to write tangents past the caches, which is faster where they are larger than these, needs lines,
-    // and arrays aligned to 64 bytes; else 0.
+    // 1 to write tangents past the caches, which is faster if they are larger than the caches, and needs
+    // lines and arrays aligned to 64 bytes; else 0.
     int32_t streams;
-    // Room for the status of each point, flags of `piola_status`; or null.
+    // Array for the status of each point, flags of `piola_status`; or null.
     uint8_t *statuses;
     // Number of statuses: that of the points, or 0.
     size_t statuses_length;
 } piola_options;
 
-// Counts of the statuses of many points. A point that cannot be computed is no error of a call: look here.
+// Counts of the statuses of many points. A point that cannot be computed is not an error of a call: look
+// here.
 typedef struct piola_survey {
     // Number of points outside the domain of the energy.
     size_t refused;
@@ -275,7 +275,7 @@ typedef struct piola_survey {
     size_t nonfinite;
     // Number of points where the filter has changed the tangent.
     size_t filtered;
-    // Index of the first point whose results mean nothing, refused or nonfinite; SIZE_MAX if there is none.
+    // Index of the first point with invalid results, refused or nonfinite; SIZE_MAX if there is none.
     size_t first;
 } piola_survey;
 
@@ -304,12 +304,12 @@ typedef struct piola_spring {
 //
 // Its functions get `context` and the positions of the `nodes` nodes, three numbers each, m; the same
 // positions must give the same bits. They return 0, or another number, which ends the step with
-// PIOLA_CODE_CALLBACK. No exception may leave them. They are called by one thread at a time, though not that
-// which called the library, and must not call functions with the handle of the simulation.
+// PIOLA_CODE_CALLBACK. No exception may leave them. They are called by one thread at a time, not necessarily
+// the one that called the library, and must not call functions with the handle of the simulation.
 typedef struct piola_term {
-    // What the functions get as their first argument. It must live as long as the simulation has this term.
+    // First argument of the functions. It must live as long as the simulation has this term.
     void *context;
-    // Writes the energy, J; infinity outside of its domain, to where no step will go.
+    // Writes the energy, J; infinity outside of its domain, which no step will enter.
     int32_t (*energy)(void *context,
                       const double *positions,
                       size_t nodes,
@@ -320,7 +320,7 @@ typedef struct piola_term {
                             size_t nodes,
                             double *gradient);
     // Adds the second derivatives of the energy, N/m, by calls of `piola_blocks_add`. Newton's method
-    // converges where they are positive semidefinite, so that negative eigenvalues are best left out.
+    // converges if they are positive semidefinite, so that negative eigenvalues are best left out.
     int32_t (*add_second_derivatives)(void *context,
                                       const double *positions,
                                       size_t nodes,
@@ -384,14 +384,14 @@ enum piola_code piola_catalogue_name(size_t index,
 
 // An energy of the catalogue by its name, such as "neo_hookean"; ignores case, spaces, `_` and `-`.
 //
-// Errors: PIOLA_CODE_MATERIAL for a name that is not in the catalogue; the message has those that are.
+// Errors: PIOLA_CODE_MATERIAL for a name that is not in the catalogue; the message lists those that are.
 enum piola_code piola_energy_named(const char *name,
                                    struct piola_energy **energy);
 
 // An energy that a text declares, in one of the notations of `piola_notation`. It is compiled here, within
 // milliseconds to seconds, and computes what the same declaration compiled by Rust does, to the last bit.
 //
-// Errors: PIOLA_CODE_ENERGY for mistakes, all of which the message tells, each with the line that it is in.
+// Errors: PIOLA_CODE_ENERGY for mistakes; the message lists all of them, each with its line.
 enum piola_code piola_energy_declared(const char *text,
                                       int32_t notation,
                                       struct piola_energy **energy);
@@ -405,13 +405,13 @@ void piola_energy_free(struct piola_energy *energy);
 
 // Makes a material of an energy and values for all of its parameters, in any order.
 //
-// `points` is 0 for one material that serves any number of points. Otherwise it serves just so many, and
-// parameters with a stride have values for each of them: those of point p begin at `values[p * stride]`. In
-// a body, points are the tetrahedra of a part, in their order.
+// `points` is 0 for one material that is the same for any number of points. Otherwise it has exactly
+// `points` points, and parameters with a stride have values for each of them: those of point p begin at
+// `values[p * stride]`. In a body, points are the tetrahedra of a part, in their order.
 //
-// `extension` says what happens outside the domain of the energy, such as to inverted elements. Between 0
+// `extension` is the behaviour outside the domain of the energy, such as for inverted elements. Between 0
 // and 1 it is the stretch below which the energy is continued, which then restores them. 0: such points are
-// refused. Negative: 0.1 where the energy can be continued, else 0.
+// refused. Negative: 0.1 if the energy can be continued, else 0.
 //
 // Parameters of a declared energy that are not given have the typical values of the declaration, if it has
 // some.
@@ -429,8 +429,8 @@ enum piola_code piola_material_new(const struct piola_energy *energy,
                                    size_t points,
                                    struct piola_material **material);
 
-// Moduli at rest, Pa: the shear modulus μ and Lamé's λ. Each may go to null. A material with values for each
-// point has those of its first.
+// Moduli at rest, Pa: the shear modulus μ and Lamé's λ. Each pointer may be null. For a material with values
+// for each point they are those of the first.
 enum piola_code piola_material_moduli(const struct piola_material *material,
                                       double *mu,
                                       double *lambda);
@@ -475,8 +475,8 @@ enum piola_code piola_stresses_f32(const struct piola_material *material,
                                    size_t P_length,
                                    struct piola_survey *survey);
 
-// Stresses P, Pa, and tangents dP/dF, Pa, after the filter, in one of the forms of `piola_form`: 81 or 45
-// numbers for each point.
+// Stresses P, Pa, and filtered tangents dP/dF, Pa, in one of the forms of `piola_form`: 81 or 45 numbers for
+// each point.
 enum piola_code piola_tangents(const struct piola_material *material,
                                const struct piola_options *options,
                                int32_t form,
@@ -528,10 +528,10 @@ enum piola_code piola_energies_and_tangents_f32(const struct piola_material *mat
                                                 struct piola_survey *survey);
 
 // Stresses in one of the measures of `piola_measure`, Pa, six numbers for each F. Their tangents, Pa, 36
-// numbers for each F and without a filter, are computed where there is room for them: `tangents` may be
+// numbers for each F and without a filter, are computed if there is an array for them: `tangents` may be
 // null, with a length of 0.
 //
-// A point is nonfinite where its stress is, as the Cauchy stress is where F is singular.
+// A point is nonfinite if its stress is, such as the Cauchy stress for a singular F.
 enum piola_code piola_stresses_in(const struct piola_material *material,
                                   const struct piola_options *options,
                                   int32_t measure,
@@ -555,8 +555,8 @@ enum piola_code piola_stresses_in_f32(const struct piola_material *material,
                                       size_t tangents_length,
                                       struct piola_survey *survey);
 
-// Shapes of tetrahedra at rest: ten numbers each, the inverse of Dm row by row, 1/m, and the volume, m³,
-// which `piola_stiffnesses` takes. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
+// Shapes of tetrahedra at rest: ten numbers each, the inverse of Dm row by row, 1/m, and the volume, m³, the
+// input of `piola_stiffnesses`. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
 //
 // `positions` has three numbers for each node, m; `corners` four nodes, from 0, for each tetrahedron, with
 // det Dm > 0.
@@ -570,12 +570,12 @@ enum piola_code piola_rest_shapes(const double *positions,
                                   double *rest,
                                   size_t rest_length);
 
-// Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and stiffnesses, N/m,
-// after the filter, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
-// numbers each as of `piola_rest_shapes`.
+// Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and filtered
+// stiffnesses, N/m, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
+// numbers each as from `piola_rest_shapes`.
 //
-// Of the gradients there are 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Of the
-// stiffnesses 144 or 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
+// Gradients have 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Stiffnesses have 144 or
+// 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
 //
 // The filter acts on dP/dF and is pulled back to the nodes.
 enum piola_code piola_stiffnesses(const struct piola_material *material,
@@ -605,11 +605,11 @@ enum piola_code piola_stiffnesses_f32(const struct piola_material *material,
                                       size_t stiffnesses_length,
                                       struct piola_survey *survey);
 
-// Gradients and stiffnesses as of `piola_stiffnesses`, with the nodes at `positions`, three numbers for
-// each, m: F = Ds Dm⁻¹ is made on the way. `corners` has four nodes, from 0, for each tetrahedron.
+// Gradients and stiffnesses as from `piola_stiffnesses`, with the nodes at `positions`, three numbers for
+// each, m: F = Ds Dm⁻¹ is computed on the way. `corners` has four nodes, from 0, for each tetrahedron.
 //
-// In lines, `rest`, `gradients` and `stiffnesses` go on to the end of the last line; what stands there is
-// for tetrahedra with edges of length 1 along the axes.
+// In lines, `rest`, `gradients` and `stiffnesses` extend to the end of the last line; fill `rest` up with
+// shapes of tetrahedra with edges of length 1 along the axes.
 //
 // Errors: PIOLA_CODE_VALUE for nodes that do not exist.
 enum piola_code piola_stiffnesses_at(const struct piola_material *material,
@@ -645,14 +645,14 @@ enum piola_code piola_stiffnesses_at_f32(const struct piola_material *material,
 
 // Finds the places of the stiffnesses of tetrahedra in a sparse matrix: row r has the columns
 // `columns[row_starts[r]]` to `columns[row_starts[r + 1] - 1]`, in any order, counted from 0. The matrix may
-// be whole or one of its triangles, and so that of compressed columns as well.
+// be whole or one of its triangles; compressed columns work as well, since it is symmetric.
 //
 // `corners` has four nodes, from 0, for each tetrahedron; `unknowns` the first of the three successive
-// unknowns of each of the `nodes` nodes, or PIOLA_NO_UNKNOWN. It may be null, with a length of 0, where node
-// n has the unknowns 3n, 3n + 1, 3n + 2. Takes 576 bytes for each tetrahedron.
+// unknowns of each of the `nodes` nodes, or PIOLA_NO_UNKNOWN. It may be null, with a length of 0, if node n
+// has the unknowns 3n, 3n + 1, 3n + 2. Takes 576 bytes for each tetrahedron.
 //
-// Errors: PIOLA_CODE_MATRIX for arrays that describe no matrix and entries that it lacks, PIOLA_CODE_VALUE
-// for nodes that do not exist.
+// Errors: PIOLA_CODE_MATRIX for arrays that are not a matrix and for missing entries, PIOLA_CODE_VALUE for
+// nodes that do not exist.
 enum piola_code piola_csr_new_i32(size_t nodes,
                                   const size_t *corners,
                                   size_t corners_length,
@@ -676,9 +676,9 @@ enum piola_code piola_csr_new_i64(size_t nodes,
                                   size_t columns_length,
                                   struct piola_csr **csr);
 
-// Adds the stiffnesses of all tetrahedra, 144 numbers each as `piola_stiffnesses` writes them in this
-// layout, one of `piola_layout`, to the values of the matrix, one for each of its columns. The sums are
-// taken in the order of the tetrahedra, on the thread of the caller.
+// Adds the stiffnesses of all tetrahedra, 144 numbers each from `piola_stiffnesses` in this layout, one of
+// `piola_layout`, to the values of the matrix, one for each of its columns. The sums are taken in the order
+// of the tetrahedra, on the thread of the caller.
 enum piola_code piola_csr_add(const struct piola_csr *csr,
                               int32_t layout,
                               const double *stiffnesses,
@@ -700,12 +700,11 @@ void piola_csr_free(struct piola_csr *csr);
 // Makes a body of nodes at `positions`, three numbers each, m, and tetrahedra, `corners` with four nodes
 // each, from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0.
 //
-// `part_of` has for each tetrahedron the part that it belongs to, from 0; it may be null, with a length of
-// 0, where there is one part. The body keeps its materials, whose handles may be freed.
+// `part_of` has the part of each tetrahedron, from 0; it may be null, with a length of 0, if there is one
+// part. The body keeps its materials, whose handles may be freed.
 //
-// Errors: PIOLA_CODE_BODY for what makes no body: nodes without tetrahedron, volumes and densities that are
-// not positive, a material with values for another number of tetrahedra; the message numbers tetrahedra from
-// 1.
+// Errors: PIOLA_CODE_BODY for an invalid body: nodes without tetrahedron, volumes and densities that are not
+// positive, a material with values for another number of tetrahedra; the message numbers tetrahedra from 1.
 enum piola_code piola_body_new(const double *positions,
                                size_t positions_length,
                                const size_t *corners,
@@ -729,10 +728,11 @@ enum piola_code piola_response_new(const struct piola_body *body,
                                    struct piola_response **response);
 
 // Energy of deformation, J, with the nodes at `positions`, three numbers each, m, and its gradient, N, three
-// numbers for each node: **forces are minus this**. Where the length of `gradient` is 0, the energy alone.
+// numbers for each node: **forces are minus this**. If the length of `gradient` is 0, only the energy is
+// computed.
 //
-// The survey, which may go to null, counts tetrahedra; energy and gradient mean something where none is
-// refused or nonfinite. Shared among threads.
+// The survey, which may be null, counts tetrahedra; energy and gradient are valid if none is refused or
+// nonfinite. Shared among threads.
 enum piola_code piola_response_evaluate(const struct piola_response *response,
                                         const double *positions,
                                         size_t positions_length,
@@ -754,9 +754,9 @@ void piola_response_free(struct piola_response *response);
 // - `integrator`: `"implicit_euler"`, `"sdirk2"`, `"sdirk3"`;
 // - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "linear": …}`, with
 //   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,
-//   - `linear`: `"automatic"`, `"cholesky"`, and others: `LinearSolver` of the crate `piola` has them all.
+//   - `linear`: `"automatic"`, `"cholesky"`, and others: see `LinearSolver` of the crate `piola`.
 //
-// Errors: PIOLA_CODE_VALUE for a node that does not exist and for settings that are not these.
+// Errors: PIOLA_CODE_VALUE for a node that does not exist and for other settings.
 enum piola_code piola_simulation_new(const struct piola_body *body,
                                      const size_t *pins,
                                      size_t pins_length,
@@ -785,8 +785,8 @@ enum piola_code piola_simulation_set_pins(const struct piola_simulation *simulat
                                           const size_t *pins,
                                           size_t pins_length);
 
-// Prescribes where pinned nodes are after the next step and from then on: three numbers for each of `nodes`,
-// m. They move evenly through the step.
+// Prescribes the positions of pinned nodes after the next step and from then on: three numbers for each of
+// `nodes`, m. They move evenly through the step.
 enum piola_code piola_simulation_prescribe(const struct piola_simulation *simulation,
                                            const size_t *nodes,
                                            size_t nodes_length,
@@ -798,23 +798,23 @@ enum piola_code piola_simulation_set_springs(const struct piola_simulation *simu
                                              const struct piola_spring *springs,
                                              size_t springs_length);
 
-// Replaces all terms of the energy but deformation, gravity and springs.
+// Replaces all terms of the energy except for deformation, gravity and springs.
 enum piola_code piola_simulation_set_terms(const struct piola_simulation *simulation,
                                            const struct piola_term *terms,
                                            size_t terms_length);
 
-// Advances by `dt`, s; the report may go to null. Shared among threads, with the same bits for any number of
+// Advances by `dt`, s; the report may be null. Shared among threads, with the same bits for any number of
 // them.
 //
-// Errors: PIOLA_CODE_STEP where there is no admissible next state: the state before is untouched, and a
-// shorter step may succeed. PIOLA_CODE_CALLBACK where a function of a term has failed: likewise, unless it
-// was the last one of the step, for the energy in the report.
+// Errors: PIOLA_CODE_STEP if there is no admissible next state: the state before is untouched, and a shorter
+// step may succeed. PIOLA_CODE_CALLBACK if a function of a term has failed: likewise, unless it was the last
+// one of the step, for the energy in the report.
 enum piola_code piola_simulation_step(const struct piola_simulation *simulation,
                                       double dt,
                                       struct piola_step_report *report);
 
-// Moves the body towards a minimum of its energy with gravity, forces, springs and terms, as far as the
-// settings allow. Then it is at rest. Otherwise as `piola_simulation_step`.
+// Moves the body towards a minimum of its energy with gravity, forces, springs and terms, within the limits
+// of the settings. Then it is at rest. Otherwise like `piola_simulation_step`.
 enum piola_code piola_simulation_equilibrate(const struct piola_simulation *simulation,
                                              struct piola_step_report *report);
 
@@ -822,10 +822,10 @@ enum piola_code piola_simulation_equilibrate(const struct piola_simulation *simu
 void piola_simulation_free(struct piola_simulation *simulation);
 
 // Adds the block of second derivatives by the positions of two nodes, nine numbers row by row, N/m, and, for
-// two different nodes, its transpose as that of `column` and `row`: each pair of nodes comes once.
+// two different nodes, its transpose as the block of `column` and `row`: add each pair of nodes once.
 //
-// The two need not share a tetrahedron. A pair that none and no earlier step has joined costs a new symbolic
-// analysis. A node that does not exist ends the step.
+// The two need not share a tetrahedron. A pair that neither a tetrahedron nor an earlier step has joined
+// costs a new symbolic analysis. A node that does not exist ends the step.
 enum piola_code piola_blocks_add(struct piola_blocks *blocks,
                                  size_t row,
                                  size_t column,

@@ -21,7 +21,7 @@ pub enum Form {
 
 /// A measure of stress with the tangent that belongs to it.
 ///
-/// Symmetric tensors are six numbers, 11, 22, 33, 23, 13, 12; tangents 36, row by row, which take strains
+/// Symmetric tensors are six numbers, 11, 22, 33, 23, 13, 12; tangents 36, row by row, which act on strains
 /// with doubled shears.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -218,7 +218,7 @@ pub unsafe extern "C" fn piola_energies_and_tangents_f32(
 /// numbers for each F and without a filter, are computed if there is an array for them: `tangents` may be
 /// null, with a length of 0.
 ///
-/// A point is nonfinite where its stress is, as the Cauchy stress is where F is singular.
+/// A point is nonfinite if its stress is, such as the Cauchy stress for a singular F.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_stresses_in(
     material: *const Material,
@@ -290,7 +290,7 @@ pub(crate) unsafe fn call<E: Precision, const I: usize, const O: usize>(
 /// Runs [`call`] next to other arrays that have been borrowed already.
 ///
 /// # Safety
-/// As of [`call`].
+/// As for [`call`].
 #[inline]
 pub(crate) unsafe fn call_with<E: Precision, const I: usize, const O: usize>(
     mut arrays: Arrays<'_>,

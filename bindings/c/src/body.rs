@@ -27,12 +27,11 @@ plain!(Part);
 /// Makes a body of nodes at `positions`, three numbers each, m, and tetrahedra, `corners` with four nodes
 /// each, from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0.
 ///
-/// `part_of` has for each tetrahedron the part that it belongs to, from 0; it may be null, with a length of
-/// 0, where there is one part. The body keeps its materials, whose handles may be freed.
+/// `part_of` has the part of each tetrahedron, from 0; it may be null, with a length of 0, if there is one
+/// part. The body keeps its materials, whose handles may be freed.
 ///
-/// Errors: PIOLA_CODE_BODY for what makes no body: nodes without tetrahedron, volumes and densities that are
-/// not positive, a material with values for another number of tetrahedra; the message numbers tetrahedra from
-/// 1.
+/// Errors: PIOLA_CODE_BODY for an invalid body: nodes without tetrahedron, volumes and densities that are not
+/// positive, a material with values for another number of tetrahedra; the message numbers tetrahedra from 1.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_body_new(
     positions: *const f64,

@@ -16,14 +16,14 @@ pub(crate) const NO_UNKNOWN: usize = usize::MAX;
 
 /// Finds the places of the stiffnesses of tetrahedra in a sparse matrix: row r has the columns
 /// `columns[row_starts[r]]` to `columns[row_starts[r + 1] - 1]`, in any order, counted from 0. The matrix may
-/// be whole or one of its triangles, and so that of compressed columns as well.
+/// be whole or one of its triangles; compressed columns work as well, since it is symmetric.
 ///
 /// `corners` has four nodes, from 0, for each tetrahedron; `unknowns` the first of the three successive
-/// unknowns of each of the `nodes` nodes, or PIOLA_NO_UNKNOWN. It may be null, with a length of 0, where node
-/// n has the unknowns 3n, 3n + 1, 3n + 2. Takes 576 bytes for each tetrahedron.
+/// unknowns of each of the `nodes` nodes, or PIOLA_NO_UNKNOWN. It may be null, with a length of 0, if node n
+/// has the unknowns 3n, 3n + 1, 3n + 2. Takes 576 bytes for each tetrahedron.
 ///
-/// Errors: PIOLA_CODE_MATRIX for arrays that describe no matrix and entries that it lacks, PIOLA_CODE_VALUE
-/// for nodes that do not exist.
+/// Errors: PIOLA_CODE_MATRIX for arrays that are not a matrix and for missing entries, PIOLA_CODE_VALUE for
+/// nodes that do not exist.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_csr_new_i32(
     nodes: usize,
@@ -63,9 +63,9 @@ pub unsafe extern "C" fn piola_csr_new_i64(
     unsafe { new(nodes, corners, unknowns, row_starts, columns, csr) }
 }
 
-/// Adds the stiffnesses of all tetrahedra, 144 numbers each as `piola_stiffnesses` writes them in this
-/// layout, one of `piola_layout`, to the values of the matrix, one for each of its columns. The sums are
-/// taken in the order of the tetrahedra, on the thread of the caller.
+/// Adds the stiffnesses of all tetrahedra, 144 numbers each from `piola_stiffnesses` in this layout, one of
+/// `piola_layout`, to the values of the matrix, one for each of its columns. The sums are taken in the order
+/// of the tetrahedra, on the thread of the caller.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_csr_add(
     csr: *const Csr,

@@ -9,8 +9,8 @@ use crate::lent::{self, Arrays};
 use crate::material::{Material, Precision};
 use crate::options::{Options, Survey};
 
-/// Shapes of tetrahedra at rest: ten numbers each, the inverse of Dm row by row, 1/m, and the volume, m³,
-/// which `piola_stiffnesses` takes. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
+/// Shapes of tetrahedra at rest: ten numbers each, the inverse of Dm row by row, 1/m, and the volume, m³, the
+/// input of `piola_stiffnesses`. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
 ///
 /// `positions` has three numbers for each node, m; `corners` four nodes, from 0, for each tetrahedron, with
 /// det Dm > 0.
@@ -52,8 +52,8 @@ pub unsafe extern "C" fn piola_rest_shapes(
 /// stiffnesses, N/m, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
 /// numbers each as from `piola_rest_shapes`.
 ///
-/// Of the gradients there are 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Of the
-/// stiffnesses 144 or 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
+/// Gradients have 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Stiffnesses have 144 or
+/// 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
 ///
 /// The filter acts on dP/dF and is pulled back to the nodes.
 #[unsafe(no_mangle)]
@@ -114,8 +114,8 @@ pub unsafe extern "C" fn piola_stiffnesses_f32(
 /// Gradients and stiffnesses as from `piola_stiffnesses`, with the nodes at `positions`, three numbers for
 /// each, m: F = Ds Dm⁻¹ is computed on the way. `corners` has four nodes, from 0, for each tetrahedron.
 ///
-/// In lines, `rest`, `gradients` and `stiffnesses` go on to the end of the last line; what stands there is
-/// for tetrahedra with edges of length 1 along the axes.
+/// In lines, `rest`, `gradients` and `stiffnesses` extend to the end of the last line; fill `rest` up with
+/// shapes of tetrahedra with edges of length 1 along the axes.
 ///
 /// Errors: PIOLA_CODE_VALUE for nodes that do not exist.
 #[unsafe(no_mangle)]

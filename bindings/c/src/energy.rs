@@ -23,8 +23,8 @@ pub enum Notation {
     /// The Rust function that `#[piola::material]` takes, such as
     /// `fn Rubber([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu / 2.0 * (I1 - 3.0) - mu * J.ln() }`.
     Rust = 0,
-    /// A formula as papers write it, such as `mu/2*(I1 - 3) - mu*ln(J) where J > 0`. Names that mean nothing
-    /// else are its parameters, in the order in which they occur.
+    /// A formula as papers write it, such as `mu/2*(I1 - 3) - mu*ln(J) where J > 0`. Names without another
+    /// meaning are its parameters, in the order in which they occur.
     Formula = 1,
 }
 
@@ -160,7 +160,7 @@ pub unsafe extern "C" fn piola_catalogue_name(index: usize, name: *mut *const c_
 
 /// An energy of the catalogue by its name, such as "neo_hookean"; ignores case, spaces, `_` and `-`.
 ///
-/// Errors: PIOLA_CODE_MATERIAL for a name that is not in the catalogue; the message has those that are.
+/// Errors: PIOLA_CODE_MATERIAL for a name that is not in the catalogue; the message lists those that are.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_energy_named(name: *const c_char, energy: *mut *mut Energy) -> Code {
     guard(|| {

@@ -38,13 +38,13 @@ plain!(Parameter);
 
 /// Makes a material of an energy and values for all of its parameters, in any order.
 ///
-/// `points` is 0 for one material that serves any number of points. Otherwise it has exactly `points` points,
-/// and parameters with a stride have values for each of them: those of point p begin at `values[p * stride]`.
-/// In a body, points are the tetrahedra of a part, in their order.
+/// `points` is 0 for one material that is the same for any number of points. Otherwise it has exactly
+/// `points` points, and parameters with a stride have values for each of them: those of point p begin at
+/// `values[p * stride]`. In a body, points are the tetrahedra of a part, in their order.
 ///
 /// `extension` is the behaviour outside the domain of the energy, such as for inverted elements. Between 0
 /// and 1 it is the stretch below which the energy is continued, which then restores them. 0: such points are
-/// refused. Negative: 0.1 where the energy can be continued, else 0.
+/// refused. Negative: 0.1 if the energy can be continued, else 0.
 ///
 /// Parameters of a declared energy that are not given have the typical values of the declaration, if it has
 /// some.
@@ -77,8 +77,8 @@ pub unsafe extern "C" fn piola_material_new(
     })
 }
 
-/// Moduli at rest, Pa: the shear modulus μ and Lamé's λ. Each may go to null. A material with values for each
-/// point has those of its first.
+/// Moduli at rest, Pa: the shear modulus μ and Lamé's λ. Each pointer may be null. For a material with values
+/// for each point they are those of the first.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_material_moduli(
     material: *const Material,

@@ -34,8 +34,8 @@ pub unsafe extern "C" fn piola_response_new(body: *const Body, response: *mut *m
 /// numbers for each node: **forces are minus this**. If the length of `gradient` is 0, only the energy is
 /// computed.
 ///
-/// The survey, which may go to null, counts tetrahedra; energy and gradient mean something where none is
-/// refused or nonfinite. Shared among threads.
+/// The survey, which may be null, counts tetrahedra; energy and gradient are valid if none is refused or
+/// nonfinite. Shared among threads.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_response_evaluate(
     response: *const Response,

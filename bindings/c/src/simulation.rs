@@ -13,8 +13,8 @@ use crate::lent::{Arrays, plain};
 use crate::term::{Callbacks, Term};
 use crate::{handle, lent};
 
-/// A body with positions and velocities, which steps change. A call while another thread's is under way
-/// returns PIOLA_CODE_BUSY.
+/// A body with positions and velocities, which steps change. A call during a call of another thread returns
+/// PIOLA_CODE_BUSY.
 pub struct Simulation(Mutex<State>);
 
 struct State {
@@ -134,9 +134,9 @@ impl From<piola::step::StepReport> for StepReport {
 /// - `integrator`: `"implicit_euler"`, `"sdirk2"`, `"sdirk3"`;
 /// - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "linear": …}`, with
 ///   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,
-///   - `linear`: `"automatic"`, `"cholesky"`, and others: `LinearSolver` of the crate `piola` has them all.
+///   - `linear`: `"automatic"`, `"cholesky"`, and others: see `LinearSolver` of the crate `piola`.
 ///
-/// Errors: PIOLA_CODE_VALUE for a node that does not exist and for settings that are not these.
+/// Errors: PIOLA_CODE_VALUE for a node that does not exist and for other settings.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_simulation_new(
     body: *const Body,
@@ -324,9 +324,9 @@ pub unsafe extern "C" fn piola_simulation_set_terms(
 /// Advances by `dt`, s; the report may be null. Shared among threads, with the same bits for any number of
 /// them.
 ///
-/// Errors: PIOLA_CODE_STEP where there is no admissible next state: the state before is untouched, and a
-/// shorter step may succeed. PIOLA_CODE_CALLBACK where a function of a term has failed: likewise, unless it
-/// was the last one of the step, for the energy in the report.
+/// Errors: PIOLA_CODE_STEP if there is no admissible next state: the state before is untouched, and a shorter
+/// step may succeed. PIOLA_CODE_CALLBACK if a function of a term has failed: likewise, unless it was the last
+/// one of the step, for the energy in the report.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_simulation_step(
     simulation: *const Simulation,
@@ -338,7 +338,7 @@ pub unsafe extern "C" fn piola_simulation_step(
 }
 
 /// Moves the body towards a minimum of its energy with gravity, forces, springs and terms, within the limits
-/// of the settings. Then it is at rest. Otherwise as `piola_simulation_step`.
+/// of the settings. Then it is at rest. Otherwise like `piola_simulation_step`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_simulation_equilibrate(
     simulation: *const Simulation,

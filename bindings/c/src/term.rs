@@ -12,8 +12,8 @@ use crate::lent::{self, Arrays, plain};
 ///
 /// Its functions get `context` and the positions of the `nodes` nodes, three numbers each, m; the same
 /// positions must give the same bits. They return 0, or another number, which ends the step with
-/// PIOLA_CODE_CALLBACK. No exception may leave them. They are called by one thread at a time, though not that
-/// which called the library, and must not call functions with the handle of the simulation.
+/// PIOLA_CODE_CALLBACK. No exception may leave them. They are called by one thread at a time, not necessarily
+/// the one that called the library, and must not call functions with the handle of the simulation.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Term {
@@ -67,8 +67,8 @@ pub struct Blocks<'a>(&'a mut NodeBlocks);
 /// Adds the block of second derivatives by the positions of two nodes, nine numbers row by row, N/m, and, for
 /// two different nodes, its transpose as the block of `column` and `row`: add each pair of nodes once.
 ///
-/// The two need not share a tetrahedron. A pair that none and no earlier step has joined costs a new symbolic
-/// analysis. A node that does not exist ends the step.
+/// The two need not share a tetrahedron. A pair that neither a tetrahedron nor an earlier step has joined
+/// costs a new symbolic analysis. A node that does not exist ends the step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_blocks_add(
     blocks: *mut Blocks<'_>,
@@ -87,10 +87,10 @@ pub unsafe extern "C" fn piola_blocks_add(
     })
 }
 
-/// Functions with four arguments, the last of which is where the result goes.
+/// Functions with four arguments, the last of which is the place of the result.
 type Function<T> = unsafe extern "C" fn(*mut c_void, *const f64, usize, *mut T) -> i32;
 
-/// A term whose functions are the caller's.
+/// A term with functions of the caller.
 pub(crate) struct Callbacks {
     term: Term,
     energy: Function<f64>,

@@ -26,9 +26,9 @@ use crate::threads::on_threads;
 /// tets: nodes of each tetrahedron, of shape (m, 4), positively oriented: `mesh.cells_dict["tetra"]`.
 /// material, density: a Material and its density, kg/m³; or a sequence of each, one for each part. A material
 ///     whose parameters differ from point to point has them for each tetrahedron of its part.
-/// parts: the part of each tetrahedron, from 0, of shape (m,), where there are several.
+/// parts: the part of each tetrahedron, from 0, of shape (m,), if there are several.
 ///
-/// Raises BodyError for a mesh, a density or parts that make no body.
+/// Raises BodyError for a mesh, a density or parts that are not valid.
 #[pyclass(frozen, module = "piola")]
 pub(crate) struct Body {
     pub(crate) body: system::Body,
@@ -214,7 +214,7 @@ impl Body {
 
     /// Energy of deformation, J, with the nodes at these positions, m, of shape (n, 3).
     ///
-    /// Raises DomainError if a tetrahedron is outside the domain of its material, as all that follows does.
+    /// Raises DomainError if a tetrahedron is outside the domain of its material, and so do all methods below.
     #[pyo3(signature = (positions, /))]
     fn energy(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<f64> {
         let x = rows("positions", positions)?;
@@ -231,13 +231,13 @@ impl Body {
     }
 
     /// Stiffness, N/m: second derivatives of the energy, a symmetric `scipy.sparse.csr_array` of shape
-    /// (3n, 3n), in which coordinate c of node k is number 3k + c.
+    /// (3n, 3n), in which coordinate c of node k has index 3k + c.
     ///
     ///     stiffness(positions, /, *, filter=None)
     ///
-    /// filter: as of `Material.tangent`, for each tetrahedron.
+    /// filter: as for `Material.tangent`, for each tetrahedron.
     ///
-    /// Raises ImportError where there is no scipy, which `stiffness_blocks` does not need.
+    /// Raises ImportError without scipy, which `stiffness_blocks` does not need.
     #[pyo3(signature = (positions, /, *, filter = None))]
     fn stiffness<'py>(
         &self,
@@ -268,7 +268,7 @@ impl Body {
     /// Block k holds the second derivatives of the energy by the positions of node rows[k] and node
     /// columns[k]. They come row by row, each pair of nodes in both orders, and always at the same place.
     ///
-    /// filter: as of `Material.tangent`, for each tetrahedron.
+    /// filter: as for `Material.tangent`, for each tetrahedron.
     #[pyo3(signature = (positions, /, *, filter = None))]
     fn stiffness_blocks<'py>(
         &self,
@@ -313,7 +313,7 @@ fn materials(given: &Bound<'_, PyAny>) -> PyResult<Vec<Py<Material>>> {
 ///
 ///     box_mesh(cells, size, /)
 ///
-/// cells: their numbers along the three axes.
+/// cells: number of cells along the three axes.
 /// size: the lengths, m.
 ///
 /// Raises BodyError for no cells, too many, or a length that is not positive and finite.

@@ -187,10 +187,10 @@ impl Material {
     ///     parameters of the material. Results are float32 if F is, else float64.
     /// out: an array for the result, of shape (...), contiguous and of its type.
     /// status: an array of uint8, of shape (...), for the flags of each point: see `Status`.
-    /// threads: whether several threads share the points; None for yes from 2048 points on.
+    /// threads: True to share the points among threads; None for True from 2048 points on.
     ///
     /// Raises DomainError if a point is outside the domain or not finite, unless `status` is given: then the
-    /// results of such points mean nothing. Raises ValueError for a wrong shape, TypeError for a wrong type.
+    /// results of such points are invalid. Raises ValueError for a wrong shape, TypeError for a wrong type.
     #[pyo3(signature = (F, /, *, trailing = false, out = None, status = None, threads = None))]
     fn energy<'py>(
         &self,
@@ -208,7 +208,7 @@ impl Material {
     ///
     ///     stress(F, /, *, trailing=False, out=None, status=None, threads=None)
     ///
-    /// Arguments and errors as of `energy`.
+    /// Arguments and errors as for `energy`.
     #[pyo3(signature = (F, /, *, trailing = false, out = None, status = None, threads = None))]
     fn stress<'py>(
         &self,
@@ -226,12 +226,12 @@ impl Material {
     ///
     ///     tangent(F, /, *, filter=None, trailing=False, out=None, status=None, threads=None)
     ///
-    /// filter: what becomes of negative eigenvalues of dP/dF: None leaves them, "clamp" makes them zero,
+    /// filter: treatment of negative eigenvalues of dP/dF: None leaves them, "clamp" sets them to zero,
     ///     "absolute" changes their sign.
     /// out: a pair of arrays, or of None.
     ///
     /// Returns (P, dP_dF), of shapes (..., 3, 3) and (..., 3, 3, 3, 3), or (3, 3, ...) and (3, 3, 3, 3, ...).
-    /// Other arguments and errors as of `energy`.
+    /// Other arguments and errors as for `energy`.
     #[pyo3(signature = (F, /, *, filter = None, trailing = false, out = None, status = None, threads = None))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn tangent<'py>(
@@ -275,10 +275,10 @@ impl Material {
     ///
     /// measure: "second_piola" (S and dS/dE), "kirchhoff" (τ and J c), "cauchy" (σ and the spatial tangent
     ///     c), "jaumann" (σ and DDSDDE of Abaqus) or "green_naghdi" (σ and c★).
-    /// tangent: False for the stress alone.
+    /// tangent: False for the stress only.
     ///
     /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6), in the order 11, 22, 33, 23, 13, 12.
-    /// Other arguments and errors as of `energy`.
+    /// Other arguments and errors as for `energy`.
     #[pyo3(signature = (
         F, measure, /, *, tangent = true, trailing = false, out = None, status = None, threads = None
     ))]

@@ -20,16 +20,16 @@ use crate::shape;
 
 #[pymethods]
 impl Material {
-    /// A test curve: the stress that a testing machine reads from a homogeneous specimen.
+    /// A test curve: the stress of a homogeneous specimen in a testing machine.
     ///
     ///     curve(mode, controls, /, *, incompressible=False)
     ///
     /// mode: "uniaxial", "equibiaxial", "pure_shear", "simple_shear" or "volumetric".
-    /// controls: what the machine sets, of shape (n,): the stretch, the shear, or the ratio of volumes J.
-    /// incompressible: whether the specimen keeps its volume; otherwise its free sides carry no stress.
+    /// controls: values that the machine prescribes, of shape (n,): stretch, shear, or ratio of volumes J.
+    /// incompressible: True to keep the volume; otherwise free sides carry no stress.
     ///
     /// Returns a `Curve`: control and stress, Pa, of shape (n,), and principal stretches, of shape (n, 3).
-    /// Stress and stretches are NaN where the curve has no point, and `reasons` says why.
+    /// Stress and stretches are NaN where the curve has no point; `reasons` has the reason.
     #[pyo3(signature = (mode, controls, /, *, incompressible = false))]
     fn curve<'py>(
         &self,
@@ -64,9 +64,9 @@ impl Material {
     ///
     ///     fit(data, /, *, incompressible=True, relative=True, held=(), restarts=20, seed=1)
     ///
-    /// data: a dictionary from modes, as of `curve`, to arrays of shape (n, 2): control and stress, Pa.
-    /// incompressible: whether the specimens keep their volume.
-    /// relative: whether differences are taken relative to each stress, or to the greatest.
+    /// data: a dictionary from modes, as in `curve`, to arrays of shape (n, 2): control and stress, Pa.
+    /// incompressible: True to keep the volume of the specimens.
+    /// relative: True for differences relative to each stress, False for those relative to the greatest.
     /// held: names of parameters that keep their values, such as "kappa" or "alpha_1".
     /// restarts: number of further starts, at random about the first.
     /// seed: equal seeds give equal fits.
@@ -116,11 +116,10 @@ impl Material {
     ///
     ///     stability(*, smallest=0.3, largest=3.0, resolution=41)
     ///
-    /// smallest, largest: the range of the principal stretches, in which 1 is.
-    /// resolution: number of stretches along each axis of the box that is looked at.
+    /// smallest, largest: the range of the principal stretches, which contains 1.
+    /// resolution: number of stretches along each axis of the box.
     ///
-    /// Returns a `Stability`. Raises ValueError for a range that is none, or a material without shear
-    /// modulus.
+    /// Returns a `Stability`. Raises ValueError for an empty range, or a material without shear modulus.
     #[pyo3(signature = (*, smallest = 0.3, largest = 3.0, resolution = 41))]
     fn stability<'py>(
         &self,
@@ -155,7 +154,7 @@ impl Material {
     /// equal, and more.
     ///
     /// Returns a list of (rule, number of comparisons, worst difference as a share of its tolerance). Raises
-    /// ContractError with what is broken.
+    /// ContractError with the broken rules.
     fn contract(&self, py: Python<'_>) -> PyResult<Vec<(String, usize, f64)>> {
         self.uniform()?;
         let material = self.interpreted()?;
@@ -175,8 +174,8 @@ impl Material {
     ///     the parameters of the material.
     ///
     /// Returns a dictionary from the names of the parameters to arrays of the shape of stresses, float32 if F
-    /// is; of a list, to an array with one more axis in front. Raises DomainError for an F outside of the
-    /// domain, MaterialError for an energy that does not know these derivatives.
+    /// is; for a list, to an array with one more axis in front. Raises DomainError for an F outside of the
+    /// domain, MaterialError for an energy without these derivatives.
     #[pyo3(signature = (F, /))]
     fn stress_by_parameters<'py>(
         &self,

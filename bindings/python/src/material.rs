@@ -19,17 +19,17 @@ use crate::description::{Description, shown};
 use crate::errors::{MaterialError, of_material, of_parameters, of_point, of_text, type_error, value_error};
 use crate::shape;
 
-/// An energy with its parameters, by whatever name.
+/// An energy with its parameters.
 ///
 ///     Material(name, /, *, extend=None, **parameters)
 ///
 /// name: the name in `catalogue()`; case, spaces, `_` and `-` do not matter.
 /// extend: the stretch, between 0 and 1, below which the energy is continued, so that inverted elements are
-///     ordinary ones; None to refuse what is outside of its domain.
-/// parameters: by the names of `describe(name)`, in its units: a number, or a sequence for a list. Where they
+///     ordinary ones; None to refuse points outside of its domain.
+/// parameters: by the names of `describe(name)`, in its units: a number, or a sequence for a list. If they
 ///     differ from point to point they are arrays, which are broadcast with the shape of the points, by the
 ///     rules of numpy: of shape (...) for a number, (..., n) for a list of n. `lambda_` is the parameter
-///     `lambda`, whose name Python keeps for itself.
+///     `lambda`, whose name is a keyword of Python.
 ///
 /// Raises MaterialError for an unknown name, and for parameters that are missing, unknown or out of range.
 #[pyclass(frozen, module = "piola")]
@@ -283,7 +283,7 @@ impl Material {
     ///
     ///     changed(**parameters)
     ///
-    /// Raises MaterialError as Material.
+    /// Raises MaterialError like Material.
     #[pyo3(signature = (**parameters))]
     fn changed(&self, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         Self::from_keywords(self.uniform()?.clone(), self.extend(), parameters)
@@ -424,7 +424,7 @@ fn spec_extension(spec: &MaterialSpec) -> PyResult<Option<f64>> {
 /// extend, parameters: as for Material. Names of a formula that are given here are parameters, regardless of
 ///     any other meaning: b, C and E for example.
 ///
-/// Raises DeclarationError with all mistakes of the text, each at its place, and MaterialError as Material.
+/// Raises DeclarationError with all mistakes of the text, each at its place, and MaterialError like Material.
 #[pyfunction]
 #[pyo3(signature = (text, /, *, name = None, extend = None, free_rest = false, **parameters))]
 pub(crate) fn declare(

@@ -20,7 +20,7 @@ use crate::threads::on_threads;
 /// pins: indices of nodes that are held.
 /// settings: `gravity=(0, -9.81, 0)`, m/s²; `integrator="implicit_euler"`, "sdirk2" or "sdirk3";
 ///     `damping={"mass": {"rate": 1.0}}` or `{"stiffness": {"time": 0.01}}`; `newton={"tolerance": 1e-6, …}`;
-///     `line_search={…}`: those of `SimulationSettings` in Rust, in its names.
+///     `line_search={…}`: the fields of `SimulationSettings` in Rust.
 ///
 /// Raises BodyError for pins and settings that are out of range.
 #[pyclass(frozen, module = "piola")]
@@ -71,7 +71,7 @@ impl Simulation {
     }
 
     /// Positions of the nodes, m, of shape (n, 3), to be read. Set all of them, `simulation.positions = x`,
-    /// to start from elsewhere, however deformed.
+    /// to start from any other shape.
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         read_only(from_rows(py, &self.with(py, |simulation| simulation.positions().to_vec()))?)
@@ -121,7 +121,7 @@ impl Simulation {
         from_rows(py, &reactions.map_err(|error| StepError::new_err(error.to_string()))?)
     }
 
-    /// Sets forces on the nodes, N, of shape (n, 3), that keep their sizes and directions.
+    /// Sets constant forces on the nodes, N, of shape (n, 3).
     #[pyo3(signature = (forces, /))]
     fn set_forces(&self, py: Python<'_>, forces: &Bound<'_, PyAny>) -> PyResult<()> {
         let forces = rows("forces", forces)?;
@@ -174,7 +174,7 @@ impl Simulation {
         to_dict(py, &self.with(py, step::Simulation::energies))
     }
 
-    /// Advances by a time, s, in one step, and gives its report as a dictionary: "newton", "min_det" and
+    /// Advances by a time, s, in one step, and returns its report as a dictionary: "newton", "min_det" and
     /// "energies".
     ///
     /// Raises StepError if there is no next state: then the state before is untouched, and a shorter step may
@@ -184,7 +184,7 @@ impl Simulation {
         self.advance(py, |simulation| simulation.step(dt))
     }
 
-    /// Moves the body to a minimum of its energy, without inertia and damping; the report and errors of
+    /// Moves the body to a minimum of its energy, without inertia and damping; report and errors are those of
     /// `step`.
     fn equilibrate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.advance(py, step::Simulation::equilibrate)
