@@ -1,4 +1,4 @@
-"""Forces and status in kernels of Warp, beside those from the file of C that is printed for the same energy.
+"""Forces and status in kernels of Warp, compared with those from the file of C that is printed for the same energy.
 
 Fails where a force is farther from C's than 30 u (‖P‖ + ‖dP/dF‖ ‖F‖) allows, u being the unit roundoff of the
 kernels, and where an element has another status. The kernels are then compiled for CUDA, which needs no GPU.
@@ -56,7 +56,7 @@ def judge(body, x, tangents):
     body.compute_forces()
     found, status = body.force.numpy(), body.status.numpy()
 
-    # From the numbers that the kernels have: their rounding from f64 is no error here.
+    # From the numbers that the kernels have: their rounding from f64 is not an error here.
     x = body.x.numpy().astype(float)
     tetrahedra, inverse, volume = (one.numpy() for one in body.elements)
     inverse, volume = inverse.astype(float), volume.astype(float)

@@ -15,7 +15,7 @@ import warp as wp
 
 GRAVITY = 9.81  # m/s²
 DENSITY = 1000.0  # kg/m³
-# The ground pushes nodes back like springs of this angular frequency, whatever their mass.
+# The ground pushes nodes back like springs of this angular frequency, for any mass.
 GROUND = 400.0  # 1/s
 # Bits of a status with which a result means nothing: outside of the domain, not finite.
 FAILED = 1 | 4
@@ -34,7 +34,7 @@ class Kernels:
         self.vector = vector = wp.types.vector(3, real)
         self.matrix = matrix = wp.types.matrix((3, 3), real)
 
-        # Matrices of Warp are stored row by row, as the file has them. Arguments are copies, but for arrays.
+        # Matrices of Warp are stored row by row, as the file has them. Arguments are copies, except for arrays.
         @wp.func_native(f"""
             {parameters}
             wp::mat_t<3, 3, {number}> P;

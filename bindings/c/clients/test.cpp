@@ -124,7 +124,7 @@ void parameters_vary() {
         PIOLA_CODE_LENGTH, "`mu`");
 }
 
-// Matrices by columns are no spans: `piola::span<const double>(Eigen::Matrix3d())` does not compile. Vectors and
+// Matrices by columns are not spans: `piola::span<const double>(Eigen::Matrix3d())` does not compile. Vectors and
 // matrices by rows are.
 static_assert(!piola::detail::is_in_order<Eigen::Matrix3d>::value);
 static_assert(piola::detail::is_in_order<Eigen::VectorXd>::value);

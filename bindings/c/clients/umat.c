@@ -121,7 +121,7 @@ static double cofactors(const double F[9], double C[9]) {
  * DDSDDE by the inverse of U at each of its four indices and takes the product for dS/dE: right for the tangent
  * of the Lie derivative of the Kirchhoff stress of U.
  *
- * Writes U in the place of F, unless that is inverted, by Newton's method for R.
+ * Replaces F by U, unless it is inverted, by Newton's method for R.
  */
 static void turned_back(double F[9]) {
     double R[9], C[9], change = 1.0;

@@ -5,14 +5,14 @@
  * the first Piola-Kirchhoff stress. Lengths are in m, masses in kg, times in s, stresses, moduli and energy
  * densities in Pa. Nodes, tetrahedra, rows and columns are counted from 0.
  *
- * Functions return PIOLA_CODE_OK, which is 0, or the kind of what went wrong; piola_error_message says it in
- * words. What they write means nothing then, unless it is said here. No exception leaves them.
+ * Functions return PIOLA_CODE_OK, which is 0, or the kind of the error; piola_error_message returns its text.
+ * After an error their output is invalid, unless stated here. No exception leaves them.
  *
  * Arrays come with their lengths, in numbers, which are checked. Arrays that are written must not overlap
  * others of the same call. An array of length 0 may be null.
  *
- * Handles are made by functions called ..._new, _named or _declared, which set them to null where they fail,
- * and freed by ..._free. Calls from several threads at a time are allowed, with the same handle too, but for
+ * Handles are made by functions called ..._new, _named or _declared, which set them to null if they fail,
+ * and freed by ..._free. Calls from several threads at a time are allowed, with the same handle too, except for
  * freeing it.
  *
  * Texts are UTF-8 and end with a NUL.
@@ -24,7 +24,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
-/* In the place of a node's first unknown, for piola_csr_new_i32: it has none, as pinned nodes. */
+/* Marks a node without unknowns, such as a pinned one, instead of its first unknown: for piola_csr_new_i32. */
 #define PIOLA_NO_UNKNOWN SIZE_MAX
 
 

@@ -162,7 +162,7 @@ constexpr double automatic = -1.0;
 /// An energy with values for its parameters. Copies share it.
 class material {
 public:
-    /// The same for any number of points; for just so many where `points` is not 0.
+    /// The same for any number of points; for exactly `points` points if that is not 0.
     material(
         const energy &energy, const std::vector<parameter> &parameters, double extension = automatic,
         std::size_t points = 0) {
@@ -446,7 +446,7 @@ private:
     piola_blocks *blocks_;
 };
 
-/// A potential energy of the positions of all nodes, three numbers each, beside that of deformation.
+/// A potential energy of the positions of all nodes, three numbers each, in addition to that of deformation.
 ///
 /// Its functions are called by one thread at a time, though not that of the caller. What they throw ends the
 /// step, which throws it again.

@@ -1,4 +1,4 @@
-"""Times of piola from Python: the overhead of a call, and stress and tangent beside what clients do without it.
+"""Times of piola from Python: the overhead of a call, and stress and tangent compared with what clients do without it.
 
     python benches/times.py [--points N]
 
@@ -56,7 +56,7 @@ def overhead():
 
 
 def many(points):
-    """Times for a point of large arrays, of the neo-Hookean solid beside those of the batch in Rust."""
+    """Times for a point of large arrays, of the neo-Hookean solid, compared with those of the batch in Rust."""
     F = np.eye(3) + 0.2 * np.random.default_rng(1).uniform(-1, 1, (points, 3, 3))
     columns = np.ascontiguousarray(F.transpose(1, 2, 0))
     P, A = np.empty_like(F), np.empty((*F.shape, 3, 3))

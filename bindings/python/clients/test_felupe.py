@@ -1,4 +1,4 @@
-"""felupe: blocks by piola's materials, beside its own, those of hyperelastic, tensortrax and matadi."""
+"""felupe: blocks by piola's materials, compared with its own, those of hyperelastic, tensortrax and matadi."""
 
 import numpy as np
 import piola

@@ -1,4 +1,4 @@
-"""JAX: energies that it differentiates, beside its own differentiation of the same formulas."""
+"""JAX: energies that it differentiates, compared with its own differentiation of the same formulas."""
 
 import numpy as np
 import piola

@@ -1,4 +1,4 @@
-// The page without a server: the program in node beside `piola run`, then the page in a real browser, from files alone.
+// The page without a server: the program in node compared with `piola run`, then the page in a real browser, from files alone.
 //
 // The environment variables SITE and PIOLA name the folder that `../build` makes and the program; CHROMIUM as in
 // cli/browser. Screenshots go to target/page/.
@@ -49,7 +49,7 @@ const shoot = (name) => page.screenshot({ path: `${shots}static-${name}.png` });
 const program = () =>
   new Response(readFileSync(join(SITE, "piola.wasm")), { headers: { "Content-Type": "application/wasm" } });
 
-/** Positions of the surface after so many steps of the program in node. */
+/** Positions of the surface after `steps` steps of the program in node. */
 async function surfaceInNode(steps) {
   const running = await load(program(), "dinosaur");
   for (let k = 0; k < steps; k++) running.hear(JSON.stringify({ run: { step: {} } }));

@@ -44,7 +44,7 @@ export class Editor {
     const { text, is_declared: isDeclared, parameters } = material;
     if (text === this.field.value) this.accept();
     else if (!this.isAhead) this.field.value = text;
-    clearTimeout(this.addressing); // a browser lets an address change so many times only
+    clearTimeout(this.addressing); // a browser limits the changes of an address
     this.addressing = setTimeout(() => this.address(text, isDeclared ? parameters : null), QUIET);
   }
 
@@ -58,7 +58,7 @@ export class Editor {
     if (place !== `${location.pathname}${location.search}${location.hash}`) history.replaceState(null, "", place);
   }
 
-  /** Shows the energy that comes next, whatever has been typed. */
+  /** Shows the energy that comes next, regardless of the typed text. */
   giveUp() {
     clearTimeout(this.waiting);
     this.link.forget("energy");

@@ -1,4 +1,4 @@
-// The panel beside the stage: buttons, figures, the material with its sliders.
+// The panel next to the stage: buttons, figures, the material with its sliders.
 
 import { Editor } from "./editor.js";
 import { Slider } from "./slider.js";
@@ -170,7 +170,7 @@ function capital(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/** A number with so many digits behind the point, or a dash for one that JSON cannot say. */
+/** A number with a given number of digits after the point, or a dash for one that JSON cannot represent. */
 function fixed(number, digits) {
   return number === null ? "–" : number.toFixed(digits);
 }

@@ -1,4 +1,4 @@
-"""Pictures, by matplotlib: test curves beside measurements, and bodies."""
+"""Pictures, by matplotlib: test curves with measurements, and bodies."""
 
 import numpy as np
 

@@ -75,7 +75,7 @@ class Fit(NamedTuple):
 
 
 class Walk(NamedTuple):
-    """A path of stretches from rest, as far as it goes."""
+    """A path of stretches from rest, up to its end."""
 
     path: str
     """"uniaxial", "equibiaxial", "pure_shear", "confined" or "hydrostatic"."""
