@@ -56,7 +56,7 @@ fn files_of_others_are_refused_before_the_first_step() {
         fs::write(out.join(name), "mine").expect("a file");
     }
     let before = content(&out);
-    // So many steps would take minutes.
+    // This number of steps would take minutes.
     let output = run(scratch.path(), &["--frames", "100000"]);
     assert_code(&output, 2);
     for word in ["`frame_0001.ply`", "`frames.png`", "--out"] {

@@ -1,4 +1,4 @@
-//! Arrays and texts borrowed from callers, checked as far as C allows.
+//! Arrays and texts borrowed from callers, with the checks that C allows.
 
 use std::ffi::{CStr, c_char};
 use std::marker::PhantomData;

@@ -214,7 +214,7 @@ impl Body {
 
     /// Energy of deformation, J, with the nodes at these positions, m, of shape (n, 3).
     ///
-    /// Raises DomainError if a tetrahedron is outside the domain of its material, and so do all methods below.
+    /// Raises DomainError if a tetrahedron is outside the domain of its material, like all methods below.
     #[pyo3(signature = (positions, /))]
     fn energy(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<f64> {
         let x = rows("positions", positions)?;

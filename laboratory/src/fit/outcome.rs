@@ -289,7 +289,7 @@ pub enum FitError {
         /// Parameters that are sought.
         free: usize,
     },
-    /// With the parameters to start from, the energy is refused, or has no stress at a measured point.
+    /// Start parameters that the energy refuses, or with which it has no stress at a measured point.
     #[error("the parameters to start from {verb} {error}", error = .0, verb = match .0 {
         TrialError::Point(_) => "must reach all points, but",
         TrialError::Inadmissible(_) => "are refused without an extension:",

@@ -70,7 +70,7 @@ macro_rules! for_each_group {
             $at += <$R as $crate::lanes::Lanes>::LANES;
         }
     };
-    // But for groups all of whose points are served already, as bits.
+    // Without groups all of whose points are in `served`, as bits.
     ($R:ty, $count:expr, but $served:expr, |$at:ident| $body:block) => {
         $crate::kernels::rows::for_each_group!($R, $count, |$at| {
             let lanes = $crate::kernels::rows::first_bits(<$R as $crate::lanes::Lanes>::LANES);

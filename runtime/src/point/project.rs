@@ -2,7 +2,7 @@
 //!
 //! In the basis of the diagonal entries and (ij ± ji)/√2 the tangent is diagonal except for one 3×3 block
 //! (see [`tangent`](super::tangent)): its nine eigenvalues are the flips, the twists and those of the Hessian
-//! ψij. Filtering them is filtering dP/dF, because the frames are orthogonal. Applied to an element, the filtered
+//! ψij. Filtering them filters dP/dF, because the frames are orthogonal. Applied to an element, the filtered
 //! dP/dF is pulled back: that is not the same as filtering the 12×12 stiffness, which some codes do, unless
 //! the element is regular.
 //!

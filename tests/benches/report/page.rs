@@ -64,7 +64,7 @@ const STEPS: &str = "\
 
 A dinosaur of rubber is drawn by half its height and let go, without damping: wall time of the solver for a second of motion, one
 thread, against the largest distance of a node from the reference, in body heights. The reference has steps of 1/960 s by SDIRK3;
-the row `reference` is its distance from one with 1/1920 s. Newton's method to 3 % of a step's error, but for one iteration.
+the row `reference` is its distance from one with 1/1920 s. Newton's method to 3 % of a step's error, except for one iteration.
 ";
 
 const GROWTH: &str = "\

@@ -91,6 +91,13 @@ pub fn crates() -> Vec<Crate> {
 /// Rust files in a folder below [`root`], with their text.
 #[must_use]
 pub fn files(folder: &Path) -> Vec<(PathBuf, String)> {
+    files_with("rs", folder)
+}
+
+/// Files with an extension in a folder below [`root`], with their text, except for hidden folders and those
+/// of builds.
+#[must_use]
+pub fn files_with(extension: &str, folder: &Path) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -98,10 +105,11 @@ pub fn files(folder: &Path) -> Vec<(PathBuf, String)> {
             let name = entry.expect("an entry").file_name();
             let path = folder.join(&name);
             if root().join(&path).is_dir() {
-                if name != "target" && name != "node_modules" {
+                let is_hidden = name.to_string_lossy().starts_with('.');
+                if !is_hidden && name != "target" && name != "node_modules" {
                     folders.push(path);
                 }
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
+            } else if path.extension().is_some_and(|found| found == extension) {
                 let text = read(&path);
                 found.push((path, text));
             }

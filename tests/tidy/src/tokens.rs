@@ -88,7 +88,7 @@ fn path(tokens: &[TokenTree], prefix: &[String], found: &mut Vec<Mention>) -> us
     next.max(1)
 }
 
-/// First lines of documentation, with their lines in the file: `///`, `//!` and `#[doc = "…"]`, inside of
+/// First lines of documentation, with their numbers in the file: `///`, `//!` and `#[doc = "…"]`, inside of
 /// macros as well.
 #[must_use]
 pub fn summaries(tokens: TokenStream) -> Vec<(usize, String)> {
