@@ -121,7 +121,7 @@ fn files_of_several_tests_are_read_together() {
     // Of a file that names its tests, those that are asked for.
     let text = piola(folder.path(), &["fit", "yeoh", "--data", "treloar", "--mode", "EB", "--starts", "0"]);
     assert!(text.contains("17 of 56 points used, by --mode") && !text.contains("pure_shear 0."), "{text}");
-    // Beside a file that names none.
+    // Together with a file that names none.
     let files = ["--data", "treloar", "--data", "ut.csv", "--mode", "uniaxial"];
     let text = piola(folder.path(), &[&["curve", "yeoh", "--incompressible"], &files[..]].concat());
     for word in ["25 of 56 points used, by --mode", "2 points of uniaxial", "6.00000e5"] {

@@ -1,5 +1,5 @@
-//! Energies declared at run time beside those that the compiler has made of the same declarations: equal
-//! results, bit by bit.
+//! Energies declared at run time, compared with those that the compiler has made of the same declarations:
+//! equal results, bit by bit.
 //!
 //! Every energy of the catalogue is read from its own declaration. Batches are compared in `f64` on every
 //! back end, and in `f32` those of energies with all kinds of operations; single points in `f64`, all

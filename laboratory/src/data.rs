@@ -48,7 +48,7 @@
 //!
 //! Ambiguous data are errors: stretches that are all above 8, or some above 20, without a unit (percent?),
 //! stresses of another sign than their strain (strains under `stretch`? compression with positive numbers?),
-//! a stress without a word beside a true strain, numbers with commas and points.
+//! a stress of an unnamed kind next to a true strain, numbers with commas and points.
 //!
 //! Stretches and volumes are from 10⁻⁶ to 10⁶, shears up to 10⁶, stresses 0 or from 10⁻¹⁰⁰ to 10¹⁰⁰ Pa in
 //! size: far beyond what is measured, and well inside of what can be squared and divided.

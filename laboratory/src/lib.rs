@@ -5,7 +5,7 @@
 //!   sides solved;
 //! * [`data`]: measured curves, and how well an energy agrees with them;
 //! * [`fit`](mod@fit): the parameters with which it agrees best, and whether they are the only ones;
-//! * [`ranking`]: several energies beside the same measurements, in the order of their agreement;
+//! * [`ranking`]: several energies compared with the same measurements, in the order of their agreement;
 //! * [`chart`]: all of these in pictures, with the feature `charts`, which is on unless you turn it off;
 //! * [`stability`]: where an energy keeps the inequalities of a stable solid, as a table and as a map.
 //!

@@ -32,7 +32,7 @@ pub fn BlatzKo(
     /// β = ν/(1 − 2ν) with Poisson's ratio ν, dimensionless.
     beta: f64,
 ) -> f64 {
-    // f stands beside each power: where it is zero, so is the product, though the power may be out of range.
+    // f multiplies each power: where it is zero, so is the product, though the power may be out of range.
     let solid = f * (I1 - 3.0) + (f * J.powf(-2.0 * beta) - f) / beta;
     let g = 1.0 - f;
     let foam =

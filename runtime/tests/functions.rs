@@ -299,7 +299,7 @@ impl Univariate for Power {
     }
 }
 
-/// A power of the mean square of the stretches beside a neo-Hookean solid, and a function that is held.
+/// A power of the mean square of the stretches with a neo-Hookean solid, and a function that is held.
 #[material(domain(J > 0.0, f(I1b / 3.0) < 20.0 * mu), admissible(mu < 10.0), extend, fit)]
 pub fn Fitted([l1, l2, l3]: [f64; 3], mu: f64, f: Power, g: Locking) -> f64 {
     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + f(I1b / 3.0) + g(I1b - 3.0)

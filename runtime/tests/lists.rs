@@ -1,4 +1,5 @@
-//! Lists whose lengths are known at run time, beside the same energies with lengths that the compiler knows.
+//! Lists whose lengths are known at run time, compared with the same energies with lengths that the compiler
+//! knows.
 #![cfg(feature = "batch")]
 
 use piola::__private::random::Random;
@@ -37,7 +38,7 @@ fn Terms(
         + kappa / 2.0 * (J - 1.0).powi(2)
 }
 
-/// Two lists of independent lengths beside an array.
+/// Two lists of independent lengths and an array.
 #[material(domain(J > 0.0), fit)]
 fn Groups(
     [l1, l2, l3]: [f64; 3],

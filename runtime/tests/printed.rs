@@ -1,4 +1,4 @@
-//! Energies as papers print them: sums over the stretches, real powers of I1b − 3, functions beside `extend`.
+//! Energies as papers print them: sums over the stretches, real powers of I1b − 3, functions with `extend`.
 
 use piola::Inversion;
 use piola::contract::{Settings, check};
@@ -43,7 +43,7 @@ fn YamashitaKawabata(
     c1 * (I1b - 3) + c2 * (I2b - 3) + c3 / (n + 1) * (I1b - 3).powf(n + 1) + kappa / 2 * (J - 1).powi(2)
 }
 
-/// A spline of the volume beside a continuation.
+/// A spline of the volume with a continuation.
 #[piola::material(domain(J > 0.0), extend)]
 fn Volumetric(
     [l1, l2, l3]: [f64; 3],

@@ -1,4 +1,4 @@
-//! Rivlin's series with its exponents as data, beside the same series with its nine terms written out.
+//! Rivlin's series with its exponents as data, compared with the same series with its nine terms written out.
 #![cfg(feature = "batch")]
 
 use piola::material::{Argument, Blocks, Declared, Fittable, Form, MaterialError, Unit};

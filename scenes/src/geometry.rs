@@ -284,7 +284,7 @@ mod tests {
         let of = |mesh: &TetMesh| Geometry::new(mesh.clone(), "mesh", &Surface::default(), "none");
         assert_eq!(of(&mesh)?.warnings(), []);
 
-        // A copy of itself beside it, whose nodes are others, and a node far away.
+        // A copy next to it, with other nodes, and a node far away.
         let nodes = mesh.positions.len();
         mesh.tets.extend(mesh.tets.clone().iter().map(|tet| tet.map(|node| node + nodes)));
         mesh.positions.extend(mesh.positions.clone().iter().map(|[x, y, z]| [x + 2.0, *y, *z]));

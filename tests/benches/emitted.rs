@@ -1,4 +1,4 @@
-//! One point a call: printed C beside [`evaluate_dense`] of the same energies, in nanoseconds.
+//! One point a call: printed C compared with [`evaluate_dense`] of the same energies, in nanoseconds.
 //!
 //! `cargo bench -p piola-tests --bench emitted`; CC and CFLAGS choose the compiler of C. Both sides evaluate
 //! the same deformation gradients in the same order, in turns, of which the least and the median are shown.

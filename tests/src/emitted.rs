@@ -2,8 +2,8 @@
 //!
 //! The program is called with the text, a file of points, a file for the results and the number of points. A
 //! point is the parameters in the order of their structure (one zero if there are none) and F; its results
-//! are ψ, P, P beside dP/dF, and P beside the projected dP/dF, each followed by its status: numbers in the
-//! format of the text, and 32 bits for a status. `emitted/` has such programs.
+//! are ψ, P, P with dP/dF, and P with the projected dP/dF, each followed by its status: numbers in the format
+//! of the text, and 32 bits for a status. `emitted/` has such programs.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -11,7 +11,7 @@ use piola_tests::energies::{ENERGIES, Judged, find};
 const EPSILON: f64 = 0.3;
 const EXTEND: Inversion = Inversion::Extend { epsilon: EPSILON };
 
-/// Parameters beside the typical ones, where another choice takes another way through the energy.
+/// Parameters in addition to the typical ones, where another choice takes another way through the energy.
 const FURTHER: [(&str, &[&[f64]]); 9] = [
     // A power between 0 and 1 is concave, and so is its extension.
     ("ogden", &[&[1e5], &[0.5], &[1e6]]),

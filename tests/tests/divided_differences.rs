@@ -29,7 +29,7 @@ trait Subject: Copy {
     }
 }
 
-/// From arguments whose squares vanish beside 1 to those at which exponentials overflow.
+/// Arguments from those whose squares vanish compared with 1 to those at which exponentials overflow.
 const ALL: &[f64] = &[1e-200, 1e-8, 0.01, 0.1, 0.3, 0.7, 1.0, 1.6, 3.0, 8.0, 20.0, 60.0, 300.0, 705.0];
 /// For even functions: the definition itself has no digits at 1e-200.
 const OF_EVEN: &[f64] = &[1e-20, 1e-8, 0.01, 0.1, 0.3, 0.7, 1.0, 1.6, 3.0, 8.0, 20.0, 60.0, 300.0, 705.0];

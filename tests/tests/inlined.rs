@@ -1,5 +1,5 @@
-//! Single points of a material whose type is known, inlined into the caller, beside those behind a pointer,
-//! which the other judges take: equal bits.
+//! Single points of a material whose type is known, inlined into the caller, compared with those behind a
+//! pointer, which the other judges take: equal bits.
 //!
 //! The energies cover polynomials, logarithms, real powers in lists, a pole and an exponential. Deformation
 //! gradients are those of the first file of reference cases, refused ones included.

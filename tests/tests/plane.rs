@@ -51,7 +51,7 @@ fn near_rest_every_material_has_plane_stress() {
             let (ahead, behind, dP) = (at(h), at(-h), point.tangent.apply(&dF));
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let error = (ahead[i][j] - behind[i][j]) / (2.0 * h) - dP[i][j];
-                assert!(error.abs() <= 1e-7 * stiffness, "{name}: {error:e} beside {stiffness:e} at {F:?}");
+                assert!(error.abs() <= 1e-7 * stiffness, "{name}: {error:e} for {stiffness:e} at {F:?}");
             }
         }
     });

@@ -1,5 +1,5 @@
-//! Random energies at hard stretches, beside an oracle that shares nothing with their compiler:
-//! `cargo test -p piola-tests --test random`.
+//! Random energies at hard stretches, compared with an oracle that shares nothing with their compiler: `cargo
+//! test -p piola-tests --test random`.
 //!
 //! No declaration may make the compiler panic, and no value may be wrong without saying so: each is within 30
 //! u (|X| + sens) of the exact one, or infinite or NaN, which a status says. Two kinds of values may be

@@ -32,7 +32,7 @@ use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find};
 /// The constant of the judgement ‖X − X*‖ ≤ C u (‖X*‖ + sens).
 const C: f64 = 30.0;
 
-/// The files of cases, beside their description.
+/// The files of cases, next to their description.
 const FILES: [&str; 4] = [
     "reference/cases.json",
     "reference/cases-more.json",

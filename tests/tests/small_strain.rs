@@ -1,5 +1,5 @@
-//! Energy and stress from the displacement gradient, for every energy and strains down to 10⁻⁶⁰, beside what
-//! is left of it in F: `cargo test -p piola-tests --test small_strain -- --nocapture`.
+//! Energy and stress from the displacement gradient, for every energy and strains down to 10⁻⁶⁰, compared
+//! with what is left of it in F: `cargo test -p piola-tests --test small_strain -- --nocapture`.
 //!
 //! The oracle is the ordinary way through F = I + H, in 320 bits.
 

@@ -9,7 +9,7 @@
 //! caller.
 
 #![deny(unsafe_op_in_unsafe_fn)]
-#![allow(non_snake_case)] // F, P, dP_dF as in the literature, and `F_length` beside them
+#![allow(non_snake_case)] // F, P, dP_dF as in the literature, and `F_length` next to them
 #![allow(clippy::too_many_arguments)] // an array takes two arguments in C
 #![allow(clippy::missing_safety_doc)] // said once for all functions, at the head of the header
 

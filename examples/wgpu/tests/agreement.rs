@@ -1,4 +1,4 @@
-//! Forces and stiffnesses of the shader beside those of piola's batches, on a small mesh.
+//! Forces and stiffnesses of the shader, compared with those of piola's batches, on a small mesh.
 
 #![expect(non_snake_case, reason = "K as in the literature")]
 #![expect(clippy::print_stdout, reason = "figures to show")]

@@ -4,7 +4,7 @@
 //! is required only for changes that keep the volume: Hill's for tr d ln U = 0, strong ellipticity for waves
 //! with m · F⁻ᵀN = 0. To these it is restricted by a penalty K/2 (J − 1)², with K a million times the
 //! greatest of the moduli, which at J = 1 adds K/(λi λj) to ψij and nothing else. Pressures and bulk moduli
-//! of the energy vanish beside it, and what coupling takes from the other modes is a millionth of the
+//! of the energy vanish compared with it, and what coupling takes from the other modes is a millionth of the
 //! greatest.
 
 use piola::material::{Blocks, PAIRS};

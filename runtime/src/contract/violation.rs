@@ -115,7 +115,7 @@ impl fmt::Display for Violation {
         let told = |f: &mut fmt::Formatter<'_>, remedy: Option<&str>| {
             remedy.map_or(Ok(()), |remedy| write!(f, "\n    remedy      {remedy}"))
         };
-        // Of no use beside numbers that are none: a difference, or a remedy for their sign.
+        // A difference, or a remedy for a sign, is useless for values that are infinite or NaN.
         let see_domain = "not a finite number, here or near by, but an overflow, or a root, real power or logarithm of something \
                           negative; see the rule `domain`";
         match self {

@@ -1,7 +1,7 @@
 //! The executor: the operations of a program, each at many points before the next.
 //!
-//! An operation is read once for all registers of a tile, so that reading it costs little beside what it
-//! computes. Each is the one that the emitted Rust of the same declaration performs, in the same order, so
+//! An operation is read once for all registers of a tile, so that reading it costs little compared with
+//! computing. Each is the one that the emitted Rust of the same declaration performs, in the same order, so
 //! that results have the same bits.
 
 use super::compute::compute;

@@ -250,7 +250,7 @@ pub(crate) const MAX_STIFFNESS_RATIO: f64 = 1e6;
 ///
 /// Where a stress jumps in the restoring sense, as for a rotated linear solid at λ2 + λ3 = 0 with λ(λ1 − 3) >
 /// 2μ, the energy has a convex kink: the twist D⁺ is positive and unbounded, no filter touches it, and the
-/// factors of a matrix that holds it beside ordinary entries lose all digits of those. A stiffness
+/// factors of a matrix that holds it next to ordinary entries lose all digits of those. A stiffness
 /// [`MAX_STIFFNESS_RATIO`] times the others is rigid enough.
 #[inline(always)]
 fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {

@@ -6,8 +6,8 @@
 //! \[SZLSB11\] differentiates P through the derivatives of U, λ and V. A 2×2 system for each pair of
 //! stretches and each of the nine entries of F gives those, and where two stretches meet these systems are
 //! singular. This derivation follows the same equations up to that point and then leaves out the systems:
-//! what they would be solved for cancels. The numbers of the paper's equations stand beside ours; where these
-//! differ, the paper has a misprint.
+//! what they would be solved for cancels. The numbers of the paper's equations stand next to ours; where
+//! these differ, the paper has a misprint.
 //!
 //! With F̂ = Λ = diag(λ) and P̂ = diag(ψ1, ψ2, ψ3), where ψi = ∂ψ/∂λi,
 //!

@@ -71,7 +71,7 @@ impl Spline {
             let (h, m0, m1) = (x1 - x0, moments[k], moments[k + 1]);
             let slope = (y1 - y0) / h;
             // A curve is zero at rest, x = 1. Pieces are expanded about their end nearer to it, so that a
-            // control point (1, 0) is the anchor of both pieces beside it, and the curve exactly zero there.
+            // control point (1, 0) is the anchor of both pieces next to it, and the curve exactly zero there.
             let (anchor, y, slope, m) = if x1 <= 1.0 {
                 (x1, y1, slope + h * (m0 + 2.0 * m1) / 6.0, m1)
             } else {
@@ -350,7 +350,7 @@ mod tests {
             let error = spline.derivative_quotient(x, x) - spline.second_derivative(x);
             assert!(error.abs() <= 1e-14 * spline.second_derivative(x).abs(), "at {x}");
             let error = spline.derivative_quotient(x, x * (1.0 + 1e-15)) - spline.second_derivative(x);
-            assert!(error.abs() <= 1e-13 * spline.second_derivative(x).abs(), "beside {x}");
+            assert!(error.abs() <= 1e-13 * spline.second_derivative(x).abs(), "near {x}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! Elements from the positions of their nodes beside those from deformation gradients.
+//! Elements from the positions of their nodes, compared with those from deformation gradients.
 
 use piola::__private::random::Random;
 use piola::NoSuchNode;
@@ -129,7 +129,7 @@ where
     }
 }
 
-/// Beside the largest entry of all: F is made with other roundings, and derivatives of the energies are
+/// Relative to the largest entry of all: F is made with other roundings, and derivatives of the energies are
 /// of the order of 1.
 fn close<E: Scalar>(found: &[E], expected: &[E])
 where

@@ -9,7 +9,7 @@ mod steps;
 
 pub(crate) use point::{best_settings, materials};
 
-/// A chart and what stands beside it.
+/// A chart and its caption.
 pub(crate) struct Chart {
     pub(crate) file: String,
     pub(crate) svg: String,

@@ -5,10 +5,10 @@
 //! value by 2⁻¹⁷ u times its sensitivity, and leaves the definition about 100 bits after it has divided by
 //! the gap twice.
 //!
-//! Beside them run two estimates in `f64`: polynomials of degree 3, for how sensitive ψij is; and the errors
-//! that ψ, ψi and ψij would have if the formula as printed, and its derivatives by the rules of calculus,
-//! were evaluated with each operation rounded, in units of u. Nothing that evaluates a formula as it is
-//! printed can do better where it subtracts what it has rounded.
+//! In addition there are two estimates in `f64`: polynomials of degree 3, for how sensitive ψij is; and the
+//! errors that ψ, ψi and ψij would have if the formula as printed, and its derivatives by the rules of
+//! calculus, were evaluated with each operation rounded, in units of u. Nothing that evaluates a formula as
+//! it is printed can do better where it subtracts what it has rounded.
 
 use std::ops::{Add, Mul};
 

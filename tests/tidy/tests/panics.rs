@@ -14,7 +14,7 @@ const MACROS: [&str; 7] =
     ["panic", "unreachable", "todo", "unimplemented", "assert", "assert_eq", "assert_ne"];
 const METHODS: [&str; 4] = ["unwrap", "unwrap_err", "expect", "expect_err"];
 
-/// A function that panics on purpose says so under `# Panics`, and does not return a `Result` beside it. So
+/// A function that panics on purpose says so under `# Panics`, and does not return a `Result` as well. So
 /// nothing that a function with a `Result` calls panics unannounced, except for an index, a division by zero
 /// or an overflow: hostile arguments are tried on each of these functions in `runtime/tests/hostile/`.
 #[test]
@@ -38,7 +38,7 @@ fn what_panics_says_so_and_returns_no_result() {
             }
         }
     }
-    forbid("functions that panic without a word, or beside a `Result`", &found);
+    forbid("functions that panic without a word, or with a `Result` as well", &found);
     assert!(judged > 1000, "{judged} functions");
 }
 

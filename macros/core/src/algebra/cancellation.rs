@@ -161,7 +161,7 @@ fn joined(graph: &mut Graph, sum: Id, ways: &Ways) -> Option<Id> {
 
 /// Sums in an energy that cancel far from rest, so that its first or second derivatives lose digits there.
 ///
-/// A sum may cancel without harm, beside larger ones. So each is changed by a fraction of its terms, as
+/// A sum may cancel without harm, next to larger ones. So each is changed by a fraction of its terms, as
 /// rounding would: it matters if the derivatives change by more than a hundred times that fraction of
 /// themselves and of what they change by with the stretches.
 #[must_use]

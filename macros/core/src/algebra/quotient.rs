@@ -297,8 +297,8 @@ impl<'a> Quotients<'a> {
     /// The parity of an expression, decided numerically, relative to what rounding could hide: a normal form
     /// would miss identities. The body of a sum is evaluated for its first entry, which stands for all.
     ///
-    /// A sum is odd if what is left without its odd terms is: beside an exponential of 10¹⁶, a term that is
-    /// not odd would look like its noise.
+    /// A sum is odd if the rest without its odd terms is: next to an exponential of 10¹⁶, a term that is not
+    /// odd would look like its noise.
     fn parity(&mut self, graph: &Graph, e: Id, i: Stretch, j: Stretch) -> Parity {
         let found = self.parity_as_a_whole(graph, e, i, j);
         let Node::Linear { constant, terms } = graph.node(e) else { return found };

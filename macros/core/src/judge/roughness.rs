@@ -67,7 +67,7 @@ pub(crate) fn roughness(graph: &mut Graph, hessian: &[Id], findings: &mut Findin
     }
     let rough = powers.iter().zip(is_rough).filter(|(_, is_rough)| *is_rough).map(|(&power, _)| power);
     let (real, fractions): (Vec<_>, Vec<_>) = rough.partition(|(_, exponent)| exponent.real.is_some());
-    // A root beside them may be smooth with its neighbours.
+    // A root next to them may be smooth with its neighbours.
     let rough = if real.is_empty() { fractions } else { real };
     let holds = |part| {
         let is_meant = |of: &Argument| {

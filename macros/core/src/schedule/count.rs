@@ -1,7 +1,7 @@
 //! Counts of the operations of a program.
 //!
 //! A fused multiplication and addition counts as both, so that counts compare with those of a formula. Powers
-//! of one base share a logarithm, which counts once beside them; so does the common part of divided
+//! of one base share a logarithm, which counts once in addition; so does the common part of divided
 //! differences. Literals, parameters and stretches cost nothing. A total over a list takes one addition for
 //! each entry.
 

@@ -490,7 +490,7 @@ $EndElements
         (25, 999, "1 2 3"),
     ];
 
-    /// Both files with other volume elements beside the tetrahedra.
+    /// Both files with other volume elements in addition to the tetrahedra.
     fn mixed() -> [String; 2] {
         let newer = OTHERS.map(|(tag, kind, nodes)| format!("3 1 {kind} 1\n{tag} {nodes}\n")).concat();
         let older = OTHERS.map(|(tag, kind, nodes)| format!("{tag} {kind} 2 9 1 {nodes}\n")).concat();

@@ -15,9 +15,8 @@
 //! # Seen from other coordinates
 //!
 //! Let dF = ec ⊗ wy, and take the product with ea ⊗ wx, where the rows wx are those of any 3×3 matrix W.
-//! Since (a ⊗ b) × (c ⊗ d) = (a × c) ⊗ (b × d), each term keeps its form. With F̃ = F Wᵀ, likewise C̃, D̃
-//! and h̃, with T̃ = T (cof W)ᵀ and M = W Wᵀ, and with k the third index beside a and c, z that beside x
-//! and y,
+//! Since (a ⊗ b) × (c ⊗ d) = (a × c) ⊗ (b × d), each term keeps its form. With F̃ = F Wᵀ, likewise C̃, D̃ and
+//! h̃, with T̃ = T (cof W)ᵀ and M = W Wᵀ, and with k the third index besides a and c, z that besides x and y,
 //!
 //! ```text
 //! K between (a, x) and (c, y) = (δac (2 W1 + 2 W2 I1) − 2 W2 (F Fᵀ)ac) Mxy − δac 2 W2 (F̃ᵀ F̃)xy

@@ -192,7 +192,7 @@ mod tests {
             let spring = |t: f64| {
                 Some(Side { stress: t / root - root / t, slope: 1.0 / root + root / (t * t), magnitude: 2.0 })
             };
-            // t/c − c/t errs by 2 u beside a slope of 2/c.
+            // t/c − c/t errs by 2 u, with a slope of 2/c.
             check(spring, Ok(root), 4.0 * f64::EPSILON);
         }
     }
@@ -203,7 +203,7 @@ mod tests {
         let softening = |t: f64| {
             Some(Side { stress: (t - 1.02) * (1.12 - t), slope: 2.14 - 2.0 * t, magnitude: 2.0 * t })
         };
-        // t − 1.02 errs by u, and the product by as much times 0.1, beside a slope of 0.1.
+        // t − 1.02 errs by u, and the product by as much times 0.1, with a slope of 0.1.
         check(softening, Ok(1.02), 64.0 * f64::EPSILON);
     }
 

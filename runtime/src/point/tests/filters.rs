@@ -124,7 +124,7 @@ fn check<E: Scalar>(tangent: &Tangent<f64>, filter: Filter, magnitude: f64) {
     let bound = (25.0 * <E as Real>::UNIT_ROUNDOFF + 75.0 * <f64 as Real>::UNIT_ROUNDOFF) * norm;
     for backend in Backend::available() {
         let error = difference(&matrix(&backend.run(Project { blocks: &given, filter })), &expected);
-        assert!(error <= bound, "{filter:?} of {:?}: {error:e} beside {norm:e}, {backend}", tangent.blocks);
+        assert!(error <= bound, "{filter:?} of {:?}: {error:e} for {norm:e}, {backend}", tangent.blocks);
     }
 }
 
@@ -211,7 +211,7 @@ fn what_is_semidefinite_stays_bit_for_bit() {
     }
 }
 
-/// What is left after clamping may be tiny beside what was clamped; its error must be too.
+/// The rest after clamping may be tiny compared with the clamped part; its error must be too.
 #[test]
 fn nothing_is_left_of_a_negative_definite_hessian() {
     let mut random = Random::new(36);

@@ -98,7 +98,7 @@ fn everywhere(check: impl Fn(&dyn Fn(&Matrix2<f64>, Filter) -> [PlanePoint<f64>;
     // Beyond the middle the sides of these have no equilibrium.
     of(&SaintVenantKirchhoff, &IN_PLANE[..4], &check);
     of(&RotatedLinear, &IN_PLANE[..4], &check);
-    // The last has a pole so near that h would have to be small beside it.
+    // The last has a pole so near that h would have to be small compared with it.
     of(&ExtendedNeoHookean { epsilon: 0.3 }, &IN_PLANE[..8], &check);
 }
 
@@ -167,7 +167,7 @@ fn nearly_incompressible_sheets_lose_no_digits_of_the_stress() {
             let area = a * b;
             let t = area * (ratio + 1.0) / (1.0 + ratio * area * area);
             let error = (point.out_of_plane_stretch - t).abs() / t;
-            // A dozen roundings of ψ3 beside t ψ33, which is no smaller.
+            // A dozen roundings of ψ3 compared with t ψ33, which is no smaller.
             assert!(error <= 8.0 * f64::EPSILON, "t: {error:e} for K = {ratio:e} μ at {a}, {b}");
             for (found, [x, y]) in point.gradient.iter().zip([[a, b], [b, a]]) {
                 let expected = x - t / x * t;

@@ -15,9 +15,9 @@ const TOLERANCE: f64 = 1e-3;
 
 /// [`LinearSolver::Cholesky`](super::LinearSolver::Cholesky), or a user-defined solver.
 ///
-/// A filtered stiffness plus inertia is positive definite up to rounding. Without a filter, or where inertia
-/// is lost beside the stiffness, it may not be. Mass is then added tenfold more each time, as if the time
-/// step were shorter.
+/// A filtered stiffness plus inertia is positive definite up to rounding. Without a filter, or if inertia is
+/// lost in the stiffness, it may not be. Mass is then added tenfold more each time, as if the time step were
+/// shorter.
 #[derive(Clone)]
 pub(super) struct Assembled<S> {
     stiffness: NodalStiffness,

@@ -111,7 +111,7 @@ fn invariants_give_what_a_decomposition_gives() {
         let (exact_survey, exact_det, exact_energy) = evaluate(&NEO_HOOKEAN);
         // Some thirty roundings of sums that are ten times their largest entry.
         let close = |x: f64, exact: f64, scale: f64| (x - exact).abs() <= 300.0 * f64::EPSILON * scale;
-        assert!(survey == exact_survey && close(det, exact_det, 1.0), "{det} beside {exact_det}");
+        assert!(survey == exact_survey && close(det, exact_det, 1.0), "{det}, not {exact_det}");
         if survey.refused == 1 {
             refused += 1;
             continue;
@@ -123,12 +123,12 @@ fn invariants_give_what_a_decomposition_gives() {
             assert_eq!(survey, exact_survey);
             let scale = exact_stiffness.as_flattened().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
             // Edges of 0.1 m.
-            assert!(close(energy, exact_energy, 0.01 * scale), "{energy} beside {exact_energy}");
+            assert!(close(energy, exact_energy, 0.01 * scale), "{energy}, not {exact_energy}");
             for (x, exact) in gradient.as_flattened().iter().zip(exact_gradient.as_flattened()) {
-                assert!(close(*x, *exact, 0.1 * scale), "{x} beside {exact}");
+                assert!(close(*x, *exact, 0.1 * scale), "{x}, not {exact}");
             }
             for (x, exact) in stiffness.as_flattened().iter().zip(exact_stiffness.as_flattened()) {
-                assert!(close(*x, *exact, scale), "{x} beside {exact}");
+                assert!(close(*x, *exact, scale), "{x}, not {exact}");
             }
         }
     }
@@ -211,7 +211,7 @@ fn a_convex_kink_is_cut_to_what_a_factorisation_resolves() {
         let (kink, bounded) = largest(collapsed(width));
         assert_eq!(bounded, 1, "width {width:e}");
         // The rest of the tangent is of the size of the ordinary one; ten allows for what differs.
-        assert!(kink <= 10.0 * MAX_STIFFNESS_RATIO * ordinary, "{kink:e} beside {ordinary:e}");
+        assert!(kink <= 10.0 * MAX_STIFFNESS_RATIO * ordinary, "{kink:e} for {ordinary:e}");
     }
 }
 

@@ -1,4 +1,4 @@
-//! A panel: marks and lines over two logarithmic axes, with labels beside the marks.
+//! A panel: marks and lines over two logarithmic axes, with labels next to the marks.
 
 use std::fmt::Display;
 use std::ops::Range;

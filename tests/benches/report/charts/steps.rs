@@ -29,7 +29,7 @@ pub(super) fn draw(rows: &[StepRow]) -> Result<Chart, String> {
     let panel = Panel {
         title: "h = 1/15 s on the left, halved from mark to mark; blue: h = 1/30 s".to_owned(),
         x_axis: "wall time, milliseconds per second of motion",
-        y_axis: "error beside third order with far shorter steps, body heights",
+        y_axis: "error relative to third order with far shorter steps, body heights",
         series,
     };
     let title = "Rubber dinosaur let go: wall time against error";

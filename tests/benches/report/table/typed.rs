@@ -1,4 +1,4 @@
-//! Energies typed at run time beside compiled ones, the same declarations.
+//! Energies typed at run time compared with compiled ones, the same declarations.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 

@@ -145,6 +145,6 @@ fn a_share_of_the_error_of_a_step_is_enough() {
         let error = distance(&solved, &end(other, 0.0).0);
         assert!(4 * fewer < 3 * all, "{integrator:?}: {fewer} iterations, and {all} to the tolerance");
         let left = distance(&solved, &enough);
-        assert!(left > 0.0 && left < 0.1 * error, "{integrator:?}: {left:e} beside {error:e}");
+        assert!(left > 0.0 && left < 0.1 * error, "{integrator:?}: {left:e} of {error:e}");
     }
 }
