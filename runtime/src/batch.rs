@@ -5,7 +5,7 @@
 //! the material, the filter, the instructions and the layout of the slices; its methods are the kernels. They
 //! allocate nothing, except for some 80 kB of scratch memory on the first call in each thread. Points go
 //! through in tiles of 64: decomposition, energy, outputs, each stage with as many points side by side as the
-//! registers hold, and what lies between the stages stays in the inner caches.
+//! registers hold, and intermediate results stay in the inner caches.
 //!
 //! ```
 //! use piola::batch::{Batch, MatrixForm};
@@ -31,16 +31,16 @@
 //! # }
 //! ```
 //!
-//! **Matrices by columns**, as nalgebra, glam and Eigen keep them, are taken as they are: F by columns is Fᵀ
-//! by rows, and of an isotropic solid ψ(Fᵀ) = ψ(F) and P(Fᵀ) = P(F)ᵀ. What comes out then is by columns as
-//! well, row and column 3j+i of dP/dF for entry (i, j). This holds of everything that starts from F alone,
-//! not of tetrahedra and not of S, τ and σ.
+//! **Matrices by columns**, as nalgebra, glam and Eigen keep them, need no conversion: F by columns is Fᵀ by
+//! rows, and for an isotropic solid ψ(Fᵀ) = ψ(F) and P(Fᵀ) = P(F)ᵀ. The results are then by columns as well,
+//! row and column 3j+i of dP/dF for entry (i, j). This holds for all results that depend on F alone, not for
+//! tetrahedra and not for S, τ and σ.
 //!
 //! **Few points** in a call cost more each, because registers are computed whole: `cargo speed-report
 //! --table` shows. Gather 64 or more, such as those of several elements, or take them one by one
 //! from [`point`](crate::point).
 //!
-//! **Other elements** than linear tetrahedra, hexahedra for one, sum what their points have by a
+//! **Other elements** than linear tetrahedra, hexahedra for one, sum the results of their points by a
 //! [`Quadrature`].
 //!
 //! **Bits.** Within a back end a point's results are the same regardless of the other points, its place, and
@@ -50,17 +50,17 @@
 //! [`Survey`] counts such points and names the first.
 //!
 //! **Parameters.** A material is the same for all points; with [`PerPoint`](crate::material::PerPoint) every
-//! point has its own.
+//! point has a material of its own.
 //!
 //! **Other measures.** [`Batch::measured_tangents`] has S, τ and σ with their tangents. Plane strain, plane
 //! stress and displacement gradients are computed point by point, by the functions of
 //! [`point`](crate::point).
 //!
-//! **Without a decomposition.** Of an energy that is written in I1, I2 and J, or in sums over the stretches
-//! that these determine, energies, stresses, and tangents and stiffnesses without a filter come from the
-//! invariants, two to four times as fast. A point outside the domain, near its end, out of range, or where
-//! the terms by invariants cancel takes the way of all others.
-//! [`HAS_INVARIANTS`](crate::Material::HAS_INVARIANTS) is true for such an energy.
+//! **Without a decomposition.** For an energy that is written in I1, I2 and J, or in sums over the stretches
+//! that these determine, energies, stresses, and unfiltered tangents and stiffnesses are computed from the
+//! invariants, two to four times as fast. Points outside the domain, near its end, out of range, or with
+//! terms by invariants that cancel are decomposed. [`HAS_INVARIANTS`](crate::Material::HAS_INVARIANTS) is
+//! true for such an energy.
 //!
 //! This module is independent of sparsity and of any particular material.
 
@@ -187,7 +187,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// Energy density ψ, Pa, of each F. Computes no derivative.
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn energies(&self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
         let outputs = [("energies", energies, 1)];
         self.run([("F", F, 9)], outputs, |call, job, [F], [energies]| call.points(job, F).energies(energies))
@@ -196,7 +196,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// First Piola stress P, Pa: nine components of each F. Computes no second derivative.
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn stresses(&self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
         self.run([("F", F, 9)], [("P", P, 9)], |call, job, [F], [P]| call.points(job, F).stresses(P))
     }
@@ -205,7 +205,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// 3k+l for entry (k, l) of F.
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn tangents(
         &self,
         form: MatrixForm,
@@ -223,7 +223,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// decomposition of each F.
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn energies_and_tangents(
         &self,
         form: MatrixForm,
@@ -241,15 +241,15 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// Gradients of linear tetrahedra's energies in their nodal positions, N, and stiffnesses, N/m, filtered.
     ///
     /// `rest` holds [`REST`] components of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in `RestShape`;
-    /// F = Ds Dm⁻¹. Of the gradients there are 12 components, coordinate a of node n at 3n+a; **forces are
-    /// minus these**. Unknown 3n+a of a stiffness is in row and column 3n+a. With feature `bodies`,
-    /// `CsrPlaces` sums them into a sparse matrix.
+    /// F = Ds Dm⁻¹. Gradients have 12 components, coordinate a of node n at 3n+a; **forces are minus these**.
+    /// Unknown 3n+a of a stiffness is in row and column 3n+a. With feature `bodies`, `CsrPlaces` sums them
+    /// into a sparse matrix.
     ///
     /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of
     /// the tangent, it is cut there, because a factorisation could not resolve more.
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn stiffnesses(
         &self,
         form: MatrixForm,
@@ -303,7 +303,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// ```
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn stiffnesses_at(
         &self,
         form: MatrixForm,

@@ -17,8 +17,8 @@
 //! # fn main() {}
 //! ```
 //!
-//! Each [`contract!`](crate::contract!) is a module of tests, one for each rule, as `rubber::quotients`.
-//! [`check`] judges them all in one call, and [`check_rule`] one of them:
+//! Each [`contract!`](crate::contract!) is a module of tests, one for each rule, such as `rubber::quotients`.
+//! [`check`] judges all rules in one call, and [`check_rule`] a single one:
 //!
 //! | rule | what must hold |
 //! |---|---|
@@ -39,14 +39,14 @@
 //! | [`lanes`](Rule::Lanes) | every lane of every back end gives what a scalar does, regardless of its neighbours |
 //!
 //! A material is anything that implements [`Material`], by the macro or by hand; the rules on an extension or
-//! invariants apply to materials that have them. A check returns what it found or the first [`Violation`];
-//! nothing is printed, nothing panics but the tests of [`contract!`](crate::contract!). Samples are
-//! reproducible: they follow from [`Settings::seed`]. Points that the material does not admit are left out,
-//! and a check without any comparison is a violation, [`Violation::NothingToCheck`].
+//! invariants apply to materials that have them. A check returns its findings or the first [`Violation`];
+//! nothing is printed, and only the tests of [`contract!`](crate::contract!) panic. Samples are reproducible:
+//! they follow from [`Settings::seed`]. Points that the material does not admit are left out, and a check
+//! without any comparison is a violation, [`Violation::NothingToCheck`].
 //!
 //! Tolerances are stated where they are used, as c·u·scale: u = 2⁻⁵³ and the scale the largest entry of the
-//! tangent times the quantity it multiplies. That is what a backward-stable evaluation may lose; a wrong sign
-//! or factor exceeds it by ten orders of magnitude.
+//! tangent times the quantity that it multiplies. A backward-stable evaluation may lose this much; a wrong
+//! sign or factor exceeds it by ten orders of magnitude.
 //!
 //! This module uses materials only through their trait, and does not repair them.
 
@@ -178,8 +178,8 @@ pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Vi
 
 /// Checks every rule that applies to the material, except for [`Rule::Lanes`].
 ///
-/// What a material computes on lanes is compiled for each back end, which is wasted on materials whose lanes
-/// are judged elsewhere.
+/// [`Rule::Lanes`] compiles the material for each back end, which is wasted on materials whose lanes are
+/// judged elsewhere.
 ///
 /// # Errors
 /// [`Violations`]: the first violation of each rule that is broken.

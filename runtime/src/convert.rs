@@ -5,8 +5,9 @@
 //! cannot be misread: each takes or returns rows on piola's side and the library's own matrix on the other.
 //! (Whole slices of matrices by columns need no copy: see `piola::batch`.)
 //!
-//! They are for one version of each library. For another one a line does the same, here for any nalgebra:
-//! `[0, 1, 2].map(|i| [0, 1, 2].map(|j| F[(i, j)]))`, and `Matrix3::from_fn(|i, j| P[i][j])` the other way.
+//! They are for one version of each library. For another one a line of code does the same, here for any
+//! nalgebra: `[0, 1, 2].map(|i| [0, 1, 2].map(|j| F[(i, j)]))`, and `Matrix3::from_fn(|i, j| P[i][j])` the
+//! other way.
 //!
 //! ```
 //! # #[cfg(feature = "glam")] {

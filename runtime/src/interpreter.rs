@@ -10,7 +10,7 @@
 //!                                   → Program      → Interpreted          at run time
 //! ```
 //!
-//! How a declaration becomes a program is not known here, nor what an energy means.
+//! This module is independent of declarations and of the meaning of an energy.
 
 mod compute;
 pub(crate) mod domain;

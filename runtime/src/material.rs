@@ -1,8 +1,8 @@
 //! Interface of an energy: what `#[piola::material]` implements and the rest of piola uses.
 //!
 //! An isotropic energy density ψ(λ1, λ2, λ3), in Pa, is a function of the signed principal stretches λ1 ≥ λ2
-//! ≥ |λ3| of a deformation gradient. All that its stress and tangent need are its first and second
-//! derivatives in the stretches and, for each pair of them, two difference quotients (names after \[SGK19\]):
+//! ≥ |λ3| of a deformation gradient. Its stress and tangent need only its first and second derivatives in the
+//! stretches and, for each pair of them, two difference quotients (names after \[SGK19\]):
 //!
 //! ```text
 //! flip   D⁻ij = (ψi − ψj) / (λi − λj)
@@ -59,7 +59,7 @@ pub struct Blocks<R> {
 /// The stretches are signed: λ1 ≥ λ2 ≥ |λ3|, the sign of λ3 being that of det F. Outside the domain
 /// ([`Material::admits`]) results are meaningless and may be NaN.
 ///
-/// Methods that compute should be `#[inline(always)]`, and what they call: see
+/// Methods that compute should be `#[inline(always)]`, and so should the functions that they call: see
 /// [`Kernel`](crate::lanes::Kernel).
 pub trait Material: Send + Sync {
     /// Energy density ψ, J/m³ of rest volume.
@@ -70,8 +70,8 @@ pub trait Material: Send + Sync {
 
     /// Gradient ψ1, ψ2, ψ3 at the stretches 1 + si, Pa, for principal Biot strains s1 ≥ s2 ≥ s3 > −1.
     ///
-    /// `#[piola::material]` overrides it so that what cancels at rest is never formed: each is accurate
-    /// relative to the strains, however small. As given here it is as accurate as 1 + si.
+    /// `#[piola::material]` overrides it so that terms that cancel at rest are never formed: each is accurate
+    /// relative to the strains, even if these are tiny. As given here it is as accurate as 1 + si.
     #[inline(always)]
     fn gradient_at_strains<R: Real>(&self, [s1, s2, s3]: [R; 3]) -> [R; 3] {
         let one = R::splat(1.0);
@@ -101,10 +101,9 @@ pub trait Material: Send + Sync {
     /// P = 2 W1 F + 2 W2 (I1 F − F Fᵀ F) + WJ cof F,   W1 = ∂ψ/∂I1, W2 = ∂ψ/∂I2, WJ = ∂ψ/∂J
     /// ```
     ///
-    /// Each number is as accurate, relative to the terms that it is a sum of, as by stretches: near rest
-    /// these cancel, so that P errs by u times the moduli, however small the strains;
-    /// [`Material::gradient_at_strains`] is more accurate. The range is that of I2 and J, which ends at the
-    /// cube root of that of stretches.
+    /// Each number is as accurate, relative to the terms of its sum, as by stretches: near rest these cancel,
+    /// so that P errs by u times the moduli even at tiny strains; [`Material::gradient_at_strains`] is more
+    /// accurate. The range is that of I2 and J, which ends at the cube root of that of stretches.
     const HAS_INVARIANTS: bool = false;
 
     /// True if ψ by invariants depends on I2. If not, W2, W22, W12 and W2J count as zero, the argument for I2
@@ -167,8 +166,8 @@ pub trait Material: Send + Sync {
 
     /// True if \[I1, I2, J\] give the energy in use; false without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
     ///
-    /// Of an extended energy they do where all stretches are surely above ε, that is, for 2J > ε I1, so that
-    /// no pole is near. Elsewhere [`Material::admits`] decides.
+    /// For an extended energy they do if all stretches are surely above ε, that is, for 2J > ε I1, so that no
+    /// pole is near. Elsewhere [`Material::admits`] decides.
     #[inline(always)]
     fn admits_invariants<R: Real>(&self, _: [R; 3]) -> R::Mask {
         R::Mask::splat(false)
@@ -270,7 +269,7 @@ impl Curvature {
 
 /// Treatment of deformations beyond a domain that ends at J = 0: J > 0 or J ≠ 0.
 ///
-/// Only that end is a matter of choice: where another condition of the domain fails, such as Gent's on I1, a
+/// Only that end is a matter of choice: if another condition of the domain fails, such as Gent's on I1, a
 /// point is refused with either choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(
@@ -371,7 +370,8 @@ pub trait Declared: Material + Sized {
     /// Builds the material from these values, one slice for each entry of [`Description::parameters`].
     ///
     /// # Errors
-    /// [`MaterialError::Shape`] if the lengths do not fit; the others as the constructor of the type.
+    /// [`MaterialError::Shape`] if the lengths do not match; other errors are those of the constructor of the
+    /// type.
     fn from_values(values: &[&[f64]], inversion: Inversion) -> Result<Self, MaterialError>;
 
     /// Small-strain moduli, derived from ψ: λ = ψ12 and μ = (ψ11 − ψ12)/2 at rest.

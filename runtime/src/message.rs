@@ -1,6 +1,6 @@
 //! Formatting of numbers and foreign text in messages: short, and harmless to a terminal.
 //!
-//! Errors of all crates quote what they were given through these functions.
+//! Errors of all crates quote their inputs through these functions.
 
 /// Characters of a quotation beyond which it is cut.
 const LONGEST: usize = 40;

@@ -1,17 +1,17 @@
 //! One point: a deformation gradient F, and the energy density, stress and tangent at F.
 //!
 //! F = U diag(λ) Vᵀ ([`svd()`]); an energy gives its derivatives in the stretches λ
-//! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`stress()`]) and dP/dF
-//! as a block-diagonal map between the frames ([`Tangent`]; `point/tangent.rs` derives it), made
-//! semidefinite on request ([`project()`]). [`evaluate_dense`] gives its 81 entries, by a shorter way where
-//! there is one. A [`DisplacementGradient`] F − I instead of F keeps the digits of bodies that hardly
-//! deform, and codes that have their own elements find other [`measures`] of stress here, with their
-//! tangents, and points in the [`plane`]. Everything is generic over the real type, and what cannot be
-//! computed is reported in a [`Status`] instead of an error, because a point may be one of many in a batch.
+//! ([`Material`](crate::Material)); the frames carry them back: P = U diag(ψi) Vᵀ ([`stress()`]) and dP/dF as
+//! a block-diagonal map between the frames ([`Tangent`]; `point/tangent.rs` derives it), made semidefinite on
+//! request ([`project()`]). [`evaluate_dense`] gives its 81 entries, by a shorter way if there is one. A
+//! [`DisplacementGradient`] F − I instead of F keeps the digits of bodies that hardly deform. For codes that
+//! have their own elements there are other [`measures`] of stress, with their tangents, and points in the
+//! [`plane`]. Everything is generic over the real type, and points that cannot be computed are reported in a
+//! [`Status`] instead of an error, because a point may be one of many in a batch.
 //!
 //! Conventions. A matrix is its rows. F is dimensionless, ψ is energy per rest volume in Pa, P = ∂ψ/∂F in Pa.
-//! Where a matrix is flattened, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of
-//! P and a column for each entry of F.
+//! In a flattened matrix, entry (i, j) goes to 3i+j, so that dP/dF is 9×9 with a row for each entry of P and
+//! a column for each entry of F.
 //!
 //! This module is independent of any particular material and of meshes.
 

@@ -2,8 +2,8 @@
 //! functions that generated materials call.
 //!
 //! Each is accurate to a few u for every gap a − b, zero included. A function that switches between two
-//! formulas does so where both are accurate, on both sides of the switch, and neither is a limit. The formula
-//! that is not selected may give NaN.
+//! formulas does so at a point near which both are accurate, and neither is a limit. The formula that is not
+//! selected may give NaN.
 
 mod cardinal;
 mod error_function;

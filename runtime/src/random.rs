@@ -1,7 +1,6 @@
 //! Reproducible random numbers: SplitMix64 \[SLF14\], too small to justify a dependency.
 //!
-//! Whoever draws samples states a seed, and gets the same samples on every machine and from every later
-//! version.
+//! A seed gives the same samples on every machine and in every later version.
 //!
 //! \[SLF14\] Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014.
 

@@ -2,8 +2,8 @@
 //!
 //! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` divides a
 //! step into minimisations, `newton` minimises, `solver` solves its linear systems, `line_search` shortens
-//! steps, `objective` is the function that decreases, to which a `term` adds what acts in addition to the
-//! material; `minimisation` passes it to `newton`. `staged` keeps the state between steps. `equilibrium`
+//! steps, `objective` is the function that decreases, to which a `term` adds further energies, such as
+//! contact; `minimisation` passes it to `newton`. `staged` keeps the state between steps. `equilibrium`
 //! classifies a body that has come to rest. Reports are values; nothing prints.
 //!
 //! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
@@ -47,9 +47,9 @@ pub use term::{EnergyChange, NodeBlocks, Term};
 /// Interfaces for codes that divide a body among machines: Newton's method and time steps of a [`Simulation`]
 /// for their own elements, linear systems and sums.
 ///
-/// [`StagedSteps`](divided::StagedSteps) holds the state of the nodes of one machine; its stages are moved to
-/// a minimum by [`minimize`](divided::minimize), and lengths of steps are found by
-/// [`advance_within`](divided::advance_within). The crate in `distributed/` is written with them.
+/// [`StagedSteps`](divided::StagedSteps) holds the state of the nodes of one machine;
+/// [`minimize`](divided::minimize) minimises its stages, and [`advance_within`](divided::advance_within)
+/// chooses the lengths of steps. The crate in `distributed/` is written with them.
 pub mod divided {
     pub use super::halving::{Pace, Repeatable, advance_within};
     pub use super::integrator::Stage;

@@ -3,7 +3,7 @@
 //! An energy may be given by curves instead of formulas, as in Σ f(λi) + Σ g(λiλj) + h(J) \[XSZB15\]. A
 //! parameter whose type implements [`Univariate`] is called in the declaration like a function, `f(l1)`. The
 //! type supplies φ′ and φ″, mostly φ as well, and may supply the quotients φ\[a, b\] and φ′\[a, b\], which
-//! have defaults; where φ is defined; and the values of φ that a fit may change. [`Spline`] is such a type,
+//! have defaults, the domain of φ, and the values of φ that a fit may change. [`Spline`] is such a type,
 //! which approximates by control points.
 //!
 //! \[XSZB15\] Xu, Sin, Zhu, Barbič, *Nonlinear Material Design Using Principal Stretches*, 2015.
@@ -121,12 +121,12 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
 
     /// φ(x).
     ///
-    /// By default the integral of φ′ from [`origin`](Univariate::origin) to x, for papers that give
-    /// derivatives alone: by Gauss's rule with eight points on each of 16 parts. Their ends are equally far
-    /// apart, or, for x beyond a factor of 2 from a positive origin, have equal ratios, so that φ′ may grow
-    /// as a power of x towards 0. The error is within rounding if φ′ is analytic for x > 0 and x within two
-    /// orders of magnitude of the origin; with φ′ = x⁻⁴ it is 4e-13 of φ for 1e-3 of the origin, and 1e-6 for
-    /// 1e-8. It matters to ψ alone where φ stands alone in the energy.
+    /// By default the integral of φ′ from [`origin`](Univariate::origin) to x, for papers that give only
+    /// derivatives: by Gauss's rule with eight points on each of 16 parts. Their ends are equally far apart,
+    /// or, for x beyond a factor of 2 from a positive origin, have equal ratios, so that φ′ may grow as a
+    /// power of x towards 0. The error is within rounding if φ′ is analytic for x > 0 and x within two orders
+    /// of magnitude of the origin; with φ′ = x⁻⁴ it is 4e-13 of φ for 1e-3 of the origin, and 1e-6 for 1e-8.
+    /// It matters to ψ alone where φ stands alone in the energy.
     #[inline(always)]
     fn value<R: Real>(&self, x: R) -> R {
         const PARTS: u8 = 16;
@@ -164,7 +164,7 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
 
     /// Points at which φ is not smooth, in increasing order; the default methods integrate between them.
     ///
-    /// None by default. Where φ has a kink that is not among them, the defaults notice it and take the plain
+    /// None by default. If φ has a kink that is not among them, the defaults detect it and use the plain
     /// quotient, which loses digits in proportion to the gap.
     fn breakpoints(&self) -> &[f64] {
         &[]

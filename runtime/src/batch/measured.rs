@@ -1,7 +1,7 @@
 //! Other measures of stress at many points: S, τ and σ with their tangents.
 //!
-//! The stages of a tile as for P and dP/dF, decomposition, energy, outputs; the last of them makes a
-//! [`Measure`] in lanes. Symmetric tensors are six numbers and tangents 36, in the order of
+//! The stages of a tile are those for P and dP/dF: decomposition, energy, outputs; the last one makes a
+//! [`Measure`] in lanes. Symmetric tensors have six components and tangents 36, in the order of
 //! [`voigt`](crate::point::measures::voigt).
 
 #![expect(non_snake_case, reason = "F as in the literature")]
@@ -19,7 +19,7 @@ impl<E: Kernels> Batch<'_, E> {
     /// Stresses in another measure, Pa: six components of each F, in the order of
     /// [`voigt`](crate::point::measures::voigt).
     ///
-    /// A point is `nonfinite` where its stress is, as σ is where F is singular.
+    /// A point is `nonfinite` if its stress is, such as σ for a singular F.
     ///
     /// ```
     /// use piola::batch::Batch;
@@ -45,7 +45,7 @@ impl<E: Kernels> Batch<'_, E> {
     /// ```
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn measured_stresses(
         &self,
         measure: Measure,
@@ -66,10 +66,11 @@ impl<E: Kernels> Batch<'_, E> {
     /// Stresses in another measure, six components of each F, and their tangents, 36, row by row, Pa.
     ///
     /// Tangents are not filtered, regardless of the filter of the batch, because a filtered tangent would not
-    /// be a derivative; see [`measures`](crate::point::measures). Otherwise as [`Batch::measured_stresses`].
+    /// be a derivative; see [`measures`](crate::point::measures). Otherwise like
+    /// [`Batch::measured_stresses`].
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn measured_tangents(
         &self,
         measure: Measure,

@@ -30,8 +30,8 @@ use crate::point::matrix::three;
 /// | `gradients` | each element | as `positions`, N; **forces are minus these** |
 /// | `stiffnesses` | each element | unknown 3n+a in row and column 3n+a, N/m; exactly symmetric |
 ///
-/// Calls allocate nothing but room at the first one, and compute on the thread of the caller: others may have
-/// a clone for their own elements. What an element gets does not depend on the others.
+/// Only the first call allocates memory. Calls compute on the thread of the caller: other threads may use a
+/// clone for their own elements. The results of an element do not depend on the others.
 ///
 /// The [front page](crate#other-elements) of the crate has a program.
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ impl<E: Scalar> Quadrature<E> {
     /// of `positions`.
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn deform(&self, positions: &[E], slopes: &[E], F: &mut [E]) -> Result<(), LengthError> {
         let (unknowns, points) = (self.unknowns(), self.points);
         let elements = positions.len().checked_div(unknowns).unwrap_or(0);
@@ -84,7 +84,7 @@ impl<E: Scalar> Quadrature<E> {
     /// Gradients of the elements' energies in their nodal positions, N, from the stresses of their points.
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn gradients(
         &self,
         slopes: &[E],
@@ -113,7 +113,7 @@ impl<E: Scalar> Quadrature<E> {
     /// Stiffnesses of the elements, N/m, from the tangents of their points: semidefinite if these are.
     ///
     /// # Errors
-    /// [`LengthError`] if the lengths of the slices do not fit together.
+    /// [`LengthError`] if the lengths of the slices do not match.
     pub fn stiffnesses(
         &mut self,
         slopes: &[E],

@@ -21,8 +21,8 @@
 //! | ln(x/y) | x′/x − y′/y |
 //! | \|x\|, max, min, select | that of what is taken |
 //!
-//! Where a derivative does not exist, as that of max(x, x), it is that of the second argument: rules stay
-//! away from there.
+//! If a derivative does not exist, such as that of max(x, x), it is the derivative of the second argument:
+//! rules avoid such points.
 //!
 //! \[Clifford73\] Clifford, *Preliminary sketch of biquaternions*, 1873.
 

@@ -42,8 +42,8 @@
 /// # fn main() {}
 /// ```
 ///
-/// A rule that does not apply, as that on extensions of a material that refuses inversion, is kept. What each
-/// was judged on is what `cargo test -- --show-output` shows.
+/// A rule that does not apply, such as the one on extensions for a material that refuses inversion, counts as
+/// kept. `cargo test -- --show-output` shows the comparisons of each rule.
 #[macro_export]
 macro_rules! contract {
     ($name:ident: $material:expr $(, $setting:ident: $value:expr)* $(,)?) => {

@@ -35,8 +35,8 @@ enum Overflow {
 
 /// Stretches of flat elements, of lines, of huge and tiny elements, and moderate stretches.
 ///
-/// What a formula loses there, it loses in `f32` first: 1 + B with B near −1 has lost half of its 24 bits
-/// where λ3 = 0.01, and half of the 53 of `f64` only where λ3 = 1e-4.
+/// Digits that a formula loses there are lost in `f32` first: 1 + B with B near −1 has lost half of its 24
+/// bits where λ3 = 0.01, and half of the 53 of `f64` only where λ3 = 1e-4.
 fn far_from_rest([l1, l2, l3]: [f64; 3]) -> impl Iterator<Item = [f64; 3]> {
     let thin = [1e-2, 1e-3, 1e-4].into_iter().flat_map(move |factor| {
         let line = [l1, l2 * factor, l3 * factor];

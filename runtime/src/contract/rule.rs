@@ -12,20 +12,19 @@ pub enum Rule {
     /// Finite results wherever the material is defined, and a true
     /// [`ends_at_zero_volume`](crate::Material::ends_at_zero_volume):
     ///
-    /// * energy, gradient and blocks are finite at the samples, and so are energy and gradient where λ3 is
-    ///   only 2⁻¹⁰, 2⁻²⁰ and 2⁻³⁰ of λ1, of either sign, if such stretches are admitted;
-    /// * but at these small λ3 ψ may be +∞: an exponential in `I1b`, say, overflows as J falls, where the
-    ///   range of numbers ends and not the domain. Such a point is `nonfinite`, and a solver takes a shorter
-    ///   step. Where ψ > 2⁵¹² Pa, the root of the largest number, derivatives overflow before ψ does and are
-    ///   not looked at. NaN and −∞ are violations;
-    /// * where λ3 = ±2⁻¹⁰⁰⁰ are not both admitted or both not,
-    ///   `ends_at_zero_volume` holds.
+    /// * energy, gradient and blocks are finite at the samples, and so are energy and gradient if λ3 is only
+    ///   2⁻¹⁰, 2⁻²⁰ and 2⁻³⁰ of λ1, of either sign, if such stretches are admitted;
+    /// * but at these small λ3 ψ may be +∞: an exponential in `I1b`, say, overflows as J falls, at the end of
+    ///   the range of numbers and not of the domain. Such a point is `nonfinite`, and a solver takes a
+    ///   shorter step. If ψ > 2⁵¹² Pa, the root of the largest number, derivatives overflow before ψ does and
+    ///   are not checked. NaN and −∞ are violations;
+    /// * if only one of λ3 = ±2⁻¹⁰⁰⁰ is admitted, `ends_at_zero_volume` holds.
     Domain,
     /// Objectivity: ψ(Q F) = ψ(F) and P(Q F) = Q P(F) for rotations Q, F = diag(λ).
     ///
     /// A material depends on stretches alone, which a rotation changes by rounding only: it breaks this if
-    /// that is enough to change its results beyond their tolerance, or makes them NaN. Else the rule judges
-    /// how [`point`](crate::point) rotates.
+    /// that is enough to change its results beyond their tolerance, or makes them NaN. Otherwise the rule
+    /// judges the rotations in [`point`](crate::point).
     Objectivity,
     /// Isotropy: ψ(F W) = ψ(F), P(F W) = P(F) W for rotations W, F = diag(λ); and where λi = λj,
     /// ψi = ψj and ψii = ψjj.
@@ -33,12 +32,13 @@ pub enum Rule {
     /// Symmetry of the tangent: A : (dP/dF) B = B : (dP/dF) A for random A, B.
     ///
     /// [`Blocks`](crate::material::Blocks) are symmetric by their type: a material breaks this only by
-    /// infinite or NaN entries. Else the rule judges the tangent that [`point`](crate::point) makes of them.
+    /// infinite or NaN entries. Otherwise the rule judges the tangent that [`point`](crate::point) computes
+    /// from them.
     SymmetricTangent,
     /// Stress as the slope of the energy: (ψ(F + h A) − ψ(F − h A))/2h approaches P : A as h², and from one
     /// sample to the next ψ grows by the work of its gradient.
     ///
-    /// Near a sample, an energy that jumps elsewhere looks as it should.
+    /// Near a sample, an energy that jumps elsewhere would look correct.
     StressSlope,
     /// Tangent as the slope of the stress: (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
     TangentSlope,
@@ -59,15 +59,15 @@ pub enum Rule {
     /// * the stretches are admitted too;
     /// * the energies agree;
     /// * ψi = 2λi W1 + 2λi (λj² + λk²) W2 + λjλk WJ;
-    /// * Hessian, flips and twists are those that W1 … WJJ make by the rules of calculus.
+    /// * Hessian, flips and twists follow from W1 … WJJ by the rules of calculus.
     Invariants,
     /// Smooth, restoring extension of a material whose [`inversion`](crate::Material::inversion) is
     /// `Inversion::Extend { epsilon }`:
     ///
-    /// * it admits an inverted point where it admits its mirror image;
+    /// * it admits an inverted point if it admits its mirror image;
     /// * difference quotients of ψ approach P, and those of P approach dP/dF, as h² on either side of the
-    ///   threshold, be it λ3 alone that is near ε or λ2 as well, and deep inside inversion, at λ3 = −0.01,
-    ///   −0.5 and −2;
+    ///   threshold, with λ3 alone or λ2 as well near ε, and deep inside inversion, at λ3 = −0.01, −0.5 and
+    ///   −2;
     /// * those across the threshold do so as h² and as h, since third derivatives of ψ jump there;
     /// * ∂ψ/∂λ3 < 0 wherever λ3 < ε and J < 1, so that inverted material is driven back.
     ///
@@ -91,8 +91,8 @@ pub enum Rule {
     /// * on the fastest one of this processor, as a scalar up to rounding: it has other instructions.
     ///
     /// Neighbours differ as much as they can: next to one of the samples are the same stretches with two of
-    /// them 10⁻⁹ apart and equal, so that what is done for some lanes alone shows. Truth values are compared
-    /// as 0 and 1.
+    /// them 10⁻⁹ apart and equal, so that operations for some lanes only are detected. Truth values are
+    /// compared as 0 and 1.
     Lanes,
 }
 

@@ -6,10 +6,10 @@ use super::{stiffness, stress_scale};
 
 /// Entries of a row and the tolerance of each in units of u; `None` if the domain ends too near.
 ///
-/// A hundred times the sum of two parts. One is the size of the terms that a number is a sum of: the tangent
-/// for second derivatives, what it makes of the stretches for first ones and the energy. The other is how it
-/// answers to relative changes of the stretches, since what is computed of them first, such as J or a bound
-/// that the energy nears, is rounded.
+/// A hundred times the sum of two parts. One is the size of the terms whose sum a number is: the tangent for
+/// second derivatives, the tangent times the stretches for first ones and the energy. The other is its
+/// sensitivity to relative changes of the stretches, since intermediate results, such as J or a bound that
+/// the energy approaches, are rounded.
 pub(super) fn known(material: &dyn Subject, stretches: [f64; 3]) -> Option<([f64; COUNT], [f64; COUNT])> {
     /// Relative step: large compared with rounding, small compared with the scale on which an energy changes.
     const STEP: f64 = 1.0 / 4096.0;

@@ -81,10 +81,10 @@ pub struct Calls {
 
 /// Material whose energy was declared at run time, made by the crate `piola-declare`.
 ///
-/// It computes what a material compiled from the same declaration does, to the last bit, and is as good
-/// behind `dyn` [`DynMaterial`](crate::DynMaterial). Batches and bodies execute each operation for a tile of
-/// 64 points before the next, which costs little compared with the operation. A single point takes up to
-/// three times as long as compiled.
+/// It computes what a material compiled from the same declaration does, to the last bit, also behind `dyn`
+/// [`DynMaterial`](crate::DynMaterial). Batches and bodies execute each operation for a tile of 64 points
+/// before the next, which costs little compared with the operation. A single point takes up to three times as
+/// long as compiled.
 #[derive(Clone, Debug)]
 pub struct Interpreted {
     /// Identity of the parameter values; shared by clones.

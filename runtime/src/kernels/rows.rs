@@ -1,7 +1,7 @@
 //! Tiles: 64 points, component by component, small enough to stay in the innermost cache.
 //!
 //! Between the stages of a batch, number k of a tile's points is a row of its own, so that lanes load it as
-//! it is. A tile that is not full is padded with copies of nothing in particular: no lane looks at another.
+//! it is. A tile that is not full is padded with arbitrary values: no lane depends on another.
 
 use crate::lanes::{Lanes, Scalar};
 use crate::material::Blocks;

@@ -3,8 +3,8 @@
 //!
 //! A computation runs once. There is no branch on a value to miss, since a `Real` has none; where code tests
 //! whether *any* lane of a mask is set, the answer is yes unless the mask is known, so that both ways are
-//! recorded. The question itself is kept: what only one way needs stands behind a condition again, once the
-//! program is printed ([`RecordedProgram::guards`]).
+//! recorded. The test itself is kept: operations that only one way needs stand behind a condition again in
+//! the printed program ([`RecordedProgram::guards`]).
 //!
 //! Equal operations exist once, arithmetic with literals is done at once, and no rule changes a bit. The
 //! elementary functions are recorded as well, each once, and called.
@@ -74,8 +74,7 @@ const QUIET: u64 = 0x7ffc_9101_0000_0000;
 /// Records a computation from arguments to numbers and truth values.
 ///
 /// # Errors
-/// [`UnrecordedParameter`] if the computation has used a [`parameter`] otherwise than as a number of the
-/// program.
+/// [`UnrecordedParameter`] if the computation has used a [`parameter`] other than as a number of the program.
 pub fn record<E: Recordable>(
     arguments: usize,
     computation: impl FnOnce(&[Recorded<E>]) -> (Vec<Recorded<E>>, Vec<RecordedMask>),

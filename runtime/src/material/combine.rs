@@ -13,7 +13,7 @@ use crate::lanes::Real;
 
 /// The sum of two energies: ψ = ψa + ψb.
 ///
-/// It is defined where both are. Longer sums nest: `Sum::new(Sum::new(a, b), c)`.
+/// It is defined where both energies are. Longer sums nest: `Sum::new(Sum::new(a, b), c)`.
 ///
 /// ```
 /// use piola::material;

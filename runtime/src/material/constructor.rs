@@ -10,7 +10,7 @@ const LARGEST_WHOLE: u32 = 64;
 /// Checks the numbers of a material's parameters, one slice for each, which is empty for a function.
 ///
 /// # Errors
-/// As [`check_parameters`].
+/// Like [`check_parameters`].
 pub fn check_numbers<M: Declared>(values: &[&[f64]]) -> Result<(), MaterialError> {
     check_parameters(&M::DESCRIPTION.parameters, values.iter().copied())
 }

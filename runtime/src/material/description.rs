@@ -86,8 +86,8 @@ impl Parameter {
 
 /// Units that the documentation of a parameter can end with.
 ///
-/// `#[piola::material]` checks that ψ is in Pa, where its parameters have units. Without one nothing is
-/// checked, and nothing can be derived from it.
+/// `#[piola::material]` checks that ψ is in Pa, if its parameters have units. A parameter without a unit is
+/// not checked, and nothing can be derived from its unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unit {

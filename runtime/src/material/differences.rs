@@ -14,9 +14,10 @@ const WEIGHTS: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
 /// ```
 ///
 /// has an error of h⁶ |g⁽⁷⁾|/140 and a rounding error of 2 Σ |wk| ε/h = 1.83 ε/h, where ε is that of g. The
-/// step is 2⁻⁷ times the power of two below |v|, and 2⁻⁷ for v = 0. So what is linear in its values, as a
-/// spline is, has the rounding error alone, at most 470 ε/|v|; and where g varies as a power vⁿ, the
-/// derivative errs by (n − 1) … (n − 6)/140 · 2⁻⁴², which is below 10⁻¹³ up to n = 7 and 10⁻¹⁰ up to n = 10.
+/// step is 2⁻⁷ times the power of two below |v|, and 2⁻⁷ for v = 0. So a function that is linear in its
+/// values, such as a spline, has the rounding error only, at most 470 ε/|v|; and where g varies as a power
+/// vⁿ, the derivative errs by (n − 1) … (n − 6)/140 · 2⁻⁴², which is below 10⁻¹³ up to n = 7 and 10⁻¹⁰ up to
+/// n = 10.
 #[must_use]
 pub fn by_values<const N: usize>(
     values: &[f64],

@@ -4,8 +4,7 @@ use super::{Declared, Inversion, MaterialError, Text};
 
 /// Material with derivatives of its stress by its parameters: one declared with the word `fit`.
 ///
-/// The derivatives come from the expressions that all others come from; without the word nothing is
-/// generated.
+/// The derivatives come from the same expressions as all others; without the word nothing is generated.
 ///
 /// ```
 /// use piola::material;
@@ -52,8 +51,8 @@ pub trait Fittable: Declared {
     /// A function without values stays what it is.
     ///
     /// # Errors
-    /// [`MaterialError::Shape`] if the lengths do not fit; the others as the constructor of the type, and
-    /// those of `Univariate::with_values`.
+    /// [`MaterialError::Shape`] if the lengths do not match; other errors are those of the constructor of the
+    /// type and of `Univariate::with_values`.
     fn with_values(&self, values: &[&[f64]]) -> Result<Self, MaterialError> {
         Self::from_values(values, Inversion::Refuse)
     }
@@ -63,7 +62,7 @@ pub trait Fittable: Declared {
     /// change, and have zeros. Those by the values of a function are central differences of sixth order, with
     /// steps of about 1/128 of each value; NaN if the function refuses such values.
     ///
-    /// Meant inside the domain: an extension is not in use, and outside the domain the numbers are
+    /// For stretches inside the domain: an extension is not used, and outside the domain the numbers are
     /// meaningless and may be NaN.
     fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]>;
 

@@ -8,9 +8,10 @@ use crate::lanes::{Mask, Real};
 /// Material for each lane, at most 16: the form of [`Graded`](super::Graded) materials whose parameters are
 /// not only numbers.
 ///
-/// Each material is evaluated on all lanes, and those that have it take its results: a lane has the bits that
-/// it has alone. Materials count as one where they are equal (`==`), so that the time grows with the
-/// number of different materials on the lanes, and lanes with one material cost what that costs alone.
+/// Each material is evaluated on all lanes, and the lanes with this material take its results: a lane has the
+/// bits that it has alone. Materials count as one if they are equal (`==`), so that the time grows with the
+/// number of different materials on the lanes, and lanes with one material cost as much as a single
+/// evaluation.
 #[derive(Clone, Copy, Debug)]
 pub struct Mixed<'a, M> {
     materials: [&'a M; LANES],

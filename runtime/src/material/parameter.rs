@@ -1,8 +1,8 @@
 //! Parameters of an energy: one value for all points, or one for each lane.
 //!
-//! A declared material is generic over how its parameters are kept. With `f64`, which is the default, every
-//! lane gets that value; with [`PerLane`] each gets a value of its own, as points of a graded or fitted body
-//! need.
+//! A declared material is generic over the representation of its parameters. With `f64`, the default, every
+//! lane gets that value; with [`PerLane`] each lane gets a value of its own, for points of a graded or fitted
+//! body.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -52,7 +52,7 @@ impl ParameterValue for PerLane {
 
 /// A material whose parameters may differ from point to point: every declared one.
 ///
-/// Parameters that are numbers have a value for each lane. Those that are not, such as functions, do not: a
+/// Parameters that are numbers have a value for each lane. Other parameters, such as functions, do not: a
 /// point with a material that its neighbours do not have costs one more evaluation (`Mixed`).
 pub trait Graded: Material + Sized {
     /// This kind of material with parameters for each lane.
@@ -62,8 +62,8 @@ pub trait Graded: Material + Sized {
 
     /// Materials side by side, `material(lane)` on each of at most 16 lanes.
     ///
-    /// All must have the same [`inversion`](Material::inversion), threshold included, as [`PerPoint`] makes
-    /// sure: it decides which program runs.
+    /// All must have the same [`inversion`](Material::inversion), threshold included, as [`PerPoint`] checks:
+    /// it selects the program.
     fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes<'a>
     where
         Self: 'a;
@@ -89,8 +89,8 @@ graded_by_pointee!(&M, Box<M>, Arc<M>);
 
 /// A material for each point of a batch, or for each element of a part of a body, in their order.
 ///
-/// `S` holds the list: `Vec<M>`, `&[M]`, `Arc<[M]>` or any other type that gives a slice. Where many points
-/// have the same material, the list may hold references, `&M` or `Arc<M>`.
+/// `S` holds the list: `Vec<M>`, `&[M]`, `Arc<[M]>` or any other type that gives a slice. If many points have
+/// the same material, the list may hold references, `&M` or `Arc<M>`.
 ///
 /// ```
 /// # #[cfg(feature = "bodies")]

@@ -24,10 +24,10 @@ const PATHS: [([usize; 3], bool); 6] = [
 
 /// Meshes a box from the origin to `size`, m, with `cells` along each axis, each of six tetrahedra.
 ///
-/// Nodes are numbered in layers across the axis with the most cells, and in a layer in rows across that with
-/// the second most; tetrahedra follow the same order. The nodes of a tetrahedron are then as near in memory
-/// as plain counting brings them. There are no groups: [`Pins::in_box`](crate::system::Pins::in_box) finds a
-/// side.
+/// Nodes are numbered in layers across the axis with the most cells, and in a layer in rows across the axis
+/// with the second most; tetrahedra follow the same order. The nodes of a tetrahedron are then as near in
+/// memory as plain counting brings them. There are no groups: [`Pins::in_box`](crate::system::Pins::in_box)
+/// finds a side.
 ///
 /// ```
 /// use piola::mesh::tetrahedral_box;

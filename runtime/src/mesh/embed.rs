@@ -46,13 +46,13 @@ impl Embedding {
     /// Binds each vertex to the tetrahedron that contains it at rest, or else to the nearest one.
     ///
     /// A vertex outside the mesh moves by extrapolation; `tolerance`, m, is its largest distance from the
-    /// nearest tetrahedron, perhaps infinite. Of several tetrahedra that contain a vertex, or are as near,
-    /// the first in the mesh counts.
+    /// nearest tetrahedron, possibly infinite. Among several tetrahedra that contain a vertex, or are equally
+    /// near, the first in the mesh is used.
     ///
     /// # Errors
-    /// [`EmbedError::Outside`] for a vertex farther outside, [`EmbedError::NotFinite`] for one that is
-    /// nowhere, [`EmbedError::Tolerance`] if that is negative or NaN, [`EmbedError::Mesh`] if the mesh is not
-    /// a body ([`TetMesh::rest_shapes`]).
+    /// [`EmbedError::Outside`] for a vertex farther outside, [`EmbedError::NotFinite`] for a position that is
+    /// not finite, [`EmbedError::Tolerance`] if the tolerance is negative or NaN, [`EmbedError::Mesh`] if the
+    /// mesh is not a body ([`TetMesh::rest_shapes`]).
     pub fn new(mesh: &TetMesh, surface: &Surface, tolerance: f64) -> Result<Self, EmbedError> {
         if tolerance.is_nan() || tolerance < 0.0 {
             return Err(EmbedError::Tolerance { tolerance });

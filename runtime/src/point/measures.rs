@@ -154,15 +154,16 @@
 //! remains an error of a few u M, where M is the largest magnitude among ψij, ψi/λi, D⁻ and D⁺. Divided as in
 //! the table and rotated into space, it is at most a few u M/λ3² in dS/dE, and a few u M λ1²/|J| in c and c°.
 //!
-//! Near rest a stress has an error of u ‖dP/dF‖, as has everything that comes through F. Where that matters,
-//! τ = P + P Hᵀ keeps the digits of a stress
-//! that comes from the [`DisplacementGradient`](super::DisplacementGradient).
+//! Near rest a stress has an error of u ‖dP/dF‖, like every result computed from F. If that matters, τ = P +
+//! P Hᵀ keeps the digits of a stress that comes from the
+//! [`DisplacementGradient`](super::DisplacementGradient).
 //!
-//! **Singular F.** All but τ are divided by stretches. Where λ3 = 0, or a product of stretches leaves the
-//! range, the results are what division gives, infinity and NaN included; the status of the point does not
-//! cover them. Where F inverts, J is negative, and σ, c and c° are τ and its tangents divided by that.
+//! **Singular F.** All measures except for τ are divided by stretches. If λ3 = 0, or a product of stretches
+//! leaves the range, the results are those of the division, including infinity and NaN; the status of the
+//! point does not cover them. If F is inverted, J is negative, and σ, c and c° are τ and its tangents divided
+//! by that.
 //!
-//! **Filters.** The tangents are derivatives if the blocks are: those of
+//! **Filters.** The tangents are derivatives if the blocks are unfiltered:
 //! [`Filter::None`](super::Filter::None). A filter breaks the relation ψj = a λj − b λi. A filtered dP/dF is
 //! no longer the sum of a part with S and one that E alone decides, and it does not belong to any dS/dE. From
 //! filtered blocks these functions make symmetric matrices that are not derivatives and need not be
@@ -195,7 +196,7 @@ pub fn second_piola<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
 
 /// The Kirchhoff stress τ = P Fᵀ = U diag(λi ψi) Uᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
 ///
-/// Divides by nothing: finite also where F is singular.
+/// Contains no division: finite even if F is singular.
 #[inline(always)]
 #[must_use]
 pub fn kirchhoff<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
@@ -212,7 +213,7 @@ pub fn cauchy<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
 
 /// The material tangent dS/dE, Pa, for unfiltered blocks.
 ///
-/// Exactly symmetric. Takes an increment of E, as [`voigt::from_strain`] stores it, to one of S.
+/// Exactly symmetric. Maps an increment of E, as [`voigt::from_strain`] stores it, to an increment of S.
 #[inline(always)]
 #[must_use]
 pub fn material_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
@@ -222,7 +223,7 @@ pub fn material_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R>
 /// The spatial tangent c of the Truesdell rate, Pa, for unfiltered blocks: dS/dE pushed forward, by deformed
 /// volume.
 ///
-/// Exactly symmetric. Takes ε, the symmetric part of dF F⁻¹ as [`voigt::from_strain`] stores it, to dτ/J as
+/// Exactly symmetric. Maps ε, the symmetric part of dF F⁻¹ as [`voigt::from_strain`] stores it, to dτ/J as
 /// seen by an observer that deforms with the body.
 #[inline(always)]
 #[must_use]
@@ -233,7 +234,7 @@ pub fn spatial_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> 
 /// The spatial tangent c° of the Jaumann rate of τ by deformed volume, Pa, for unfiltered blocks: DDSDDE of
 /// Abaqus.
 ///
-/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the
+/// Exactly symmetric. Maps ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the
 /// body. The order of Abaqus is stated in [`voigt`].
 #[inline(always)]
 #[must_use]
@@ -243,7 +244,7 @@ pub fn jaumann_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> 
 
 /// The spatial tangent c★ of the Green–Naghdi rate of τ by deformed volume, Pa, for unfiltered blocks.
 ///
-/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the
+/// Exactly symmetric. Maps ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the
 /// rotation R of the polar decomposition.
 #[inline(always)]
 #[must_use]
@@ -253,8 +254,8 @@ pub fn green_naghdi_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix
 
 /// The spatial tangent J c of the Kirchhoff stress, Pa, for unfiltered blocks: dS/dE pushed forward.
 ///
-/// Exactly symmetric. Takes ε as [`spatial_tangent`] does, to dτ as seen by an observer that deforms with the
-/// body. Divides by nothing: finite also where F is singular.
+/// Exactly symmetric. Maps ε as [`spatial_tangent`] does, to dτ as seen by an observer that deforms with the
+/// body. Contains no division: finite even if F is singular.
 #[inline(always)]
 #[must_use]
 pub fn kirchhoff_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {

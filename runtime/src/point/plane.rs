@@ -1,9 +1,9 @@
 //! Plane strain and plane stress: 2×2 deformation gradients, with consistent tangents.
 //!
-//! A membrane, a sheet or a slice of a long body is computed in its plane. What it does across, the stretch
-//! λ3 normal to the plane, is held in *plane strain*, λ3 = 1, and free in *plane stress*, P33 = 0. Here the
-//! free stretch is solved for, to rounding, and eliminated from the tangent, which is then the exact
-//! derivative of the stress that is left.
+//! A membrane, a sheet or a slice of a long body is computed in its plane. The stretch λ3 normal to the plane
+//! is held in *plane strain*, λ3 = 1, and free in *plane stress*, P33 = 0. Here the free stretch is solved
+//! for, to rounding, and eliminated from the tangent, which is then the exact derivative of the in-plane
+//! stress.
 //!
 //! ```
 //! use piola::point::Filter;
@@ -57,16 +57,16 @@
 //!
 //! This is static condensation of the component 33 of dP/dF; the shears do not enter. The condensed tangent
 //! is the second derivative of the smallest energy that λ3 can give, and therefore symmetric. Its eigenvalues
-//! are flip, twist and the two of the condensed 2×2 matrix, so that a filter is as simple as in space: of the
-//! condensed tangent, which is what a membrane assembles.
+//! are flip, twist and the two of the condensed 2×2 matrix, so that a filter is as simple as in space: it
+//! acts on the condensed tangent, which a membrane assembles.
 //!
 //! # What floating point does here
 //!
-//! The free stretch is found to a few u, as `release.rs` describes, for any ratio of the moduli. What is left
-//! of ψ3 is taken from the stress to first order, ψi − ψi3/ψ33 ψ3, so that an error of λ3 in its last digit,
-//! which a bulk modulus of 10⁶ μ would turn into 10⁶ u μ, does not reach the stress. In the condensed tangent
-//! ψij − ψi3 ψj3/ψ33 cancels where the solid is nearly incompressible: it errs by a few u times the largest
-//! ψij, the bulk modulus.
+//! The free stretch is found to a few u, as `release.rs` describes, for any ratio of the moduli. The rest of
+//! ψ3 is subtracted from the stress to first order, ψi − ψi3/ψ33 ψ3, so that an error of λ3 in its last
+//! digit, which a bulk modulus of 10⁶ μ would turn into 10⁶ u μ, does not reach the stress. In the condensed
+//! tangent ψij − ψi3 ψj3/ψ33 cancels where the solid is nearly incompressible: it errs by a few u times the
+//! largest ψij, the bulk modulus.
 //!
 //! Out-of-plane stretches are positive for either sign of det F̃. The material decides whether a deformation
 //! inverted in the plane is refused. A point whose free stretch has no equilibrium, because its energy pulls
@@ -128,7 +128,7 @@ pub struct PlanePoint<R> {
 impl<R: Real> PlanePoint<R> {
     /// The Cauchy stress in the plane, Pa: σ = P Fᵀ/J = U diag(ψ1/(λ2 λ3), ψ2/(λ1 λ3)) Uᵀ.
     ///
-    /// What division gives, infinity and NaN included, where λ2 = 0.
+    /// The result of the division, infinity or NaN, if λ2 = 0.
     #[must_use]
     pub fn cauchy(&self) -> Matrix2<R> {
         let ([l1, l2], l3) = (self.stretches, self.out_of_plane_stretch);
@@ -163,7 +163,7 @@ pub fn plane_strain<R: Real<Mask = bool>>(
 
 /// Stress and tangent in plane stress: λ3 is such that P33 = 0.
 ///
-/// `refused` where the energy is not defined for any λ3, and where none frees the point; see
+/// `refused` if the energy is not defined for any λ3, or no λ3 makes the normal stress vanish; see
 /// [`PlanePoint::no_equilibrium`]. Results are NaN then.
 #[must_use]
 pub fn plane_stress<R: Real<Mask = bool>>(

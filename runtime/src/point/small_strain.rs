@@ -71,12 +71,12 @@ use crate::status::Status;
 
 /// Displacement gradient H = F − I, dimensionless: the deformation of bodies that hardly deform.
 ///
-/// * The **stress** is accurate to u (‖P‖ + ‖dP/dF‖ ‖H‖) times a small number, where that at F reaches u
+/// * The **stress** is accurate to u (‖P‖ + ‖dP/dF‖ ‖H‖) times a small number, whereas the one at F reaches u
 ///   ‖dP/dF‖.
 /// * The **energy** is that above rest, ψ(I + H) − ψ(I). It is accurate to u (|ψ| + ‖P‖ ‖H‖) times a small
-///   number, where the difference of two energies has an error of u times the largest term of ψ, which does
+///   number, whereas the difference of two energies has an error of u times the largest term of ψ, which does
 ///   not vanish at rest.
-/// * The **tangent** is that at F = I + H. So are stress and energy where ‖H‖ ≥ ½ in the Frobenius norm.
+/// * The **tangent** is that at F = I + H. So are stress and energy if ‖H‖ ≥ ½ in the Frobenius norm.
 ///
 /// ```
 /// use piola::point::{DisplacementGradient, evaluate_energy, evaluate_stress};

@@ -190,7 +190,8 @@ impl<R: Real> Blocks<R> {
 
 /// Takes the 3×3 blocks of a symmetric matrix from [`assemble_blocks`].
 ///
-/// A trait and no closure, because lanes want everything inlined, and nothing can force a closure to be.
+/// A trait instead of a closure, because lanes need everything inlined, which nothing can force for a
+/// closure.
 pub(crate) trait Assemble<R> {
     /// Takes K between (a, x) and (c, y) as `block[x][y]`, a ≤ c.
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>);

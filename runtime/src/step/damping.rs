@@ -8,8 +8,8 @@
 //! stiffness    β/(2h) (x − xₙ)ᵀK(x − xₙ)    force −β K v
 //! ```
 //!
-//! Taking K at the start of the step keeps the second one quadratic, and so the step a minimisation: no
-//! damping can drive a body, however stiff or inverted it is.
+//! Taking K at the start of the step keeps the second one quadratic, and so the step a minimisation: damping
+//! never drives a body, even a stiff or inverted one.
 
 use std::ops::Range;
 

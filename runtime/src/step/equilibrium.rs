@@ -1,7 +1,7 @@
 //! Classification of a body at rest, in its rest shape or elsewhere.
 //!
 //! A body may stay in another state than its rest shape: in a minimum of its energy elsewhere, at a saddle
-//! that nothing pushes it off, where an energy is blind to reflection, or at a kink of an energy, where λ2 +
+//! without a disturbance, if an energy does not change by reflection, or at a kink of an energy, where λ2 +
 //! λ3 = 0 and no force vanishes. These differ in the forces and in the smallest eigenvalue of the stiffness
 //! K, unfiltered, with springs and other terms,
 //!
@@ -93,8 +93,8 @@ pub enum Stability {
 impl Equilibrium {
     /// Analyses a body at its current positions, regardless of its velocities.
     ///
-    /// Takes memory for the stiffness, a factor of it and at most a hundred vectors, and about as long as ten
-    /// to a hundred Newton iterations.
+    /// Needs memory for the stiffness, its factor and at most a hundred vectors, and takes about as long as
+    /// ten to a hundred Newton iterations.
     ///
     /// # Errors
     /// [`NewtonError::Inadmissible`] for an element outside the domain of its material,

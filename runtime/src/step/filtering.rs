@@ -1,8 +1,8 @@
 //! Choice of the filter in each iteration of Newton's method.
 //!
-//! Without a filter Newton's method converges fastest, but only near a minimum is its matrix positive
-//! definite. Clamped eigenvalues are safe everywhere, absolute ones safer where the energy curves downwards,
-//! and slower where it does not. So the choice may depend on the matrix.
+//! Without a filter Newton's method converges fastest, but its matrix is positive definite only near a
+//! minimum. Clamped eigenvalues are safe everywhere; absolute ones are safer for an energy that curves
+//! downwards, and slower otherwise. So the choice may depend on the matrix.
 
 use crate::point::Filter;
 

@@ -1,14 +1,15 @@
 //! Adaptive steps, whose length follows from their error.
 //!
-//! A step of length h with the result x₁ is made again as two of h/2, with x₂. Of a method of order p both
-//! have an error near C hᵖ⁺¹, and 2ᵖ times smaller that of x₂, which is therefore about
+//! A step of length h with the result x₁ is made again as two of h/2, with x₂. For a method of order p the
+//! error of x₁ is near C hᵖ⁺¹, and the error of x₂ is 2ᵖ times smaller, therefore about
 //!
 //! ```text
 //! max |x₂ − x₁| / (2ᵖ − 1)
 //! ```
 //!
-//! Where that is no more than the tolerance allows in the time h, x₂ is the state after h. Else h is halved,
-//! and the first of the two halves is already the x₁ of the next attempt. A step that fails is halved too.
+//! If that is no more than the tolerance allows in the time h, x₂ is the state after h. Otherwise h is
+//! halved, and the first of the two halves is already the x₁ of the next attempt. A step that fails is halved
+//! too.
 //!
 //! Bodies that are suddenly pulled or let go move less smoothly than a third order demands: p is at most 2.
 
@@ -38,7 +39,7 @@ pub trait Repeatable {
     /// Makes a step of `dt`, s.
     ///
     /// # Errors
-    /// Of a step that fails, which is then tried again in halves.
+    /// The error of a step that fails, which is then tried again in halves.
     fn step(&mut self, dt: f64) -> Result<Self::Report, Self::Error>;
 
     /// Discards results computed at earlier positions.
@@ -77,12 +78,12 @@ pub struct Pace<R> {
 /// Integrates over a time span, s, with adaptive steps that keep the sum of their position errors below
 /// `allowed`, m.
 ///
-/// [`Simulation::advance_within`](super::Simulation::advance_within) is made of it. The first attempt takes
-/// the whole time at once; the shortest step is 2⁻¹² of it.
+/// [`Simulation::advance_within`](super::Simulation::advance_within) is implemented by it. The first attempt
+/// takes the whole time at once; the shortest step is 2⁻¹² of it.
 ///
 /// # Errors
-/// Of a step of the shortest length, or [one that is final](Repeatable::is_final). The state is then the one
-/// before.
+/// The error of a step of the shortest length, or [a final one](Repeatable::is_final). The state is then the
+/// one before.
 pub fn advance_within<B: Repeatable>(
     body: &mut B,
     duration: f64,

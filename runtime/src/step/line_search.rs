@@ -1,7 +1,7 @@
 //! Line search by backtracking.
 //!
-//! A trial is accepted where it decreases the objective enough \[Arm66\]. Near a minimum the decrease drowns
-//! in rounding; there the slope decides instead, which is still accurate: the "approximate Wolfe" condition
+//! A trial is accepted if it decreases the objective enough \[Arm66\]. Near a minimum the decrease drowns in
+//! rounding; there the slope decides instead, which is still accurate: the "approximate Wolfe" condition
 //! [HZ05 eq. 4.1]. A trial outside the domain of the objective is a step too long.
 //!
 //! \[Arm66\] Armijo, *Minimization of functions having Lipschitz continuous first partial derivatives*, 1966.

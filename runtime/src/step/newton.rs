@@ -211,7 +211,7 @@ where
     ///
     /// Moving pins enter the first linear system with their displacement d: K p = −g − K d. Its tangent is
     /// that of the state before they move, when elements next to them are not yet distorted; the line search
-    /// starts behind the move.
+    /// starts after the move.
     fn find_direction(&mut self, pins_move: bool, tolerance: f64) -> Result<bool, M::Error> {
         let filtering = self.settings.filtering;
         let residual = self.linearise(filtering.choice(), pins_move)?;

@@ -41,8 +41,8 @@ use settings::check_settings;
 ///
 /// All memory is allocated by [`Simulation::new`], or by [`Simulation::set_settings`] for another linear
 /// solver or integrator, except for the small lists of a report and the levels of multigrid. The same state
-/// gives the same bits for any number of threads of the rayon pool in which `step` is called, and regardless
-/// of what was before it.
+/// gives the same bits for any number of threads of the rayon pool in which `step` is called, and any earlier
+/// history.
 ///
 /// A clone continues with the same bits and is independent of the original: to try a step, or for ensembles.
 /// It takes as much memory again, except for the materials and the symbolic factorisation, which are shared;

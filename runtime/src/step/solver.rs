@@ -47,18 +47,18 @@ pub enum LinearSolver {
     Automatic,
     /// Sparse Cholesky factorisation.
     ///
-    /// The fastest for bodies of up to a few thousand elements (`cargo speed-report --only growth`), and the
-    /// only one without a tolerance. An indefinite matrix gets inertia until it is definite.
+    /// The fastest solver for bodies of up to a few thousand elements (`cargo speed-report --only growth`),
+    /// and the only one without a tolerance. An indefinite matrix gets inertia until it is definite.
     Cholesky,
     /// Conjugate gradients until ‖b − A p‖ ≤ tolerance ‖b‖, preconditioned by the 3×3 blocks on the diagonal
     /// or, if these take many iterations, by multigrid (smoothed aggregation), whose iterations hardly grow
     /// with the number of elements.
     ///
-    /// From some thousand elements on the fastest. Memory grows with the elements alone: about a kilobyte
-    /// each, and as much again where levels of multigrid are made. The choice between the two
+    /// The fastest solver from some thousand elements on. Memory grows linearly with the elements: about a
+    /// kilobyte each, and as much again if levels of multigrid are made. The choice between the two
     /// preconditioners depends on the matrix and on numbers of iterations, so that each run makes the same.
-    /// The system is given up at negative curvature, with the direction so far or that of steepest descent
-    /// in the first iteration, as in Nocedal and Wright, *Numerical Optimization*, algorithm 7.1.
+    /// The system is given up at negative curvature, with the direction so far or that of steepest descent in
+    /// the first iteration, as in Nocedal and Wright, *Numerical Optimization*, algorithm 7.1.
     ConjugateGradients {
         /// Relative residual ‖b − A p‖/‖b‖ at which to stop.
         tolerance: f64,
@@ -72,7 +72,7 @@ impl LinearSolver {
     /// beyond that [`ConjugateGradients`](Self::ConjugateGradients) to 10⁻³ in at most 1000 iterations.
     ///
     /// The limit is that of compact bodies on one thread (`cargo speed-report --only growth`); thin ones,
-    /// whose factors stay sparse, are served well by a factor beyond it.
+    /// whose factors stay sparse, are faster with a factor beyond it.
     #[must_use]
     pub fn for_elements(elements: usize) -> Self {
         match elements {

@@ -13,8 +13,8 @@ use super::spring::Spring;
 /// Potential energy of the nodal positions, which a [`Simulation`](super::Simulation) adds to that of
 /// deformation: see [`Simulation::set_terms`](super::Simulation::set_terms).
 ///
-/// Its functions see the position of every node, m, and depend on these alone: the same positions give the
-/// same bits.
+/// Its functions receive the position of every node, m, and must depend on these alone: the same positions
+/// give the same bits.
 ///
 /// ```
 /// use piola::step::{NodeBlocks, Term};
@@ -52,14 +52,14 @@ pub trait Term: Send + Sync {
 
     /// Adds the second derivatives of the energy, N/m.
     ///
-    /// Newton's method converges where they are positive semidefinite, so that negative eigenvalues are best
+    /// Newton's method converges if they are positive semidefinite, so that negative eigenvalues are best
     /// left out.
     fn add_second_derivatives(&self, positions: &[[f64; 3]], blocks: &mut NodeBlocks);
 
     /// Largest share of a displacement that a line search may try first, above 0: all of it by default.
     ///
-    /// A barrier that a long step could jump over, to where its energy is finite again, returns a share that
-    /// stops before it.
+    /// For a barrier that a long step could jump over, to a point of finite energy, return a share that stops
+    /// before it.
     fn longest_step(&self, positions: &[[f64; 3]], displacement: &[[f64; 3]]) -> f64 {
         let _ = (positions, displacement);
         1.0
@@ -67,8 +67,8 @@ pub trait Term: Send + Sync {
 
     /// Change of the energy between positions; `None` if the second ones are outside the domain.
     ///
-    /// The difference of two energies by default, each taken to err by ten roundings. A term whose energy is
-    /// large compared with its changes does better.
+    /// By default the difference of two energies, each with an assumed error of ten roundings. A term whose
+    /// energy is large compared with its changes should override it.
     fn change(&self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {
         let (from, to) = (self.energy(from)?, self.energy(to)?);
         let noise = 10.0 * f64::UNIT_ROUNDOFF * (from.abs() + to.abs());
@@ -105,8 +105,8 @@ struct NodeBlock {
 impl NodeBlocks {
     /// The entries ∂²E/∂x_row∂x_column.
     ///
-    /// The two need not share an element. A pair that no element and no earlier step has joined costs a new
-    /// symbolic analysis.
+    /// The two need not share an element. A pair that neither an element nor an earlier step has joined costs
+    /// a new symbolic analysis.
     pub fn add(&mut self, row: usize, column: usize, entries: [[f64; 3]; 3]) {
         if let Some(&node) = [row, column].iter().find(|&&node| node >= self.nodes) {
             self.missing = self.missing.or(Some(node));

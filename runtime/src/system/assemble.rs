@@ -17,8 +17,8 @@
 //! buffer that stays in the cache ([`NodalStiffness`](super::nodal_stiffness::NodalStiffness)).
 //!
 //! Energies near an equilibrium differ by less than the rounding error of their sum. So differences are taken
-//! per element and then summed with compensation [Neu74], and [`Elastic::difference_noise`] bounds what is
-//! left.
+//! per element and then summed with compensation [Neu74], and [`Elastic::difference_noise`] bounds the
+//! remaining error.
 //!
 //! [Neu74] Neumaier, *Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen*, 1974.
 
@@ -129,7 +129,7 @@ impl Elastic {
     /// Bound for the rounding error of the difference, J.
     ///
     /// An energy density is a sum that cancels at rest; its terms are of the order of the modulus times |F|².
-    /// Each is taken to err by 4u, which leaves room for the ten or so operations of an energy.
+    /// Each has an assumed error of 4u, which leaves room for the ten or so operations of an energy.
     pub(crate) fn difference_noise(&self, body: &Body) -> f64 {
         let mut noise = 0.0;
         for ((material, elements), (state, base)) in body.groups().zip(self.groups.iter().zip(&self.base)) {

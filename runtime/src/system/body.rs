@@ -64,8 +64,8 @@ impl Body {
     /// A body of several parts, which together hold each tetrahedron exactly once.
     ///
     /// # Errors
-    /// Any [`BodyError`]: of the mesh, a density, a material with parameters for each point, or a group; or a
-    /// tetrahedron belongs to no part or to two.
+    /// Any [`BodyError`]: of the mesh, a density, a material with parameters for each point, or a group; or
+    /// an error for a tetrahedron that belongs to no part or to two.
     pub fn from_parts(mesh: &TetMesh, parts: Vec<Part>) -> Result<Self, BodyError> {
         let shapes = mesh.rest_shapes()?;
         let part_of_tet = assign(mesh, &parts)?;

@@ -51,8 +51,8 @@ impl CsrPlaces {
     /// none.
     ///
     /// # Errors
-    /// [`CsrError`]: slices that describe no matrix, an entry that neither it nor its transpose holds, or no
-    /// memory.
+    /// [`CsrError`] for slices that are not a matrix, an entry that neither the matrix nor its transpose
+    /// holds, or too little memory.
     pub fn new<I: Copy + TryInto<usize>>(
         tetrahedra: Tetrahedra<'_>,
         unknowns: impl Fn(usize) -> Option<usize>,

@@ -7,7 +7,7 @@
 //!
 //! Elements are evaluated in groups of one material, a tile of a batch each ([`crate::batch`]), in stages
 //! that share at most one singular value decomposition per element: the energy decomposes, and gradients and
-//! stiffnesses start from what it found. A line search thus pays for one decomposition per trial and the next
+//! stiffnesses start from its result. A line search thus pays for one decomposition per trial and the next
 //! Newton iteration for none. Energies of I1, I2 and J alone need it for filtered stiffnesses only.
 //!
 //! The filter acts on dP/dF, a 9×9 matrix, and its result is pulled back to the nodes. Clamping the

@@ -124,7 +124,7 @@ impl NodalStiffness {
     /// The nodes of each block, row and column, and its entries ∂²E/∂x_row∂x_column, always in the same
     /// order.
     ///
-    /// Of two different nodes there is one block; that of `column` and `row` is its transpose.
+    /// Two different nodes have one block; the block of `column` and `row` is its transpose.
     pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, &[[f64; 3]; 3])> {
         let pattern = self.matrix.pattern();
         let row = move |row: usize| pattern.upper(row).map(move |(block, column)| (row, column, block));

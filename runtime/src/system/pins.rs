@@ -1,6 +1,6 @@
 //! Sets of nodes with prescribed positions.
 //!
-//! Where they are held, and how they move, belongs to the [simulation](crate::step::Simulation).
+//! Their positions and motions belong to the [simulation](crate::step::Simulation).
 
 use std::fmt;
 

@@ -13,8 +13,8 @@ use crate::status::Survey;
 /// Memory to evaluate the energy of deformation of a body with its first and second derivatives.
 ///
 /// A survey counts elements in the order of [`Body::elements`]. The results of an evaluation are valid if the
-/// survey [is clean](Survey::is_clean): a trial that takes an element out of the domain of its material does
-/// not.
+/// survey [is clean](Survey::is_clean): they are not for a trial that takes an element out of the domain of
+/// its material.
 ///
 /// ```
 /// use piola::mesh::tetrahedral_box;

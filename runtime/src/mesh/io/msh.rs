@@ -27,10 +27,9 @@ const WITHOUT_MESH: [&str; 4] = ["$NodeData", "$ElementData", "$ElementNodeData"
 /// group without a name is called by its number. Rest volumes are checked later, by [`TetMesh::rest_shapes`].
 ///
 /// # Errors
-/// [`ReadError::OtherElements`] for a mesh with other volume elements, whose tetrahedra
-/// [`ReadError::only_tetrahedra`] gives. [`ReadError::Malformed`], which names the line, also if the file is
-/// binary, of another version, partitioned, without linear tetrahedra, or has nodes or elements in a section
-/// that is not known.
+/// [`ReadError::OtherElements`] for a mesh with other volume elements; [`ReadError::only_tetrahedra`] returns
+/// its tetrahedra. [`ReadError::Malformed`], which names the line, also if the file is binary, of another
+/// version, partitioned, without linear tetrahedra, or has nodes or elements in a section that is not known.
 pub fn read_msh(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
     let path = path.as_ref();
     read(path, parse).and_then(|mesh| whole(path, mesh))

@@ -62,7 +62,7 @@ impl NodeLines {
     /// Reads the first line, which is not blank.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Description of the problem.
     pub fn of_first_line(line: &str) -> Result<Self, String> {
         Self::read(&mut filled(line).unwrap_or(Line::new(0, ""))).map_err(|problem| problem.text)
     }
@@ -70,7 +70,7 @@ impl NodeLines {
     /// Reads a line after the first; `None` for a blank one or a comment.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Description of the problem.
     pub fn node(&self, line: &str) -> Result<Option<NodeLine>, String> {
         filled(line).map(|mut line| self.read_node(&mut line)).transpose().map_err(|problem| problem.text)
     }
@@ -123,7 +123,7 @@ impl TetLines {
     /// Reads the first line, which is not blank.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Description of the problem.
     pub fn of_first_line(line: &str) -> Result<Self, String> {
         Self::read(&mut filled(line).unwrap_or(Line::new(0, ""))).map_err(|problem| problem.text)
     }
@@ -131,7 +131,7 @@ impl TetLines {
     /// Reads a line after the first; `None` for a blank one or a comment.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Description of the problem.
     pub fn tet(&self, line: &str) -> Result<Option<TetLine>, String> {
         let read = |mut line: Line<'_>| self.read_tet(&mut line, |line| line.number(NODE));
         filled(line).map(read).transpose().map_err(|problem| problem.text)
@@ -239,7 +239,7 @@ impl Nodes {
 /// promises no orientation.
 ///
 /// # Panics
-/// If a corner is none of the nodes.
+/// If a corner is not one of the nodes.
 #[must_use]
 pub fn turned([a, b, c, d]: [usize; 4], nodes: &[[f64; 3]]) -> [usize; 4] {
     let edge = |node: usize| -> [f64; 3] { std::array::from_fn(|i| nodes[node][i] - nodes[a][i]) };

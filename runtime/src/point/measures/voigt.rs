@@ -1,13 +1,13 @@
 //! Voigt notation: symmetric tensors as six components, tangents between them as 6×6 matrices.
 //!
-//! **Order.** 11, 22, 33, 23, 13, 12, as Voigt wrote it and most textbooks do: the shears by the direction
-//! that they lack. Among codes Project Chrono and Ferrite's Tensors.jl have it. Abaqus/Standard has 11, 22,
-//! 33, 12, 13, 23: its number I is our number `[0, 1, 2, 5, 4, 3][I]` and the other way round, in rows and
-//! columns of a tangent too.
+//! **Order.** 11, 22, 33, 23, 13, 12, the order of Voigt and of most textbooks: the shears by the missing
+//! direction. Project Chrono and Ferrite's Tensors.jl use it as well. Abaqus/Standard has 11, 22, 33, 12, 13,
+//! 23: its number I is our number `[0, 1, 2, 5, 4, 3][I]` and the other way round, in rows and columns of a
+//! tangent too.
 //!
 //! **Factor.** A stress is stored by its components. A strain has *engineering* shears, twice its components:
 //! 11, 22, 33, 2·23, 2·13, 2·12. The scalar product of the two is then the double contraction, which is work,
-//! and a tangent that is stored by its components takes strains to stresses.
+//! and a tangent that is stored by its components maps strains to stresses.
 //!
 //! This module is independent of stretches and blocks.
 

@@ -22,7 +22,7 @@ pub struct NewtonSettings {
     /// Tolerance relative to the time error of the step: the share of it at which the minimum counts as found
     /// as well; 0 for the tolerance alone. Has no effect in statics.
     ///
-    /// The error is judged by accelerations: by τ² |a|, or by τ² times the change of a of methods of higher
+    /// The error is judged by accelerations: by τ² |a|, or by τ² times the change of a for methods of higher
     /// order, for the length τ of a stage. The error of the minimum is judged by the displacements d of two
     /// iterations, as q/(1 − q) |d| with their ratio q \[HW96, IV.8\].
     ///

@@ -34,8 +34,9 @@ impl Simulation {
     /// m/s, times the span. Errors of the mesh are not included.
     ///
     /// Pinned nodes and targets of springs move evenly over the whole time. The first attempt takes it all at
-    /// once, so that nothing but the state before decides. Motions too fast for any tolerance, as those of a
-    /// body that has just been let go inside out, are followed in steps of 2⁻¹² of the time.
+    /// once, so that the lengths of steps depend only on the state before. Motions too fast for any
+    /// tolerance, such as those of a body that has just been released inside out, are followed in steps of
+    /// 2⁻¹² of the time.
     ///
     /// ```
     /// use piola::mesh::tetrahedral_box;

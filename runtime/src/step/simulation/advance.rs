@@ -27,7 +27,7 @@ const DRIFT: f64 = 1e-4;
 impl Simulation {
     /// Advances by `dt`, s.
     ///
-    /// Pinned nodes move evenly to where they are prescribed to be. Damping by the stiffness takes that of
+    /// Pinned nodes move evenly to their prescribed positions. Damping by the stiffness uses the stiffness of
     /// the state before the step.
     ///
     /// # Errors
@@ -46,8 +46,8 @@ impl Simulation {
     /// Moves the body towards a minimum of its energy with gravity and springs, without inertia and damping,
     /// within the limits of the settings of Newton's method. Then it is at rest: its velocities are zero.
     ///
-    /// Where the second derivatives are not positive definite, small parts of the stiffness are added to
-    /// them; for a body with fewer than three pinned nodes, which may move as a whole at no cost, one
+    /// If the second derivatives are not positive definite, small parts of the stiffness are added to them;
+    /// for a body with fewer than three pinned nodes, which may move as a whole at no cost, one
     /// ten-thousandth of such a part always.
     ///
     /// # Errors
@@ -58,8 +58,8 @@ impl Simulation {
 
     /// A step of any length, infinity included.
     ///
-    /// Handed to rayon's threads as a whole: a caller that is none of them would otherwise wait for one at
-    /// each of the hundreds of parallel loops.
+    /// Runs as a whole on rayon's threads: a caller outside of the pool would otherwise wait for one at each
+    /// of the hundreds of parallel loops.
     fn advance(&mut self, dt: f64) -> Result<StepReport, StepError> {
         rayon::scope(|_| self.advance_here(dt))
     }

@@ -47,8 +47,8 @@ impl Simulation {
 
     /// Replaces the set of pinned nodes. A node that was not pinned before is held where it is.
     ///
-    /// Pins among nodes that were free when the linear solver was set up cost nothing but the next
-    /// factorisation; nodes let go that were pinned then cost a new symbolic analysis.
+    /// Pinning nodes that were free when the linear solver was set up costs only the next factorisation;
+    /// releasing nodes that were pinned then costs a new symbolic analysis.
     ///
     /// # Errors
     /// [`SetupError::NoSuchNode`], [`SetupError::Linear`]. The pins then stay as they were.
@@ -136,8 +136,9 @@ impl Simulation {
 
     /// Replaces all springs.
     ///
-    /// A spring at the same index and anchor as one before has its target moved: evenly in the course of the
-    /// next step. Implicit Euler looks at the end of a step only, and other integrators at what is between.
+    /// If a spring has the same index and anchor as one before, its target moves evenly in the course of the
+    /// next step. Implicit Euler depends on the end of a step only, other integrators also on what is
+    /// between.
     ///
     /// # Errors
     /// [`SetupError::Spring`] if its stiffness is negative or a number is not finite,
@@ -171,7 +172,7 @@ impl Simulation {
     /// replaced.
     ///
     /// # Errors
-    /// [`SetupError::Linear`] with what the solver returns for the pattern. The solver before then stays.
+    /// [`SetupError::Linear`] with the error of the solver for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
         let choice = Choice::Own(Arc::new(solver));
         self.workspace = NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;

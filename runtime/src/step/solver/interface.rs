@@ -32,7 +32,7 @@ pub(crate) trait Solver: Send + Sync {
     /// Solves for the direction at `x`, zero at pinned nodes, once after each linearisation. Returns `None`
     /// if the matrix is indefinite and definiteness is required.
     ///
-    /// `tolerance` counts where it is tighter than the solver's own.
+    /// `tolerance` takes effect if it is tighter than the solver's own.
     fn solve(
         &mut self,
         objective: &Objective<'_>,

@@ -13,7 +13,7 @@ pub trait SparseSolver: Clone + Send + Sync + 'static {
     /// whenever terms of the energy join other nodes or pins change. Does nothing by default.
     ///
     /// # Errors
-    /// Any [`LinearError`]; [`LinearError::OutOfMemory`] as a rule.
+    /// Any [`LinearError`]; usually [`LinearError::OutOfMemory`].
     fn analyse(&mut self, column_starts: &[usize], row_indices: &[usize]) -> Result<(), LinearError> {
         let _ = (column_starts, row_indices);
         Ok(())
@@ -23,8 +23,8 @@ pub trait SparseSolver: Clone + Send + Sync + 'static {
     /// iterations, 0 for a direct solver.
     ///
     /// # Errors
-    /// [`LinearError::NotPositive`], with b unchanged, if A is not positive definite: it comes again then,
-    /// with its eigenvalues clamped or with inertia added. Other errors end the step.
+    /// [`LinearError::NotPositive`], with b unchanged, if A is not positive definite: the solver is then
+    /// called again, with eigenvalues clamped or with inertia added. Other errors end the step.
     fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError>;
 }
 

@@ -6,10 +6,10 @@
 //! elements along an edge, and those of [multigrid](crate::system::linear::multigrid) do not; an iteration of
 //! it costs six times as much, and its levels take the time of ten more to make.
 //!
-//! So blocks are chosen where inertia has enough of a share in the diagonal, and are left where they do not
-//! get on. Levels are made for the first system of a step that needs them. For later systems the finest level
-//! takes the current matrix, and the others stay in use while they cost no more iterations than new ones
-//! would, measured by the iterations of fresh ones for each digit.
+//! So blocks are chosen if inertia has a large enough share of the diagonal, and are given up if they
+//! converge too slowly. Levels are made for the first system of a step that needs them. For later systems the
+//! finest level takes the current matrix, and the others stay in use while they cost no more iterations than
+//! new ones would, measured by the iterations of fresh ones for each digit.
 //!
 //! All of this is decided by the matrix and by numbers of iterations, never by a clock, and nothing is kept
 //! from one step for the next: a step depends on the state before it alone, to the last bit, whether a run
