@@ -5,10 +5,10 @@ use proc_macro::TokenStream;
 /// Declares an isotropic hyperelastic energy as a function of the principal stretches.
 ///
 /// The function becomes a type of its name that implements `piola::Material` and `piola::material::Declared`,
-/// with a checked constructor `new(parameters…)`. Its first argument names the three stretches, the others
-/// are the parameters: numbers `f64`, lists `[f64; N]` or `Vec<f64>`, whole exponents `u32`, `[u32; N]` or
-/// `Vec<u32>`, or functions, whose types implement `piola::Univariate`: types of your own, or
-/// `piola::Spline`, which approximates by control points. The body is ordinary Rust:
+/// with a checked constructor `new(parameters…)`. The first argument of the function names the three
+/// stretches, the others are the parameters: numbers `f64`, lists `[f64; N]` or `Vec<f64>`, whole exponents
+/// `u32`, `[u32; N]` or `Vec<u32>`, or functions, whose types implement `piola::Univariate`: types of your
+/// own, or `piola::Spline`, which approximates by control points. The body is ordinary Rust:
 ///
 /// * numbers, parameters, stretches, `let` bindings, `+ - * /`, parentheses;
 /// * `x.ln()`, `x.exp()`, `x.sqrt()`, `x.cbrt()`, `x.recip()`, `x.powi(2)`, `x.powf(alpha)`, `x.exp_m1()`,
@@ -17,7 +17,7 @@ use proc_macro::TokenStream;
 ///   e⁻ˣ);
 /// * `x.powi(n)` and `x.powi(n[p])` of whole exponents, from 0 to 64, which are data: Rivlin's series is
 ///   `sum(|p| c[p] * (I1b - 3.0).powi(i[p]) * (I2b - 3.0).powi(j[p]))`;
-/// * `f(l1)` of a parameter that is a function; the energy is defined where each of its functions is
+/// * `f(l1)` of a parameter that is a function; the energy is defined if each of its functions is
 ///   (`Univariate::admits`);
 /// * `sum(|p| …)` over the entries of the lists that occur in it as `mu[p]`; `sum(|l| …)`, where `l` is read
 ///   as a number, over the three stretches; `sum(|a, b| …)` over their three pairs;
@@ -25,7 +25,7 @@ use proc_macro::TokenStream;
 /// * the words `J` = λ1 λ2 λ3, `I1` = Σ λ², `I2` = λ1²λ2² + λ2²λ3² + λ3²λ1², `I1b` = J^(−2/3) I1 and
 ///   `I2b` = J^(−4/3) I2.
 ///
-/// The lists of one sum have one length: a number, `N` with `const N: usize`, or, of vectors, a length known
+/// The lists of one sum have one length: a number, `N` with `const N: usize`, or, for vectors, a length known
 /// at run time, which `new` checks. A material with a vector, a whole exponent or a function is `Clone`,
 /// others are `Copy`.
 ///
@@ -36,21 +36,21 @@ use proc_macro::TokenStream;
 /// Parentheses, blocks, signs and calls may be nested 64 deep; a sum may have thousands of terms.
 ///
 /// A logarithm, a denominator or a real power of an expression that vanishes inside the domain is refused if
-/// a usual deformation shows it, and so is a real power of one that vanishes at rest, such as `J - 1.0`: it
-/// is negative nearby. I1b − 3 is not, nor are I2b − 3 and combinations such as (1 − β) I1b + β I2b − 3: of
-/// these `(I1b - 3.0).powf(n)` has a finite stiffness at rest for n > 1, and they keep their digits there.
-/// They are not continued beyond J > 0.
+/// it vanishes at a usual deformation, and so is a real power of one that vanishes at rest, such as `J -
+/// 1.0`: it is negative nearby. Powers of I1b − 3 are accepted, and so are those of I2b − 3 and of
+/// combinations such as (1 − β) I1b + β I2b − 3: among these `(I1b - 3.0).powf(n)` has a finite stiffness at
+/// rest for n > 1, and they keep their digits there. They are not continued beyond J > 0.
 ///
 /// The documentation of a parameter may end with its unit, as in `/// Shear modulus, Pa.` or `/// Exponent,
-/// dimensionless.`: the energy must then be in Pa. Units are `Pa`, `1/Pa` and `dimensionless`, of a function
-/// that of its values. Without units nothing is checked.
+/// dimensionless.`: the energy must then be in Pa. Units are `Pa`, `1/Pa` and `dimensionless`; for a
+/// function, the unit of its values. Without units nothing is checked.
 ///
 /// Arguments of the attribute, all optional:
 ///
-/// * `domain(J > 0.0, …)`: where the energy is defined; every deformation if absent. Stretches come in order,
-///   `l1` being the largest: a limit of all of them is one of `l1`. `J != 0.0` excludes flat
-///   elements alone: inverted ones then have an energy as upright ones have, and no stress in the mirror
-///   image of rest if the energy is even in J;
+/// * `domain(J > 0.0, …)`: domain of the energy; every deformation if absent. Stretches come in order, `l1`
+///   being the largest: a limit of all of them is one of `l1`. `J != 0.0` excludes only flat elements:
+///   inverted ones then have an energy like upright ones, and no stress in the mirror image of rest if the
+///   energy is even in J;
 /// * `admissible(mu > 0.0, alpha[p] != 0.0, …)`: conditions that `new` checks, in addition to finite numbers
 ///   and a stable rest state;
 /// * `extend` or `extend(mu[p] * alpha[p] > 0.0, …)`: the energy can be continued beyond `J > 0`, under these
@@ -60,15 +60,15 @@ use proc_macro::TokenStream;
 ///   documentation and programs;
 /// * `prestressed`: stress at rest is intended;
 /// * `fit`: the type implements `piola::material::Fittable`, the derivatives of its stress and of all
-///   conditions on its parameters with respect to these; of a function with respect to its
+///   conditions on its parameters with respect to these; for a function, with respect to its
 ///   `Univariate::values`;
 /// * `serde`: the type implements `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`),
 ///   as its parameters, which are checked when they are read; functions among them must implement both as
 ///   well.
 /// * `part`: the energy is a part of a sum, whose rest state may carry stress or lack a shear modulus.
 ///
-/// Where the small-strain moduli μ and λ are affine in exactly two parameters, numbers both, and depend on no
-/// other, the type also has `from_young_poisson(young, poisson, other parameters…)`, unless it is
+/// If the small-strain moduli μ and λ are affine in exactly two parameters, both plain numbers, and depend on
+/// no other, the type also has `from_young_poisson(young, poisson, other parameters…)`, unless it is
 /// `prestressed` or a parameter is a function.
 ///
 /// A mistaken declaration gives one message for each mistake, on its tokens, and none where the material is

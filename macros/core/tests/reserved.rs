@@ -36,5 +36,5 @@ fn members_of_the_traits_of_materials_are_reserved() {
 fn check(name: &str, member: &Ident) {
     let item = quote!(fn E([l1, l2, l3]: [f64; 3], #member: f64) -> f64 { #member * (I1 - 2.0 * J - 1.0) });
     let message = analyse(quote!(), item, None).err().map(|error| error.to_string()).unwrap_or_default();
-    assert!(message.contains("has a meaning of its own"), "{name}::{member}: {message:?}");
+    assert!(message.contains("is reserved"), "{name}::{member}: {message:?}");
 }

@@ -13,7 +13,7 @@ fn arguments() {
     check_arguments("domain(J > 0.0), fit, fit", &[("fit", "`fit` is given twice")]);
     check_arguments("domain(J > 0.0), serd", &[("serd", "did you mean `serde`?")]);
     check_arguments("domain(J != 0.0), extend, refuse(\"no\")", &[("refuse", "either `extend` or `refuse`")]);
-    check_arguments("domain(J > 0.0), refuse(no)", &[("no", "say in a string why")]);
+    check_arguments("domain(J > 0.0), refuse(no)", &[("no", "give as a string the reason why")]);
     check_arguments("domain(J > 0.0), domein(mu > 0.0)", &[("domein", "did you mean `domain(J > 0.0)`?")]);
     check_arguments(
         "domain(J > 0.0), unit(\"Pa\")",
@@ -67,7 +67,7 @@ fn signatures() {
     );
     check_signature(
         "fn E<const N: usize>([a, b, c]: [f64; 3], mu: f64) -> f64",
-        &[("N", "`N` is the length of no list")],
+        &[("N", "`N` is not the length of a list")],
     );
     let parameter = |parameter: &str, tokens: &str, expected: &str| {
         let item =
@@ -86,8 +86,8 @@ fn signatures() {
     parameter("mu: [f32; 3]", "f32", "the entries of a list are `f64`");
     parameter("mu: [f64; M]", "M", "or `N` with `const N: usize`");
     parameter("mu: [f64; 0]", "0", "the length of a list is a number such as `3`");
-    parameter("J: f64", "J", "`J` has a meaning of its own");
-    parameter("energy: f64", "energy", "`energy` has a meaning of its own");
+    parameter("J: f64", "J", "`J` is reserved");
+    parameter("energy: f64", "energy", "`energy` is reserved");
     parameter("a: f64", "a", "`a` is taken already");
     parameter("mu: f64, mu: f64", "mu", "`mu` is taken already");
     parameter(

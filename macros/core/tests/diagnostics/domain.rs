@@ -251,7 +251,7 @@ fn what_is_extended_has_room_for_flat_elements() {
     let energy =
         "fn E([l1, l2, l3]: [f64; 3], mu: f64, m: f64) -> f64 { mu * (I1b - 3) + m * (J - 1).powi(2) }";
     for (condition, instead) in [
-        ("I1b - 3.0 < m", "remove `extend`, or bound what stays moderate there"),
+        ("I1b - 3.0 < m", "remove `extend`, or bound a quantity that stays moderate there"),
         ("I1 > 2.0", "remove `extend`, or this condition, and write `I1b` for `I1` in the energy"),
         ("J > 0.5", "remove `extend`, or this condition"),
     ] {

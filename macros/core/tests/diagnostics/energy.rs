@@ -15,7 +15,7 @@ fn physics() {
     check_added(
         "mu * (l1 + l2 + l3)",
         "mu * (l1 + l2 + l3)",
-        "leaves the stress `mu` at rest: append `- mu * J.ln()`; or say `prestressed`",
+        "leaves the stress `mu` at rest: append `- mu * J.ln()`; or add `prestressed`",
     );
     check(
         "",
@@ -23,7 +23,7 @@ fn physics() {
         &[(
             "mu / 2.0 * (I1 - 3.0) + kappa * J * J",
             "leaves the stress `mu + 2.0 * kappa` at rest: append `- (mu + 2.0 * kappa) * J.ln()` with `domain(J > 0.0)`, \
-             or `- (mu + 2.0 * kappa) * (J - 1.0)` with any domain; or say `prestressed`",
+             or `- (mu + 2.0 * kappa) * (J - 1.0)` with any domain; or add `prestressed`",
         )],
     );
     for (attribute, term, message) in [
@@ -91,7 +91,7 @@ fn stress_at_rest_of_a_compressible_solid_is_a_mistype() {
         let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64, n: f64) -> f64 {{ mu * n * ({energy}) }}");
         let [(_, message)] = &mistakes(attribute, &item)[..] else { panic!("{energy}") };
         message.ends_with(
-            "in the attribute (if the paper's solid is compressible, a factor or a power is mistyped)",
+            "to the attribute (if the paper's solid is compressible, a factor or a power is mistyped)",
         )
     };
     assert!(says_so("domain(J > 0.0)", "I1.powf(n) + (I2 / J).powf(n)"));
@@ -317,7 +317,7 @@ fn typical_parameters_are_those_of_the_declaration() {
     of("typical(\"rubber\", mu = 4e5)", &[("typical", "add one for `a`")]);
     of("typical(\"rubber\", mu = [4e5], a = [1.0])", &[("mu", "one number")]);
     of("typical(\"rubber\", mu = 4e5, a = 1.0)", &[("a", "a list")]);
-    of("typical(\"rubber\", mu = 4e5, a = [1.0], nu = 0.5)", &[("nu", "no parameter")]);
+    of("typical(\"rubber\", mu = 4e5, a = [1.0], nu = 0.5)", &[("nu", "is not a parameter")]);
     of(
         "typical(\"rubber\", mu = x, a = [1.0])",
         &[("x", "typical parameters are written"), ("typical", "`mu`")],

@@ -220,7 +220,7 @@ fn calls_and_operators() {
     check_added("mu(J)", "mu(J)", "`mu` is not a function: write `mu * (…)`");
     check_added("max(l1, 0.0)", "max", "`max` has a kink");
     check_added("sum(m)", "sum(m)", "a sum is written `sum(|p| mu[p] * …)`");
-    check_added("sum(|i| mu)", "i", "runs over no list: write `m[i]` in it");
+    check_added("sum(|i| mu)", "i", "this sum does not run over a list: write `m[i]` in it");
     check_added("J ^ 2", "^", "x.powi(2)");
     check_added("J ** 2", "*", "a power is written `x.powi(2)`");
     check_added("J % 2.0", "%", "only `+ - * /`");
