@@ -34,7 +34,7 @@ pub(crate) enum Command {
     /// Show a scene in a browser, to be pulled with the mouse.
     ///
     /// Serves a page on 127.0.0.1 and prints its address; Ctrl-C ends it. The address has a random token,
-    /// without which nobody gets in: give it to those who may pull, and to nobody else.
+    /// which is needed for access: give it only to those who may pull.
     #[command(after_help = scenes())]
     View(Box<View>),
     /// List the materials with formula, parameters and typical values of them, domain and small-strain
@@ -51,11 +51,11 @@ pub(crate) enum Command {
     /// Check the rules that every material must keep, on a declaration in Rust or a formula.
     ///
     /// Finite differences of energy and stress, symmetry, equal stretches, inversion, accuracy in single
-    /// precision and on lanes: what `piola::contract!` tests in a crate.
+    /// precision and on lanes: the tests of `piola::contract!` in a crate.
     Contract(Box<Contract>),
     /// Show where a material is stable: Baker–Ericksen, Hill, strong ellipticity.
     ///
-    /// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from
+    /// Checks a box of stretches, and uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from
     /// rest.
     Check(Box<Check>),
 }
@@ -73,8 +73,8 @@ pub(crate) struct Run {
     /// Folder for frame_NNNN.ply, frames.png, summary.json and state.json [default: out/SCENE].
     ///
     /// A run replaces the earlier one there, and only its files, which are listed in piola-files.txt. The
-    /// folder is refused if it holds others with names of results. Ctrl-C ends a run with the frames that it
-    /// has.
+    /// folder is refused if it contains other files with names of results. Ctrl-C ends a run with the frames
+    /// that it has.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 

@@ -1,11 +1,11 @@
 //! A scene in a browser, to be pulled with the mouse: [`Viewer::start`] serves one page on this machine.
 //!
-//! The body with what can be done to it is `piola-viewer`. `driver` runs it on a thread of its own;
-//! `connection` passes between it and a page what the conversation of the two is; `server`, `request` and
-//! `token` decide who comes in, `patience` how long one that is silent stays, and `page` is what they get.
+//! The body and its interactions are in `piola-viewer`. `driver` runs it on a thread of its own; `connection`
+//! exchanges messages between it and a page; `server`, `request` and `token` control access, `patience` the
+//! time limits of silent pages, and `page` holds the files of the page.
 //!
-//! Nothing is loaded from elsewhere, and only pages from this viewer are listened to. A random token in the
-//! [address of the page](Viewer::url) keeps out other users of this machine; whoever has that address can
+//! Nothing is loaded from elsewhere, and only requests of this viewer's pages are answered. A random token in
+//! the [address of the page](Viewer::url) keeps out other users of this machine; whoever has that address can
 //! pull, and save to the file that was named at the start. The page gets the names of files, without paths.
 
 mod connection;

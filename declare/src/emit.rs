@@ -1,9 +1,9 @@
 //! Energies as source text of other languages: stress, tangent and projection of a point, in one file without
 //! a dependency.
 //!
-//! The functions of [`piola::point`] run once, on a real number that records what is done to it, with the
-//! programs of the energy inside; what has been recorded is printed. There is no second copy of the
-//! mathematics, and the arithmetic is that of portable lanes, to the last bit.
+//! The functions of [`piola::point`] run once, on a real number that records its operations, with the
+//! programs of the energy inside; the record is printed. There is no second copy of the mathematics, and the
+//! arithmetic is that of portable lanes, to the last bit.
 
 mod language;
 mod printer;

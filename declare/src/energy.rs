@@ -128,7 +128,7 @@ impl Energy {
     /// number, the entries of a list, or the control points x1, y1, x2, y2, … of a spline.
     ///
     /// # Errors
-    /// [`MaterialError`], those of the compiled energy's constructor.
+    /// [`MaterialError`] of the compiled energy's constructor.
     pub fn material(&self, values: &[&[f64]], inversion: Inversion) -> Result<Interpreted, MaterialError> {
         let Compiled { description, programs, constructor, .. } = &*self.0;
         let values = constructor.values(description, values)?;
@@ -139,7 +139,7 @@ impl Energy {
     /// generic code is compiled in this crate; `Box::new` compiles it again in the caller's.
     ///
     /// # Errors
-    /// [`MaterialError`], those of [`Energy::material`].
+    /// [`MaterialError`] of [`Energy::material`].
     pub fn boxed(
         &self,
         values: &[&[f64]],
@@ -170,7 +170,7 @@ impl Energy {
     /// A material of this energy with other values, and without extension: [`Fittable::with_values`].
     ///
     /// # Errors
-    /// [`MaterialError`], those of [`Energy::material`].
+    /// [`MaterialError`] of [`Energy::material`].
     pub fn with_values(
         &self,
         material: &Interpreted,

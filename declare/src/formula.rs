@@ -2,11 +2,11 @@
 //!
 //! A formula is translated into the Rust function that `#[piola::material]` takes, token by token, so that
 //! its mistakes are reported at their places in the formula. Names without another meaning are parameters, in
-//! the order in which they occur, and so are all names that the caller has values for.
+//! the order in which they occur, and so are all names with values from the caller.
 //!
-//! The domain is stated behind the formula, `… where J > 0, I1 < 3 + Jm`, together with conditions on the
-//! parameters. If nothing is said, the energy is defined for every J, for J > 0 and continued beyond, or for
-//! J > 0 alone: the first of these that its formula allows.
+//! The domain follows the formula, `… where J > 0, I1 < 3 + Jm`, together with conditions on the parameters.
+//! Without it, the energy is defined for every J, for J > 0 and continued beyond, or for J > 0 alone: the
+//! first of these that its formula allows.
 
 mod notation;
 mod parse;

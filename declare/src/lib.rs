@@ -14,19 +14,19 @@
 //! ```
 //!
 //! The text is a formula in the notation of papers ([`Energy::from_formula`]), or the Rust function that
-//! [`#[piola::material]`](macro@piola::material) takes ([`Energy::from_rust`]), so that one file serves both.
-//! It goes through the compiler of that attribute, `piola-codegen`, and has its checks and messages; what
-//! comes out is not Rust but a program, which an [`Interpreted`](piola::interpreter::Interpreted) material
+//! [`#[piola::material]`](macro@piola::material) takes ([`Energy::from_rust`]), so that one file works for
+//! both. It goes through the compiler of that attribute, `piola-codegen`, with its checks and messages; the
+//! result is not Rust but a program, which an [`Interpreted`](piola::interpreter::Interpreted) material
 //! executes. That computes what the compiled material does, bit by bit, for every kind of real number and on
 //! every back end, and so keeps its digits.
 //!
-//! Texts may come from anybody: their length, their nesting and what becomes of them are limited, and what
-//! goes beyond is a [`Mistake`]. No text makes the crate panic.
+//! Texts need not be trusted: their length, their nesting and the size of the result are limited, and a
+//! larger text is a [`Mistake`]. No text makes the crate panic.
 //!
 //! # What it does not do
 //!
-//! No function is a parameter but a [`Spline`](piola::Spline): other types need the declaration to be
-//! compiled. There are no other derivatives of formulas than those of the compiler, and no branches.
+//! The only functions that can be parameters are [`Spline`](piola::Spline)s: other types need the declaration
+//! to be compiled. There are no other derivatives of formulas than those of the compiler, and no branches.
 
 mod condition;
 mod constructor;

@@ -1,6 +1,6 @@
 //! Lowering of the operations of the compiler to a program of the interpreter, with register allocation.
 //!
-//! A value needs its register from where it is computed to where it is read last, and a register serves many
+//! A value needs its register from where it is computed to where it is read last, and a register holds many
 //! values one after the other: fewer registers stay in the innermost cache. What a loop reads of values from
 //! outside of it, it reads for every entry, so that these keep their registers until its end.
 
@@ -22,7 +22,7 @@ pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Prog
 /// The program of a response, and behind it that of the bounds of its domain, whose constants and arguments
 /// are in the same registers; `None` if it needs too many of them.
 ///
-/// They are not ordered as one, because what both compute could then be shared: bits of the response would
+/// They are not ordered as one, because common operations could then be shared: bits of the response would
 /// depend on the domain.
 pub(crate) fn lower_within(
     declaration: &Declaration,

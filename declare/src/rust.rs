@@ -65,7 +65,7 @@ fn compile(text: &str, arguments: TokenStream, item: TokenStream) -> Result<Ener
 /// Checks that a text is no longer than any energy.
 ///
 /// # Errors
-/// [`Mistakes`] about all of it.
+/// [`Mistakes`] about the whole text.
 pub(crate) fn check_size(text: &str) -> Result<(), Mistakes> {
     if text.len() <= LARGEST_TEXT {
         return Ok(());

@@ -10,7 +10,7 @@ impl Energy {
     /// The energy of a text: a declaration in Rust if it has a function, else a formula.
     ///
     /// # Errors
-    /// All [`Mistakes`], those of [`Energy::from_rust`] or [`Energy::from_formula`].
+    /// All [`Mistakes`] of [`Energy::from_rust`] or [`Energy::from_formula`].
     pub fn from_text(text: &str) -> Result<Self, Mistakes> {
         Self::from_text_with(text, &FormulaOptions::default())
     }
@@ -18,7 +18,7 @@ impl Energy {
     /// The energy of a text, with these options if it is a formula.
     ///
     /// # Errors
-    /// All [`Mistakes`], those of [`Energy::from_rust`] or [`Energy::from_formula_with`].
+    /// All [`Mistakes`] of [`Energy::from_rust`] or [`Energy::from_formula_with`].
     pub fn from_text_with(text: &str, options: &FormulaOptions) -> Result<Self, Mistakes> {
         if is_rust(text) { Self::from_rust(text) } else { Self::from_formula_with(text, options) }
     }

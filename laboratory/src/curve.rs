@@ -1,7 +1,7 @@
 //! Test curves: what a testing machine reads from a homogeneous specimen.
 //!
 //! The axes of a test are the one along which it pulls, the one across in the plane, and the thickness. A
-//! machine sets one number, the *control*, and reads one stress:
+//! machine prescribes one value, the *control*, and measures one stress:
 //!
 //! | mode | control | stretches | stress |
 //! |---|---|---|---|
@@ -11,10 +11,10 @@
 //! | simple shear | γ | ℓ, 1/ℓ, 1 with ℓ − 1/ℓ = γ | P12 = (ℓ² ψ1 − ψ2) / (ℓ² + 1) |
 //! | volumetric | J | ∛J, ∛J, ∛J | ∂ψ/∂J = Σ ψi / (3 ∛J²), the mean Cauchy stress: minus the pressure |
 //!
-//! ψi are along these axes here, and all but the last are nominal stresses: force by area at rest, Pa. The
-//! stretch t of the sides is such that nothing pulls at them, ψ3 = 0, or, where the [volume is
+//! ψi are along these axes here, and all except for the last are nominal stresses: force by area at rest, Pa.
+//! The stretch t of the sides is such that they are free of stress, ψ3 = 0, or, if the [volume is
 //! kept](Volume::Kept), such that J = 1: the incompressible solid, in which a pressure that does no work
-//! frees the sides and the stress is ψ1 − ψ3 t/λ.
+//! makes the sides free of stress and the stress is ψ1 − ψ3 t/λ.
 //!
 //! Nothing is formed that cancels at rest, so that the stress is as accurate at the smallest strains as
 //! [`gradient_at_strains`](piola::Material::gradient_at_strains) is.
@@ -210,9 +210,9 @@ pub struct Response {
     pub stress: f64,
     /// The weights that make up the stress: Σ weights · (ψ1, ψ2, ψ3).
     ///
-    /// Where the sides are free, the weights contain how these give way, so that for any parameter of the
-    /// energy the derivative of the stress is Σ weights · (∂ψ1, ∂ψ2, ∂ψ3) at the stretches held, by the
-    /// implicit function theorem.
+    /// If the sides are free, the weights include their motion, so that for any parameter of the energy the
+    /// derivative of the stress is Σ weights · (∂ψ1, ∂ψ2, ∂ψ3) at the stretches held, by the implicit
+    /// function theorem.
     pub weights: [f64; 3],
 }
 

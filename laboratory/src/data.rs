@@ -7,14 +7,14 @@
 //! uniaxial,1.125,0.134351
 //! ```
 //!
-//! The modes are those of [`Mode`](crate::curve::Mode); under `stretch` stands the control, which is γ for
+//! The modes are those of [`Mode`](crate::curve::Mode); the column `stretch` has the control, which is γ for
 //! `simple_shear` and J for `volumetric`. The stress of each mode is that of
 //! [`crate::curve`](mod@crate::curve). Columns may come in any order, among others.
 //!
 //! # Files of test machines, spreadsheets and decks
 //!
-//! * Columns are separated by commas, semicolons, tabs or spaces; decimals have a point or a comma. What
-//!   stands above the header is passed over; a row of units may stand below it.
+//! * Columns are separated by commas, semicolons, tabs or spaces; decimals have a point or a comma. Lines
+//!   above the header are skipped; a row of units may stand below it.
 //! * The words of a header name the quantity of a column, in letters of any case, with the words in any
 //!   order:
 //!
@@ -36,8 +36,8 @@
 //!   number. A strain with another unit is refused. Numbers under `compressive strain` and `compressive
 //!   stress` are positive in compression.
 //! * Of several kinds of stress or strain the first of this table is used; two columns of one kind are
-//!   refused. Forces and elongations are refused where no stress or strain is there, since they need the size
-//!   of the specimen; columns such as `strain rate` and `maximum stress` are neither strains nor stresses.
+//!   refused. Forces and elongations are refused without a stress or a strain, since they need the size of
+//!   the specimen; columns such as `strain rate` and `maximum stress` are neither strains nor stresses.
 //! * Two columns without a header are stretch and nominal stress.
 //! * In input decks the blocks `*UNIAXIAL TEST DATA`, `*BIAXIAL …`, `*PLANAR …`, `*SIMPLE SHEAR …` have
 //!   nominal stress and nominal strain, `*VOLUMETRIC TEST DATA` pressure and J.
@@ -51,7 +51,7 @@
 //! a stress of an unnamed kind next to a true strain, numbers with commas and points.
 //!
 //! Stretches and volumes are from 10⁻⁶ to 10⁶, shears up to 10⁶, stresses 0 or from 10⁻¹⁰⁰ to 10¹⁰⁰ Pa in
-//! size: far beyond what is measured, and well inside of what can be squared and divided.
+//! size: far beyond measurements, and well inside of the range of squares and quotients.
 
 mod encoding;
 mod fault;

@@ -1,13 +1,13 @@
 //! Parameters from measured data: nonlinear least squares over the stresses of all tests at once.
 //!
 //! The differences between the stresses of an energy and the measured ones, each divided by a size of its own
-//! ([`Difference`]), are made small in the sum of their squares by the Levenberg–Marquardt method \[Mor78\].
-//! How a stress changes with a parameter follows from what `fit` in the declaration generates, the sides that
-//! give way included ([`Response::weights`](crate::curve::Response::weights)).
+//! ([`Difference`]), are minimised in the sum of their squares by the Levenberg–Marquardt method \[Mor78\].
+//! The derivatives of a stress by the parameters come from the code that `fit` in the declaration generates,
+//! including the motion of free sides ([`Response::weights`](crate::curve::Response::weights)).
 //!
 //! Such fits are easily ambiguous \[OSS04\]: data may not determine a parameter, or determine only some
 //! combination of parameters, and there may be several minima; or the energy refuses the best parameters, or
-//! gives way in volume where the fit keeps it. All five are looked for and reported: [`Warning`].
+//! yields in volume although the fit keeps it. All five are detected and reported: [`Warning`].
 //!
 //! \[Mor78\] Moré, *The Levenberg–Marquardt algorithm: implementation and theory*, 1978.
 //! \[OSS04\] Ogden, Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004.
@@ -67,7 +67,7 @@ pub struct FitSettings {
     /// Parameters that keep their values: names as declared, a list with all its entries or a function with
     /// all its values, or one of these as `alpha_1` or `f_1`, counted from 1.
     ///
-    /// A fit seeks the values of a function that its type gives
+    /// A fit changes those values of a function that its type provides
     /// ([`Univariate::values`](piola::Univariate::values)); a function without such values stays as it is.
     /// Hold those that keep the rest state free of stress; a [`Spline`](piola::Spline) does so by itself
     /// where x is 1.
@@ -124,8 +124,8 @@ impl FitSettings {
 
 /// Fits the parameters of an energy to data, starting from those that it has.
 ///
-/// Trials stay where the constructor accepts the parameters and every measured point has a stress. Where the
-/// best fit is beyond that, the search goes along the edge to the best fit there: [`Warning::Edge`].
+/// Trials stay where the constructor accepts the parameters and every measured point has a stress. If the
+/// best fit is beyond that, the search follows the edge to the best fit there: [`Warning::Edge`].
 ///
 /// # Errors
 /// [`FitError`] if nothing can be fitted.

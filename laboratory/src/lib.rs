@@ -1,13 +1,14 @@
 //! A material on the bench: test curves, fits to measurements and stability of an energy, before any body is
 //! made of it.
 //!
-//! * [`curve`](mod@curve): stress against stretch in the tests that laboratories make, the stretch of free
-//!   sides solved;
-//! * [`data`]: measured curves, and how well an energy agrees with them;
-//! * [`fit`](mod@fit): the parameters with which it agrees best, and whether they are the only ones;
+//! * [`curve`](mod@curve): stress against stretch in the usual tests of laboratories, solved for the stretch
+//!   of free sides;
+//! * [`data`]: measured curves, and the agreement of an energy with them;
+//! * [`fit`](mod@fit): the parameters with which it agrees best, and their uniqueness;
 //! * [`ranking`]: several energies compared with the same measurements, in the order of their agreement;
-//! * [`chart`]: all of these in pictures, with the feature `charts`, which is on unless you turn it off;
-//! * [`stability`]: where an energy keeps the inequalities of a stable solid, as a table and as a map.
+//! * [`chart`]: all of these in pictures, with the feature `charts`, on by default;
+//! * [`stability`]: the stretches at which an energy keeps the inequalities of a stable solid, as a table and
+//!   as a map.
 //!
 //! The crate uses materials only through the traits of [`piola::material`](mod@piola::material), so that your
 //! own energy works as well as one of the catalogue. There are no bodies here: each specimen is deformed

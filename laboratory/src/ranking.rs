@@ -1,15 +1,15 @@
 //! Several energies fitted to the same measurements and put in an order, as reviews of rubber do.
 //!
-//! Each energy is fitted as an incompressible solid, and stands by four numbers:
+//! Each energy is fitted as an incompressible solid, and is compared by four figures:
 //!
 //! * *n*, the number of fitted parameters: lists count by their entries, and parameters without effect at
 //!   constant volume, such as a bulk modulus, do not count;
-//! * *R²* of all points together, and of those of each test ([`Measurements::agreement`]);
-//! * *R²/n*, the former by the number of parameters, so that of two energies that agree alike the one with
-//!   fewer parameters is ahead. It compares energies of like R²: a single parameter with R² = 0.5 has more of
-//!   it than two with R² = 0.99;
-//! * *stability*, where each inequality of a stable solid is lost first on the way from rest to the ends of
-//!   the data ([`constant_volume`]).
+//! * *R²* of all points together, and of the points of each test ([`Measurements::agreement`]);
+//! * *R²/n*, R² divided by the number of parameters, so that among two energies with equal agreement the one
+//!   with fewer parameters is ahead. It compares energies with similar R²: a single parameter with R² = 0.5
+//!   has a larger R²/n than two with R² = 0.99;
+//! * *stability*, the place at which each inequality of a stable solid is lost first on the way from rest to
+//!   the ends of the data ([`constant_volume`]).
 
 mod display;
 
@@ -78,8 +78,8 @@ impl Place {
 
 /// Fits every contender to the data at constant volume and ranks them by R².
 ///
-/// Of the settings the [volume](FitSettings::volume) is not looked at. The fits run on all processors; the
-/// result does not depend on how many there are.
+/// The [volume](FitSettings::volume) of the settings is ignored. The fits run on all processors; the result
+/// does not depend on how many there are.
 ///
 /// ```
 /// use piola_laboratory::data::{Measurements, TRELOAR_1944};

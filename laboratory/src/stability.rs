@@ -19,13 +19,13 @@
 //! # }
 //! ```
 //!
-//! The stretches are positive: inverted states are not looked at. By isotropy, ordered ones are enough.
-//! Between the points of the box nothing is known, and a stable solid may still buckle: that depends on the
+//! The stretches are positive: inverted states are not surveyed. By isotropy, ordered ones are enough.
+//! Nothing is checked between the points of the box, and a stable solid may still buckle: that depends on the
 //! body.
 //!
-//! [`constant_volume`] has the same for solids that keep their volume.
+//! [`constant_volume`] does the same for incompressible solids.
 //!
-//! [`criteria`] has the inequalities and how they imply each other; [`wave`] derives a test of strong
+//! [`criteria`] has the inequalities and the implications between them; [`wave`] derives a test of strong
 //! ellipticity without a search.
 
 pub mod constant_volume;

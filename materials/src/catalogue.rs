@@ -103,7 +103,7 @@ macro_rules! catalogue {
             ///
             /// # Errors
             /// [`MaterialError`](piola::material::MaterialError) if the constructor of the material refuses,
-            /// or a list is longer than the catalogue provides for.
+            /// or a list is longer than the catalogue allows.
             pub fn visit<V: Visitor>(
                 &self,
                 values: &[&[f64]],
@@ -189,7 +189,7 @@ impl Entry {
     /// Typical parameters as declared: one slice for each parameter of the description, in its order, in SI
     /// units.
     ///
-    /// The constructor accepts them, and the extension where there is one.
+    /// They satisfy the conditions of the constructor, and of the extension if there is one.
     #[must_use]
     pub fn typical(&self) -> Vec<&[f64]> {
         self.description

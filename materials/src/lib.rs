@@ -31,9 +31,9 @@
 //! makes energies of them at run time, with the bits of compiled ones.
 //!
 //! Those that extend do so below a threshold stretch ε, with [`Inversion::Extend`](piola::Inversion::Extend);
-//! some only for parameters with which the extension restores, as documented. A point of one that extends
-//! comes back from every inverted or collapsed state that was tried if ε is small enough for how
-//! incompressible it is: where −ln J alone keeps the volume from vanishing, in `ciarlet_geymonat`,
+//! some only for parameters with which the extension restores, as documented. A point of an extended material
+//! returned from every inverted or collapsed state that was tried, if ε is small enough for its
+//! incompressibility: if −ln J alone keeps the volume from vanishing, in `ciarlet_geymonat`,
 //! `ciarlet_neo_hookean` and those with an isochoric part, an ε above about 2μ/κ leaves a second equilibrium,
 //! a wide disc of hardly any thickness.
 //!

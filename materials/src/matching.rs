@@ -9,8 +9,8 @@ const ROUNDING: f64 = 1e-12;
 /// The typical parameters of a declaration, rescaled to the small-strain moduli `wanted`; `moduli` are those
 /// of the material with the values of its parameters, one slice for each.
 ///
-/// Poisson's ratio is matched by the parameter that the shear modulus does not depend on, where there is one
-/// and it can be; then all parameters in [Pa](piola::material::Unit) are multiplied by one factor for Young's
+/// Poisson's ratio is matched by a parameter on which the shear modulus does not depend, if there is one and
+/// it can be; then all parameters in [Pa](piola::material::Unit) are multiplied by one factor for Young's
 /// modulus. An energy is proportional to these together, so that its shape, exponents and limits included,
 /// stays that of the typical material.
 ///

@@ -38,8 +38,8 @@ impl Geometry {
     /// The body of the settings: from their files, or one that comes with the program.
     ///
     /// # Errors
-    /// [`Error::Read`] if a file cannot be read or is malformed, [`Error::Geometry`] if its tetrahedra make
-    /// no body or the surface lies outside of them.
+    /// [`Error::Read`] if a file cannot be read or is malformed, [`Error::Geometry`] if its tetrahedra are
+    /// not a valid body or the surface lies outside of them.
     pub fn load(settings: &Settings) -> Result<Self, Error> {
         let Some(files) = &settings.files else { return Self::of(settings.body) };
         let mesh = match files.mesh.extension().and_then(OsStr::to_str) {

@@ -23,7 +23,7 @@ mod origin;
 
 /// Stretch below which a material is extended unless its specification has another.
 ///
-/// Small enough that no body in equilibrium gets there, large enough that the extension's stiffness, of the
+/// Small enough that no body in equilibrium reaches it, large enough that the extension's stiffness, of the
 /// order of μ/ε², does not swamp that of the body.
 pub const EXTENSION: f64 = 0.1;
 

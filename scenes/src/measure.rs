@@ -114,7 +114,7 @@ pub fn mean_distance(before: &[[f64; 3]], after: &[[f64; 3]]) -> f64 {
 ///
 /// With centred rest points qᵢ and centred positions pᵢ, the rotation that maximises Σ qᵢ·R pᵢ is the unit
 /// quaternion that belongs to the largest eigenvalue of a symmetric 4 × 4 matrix [Horn87 §4A]. It is a proper
-/// rotation however flat or reflected the points are.
+/// rotation even for flat or reflected points.
 #[must_use]
 pub fn aligned(rest: &[[f64; 3]], positions: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let centre = |points: &[[f64; 3]]| {

@@ -192,8 +192,8 @@ impl Play {
     /// requires. A step also ends whenever a pull changes abruptly, even between two frames.
     ///
     /// # Errors
-    /// [`Error::Step`] or [`Error::Setup`], or [`Error::OutOfRange`] where no time is left; the state before
-    /// the step is then untouched.
+    /// [`Error::Step`] or [`Error::Setup`], or [`Error::OutOfRange`] if no time is left; the state before the
+    /// step is then untouched.
     pub fn step(&mut self) -> Result<StepReport, Error> {
         let clock = self.clock.next();
         if !clock.time().is_finite() {

@@ -27,7 +27,7 @@ pub fn within(whole: Bounds, shares: Bounds) -> Bounds {
 /// Parses a box in metres, `LOW:HIGH,LOW:HIGH,LOW:HIGH`; a side that is left out lies at infinity.
 ///
 /// # Errors
-/// [`RegionError`] if the text is something else or a range is empty.
+/// [`RegionError`] if the text has another format or a range is empty.
 pub fn parse(text: &str) -> Result<Bounds, RegionError> {
     let mut region = EVERYWHERE;
     let mut ranges = text.split(',');

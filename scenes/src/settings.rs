@@ -151,7 +151,7 @@ impl Settings {
     /// Checks that all values are in range, so that a simulation is meaningful and ends.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the first that is not.
+    /// [`Error::OutOfRange`] for the first value that is not in range.
     pub fn check(&self) -> Result<(), Error> {
         let amplitude = match self.start {
             Start::Scrambled { amplitude: Amplitude::Edges(value), .. } => value,

@@ -64,7 +64,7 @@ impl Conversation {
     /// The order in a message of the page; `None` if it requests the frame again that is already under way,
     /// and if the energy in it is refused.
     ///
-    /// An energy is compiled here, by the caller, and not by the driver: the body moves on.
+    /// An energy is compiled here, by the caller, and not by the driver, so that the body keeps moving.
     ///
     /// # Errors
     /// The reason why it is not a message.

@@ -1,8 +1,8 @@
 //! The body in motion: executes orders between steps, steps in real time, and answers pages that request
 //! frames.
 //!
-//! It waits for no page. A page gets a frame for each request, made of the state at that moment; without a
-//! request nothing is made and nothing is kept.
+//! It never waits for a page. A page gets a frame for each request, made of the state at that moment; without
+//! a request nothing is made and nothing is kept.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -37,7 +37,7 @@ pub trait Host {
     /// Makes a step.
     ///
     /// # Errors
-    /// That of [`Session::step`].
+    /// The error of [`Session::step`].
     fn step(&self, session: &mut Session) -> Result<StepReport, SceneError> {
         session.step()
     }

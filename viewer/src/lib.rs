@@ -1,12 +1,12 @@
 //! Viewer of a scene that is pulled with the mouse: requests of a page, the body in motion, and messages to
 //! the page.
 //!
-//! From the body outwards: [`session`] is the body with what can be done to it, the same bits for the same
-//! acts; [`driver`] makes its steps when they are due and waits for no page; [`conversation`] turns messages
+//! From the body outwards: [`session`] is the body with the acts on it, the same bits for the same acts;
+//! [`driver`] makes its steps when they are due and never waits for a page; [`conversation`] turns messages
 //! of the [`protocol`] into orders for it, and its answers into messages. [`state`] is the file.
 //!
-//! The crate opens no socket and has no thread of its own. The time, by which steps are due, it learns from
-//! its [`Host`](driver::Host): a server on this machine, or a page without one.
+//! The crate opens no socket and has no thread of its own. Its [`Host`](driver::Host), a server on this
+//! machine or a page without one, provides the time.
 
 pub mod conversation;
 pub mod driver;

@@ -26,8 +26,8 @@ const MAX_PULLS: usize = 64;
 const REACH: f64 = 100.0;
 /// Greatest speed of a drag, in body heights per second.
 ///
-/// A mouse is somewhere else from one step to the next. A body torn along that fast, tens of heights in a
-/// second, may fold into itself and find another equilibrium from which no elastic energy brings it back.
+/// A mouse jumps from one step to the next. A body pulled that fast, tens of heights in a second, may fold
+/// into itself and find another equilibrium from which no elastic energy brings it back.
 const SPEED: f64 = 4.0;
 
 /// A scene in motion, its present material, and the pulls of pages at it.

@@ -16,8 +16,8 @@ use crate::error::Error;
 
 /// Prints the parameters in a form to be pasted, R² of each test, and why other parameters might do as well.
 ///
-/// What is made small are differences by the measured stress, so that points without stress, rest among them,
-/// do not count; R² is of all points, rest included, as a spreadsheet has it.
+/// Minimises differences relative to the measured stress, so that points without stress, such as rest, do not
+/// count; R² is that of all points, rest included, as in a spreadsheet.
 #[derive(Debug, Args)]
 #[command(after_help = HELP, mut_arg("files", |data| data.required(true)))]
 pub(crate) struct Fit {

@@ -1,9 +1,9 @@
 //! Requests of a browser over HTTP, and whether they are allowed.
 //!
-//! Page and socket open to those who have the token of the printed address, and to no other user of this
-//! machine. A page anywhere on the web can make a browser send requests here, too. It has no token, and it
-//! cannot choose the browser's `Origin`; a name that it has pointed here shows up as `Host`. So both must be
-//! the viewer's own.
+//! Page and socket require the token of the printed address, which other users of this machine do not have. A
+//! page anywhere on the web can make a browser send requests here, too. It has no token, and it cannot choose
+//! the browser's `Origin`; a name that it has pointed here shows up as `Host`. So both must be the viewer's
+//! own.
 
 use std::io::{ErrorKind, Read};
 use std::time::Duration;

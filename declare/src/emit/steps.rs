@@ -1,7 +1,7 @@
 //! The order in which a recorded program is printed, with branches where code may be skipped.
 //!
-//! A selection by a mask that the computation has tested is a branch: what only one of its values needs
-//! stands inside. Otherwise the order of the record is kept.
+//! A selection by a mask that the computation has tested is a branch: it contains the operations that only
+//! one of its values needs. Otherwise the order of the record is kept.
 
 use std::collections::{BTreeSet, HashMap};
 

@@ -18,7 +18,7 @@ impl Notation {
     /// Reads a formula.
     ///
     /// # Errors
-    /// [`Mistakes`] where its characters make no tokens.
+    /// [`Mistakes`] if its characters do not form tokens.
     pub(super) fn read(formula: &str) -> Result<Self, Mistakes> {
         check_size(formula)?;
         let (mut text, mut origins) = (String::new(), Vec::new());

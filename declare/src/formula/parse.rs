@@ -11,7 +11,7 @@
 //!           | power "(" sum "," sum ")" | invariant "(" tensors ")" | "sum" "(" index "," sum ")" | "(" sum ")"
 //! ```
 //!
-//! So −x² is −(x²), a/2 b is (a/2) b, and x^y^z is x^(y^z). What names stand for is in [`spellings`].
+//! So −x² is −(x²), a/2 b is (a/2) b, and x^y^z is x^(y^z). The meaning of names is in [`spellings`].
 
 use std::collections::{HashMap, HashSet};
 
@@ -67,8 +67,8 @@ impl Parameter {
 /// Reads a formula.
 ///
 /// # Errors
-/// The first mistake of its form, or all names that have no value and need one; what other names mean is the
-/// business of the compiler.
+/// The first mistake of its form, or all names that have no value and need one; the compiler resolves the
+/// other names.
 pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Result<Parsed> {
     let given = options.parameters.iter().flatten().map(|(name, _)| name.clone());
     let mut parser = Parser {

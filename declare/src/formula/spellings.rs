@@ -1,6 +1,6 @@
 //! The spellings that formulas may have: one table, which the parser reads and `docs/formulas.md` prints.
 //!
-//! A name that is given a value is a parameter, however it is spelt; the table is about all others.
+//! A name with a value is a parameter in any spelling; the table has all other names.
 
 /// A name or a function, with the Rust that it stands for.
 struct Spelling {

@@ -22,9 +22,9 @@ pub(crate) struct Side {
 /// The strain at which `side` has no stress, to the last digits; `side` is `None` outside the domain of the
 /// energy.
 ///
-/// Sides that are pressed outwards, that is, with a negative stress, are too narrow. Of several equilibria it
-/// is one that is stable under this test, between `isochoric`, the strain at constant volume, and 0 if there
-/// is one, else not far outside.
+/// Sides that are pressed outwards, that is, with a negative stress, are too narrow. If there are several
+/// equilibria, it is one that is stable under this test, between `isochoric`, the strain at constant volume,
+/// and 0 if there is one, else not far outside.
 pub(crate) fn release(side: impl Fn(f64) -> Option<Side>, isochoric: f64) -> Option<f64> {
     let interval = enclose(|strain| side(strain).map(|side| side.stress), isochoric)?;
     solve(side, interval)

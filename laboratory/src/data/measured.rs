@@ -76,11 +76,11 @@ impl Measurements {
     /// ```
     ///
     /// of the stresses P with mean P̄, P̂ being those of the specimen. All points count, the rest state among
-    /// them, as in a spreadsheet. 1 is agreement; below 0 the mean would be a better guess. Stresses that are
-    /// all equal, such as a single one, have none.
+    /// them, as in a spreadsheet. 1 is agreement; below 0 the mean would be a better guess. It is undefined
+    /// if all stresses are equal, such as a single one.
     ///
     /// # Errors
-    /// [`PointError`] of the first point where the specimen has no stress.
+    /// [`PointError`] of the first point at which the specimen has no stress.
     pub fn agreement(&self, specimen: &dyn Specimen, volume: Volume) -> Result<Agreement, PointError> {
         let responses = self.responses(specimen, volume).into_iter().zip(&self.points);
         let pair = |(response, &point): (Result<Response, _>, _)| match response {

@@ -56,8 +56,8 @@ impl Measurements {
     /// Reads the text of a file, with a test and a unit if it names none.
     ///
     /// # Errors
-    /// [`DataError`] of the first malformed line, if the columns or their numbers may mean two things, or if
-    /// no data point differs from the rest state.
+    /// [`DataError`] of the first malformed line, if the columns or their numbers are ambiguous, or if no
+    /// data point differs from the rest state.
     pub fn read_with(text: &str, options: &ReadOptions) -> Result<Reading, DataError> {
         let text = text.trim_start_matches('\u{feff}');
         if text.starts_with("PK\u{3}\u{4}") {

@@ -1,6 +1,6 @@
 //! Edges of the admissible parameters that keep a search from its minimum.
 //!
-//! Where the Gauss–Newton step d that minimises |r + J d| is worth taking and is refused however short, the
+//! If the Gauss–Newton step d that minimises |r + J d| is worth taking and is refused at any length, the
 //! search stands at an edge. Its normal is the gradient of the constraint that refuses, which the declaration
 //! of the energy provides ([`Fittable::constraints`](piola::material::Fittable::constraints)). Then d is
 //! sought in what the edges leave free, each kept only as long as its Lagrange multiplier shows that the step

@@ -2,8 +2,8 @@
 //! of the same solid.
 //!
 //! Different parameters may describe the same solid. Terms of a sum exchange their places; the exponent of a
-//! term whose coefficient has vanished may be any; of two terms with the same exponent only the sum matters;
-//! and a parameter that grows without end changes less and less. So it is stresses that are compared.
+//! term whose coefficient has vanished is arbitrary; for two terms with the same exponent only the sum
+//! matters; and a parameter that grows without bound changes less and less. So stresses are compared.
 
 use super::candidate::Numbers;
 use super::minimum::Minimum;

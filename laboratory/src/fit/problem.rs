@@ -188,7 +188,7 @@ impl<'a> Problem<'a> {
     /// The small-strain moduli of the energy as tried last, if specimens were made to keep a volume that it
     /// might change.
     ///
-    /// Simple shear keeps the volume of any.
+    /// Simple shear keeps the volume of every solid.
     pub(super) fn moduli_if_volume_is_imposed(&self) -> Option<Moduli> {
         let is_imposed = self.points.iter().any(|(point, _)| point.mode != Mode::SimpleShear);
         let [h11, _, _, h12, _, _] = self.specimen().hessian([1.0; 3]);
@@ -200,8 +200,8 @@ impl<'a> Problem<'a> {
     /// greatest of each point.
     ///
     /// They are compared at the stretches of the data and at their inverses, which make tension along two
-    /// axes of tension along one: ψ1, ψ2, ψ3 themselves, so that of what keeps its volume the pressure counts
-    /// too.
+    /// axes of tension along one: ψ1, ψ2, ψ3 themselves, so that the pressure of an incompressible solid
+    /// counts too.
     pub(super) fn has_stresses_of(&self, other: &Self, share: f64) -> bool {
         let (Trial::Answers(one, responses), Trial::Answers(other, _)) = (&self.trial, &other.trial) else {
             return false;

@@ -22,8 +22,8 @@ const SHARE: f64 = 0.01;
 
 /// The numbers that the data do not determine: at all these places none of them changes any residual.
 ///
-/// At one place alone a number may only be drowned, by an exponential at large stretches, or by a factor that
-/// is zero there.
+/// At a single place a number may merely be drowned, by an exponential at large stretches, or by a factor
+/// that is zero there.
 pub(super) fn unidentifiable<'a>(places: impl Iterator<Item = Problem<'a>>, numbers: &Numbers) -> Vec<usize> {
     let mut is_silent = vec![true; numbers.values.len()];
     let mut has_slopes = false;

@@ -24,7 +24,7 @@ const HALVINGS: u32 = 32;
 /// from rest to a control, the volume being kept; rest itself if it does not hold there.
 ///
 /// The steps are as many as those of a [`Walk`](super::Walk), equal in ln λ or in γ. A volumetric test has no
-/// way that keeps the volume and loses nothing; nor does a way beyond the domain.
+/// path of constant volume and loses nothing; nor does a path beyond the domain.
 ///
 /// ```
 /// use piola_laboratory::curve::Mode;

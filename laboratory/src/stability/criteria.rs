@@ -1,6 +1,6 @@
 //! Three inequalities that a stable solid keeps, as moduli at a triple of stretches.
 //!
-//! Each is the least of some moduli and is kept where that is positive. The moduli are scaled so that at rest
+//! Each is the least of some moduli and is kept if that is positive. The moduli are scaled so that at rest
 //! they are the shear modulus μ of Hooke's law (Hill's and the last, as long as K ≥ 2μ/3 and λ ≥ −μ), which
 //! makes them comparable. With the Kirchhoff stresses τi = λi ψi and a = (D⁻ + D⁺)/2, which for positive
 //! stretches is (τi − τj)/(λi² − λj²):
@@ -81,7 +81,7 @@ pub struct Judgement {
 impl Judgement {
     /// Judges a material at positive stretches, in any order.
     ///
-    /// `None` where the material does not admit them, or its derivatives are infinite or NaN.
+    /// `None` if the material does not admit them, or its derivatives are infinite or NaN.
     #[must_use]
     pub fn of(specimen: &dyn Specimen, stretches: [f64; 3]) -> Option<Self> {
         Self::with(specimen, stretches, |_, _| {})

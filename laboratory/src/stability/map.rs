@@ -168,7 +168,7 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Map of both planes over the range of the settings, side by side under a title, as SVG.
 ///
-/// The box's resolution is not that of the picture, which has 120 × 120 cells in a plane.
+/// The picture has 120 × 120 cells in a plane, regardless of the resolution of the box.
 ///
 /// # Errors
 /// [`MapError`] if the settings are out of range, or the library of charts fails.

@@ -2,8 +2,8 @@
 //!
 //! A path is walked from rest outwards, in 256 equal steps of the logarithm of its stretch; between the last
 //! step that keeps a criterion and the first that loses it, the edge is found by halving. A loss regained
-//! within a step is not seen, that is, within half a per cent of the stretch for the range 0.3 … 3; nor what
-//! happens after the last step where the path ends.
+//! within a step, that is, within half a per cent of the stretch for the range 0.3 … 3, is not detected; nor
+//! is a loss between the last step and the end of the path.
 
 use std::fmt;
 

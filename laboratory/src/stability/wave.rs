@@ -49,7 +49,7 @@
 //!
 //! A quadratic form over a triangle is least in a corner, inside an edge, or inside: one point for each of
 //! its 3 + 3 + 1 faces, by a division or a system of two equations. Each is kept if it lies inside its face,
-//! and the form evaluated there. What comes out therefore belongs to a true wave; rounding moves it along the
+//! and the form evaluated there. The result therefore belongs to a true wave; rounding moves it along the
 //! form, where that is flat.
 //!
 //! \[SS83\] Simpson, Spector, *On copositive matrices and strong ellipticity for isotropic elastic

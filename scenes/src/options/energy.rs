@@ -17,9 +17,9 @@ use super::value::modulus;
 pub struct Formula {
     /// Energy as a formula, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`, instead of a material.
     ///
-    /// Its names are those that --param gives values to, and else the stretches l1, l2, l3 and the
-    /// invariants I1, I2, J, I1b and I2b, also as lambda_1, tr(C), det(F) and more. Conditions may follow,
-    /// as in `… where J > 0, I1 < 3 + Jm`.
+    /// Its names are the parameters given by --param, the stretches l1, l2, l3 and the invariants I1, I2, J,
+    /// I1b and I2b, also as lambda_1, tr(C), det(F) and more. Conditions may follow, as in `… where J > 0, I1
+    /// < 3 + Jm`.
     #[arg(long, value_name = "FORMULA", conflicts_with = "material", allow_hyphen_values = true)]
     energy: Option<String>,
 

@@ -33,7 +33,7 @@ impl Given {
 /// unit of stress, or one by a unit of stress as in `2e-5/MPa`, `2e-5 1/MPa` and `2e-5 MPa^-1`.
 ///
 /// # Errors
-/// What is wrong, and what to write.
+/// Description of the mistake, with a correction.
 pub fn parameter(text: &str) -> Result<Given, String> {
     let (name, values) = text.split_once('=').ok_or("write NAME=VALUE, or NAME=V,V,V for a list")?;
     let values: Vec<_> = values.split(',').map(value).collect::<Result<_, _>>()?;
@@ -101,7 +101,7 @@ fn value(text: &str) -> Result<(f64, Option<(Unit, f64)>), String> {
 /// Reads `refuse` or the stretch where an extension begins.
 ///
 /// # Errors
-/// What to write.
+/// Description of the notation.
 pub fn inversion(text: &str) -> Result<Inversion, String> {
     if text == "refuse" {
         return Ok(Inversion::Refuse);

@@ -1,8 +1,8 @@
 //! Folder with the files of a run, which leaves all other files alone.
 //!
 //! Files are written during the run, so that an interruption leaves a shorter run. Each is entered in a list
-//! in the folder before it is created: what is not in the list is somebody else's. What is in it is removed
-//! when another run begins there.
+//! in the folder before it is created: files that are not in the list belong to others. Files in the list are
+//! removed when another run begins there.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};

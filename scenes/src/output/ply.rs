@@ -30,7 +30,7 @@ pub fn write_ply(target: &mut impl Write, vertices: &[[f32; 3]], triangles: &[[u
 /// Reads the positions of a surface that [`write_ply`] has written.
 ///
 /// # Errors
-/// If `source` cannot be read or is something else.
+/// If `source` cannot be read or has another format.
 pub fn read_vertices(mut source: impl BufRead) -> io::Result<Vec<[f32; 3]>> {
     let malformed = || Error::new(ErrorKind::InvalidData, "it is not a surface that piola has written");
     let mut count: Option<usize> = None;

@@ -27,7 +27,7 @@ struct Line<'a> {
 /// A content as a line with its checksum and its end.
 ///
 /// # Errors
-/// If it has no form in JSON.
+/// If it cannot be represented in JSON.
 pub fn seal(content: &impl Serialize) -> serde_json::Result<Vec<u8>> {
     let content = to_raw_value(content)?;
     let mut line = serde_json::to_vec(&Line { crc32: &checksum(&content), content: &content })?;
