@@ -35,7 +35,7 @@ pub(crate) struct Material {
     #[command(flatten)]
     formula: Formula,
 
-    /// Value of a parameter, in SI units or with a unit of stress behind it, such as MPa or psi, or /MPa for
+    /// Value of a parameter, in SI units or with a unit of stress after it, such as MPa or psi, or /MPa for
     /// one by a stress; lists as NAME=V,V,V [default: the typical one of `piola materials`, or of the file].
     #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
     parameters: Vec<Given>,

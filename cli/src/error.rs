@@ -129,7 +129,7 @@ pub enum Error {
     },
     /// A unit is given without measured points.
     #[error(
-        "--unit applies to measured points: add --data FILE, or leave it out; units of parameters are written behind them"
+        "--unit applies to measured points: add --data FILE, or leave it out; units of parameters are written after them"
     )]
     UnitWithoutData,
     /// Parameters cannot be fitted to the data.

@@ -222,7 +222,7 @@ pub enum EmitError {
     )]
     Prefix(String),
     /// The language has no numbers of that precision.
-    #[error("WGSL has no numbers of 64 bits: choose the precision f32, or for another target")]
+    #[error("WGSL has no numbers of 64 bits: choose the precision f32, or another target")]
     Precision,
     /// No function is requested.
     #[error("no function is requested; there are: {}", PointFunction::ALL.map(PointFunction::name).join(", "))]

@@ -253,9 +253,9 @@ fn a_name_without_a_value_is_told_before_all_else() {
         "mu/2*(I1 - 3) + b*(J - 1)^2",
         &options,
         "b",
-        "by `--param b=VALUE`, or, if it is what papers",
+        "by `--param b=VALUE`, or, if it has its usual",
     );
-    check_mistake("mu/2*(I1 - 3) + e*J", &options, "e", "mean by it, write `exp(x)` for eˣ");
+    check_mistake("mu/2*(I1 - 3) + e*J", &options, "e", "usual meaning in papers, write `exp(x)` for eˣ");
     let two = Energy::from_formula_with("a*(I1 - 3) + b*(J - 1)^2 + a", &given(&[])).unwrap_err();
     assert_eq!(two.list.len(), 2, "{two}");
 }

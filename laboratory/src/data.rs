@@ -31,8 +31,8 @@
 //! | true stress σ | those with `true`, `Cauchy`, `wahre`; `S11` | P = σ/λ as of an incompressible solid; P = σ in simple shear and volumetric tests |
 //! | pressure p | `pressure` | P = −p in a volumetric test |
 //!
-//! * Units stand behind the name, in brackets or after a space, comma, slash or `_`: [`StressUnit`] for
-//!   stresses, `%`, `‰`, `µε` or `mm/mm` for strains; percent may also stand before the name or behind each
+//! * Units stand after the name, in brackets or after a space, comma, slash or `_`: [`StressUnit`] for
+//!   stresses, `%`, `‰`, `µε` or `mm/mm` for strains; percent may also stand before the name or after each
 //!   number. A strain with another unit is refused. Numbers under `compressive strain` and `compressive
 //!   stress` are positive in compression.
 //! * Of several kinds of stress or strain the first of this table is used; two columns of one kind are

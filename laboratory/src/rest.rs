@@ -48,7 +48,7 @@ impl AtRest {
         };
         Some(format!(
             "Poisson's ratio of the material is {}: {meaning}; are all moduli in the same unit, Pa unless another is \
-             written behind the number, and compressibilities such as D1 in 1/Pa?",
+             written after the number, and compressibilities such as D1 in 1/Pa?",
             digits(poisson)
         ))
     }

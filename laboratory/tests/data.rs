@@ -80,7 +80,7 @@ fn files_of_finite_element_programs() {
         (SimpleShear, 0.25, 0.06e6),
         (Volumetric, 0.999, -2e6),
     ];
-    check("abaqus.inp", ["", "Pa"], deck, &["`nominal stress` as nominal stress in Pa", "columns behind"]);
+    check("abaqus.inp", ["", "Pa"], deck, &["`nominal stress` as nominal stress in Pa", "columns after"]);
     check("ansys.csv", ["UT", ""], &[(Uniaxial, 1.1, 120e3), (Uniaxial, 1.5, 4e5)], &[]);
     let (one, two) = (0.1_f64.exp(), 0.5_f64.exp());
     check(

@@ -47,7 +47,7 @@ pub enum Error {
     #[error("{0}")]
     Declaration(Mistakes),
     /// A value of a parameter is given in a unit that the parameter does not have.
-    #[error("the parameter `{}` is {}, but its value is given {}; write another unit behind it, or none",
+    #[error("the parameter `{}` is {}, but its value is given {}; write another unit after it, or none",
         quoted(parameter), in_words(*declared), in_words(*unit))]
     UnitOfParameter {
         /// The parameter.

@@ -36,7 +36,7 @@ pub struct SceneOptions {
     #[expect(missing_docs, reason = "clap would print it")]
     pub formula: Formula,
 
-    /// Value of a parameter of the material, in SI units or with a unit of stress behind it, such as MPa or
+    /// Value of a parameter of the material, in SI units or with a unit of stress after it, such as MPa or
     /// psi, or /MPa for one by a stress; lists as NAME=V,V,V. For another material than the scene's, give all
     /// or none.
     #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]

@@ -52,7 +52,7 @@ def test_blocks_need_no_scipy(rubber, beam, monkeypatch):
     monkeypatch.setitem(sys.modules, "scipy.sparse", None)
     points, tets = beam
     body = piola.Body(points, tets, rubber, 1000.0)
-    with pytest.raises(ImportError, match="install scipy, or take Body.stiffness_blocks"):
+    with pytest.raises(ImportError, match="install scipy, or use Body.stiffness_blocks"):
         body.stiffness(points)
     assert body.stiffness_blocks(points)[2].shape[1:] == (3, 3)
 

@@ -15,7 +15,7 @@ Files of measured points, as written by test machines and spreadsheets:
   columns     by the words of their headers: `stretch`; `strain` (nominal), `true strain`, `shear strain`,
               `volume ratio`, `volume strain`; `stress` (nominal), `true stress`, `pressure`; `mode`.
               True stress σ becomes nominal stress P = σ/λ, as for an incompressible solid
-  units       behind the name or in a row below, as in `strain [%]`, `stress (MPa)`: Pa, kPa, MPa, GPa, psi,
+  units       after the name or in a row below, as in `strain [%]`, `stress (MPa)`: Pa, kPa, MPa, GPa, psi,
               ksi, bar, atm, kgf/cm2, kgf/mm2, dyn/cm2, N/mm2
   tests       uniaxial (UT, tension, compression), equibiaxial (ET, EB, BT, biaxial), pure_shear (PS, planar),
               simple_shear (SS), volumetric (hydrostatic), in a column `mode` or by --mode

@@ -245,7 +245,7 @@ fn deck<'a>(lines: &[Line<'a>]) -> Result<Vec<Section<'a>>, DataError> {
                 return Err(at(Fault::Fields { found: fields.len(), expected: 2 }));
             }
             if fields[2..].iter().any(|field| !field.is_empty()) && section.unused.is_empty() {
-                section.unused.push("columns behind the second".into());
+                section.unused.push("columns after the second".into());
             }
             section.rows.push(Row { line: line.number, fields });
         }

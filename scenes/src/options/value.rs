@@ -29,7 +29,7 @@ impl Given {
     }
 }
 
-/// Reads `NAME=V,V,V`, with or without a unit behind the last value, which is that of all, or behind each: a
+/// Reads `NAME=V,V,V`, with or without a unit after the last value, which is that of all, or after each: a
 /// unit of stress, or one by a unit of stress as in `2e-5/MPa`, `2e-5 1/MPa` and `2e-5 MPa^-1`.
 ///
 /// # Errors
@@ -40,10 +40,10 @@ pub fn parameter(text: &str) -> Result<Given, String> {
     let common = values.last().and_then(|(_, unit)| *unit);
     let unit = |(_, own): &(f64, Option<(Unit, f64)>)| own.or(common);
     if common.is_none() && values.iter().any(|(_, own)| own.is_some()) {
-        return Err("the last value has no unit; write one behind it, or behind each".into());
+        return Err("the last value has no unit; write one after it, or after each".into());
     }
     if values.iter().any(|value| unit(value).map(|(kind, _)| kind) != common.map(|(kind, _)| kind)) {
-        return Err("the values have units of two kinds; write one behind the last value".into());
+        return Err("the values have units of two kinds; write one after the last value".into());
     }
     let in_si = |value: &(f64, _)| match unit(value) {
         Some((Unit::PerPascal, size)) => value.0 / size,
@@ -54,7 +54,7 @@ pub fn parameter(text: &str) -> Result<Given, String> {
     Ok(Given { name: name.trim().into(), values, unit })
 }
 
-/// Reads a modulus, in Pa or with a unit of stress behind it.
+/// Reads a modulus, in Pa or with a unit of stress after it.
 pub(super) fn modulus(text: &str) -> Result<f64, String> {
     match value(text)? {
         (number, None) => Ok(number),
@@ -63,7 +63,7 @@ pub(super) fn modulus(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number, and the kind of the unit behind it with the stress, Pa, that it is made of.
+/// A number, and the kind of the unit after it with the stress, Pa, that it is made of.
 fn value(text: &str) -> Result<(f64, Option<(Unit, f64)>), String> {
     let text = text.trim();
     if let Ok(number) = text.parse() {
@@ -93,7 +93,10 @@ fn value(text: &str) -> Result<(f64, Option<(Unit, f64)>), String> {
         (None, None) => size(&unit).map(|size| (Unit::Pascal, size)),
     };
     let unit = unit.map_err(|error| {
-        format!("`{}` is not a number: {error} behind it, or one by it, as in `2e-5/MPa`", quoted(text))
+        format!(
+            "`{}` is not a number: {error} after it, or one divided by it, as in `2e-5/MPa`",
+            quoted(text)
+        )
     })?;
     Ok((number, Some(unit)))
 }

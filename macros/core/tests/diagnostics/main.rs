@@ -276,7 +276,7 @@ fn numbers_before_names() {
     check_arguments("domain(J > 0.0, I1 < 3mu)", &[("3mu", "write `3 * mu` for a product")]);
     check_arguments("domain(J > 0.0), admissible(2mu > 1.0)", &[("2mu", "write `2 * mu` for a product")]);
     check_added("2(mu * (1.0 - 1.0))", "2", "`2` is not a function: write `2 * (…)` for a product");
-    check_added("(mu)(mu - mu)", "(mu)", "this is not a function: write `*` behind it for a product");
+    check_added("(mu)(mu - mu)", "(mu)", "this is not a function: write `*` after it for a product");
 }
 
 #[test]

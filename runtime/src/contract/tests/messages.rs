@@ -241,7 +241,9 @@ fn an_extension_that_does_not_restore_says_what_to_change() {
         verdict => panic!("{verdict:?}"),
     };
     assert!(remedy(Defect::AttractsCollapse).contains("as in `extend(kappa > 0.0)`"));
-    assert!(remedy(Defect::EndsAtInversion).contains("write that limit in what no sign changes"));
+    assert!(
+        remedy(Defect::EndsAtInversion).contains("write that limit in terms that are independent of signs")
+    );
 }
 
 #[test]

@@ -268,7 +268,7 @@ impl Resolver<'_> {
                     let number = number.to_token_stream();
                     format!("`{number}` is not a function: write `{number} * (…)` for a product")
                 }
-                _ => "this is not a function: write `*` behind it for a product".into(),
+                _ => "this is not a function: write `*` after it for a product".into(),
             };
             return self.mistake(&call.func, &message);
         };
