@@ -259,10 +259,17 @@ mod tests {
 
     use super::*;
 
+    /// A spelling as code. Barred letters look alike, so that a combining mark is named.
+    fn quoted(name: &&str) -> String {
+        match name.chars().find(|letter| ('\u{300}'..='\u{36f}').contains(letter)) {
+            Some(mark) => format!("`{name}` (I followed by U+{:04X})", u32::from(mark)),
+            None => format!("`{name}`"),
+        }
+    }
+
     /// The table as Markdown.
     fn table() -> String {
-        let code =
-            |names: &[&str]| names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let code = |names: &[&str]| names.iter().map(quoted).collect::<Vec<_>>().join(", ");
         let mut text = "| spelling | meaning |\n|---|---|\n".to_owned();
         let mut row = |spelling: String, meaning: &str| text += &format!("| {spelling} | {meaning} |\n");
         for Spelling { meaning, spellings, .. } in &NAMES {
@@ -274,14 +281,17 @@ mod tests {
         row(format!("`x^n`, `x**n`, {}", POWERS.map(|name| format!("`{name}(x, n)`")).join(", ")), "power");
         row("`.*`, `./`, `.^`".to_owned(), "`*`, `/`, `^`");
         for (names, meaning) in [
-            (TENSOR_FUNCTIONS[0].0, "trace of a tensor: `tr(C)` is I1, `tr(E)^2` and `tr(E^2)` are read"),
+            (TENSOR_FUNCTIONS[0].0, "trace of a tensor: `tr(C)` is I1; `tr(E)^2` and `tr(E^2)` are accepted"),
             (TENSOR_FUNCTIONS[1].0, "determinant: `det(F)` is J, `det(C)` is J²"),
             (TENSOR_FUNCTIONS[2].0, "product A : B of tensors: `inner(E, E)` is `tr(E^2)`"),
         ] {
             row(code(names), meaning);
         }
-        row(code(&RIGHT_AND_LEFT), "C or b, in these functions");
-        row(format!("{}, before `.` or `::`", code(&MODULES)), "nothing: `np.log(J)` is `log(J)`");
+        row(code(&RIGHT_AND_LEFT), "the tensor C or b, as an argument of these functions");
+        row(
+            format!("{}, before `.` or `::`", code(&MODULES)),
+            "a module, which is ignored: `np.log(J)` is `log(J)`",
+        );
         text
     }
 
