@@ -1,4 +1,4 @@
-//! Rubber after Biderman.
+//! Biderman's energy of rubber.
 
 /// Rubber that stiffens [Biderman 1958], made compressible.
 #[piola::material(domain(J > 0.0), extend, fit)]
