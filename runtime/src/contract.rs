@@ -246,7 +246,7 @@ fn judge_rule(
 /// u of `f64`, in which the contract is judged.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
-/// The largest entry of the tangent: what multiplies an error of the stretches.
+/// The largest entry of the tangent, which multiplies an error of the stretches.
 fn stiffness(blocks: &Blocks<f64>) -> f64 {
     let entries = blocks.hessian.into_iter().chain(blocks.flip).chain(blocks.twist);
     entries.fold(0.0, |largest, entry| largest.max(entry.abs()))

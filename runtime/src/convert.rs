@@ -91,7 +91,8 @@ mod tests {
         assert_eq!(from_nalgebra(&to_nalgebra(&two_by_three)), two_by_three);
     }
 
-    /// dP/dF times dF in the documented order of indices is what the tangent applies.
+    /// The product of a flattened tangent and a flattened dF, in the documented order of indices, is that of
+    /// `apply`.
     #[cfg(any(feature = "nalgebra", test))]
     #[test]
     #[expect(non_snake_case, reason = "F as in the literature")]

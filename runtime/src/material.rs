@@ -1,4 +1,4 @@
-//! Interface of an energy: what `#[piola::material]` implements and the rest of piola uses.
+//! Interface of an energy, implemented by `#[piola::material]` and used by the rest of piola.
 //!
 //! An isotropic energy density ψ(λ1, λ2, λ3), in Pa, is a function of the signed principal stretches λ1 ≥ λ2
 //! ≥ |λ3| of a deformation gradient. Its stress and tangent need only its first and second derivatives in the
@@ -240,8 +240,8 @@ impl Curvature {
         }
     }
 
-    /// True if the terms of dP/dF are computed with all second derivatives. If not, those of an energy with
-    /// I2 have W11 and WJJ, those of one without it WJJ alone.
+    /// True if the terms of dP/dF are computed with all second derivatives. If not, an energy with I2 has W11
+    /// and WJJ, one without it WJJ alone.
     #[inline(always)]
     pub(crate) fn has_all(self, has_second: bool) -> bool {
         match self {

@@ -1,5 +1,5 @@
-//! The lanes of each back end touch no memory outside of the slices that they are given: what is too short is
-//! a panic.
+//! The lanes of each back end access no memory outside of the slices that they are given: a slice that is too
+//! short is a panic.
 //!
 //! Slices end where their allocation ends. A sanitizer, which `.ci/run` asks for, sees what lies beyond being
 //! read; without one these tests compare what was copied.

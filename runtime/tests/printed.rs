@@ -3,7 +3,7 @@
 use piola::Inversion;
 use piola::contract::{Settings, check};
 
-/// Kilian's van der Waals rubber [Kil85], whose roots are of what vanishes at rest.
+/// Kilian's van der Waals rubber [Kil85], with roots of expressions that vanish at rest.
 #[piola::material(domain(J > 0.0, (1.0 - beta) * I1b + beta * I2b - 3.0 < lm.powi(2) - 3.0), admissible(beta >= 0.0, beta <= 1.0, lm > 2.0))]
 fn Kilian(
     [l1, l2, l3]: [f64; 3],
@@ -191,7 +191,7 @@ fn a_domain_with_a_root_of_the_excess_contains_rest_dilations_and_rotations()
     Ok(())
 }
 
-/// Gregory's carbon-filled rubber, 1979: a small constant keeps the power from what vanishes at rest.
+/// Gregory's carbon-filled rubber, 1979: a small constant keeps the base of the power from vanishing at rest.
 #[piola::material(domain(J > 0.0), admissible(n > 0.0), fit)]
 fn Gregory(
     [l1, l2, l3]: [f64; 3],

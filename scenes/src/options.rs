@@ -51,12 +51,11 @@ pub struct SceneOptions {
     #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
     pub density: Option<f64>,
 
-    /// Nodes to hold instead of the scene's: a physical group of the mesh, or a box
-    /// LOW:HIGH,LOW:HIGH,LOW:HIGH in m, open where a side is left out, such as `:,:0.05,:`; may be repeated.
+    /// Gravity in m/s², downwards [default: 0].
     #[arg(long, value_name = "G", allow_negative_numbers = true)]
     pub gravity: Option<f64>,
 
-    /// Nodes to hold in place of the scene's: a physical group of the mesh, or a box
+    /// Nodes to hold instead of the scene's: a physical group of the mesh, or a box
     /// LOW:HIGH,LOW:HIGH,LOW:HIGH in m, open where a side is left out, such as `:,:0.05,:`; may be repeated.
     #[arg(long = "pin", value_name = "BOX|GROUP", allow_hyphen_values = true)]
     pub pins: Vec<String>,

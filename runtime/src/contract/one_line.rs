@@ -107,7 +107,7 @@ macro_rules! contract {
             }
         )*
 
-        /// These tests, in the order of the rules: as many as there are.
+        /// These tests, one for each rule, in the order of the rules.
         #[cfg(test)]
         pub(super) const TESTS: [($crate::contract::Rule, fn()); $crate::contract::Rule::ALL.len()] =
             [$(($crate::contract::Rule::$rule, $test)),*];

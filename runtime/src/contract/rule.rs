@@ -43,7 +43,7 @@ pub enum Rule {
     /// Tangent as the slope of the stress: (P(F + h A) − P(F − h A))/2h approaches (dP/dF) A as h².
     TangentSlope,
     /// Derivatives by dual numbers: `energy` gives the ψi of `gradient` and `blocks`, and `gradient` the ψij,
-    /// either way round.
+    /// in either order of differentiation.
     ///
     /// Both the energy and its derivatives are sums of terms no larger than the tangent, with tens of
     /// roundings.
@@ -77,14 +77,14 @@ pub enum Rule {
     /// and λ = ψ12 at F = I.
     Moduli,
     /// Agreement of energy, gradient, Hessian and quotients in `f32` and `f64`, to roundings of `f32`: at the
-    /// samples, and where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. What is finite in `f64`
-    /// is so in `f32`.
+    /// samples, and where two stretches are 10⁻² … 10⁻⁷ of their mean apart or equal. Results that are finite
+    /// in `f64` are finite in `f32`, too.
     ///
     /// Likewise far from rest, within the range of `f32`: where one or two stretches of a sample are 10⁻² …
     /// 10⁻⁴ of what they were, and all are 10⁻² … 10² times. A formula that cancels there loses digits in
     /// `f32` first, and in `f64` on elements that are flatter still.
     SinglePrecision,
-    /// Agreement of every result on lanes with that of its point alone:
+    /// Agreement of every result on lanes with the result at its point alone:
     ///
     /// * on the portable back end, with the bits of a scalar;
     /// * on any, with the same bits regardless of its lane and its neighbours;

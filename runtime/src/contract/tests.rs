@@ -1,4 +1,4 @@
-//! The contract must pass what is right and name what is wrong.
+//! The contract must accept correct materials and name the mistakes of wrong ones.
 
 use super::*;
 use crate::hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKirchhoff};

@@ -56,7 +56,8 @@ pub struct Loop {
     pub list: usize,
     /// Constants that are the current entry of a list: its place in the declaration.
     pub entries: Vec<(Register, usize)>,
-    /// Registers of totals, which begin with zero, and of what is added to each for every entry.
+    /// Registers of totals, which begin with zero, each with the register that is added to it for every
+    /// entry.
     pub totals: Vec<(Register, Register)>,
     /// Number of operations between the begin of the loop and its end, for each entry.
     pub length: usize,
@@ -94,8 +95,8 @@ pub enum Operation {
     NegMulAdd(Register, [Register; 3]),
     /// a b − c.
     MulSub(Register, [Register; 3]),
-    /// (a b) c. This and the next six are two or three operations in one: nothing else reads what lies
-    /// between them, which needs no register.
+    /// (a b) c. This and the next six are two or three operations in one: no other operation reads the
+    /// results between them, which need no register.
     MulMul(Register, [Register; 3]),
     /// ((a b) c) d.
     MulMulMul(Register, [Register; 4]),

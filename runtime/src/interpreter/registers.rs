@@ -29,7 +29,7 @@ impl<R: Real> Default for Registers<R> {
 /// A material and a program of it, with all that decides on its constants and their places.
 #[derive(Clone, Copy, PartialEq)]
 struct Prepared {
-    /// The number of the material, which holds the program.
+    /// The number of the material that contains the program.
     material: u64,
     program: *const Program,
     entry: usize,

@@ -242,8 +242,8 @@ fn largest<R: Real, const N: usize>(numbers: [R; N]) -> R {
     largest
 }
 
-/// The largest twist in an element's stiffness, relative to the rest of its tangent: far above what is
-/// ordinary, far below 1/u. The collapsed horse recovers to the same digits with anything from 1e2 to 1e8.
+/// The largest twist in an element's stiffness, relative to the rest of its tangent: far above ordinary
+/// values, far below 1/u. The collapsed horse recovers to the same digits with anything from 1e2 to 1e8.
 pub(crate) const MAX_STIFFNESS_RATIO: f64 = 1e6;
 
 /// Bounds twists that a factorisation could not resolve; true if one was bounded.

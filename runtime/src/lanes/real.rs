@@ -133,7 +133,7 @@ pub trait Real:
     /// The smaller of two numbers: self < other ? self : other, hence `other` if either is NaN.
     #[must_use]
     fn min(self, other: Self) -> Self;
-    /// |self| with the sign bit of `sign`, that of a zero included.
+    /// |self| with the sign bit of `sign`, also if `sign` is zero.
     #[must_use]
     fn copysign(self, sign: Self) -> Self;
 

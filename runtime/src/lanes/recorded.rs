@@ -67,7 +67,7 @@ pub fn parameter(k: u32) -> f64 {
     f64::from_bits(PARAMETERS | u64::from(k))
 }
 
-/// Bits of a signalling NaN, and those of a quiet one that has been made of it.
+/// Bits of a signalling NaN, and of the quiet NaN that an operation makes of it.
 const PARAMETERS: u64 = 0x7ff4_9101_0000_0000;
 const QUIET: u64 = 0x7ffc_9101_0000_0000;
 

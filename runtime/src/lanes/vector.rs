@@ -1,4 +1,4 @@
-//! Lanes and their number formats: what a kernel loads, computes with and stores.
+//! Lanes and their number formats: the types that a kernel loads, computes with and stores.
 
 use std::fmt::Debug;
 

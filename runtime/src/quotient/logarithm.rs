@@ -4,8 +4,8 @@
 use super::cardinal::{exp_m1c, ln_1pc};
 use crate::lanes::{Mask, Real};
 
-/// Below this, y may be multiplied by what is of the order of 1. Above, logarithms differ by 80 at least, and
-/// their difference loses nothing.
+/// Bound below which y may be multiplied by a number of the order of 1. Above, logarithms differ by 80 at
+/// least, and their difference loses nothing.
 #[inline(always)]
 fn largest_ratio<R: Real>() -> R {
     R::splat(0.001 / R::MIN_POSITIVE)

@@ -94,7 +94,7 @@ pub struct NodeBlocks {
     missing: Option<usize>,
 }
 
-/// ∂²E/∂x_row∂x_column.
+/// The entries ∂²E/∂x_row∂x_column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct NodeBlock {
     row: usize,
@@ -103,9 +103,10 @@ struct NodeBlock {
 }
 
 impl NodeBlocks {
-    /// The entries ∂²E/∂x_row∂x_column.
+    /// Adds the block ∂²E/∂x_row∂x_column and, for two different nodes, its transpose as the block of
+    /// `column` and `row`: add each pair of nodes once.
     ///
-    /// The two need not share an element. A pair that neither an element nor an earlier step has joined costs
+    /// The two nodes need not share an element. A pair that neither an element nor an earlier step has joined costs
     /// a new symbolic analysis.
     pub fn add(&mut self, row: usize, column: usize, entries: [[f64; 3]; 3]) {
         if let Some(&node) = [row, column].iter().find(|&&node| node >= self.nodes) {
@@ -115,14 +116,13 @@ impl NodeBlocks {
         self.blocks.push(NodeBlock { row, column, entries });
     }
 
-    /// Adds the block ∂²E/∂x_row∂x_column and, for two different nodes, its transpose as the block of
-    /// `column` and `row`: add each pair of nodes once.
+    /// Removes all blocks, and prepares for a body of `nodes` nodes.
     pub(super) fn begin(&mut self, nodes: usize) {
         *self = Self { nodes, blocks: std::mem::take(&mut self.blocks), missing: None };
         self.blocks.clear();
     }
 
-    /// A node that was named but does not exist.
+    /// First node that was named but does not exist.
     pub(super) fn missing(&self) -> Option<usize> {
         self.missing
     }

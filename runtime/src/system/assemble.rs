@@ -121,7 +121,7 @@ impl Elastic {
         }
     }
 
-    /// Energy minus that of the base, J.
+    /// Energy minus the energy of the base, J.
     pub(crate) fn difference(&self) -> f64 {
         self.energies().map(|(energy, base)| energy - base).collect::<Compensated>().value()
     }

@@ -88,8 +88,8 @@ impl LowerTriangle {
         })
     }
 
-    /// Replaces the values by those of the stiffness for which this was made, and adds `diagonal(node)`, N/m,
-    /// to the diagonal for each free node, such as a mass over the square of a time step.
+    /// Replaces the values by the stiffness for which this was made, and adds `diagonal(node)`, N/m, to the
+    /// diagonal for each free node, such as a mass over the square of a time step.
     ///
     /// # Errors
     /// [`LinearError::Length`] if the stiffness has another number of blocks.
@@ -126,8 +126,8 @@ impl LowerTriangle {
         }
     }
 
-    /// Separates some of the free nodes from the others: their rows and columns become those of the unit
-    /// matrix.
+    /// Separates some of the free nodes from the others: their rows and columns become rows and columns of
+    /// the unit matrix.
     pub(crate) fn hold(&mut self, held: &[bool]) {
         for column in 0..3 * held.len() {
             for at in self.entries.col_range(column) {

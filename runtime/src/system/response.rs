@@ -85,7 +85,7 @@ impl ElasticResponse {
         Ok((self.elastic.energy(), survey))
     }
 
-    /// Replaces `gradient` by that of the energy in the position of each node, N: minus the forces.
+    /// Replaces `gradient` by the gradient of the energy in the position of each node, N: minus the forces.
     ///
     /// # Errors
     /// [`LengthError`] if a slice or the body does not have the length of the body that this was made for.
@@ -119,7 +119,7 @@ impl ElasticResponse {
         self.stiffness_here(body, filter, gradient, matrix)
     }
 
-    /// Replaces `gradient` by that of the energy, N, at the last evaluated positions: cheaper than
+    /// Replaces `gradient` by the gradient of the energy, N, at the last evaluated positions: cheaper than
     /// [`ElasticResponse::gradient`], for use after a line search.
     ///
     /// # Errors
@@ -161,8 +161,8 @@ impl ElasticResponse {
         self.elastic.set_base();
     }
 
-    /// Energy evaluated last minus that of the base, J: a sum of differences of elements, which keeps digits
-    /// that a difference of sums loses.
+    /// Energy evaluated last minus the energy of the base, J: a sum of differences of elements, which keeps
+    /// digits that a difference of sums loses.
     #[must_use]
     pub fn difference(&self) -> f64 {
         self.elastic.difference()

@@ -49,7 +49,7 @@ impl Tape {
         self.push(RecordedOperation::Select(guard, never, truth))
     }
 
-    /// The operation, or what has the same bits and is simpler.
+    /// The operation, or a simpler one with the same bits.
     pub(super) fn simplified<E: Recordable>(&mut self, operation: RecordedOperation) -> Id {
         use RecordedOperation::{And, Binary, Less, Literal, Not, Or, Select, Truth, Unary};
         let computed = match operation {

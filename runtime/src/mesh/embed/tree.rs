@@ -14,7 +14,8 @@ use crate::mesh::tet::norm;
 /// Largest number of bodies of a leaf: visiting one costs about as much as visiting a few boxes.
 const LEAF: usize = 4;
 
-/// Growth of a body's box by its longest side: what lies in the body by rounding alone lies in its box.
+/// Growth of a body's box by its longest side: points that are in the body only by rounding are in its box,
+/// too.
 const GROWTH: f64 = 1e-6;
 
 /// Boxes around bodies, and boxes around these.
@@ -91,8 +92,8 @@ impl Tree {
         self.grow(boxes, range.start + half..range.end);
     }
 
-    /// The body nearest to a point, the first one of those that hold it. `distance` is that of a body, `None`
-    /// if the body holds the point.
+    /// The body nearest to a point, the first one of several that contain it. `distance` is the distance to a
+    /// body, `None` if the body contains the point.
     pub(super) fn nearest(&self, x: [f64; 3], distance: impl Fn(usize) -> Option<f64>) -> Option<Nearest> {
         let mut best = None;
         self.search(0, x, &distance, &mut best);

@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(surface.triangles, [[0, 1, 2], [0, 2, 3], [0, 2, 3]]);
     }
 
-    /// Their boxes, which is what a picture looks through, add up to a few times that of the polygon.
+    /// Their boxes, through which a picture searches, add up to a few times the box of the polygon.
     #[test]
     fn large_polygons_become_compact_triangles_of_the_same_area() {
         let count = 6000;

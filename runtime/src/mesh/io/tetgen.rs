@@ -13,7 +13,7 @@ use crate::mesh::{Group, TetMesh};
 /// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file next to it; `path` may be
 /// either.
 ///
-/// Nodes may be numbered in any way. The format promises no orientation: negative tetrahedra are turned. The
+/// Nodes may be numbered in any way. The format guarantees no orientation: negative tetrahedra are turned. The
 /// first attribute of a tetrahedron, the number of its region, makes a group of dimension 3, and the boundary
 /// marker of a node, unless it is 0, one of dimension 2; both are called by their numbers. Nodes that belong
 /// to no tetrahedron are dropped and counted in [`TetMesh::dropped_nodes`].
@@ -98,7 +98,7 @@ impl NodeLines {
     }
 }
 
-/// Format of the lines of a `.ele` file, as its first line says, for readers that take the file in parts.
+/// Format of the lines of a `.ele` file, from its first line, for readers that take the file in parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TetLines {
@@ -107,7 +107,7 @@ pub struct TetLines {
     has_regions: bool,
 }
 
-/// Format of the lines of a `.ele` file, from its first line, for readers that take the file in parts.
+/// A line of a `.ele` file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TetLine {
@@ -236,7 +236,7 @@ impl Nodes {
 }
 
 /// The corners of a tetrahedron of these nodes, m, in the order of positive volume, unless it is zero: TetGen
-/// promises no orientation.
+/// guarantees no orientation.
 ///
 /// # Panics
 /// If a corner is not one of the nodes.
@@ -264,8 +264,7 @@ mod tests {
         5  1 1 1  0.5 0\n\
         6  8 8 8  0.5 2\n";
 
-    /// Corners of a tetrahedron of these nodes, m, in the order of positive volume, unless it is zero: TetGen
-    /// guarantees no orientation.
+    /// The second tetrahedron is in the other order.
     const TETS: &str = "2 4 1\n  1  1 2 3 4  7\n  2  3 2 4 5  -1\n";
 
     #[test]

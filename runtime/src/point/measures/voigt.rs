@@ -56,7 +56,8 @@ pub fn from_strain<R: Real>(strain: &Matrix3<R>) -> [R; 6] {
     [e11, e22, e33, e23 + e23, e13 + e13, e12 + e12]
 }
 
-/// A tangent in the principal frame of an isotropic body: what is not listed is zero or follows by symmetry.
+/// A tangent in the principal frame of an isotropic body: entries that are not listed are zero or follow by
+/// symmetry.
 #[derive(Clone, Copy)]
 pub(super) struct Principal<R> {
     /// Components iiii.

@@ -11,7 +11,7 @@ mod search;
 
 type Exact = [[f64; 3]; 3];
 
-/// What is tested, on every back end.
+/// The tested methods, each on every back end.
 #[derive(Clone, Copy, Debug)]
 enum Method {
     Plain,
@@ -59,7 +59,7 @@ fn decompose_in_lanes<R: Lanes>(method: Method, matrices: &[Matrix3<R::Scalar>])
     answers
 }
 
-/// What one lane holds.
+/// The value of one lane.
 fn of<R: Lanes>(x: R, lane: usize) -> R::Scalar {
     let mut all = vec![R::Scalar::default(); R::LANES];
     x.store(&mut all);

@@ -20,7 +20,7 @@ fn is_set(mask: <Two as Real>::Mask, k: usize) -> bool {
     Two::bits(mask) >> k & 1 == 1
 }
 
-/// A material's points of two deformations at once against those of each.
+/// A material's results at two deformations at once against the results at each.
 #[track_caller]
 fn check(material: &impl Material, pair: [&Matrix3<f64>; 2], filter: Filter) {
     let both = std::array::from_fn(|i| std::array::from_fn(|j| Two::load(&pair.map(|F| F[i][j]))));

@@ -39,7 +39,7 @@ const STRESS: f64 = 40.0;
 const TANGENT: f64 = 100.0;
 
 /// The same of a tangent known on paper: half a dozen roundings for each principal component, ten for the
-/// sums of them, and what a frame really lacks in orthogonality, a few u.
+/// sums of them, and the deviation of a frame from orthogonality, a few u.
 const ISOTROPY: f64 = 20.0;
 
 /// All measures of a point.

@@ -40,7 +40,7 @@ fn dense(simulation: &Simulation) -> Vec<f64> {
     values
 }
 
-/// The eigenvalue must be that of the dense method, behind the zeros of the rigid motions.
+/// The eigenvalue must agree with the dense method, after the zeros of the rigid motions.
 #[track_caller]
 fn check(simulation: &Simulation, rigid: usize, stability: Stability) -> Equilibrium {
     let equilibrium = Equilibrium::of(simulation).expect("finite");

@@ -131,7 +131,7 @@ fn moving_targets_of_springs_leave_second_order() {
     }
 }
 
-/// Pinned ends are pushed through each other: what the first stage can follow the last one cannot.
+/// Pinned ends are pushed through each other: the first stage can follow, the last one cannot.
 #[test]
 fn a_failed_stage_changes_nothing() {
     let mesh = beam(1);

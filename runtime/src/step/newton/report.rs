@@ -14,7 +14,7 @@ pub enum Convergence {
     Limit,
 }
 
-/// Report of a minimisation, or of all those of a step of several stages together.
+/// Report of a minimisation, or of all minimisations in a step of several stages.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

@@ -165,8 +165,7 @@ fn a_limit_of_iterations_leaves_a_direction_of_descent() {
     }
 }
 
-/// From rubber foam to what is stiffer than diamond: with time steps that scale along, the motion is the
-/// same.
+/// From rubber foam to solids stiffer than diamond: with time steps that scale along, the motion is the same.
 #[test]
 fn stiffness_of_any_unit_is_as_good() {
     let mesh = beam(8);

@@ -1,4 +1,4 @@
-//! Newton's method within a step: how it converges, and what it refuses.
+//! Newton's method within a step: its convergence, and the settings it refuses.
 
 use super::*;
 
@@ -118,7 +118,8 @@ fn an_indefinite_matrix_is_shifted_and_reported() {
     assert!(report.newton.shift > 0.0);
 }
 
-/// The error that is left is a share of that of the step, and costs fewer iterations than a tolerance would.
+/// The error that is left is a share of the error of the step, and costs fewer iterations than a tolerance
+/// would.
 #[test]
 fn a_share_of_the_error_of_a_step_is_enough() {
     let mesh = beam(4);
