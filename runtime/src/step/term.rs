@@ -106,8 +106,8 @@ impl NodeBlocks {
     /// Adds the block ∂²E/∂x_row∂x_column and, for two different nodes, its transpose as the block of
     /// `column` and `row`: add each pair of nodes once.
     ///
-    /// The two nodes need not share an element. A pair that neither an element nor an earlier step has joined costs
-    /// a new symbolic analysis.
+    /// The two nodes need not share an element. A pair that neither an element nor an earlier step has joined
+    /// costs a new symbolic analysis.
     pub fn add(&mut self, row: usize, column: usize, entries: [[f64; 3]; 3]) {
         if let Some(&node) = [row, column].iter().find(|&&node| node >= self.nodes) {
             self.missing = self.missing.or(Some(node));
