@@ -107,7 +107,7 @@ pub enum Error {
         /// The files.
         files: String,
     },
-    /// Wrong number of values of an option: neither one for all files of measured points nor one for each.
+    /// Wrong number of values of an option: it needs one for all files of measured points, or one for each.
     #[error(
         "{given} values of {option} and {files} of --data: give one for all files, or one for each in their order"
     )]

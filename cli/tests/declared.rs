@@ -46,7 +46,7 @@ fn a_body_of_a_formula_moves_like_that_of_the_compiled_material() {
     assert!(summary.contains("\"material\": \"Energy\""), "{summary}");
 }
 
-/// A run that is cut off goes on from its files alone, the energy among them, be it long.
+/// A run that is cut off is resumed from its files alone, which include the energy, even a long one.
 #[test]
 fn a_run_of_a_formula_or_a_file_is_resumed() {
     let long =

@@ -153,7 +153,7 @@ fn a_mesh_of_ones_own_is_drawn_by_its_boundary() {
     assert!(0.0 < hanging && hanging < 0.1, "{hanging}");
 }
 
-/// Runs a scene on a mesh in a folder; returns what it says, its warnings with it, and its summary.
+/// Runs a scene on a mesh in a folder; returns its output, with its warnings, and its summary.
 #[track_caller]
 fn run_on(folder: &Path, mesh: &str, scene: &str, options: &[&str]) -> (String, Value) {
     fs::write(folder.join("body.msh"), mesh).expect("a scratch file");
@@ -248,7 +248,7 @@ fn a_mesh_in_millimetres_is_the_body_in_metres() {
     assert!(said.contains("warning: the body is 0.000015 m long"), "{said}");
 }
 
-/// A run goes on in the unit that it was begun with.
+/// A resumed run keeps the unit in which it was begun.
 #[test]
 fn the_unit_is_part_of_the_state_of_a_run() {
     let folder = tempfile::tempdir().expect("a scratch folder");

@@ -48,7 +48,7 @@ impl Program {
         Self { child, url }
     }
 
-    /// Memory in use, MiB, where the system tells.
+    /// Memory in use, MiB, if the system reports it.
     fn memory(&self) -> Option<f64> {
         let status = fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
         let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

@@ -155,7 +155,7 @@ fn number(values: &ParameterValues, parameter: usize, entry: usize) -> f64 {
     entries.get(entry).or(entries.first()).copied().unwrap_or(f64::NAN)
 }
 
-/// An expression as Rust evaluates it, with parameters by their places; NaN for what the parser refuses.
+/// An expression as Rust evaluates it, with parameters by their places; NaN for text that the parser rejects.
 fn term(expression: &Expr, place: &impl Fn(&dyn ToString) -> Option<usize>) -> Term {
     let read = |expression: &Expr| term(expression, place);
     let call = |name: &str, arguments: &[&Expr]| match FUNCTIONS.iter().find(|one| one.name == name) {

@@ -151,8 +151,8 @@ fn lives(parts: &[&Ordered]) -> BTreeMap<Name, usize> {
     last
 }
 
-/// The values that are the same at every point: what the declaration and its parameters give, and what
-/// arithmetic makes of it.
+/// The values that are the same at every point: those of the declaration and its parameters, and those
+/// computed from them.
 fn constants(declaration: &Declaration, parts: &[&Ordered]) -> BTreeSet<Name> {
     let mut constants = BTreeSet::new();
     let is_whole = |k: usize| declaration.parameters[k].is_whole;

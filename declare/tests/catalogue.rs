@@ -307,7 +307,7 @@ fn materials_of_one_energy_do_not_mix_their_constants() {
     assert!(alone[0].0.iter().zip(&alone[1].0).any(|(one, other)| one < other), "they differ");
 }
 
-/// What a constructor refuses, it refuses with the error of the compiled one.
+/// The error for values that a constructor rejects is that of the compiled constructor.
 #[test]
 fn values_are_refused_as_by_the_compiled_catalogue() {
     let mut refused = 0;

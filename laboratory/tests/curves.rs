@@ -231,7 +231,7 @@ fn equal_stresses_have_no_determination() -> Outcome {
     Ok(())
 }
 
-/// Numbers that no axis reaches, or that no tick tells apart.
+/// Numbers too large for an axis, or too close for its ticks.
 #[test]
 fn charts_are_drawn_or_refused_and_never_without_end() -> Outcome {
     let curve = |points: &[(f64, f64)]| {

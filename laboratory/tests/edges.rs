@@ -63,7 +63,7 @@ fn by(difference: Difference) -> FitSettings {
     FitSettings::default().with_difference(difference)
 }
 
-/// Why each edge refuses.
+/// The reason for the rejection at each edge.
 fn edges(fit: &Fit) -> Vec<&TrialError> {
     let mut edges = Vec::new();
     for warning in &fit.warnings {
@@ -85,8 +85,8 @@ fn conditions(fit: &Fit) -> Vec<&str> {
     edges(fit).into_iter().map(condition).collect()
 }
 
-/// What each term of a stress that is linear in its parameters makes of the difference at each point, and Σ
-/// r² of parameters.
+/// Contribution of each term of a stress that is linear in its parameters to the difference at each point,
+/// and Σ r² of parameters.
 struct Linear {
     matrix: DMatrix<f64>,
     wanted: DVector<f64>,

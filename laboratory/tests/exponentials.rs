@@ -36,7 +36,7 @@ fn alone() -> FitSettings {
     FitSettings::default().with_restarts(0)
 }
 
-/// The names of what the data are said to say nothing about.
+/// Names of the parameters that the data do not determine, according to the fit.
 #[track_caller]
 fn indifferent(fit: &Fit) -> Vec<&str> {
     let mut names = Vec::new();

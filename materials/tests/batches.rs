@@ -35,7 +35,7 @@ fn deformations() -> Vec<[f64; 9]> {
     all
 }
 
-/// What a batch says of points: energies, stresses, tangents, and how the first two calls went.
+/// Results of a batch at points: energies, stresses, tangents, and the outcome of the first two calls.
 #[derive(Debug, PartialEq)]
 struct Answers {
     energies: Vec<f64>,

@@ -261,7 +261,7 @@ mod tests {
         }
     }
 
-    /// The reference is `f64`, with 29 bits to spare.
+    /// The reference is `f64`, with 29 additional bits.
     #[test]
     fn single_precision_keeps_its_digits_at_every_gap() {
         let u = f32::UNIT_ROUNDOFF;

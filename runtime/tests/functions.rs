@@ -100,7 +100,7 @@ pub fn OfStretches([l1, l2, l3]: [f64; 3], mu: f64, f: SquaredLogarithm) -> f64 
     2.0 * mu * (f(l1) + f(l2) + f(l3))
 }
 
-/// Hencky's energy by the logarithm of the volume, which goes on beyond J > 0 by its extension.
+/// Hencky's energy by the logarithm of the volume, which continues beyond J > 0 by its extension.
 #[material(domain(J > 0.0), extend)]
 pub fn OfLogarithm([l1, l2, l3]: [f64; 3], mu: f64, f: Locking) -> f64 {
     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + mu * f(J.ln().powi(2))

@@ -1,5 +1,5 @@
-//! Lists whose lengths are known at run time, compared with the same energies with lengths that the compiler
-//! knows.
+//! Lists whose lengths are known at run time, compared with the same energies with lengths known to the
+//! compiler.
 #![cfg(feature = "batch")]
 
 use piola::__private::random::Random;

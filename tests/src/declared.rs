@@ -1,4 +1,4 @@
-//! An energy of the catalogue as its compiler understands it, for what only the expressions can say.
+//! An energy of the catalogue in the form that its compiler reads, for checks of its expressions.
 
 use std::fmt::Display;
 use std::path::PathBuf;

@@ -88,7 +88,7 @@ impl Judged {
     }
 }
 
-/// A material in the formats that judges ask for.
+/// A material in the formats that judges use.
 pub struct Subject {
     /// Material in `f64`, single points and batches.
     pub double: Box<dyn DynMaterial<f64>>,

@@ -285,7 +285,7 @@ impl Method {
     }
 }
 
-/// dP/dF by \[SZLSB11\], regularised as it says.
+/// dP/dF by \[SZLSB11\], with its regularisation.
 fn by_svd_gradients<R: Judged>(material: &dyn Response<R>, F: &Matrix3<R>) -> [[R; 9]; 9] {
     svd_gradients::tangent(material, &decompose(material, F), Regularization::default())
 }

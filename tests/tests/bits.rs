@@ -96,7 +96,7 @@ fn every_entry<R: Judged>() {
 
 /// A precision with all the judges that it has.
 trait Judged: Format {
-    /// `closely` asks for the judge that takes the longest, too.
+    /// `closely` adds the slowest judge.
     fn judge(subject: &Subject, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault>;
 
     /// Judges elements: the faults, each with its index.

@@ -1,4 +1,4 @@
-//! What the sources and the manifest of the catalogue say is what its programs get.
+//! The sources and the manifest of the catalogue agree with its programs.
 
 use std::fs;
 use std::path::{Path, PathBuf};

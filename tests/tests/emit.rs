@@ -1,4 +1,4 @@
-//! Energies as C: what a C compiler makes of them has the bits of scalars here.
+//! Energies as C: their results, compiled by a C compiler, have the bits of scalars here.
 //!
 //! The energies cover polynomials, logarithms, exponentials, real powers in lists, a pole, a locking domain
 //! and continuations; deformation gradients are those of all reference cases. Every other energy of the
@@ -314,7 +314,8 @@ fn a_file_checks_parameters_as_the_constructor_does() {
     }
 }
 
-/// What one way of a branch needs stands in it: a point that the invariants serve is not decomposed.
+/// A computation that only one branch needs is inside that branch: a point at which invariants suffice is not
+/// decomposed.
 #[test]
 fn branches_hold_what_only_they_need() {
     for (name, function) in [("neo_hookean", PointFunction::Stress), ("neo_hookean", PointFunction::Tangent)]

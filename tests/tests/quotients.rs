@@ -171,7 +171,7 @@ fn upper_end(material: &dyn Response<f64>) -> Option<f64> {
     Some(0.999 * inside)
 }
 
-/// By which a threshold is moved, to see what it changes.
+/// Relative shift of a threshold, to see its effect.
 const FRACTION: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// A subject, and its material with a threshold that is larger by [`FRACTION`].

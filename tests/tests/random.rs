@@ -19,7 +19,7 @@ use piola_tests::random::judge::{Tally, judge};
 use piola_tests::random::program::{Inputs, Parameters, run};
 use rayon::prelude::*;
 
-/// Declarations, unless `PIOLA_RANDOM` says how many.
+/// Number of declarations, unless `PIOLA_RANDOM` sets it.
 const DECLARATIONS: u64 = 300;
 
 /// Seeds of declarations that once failed: stresses from strains of powers of I1b − 3, and a twist without a

@@ -209,9 +209,9 @@ struct Judgement {
 enum Verdict {
     /// In units of what the arithmetic can reach.
     Error(f64),
-    /// Beyond the format, and the status says so.
+    /// Beyond the format, with a status to match.
     Flagged,
-    /// The status says something else than it should.
+    /// The status is not the expected one.
     Status(&'static str),
 }
 

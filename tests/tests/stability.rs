@@ -1,4 +1,4 @@
-//! The committed `STABILITY.md` is what is computed, and tells of no result of ours beyond the bound.
+//! The committed `STABILITY.md` agrees with the computation, and lists no result of ours beyond the bound.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ const COLUMNS: usize = 11;
 /// Those of piola among the columns.
 const OURS: std::ops::Range<usize> = 2..5;
 
-/// By how much another processor or another platform's ln, exp and pow may move an error: units up to the
+/// Largest change of an error by another processor or another platform's ln, exp and pow: units up to the
 /// bound, and above it one in the exponent of ten, as the document says.
 const MOVED: f64 = 2.0;
 

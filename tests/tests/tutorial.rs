@@ -1,4 +1,4 @@
-//! The tutorial shows what is compiled, and what the compiler says.
+//! The code in the tutorial compiles, and the messages are those of the compiler.
 
 use std::fs;
 use std::path::Path;

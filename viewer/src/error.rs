@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::SealError;
 
-/// Reason why the viewer refuses an act or a state.
+/// Reason why the viewer rejects an act or a state.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

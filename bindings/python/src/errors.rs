@@ -15,7 +15,7 @@ import_exception!(piola.errors, FitError);
 import_exception!(piola.errors, MaterialError);
 import_exception!(piola.errors, StepError);
 
-/// A material that does not exist, or that refuses its parameters.
+/// A material that does not exist, or that rejects its parameters.
 pub(crate) fn of_material(error: Error) -> PyErr {
     MaterialError::new_err(in_python(&error.to_string()))
 }

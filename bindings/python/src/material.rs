@@ -485,7 +485,7 @@ fn of_formula(
     }))
 }
 
-/// A formula with the letters that Python makes of them in keywords: μ of the micro sign, φ of ϕ.
+/// A formula with the letters that Python substitutes in keywords: μ for the micro sign, φ for ϕ.
 fn as_identifiers(py: Python<'_>, formula: &str) -> PyResult<String> {
     let mut letters = String::new();
     for c in formula.chars() {

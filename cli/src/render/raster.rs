@@ -1,4 +1,4 @@
-//! A depth buffer: the triangle that each pixel sees.
+//! A depth buffer: the triangle that is visible at each pixel.
 
 use super::camera::Camera;
 use super::{Surface, Vector};
@@ -16,7 +16,7 @@ pub(super) struct DepthBuffer {
 }
 
 impl DepthBuffer {
-    /// The surface as `camera` sees it through width × height pixels.
+    /// The surface as it appears to `camera` through width × height pixels.
     pub(super) fn of(surface: Surface<'_>, camera: &Camera, width: usize, height: usize) -> Self {
         let mut buffer = Self {
             width,

@@ -29,7 +29,7 @@ impl Default for Patience {
     }
 }
 
-/// A connection whose reads and writes end by a set time together, however slowly the other side goes.
+/// A connection whose reads and writes together end by a set time, regardless of the speed of the other side.
 #[derive(Debug)]
 pub(super) struct TimedStream {
     stream: TcpStream,

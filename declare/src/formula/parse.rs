@@ -471,7 +471,7 @@ fn raised(base: &TokenStream, exponent: TokenStream, span: Span) -> TokenStream 
     quote_spanned!(span=> #base.#method #argument)
 }
 
-/// A condition on parameters, which is emitted as it is, and in which π has its path.
+/// A condition on parameters, emitted as it is except that π gets its path.
 fn with_path_of_pi(condition: TokenStream) -> TokenStream {
     let path = |token: TokenTree| match token {
         TokenTree::Ident(name) if name == "PI" => quote!(std::f64::consts::PI),

@@ -295,7 +295,7 @@ mod tests {
         text
     }
 
-    /// Set `PIOLA_BLESS=1` to write the table anew.
+    /// Set `PIOLA_BLESS=1` to write a new table.
     #[test]
     fn the_documentation_has_the_table() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/formulas.md");

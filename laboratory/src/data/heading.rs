@@ -66,7 +66,7 @@ impl Quantity {
     }
 }
 
-/// A unit as it is written behind a name.
+/// Unit in the form that is written after a name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Unit {
     Stress(StressUnit),

@@ -183,8 +183,8 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         self.problem.accepts(&self.free(place))
     }
 
-    /// Outwards, of the length one, where a probe meets the edge that refuses it; `None` if no constraint of
-    /// the declaration does.
+    /// Unit outward normal at the edge that a probe meets; `None` if the edge is not a constraint of the
+    /// declaration.
     fn normal(
         &self,
         from: &DVector<f64>,

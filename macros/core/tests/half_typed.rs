@@ -1,4 +1,5 @@
-//! Declarations as an editor sees them while they are typed: never a panic, always a material or a mistake.
+//! Declarations in the states in which an editor passes them while they are typed: never a panic, always a
+//! material or a mistake.
 
 use std::fs;
 use std::path::Path;

@@ -9,7 +9,7 @@ use super::Rule;
 pub(super) const FINITE: &str = "a finite number";
 /// Ratio of a difference to its tolerance above which a formula is wrong; wrong ones mostly exceed 1e10.
 const MISTAKE: f64 = 1e6;
-/// Advice for a difference below [`MISTAKE`], which is likelier lost digits.
+/// Advice for a difference below [`MISTAKE`], which is more likely a loss of digits.
 const DIGITS: &str = "a difference as small as this is more likely a loss of digits than a mistake in the formula: where terms nearly cancel, such \
                       as I1b - 3 next to a small constant, rewrite them so that they do not, or choose other parameters (the \
                       documentation of a declared type names sums that cancel far from rest under **Digits**); where an \

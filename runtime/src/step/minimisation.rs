@@ -43,7 +43,7 @@ impl NewtonWorkspace {
         matches!(self.choice, Choice::Own(_))
     }
 
-    /// Replaces the pins; sets the solver up anew if it cannot handle them.
+    /// Replaces the pins; sets up a new solver if the present one cannot handle them.
     pub(super) fn set_pins(&mut self, body: &Body, pins: &Pins) -> Result<(), LinearError> {
         if !self.solver.set_pins(pins) {
             self.solver = self.choice.set_up(body, pins, &[])?;
@@ -52,7 +52,7 @@ impl NewtonWorkspace {
         Ok(())
     }
 
-    /// Sets the solver up anew if the blocks of the terms join nodes without a block in its matrix.
+    /// Sets up a new solver if the blocks of the terms join nodes without a block in its matrix.
     fn join(&mut self, body: &Body, blocks: &NodeBlocks) -> Result<(), LinearError> {
         let is_free = |node: &usize| self.pins.nodes().binary_search(node).is_err();
         let is_missing = |[a, b]: &[usize; 2]| is_free(a) && is_free(b) && !self.solver.joins(*a, *b);

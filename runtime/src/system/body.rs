@@ -207,7 +207,7 @@ pub enum BodyError {
         /// Its mass, kg.
         mass: f64,
     },
-    /// Wrong number of materials: neither one for all elements of a part nor one for each.
+    /// Wrong number of materials: a part needs one for all its elements, or one for each.
     MaterialsForPoints {
         /// Number of materials.
         materials: usize,

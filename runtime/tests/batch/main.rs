@@ -302,7 +302,7 @@ fn every_output_by_invariants_is_that_of_the_points() {
     check_against_points::<f64, _>(&extended, |p| matches!(p % 8, 1 | 3));
 }
 
-/// The bits of every number, however the batch is laid out.
+/// The bits of every number, in any layout of the batch.
 fn bits<E: Number>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
     let mut bits = Vec::new();
     let outputs = [
@@ -370,7 +370,7 @@ fn bits_do_not_depend_on_place_neighbours_layout_or_threads() {
     check_bits::<f32>(&extended, Filter::None);
 }
 
-/// F by columns is Fᵀ by rows, and so is everything that an isotropic solid makes of it.
+/// F by columns is Fᵀ by rows, and so is every result of an isotropic solid.
 #[test]
 fn matrices_by_columns_give_matrices_by_columns() {
     let turn = |k: usize| 3 * (k % 3) + k / 3;

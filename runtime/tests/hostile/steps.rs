@@ -12,8 +12,8 @@ use piola::system::{Body, LinearError, LowerTriangle};
 
 use crate::arguments::{Hostile, SEEDS, check};
 
-/// A term of hostile numbers: it refuses, it is not finite, it names nodes that are missing or share no
-/// element.
+/// A term of hostile numbers: it returns errors, infinities and NaN, and names nodes that are missing or
+/// share no element.
 struct Nonsense {
     energy: Option<f64>,
     force: [f64; 3],

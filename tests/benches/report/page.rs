@@ -1,4 +1,4 @@
-//! The page that tells what was found.
+//! The page of the results.
 
 use std::fmt::{self, Write};
 

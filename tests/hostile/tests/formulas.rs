@@ -166,7 +166,7 @@ fn check(name: &str, text: &str) {
     assert!(time < LONGEST, "{name} takes {time:?}");
 }
 
-/// The largest energies of each kind that are taken, and larger ones, come to an end in time.
+/// The largest accepted energies of each kind, and larger ones, come to an end in time.
 #[test]
 fn no_formula_takes_long() {
     for length in [LENGTH, LENGTH / 8, LENGTH / 16] {

@@ -127,7 +127,7 @@ fn kernels_in<E: Kernels>(backend: Backend, kernels: &mut Vec<(String, Call)>) {
     }
 }
 
-/// Function that callgrind knows by its name: instructions inside count.
+/// Function that callgrind identifies by its name: instructions inside count.
 #[inline(never)]
 fn counted_by_callgrind(call: &mut dyn FnMut()) {
     call();

@@ -14,7 +14,7 @@
 use piola::material::Blocks;
 use piola::{Material, Real};
 
-/// A material that sees no stretch below a limit.
+/// A material whose stretches are limited from below.
 #[derive(Clone, Copy, Debug)]
 pub struct Clamped<M> {
     /// The material where no stretch is below the limit.

@@ -35,7 +35,7 @@ const RANGE: f64 = 1e75;
 pub struct Tally {
     /// Declarations generated.
     pub declarations: usize,
-    /// Declarations that the compiler refuses.
+    /// Declarations that the compiler rejects.
     pub refused: usize,
     /// Values judged.
     pub judged: usize,
@@ -55,7 +55,8 @@ pub struct Tally {
     pub panics: usize,
     /// Declarations with a failure or a panic, shrunk, each with its first one.
     pub failures: Vec<String>,
-    /// Messages of refusals without what they quote, to see what the generator does not reach.
+    /// Messages of rejections without their quotations, which show the mistakes that the generator does not
+    /// reach.
     pub refusals: Vec<String>,
 }
 

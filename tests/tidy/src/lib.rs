@@ -186,7 +186,7 @@ fn other_path(attributes: &[Attribute]) -> Option<String> {
     })
 }
 
-/// True if attributes say `#[cfg(test)]` or `#[cfg(all(test, …))]`.
+/// True if attributes contain `#[cfg(test)]` or `#[cfg(all(test, …))]`.
 fn is_for_tests(attributes: &[Attribute]) -> bool {
     let condition = |attribute: &Attribute| attribute.meta.require_list().map(|list| list.tokens.clone());
     let conditions = attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"));

@@ -7,7 +7,7 @@ use piola_tidy::{attributes_of, crates, forbid};
 use quote::ToTokens;
 use syn::Visibility;
 
-/// The lint `unreachable_pub` sees to it that what is `pub` can be reached from outside. A re-export is not a
+/// The lint `unreachable_pub` ensures that `pub` items can be reached from outside. A re-export is not a
 /// second item, nor is the same item of the same module for another platform or feature.
 #[test]
 fn no_two_public_items_of_a_crate_have_one_name() {

@@ -66,7 +66,7 @@ fn parameters(signature: &Signature, lengths: &[Ident]) -> (Vec<Type>, Vec<(Iden
     (types, methods)
 }
 
-/// True if the compiler knows a type and a correct declaration could have it.
+/// True if the compiler can name the type and a correct declaration could have it.
 fn is_sound(ty: &Type, signature: &Signature, lengths: &[Ident]) -> bool {
     match ty {
         Type::Array(array) => {

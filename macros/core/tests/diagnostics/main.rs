@@ -1,4 +1,4 @@
-//! Mistakes: each gives one message, on its tokens, that says what to write.
+//! Mistakes: each gives one message, on its tokens, with the remedy.
 
 mod declaration;
 mod domain;

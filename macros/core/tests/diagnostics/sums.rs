@@ -43,7 +43,8 @@ fn sums_inside_sums() {
     check("", &item, &[(inner, "names one of them: write `sum(|l| l.powf(a[p]))`")]);
 }
 
-/// Stretches come in order, so that a condition on the second one is on neither the largest nor the smallest.
+/// Stretches come in order, so that a condition on the second one constrains neither the largest nor the
+/// smallest.
 #[test]
 fn domains_are_symmetric() {
     check_arguments(

@@ -70,7 +70,7 @@ pub(super) struct Remainder<P> {
     pub(super) r_low: P,
 }
 
-/// The remainder of x, with digits to spare where 1 cancels most of eˣ.
+/// The remainder of x, with additional digits where 1 cancels most of eˣ.
 #[inline(always)]
 pub(super) fn remainder<P: Primitive>(x: P) -> Remainder<P> {
     let (x, k) = reduce(x);

@@ -16,7 +16,7 @@ pub(crate) trait Solver: Send + Sync {
     /// True if the matrix has a block for two free nodes.
     fn joins(&self, a: usize, b: usize) -> bool;
 
-    /// Replaces the pins; returns false if the solver has to be set up anew for them.
+    /// Replaces the pins; returns false if a new solver has to be set up for them.
     fn set_pins(&mut self, pins: &Pins) -> bool;
 
     /// Discards information from earlier systems, before the first one of a step: a step depends only on the

@@ -82,7 +82,8 @@ fn of(precision: &str, rows: &[PointRow]) -> Result<Chart, String> {
 }
 
 /// Colour, ink and text of an error: from blue, as good as the format, over white to red, no digit right.
-/// Lightness alone tells the two ends from the middle, and the number tells them from each other.
+/// Lightness alone distinguishes the two ends from the middle, and the number distinguishes them from each
+/// other.
 fn cell(error: f64, precision: &str) -> (RGBColor, RGBColor, String) {
     if !error.is_finite() {
         return (RGBColor(40, 40, 40), WHITE, "∞".to_owned());

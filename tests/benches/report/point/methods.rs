@@ -114,7 +114,7 @@ pub(crate) fn by_polar_decomposition<E: Number>(energy: polar::RotatedLinear, wo
     }
 }
 
-/// A method that knows the tangent by its entries: its projection is that of a 9×9 matrix.
+/// A method that computes the tangent by its entries: its projection is that of a 9×9 matrix.
 fn entries<E: Number>(label: Label, method: impl AtPoint<E> + 'static, work: Work) -> Contestant<E> {
     match work {
         Work::Tangent => Contestant::one_by_one(label, method),

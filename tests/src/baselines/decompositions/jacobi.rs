@@ -26,7 +26,7 @@ use piola::point::{Matrix3, Svd};
 use super::descending;
 use crate::baselines::matrix::{dot, multiply, transpose};
 
-/// Decomposes F. Four sweeps, the paper's number, bring `f32` to a hundred u; `f64` wants six.
+/// Decomposes F. Four sweeps, the paper's number, bring `f32` to a hundred u; `f64` needs six.
 #[inline(always)]
 #[must_use]
 pub fn jacobi<R: Real>(F: &Matrix3<R>, sweeps: usize) -> Svd<R> {
