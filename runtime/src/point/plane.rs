@@ -16,10 +16,14 @@
 //! }
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! // Nearly incompressible: the bulk modulus is a million times the shear modulus. let (mu, bulk) = (1.0,
-//! 1e6); let rubber = Rubber::new(mu, bulk)?; let F: [[f64; 2]; 2] = [[2.0, 0.0], [0.0, 1.0]]; let sheet =
-//! plane_stress(&rubber, &F, Filter::None); assert!(sheet.status.is_clean()); // The volume stays, up to μ/K.
-//! On paper P11 = μ (λ1 − 1/(λ1³ λ2²)). assert!((sheet.out_of_plane_stretch - 0.5).abs() < mu / bulk);
+//! // Nearly incompressible: the bulk modulus is a million times the shear modulus.
+//! let (mu, bulk) = (1.0, 1e6);
+//! let rubber = Rubber::new(mu, bulk)?;
+//! let F: [[f64; 2]; 2] = [[2.0, 0.0], [0.0, 1.0]];
+//! let sheet = plane_stress(&rubber, &F, Filter::None);
+//! assert!(sheet.status.is_clean());
+//! // The volume stays, up to μ/K. On paper P11 = μ (λ1 − 1/(λ1³ λ2²)).
+//! assert!((sheet.out_of_plane_stretch - 0.5).abs() < mu / bulk);
 //! assert!((sheet.stress[0][0] - mu * (2.0 - 1.0 / 8.0)).abs() < 10.0 * mu / bulk);
 //!
 //! // A little more stretch changes the stress by the tangent times that.

@@ -25,8 +25,10 @@ use crate::NoSuchNode;
 /// use piola::step::Integrator;
 /// use piola::step::divided::StagedSteps;
 ///
-/// // Free fall: M a = M g, for any mass. let (g, dt) = (-9.81, 0.1); let mut steps =
-/// StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], &[])?; for stage in 0..steps.begin(dt) {
+/// // Free fall: M a = M g, for any mass.
+/// let (g, dt) = (-9.81, 0.1);
+/// let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], &[])?;
+/// for stage in 0..steps.begin(dt) {
 ///     steps.begin_stage(stage);
 ///     let [tau, sigma] = steps.stage().lengths();
 ///     // The acceleration is linear in the position, with the slope 1/(τ σ).

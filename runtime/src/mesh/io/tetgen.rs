@@ -13,10 +13,10 @@ use crate::mesh::{Group, TetMesh};
 /// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file next to it; `path` may be
 /// either.
 ///
-/// Nodes may be numbered in any way. The format guarantees no orientation: negative tetrahedra are turned. The
-/// first attribute of a tetrahedron, the number of its region, makes a group of dimension 3, and the boundary
-/// marker of a node, unless it is 0, one of dimension 2; both are called by their numbers. Nodes that belong
-/// to no tetrahedron are dropped and counted in [`TetMesh::dropped_nodes`].
+/// Nodes may be numbered in any way. The format guarantees no orientation: negative tetrahedra are turned.
+/// The first attribute of a tetrahedron, the number of its region, makes a group of dimension 3, and the
+/// boundary marker of a node, unless it is 0, one of dimension 2; both are called by their numbers. Nodes
+/// that belong to no tetrahedron are dropped and counted in [`TetMesh::dropped_nodes`].
 ///
 /// # Errors
 /// [`ReadError`], which names the line if it is malformed, if there is no tetrahedron, or if tetrahedra are of
