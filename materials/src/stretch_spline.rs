@@ -8,9 +8,9 @@ use piola::{Spline, material};
 ///
 /// Xu, Sin, Zhu, Barbič, *Nonlinear Material Design Using Principal Stretches*, ACM Trans. Graph. 34 (4),
 /// 2015. Here the control points are those of the derivatives f′, g′, h′, natural cubic splines, straight
-///       beyond the last points; so ψ is defined for every deformation gradient, inverted ones included. A
-///       control point (1, 0) on each curve keeps the rest state free of stress, which in general requires
-///       f′(1) + 2 g′(1) + h′(1) = 0; falling f′ and h′ towards 0 push an inverted element open.
+/// beyond the last points; so ψ is defined for every deformation gradient, inverted ones included. A control
+/// point (1, 0) on each curve keeps the rest state free of stress, which in general requires f′(1) + 2 g′(1)
+/// + h′(1) = 0; falling f′ and h′ towards 0 push an inverted element open.
 #[material(
     typical(
         "drawn for this catalogue: a soft rubber that stiffens from three times its length on",
