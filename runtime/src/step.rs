@@ -49,11 +49,15 @@ pub use term::{EnergyChange, NodeBlocks, Term};
 ///
 /// [`StagedSteps`](divided::StagedSteps) holds the state of the nodes of one machine;
 /// [`minimize`](divided::minimize) minimises its stages, and [`advance_within`](divided::advance_within)
-/// chooses the lengths of steps. The crate in `distributed/` is written with them.
+/// chooses the lengths of steps. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a
+/// stiffness whose nodes a [`Division`](divided::Division) divides. The crate in `distributed/` uses them.
 pub mod divided {
     pub use super::halving::{Pace, Repeatable, advance_within};
     pub use super::integrator::Stage;
     pub use super::line_search::Line;
     pub use super::newton::{Definiteness, Linearised, Minimisation, Solution, minimize};
+    pub use super::solver::Preconditioner;
     pub use super::staged::{InStage, StagedSteps};
+    pub use crate::system::linear::conjugate_gradients::{End, Iteration};
+    pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver};
 }

@@ -18,6 +18,7 @@ use assembled::Assembled;
 use conjugate::Conjugate;
 
 pub use own::SparseSolver;
+pub use preconditioner::Preconditioner;
 
 pub(super) use interface::{SolveError, Solver};
 

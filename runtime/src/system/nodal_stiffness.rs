@@ -87,10 +87,31 @@ impl NodalStiffness {
         Self::new(body, &[])
     }
 
+    /// A matrix without nodes, of a machine that has no elements of a body.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub fn empty() -> Result<Self, LinearError> {
+        let graph = Graph::of_upper(&[]);
+        let pattern = Arc::new(Pattern::new(&graph, &[])?);
+        let shape = Shape { elements: 0, tiles: 0, graph, order: Vec::new(), gather: Vec::new() };
+        let elements = ElementStiffnesses { tiles: Vec::new() };
+        Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, elements })
+    }
+
     /// The block on the diagonal of a node; `None` if there is no such node.
     #[must_use]
     pub fn diagonal(&self, node: usize) -> Option<&[[f64; 3]; 3]> {
         (node < self.matrix.pattern().rows()).then(|| self.matrix.diagonal(node))
+    }
+
+    /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
+    pub fn add_to_diagonal(&mut self, node: usize, stiffness: f64) {
+        if node < self.matrix.pattern().rows() {
+            let at = self.matrix.pattern().diagonal(node);
+            let block = &mut self.matrix.blocks_mut()[at];
+            (0..3).for_each(|c| block[c][c] += stiffness);
+        }
     }
 
     /// Replaces `product`, N, by the product with a displacement of each node, m.

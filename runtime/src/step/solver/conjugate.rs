@@ -6,6 +6,7 @@ use crate::step::objective::Objective;
 use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
+use crate::system::linear::multigrid::Whole;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::{Body, Pins};
@@ -21,7 +22,7 @@ use super::preconditioner::Preconditioner;
 pub(super) struct Conjugate {
     stiffness: NodalStiffness,
     nodes: Nodes,
-    preconditioner: Preconditioner,
+    preconditioner: Preconditioner<Whole>,
     conjugate_gradients: ConjugateGradients,
     tolerance: f64,
     max_iterations: usize,
@@ -56,7 +57,7 @@ impl Conjugate {
         Ok(Self {
             stiffness: NodalStiffness::new(body, pairs)?,
             nodes: Nodes::new(nodes, pins),
-            preconditioner: Preconditioner::new(nodes),
+            preconditioner: Preconditioner::new(nodes, Whole),
             conjugate_gradients: ConjugateGradients::new(3 * nodes),
             tolerance,
             max_iterations,
@@ -110,13 +111,11 @@ impl Solver for Conjugate {
         let Self { stiffness, nodes, preconditioner, conjugate_gradients, .. } = self;
         objective.quadratic.add_to(stiffness.matrix_mut());
         objective.blocks.add_to_blocks(stiffness.matrix_mut());
-        if !preconditioner.is_chosen() {
-            preconditioner.choose(softness(objective, stiffness.matrix(), &nodes.free));
-        }
         let tolerance = tolerance.min(self.tolerance);
         let mut given_up = 0;
         loop {
-            preconditioner.take(stiffness, &nodes.is_free, x)?;
+            preconditioner
+                .take(stiffness, &nodes.is_free, x, |node| objective.quadratic.guarded_diagonal(node))?;
             for (direction, gradient) in direction.iter_mut().zip(gradient) {
                 *direction = gradient.map(|g| -g);
             }
@@ -145,21 +144,11 @@ impl Solver for Conjugate {
     }
 }
 
-/// Share of inertia in the diagonal of a matrix, on average over the free nodes: 1 for nodes that move by
-/// themselves, 0 for statics.
-fn softness(objective: &Objective<'_>, matrix: &SymmetricBlocks<f64, 3>, free: &[usize]) -> f64 {
-    let share = |&node: &usize| {
-        let block = matrix.diagonal(node);
-        3.0 * objective.quadratic.guarded_diagonal(node) / (block[0][0] + block[1][1] + block[2][2])
-    };
-    free.iter().map(share).sum::<f64>() / free.len().max(1) as f64
-}
-
 /// The second derivatives as an operator on displacements that are zero at pinned nodes.
 struct Linearised<'a> {
     matrix: &'a mut SymmetricBlocks<f64, 3>,
     pinned: &'a [usize],
-    preconditioner: &'a mut Preconditioner,
+    preconditioner: &'a mut Preconditioner<Whole>,
 }
 
 impl System for Linearised<'_> {

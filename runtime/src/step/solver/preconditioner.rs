@@ -15,10 +15,9 @@
 //! from one step for the next: a step depends on the state before it alone, to the last bit, whether a run
 //! was interrupted there or not.
 
-use crate::system::linear::LinearError;
 use crate::system::linear::block_jacobi::BlockJacobi;
 use crate::system::linear::conjugate_gradients::{End, Iteration};
-use crate::system::linear::multigrid::Multigrid;
+use crate::system::linear::multigrid::{Division, Multigrid, diagonals};
 use crate::system::nodal_stiffness::NodalStiffness;
 
 /// Number of iterations for each digit of the solution above which blocks on the diagonal are replaced.
@@ -33,12 +32,22 @@ const SOFT: f64 = 0.02;
 /// Number of iterations that take as long as making new levels.
 const SET_UP: f64 = 10.0;
 
-/// A positive definite approximation of the inverse of a matrix, zero at pinned nodes.
-#[derive(Clone)]
-pub(super) struct Preconditioner {
+/// Positive definite approximation of the inverse of a stiffness, zero at pinned nodes: for conjugate
+/// gradients, on one machine or on many, among which a [`Division`] divides the nodes.
+///
+/// Chosen by the share of inertia in the diagonal, and by how many iterations systems take: the 3×3 blocks on
+/// the diagonal, or multigrid, whose levels serve for later matrices as long as they are worth it.
+pub struct Preconditioner<D: Division> {
     blocks: BlockJacobi,
-    multigrid: Multigrid,
+    multigrid: Multigrid<D>,
     in_use: InUse,
+}
+
+impl<D: Division<Last: Clone> + Clone> Clone for Preconditioner<D> {
+    fn clone(&self) -> Self {
+        let Self { blocks, multigrid, in_use } = self;
+        Self { blocks: blocks.clone(), multigrid: multigrid.clone(), in_use: *in_use }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,46 +66,58 @@ enum InUse {
     Wanted,
 }
 
-impl Preconditioner {
-    pub(super) fn new(nodes: usize) -> Self {
-        Self { blocks: BlockJacobi::new(nodes), multigrid: Multigrid::default(), in_use: InUse::Nothing }
+impl<D: Division> Preconditioner<D> {
+    /// Memory for so many nodes that this machine owns, divided like this.
+    #[must_use]
+    pub fn new(nodes: usize, division: D) -> Self {
+        Self { blocks: BlockJacobi::new(nodes), multigrid: Multigrid::new(division), in_use: InUse::Nothing }
     }
 
     /// Discards all information from earlier systems.
-    pub(super) fn forget(&mut self) {
+    pub fn forget(&mut self) {
         self.in_use = InUse::Nothing;
     }
 
-    pub(super) fn is_chosen(&self) -> bool {
-        self.in_use != InUse::Nothing
+    /// Number of rows of each level, on all machines, and the solver of the last, where multigrid is in use.
+    #[must_use]
+    pub fn levels(&self) -> Option<(&[usize], &D::Last)> {
+        let has_levels = matches!(self.in_use, InUse::Fresh | InUse::Old { .. });
+        self.multigrid.levels().filter(|_| has_levels)
     }
 
-    /// Chooses by the share of inertia in the diagonal.
-    pub(super) fn choose(&mut self, softness: f64) {
-        self.in_use = if softness >= SOFT { InUse::Blocks } else { InUse::Wanted };
-    }
-
-    /// Takes the matrix with the nodes at `x`.
-    pub(super) fn take(
+    /// Takes a matrix, of which this is the machine's part, with the nodes at `x`, m. Inertia has added
+    /// `inertia(node)` to each entry on the diagonal.
+    ///
+    /// # Errors
+    /// [`Division::Error`].
+    pub fn take(
         &mut self,
         stiffness: &NodalStiffness,
         is_free: &[bool],
         x: &[[f64; 3]],
-    ) -> Result<(), LinearError> {
+        inertia: impl Fn(usize) -> f64,
+    ) -> Result<(), D::Error> {
         let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
+        let division = self.multigrid.division_mut();
+        let diagonals = diagonals(matrix, division);
+        if self.in_use == InUse::Nothing {
+            let softness = softness(&diagonals, is_free, inertia, division);
+            self.in_use = if softness >= SOFT { InUse::Blocks } else { InUse::Wanted };
+        }
         match self.in_use {
-            InUse::Nothing | InUse::Blocks => self.blocks.factor(|node| matrix.diagonal(node)),
-            InUse::Old { .. } => self.multigrid.take(matrix, is_free),
+            InUse::Nothing | InUse::Blocks => self.blocks.factor(|node| &diagonals[node]),
+            InUse::Old { .. } => self.multigrid.take(matrix, &diagonals, is_free),
             InUse::Fresh | InUse::Wanted => {
-                self.multigrid.set_up(matrix, graph, order, is_free, x)?;
+                self.multigrid.set_up(matrix, &diagonals, graph, order, is_free, x)?;
                 self.in_use = InUse::Fresh;
             }
         }
         Ok(())
     }
 
-    /// Computes about A⁻¹ r.
-    pub(super) fn apply(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
+    /// Replaces `z` by about A⁻¹ r, of the nodes that this machine owns, or of the first of them where zeros
+    /// follow.
+    pub fn apply(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
         match self.in_use {
             InUse::Nothing | InUse::Blocks => self.blocks.solve(r, z),
             _ => self.multigrid.solve(r, z),
@@ -105,7 +126,8 @@ impl Preconditioner {
 
     /// Number of iterations after which a system with this tolerance is restarted with another
     /// preconditioner.
-    pub(super) fn patience(&self, tolerance: f64) -> usize {
+    #[must_use]
+    pub fn patience(&self, tolerance: f64) -> usize {
         let digits = -tolerance.log10();
         match self.in_use {
             InUse::Blocks => (digits * BLOCKS).ceil() as usize,
@@ -116,7 +138,7 @@ impl Preconditioner {
 
     /// Chooses the preconditioner of the next system by the iterations of the last one; returns true if that
     /// one must be solved again.
-    pub(super) fn judge(&mut self, Iteration { iterations, end }: Iteration, tolerance: f64) -> bool {
+    pub fn judge(&mut self, Iteration { iterations, end }: Iteration, tolerance: f64) -> bool {
         let (digits, iterations) = (-tolerance.log10(), iterations as f64);
         let has_failed = matches!(end, End::Limit | End::NotFinite);
         match self.in_use {
@@ -142,27 +164,40 @@ impl Preconditioner {
     }
 }
 
+/// Share of inertia in the diagonal of a matrix, on average over the free nodes: 1 for nodes that move by
+/// themselves, 0 for statics.
+fn softness(
+    diagonals: &[[[f64; 3]; 3]],
+    is_free: &[bool],
+    inertia: impl Fn(usize) -> f64,
+    division: &impl Division,
+) -> f64 {
+    let free = || (0..diagonals.len()).filter(|&node| is_free[node]);
+    let share = |node: usize| {
+        let block = diagonals[node];
+        3.0 * inertia(node) / (block[0][0] + block[1][1] + block[2][2])
+    };
+    division.total(free().map(share).sum()) / division.total(free().count() as f64).max(1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::system::linear::multigrid::Whole;
 
     fn after(in_use: InUse, iterations: usize, end: End, tolerance: f64) -> (InUse, bool) {
-        let mut preconditioner = Preconditioner { in_use, ..Preconditioner::new(0) };
+        let mut preconditioner = Preconditioner { in_use, ..Preconditioner::new(0, Whole) };
         let again = preconditioner.judge(Iteration { iterations, end }, tolerance);
         (preconditioner.in_use, again)
     }
 
     #[test]
     fn blocks_are_chosen_where_inertia_counts_and_left_where_they_take_too_long() {
-        let mut preconditioner = Preconditioner::new(0);
-        assert!(!preconditioner.is_chosen());
-        preconditioner.choose(0.0);
-        assert_eq!(preconditioner.in_use, InUse::Wanted);
-        preconditioner.choose(0.5);
-        assert_eq!(preconditioner.in_use, InUse::Blocks);
+        let diagonals = [[[4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]]; 2];
+        let softness = |inertia: f64| softness(&diagonals, &[true, false], |_| inertia, &Whole);
+        assert_eq!((softness(0.0), softness(2.0)), (0.0, 0.5));
+        let preconditioner = Preconditioner { in_use: InUse::Blocks, ..Preconditioner::new(0, Whole) };
         assert_eq!((preconditioner.patience(1e-3), preconditioner.patience(0.5)), (60, 7));
-        preconditioner.forget();
-        assert!(!preconditioner.is_chosen());
         assert_eq!(after(InUse::Blocks, 30, End::Converged, 1e-3), (InUse::Blocks, false));
         assert_eq!(after(InUse::Blocks, 60, End::Limit, 1e-3), (InUse::Wanted, true));
         assert_eq!(after(InUse::Blocks, 5, End::NegativeCurvature, 1e-3), (InUse::Blocks, false));
@@ -172,7 +207,7 @@ mod tests {
     fn levels_serve_as_long_as_they_are_worth_it() {
         let old = InUse::Old { for_a_digit: 5.0 };
         assert_eq!(after(InUse::Fresh, 15, End::Converged, 1e-3), (old, false));
-        assert_eq!(Preconditioner { in_use: old, ..Preconditioner::new(0) }.patience(1e-2), 40);
+        assert_eq!(Preconditioner { in_use: old, ..Preconditioner::new(0, Whole) }.patience(1e-2), 40);
         assert_eq!(after(old, 19, End::Converged, 1e-2), (old, false));
         assert_eq!(after(old, 25, End::Converged, 1e-2), (InUse::Wanted, false));
         assert_eq!(after(old, 40, End::Limit, 1e-2), (InUse::Wanted, true));

@@ -45,17 +45,18 @@ pub(crate) struct ConjugateGradients {
     sums: Vec<f64>,
 }
 
-/// Outcome of an iteration.
+/// Outcome of conjugate gradients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Iteration {
-    /// Number of products with A.
-    pub(crate) iterations: usize,
-    pub(crate) end: End,
+pub struct Iteration {
+    /// Number of products with the matrix A.
+    pub iterations: usize,
+    /// Reason why they ended.
+    pub end: End,
 }
 
-/// Reason why an iteration ended.
+/// Reason why conjugate gradients for A x = b ended, with the residual r = b − A x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum End {
+pub enum End {
     /// ‖r‖ ≤ tolerance ‖b‖.
     Converged,
     /// The limit of iterations is reached.

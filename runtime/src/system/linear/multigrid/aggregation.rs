@@ -15,15 +15,18 @@ impl Aggregates {
     /// Takes rows in this order: one without neighbours in an aggregate founds one with all its neighbours.
     /// Rows that are left then join the aggregate that most of their neighbours belong to.
     ///
-    /// Rows that are not `included`, and those without any neighbour that is, belong to none.
-    pub(super) fn new(graph: &Graph, order: &[u32], included: &[bool]) -> Self {
+    /// Rows that are not `included`, and those without any neighbour that is, belong to none. So do all rows
+    /// but the first `owned`; a row that has none of these for a neighbour is an aggregate by itself.
+    pub(super) fn new(graph: &Graph, order: &[u32], included: &[bool], owned: usize) -> Self {
         let mut of_row = vec![NONE; graph.rows()];
         let mut count = 0;
-        let neighbours = |row: u32| {
+        let included_around = |row: u32| {
             let all = graph.neighbours(row as usize).iter();
             all.map(|&other| other as usize).filter(|&other| included[other])
         };
-        for &row in order {
+        let neighbours = |row: u32| included_around(row).filter(|&other| other < owned);
+        let order = || order.iter().filter(|&&row| (row as usize) < owned);
+        for &row in order() {
             let is_founder = included[row as usize]
                 && of_row[row as usize] == NONE
                 && neighbours(row).next().is_some()
@@ -35,7 +38,7 @@ impl Aggregates {
             }
         }
         let founded = of_row.clone();
-        for &row in order {
+        for &row in order() {
             if included[row as usize] && of_row[row as usize] == NONE {
                 let mut around: Vec<u32> = neighbours(row)
                     .map(|other| founded[other])
@@ -46,6 +49,10 @@ impl Aggregates {
                     .chunk_by(|a, b| a == b)
                     .max_by_key(|same| (same.len(), std::cmp::Reverse(same[0])));
                 of_row[row as usize] = most.map_or(NONE, |same| same[0]);
+                if most.is_none() && included_around(row).next().is_some() {
+                    of_row[row as usize] = count;
+                    count += 1;
+                }
             }
         }
         Self { of_row, count: count as usize }

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::aggregation::Aggregates;
-use super::rows::{Columns, Rows, WholeRows, coarse_rows, graph_of};
+use super::division::{Division, Numbers, diagonals};
+use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, graph_of};
 use crate::system::graph::Graph;
-use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 
 /// Rows that one thread takes without a further division.
@@ -31,7 +31,7 @@ const DEPENDENT: f64 = 1e-6;
 #[derive(Clone)]
 pub(super) struct Level<const N: usize> {
     matrix: SymmetricBlocks<f32, N>,
-    /// Inverses of the blocks on the diagonal; zero for rows that are not included.
+    /// Inverses of the blocks on the diagonal, of owned rows; zero for rows that are not included.
     inverses: Vec<[[f32; N]; N]>,
     /// Bound of the eigenvalues of D⁻¹A.
     largest: f32,
@@ -39,51 +39,61 @@ pub(super) struct Level<const N: usize> {
     roughest: Vec<[f32; N]>,
     prolongation: Rows<f32, N, 6>,
     columns: Columns,
+    /// Of owned rows.
     x: Vec<[f32; N]>,
-    /// b − A x.
+    /// b − A x, of owned rows.
     residual: Vec<[f32; N]>,
     step: Vec<[f32; N]>,
     product: Vec<[f32; N]>,
 }
 
-/// Matrix, graph and motions that the next level is made of.
-pub(super) struct Coarse {
+/// What the next level is made of.
+pub(super) struct Coarse<D> {
     pub(super) matrix: SymmetricBlocks<f64, 6>,
+    pub(super) diagonals: Vec<[[f64; 6]; 6]>,
     pub(super) graph: Graph,
+    pub(super) division: D,
     /// Rigid motions of the body as motions of the aggregates.
     pub(super) motions: Vec<[[f64; 6]; 6]>,
 }
 
 impl<const N: usize> Level<N> {
     /// The level of `scale` times a matrix, and the one after it.
-    pub(super) fn new(
+    #[expect(clippy::too_many_arguments, reason = "a matrix, its graph and what is known of its rows")]
+    pub(super) fn new<D: Division>(
         matrix: &SymmetricBlocks<f64, N>,
+        diagonals: &[[[f64; N]; N]],
         scale: f64,
         graph: &Graph,
         order: &[u32],
         included: &[bool],
         motions: &[[[f64; 6]; N]],
-    ) -> Result<(Self, Coarse), LinearError> {
-        let zeros = || vec![[0.0; N]; included.len()];
+        division: &mut D,
+    ) -> Result<(Self, Coarse<D>), D::Error> {
+        let owned = diagonals.len();
+        let zeros = |rows: usize| vec![[0.0; N]; rows];
         let mut level = Self {
             matrix: SymmetricBlocks::new(matrix.pattern().clone())?,
-            inverses: vec![[[0.0; N]; N]; included.len()],
+            inverses: vec![[[0.0; N]; N]; owned],
             largest: 0.0,
             roughest: (0..included.len()).map(anything).collect(),
             prolongation: Rows::new(),
             columns: Columns::new(&Rows::<f32, N, 6>::new(), 0),
-            x: zeros(),
-            residual: zeros(),
-            step: zeros(),
-            product: zeros(),
+            x: zeros(owned),
+            residual: zeros(owned),
+            step: zeros(included.len()),
+            product: zeros(included.len()),
         };
-        level.replace(matrix, scale, included);
-        level.find_largest(FIRST_POWERS);
+        level.replace(matrix, diagonals, scale, included);
+        level.find_largest(FIRST_POWERS, division);
 
-        let aggregates = Aggregates::new(graph, order, included);
-        let (tentative, motions) = orthonormal(&aggregates, motions);
+        let aggregates = Aggregates::new(graph, order, included, owned);
+        let mut numbers = Numbers::new(division.first(aggregates.len()), aggregates.len());
+        let (mut tentative, motions) = orthonormal(&aggregates, motions);
+        extend(&mut tentative, &mut numbers, division);
         let whole = WholeRows::new(matrix.pattern());
-        let mut prolongation = whole.multiply(matrix, included, &tentative, aggregates.len());
+        let product = whole.multiply(matrix, included, &tentative, numbers.len());
+        let mut prolongation = sum(product, owned, &mut numbers, division);
         let damping = scale * MARGIN * 4.0 / (3.0 * f64::from(level.largest));
         prolongation.for_each_row(|row, blocks| {
             let inverse = level.inverses[row].map(|row| row.map(|entry| damping * f64::from(entry)));
@@ -102,9 +112,15 @@ impl<const N: usize> Level<N> {
                 }
             }
         });
-        let product = whole.multiply(matrix, included, &prolongation, aggregates.len());
-        let columns = Columns::new(&prolongation, aggregates.len());
+        extend(&mut prolongation, &mut numbers, division);
+        let product = whole.multiply(matrix, included, &prolongation, numbers.len());
+        let columns = Columns::new(&prolongation, numbers.len());
         let upper = coarse_rows(&prolongation, &columns, &product);
+        drop(product);
+        level.prolongation = prolongation.map(|entry| entry as f32).add(owned, &Parts::new());
+        level.columns =
+            if division.copies() == 0 { columns } else { Columns::new(&level.prolongation, numbers.len()) };
+
         let graph = graph_of(&upper);
         let order: Vec<u32> = (0..graph.rows() as u32).collect();
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
@@ -116,19 +132,31 @@ impl<const N: usize> Level<N> {
                 }
             }
         }
-        keep_regular(&mut coarse);
-        level.prolongation = prolongation.map(|entry| entry as f32);
-        level.columns = columns;
-        Ok((level, Coarse { matrix: coarse, graph, motions }))
+        let mut division = division.coarse(aggregates.len(), numbers.others())?;
+        let diagonals = regular_diagonals(&mut coarse, &mut division);
+        Ok((level, Coarse { matrix: coarse, diagonals, graph, division, motions }))
     }
 
     /// Takes `scale` times a matrix of the same pattern.
-    pub(super) fn take(&mut self, matrix: &SymmetricBlocks<f64, N>, scale: f64, included: &[bool]) {
-        self.replace(matrix, scale, included);
-        self.find_largest(POWERS);
+    pub(super) fn take(
+        &mut self,
+        matrix: &SymmetricBlocks<f64, N>,
+        diagonals: &[[[f64; N]; N]],
+        scale: f64,
+        included: &[bool],
+        division: &mut impl Division,
+    ) {
+        self.replace(matrix, diagonals, scale, included);
+        self.find_largest(POWERS, division);
     }
 
-    fn replace(&mut self, matrix: &SymmetricBlocks<f64, N>, scale: f64, included: &[bool]) {
+    fn replace(
+        &mut self,
+        matrix: &SymmetricBlocks<f64, N>,
+        diagonals: &[[[f64; N]; N]],
+        scale: f64,
+        included: &[bool],
+    ) {
         self.matrix.for_each_chunk(|_, first, blocks| {
             for (single, block) in blocks.iter_mut().zip(&matrix.blocks()[first..]) {
                 *single = block.map(|row| row.map(|entry| (scale * entry) as f32));
@@ -136,7 +164,7 @@ impl<const N: usize> Level<N> {
         });
         self.inverses.par_iter_mut().with_min_len(ROWS).enumerate().for_each(|(row, single)| {
             *single = match included[row] {
-                true => inverse(&matrix.diagonal(row).map(|row| row.map(|entry| scale * entry)))
+                true => inverse(&diagonals[row].map(|row| row.map(|entry| scale * entry)))
                     .map(|row| row.map(|entry| entry as f32)),
                 false => [[0.0; N]; N],
             };
@@ -144,14 +172,18 @@ impl<const N: usize> Level<N> {
     }
 
     /// Bounds the eigenvalues of D⁻¹A by so many iterations of the power method.
-    fn find_largest(&mut self, iterations: usize) {
+    fn find_largest(&mut self, iterations: usize, division: &mut impl Division) {
         let Self { matrix, roughest, product, inverses, .. } = self;
+        let owned = inverses.len();
         let mut largest = 1.0;
         for _ in 0..iterations {
+            division.copy(roughest);
             matrix.multiply(roughest, product);
+            division.sum(product);
             let rows = roughest.par_iter_mut().zip(&*product).zip(&*inverses).with_min_len(ROWS);
             rows.for_each(|((x, product), inverse)| *x = times(inverse, product));
-            let square: f64 = roughest.as_flattened().iter().map(|&x| f64::from(x) * f64::from(x)).sum();
+            let entries = roughest[..owned].as_flattened().iter();
+            let square = division.total(entries.map(|&x| f64::from(x) * f64::from(x)).sum());
             if square > 0.0 && square.is_finite() {
                 largest = square.sqrt();
                 let unit = (1.0 / largest) as f32;
@@ -161,15 +193,21 @@ impl<const N: usize> Level<N> {
         self.largest = (MARGIN * largest) as f32;
     }
 
+    /// Number of rows that this machine owns.
+    pub(super) fn owned(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Number of rows of the next level, copies included.
     pub(super) fn coarse_rows(&self) -> usize {
         self.columns.len()
     }
 
-    /// Damps the error of x = 0 for a right side, and hands the residual on.
-    pub(super) fn down(&mut self, b: &[[f32; N]], coarse: &mut [[f32; 6]]) {
+    /// Damps the error of x = 0 for a right side, and hands this machine's part of the residual on.
+    pub(super) fn down(&mut self, b: &[[f32; N]], coarse: &mut [[f32; 6]], division: &mut impl Division) {
         self.x.par_iter_mut().with_min_len(ROWS).for_each(|x| *x = [0.0; N]);
-        self.residual.copy_from_slice(b);
-        self.smooth(true);
+        self.residual.copy_from_slice(&b[..self.x.len()]);
+        self.smooth(true, division);
         let Self { residual, prolongation, columns, .. } = self;
         coarse.par_iter_mut().with_min_len(ROWS / 16).enumerate().for_each(|(column, coarse)| {
             let mut sum = [0.0; 6];
@@ -186,9 +224,9 @@ impl<const N: usize> Level<N> {
     }
 
     /// Adds the correction of the next level, and damps what it has roughened.
-    pub(super) fn up(&mut self, coarse: &[[f32; 6]]) {
-        let Self { step, prolongation, .. } = self;
-        step.par_iter_mut().with_min_len(ROWS).enumerate().for_each(|(row, step)| {
+    pub(super) fn up(&mut self, coarse: &[[f32; 6]], division: &mut impl Division) {
+        let Self { step, prolongation, x, .. } = self;
+        step[..x.len()].par_iter_mut().with_min_len(ROWS).enumerate().for_each(|(row, step)| {
             let mut sum = [0.0; N];
             for (column, block) in prolongation.row(row) {
                 for r in 0..N {
@@ -199,8 +237,8 @@ impl<const N: usize> Level<N> {
             }
             *step = sum;
         });
-        self.follow();
-        self.smooth(false);
+        self.follow(division);
+        self.smooth(false, division);
     }
 
     /// The solution.
@@ -209,14 +247,14 @@ impl<const N: usize> Level<N> {
     }
 
     /// Adds the Chebyshev polynomial of D⁻¹A, times D⁻¹ r, to x; the residual is kept up to date on demand.
-    fn smooth(&mut self, keep_residual: bool) {
+    fn smooth(&mut self, keep_residual: bool, division: &mut impl Division) {
         let (theta, delta) = (0.5 * (1.0 + DAMPED) * self.largest, 0.5 * (1.0 - DAMPED) * self.largest);
         let sigma = theta / delta;
         let mut rho = 1.0 / sigma;
         self.advance(0.0, 1.0 / theta);
         for step in 1..=DEGREE {
             if step < DEGREE || keep_residual {
-                self.follow();
+                self.follow(division);
             } else {
                 self.add_step();
             }
@@ -242,8 +280,10 @@ impl<const N: usize> Level<N> {
     }
 
     /// x += step, r −= A step.
-    fn follow(&mut self) {
+    fn follow(&mut self, division: &mut impl Division) {
+        division.copy(&mut self.step);
         self.matrix.multiply(&self.step, &mut self.product);
+        division.sum(&mut self.product);
         let Self { residual, product, .. } = self;
         residual.par_iter_mut().zip(product).with_min_len(ROWS).for_each(|(residual, product)| {
             for c in 0..N {
@@ -343,18 +383,48 @@ fn orthonormal<const N: usize>(
     (rows, combinations)
 }
 
-/// Gives motions that an aggregate cannot make a diagonal, so that there is an inverse.
-fn keep_regular(matrix: &mut SymmetricBlocks<f64, 6>) {
-    for row in 0..matrix.pattern().rows() {
+/// Adds the rows of copies, as their owners have them.
+fn extend<const N: usize>(rows: &mut Rows<f64, N, 6>, numbers: &mut Numbers, division: &mut impl Division) {
+    let lists = division.lists_for_copies(|row, list| numbers.write(rows.row(row), list));
+    for list in lists {
+        numbers.read(&list).into_iter().for_each(|(column, block)| rows.push(column, block));
+        rows.end_row();
+    }
+}
+
+/// The owned rows of the sum of all machines' parts.
+fn sum<const N: usize>(
+    rows: Rows<f64, N, 6>,
+    owned: usize,
+    numbers: &mut Numbers,
+    division: &mut impl Division,
+) -> Rows<f64, N, 6> {
+    let lists = division.lists_for_owners(|copy, list| numbers.write(rows.row(owned + copy), list));
+    let mut parts = Parts::new();
+    for (row, list) in lists {
+        parts.entry(row).or_default().extend(numbers.read(&list));
+    }
+    rows.add(owned, &parts)
+}
+
+/// The blocks on the diagonal of a coarse matrix. Motions that an aggregate cannot make are given an entry
+/// first, so that there is an inverse.
+fn regular_diagonals(
+    matrix: &mut SymmetricBlocks<f64, 6>,
+    division: &mut impl Division,
+) -> Vec<[[f64; 6]; 6]> {
+    let mut diagonals = diagonals(matrix, division);
+    for (row, sum) in diagonals.iter_mut().enumerate() {
         let at = matrix.pattern().diagonal(row);
-        let block = &mut matrix.blocks_mut()[at];
-        let largest = (0..6).fold(0.0, |largest: f64, c| largest.max(block[c][c]));
+        let largest = (0..6).fold(0.0, |largest: f64, c| largest.max(sum[c][c]));
         for c in 0..6 {
-            if block[c][c] == 0.0 {
-                block[c][c] = if largest > 0.0 { largest } else { 1.0 };
+            if sum[c][c] == 0.0 {
+                sum[c][c] = if largest > 0.0 { largest } else { 1.0 };
+                matrix.blocks_mut()[at][c][c] = sum[c][c];
             }
         }
     }
+    diagonals
 }
 
 /// The inverse of a symmetric block; if that is not positive definite, that of the unit matrix times its

@@ -1,5 +1,7 @@
 //! Sparse matrices of blocks by their rows, and the products that make the matrix of the next level.
 
+use std::collections::HashMap;
+
 use rayon::prelude::*;
 
 use crate::system::graph::Graph;
@@ -7,6 +9,9 @@ use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 
 /// Rows that one thread makes without a further division.
 const ROWS: usize = 512;
+
+/// Blocks that are added to rows: the columns and blocks of each.
+pub(super) type Parts<E, const R: usize, const C: usize> = HashMap<usize, Vec<(usize, [[E; C]; R])>>;
 
 /// A matrix of R×C blocks, row by row.
 #[derive(Clone)]
@@ -35,6 +40,33 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
 
     pub(super) fn len(&self) -> usize {
         self.starts.len() - 1
+    }
+
+    /// Adds blocks to some of the first `rows` rows, and leaves out those that follow.
+    pub(super) fn add(self, rows: usize, parts: &Parts<E, R, C>) -> Self
+    where
+        E: std::ops::AddAssign,
+    {
+        if rows == self.len() && parts.is_empty() {
+            return self;
+        }
+        let mut sum = Self::new();
+        for row in 0..rows {
+            let first = sum.columns.len();
+            self.row(row).for_each(|(column, block)| sum.push(column, *block));
+            for (column, part) in parts.get(&row).into_iter().flatten() {
+                let place = sum.columns[first..].iter().position(|&other| other as usize == *column);
+                match place {
+                    None => sum.push(*column, *part),
+                    Some(place) => {
+                        let entries = sum.blocks[first + place].as_flattened_mut().iter_mut();
+                        entries.zip(part.as_flattened()).for_each(|(entry, &part)| *entry += part);
+                    }
+                }
+            }
+            sum.end_row();
+        }
+        sum
     }
 
     /// The columns and blocks of a row.

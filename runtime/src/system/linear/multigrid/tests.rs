@@ -27,7 +27,7 @@ fn cube(
 
 struct Preconditioned<'a> {
     matrix: SymmetricBlocks<f64, 3>,
-    multigrid: Multigrid,
+    multigrid: Multigrid<Whole>,
     is_free: &'a [bool],
 }
 
@@ -48,7 +48,12 @@ impl System for Preconditioned<'_> {
 }
 
 /// Solves a system of random right side, zero at pinned nodes.
-fn solve(stiffness: &NodalStiffness, multigrid: &Multigrid, is_free: &[bool], tolerance: f64) -> Iteration {
+fn solve(
+    stiffness: &NodalStiffness,
+    multigrid: &Multigrid<Whole>,
+    is_free: &[bool],
+    tolerance: f64,
+) -> Iteration {
     let mut random = Random::new(5);
     let free = |is_free: &bool| [0; 3].map(|_| f64::from(*is_free) * random.uniform(-1.0, 1.0));
     let mut b: Vec<[f64; 3]> = is_free.iter().map(free).collect();
@@ -57,10 +62,12 @@ fn solve(stiffness: &NodalStiffness, multigrid: &Multigrid, is_free: &[bool], to
     ConjugateGradients::new(3 * b.len()).solve(&mut system, b.as_flattened_mut(), tolerance, 300)
 }
 
-fn set_up(stiffness: &NodalStiffness, is_free: &[bool], positions: &[[f64; 3]]) -> Multigrid {
-    let mut multigrid = Multigrid::default();
+fn set_up(stiffness: &NodalStiffness, is_free: &[bool], positions: &[[f64; 3]]) -> Multigrid<Whole> {
+    let mut multigrid = Multigrid::new(Whole);
+    let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
+    let diagonals = diagonals(matrix, multigrid.division_mut());
     multigrid
-        .set_up(stiffness.matrix(), stiffness.graph(), stiffness.order(), is_free, positions)
+        .set_up(matrix, &diagonals, graph, order, is_free, positions)
         .expect("a matrix of finite entries");
     multigrid
 }
@@ -90,7 +97,7 @@ fn old_levels_serve_another_matrix() {
     let mut multigrid = set_up(&stiffness, &is_free, &positions);
     let (bent, is_free, positions) = cube(8, Filter::Clamp, turn);
     let fresh = solve(&bent, &set_up(&bent, &is_free, &positions), &is_free, 1e-6);
-    multigrid.take(bent.matrix(), &is_free);
+    multigrid.take(bent.matrix(), &diagonals(bent.matrix(), &mut Whole), &is_free);
     let old = solve(&bent, &multigrid, &is_free, 1e-6);
     assert_eq!((fresh.end, old.end), (End::Converged, End::Converged));
     assert!(old.iterations <= 5 * fresh.iterations, "{fresh:?}, {old:?}");
@@ -148,6 +155,6 @@ fn matrices_without_anything_to_aggregate_are_no_exception() {
 #[test]
 fn before_there_are_levels_the_cycle_is_the_unit_matrix() {
     let mut z = [[0.0; 3]];
-    Multigrid::default().solve(&[[1.0, 2.0, 3.0]], &mut z);
+    Multigrid::new(Whole).solve(&[[1.0, 2.0, 3.0]], &mut z);
     assert_eq!(z, [[1.0, 2.0, 3.0]]);
 }

@@ -1,0 +1,213 @@
+//! How the rows of a level are divided among machines, and what multigrid asks of them.
+//!
+//! A machine has the part of a matrix that its elements add up to: the matrix is the sum over the machines.
+//! The rows of a part are those that the machine owns, then copies of rows of others. So a product is that of
+//! the parts, between two exchanges: entries of a vector go from owners to copies, and what the parts add to
+//! copies goes to the owners. PᵀA P is the sum of such products of the parts as well, where each machine
+//! knows the rows of P of its copies. Aggregates are made of rows of one owner.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use super::last::{Last, LastLevel, LastSolver};
+use crate::system::linear::LinearError;
+use crate::system::linear::symmetric_blocks::SymmetricBlocks;
+
+/// Division of the rows of a matrix among machines, as one of them sees it.
+///
+/// The rows of a machine are those that it owns, then copies of rows that others own. All machines call all
+/// functions in one order. A function that cannot reach other machines keeps its error for whoever has made
+/// the division: the vectors are then meaningless.
+pub trait Division: Sized {
+    /// Error of the functions that can fail.
+    type Error: From<LinearError>;
+    /// Solver of the last level.
+    type Last: LastSolver;
+
+    /// Number of copies, the last rows.
+    fn copies(&self) -> usize;
+
+    /// Replaces the copies by the entries of their owners.
+    fn copy<const N: usize>(&mut self, rows: &mut [[f32; N]]);
+
+    /// Adds the copies of each owned row to it.
+    fn sum<const N: usize>(&mut self, rows: &mut [[f32; N]]);
+
+    /// The list that the owner of each copy makes of its row.
+    fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>>;
+
+    /// Owned rows, each with a list that another machine makes of its copy, which has this number among its
+    /// copies.
+    fn lists_for_owners(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<(usize, Vec<u64>)>;
+
+    /// Sum over all machines.
+    fn total(&self, number: f64) -> f64;
+
+    /// Largest number of any machine.
+    fn largest(&self, number: f64) -> f64;
+
+    /// The number of this machine's first row where each owns so many, counted machine after machine.
+    fn first(&self, rows: usize) -> u64;
+
+    /// The division of the next level, of which this machine owns so many rows and has copies of those with
+    /// these numbers.
+    ///
+    /// # Errors
+    /// [`Division::Error`].
+    fn coarse(&self, rows: usize, copies: Vec<u64>) -> Result<Self, Self::Error>;
+
+    /// Whether a level of so many rows of all machines is the last, for so many nodes of all machines.
+    fn is_last(&self, rows: usize, nodes: usize) -> bool;
+
+    /// The solver of the last level, of which this is the division.
+    ///
+    /// # Errors
+    /// [`Division::Error`].
+    fn last(&self, level: &LastLevel<'_>) -> Result<Self::Last, Self::Error>;
+}
+
+/// All rows on one machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Whole;
+
+/// Rows of a level that is always factored. Large bodies have a larger last level, of half the root of the
+/// number of their nodes: its factor takes less time than the finest level all the same.
+const FEW: usize = 64;
+
+impl Division for Whole {
+    type Error = LinearError;
+    type Last = Last;
+
+    fn copies(&self) -> usize {
+        0
+    }
+
+    fn copy<const N: usize>(&mut self, _: &mut [[f32; N]]) {}
+
+    fn sum<const N: usize>(&mut self, _: &mut [[f32; N]]) {}
+
+    fn lists_for_copies(&mut self, _: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {
+        Vec::new()
+    }
+
+    fn lists_for_owners(&mut self, _: impl FnMut(usize, &mut Vec<u64>)) -> Vec<(usize, Vec<u64>)> {
+        Vec::new()
+    }
+
+    fn total(&self, number: f64) -> f64 {
+        number
+    }
+
+    fn largest(&self, number: f64) -> f64 {
+        number
+    }
+
+    fn first(&self, _: usize) -> u64 {
+        0
+    }
+
+    fn coarse(&self, _: usize, _: Vec<u64>) -> Result<Self, LinearError> {
+        Ok(Self)
+    }
+
+    fn is_last(&self, rows: usize, nodes: usize) -> bool {
+        rows <= FEW.max(nodes.isqrt() / 2)
+    }
+
+    fn last(&self, level: &LastLevel<'_>) -> Result<Last, LinearError> {
+        Last::new(level)
+    }
+}
+
+/// The numbers that columns of a machine's part have among those of all machines: its own, then others.
+pub(super) struct Numbers {
+    first: u64,
+    own: usize,
+    others: Vec<u64>,
+    places: HashMap<u64, usize>,
+}
+
+impl Numbers {
+    /// The numbers of a machine's own columns, `first` and those that follow.
+    pub(super) fn new(first: u64, own: usize) -> Self {
+        Self { first, own, others: Vec::new(), places: HashMap::new() }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.own + self.others.len()
+    }
+
+    /// The numbers of the columns of other machines.
+    pub(super) fn others(self) -> Vec<u64> {
+        self.others
+    }
+
+    fn of(&self, column: usize) -> u64 {
+        match column.checked_sub(self.own) {
+            None => self.first + column as u64,
+            Some(other) => self.others[other],
+        }
+    }
+
+    /// The column of a number, which is another one from now on unless it is known.
+    fn column(&mut self, number: u64) -> usize {
+        match number.checked_sub(self.first) {
+            Some(column) if column < self.own as u64 => column as usize,
+            _ => {
+                let Self { own, others, places, .. } = self;
+                *places.entry(number).or_insert_with(|| {
+                    others.push(number);
+                    *own + others.len() - 1
+                })
+            }
+        }
+    }
+
+    /// Writes a row of a matrix into a list.
+    pub(super) fn write<'a, const N: usize>(
+        &self,
+        row: impl Iterator<Item = (usize, &'a [[f64; 6]; N])>,
+        list: &mut Vec<u64>,
+    ) {
+        for (column, block) in row {
+            list.push(self.of(column));
+            list.extend(block.as_flattened().iter().map(|entry| entry.to_bits()));
+        }
+    }
+
+    /// Reads what another machine has written.
+    pub(super) fn read<const N: usize>(&mut self, list: &[u64]) -> Vec<(usize, [[f64; 6]; N])> {
+        let blocks = list.chunks_exact(1 + 6 * N);
+        blocks.map(|words| (self.column(words[0]), block(&words[1..]))).collect()
+    }
+}
+
+/// A block of these bits.
+fn block<const C: usize, const R: usize>(words: &[u64]) -> [[f64; C]; R] {
+    std::array::from_fn(|r| std::array::from_fn(|c| f64::from_bits(words[C * r + c])))
+}
+
+/// The blocks on the diagonal of the sum of all machines' parts, of the rows that this one owns.
+pub(crate) fn diagonals<const N: usize>(
+    matrix: &SymmetricBlocks<f64, N>,
+    division: &mut impl Division,
+) -> Vec<[[f64; N]; N]> {
+    let owned = matrix.pattern().rows() - division.copies();
+    let mut blocks = vec![[[0.0; N]; N]; owned];
+    let rows = blocks.par_iter_mut().with_min_len(super::ROWS).enumerate();
+    rows.for_each(|(row, block)| *block = *matrix.diagonal(row));
+    let parts = division.lists_for_owners(|copy, list| {
+        list.extend(matrix.diagonal(owned + copy).as_flattened().iter().map(|entry| entry.to_bits()));
+    });
+    for (row, words) in parts {
+        let part: [[f64; N]; N] = block(&words);
+        for (entry, part) in blocks[row].as_flattened_mut().iter_mut().zip(part.as_flattened()) {
+            *entry += part;
+        }
+    }
+    blocks
+}
+
+#[cfg(test)]
+mod tests;
