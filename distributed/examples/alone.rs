@@ -1,6 +1,7 @@
 //! The cube of `piola-mpi box` by piola on one machine, without PETSc: what its times are compared with.
 //!
-//! `cargo run --release --example alone -- 10000,94000`, beside `piola-mpi box --elements 94000`.
+//! `cargo run --release --example alone -- 10000,94000 1`, on one thread, beside `piola-mpi box --elements
+//! 94000`.
 
 #![expect(clippy::print_stdout, reason = "a program for the command line")]
 
@@ -14,10 +15,16 @@ use piola::system::{Body, Part, Pins};
 use piola_scenes::material::MaterialSpec;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global()?;
-    let sizes = std::env::args().nth(1).ok_or("which numbers of elements? write 10000,94000")?;
-    println!("| elements | Newton | conjugate gradients | residual | solve s |\n|---|---|---|---|---|");
+    let words: Vec<String> = std::env::args().collect();
+    let [_, sizes, threads] = words.as_slice() else {
+        return Err("which numbers of elements, on how many threads? write 10000,94000 1".into());
+    };
+    rayon::ThreadPoolBuilder::new().num_threads(threads.parse()?).use_current_thread().build_global()?;
+    println!(
+        "| elements | Newton | conjugate gradients | residual | set-up s | solve s |\n|---|---|---|---|---|---|"
+    );
     for elements in sizes.split(',') {
+        let clock = Instant::now();
         let cells = (elements.parse::<f64>()? / 6.0).cbrt().ceil() as usize;
         let mesh = tetrahedral_box([cells; 3], [1.0; 3])?;
         let moduli = Moduli::from_young_poisson(1e6, 0.45)?;
@@ -32,14 +39,15 @@ fn main() -> Result<(), Box<dyn Error>> {
             .with_gravity([0.0, -9.81, 0.0])
             .with_newton(NewtonSettings::default().with_linear(linear));
         let mut simulation = Simulation::new(body, &pins, settings)?;
-        let clock = Instant::now();
+        let (set_up, clock) = (clock.elapsed(), Instant::now());
         let report = simulation.equilibrate()?.newton;
         println!(
-            "| {} | {} | {} | {:.1e} | {:.2} |",
+            "| {} | {} | {} | {:.1e} | {:.2} | {:.2} |",
             mesh.tets.len(),
             report.iterations,
             report.linear_iterations,
             report.residual / report.first_residual,
+            set_up.as_secs_f64(),
             clock.elapsed().as_secs_f64(),
         );
     }

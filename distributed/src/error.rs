@@ -51,7 +51,7 @@ pub enum Error {
     /// A setting is out of range.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// The matrix of a part does not fit into memory.
+    /// A matrix does not fit into memory, perhaps on this rank alone.
     #[error(transparent)]
     Linear(#[from] LinearError),
     /// A combination of options that makes no sense.
@@ -103,6 +103,6 @@ impl Error {
     /// Whether all ranks have it, so that each can end in its turn.
     #[must_use]
     pub fn is_common(&self) -> bool {
-        !matches!(self, Self::Petsc(_))
+        !matches!(self, Self::Petsc(_) | Self::Linear(_))
     }
 }

@@ -12,7 +12,9 @@
 //! There is no contact, and no surface embedded in the tetrahedra.
 
 pub mod checkpoint;
+pub mod coarse;
 pub mod command;
+pub mod division;
 pub mod elastic;
 pub mod error;
 pub mod minimisation;

@@ -13,15 +13,15 @@
 //! ```
 //!
 //! Positions of copies follow those of their owners without being sent: every rank moves them by the same
-//! arithmetic, along directions that are sent once in an iteration, while the elements inside are evaluated.
+//! arithmetic, along directions that are sent once in an iteration.
 
 use piola::point::Filter;
-use piola::step::divided::{Definiteness, Line, Linearised, Minimisation, Solution, Stage};
+use piola::step::divided::{Definiteness, End, Line, Linearised, Minimisation, Solution, Stage};
 use piola::step::{EnergyChange, NewtonError, Spring, Term};
 
 use crate::elastic::Elastic;
 use crate::error::Error;
-use crate::petsc::{Ending, GhostedVector, PetscError};
+use crate::petsc::{GhostedVector, PetscError};
 use crate::share::Share;
 use crate::system::LinearSystem;
 use crate::team::Team;
@@ -74,8 +74,7 @@ impl Objective<'_> {
 
     /// Evaluates the energies of all elements; the tag of an element of any rank without one.
     fn evaluate(&mut self, x: &[[f64; 3]]) -> Option<usize> {
-        self.elastic.evaluate_inner(x);
-        self.elastic.evaluate_border(x);
+        self.elastic.evaluate(x);
         self.refused()
     }
 
@@ -134,8 +133,6 @@ pub struct StageMinimisation<'a> {
     /// Direction of all nodes of the rank, m.
     direction: Vec<[f64; 3]>,
     trial: Vec<[f64; 3]>,
-    /// True while copies of the direction are under way.
-    is_sending: bool,
     spring_stiffness: Vec<f64>,
     /// Slope and curvature along the direction of all but deformation and springs.
     quadratic: [f64; 2],
@@ -165,7 +162,6 @@ impl<'a> StageMinimisation<'a> {
             gradient: vec![[0.0; 3]; objective.share.owned],
             direction: vec![[0.0; 3]; x.len()],
             trial: vec![[0.0; 3]; x.len()],
-            is_sending: false,
             spring_stiffness: objective.spring_stiffness(),
             quadratic: [0.0; 2],
             systems: Vec::new(),
@@ -180,34 +176,18 @@ impl<'a> StageMinimisation<'a> {
     pub fn systems(self) -> Vec<usize> {
         self.systems
     }
-
-    fn end_copies(&mut self) -> Result<(), PetscError> {
-        if std::mem::take(&mut self.is_sending) {
-            self.objective.exchange.end_copies(&mut self.direction[self.objective.share.owned..])?;
-        }
-        Ok(())
-    }
-
-    fn move_trial(&mut self, step: f64, nodes: std::ops::Range<usize>) {
-        for node in nodes {
-            for c in 0..3 {
-                self.trial[node][c] = self.x[node][c] + step * self.direction[node][c];
-            }
-        }
-    }
 }
 
 impl Line for StageMinimisation<'_> {
     type Error = Error;
 
-    /// Elements inside are evaluated while copies of the direction arrive.
     fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, Error> {
-        let (owned, nodes) = (self.objective.share.owned, self.x.len());
-        self.move_trial(step, 0..owned);
-        self.objective.elastic.evaluate_inner(&self.trial);
-        self.end_copies()?;
-        self.move_trial(step, owned..nodes);
-        self.objective.elastic.evaluate_border(&self.trial);
+        for node in 0..self.x.len() {
+            for c in 0..3 {
+                self.trial[node][c] = self.x[node][c] + step * self.direction[node][c];
+            }
+        }
+        self.objective.elastic.evaluate(&self.trial);
 
         let Objective { team, elastic, springs, .. } = &self.objective;
         let is_refused = elastic.refused().is_some();
@@ -243,15 +223,16 @@ impl Minimisation for StageMinimisation<'_> {
     }
 
     fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, Error> {
-        let Self { objective, gradient, x, .. } = self;
-        objective.elastic.linearise(filter, objective.exchange, gradient)?;
+        let Self { objective, system, gradient, x, .. } = self;
+        let Objective { elastic, exchange, .. } = objective;
+        system.with_stiffness(|stiffness| elastic.linearise(filter, stiffness, exchange, gradient))?;
         if let Some(element) = objective.refused() {
             return Err(Error::Inadmissible { element });
         }
         objective.springs.add_gradient(x, gradient);
         objective.add_quadratic_gradient(x, gradient);
         if pins_move {
-            objective.elastic.add_product(objective.exchange, self.pins_move, gradient)?;
+            system.add_product(self.pins_move, gradient)?;
         }
         Ok(Linearised {
             residual: objective.product(gradient, gradient).sqrt(),
@@ -260,55 +241,50 @@ impl Minimisation for StageMinimisation<'_> {
         })
     }
 
-    /// Begins to send the direction.
+    /// Sends the direction to copies.
     fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, Error> {
         let Self { objective, system, direction, gradient, spring_stiffness, systems, .. } = self;
+        let Objective { share, team, .. } = *objective;
         let must_be_definite = definiteness == Definiteness::Required;
-        let tolerance = tolerance.min(self.limits.tolerance);
+        let limits = (tolerance.min(self.limits.tolerance), self.limits.max_iterations);
+        let inertia = |node: usize| objective.diagonal(node) + objective.masses[node] * objective.guard;
+        system.add_to_diagonal(share, |node| inertia(node) + spring_stiffness[node]);
         let mut solution = Solution::default();
         loop {
-            let diagonal = |node: usize| {
-                let added = objective.guard + solution.shift * objective.regularisation;
-                objective.diagonal(node) + objective.masses[node] * added + spring_stiffness[node]
-            };
-            system.assemble(objective.share, objective.elastic, diagonal, self.x)?;
-            let owned = &mut direction[..objective.share.owned];
-            let (ending, iterations) = system.solve(
-                objective.team,
-                gradient,
-                owned,
-                tolerance,
-                self.limits.max_iterations,
-                !must_be_definite,
-            )?;
-            systems.push(iterations);
-            solution.iterations += iterations;
-            let slope = if ending == Ending::Failed { f64::NAN } else { objective.product(gradient, owned) };
+            let owned = &mut direction[..share.owned];
+            let may_fall_back = !must_be_definite;
+            let solved =
+                system.solve(team, share, self.x, inertia, gradient, owned, limits, may_fall_back)?;
+            systems.push(solved.iterations);
+            solution.iterations += solved.iterations;
+            let slope =
+                if solved.end == End::NotFinite { f64::NAN } else { objective.product(gradient, owned) };
             let descends = slope < 0.0 && slope.is_finite();
-            if matches!(ending, Ending::Converged | Ending::GivenUp) && descends {
-                solution.truncated = ending == Ending::GivenUp;
+            if matches!(solved.end, End::Converged | End::Limit) && descends {
+                solution.truncated = solved.end == End::Limit;
                 break;
             }
             if must_be_definite {
                 return Ok(None);
             }
             // What conjugate gradients have found before they met a direction of negative curvature descends.
-            if ending == Ending::Indefinite && descends {
+            if solved.end == End::NegativeCurvature && descends {
                 solution.truncated = true;
                 break;
             }
-            solution.shift = if solution.shift == 0.0 { 1.0 } else { 10.0 * solution.shift };
-            if solution.shift > 1e12 {
+            let shift = if solution.shift == 0.0 { 1.0 } else { 10.0 * solution.shift };
+            if shift > 1e12 {
                 return Err(Error::NotPositive { shift: 1e12 });
             }
+            let added = (shift - solution.shift) * objective.regularisation;
+            system.add_to_diagonal(share, |node| added * objective.masses[node]);
+            solution.shift = shift;
         }
-        objective.exchange.begin_copies(&direction[..objective.share.owned])?;
-        self.is_sending = true;
+        objective.exchange.copy(direction.as_flattened_mut())?;
         Ok(Some(solution))
     }
 
     fn move_pins(&mut self) -> Result<(), Error> {
-        self.end_copies()?;
         for (x, d) in self.x.as_flattened_mut().iter_mut().zip(self.pins_move.as_flattened()) {
             *x += d;
         }

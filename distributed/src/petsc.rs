@@ -14,6 +14,7 @@ use std::rc::Rc;
 use mpi::environment::Universe;
 use mpi::raw::AsRaw;
 use mpi::topology::SimpleCommunicator;
+use piola::step::divided::{End, Iteration};
 
 use ffi::PetscInt;
 
@@ -144,6 +145,23 @@ impl Library {
         &self.0.world
     }
 
+    /// Whether an option has this value.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn is_set_to(&self, name: &str, value: &str) -> Result<bool, PetscError> {
+        let dashed = dashed(name)?;
+        let (mut text, mut is_set): ([c_char; 64], _) = ([0; 64], ffi::PetscBool_PETSC_FALSE);
+        // SAFETY: the name is a string of C, PETSc writes a string of C of at most as many bytes as it is
+        // told, and the answers go to variables that outlive the call.
+        let text = unsafe {
+            let (to, bytes) = (text.as_mut_ptr(), text.len());
+            check(ffi::PetscOptionsGetString(null_mut(), null(), dashed.as_ptr(), to, bytes, &mut is_set))?;
+            CStr::from_ptr(to)
+        };
+        Ok(is_set == ffi::PetscBool_PETSC_TRUE && text.to_bytes() == value.as_bytes())
+    }
+
     /// Sets an option unless the user has.
     ///
     /// # Errors
@@ -202,7 +220,36 @@ fn set_option(name: &str, value: Option<&str>) -> Result<(), PetscError> {
     check(unsafe { ffi::PetscOptionsSetValue(null_mut(), name.as_ptr(), value) })
 }
 
-/// A vector of three components for each node, of which each rank owns some and has copies of others.
+/// A real number of a vector that is sent: PETSc's are f64.
+pub trait Entry: Copy {
+    /// The number itself, or the nearest one.
+    fn of(number: f64) -> Self;
+
+    /// The number in f64.
+    fn wide(self) -> f64;
+}
+
+impl Entry for f64 {
+    fn of(number: f64) -> Self {
+        number
+    }
+
+    fn wide(self) -> f64 {
+        self
+    }
+}
+
+impl Entry for f32 {
+    fn of(number: f64) -> Self {
+        number as Self
+    }
+
+    fn wide(self) -> f64 {
+        self.into()
+    }
+}
+
+/// A vector of some components for each row, of which each rank owns some and has copies of others.
 pub struct GhostedVector {
     _library: Library,
     raw: ffi::Vec,
@@ -211,81 +258,68 @@ pub struct GhostedVector {
 }
 
 impl GhostedVector {
-    /// A vector of so many nodes of this rank, which are numbered one rank after another, and copies of the
-    /// nodes with the numbers `ghosts`.
+    /// A vector of so many rows of this rank, which are numbered one rank after another, and copies of the
+    /// rows with the numbers `ghosts`; so many `components` belong to each.
     ///
     /// # Errors
     /// [`PetscError`].
-    pub fn new(library: &Library, owned: usize, ghosts: &[usize]) -> Result<Self, PetscError> {
+    pub fn new(
+        library: &Library,
+        components: usize,
+        owned: usize,
+        ghosts: &[usize],
+    ) -> Result<Self, PetscError> {
         let numbers: Vec<PetscInt> = ghosts.iter().map(|&number| int(number)).collect::<Result<_, _>>()?;
         let mut raw = null_mut();
         // SAFETY: there are as many numbers as the call says, which PETSc copies, and the answer outlives it.
         check(unsafe {
             ffi::VecCreateGhostBlock(
                 library.comm(),
-                3,
-                int(3 * owned)?,
+                int(components)?,
+                int(components * owned)?,
                 DECIDE,
                 int(ghosts.len())?,
                 numbers.as_ptr(),
                 &mut raw,
             )
         })?;
-        Ok(Self { _library: library.clone(), raw, local: owned + ghosts.len(), owned })
+        let [local, owned] = [owned + ghosts.len(), owned].map(|rows| components * rows);
+        Ok(Self { _library: library.clone(), raw, local, owned })
     }
 
-    /// Begins to send the owned entries to the ranks that have copies.
+    /// Replaces the copies, with which `all` ends, by the entries of their owners.
     ///
     /// # Errors
     /// [`PetscError`].
-    pub fn begin_copies(&mut self, owned: &[[f64; 3]]) -> Result<(), PetscError> {
-        self.with_local(|entries| entries.iter_mut().zip(owned).for_each(|(entry, &x)| *entry = x))?;
-        self.update(true, ffi::InsertMode_INSERT_VALUES, ffi::ScatterMode_SCATTER_FORWARD)
-    }
-
-    /// Waits for the copies, and stores them.
-    ///
-    /// # Errors
-    /// [`PetscError`].
-    pub fn end_copies(&mut self, ghosts: &mut [[f64; 3]]) -> Result<(), PetscError> {
-        self.update(false, ffi::InsertMode_INSERT_VALUES, ffi::ScatterMode_SCATTER_FORWARD)?;
+    pub fn copy<E: Entry>(&mut self, all: &mut [E]) -> Result<(), PetscError> {
         let owned = self.owned;
-        self.with_local(|entries| ghosts.iter_mut().zip(&entries[owned..]).for_each(|(ghost, &x)| *ghost = x))
+        self.with_local(|entries| entries.iter_mut().zip(&all[..owned]).for_each(|(e, x)| *e = x.wide()))?;
+        self.update(ffi::InsertMode_INSERT_VALUES, ffi::ScatterMode_SCATTER_FORWARD)?;
+        let copies = &mut all[owned..];
+        self.with_local(|entries| copies.iter_mut().zip(&entries[owned..]).for_each(|(x, e)| *x = E::of(*e)))
     }
 
-    /// Begins to send what this rank adds to nodes that others own; `all` holds its owned nodes, then its
-    /// copies.
+    /// Adds the copies, with which `all` ends, to the entries of their owners.
     ///
     /// # Errors
     /// [`PetscError`].
-    pub fn begin_sum(&mut self, all: &[[f64; 3]]) -> Result<(), PetscError> {
-        self.with_local(|entries| entries.iter_mut().zip(all).for_each(|(entry, &x)| *entry = x))?;
-        self.update(true, ffi::InsertMode_ADD_VALUES, ffi::ScatterMode_SCATTER_REVERSE)
+    pub fn sum<E: Entry>(&mut self, all: &mut [E]) -> Result<(), PetscError> {
+        self.with_local(|entries| entries.iter_mut().zip(&*all).for_each(|(e, x)| *e = x.wide()))?;
+        self.update(ffi::InsertMode_ADD_VALUES, ffi::ScatterMode_SCATTER_REVERSE)?;
+        let owned = &mut all[..self.owned];
+        self.with_local(|entries| owned.iter_mut().zip(&*entries).for_each(|(x, e)| *x = E::of(*e)))
     }
 
-    /// Waits for what other ranks add, and stores the sums of the owned nodes.
-    ///
-    /// # Errors
-    /// [`PetscError`].
-    pub fn end_sum(&mut self, owned: &mut [[f64; 3]]) -> Result<(), PetscError> {
-        self.update(false, ffi::InsertMode_ADD_VALUES, ffi::ScatterMode_SCATTER_REVERSE)?;
-        self.with_local(|entries| owned.iter_mut().zip(&*entries).for_each(|(sum, &x)| *sum = x))
-    }
-
-    /// Begins an update, or ends the one that was begun.
-    fn update(
-        &mut self,
-        begins: bool,
-        mode: ffi::InsertMode,
-        direction: ffi::ScatterMode,
-    ) -> Result<(), PetscError> {
-        let step = if begins { ffi::VecGhostUpdateBegin } else { ffi::VecGhostUpdateEnd };
+    fn update(&mut self, mode: ffi::InsertMode, direction: ffi::ScatterMode) -> Result<(), PetscError> {
         // SAFETY: the vector was made by `VecCreateGhostBlock` and is not destroyed before this.
-        check(unsafe { step(self.raw, mode, direction) })
+        unsafe {
+            check(ffi::VecGhostUpdateBegin(self.raw, mode, direction))?;
+            check(ffi::VecGhostUpdateEnd(self.raw, mode, direction))
+        }
     }
 
     /// Works on the owned entries and the copies.
-    fn with_local(&mut self, work: impl FnOnce(&mut [[f64; 3]])) -> Result<(), PetscError> {
+    fn with_local(&mut self, work: impl FnOnce(&mut [f64])) -> Result<(), PetscError> {
         let mut form = null_mut();
         // SAFETY: the vector has copies, and the answer outlives the call.
         check(unsafe { ffi::VecGhostGetLocalForm(self.raw, &mut form) })?;
@@ -296,19 +330,41 @@ impl GhostedVector {
     }
 }
 
-/// Works on the entries of a vector that this rank holds, three for each of so many nodes.
-fn with_entries(raw: ffi::Vec, nodes: usize, work: impl FnOnce(&mut [[f64; 3]])) -> Result<(), PetscError> {
+/// Works on the entries of a vector that this rank holds, so many.
+fn with_entries(raw: ffi::Vec, count: usize, work: impl FnOnce(&mut [f64])) -> Result<(), PetscError> {
     let mut entries = null_mut();
     // SAFETY: the vector exists, and the answer outlives the call.
     check(unsafe { ffi::VecGetArray(raw, &mut entries) })?;
-    if nodes > 0 && !entries.is_null() {
-        // SAFETY: vectors are made with three entries for each of so many nodes on this rank, f64 as in all
-        // PETSc of real numbers, and nobody else has the array until it is given back. An array of three has
-        // the alignment of one.
-        work(unsafe { std::slice::from_raw_parts_mut(entries.cast::<[f64; 3]>(), nodes) });
+    if count == 0 || entries.is_null() {
+        work(&mut []);
+    } else {
+        // SAFETY: callers say how many entries this rank holds, f64 as in all PETSc of real numbers, and
+        // nobody else has the array until it is given back.
+        work(unsafe { std::slice::from_raw_parts_mut(entries, count) });
     }
     // SAFETY: the array is that of the call above, and the slice made of it is gone.
     check(unsafe { ffi::VecRestoreArray(raw, &mut entries) })
+}
+
+/// Works on the entries of a vector that this rank holds, which stay as they are.
+fn with_given<T>(raw: ffi::Vec, work: impl FnOnce(&[f64]) -> T) -> Result<T, PetscError> {
+    let (mut entries, mut count) = (null(), 0);
+    // SAFETY: the vector exists, and the answers outlive the calls.
+    unsafe {
+        check(ffi::VecGetLocalSize(raw, &mut count))?;
+        check(ffi::VecGetArrayRead(raw, &mut entries))?;
+    }
+    let done = match usize::try_from(count) {
+        // SAFETY: the vector has so many entries here, f64 as in all PETSc of real numbers, and nobody
+        // changes them until the array is given back.
+        Ok(count) if count > 0 && !entries.is_null() => {
+            work(unsafe { std::slice::from_raw_parts(entries, count) })
+        }
+        _ => work(&[]),
+    };
+    // SAFETY: the array is that of the call above, and the slice made of it is gone.
+    check(unsafe { ffi::VecRestoreArrayRead(raw, &mut entries) })?;
+    Ok(done)
 }
 
 impl Drop for GhostedVector {
@@ -318,25 +374,25 @@ impl Drop for GhostedVector {
     }
 }
 
-/// A vector of unknowns, three for each node.
-pub struct Vector {
+/// A vector of unknowns, N for each row.
+pub struct Vector<const N: usize> {
     _library: Library,
     raw: ffi::Vec,
-    nodes: usize,
+    rows: usize,
 }
 
-impl Vector {
-    /// Zeros for so many nodes of this rank.
+impl<const N: usize> Vector<N> {
+    /// Zeros for so many rows of this rank.
     ///
     /// # Errors
     /// [`PetscError`].
-    pub fn new(library: &Library, nodes: usize) -> Result<Self, PetscError> {
+    pub fn new(library: &Library, rows: usize) -> Result<Self, PetscError> {
         let mut raw = null_mut();
         // SAFETY: the answer goes to a variable that outlives the call.
-        check(unsafe { ffi::VecCreateMPI(library.comm(), int(3 * nodes)?, DECIDE, &mut raw) })?;
-        let vector = Self { _library: library.clone(), raw, nodes };
-        // SAFETY: the vector exists, and three divides the number of its entries on each rank.
-        check(unsafe { ffi::VecSetBlockSize(raw, 3) })?;
+        check(unsafe { ffi::VecCreateMPI(library.comm(), int(N * rows)?, DECIDE, &mut raw) })?;
+        let vector = Self { _library: library.clone(), raw, rows };
+        // SAFETY: the vector exists, and N divides the number of its entries on each rank.
+        check(unsafe { ffi::VecSetBlockSize(raw, int(N)?) })?;
         Ok(vector)
     }
 
@@ -344,23 +400,124 @@ impl Vector {
     ///
     /// # Errors
     /// [`PetscError`].
-    pub fn with(&mut self, work: impl FnOnce(&mut [[f64; 3]])) -> Result<(), PetscError> {
-        with_entries(self.raw, self.nodes, work)
+    pub fn with(&mut self, work: impl FnOnce(&mut [[f64; N]])) -> Result<(), PetscError> {
+        with_entries(self.raw, N * self.rows, |entries| work(entries.as_chunks_mut().0))
     }
 }
 
-impl Drop for Vector {
+impl<const N: usize> Drop for Vector<N> {
     fn drop(&mut self) {
         // SAFETY: the vector exists, this is its only owner, and PETSc still runs.
         let _ = unsafe { ffi::VecDestroy(&mut self.raw) };
     }
 }
 
-/// A square sparse matrix in compressed rows, divided among the ranks by rows.
+/// A stiffness and a preconditioner that PETSc knows as functions of vectors: those of the unknowns of free
+/// nodes of this rank.
+pub trait Operators {
+    /// Replaces `product`, N, by that with a displacement, m.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), PetscError>;
+
+    /// Replaces `z`, m, by about A⁻¹ r.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    fn precondition(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) -> Result<(), PetscError>;
+
+    /// Lines that `-ksp_view` shows of the preconditioner, and a solver within it.
+    fn view(&self) -> (String, Option<&Krylov>);
+}
+
+/// What PETSc's objects that are functions refer to.
+type Shared = Rc<RefCell<dyn Operators>>;
+
+/// Calls one of the operators for vectors of PETSc. A message of an error is kept as that of PETSc's own is.
+fn call(
+    operators: *mut c_void,
+    x: ffi::Vec,
+    y: ffi::Vec,
+    work: impl FnOnce(&mut dyn Operators, &[[f64; 3]], &mut [[f64; 3]]) -> Result<(), PetscError>,
+) -> ffi::PetscErrorCode {
+    // SAFETY: contexts are made of boxes of this type, which live as long as the object of PETSc that has
+    // them.
+    let operators: &Shared = unsafe { &*operators.cast() };
+    let done = with_given(x, |x| {
+        let mut done = Ok(());
+        let mut operators = operators.borrow_mut();
+        with_entries(y, x.len(), |y| done = work(&mut *operators, x.as_chunks().0, y.as_chunks_mut().0))?;
+        done
+    });
+    let Err(error) = done.and_then(|done| done) else { return 0 };
+    MESSAGE.with(|message| *message.borrow_mut() = Some(error.message));
+    FAILED
+}
+
+/// What PETSc calls PETSC_ERR_LIB, a macro of C: an error in a library that it calls.
+const FAILED: ffi::PetscErrorCode = 76;
+
+/// The product of a matrix that is a function.
+///
+/// # Safety
+/// `matrix` must be one of [`Matrix::of_function`].
+unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> ffi::PetscErrorCode {
+    let mut operators: *mut c_void = null_mut();
+    // SAFETY: the matrix exists, and its context is a pointer, which goes to a variable that outlives the
+    // call.
+    match unsafe { ffi::MatShellGetContext(matrix, (&raw mut operators).cast()) } {
+        0 => call(operators, x, y, |operators, x, product| operators.multiply(x, product)),
+        code => code,
+    }
+}
+
+/// A preconditioner that is a function.
+///
+/// # Safety
+/// `preconditioner` must be one of [`Krylov::precondition_by`].
+unsafe extern "C" fn precondition(preconditioner: ffi::PC, r: ffi::Vec, z: ffi::Vec) -> ffi::PetscErrorCode {
+    let mut operators: *mut c_void = null_mut();
+    // SAFETY: as in `multiply`.
+    match unsafe { ffi::PCShellGetContext(preconditioner, (&raw mut operators).cast()) } {
+        0 => call(operators, r, z, |operators, r, z| operators.precondition(r, z)),
+        code => code,
+    }
+}
+
+/// Shows a preconditioner that is a function, and the solver within it.
+///
+/// # Safety
+/// `preconditioner` must be one of [`Krylov::precondition_by`].
+unsafe extern "C" fn view(preconditioner: ffi::PC, viewer: ffi::PetscViewer) -> ffi::PetscErrorCode {
+    let mut operators: *mut c_void = null_mut();
+    // SAFETY: as in `multiply`.
+    let code = unsafe { ffi::PCShellGetContext(preconditioner, (&raw mut operators).cast()) };
+    if code != 0 {
+        return code;
+    }
+    // SAFETY: as in `call`.
+    let operators: &Shared = unsafe { &*operators.cast() };
+    let operators = operators.borrow();
+    let (text, within) = operators.view();
+    let Ok(text) = string(&text) else { return FAILED };
+    // SAFETY: the viewer is PETSc's, the format takes one string of C, and the solver exists.
+    let shown = unsafe {
+        check(ffi::PetscViewerASCIIPrintf(viewer, c"  %s\n".as_ptr(), text.as_ptr()))
+            .and_then(|()| check(ffi::PetscViewerASCIIPushTab(viewer)))
+            .and_then(|()| within.map_or(Ok(()), |within| check(ffi::KSPView(within.raw, viewer))))
+            .and_then(|()| check(ffi::PetscViewerASCIIPopTab(viewer)))
+    };
+    if shown.is_ok() { 0 } else { FAILED }
+}
+
+/// A square sparse matrix in compressed rows, divided among the ranks by rows; or a function.
 pub struct Matrix {
     library: Library,
     raw: ffi::Mat,
     places: usize,
+    /// Lives as long as the matrix refers to it.
+    _operators: Option<Box<Shared>>,
 }
 
 impl Matrix {
@@ -383,7 +540,7 @@ impl Matrix {
         let mut raw = null_mut();
         // SAFETY: the answer goes to a variable that outlives the call.
         check(unsafe { ffi::MatCreate(library.comm(), &mut raw) })?;
-        let matrix = Self { library: library.clone(), raw, places: row_numbers.len() };
+        let matrix = Self { library: library.clone(), raw, places: row_numbers.len(), _operators: None };
         let kind = string("aij")?;
         // SAFETY: the matrix exists and has neither type nor sizes; `kind` is a string of C; the two slices
         // have the length that the call says, and PETSc may overwrite them, for nobody reads them again.
@@ -398,6 +555,31 @@ impl Matrix {
                 columns.as_mut_ptr(),
             ))?;
         }
+        Ok(matrix)
+    }
+
+    /// The product of operators, for so many free nodes of this rank.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn of_function(library: &Library, nodes: usize, operators: Shared) -> Result<Self, PetscError> {
+        let (rows, operators) = (int(3 * nodes)?, Box::new(operators));
+        let context: *const Shared = &raw const *operators;
+        let mut raw = null_mut();
+        // SAFETY: the answer goes to a variable that outlives the call; the context lives as long as the
+        // matrix.
+        check(unsafe {
+            let context = context.cast_mut().cast();
+            ffi::MatCreateShell(library.comm(), rows, rows, DECIDE, DECIDE, context, &mut raw)
+        })?;
+        let matrix = Self { library: library.clone(), raw, places: 0, _operators: Some(operators) };
+        let function: unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> ffi::PetscErrorCode = multiply;
+        // SAFETY: the matrix exists, and PETSc calls what it is given for this operation with the arguments
+        // of `multiply`.
+        check(unsafe {
+            let function = std::mem::transmute::<_, unsafe extern "C" fn()>(function);
+            ffi::MatShellSetOperation(raw, ffi::MatOperation_MATOP_MULT, Some(function))
+        })?;
         Ok(matrix)
     }
 
@@ -430,12 +612,34 @@ impl Matrix {
     ///
     /// # Errors
     /// [`PetscError`].
-    pub fn set_rigid_motions(&mut self, places: &Vector) -> Result<(), PetscError> {
+    pub fn set_rigid_motions(&mut self, places: &Vector<3>) -> Result<(), PetscError> {
         let mut space = null_mut();
+        // SAFETY: the vector exists, and the answer goes to a variable that outlives the call.
+        check(unsafe { ffi::MatNullSpaceCreateRigidBody(places.raw, &mut space) })?;
+        self.set_near_null_space(space)
+    }
+
+    /// Tells preconditioners that these vectors, which must be orthonormal, are nearly in the null space.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn set_motions<const N: usize>(&mut self, motions: &[Vector<N>]) -> Result<(), PetscError> {
+        let vectors: Vec<ffi::Vec> = motions.iter().map(|vector| vector.raw).collect();
+        let (is_constant, count) = (ffi::PetscBool_PETSC_FALSE, int(vectors.len())?);
+        let mut space = null_mut();
+        // SAFETY: there are as many vectors as the call says, to which PETSc keeps references, and the answer
+        // goes to a variable that outlives the call.
+        check(unsafe {
+            let comm = self.library.comm();
+            ffi::MatNullSpaceCreate(comm, is_constant, count, vectors.as_ptr(), &mut space)
+        })?;
+        self.set_near_null_space(space)
+    }
+
+    fn set_near_null_space(&mut self, mut space: ffi::MatNullSpace) -> Result<(), PetscError> {
         // SAFETY: both objects exist, and the space, which the matrix keeps a reference to, is destroyed
         // once.
         unsafe {
-            check(ffi::MatNullSpaceCreateRigidBody(places.raw, &mut space))?;
             let set = check(ffi::MatSetNearNullSpace(self.raw, space));
             check(ffi::MatNullSpaceDestroy(&mut space))?;
             set
@@ -491,28 +695,48 @@ pub struct Krylov {
     raw: ffi::KSP,
     /// Lives as long as the solver refers to it.
     matrix: Rc<RefCell<Matrix>>,
-}
-
-/// How a linear system was solved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// To the tolerance.
-    Converged,
-    /// Given up at the limit of iterations, or where it no longer got on.
-    GivenUp,
-    /// The matrix, or the preconditioner made of it, is not positive definite.
-    Indefinite,
-    /// Something is infinite or NaN, or the preconditioner could not be made.
-    Failed,
+    /// Lives as long as the preconditioner refers to it.
+    operators: Option<Box<Shared>>,
 }
 
 impl Krylov {
-    /// A solver for a matrix: of this kind, such as `cg`, or what the options say whose names begin with
+    /// A solver by conjugate gradients for a matrix, or what the options say whose names begin with
     /// `prefix`.
     ///
     /// # Errors
     /// [`PetscError`], also for an option with a value that PETSc does not know.
-    pub fn new(
+    pub fn new(library: &Library, matrix: Rc<RefCell<Matrix>>, prefix: &str) -> Result<Self, PetscError> {
+        let solver = Self::of_kind(library, matrix, "cg", prefix)?;
+        // SAFETY: the solver exists.
+        unsafe {
+            check(ffi::KSPSetNormType(solver.raw, ffi::KSPNormType_KSP_NORM_UNPRECONDITIONED))?;
+            check(ffi::KSPSetFromOptions(solver.raw))?;
+        }
+        Ok(solver)
+    }
+
+    /// A solver that applies a preconditioner of this kind once, or what the options say whose names begin
+    /// with `prefix`.
+    ///
+    /// # Errors
+    /// [`PetscError`], also for an option with a value that PETSc does not know.
+    pub fn once(
+        library: &Library,
+        matrix: Rc<RefCell<Matrix>>,
+        kind: &str,
+        prefix: &str,
+    ) -> Result<Self, PetscError> {
+        let solver = Self::of_kind(library, matrix, "preonly", prefix)?;
+        let (kind, preconditioner) = (string(kind)?, solver.preconditioner()?);
+        // SAFETY: both objects exist, and the text is a string of C, which PETSc copies.
+        unsafe {
+            check(ffi::PCSetType(preconditioner, kind.as_ptr()))?;
+            check(ffi::KSPSetFromOptions(solver.raw))?;
+        }
+        Ok(solver)
+    }
+
+    fn of_kind(
         library: &Library,
         matrix: Rc<RefCell<Matrix>>,
         kind: &str,
@@ -522,17 +746,40 @@ impl Krylov {
         // SAFETY: the answer goes to a variable that outlives the call.
         check(unsafe { ffi::KSPCreate(library.comm(), &mut raw) })?;
         let mat = matrix.borrow().raw;
-        let solver = Self { raw, matrix };
+        let solver = Self { raw, matrix, operators: None };
         let (kind, prefix) = (string(kind)?, string(prefix)?);
         // SAFETY: solver and matrix exist, and both texts are strings of C, which PETSc copies.
         unsafe {
             check(ffi::KSPSetOptionsPrefix(raw, prefix.as_ptr()))?;
             check(ffi::KSPSetType(raw, kind.as_ptr()))?;
-            check(ffi::KSPSetNormType(raw, ffi::KSPNormType_KSP_NORM_UNPRECONDITIONED))?;
             check(ffi::KSPSetOperators(raw, mat, mat))?;
-            check(ffi::KSPSetFromOptions(raw))?;
         }
         Ok(solver)
+    }
+
+    fn preconditioner(&self) -> Result<ffi::PC, PetscError> {
+        let mut preconditioner = null_mut();
+        // SAFETY: the solver exists, and the answer goes to a variable that outlives the call.
+        check(unsafe { ffi::KSPGetPC(self.raw, &mut preconditioner) })?;
+        Ok(preconditioner)
+    }
+
+    /// Preconditions by operators, which options know as the type `shell`.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn precondition_by(&mut self, operators: Shared) -> Result<(), PetscError> {
+        let preconditioner = self.preconditioner()?;
+        let operators = self.operators.insert(Box::new(operators));
+        let context: *const Shared = &raw const **operators;
+        // SAFETY: the preconditioner exists, the name is a string of C, which PETSc copies, the context lives
+        // as long as the solver, and the functions have the signatures that PETSc asks for.
+        unsafe {
+            check(ffi::PCShellSetContext(preconditioner, context.cast_mut().cast()))?;
+            check(ffi::PCShellSetApply(preconditioner, Some(precondition)))?;
+            check(ffi::PCShellSetView(preconditioner, Some(view)))?;
+            check(ffi::PCShellSetName(preconditioner, c"piola".as_ptr()))
+        }
     }
 
     /// Keeps the preconditioner as it is, or makes it anew for the next system.
@@ -545,17 +792,17 @@ impl Krylov {
         check(unsafe { ffi::KSPSetReusePreconditioner(self.raw, keep) })
     }
 
-    /// Solves A x = b to a share `tolerance` of |b|; returns how it ended and the number of iterations.
+    /// Solves A x = b from x = 0 to a share `tolerance` of |b|.
     ///
     /// # Errors
     /// [`PetscError`].
-    pub fn solve(
+    pub fn solve<const N: usize>(
         &mut self,
-        b: &Vector,
-        x: &mut Vector,
+        b: &Vector<N>,
+        x: &mut Vector<N>,
         tolerance: f64,
         max_iterations: usize,
-    ) -> Result<(Ending, usize), PetscError> {
+    ) -> Result<Iteration, PetscError> {
         let matrix = self.matrix.borrow().raw;
         let (mut reason, mut iterations) = (0, 0);
         // SAFETY: solver, matrix and vectors exist, and the answers outlive the calls.
@@ -566,15 +813,24 @@ impl Krylov {
             check(ffi::KSPGetConvergedReason(self.raw, &mut reason))?;
             check(ffi::KSPGetIterationNumber(self.raw, &mut iterations))?;
         }
-        let ending = match reason {
-            reason if reason > 0 => Ending::Converged,
+        let end = match reason {
+            reason if reason > 0 => End::Converged,
             ffi::KSPConvergedReason_KSP_DIVERGED_INDEFINITE_MAT
-            | ffi::KSPConvergedReason_KSP_DIVERGED_INDEFINITE_PC => Ending::Indefinite,
+            | ffi::KSPConvergedReason_KSP_DIVERGED_INDEFINITE_PC => End::NegativeCurvature,
             ffi::KSPConvergedReason_KSP_DIVERGED_NANORINF
-            | ffi::KSPConvergedReason_KSP_DIVERGED_PC_FAILED => Ending::Failed,
-            _ => Ending::GivenUp,
+            | ffi::KSPConvergedReason_KSP_DIVERGED_PC_FAILED => End::NotFinite,
+            _ => End::Limit,
         };
-        Ok((ending, usize::try_from(iterations).unwrap_or(0)))
+        Ok(Iteration { iterations: usize::try_from(iterations).unwrap_or(0), end })
+    }
+
+    /// Solves A x = b as far as the options say.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn apply<const N: usize>(&mut self, b: &Vector<N>, x: &mut Vector<N>) -> Result<(), PetscError> {
+        // SAFETY: solver and vectors exist.
+        check(unsafe { ffi::KSPSolve(self.raw, b.raw, x.raw) })
     }
 }
 

@@ -2,8 +2,8 @@
 //! elements.
 //!
 //! A partitioner divides the graph of the nodes. An element goes to the rank that owns most of its nodes, so
-//! that every element is evaluated once, and what it adds to nodes of other ranks is sent there. This module
-//! knows no materials and no time.
+//! that every element is evaluated once, and what it adds to nodes of other ranks is sent there. A node is
+//! owned by a rank that has an element of it. This module knows no materials and no time.
 
 use std::collections::HashMap;
 
@@ -50,7 +50,7 @@ impl Share {
         if total < team.size() {
             return Err(Error::TooManyRanks { ranks: team.size(), elements: total });
         }
-        let owner_here = owners(team, &homes, &elements)?;
+        let mut owner_here = owners(team, &homes, &elements)?;
 
         // Elements to their ranks.
         let mut touched: Vec<u64> = elements.iter().flat_map(|element| &element[..4]).copied().collect();
@@ -67,8 +67,23 @@ impl Share {
         let mut elements = team.exchange_rows(&lists).concat();
         elements.sort_unstable_by_key(|element| element[4]);
 
-        // Nodes to their owners.
+        // A node whose elements have all gone to others goes to one of these.
         let first = homes.range(team.rank()).start;
+        let mut touched: Vec<u64> = elements.iter().flat_map(|element| &element[..4]).copied().collect();
+        touched.sort_unstable();
+        touched.dedup();
+        let of_ranks = team.exchange_rows(&homes.sort(team, touched.iter().map(|&node| [node])));
+        let mut with_elements = vec![Vec::new(); places.len()];
+        for (rank, nodes) in of_ranks.iter().enumerate() {
+            nodes.iter().for_each(|[node]| with_elements[(node - first) as usize].push(rank as u64));
+        }
+        for (owner, ranks) in owner_here.iter_mut().zip(with_elements) {
+            if !ranks.contains(owner) {
+                *owner = ranks.first().copied().unwrap_or(*owner);
+            }
+        }
+
+        // Nodes to their owners.
         let mut lists = vec![Vec::new(); team.size()];
         for (node, place) in places.iter().enumerate() {
             let mut row = [0; 8];

@@ -74,21 +74,20 @@ impl Simulation {
             return Err(not_divided("a linear solver other than conjugate gradients"));
         };
         let elastic = team.agree(Elastic::new(&share, parts))?;
-        let mut exchange = GhostedVector::new(team.library(), share.owned, &share.copies)?;
-        let mut of_all = vec![0.0; share.ids.len()];
-        elastic.add_masses(&mut of_all);
-        exchange.begin_sum(&of_all.iter().map(|&mass| [mass, 0.0, 0.0]).collect::<Vec<_>>())?;
-        let mut sums = vec![[0.0; 3]; share.owned];
-        exchange.end_sum(&mut sums)?;
-        let masses: Vec<f64> = sums.iter().map(|sum| sum[0]).collect();
+        let exchange = GhostedVector::new(team.library(), 3, share.owned, &share.copies)?;
+        let mut masses = vec![0.0; share.ids.len()];
+        elastic.add_masses(&mut masses);
+        GhostedVector::new(team.library(), 1, share.owned, &share.copies)?.sum(&mut masses)?;
+        masses.truncate(share.owned);
         let [stiffness, mass] = team.sum([elastic.stiffness(), masses.iter().sum()]);
 
         let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
         let steps =
             team.agree(StagedSteps::new(settings.integrator, &start, &share.pinned()).map_err(Error::from))?;
+        let matrix = team.agree(elastic.nodal_stiffness())?;
         Ok(Self {
             pins: team.count(share.owned - share.free),
-            system: LinearSystem::new(team, &share, &elastic)?,
+            system: LinearSystem::new(team, &share, matrix)?,
             team: team.clone(),
             settings,
             damping,
@@ -218,8 +217,7 @@ impl Simulation {
     /// Evaluates the energies of all elements at the current state; the tag of one without.
     fn evaluate(&mut self) -> Result<(), u64> {
         let x = self.steps.positions();
-        self.elastic.evaluate_inner(x);
-        self.elastic.evaluate_border(x);
+        self.elastic.evaluate(x);
         let tag = self.team.min(self.elastic.refused().map_or(f64::INFINITY, |tag| tag as f64));
         if tag.is_finite() { Err(tag as u64) } else { Ok(()) }
     }

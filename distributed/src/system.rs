@@ -1,19 +1,28 @@
-//! The linear system of a Newton iteration, as PETSc assembles and solves it.
+//! The linear system of a Newton iteration, on one rank, and how PETSc solves it.
+//!
+//! The stiffness of a rank is that of its elements: half of a matrix of 3×3 blocks, a row for each node of
+//! the rank, copies included. Ranks add up to the whole. PETSc's conjugate gradients know it as a function,
+//! and as another function its preconditioner, which is piola's: blocks on the diagonal or multigrid, whose
+//! last level is PETSc's again. Where an option asks for another preconditioner, PETSc is given a whole
+//! matrix in compressed rows instead.
 
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use crate::elastic::Elastic;
+use piola::step::divided::{End, Iteration, Preconditioner};
+use piola::system::NodalStiffness;
+
+use crate::division::{Copies, Failure};
 use crate::error::Error;
-use crate::petsc::{Ending, Krylov, Matrix, PetscError, Vector};
+use crate::petsc::{GhostedVector, Krylov, Matrix, Operators, PetscError, Vector};
 use crate::share::Share;
 use crate::team::Team;
 
-/// Options of PETSc unless the user sets others: smoothed aggregation for conjugate gradients, two steps of
-/// Chebyshev's iteration and Jacobi's diagonal on each level, and the aggregates of the first system for all
-/// later ones.
+/// Options of PETSc unless the user sets others: piola's preconditioner or, where `-pc_type gamg` asks for
+/// it, smoothed aggregation with two steps of Chebyshev's iteration and Jacobi's diagonal on each level, and
+/// the aggregates of the first system for all later ones.
 const DEFAULTS: &[(&str, &str)] = &[
-    ("pc_type", "gamg"),
+    ("pc_type", OWN),
     ("pc_gamg_type", "agg"),
     ("pc_gamg_agg_nsmooths", "1"),
     ("pc_gamg_threshold", "0.01"),
@@ -24,81 +33,289 @@ const DEFAULTS: &[(&str, &str)] = &[
     ("fallback_pc_type", "jacobi"),
 ];
 
-/// An old preconditioner may take so many times the iterations that it took for its own matrix.
+/// PETSc's name for a preconditioner that is a function: piola's.
+const OWN: &str = "shell";
+
+/// An old preconditioner of PETSc's may take so many times the iterations that it took for its own matrix.
 const PATIENCE: f64 = 2.0;
 
 /// The unknowns of free nodes, matrix and solver.
 pub struct LinearSystem {
-    matrix: Rc<RefCell<Matrix>>,
-    krylov: Krylov,
-    fallback: Krylov,
-    right: Vector,
-    solution: Vector,
-    places: Vector,
-    values: Vec<f64>,
-    free: usize,
-    /// Iterations a digit right after the preconditioner was made; `None` before.
-    pace: Option<f64>,
-    /// Whether the options have been looked through for those without use.
-    is_checked: bool,
+    own: Rc<RefCell<Own>>,
+    way: Way,
+    right: Vector<3>,
+    solution: Vector<3>,
+    /// Whether the options have been looked through for those without use, at first and with levels.
+    is_checked: [bool; 2],
+}
+
+/// A right side, a place for the solution, and how far to solve.
+struct Task<'a> {
+    right: &'a Vector<3>,
+    solution: &'a mut Vector<3>,
+    tolerance: f64,
+    max_iterations: usize,
+}
+
+/// The way to solve.
+enum Way {
+    /// By functions.
+    Own(Krylov),
+    /// By a matrix of PETSc's.
+    Assembled(Assembled),
+}
+
+/// The stiffness of a rank, and piola's preconditioner.
+struct Own {
+    stiffness: NodalStiffness,
+    preconditioner: Preconditioner<Copies>,
+    exchange: GhostedVector,
+    failure: Failure,
+    is_free: Vec<bool>,
+    /// A vector for each node of the rank, and the product with it.
+    x: Vec<[f64; 3]>,
+    product: Vec<[f64; 3]>,
+}
+
+impl Operators for Own {
+    fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), PetscError> {
+        // Pinned nodes follow, with zeros.
+        self.x[..x.len()].copy_from_slice(x);
+        self.multiply_x()?;
+        product.copy_from_slice(&self.product[..product.len()]);
+        Ok(())
+    }
+
+    fn precondition(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) -> Result<(), PetscError> {
+        self.preconditioner.apply(r, z);
+        self.failure.take()
+    }
+
+    fn view(&self) -> (String, Option<&Krylov>) {
+        let Some((rows, last)) = self.preconditioner.levels() else {
+            return ("blocks on the diagonal".to_owned(), None);
+        };
+        let rows: Vec<String> = rows.iter().map(ToString::to_string).collect();
+        (format!("multigrid: levels of {} rows; the last is solved by", rows.join(", ")), Some(last.krylov()))
+    }
+}
+
+impl Own {
+    /// Multiplies the vector `x` of the owned nodes.
+    fn multiply_x(&mut self) -> Result<(), PetscError> {
+        let Self { stiffness, exchange, x, product, .. } = self;
+        exchange.copy(x.as_flattened_mut())?;
+        // Both have the length of the stiffness.
+        let _ = stiffness.multiply(x, product);
+        exchange.sum(product.as_flattened_mut())
+    }
 }
 
 impl LinearSystem {
-    /// Finds the places of all entries, and sets PETSc's solver up.
+    /// Sets PETSc's solver up for a stiffness of the nodes of a share.
     ///
     /// # Errors
     /// [`Error::Petsc`], also for an option with a value that PETSc does not know.
-    pub fn new(team: &Team, share: &Share, elastic: &Elastic) -> Result<Self, Error> {
+    pub fn new(team: &Team, share: &Share, stiffness: NodalStiffness) -> Result<Self, Error> {
+        let library = team.library();
+        for (name, value) in DEFAULTS {
+            library.default_option(name, value)?;
+        }
+        let (nodes, failure) = (share.ids.len(), Failure::default());
+        let copies = Copies::new(team, &failure, share.owned, share.copies.clone());
+        let own = Rc::new(RefCell::new(Own {
+            stiffness,
+            preconditioner: Preconditioner::new(share.owned, copies),
+            exchange: GhostedVector::new(library, 3, share.owned, &share.copies)?,
+            failure,
+            is_free: share.free_numbers.iter().map(Option::is_some).collect(),
+            x: vec![[0.0; 3]; nodes],
+            product: vec![[0.0; 3]; nodes],
+        }));
+        let way = if library.is_set_to("pc_type", OWN)? {
+            let matrix = Matrix::of_function(library, share.free, own.clone())?;
+            let mut krylov = Krylov::new(library, Rc::new(RefCell::new(matrix)), "")?;
+            krylov.precondition_by(own.clone())?;
+            Way::Own(krylov)
+        } else {
+            Way::Assembled(Assembled::new(team, share, &own.borrow().stiffness)?)
+        };
+        let vector = || Vector::new(library, share.free);
+        Ok(Self { own, way, right: vector()?, solution: vector()?, is_checked: [false; 2] })
+    }
+
+    /// Works on the stiffness of this rank's elements.
+    pub fn with_stiffness<T>(&mut self, work: impl FnOnce(&mut NodalStiffness) -> T) -> T {
+        work(&mut self.own.borrow_mut().stiffness)
+    }
+
+    /// Adds to the diagonal of each owned node, N/m.
+    pub fn add_to_diagonal(&mut self, share: &Share, stiffness: impl Fn(usize) -> f64) {
+        let mut own = self.own.borrow_mut();
+        (0..share.owned).for_each(|node| own.stiffness.add_to_diagonal(node, stiffness(node)));
+    }
+
+    /// Adds the product of the stiffness with a displacement of each node of the rank, m, to `total`, N, of
+    /// the owned nodes.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn add_product(
+        &mut self,
+        displacement: &[[f64; 3]],
+        total: &mut [[f64; 3]],
+    ) -> Result<(), PetscError> {
+        let own = &mut *self.own.borrow_mut();
+        own.x.copy_from_slice(displacement);
+        own.multiply_x()?;
+        for (total, product) in total.as_flattened_mut().iter_mut().zip(own.product.as_flattened()) {
+            *total += product;
+        }
+        own.x.fill([0.0; 3]);
+        Ok(())
+    }
+
+    /// Forgets the preconditioner, so that what is to come does not depend on what was before.
+    pub fn begin(&mut self) {
+        self.own.borrow_mut().preconditioner.forget();
+        if let Way::Assembled(assembled) = &mut self.way {
+            assembled.pace = None;
+        }
+    }
+
+    /// Solves for the displacement, m, that balances a gradient, N: of the free nodes, with which both slices
+    /// begin. The nodes are at `x`, m, and inertia has added `inertia(node)`, N/m, to the diagonal. A matrix
+    /// that `may_fall_back` is solved by the fallback where PETSc's preconditioner finds it indefinite.
+    ///
+    /// # Errors
+    /// [`Error::Petsc`], [`Error::UnusedOptions`] after the first system.
+    #[expect(clippy::too_many_arguments, reason = "a system, where it was taken, and how far to solve it")]
+    pub fn solve(
+        &mut self,
+        team: &Team,
+        share: &Share,
+        x: &[[f64; 3]],
+        inertia: impl Fn(usize) -> f64,
+        gradient: &[[f64; 3]],
+        direction: &mut [[f64; 3]],
+        (tolerance, max_iterations): (f64, usize),
+        may_fall_back: bool,
+    ) -> Result<Iteration, Error> {
+        let Self { own, way, right, solution, .. } = self;
+        right.with(|right| {
+            right.iter_mut().zip(gradient).for_each(|(right, gradient)| *right = gradient.map(|g| -g));
+        })?;
+        let mut task = Task { right, solution, tolerance, max_iterations };
+        let mut iteration = match way {
+            Way::Own(krylov) => solve(own, krylov, &mut task, x, inertia)?,
+            Way::Assembled(assembled) => {
+                assembled.assemble(share, &own.borrow().stiffness, x)?;
+                assembled.solve(&mut task, may_fall_back)?
+            }
+        };
+        direction.fill([0.0; 3]);
+        self.solution.with(|solution| direction[..share.free].copy_from_slice(solution))?;
+        let not_finite = direction.iter().flatten().filter(|x| !x.is_finite()).count();
+        if team.count(not_finite) > 0 {
+            iteration.end = End::NotFinite;
+        }
+        self.check_options(team)?;
+        Ok(iteration)
+    }
+
+    /// Looks for options of the user without use. Those of the last level have one where there are levels.
+    fn check_options(&mut self, team: &Team) -> Result<(), Error> {
+        let is_with_levels = match self.way {
+            Way::Own(_) => self.own.borrow().preconditioner.levels().is_some(),
+            Way::Assembled(_) => true,
+        };
+        if !std::mem::replace(&mut self.is_checked[usize::from(is_with_levels)], true) {
+            let mut names = team.library().unused_options()?;
+            names.retain(|name| is_with_levels || !name.starts_with("coarse_"));
+            if !names.is_empty() {
+                return Err(Error::UnusedOptions { names });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Solves with piola's preconditioner, again with another where one takes too long.
+fn solve(
+    own: &RefCell<Own>,
+    krylov: &mut Krylov,
+    task: &mut Task<'_>,
+    x: &[[f64; 3]],
+    inertia: impl Fn(usize) -> f64,
+) -> Result<Iteration, Error> {
+    let Task { right, solution, tolerance, max_iterations } = task;
+    let mut given_up = 0;
+    loop {
+        let limit = {
+            let Own { stiffness, preconditioner, is_free, failure, .. } = &mut *own.borrow_mut();
+            let taken = preconditioner.take(stiffness, is_free, x, &inertia);
+            failure.take()?;
+            taken?;
+            preconditioner.patience(*tolerance).min(*max_iterations - given_up)
+        };
+        let mut iteration = krylov.solve(right, solution, *tolerance, limit)?;
+        let again = own.borrow_mut().preconditioner.judge(iteration, *tolerance);
+        iteration.iterations += given_up;
+        if !again || iteration.iterations >= *max_iterations {
+            return Ok(iteration);
+        }
+        given_up = iteration.iterations;
+    }
+}
+
+/// A whole matrix of PETSc's, and solvers with its preconditioners.
+struct Assembled {
+    matrix: Rc<RefCell<Matrix>>,
+    krylov: Krylov,
+    fallback: Krylov,
+    places: Vector<3>,
+    values: Vec<f64>,
+    /// Iterations a digit right after the preconditioner was made; `None` before.
+    pace: Option<f64>,
+}
+
+impl Assembled {
+    /// Finds the places of all entries.
+    fn new(team: &Team, share: &Share, stiffness: &NodalStiffness) -> Result<Self, Error> {
         let library = team.library();
         let mut blocks = Vec::new();
         let mut block = |row: usize, column: usize| {
             blocks.extend(share.free_numbers[row].zip(share.free_numbers[column]).map(<[usize; 2]>::from));
         };
-        elastic.blocks(|row, column, _| {
+        for (row, column, _) in stiffness.blocks() {
             block(row, column);
             if row != column {
                 block(column, row);
             }
-        });
-        let diagonal = share.free_numbers[..share.free].iter().flatten();
+        }
         let entries = |[row, column]: [usize; 2]| {
             (0..9).map(move |entry| [Some(3 * row + entry / 3), Some(3 * column + entry % 3)])
         };
-        let on_diagonal = |&node: &usize| (0..3).map(move |c| [Some(3 * node + c); 2]);
-        let places = blocks.iter().copied().flat_map(entries).chain(diagonal.flat_map(on_diagonal));
-        let mut matrix = Matrix::new(library, 3 * share.free, 3, places)?;
+        let mut matrix = Matrix::new(library, 3 * share.free, 3, blocks.iter().copied().flat_map(entries))?;
         matrix.set_symmetric()?;
-        let values = vec![0.0; 9 * blocks.len() + 3 * share.free];
+        let values = vec![0.0; 9 * blocks.len()];
         drop(blocks);
-        for (name, value) in DEFAULTS {
-            library.default_option(name, value)?;
-        }
         let matrix = Rc::new(RefCell::new(matrix));
-        let vector = || Vector::new(library, share.free);
         Ok(Self {
-            krylov: Krylov::new(library, matrix.clone(), "cg", "")?,
-            fallback: Krylov::new(library, matrix.clone(), "cg", "fallback_")?,
+            krylov: Krylov::new(library, matrix.clone(), "")?,
+            fallback: Krylov::new(library, matrix.clone(), "fallback_")?,
             matrix,
-            right: vector()?,
-            solution: vector()?,
-            places: vector()?,
+            places: Vector::new(library, share.free)?,
             values,
-            free: share.free,
             pace: None,
-            is_checked: false,
         })
     }
 
-    /// Assembles the stiffness that the elements have taken last, plus a diagonal of each free node, N/m. The
-    /// nodes are at `positions`, m.
-    ///
-    /// # Errors
-    /// [`PetscError`].
-    pub fn assemble(
+    /// Assembles the stiffness; the nodes are at `positions`, m.
+    fn assemble(
         &mut self,
         share: &Share,
-        elastic: &Elastic,
-        diagonal: impl Fn(usize) -> f64,
+        stiffness: &NodalStiffness,
         positions: &[[f64; 3]],
     ) -> Result<(), PetscError> {
         let mut rest = self.values.as_mut_slice();
@@ -108,16 +325,13 @@ impl LinearSystem {
             rest = after;
         };
         let is_free = |node: usize| share.free_numbers[node].is_some();
-        elastic.blocks(|row, column, entries| {
+        for (row, column, entries) in stiffness.blocks() {
             if is_free(row) && is_free(column) {
                 put(*entries);
                 if row != column {
                     put(std::array::from_fn(|r| std::array::from_fn(|c| entries[c][r])));
                 }
             }
-        });
-        for (node, entries) in rest.chunks_exact_mut(3).enumerate() {
-            entries.fill(diagonal(node));
         }
         let mut matrix = self.matrix.borrow_mut();
         matrix.set_values(&self.values)?;
@@ -125,77 +339,37 @@ impl LinearSystem {
         matrix.set_rigid_motions(&self.places)
     }
 
-    /// Forgets the preconditioner, so that what is to come does not depend on what was before.
-    pub fn begin(&mut self) {
-        self.pace = None;
-    }
-
-    /// Solves for the displacement, m, that balances a gradient, N: of the free nodes, with which both slices
-    /// begin. A system that `may_fall_back` goes to the fallback where the matrix, or the preconditioner
-    /// made of it, is found indefinite.
-    ///
-    /// # Errors
-    /// [`Error::Petsc`], [`Error::UnusedOptions`] after the first system.
-    pub fn solve(
-        &mut self,
-        team: &Team,
-        gradient: &[[f64; 3]],
-        direction: &mut [[f64; 3]],
-        tolerance: f64,
-        max_iterations: usize,
-        may_fall_back: bool,
-    ) -> Result<(Ending, usize), Error> {
-        let free = self.free;
-        self.right.with(|right| {
-            right.iter_mut().zip(gradient).for_each(|(right, gradient)| *right = gradient.map(|g| -g));
-        })?;
-        self.solution.with(|solution| solution.fill([0.0; 3]))?;
-        let (mut ending, mut iterations) = self.solve_at_pace(tolerance, max_iterations)?;
-        if may_fall_back && matches!(ending, Ending::Indefinite | Ending::Failed) {
-            let Self { fallback, right, solution, .. } = self;
-            solution.with(|solution| solution.fill([0.0; 3]))?;
-            let again = fallback.solve(right, solution, tolerance, max_iterations)?;
-            (ending, iterations) = (again.0, iterations + again.1);
+    /// Solves by the fallback where the matrix, or the preconditioner made of it, is found indefinite.
+    fn solve(&mut self, task: &mut Task<'_>, may_fall_back: bool) -> Result<Iteration, PetscError> {
+        let first = self.solve_at_pace(task)?;
+        if !(may_fall_back && matches!(first.end, End::NegativeCurvature | End::NotFinite)) {
+            return Ok(first);
         }
-        direction.fill([0.0; 3]);
-        self.solution.with(|solution| direction[..free].copy_from_slice(solution))?;
-        let not_finite = direction.iter().flatten().filter(|x| !x.is_finite()).count();
-        if team.count(not_finite) > 0 {
-            ending = Ending::Failed;
-        }
-        if !self.is_checked {
-            self.is_checked = true;
-            let names = team.library().unused_options()?;
-            if !names.is_empty() {
-                return Err(Error::UnusedOptions { names });
-            }
-        }
-        Ok((ending, iterations))
+        let Task { right, solution, tolerance, max_iterations } = task;
+        let Iteration { iterations, end } =
+            self.fallback.solve(right, solution, *tolerance, *max_iterations)?;
+        Ok(Iteration { iterations: first.iterations + iterations, end })
     }
 
     /// Solves with the preconditioner of an earlier matrix as long as it gets on: making another costs as
     /// much as many iterations.
-    fn solve_at_pace(
-        &mut self,
-        tolerance: f64,
-        max_iterations: usize,
-    ) -> Result<(Ending, usize), PetscError> {
-        let Self { krylov, right, solution, .. } = self;
+    fn solve_at_pace(&mut self, task: &mut Task<'_>) -> Result<Iteration, PetscError> {
+        let Self { krylov, pace, .. } = self;
+        let Task { right, solution, tolerance, max_iterations } = task;
         let digits = -tolerance.log10();
         let mut given_up = 0;
-        if let Some(pace) = self.pace {
+        if let Some(pace) = *pace {
             krylov.keep_preconditioner(true)?;
-            let patience = ((PATIENCE * pace * digits).ceil() as usize).clamp(1, max_iterations);
-            let (ending, iterations) = krylov.solve(right, solution, tolerance, patience)?;
-            if ending == Ending::Converged {
-                return Ok((ending, iterations));
+            let patience = ((PATIENCE * pace * digits).ceil() as usize).clamp(1, *max_iterations);
+            let iteration = krylov.solve(right, solution, *tolerance, patience)?;
+            if iteration.end == End::Converged {
+                return Ok(iteration);
             }
-            given_up = iterations;
-            solution.with(|solution| solution.fill([0.0; 3]))?;
+            given_up = iteration.iterations;
         }
         krylov.keep_preconditioner(false)?;
-        let (ending, iterations) = krylov.solve(right, solution, tolerance, max_iterations)?;
-        self.pace = (ending == Ending::Converged).then(|| iterations.max(1) as f64 / digits.max(1e-3));
-        Ok((ending, given_up + iterations))
+        let Iteration { iterations, end } = krylov.solve(right, solution, *tolerance, *max_iterations)?;
+        *pace = (end == End::Converged).then(|| iterations.max(1) as f64 / digits.max(1e-3));
+        Ok(Iteration { iterations: given_up + iterations, end })
     }
 }

@@ -7,7 +7,7 @@ mod common;
 
 use std::path::Path;
 
-use common::{TestResult, checkpoint_in, msh, state_after};
+use common::{TestResult, checkpoint_in, command, finish, msh, state_after};
 use piola::material::{Moduli, PerPoint};
 use piola::mesh::{Bounds, tetrahedral_box};
 use piola::point::Filter;
@@ -229,6 +229,39 @@ fn a_box_sags_as_on_one_machine() -> TestResult {
         let error = distance(&found.positions, simulation.positions());
         println!("box on {count} ranks: {error:.1e} m");
         assert!(error <= 1e-8, "{error:e} m on {count} ranks");
+    }
+    Ok(())
+}
+
+/// PETSc shows piola's levels with the solver that they leave to it; options replace that solver, and the
+/// levels, and all find the same.
+#[test]
+fn preconditioners_are_shown_and_replaced() -> TestResult {
+    let scratch = tempfile::tempdir()?;
+    let mut first = None;
+    for (number, (options, shown)) in [
+        ("", ["multigrid: levels of 2197, ", "KSP Object: (coarse_)", "type: redundant"]),
+        ("-coarse_pc_type gamg", ["multigrid: levels of 2197, ", "KSP Object: (coarse_)", "type: gamg"]),
+        ("-pc_type gamg", ["type: gamg", "KSP Object: (mg_levels_1_)", "type: mpiaij"]),
+        ("-pc_type bjacobi", ["type: bjacobi", "KSP Object: (sub_)", "type: mpiaij"]),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let folder = scratch.path().join(number.to_string());
+        let sag = "box --elements 10000 --newton-tolerance 1e-10 -ksp_view";
+        let options = format!("{sag} --out {} {options}", folder.display());
+        let output = finish(command(3, options.split_whitespace().map(str::to_owned)))?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success(), "{options}: {}", String::from_utf8_lossy(&output.stderr));
+        for shown in shown {
+            assert!(text.contains(shown), "no `{shown}` by {options}: {text}");
+        }
+        let (_, found) = checkpoint_in(&folder)?;
+        let first = first.get_or_insert_with(|| found.positions.clone());
+        let error = distance(&found.positions, first);
+        // Newton's tolerance, for a body that sags by a tenth of its length.
+        assert!(error <= 1e-8, "{options}: {error:e} m");
     }
     Ok(())
 }

@@ -1,0 +1,132 @@
+//! What piola's levels of multigrid leave to PETSc: a matrix of six unknowns for each row, and its solver.
+//!
+//! The solver is one of PETSc's, with all of its options behind the prefix `coarse_`. This module knows no
+//! bodies.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use piola::step::divided::{LastLevel, LastSolver};
+
+use crate::division::{Copies, Failure};
+use crate::petsc::{Krylov, Library, Matrix, PetscError, Vector};
+use crate::team::Team;
+
+/// Options of PETSc for the solver of the last level unless the user sets others.
+const DEFAULTS: &[(&str, &str)] = &[
+    ("coarse_redundant_pc_type", "cholesky"),
+    ("coarse_redundant_pc_factor_shift_type", "positive_definite"),
+    ("coarse_pc_gamg_threshold", "0.01"),
+    ("coarse_mg_levels_ksp_max_it", "2"),
+    ("coarse_mg_levels_pc_type", "jacobi"),
+];
+
+/// Rows up to which every rank factors the whole matrix, and multigrid would have nothing to make smaller.
+const FACTORED: usize = 512;
+
+/// A motion that is smaller than this beside what it has in others is one of them.
+const DEPENDENT: f64 = 1e-9;
+
+/// Solver of the last level of piola's multigrid.
+pub struct Coarse {
+    krylov: Krylov,
+    b: Vector<6>,
+    x: Vector<6>,
+    failure: Failure,
+}
+
+impl Coarse {
+    /// A solver for the rows of a division.
+    ///
+    /// # Errors
+    /// [`PetscError`], also for an option with a value that PETSc does not know.
+    pub(crate) fn new(rows: &Copies, level: &LastLevel<'_>) -> Result<Self, PetscError> {
+        let (team, owned) = (rows.team(), rows.owned());
+        let library = team.library();
+        for (name, value) in DEFAULTS {
+            library.default_option(name, value)?;
+        }
+        let numbers: Vec<usize> = rows.numbers().collect();
+        let mut places = Vec::new();
+        let mut values = Vec::new();
+        for (row, column, block) in level.blocks() {
+            for r in 0..6 {
+                for c in 0..6 {
+                    let place = [6 * numbers[row] + r, 6 * numbers[column] + c];
+                    places.push(place.map(Some));
+                    values.push(block[r][c]);
+                    if row != column {
+                        places.push([Some(place[1]), Some(place[0])]);
+                        values.push(block[r][c]);
+                    }
+                }
+            }
+        }
+        let mut matrix = Matrix::new(library, 6 * owned, 6, places.iter().copied())?;
+        matrix.set_symmetric()?;
+        matrix.set_values(&values)?;
+        let kind = if team.count(owned) <= FACTORED { "redundant" } else { "gamg" };
+        matrix.set_motions(&orthonormal(team, library, level.motions())?)?;
+        let vector = || Vector::new(library, owned);
+        Ok(Self {
+            krylov: Krylov::once(library, Rc::new(RefCell::new(matrix)), kind, "coarse_")?,
+            b: vector()?,
+            x: vector()?,
+            failure: rows.failure().clone(),
+        })
+    }
+
+    /// The solver, as PETSc shows it.
+    pub(crate) fn krylov(&self) -> &Krylov {
+        &self.krylov
+    }
+
+    fn replace(&mut self, b: &mut [[f32; 6]]) -> Result<(), PetscError> {
+        self.b.with(|entries| {
+            entries.iter_mut().zip(&*b).for_each(|(entry, b)| *entry = b.map(f64::from));
+        })?;
+        self.krylov.apply(&self.b, &mut self.x)?;
+        self.x.with(|x| b.iter_mut().zip(x).for_each(|(b, x)| *b = x.map(|x| x as f32)))
+    }
+}
+
+impl LastSolver for Coarse {
+    fn solve(&mut self, b: &mut [[f32; 6]]) {
+        let done = self.replace(b);
+        self.failure.note(done);
+    }
+}
+
+/// The columns of these blocks, as far as they are independent, made orthonormal.
+fn orthonormal(
+    team: &Team,
+    library: &Library,
+    motions: &[[[f64; 6]; 6]],
+) -> Result<Vec<Vector<6>>, PetscError> {
+    let mut found: Vec<Vec<[f64; 6]>> = Vec::new();
+    let dot = |a: &[[f64; 6]], b: &[[f64; 6]]| {
+        team.sum([a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()])[0]
+    };
+    for c in 0..6 {
+        let mut motion: Vec<[f64; 6]> = motions.iter().map(|block| block.map(|row| row[c])).collect();
+        let before = dot(&motion, &motion).sqrt();
+        // Gram and Schmidt, twice.
+        for other in found.iter().chain(&found) {
+            let along = dot(other, &motion);
+            for (x, other) in motion.as_flattened_mut().iter_mut().zip(other.as_flattened()) {
+                *x -= along * other;
+            }
+        }
+        let length = dot(&motion, &motion).sqrt();
+        if length > DEPENDENT * before {
+            motion.as_flattened_mut().iter_mut().for_each(|x| *x /= length);
+            found.push(motion);
+        }
+    }
+    let vector = |motion: &Vec<[f64; 6]>| {
+        let mut vector = Vector::new(library, motion.len())?;
+        vector.with(|entries| entries.copy_from_slice(motion))?;
+        Ok(vector)
+    };
+    found.iter().map(vector).collect()
+}
