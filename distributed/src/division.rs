@@ -15,7 +15,7 @@ use crate::petsc::{GhostedVector, PetscError};
 use crate::team::Team;
 
 /// Rows of a level that is always the last. Large bodies have a larger last level, of half the root of the
-/// number of their nodes: one that is hardly more than an aggregate would take iterations.
+/// number of their nodes: an aggregate of a small level is most of it, and takes iterations.
 const FEW: usize = 64;
 
 /// Rows up to which the last level grows with the body: PETSc takes a second or so to factor them.

@@ -165,11 +165,11 @@ impl Elastic {
         exchange: &mut GhostedVector,
         gradient: &mut [[f64; 3]],
     ) -> Result<(), PetscError> {
-        if let Some(Piece { response, body, refused, .. }) = &mut self.piece {
-            if let Ok(survey) = response.stiffness_here(body, filter, &mut self.gradient, stiffness) {
-                (self.filtered, self.bounded) = (survey.filtered, survey.bounded);
-                *refused = survey.first.map(|element| body.elements()[element].tag);
-            }
+        if let Some(Piece { response, body, refused, .. }) = &mut self.piece
+            && let Ok(survey) = response.stiffness_here(body, filter, &mut self.gradient, stiffness)
+        {
+            (self.filtered, self.bounded) = (survey.filtered, survey.bounded);
+            *refused = survey.first.map(|element| body.elements()[element].tag);
         }
         self.sum(exchange, gradient)
     }

@@ -563,6 +563,7 @@ impl Matrix {
     /// # Errors
     /// [`PetscError`].
     pub fn of_function(library: &Library, nodes: usize, operators: Shared) -> Result<Self, PetscError> {
+        type Product = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> ffi::PetscErrorCode;
         let (rows, operators) = (int(3 * nodes)?, Box::new(operators));
         let context: *const Shared = &raw const *operators;
         let mut raw = null_mut();
@@ -573,11 +574,10 @@ impl Matrix {
             ffi::MatCreateShell(library.comm(), rows, rows, DECIDE, DECIDE, context, &mut raw)
         })?;
         let matrix = Self { library: library.clone(), raw, places: 0, _operators: Some(operators) };
-        let function: unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> ffi::PetscErrorCode = multiply;
         // SAFETY: the matrix exists, and PETSc calls what it is given for this operation with the arguments
         // of `multiply`.
         check(unsafe {
-            let function = std::mem::transmute::<_, unsafe extern "C" fn()>(function);
+            let function = std::mem::transmute::<Product, unsafe extern "C" fn()>(multiply);
             ffi::MatShellSetOperation(raw, ffi::MatOperation_MATOP_MULT, Some(function))
         })?;
         Ok(matrix)

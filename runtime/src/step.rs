@@ -59,5 +59,5 @@ pub mod divided {
     pub use super::solver::Preconditioner;
     pub use super::staged::{InStage, StagedSteps};
     pub use crate::system::linear::conjugate_gradients::{End, Iteration};
-    pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver};
+    pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Whole};
 }

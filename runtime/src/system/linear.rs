@@ -161,7 +161,7 @@ impl Cholesky {
 }
 
 /// Checks the length of a slice.
-pub(super) fn fits(slice: &'static str, found: usize, expected: usize) -> Result<(), LinearError> {
+pub(crate) fn fits(slice: &'static str, found: usize, expected: usize) -> Result<(), LinearError> {
     if found == expected { Ok(()) } else { Err(LinearError::Length { slice, found, expected }) }
 }
 

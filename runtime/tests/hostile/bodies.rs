@@ -2,7 +2,7 @@
 
 use piola::point::Filter;
 use piola::step::Integrator;
-use piola::step::divided::StagedSteps;
+use piola::step::divided::{Preconditioner, StagedSteps, Whole};
 use piola::system::{Body, Cholesky, ElasticResponse, LowerTriangle, NodalStiffness, Part};
 
 use crate::arguments::{Hostile, check};
@@ -27,6 +27,19 @@ fn triangle(hostile: &mut Hostile, stiffness: &NodalStiffness) {
     let mut b = hostile.numbers(unknowns);
     let solved = cholesky.solve(&mut b);
     assert!(factored.is_ok() || solved.is_err());
+}
+
+/// Blocks or levels for a stiffness, and what they make of a right side.
+fn preconditioner(hostile: &mut Hostile, stiffness: &NodalStiffness, positions: &[[f64; 3]]) {
+    let nodes = hostile.length(positions.len());
+    let mut preconditioner = Preconditioner::new(nodes, Whole);
+    let is_free: Vec<bool> = (0..hostile.length(nodes)).map(|_| !hostile.0.once_in(4)).collect();
+    let inertia = if hostile.0.once_in(2) { 0.0 } else { hostile.about(1e3) };
+    let empty = NodalStiffness::empty().expect("nothing");
+    let taken = if hostile.0.once_in(8) { &empty } else { stiffness };
+    let _ = preconditioner.take(taken, &is_free, positions, |_| inertia);
+    let (r, mut z) = (hostile.points(positions), hostile.points(positions));
+    preconditioner.apply(&r, &mut z);
 }
 
 #[test]
@@ -68,6 +81,7 @@ fn bodies() {
             let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut stiffness);
             let _ = stiffness.multiply(&positions, &mut product);
             triangle(hostile, &stiffness);
+            preconditioner(hostile, &stiffness, &positions);
         }
         let _ = response.difference_noise(&body);
         let pinned = [hostile.node(body.rest().len()), 1];

@@ -17,6 +17,7 @@
 
 use crate::system::linear::block_jacobi::BlockJacobi;
 use crate::system::linear::conjugate_gradients::{End, Iteration};
+use crate::system::linear::fits;
 use crate::system::linear::multigrid::{Division, Multigrid, diagonals};
 use crate::system::nodal_stiffness::NodalStiffness;
 
@@ -89,7 +90,8 @@ impl<D: Division> Preconditioner<D> {
     /// `inertia(node)` to each entry on the diagonal.
     ///
     /// # Errors
-    /// [`Division::Error`].
+    /// [`Division::Error`], also for [`LinearError::Length`](crate::system::LinearError::Length) where a slice or the division does not have the
+    /// length of the stiffness.
     pub fn take(
         &mut self,
         stiffness: &NodalStiffness,
@@ -99,6 +101,11 @@ impl<D: Division> Preconditioner<D> {
     ) -> Result<(), D::Error> {
         let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
         let division = self.multigrid.division_mut();
+        let rows = matrix.pattern().rows();
+        fits("is_free", is_free.len(), rows)?;
+        let owned = rows.saturating_sub(division.copies());
+        fits("stiffness", owned, self.blocks.len())?;
+        fits("x", x.len().min(owned), owned)?;
         let diagonals = diagonals(matrix, division);
         if self.in_use == InUse::Nothing {
             let softness = softness(&diagonals, is_free, inertia, division);
@@ -184,6 +191,8 @@ fn softness(
 mod tests {
     use super::*;
     use crate::system::linear::multigrid::Whole;
+    use crate::system::testing::{NEO_HOOKEAN, beam};
+    use crate::system::{Body, LinearError};
 
     fn after(in_use: InUse, iterations: usize, end: End, tolerance: f64) -> (InUse, bool) {
         let mut preconditioner = Preconditioner { in_use, ..Preconditioner::new(0, Whole) };
@@ -201,6 +210,20 @@ mod tests {
         assert_eq!(after(InUse::Blocks, 30, End::Converged, 1e-3), (InUse::Blocks, false));
         assert_eq!(after(InUse::Blocks, 60, End::Limit, 1e-3), (InUse::Wanted, true));
         assert_eq!(after(InUse::Blocks, 5, End::NegativeCurvature, 1e-3), (InUse::Blocks, false));
+    }
+
+    #[test]
+    fn slices_of_other_lengths_are_refused() {
+        let body = Body::new(&beam(1), NEO_HOOKEAN, 1000.0).expect("a body");
+        let stiffness = NodalStiffness::of_body(&body).expect("small");
+        let take = |nodes: usize, free: usize, x: usize| {
+            let mut preconditioner = Preconditioner::new(nodes, Whole);
+            preconditioner.take(&stiffness, &vec![true; free], &body.rest()[..x], |_| 0.0)
+        };
+        let error = |slice, found, expected| Err(LinearError::Length { slice, found, expected });
+        assert_eq!(take(8, 7, 8), error("is_free", 7, 8));
+        assert_eq!(take(8, 8, 7), error("x", 7, 8));
+        assert_eq!(take(9, 8, 8), error("stiffness", 8, 9));
     }
 
     #[test]

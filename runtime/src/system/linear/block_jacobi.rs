@@ -50,6 +50,10 @@ impl BlockJacobi {
         Self { factors: vec![Factor::new(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]); blocks] }
     }
 
+    pub(crate) fn len(&self) -> usize {
+        self.factors.len()
+    }
+
     /// Factors the block of each row.
     pub(crate) fn factor<'a>(&mut self, block: impl Fn(usize) -> &'a [[f64; 3]; 3] + Sync) {
         let factors = self.factors.par_iter_mut().enumerate().with_min_len(BLOCKS);

@@ -42,10 +42,11 @@ use rayon::prelude::*;
 use super::symmetric_blocks::SymmetricBlocks;
 use crate::system::graph::Graph;
 
-use level::{Coarse, Level, ROWS};
+use division::ROWS;
+use level::{Coarse, Level};
 
-pub use division::Division;
-pub(crate) use division::{Whole, diagonals};
+pub(crate) use division::diagonals;
+pub use division::{Division, Whole};
 pub use last::{LastLevel, LastSolver};
 
 /// Levels of a matrix of 3×3 blocks: none at first.
@@ -157,7 +158,7 @@ impl<D: Division> Multigrid<D> {
     pub(crate) fn solve(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
         let Self { division, levels } = self;
         let Some(Levels { scale, finest, coarse, last, last_division, b, coarse_b, .. }) = levels else {
-            z.copy_from_slice(r);
+            z.iter_mut().zip(r).for_each(|(z, r)| *z = *r);
             return;
         };
         let largest =

@@ -14,6 +14,9 @@ use super::last::{Last, LastLevel, LastSolver};
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 
+/// Rows that one thread takes without a further division.
+pub(super) const ROWS: usize = 1024;
+
 /// Division of the rows of a matrix among machines, as one of them sees it.
 ///
 /// The rows of a machine are those that it owns, then copies of rows that others own. All machines call all
@@ -67,9 +70,9 @@ pub trait Division: Sized {
     fn last(&self, level: &LastLevel<'_>) -> Result<Self::Last, Self::Error>;
 }
 
-/// All rows on one machine.
+/// Division of a matrix on one machine: it owns all rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Whole;
+pub struct Whole;
 
 /// Rows of a level that is always factored. Large bodies have a larger last level, of half the root of the
 /// number of their nodes: its factor takes less time than the finest level all the same.
@@ -195,7 +198,7 @@ pub(crate) fn diagonals<const N: usize>(
 ) -> Vec<[[f64; N]; N]> {
     let owned = matrix.pattern().rows() - division.copies();
     let mut blocks = vec![[[0.0; N]; N]; owned];
-    let rows = blocks.par_iter_mut().with_min_len(super::ROWS).enumerate();
+    let rows = blocks.par_iter_mut().with_min_len(ROWS).enumerate();
     rows.for_each(|(row, block)| *block = *matrix.diagonal(row));
     let parts = division.lists_for_owners(|copy, list| {
         list.extend(matrix.diagonal(owned + copy).as_flattened().iter().map(|entry| entry.to_bits()));

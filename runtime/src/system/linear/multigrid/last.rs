@@ -38,9 +38,9 @@ impl LastLevel<'_> {
     }
 }
 
-/// The factor of the last level.
+/// The factor of the last level, on one machine.
 #[derive(Clone)]
-pub(crate) struct Last {
+pub struct Last {
     cholesky: Cholesky,
     b: Vec<f64>,
 }

@@ -5,13 +5,10 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::aggregation::Aggregates;
-use super::division::{Division, Numbers, diagonals};
+use super::division::{Division, Numbers, ROWS, diagonals};
 use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, graph_of};
 use crate::system::graph::Graph;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
-
-/// Rows that one thread takes without a further division.
-pub(super) const ROWS: usize = 1024;
 
 /// Degree of the polynomials.
 const DEGREE: usize = 2;
