@@ -46,7 +46,8 @@ pub(crate) enum Command {
     Fit(Box<Fit>),
     /// Print a formula as a declaration in Rust, to be pasted into a crate, and its derivatives as formulas.
     Declare(Box<Declare>),
-    /// Print an energy as C: stress, tangent and projection of a point, in one file without a dependency.
+    /// Print an energy as C, CUDA, OpenCL or WGSL: stress, tangent and projection at a point, forces and
+    /// stiffness of a tetrahedron, in one file without a dependency.
     Emit(Box<Emit>),
     /// Check the rules that every material must keep, on a declaration in Rust or a formula.
     ///

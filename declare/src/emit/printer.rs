@@ -226,12 +226,12 @@ impl Signature {
             PointFunction::Tetrahedron => (
                 "The gradient of the energy of a linear tetrahedron, N (forces are minus it), and its stiffness, N/m, symmetric:
  * coordinate a of node i at 3 i + a, entry of K at 12 row + column. x: positions of the nodes; rest: the inverse of Dm
- * row by row, whose columns are the edges from node 0 at rest, and the volume.",
+ * row by row, whose columns are the edges from node 0 at rest, and the volume, which is not negative.",
                 NODES,
                 ELEMENT,
             ),
             PointFunction::ProjectedTetrahedron => (
-                "The same with dP/dF projected as above, so that K is positive semidefinite.",
+                "As tetrahedron, with negative eigenvalues of dP/dF clamped to zero, so that K is positive semidefinite.",
                 NODES,
                 ELEMENT,
             ),

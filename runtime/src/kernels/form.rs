@@ -207,11 +207,13 @@ impl<R: Real> Rest<R> {
         Self { inverse: [[a, b, c], [d, e, f], [g, h, i]], volume }
     }
 
-    /// True if the stiffness is finite in any frames, given a bound of the entries of its tangent.
+    /// True if the stiffness is finite in any frames, given a bound of the entries of its tangent. A negative
+    /// volume, which has no root, is not.
     #[inline(always)]
     fn keeps_finite(&self, tangent: R) -> R::Mask {
         let shape = largest(to_row_major(self.inverse));
-        ((shape * self.volume) * R::splat(1024.0) * (shape * tangent)).is_finite()
+        let size = (shape * self.volume) * R::splat(1024.0) * (shape * tangent);
+        size.is_finite() & !self.volume.less(R::splat(0.0))
     }
 
     /// The gradients of the barycentric coordinates of nodes 1, 2, 3, a row for each, times √volume.
@@ -268,12 +270,13 @@ fn stiffness_is_finite<R: Real>(blocks: &Blocks<R>, rest: &Rest<R>) -> R::Mask {
     rest.keeps_finite(largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]))
 }
 
-/// True if nothing can overflow on the way from stress to the gradient: a sum of nine products of the stress,
-/// Dm⁻¹ and the volume.
+/// True if nothing can overflow on the way from stress to the gradient, a sum of nine products of the stress,
+/// Dm⁻¹ and the volume, and the volume is not negative.
 #[inline(always)]
 pub(crate) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
     let Rest { inverse, volume } = Rest::new(*rest);
-    (largest(to_row_major(inverse)) * volume * R::splat(16.0) * largest(to_row_major(*stress))).is_finite()
+    let size = largest(to_row_major(inverse)) * volume * R::splat(16.0) * largest(to_row_major(*stress));
+    size.is_finite() & !volume.less(R::splat(0.0))
 }
 
 /// Bounds the twists of the blocks for any form of a stiffness, and reports whether it overflows.

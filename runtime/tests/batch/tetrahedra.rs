@@ -158,6 +158,32 @@ fn stiffnesses_at_positions_are_those_of_their_gradients() {
 }
 
 #[test]
+fn elements_of_negative_volume_are_not_finite() {
+    const COUNT: usize = 70;
+    let Mesh { positions, corners, mut rest } = mesh::<f64>(COUNT);
+    for shape in &mut rest {
+        shape[REST - 1] = -shape[REST - 1];
+    }
+    let tetrahedra = Tetrahedra::new(positions.len(), &corners).expect("nodes that exist");
+    let (mut gradients, mut stiffnesses) = (vec![0.0; 12 * COUNT], vec![0.0; 144 * COUNT]);
+    for energy in [&SaintVenantKirchhoff as &dyn TileMaterial<f64>, &NeoHookean] {
+        for backend in Backend::available() {
+            for filter in [Filter::None, Filter::Clamp] {
+                let survey = Batch::new(energy).with_backend(backend).with_filter(filter).stiffnesses_at(
+                    MatrixForm::Full,
+                    tetrahedra,
+                    &positions,
+                    rest.as_flattened(),
+                    &mut gradients,
+                    &mut stiffnesses,
+                );
+                assert_eq!(survey.expect("lengths fit").nonfinite, COUNT, "{backend}");
+            }
+        }
+    }
+}
+
+#[test]
 fn nodes_that_do_not_exist_and_lengths_that_do_not_fit_are_errors() {
     let corners = [[0, 1, 2, 3], [1, 2, 3, 4]];
     let error = Tetrahedra::new(4, &corners).expect_err("node 4");
