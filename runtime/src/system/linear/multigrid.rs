@@ -52,7 +52,7 @@ pub use last::{LastLevel, LastSolver};
 /// Levels of a matrix of 3×3 blocks: none at first.
 #[derive(Clone)]
 pub(crate) struct Multigrid<D: Division> {
-    /// Of the nodes.
+    /// Division of the nodes.
     division: D,
     levels: Option<Levels<D, D::Last>>,
 }

@@ -36,7 +36,7 @@ pub(super) struct Level<const N: usize> {
     roughest: Vec<[f32; N]>,
     prolongation: Rows<f32, N, 6>,
     columns: Columns,
-    /// Of owned rows.
+    /// Solution in the owned rows.
     x: Vec<[f32; N]>,
     /// b − A x, of owned rows.
     residual: Vec<[f32; N]>,
@@ -44,7 +44,7 @@ pub(super) struct Level<const N: usize> {
     product: Vec<[f32; N]>,
 }
 
-/// What the next level is made of.
+/// Matrix and motions of the next level, before it is made.
 pub(super) struct Coarse<D> {
     pub(super) matrix: SymmetricBlocks<f64, 6>,
     pub(super) diagonals: Vec<[[f64; 6]; 6]>,
