@@ -187,9 +187,9 @@ pub fn read_alone<T: DeserializeOwned>(path: &Path) -> Result<(T, State), Error>
 fn read_header<T: DeserializeOwned>(path: &Path) -> Result<(File, Header<T>), String> {
     let mut text = vec![0; HEADER];
     let mut file = File::open(path).map_err(|error| error.to_string())?;
-    file.read_exact(&mut text).map_err(|_| "it is no checkpoint".to_owned())?;
-    let header: Header<T> = serde_json::from_slice(&text).map_err(|_| "it is no checkpoint".to_owned())?;
-    if header.format == FORMAT { Ok((file, header)) } else { Err(format!("it is no {FORMAT}")) }
+    file.read_exact(&mut text).map_err(|_| "it is not a checkpoint".to_owned())?;
+    let header: Header<T> = serde_json::from_slice(&text).map_err(|_| "it is not a checkpoint".to_owned())?;
+    if header.format == FORMAT { Ok((file, header)) } else { Err(format!("it is not a {FORMAT}")) }
 }
 
 /// Where the nodes at home on a rank begin in a list.

@@ -97,7 +97,7 @@ impl LastSolver for Coarse {
     }
 }
 
-/// The columns of these blocks, as far as they are independent, made orthonormal.
+/// Orthonormal basis of the columns of these blocks, without dependent ones.
 fn orthonormal(
     team: &Team,
     library: &Library,

@@ -96,8 +96,8 @@ pub struct RunOptions {
     #[arg(long)]
     pub force: bool,
 
-    /// Go on from the checkpoint in the folder, on any number of ranks; needs the options that it was begun
-    /// with, but for --frames and those of the solver.
+    /// Continue from the checkpoint in the folder, on any number of ranks; needs the options of its first run,
+    /// except --frames and those of the solver.
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
 
@@ -126,8 +126,8 @@ pub struct SolverOptions {
     #[arg(long, value_name = "N", default_value_t = 50)]
     newton_iterations: usize,
 
-    /// Share of the residual to which linear systems are solved at first; near the end they are solved as far
-    /// as Newton's tolerance needs [default: 0.01, or 1e-8 with --newton single].
+    /// Share of the residual to which linear systems are solved at first; near the end they are solved to the
+    /// share that Newton's tolerance needs [default: 0.01, or 1e-8 with --newton single].
     #[arg(long, value_name = "T")]
     linear_tolerance: Option<f64>,
 

@@ -62,7 +62,7 @@ pub struct Copies {
 }
 
 impl Copies {
-    /// Rows of which this rank owns so many, and has copies of those with these numbers, rank after rank.
+    /// Division in which this rank owns a number of rows and copies of the rows with these numbers, rank after rank.
     /// Errors of exchanges are noted in `failure`.
     #[must_use]
     pub fn new(team: &Team, failure: &Failure, owned: usize, numbers: Vec<usize>) -> Self {

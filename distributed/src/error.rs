@@ -45,7 +45,7 @@ pub enum Error {
     /// The scene, its body or its material cannot be simulated.
     #[error(transparent)]
     Scene(#[from] piola_scenes::error::Error),
-    /// The part of the mesh on a rank is no body.
+    /// The part of the mesh on a rank is not a body.
     #[error(transparent)]
     Body(#[from] BodyError),
     /// A setting is out of range.

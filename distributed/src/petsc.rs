@@ -258,8 +258,8 @@ pub struct GhostedVector {
 }
 
 impl GhostedVector {
-    /// A vector of so many rows of this rank, which are numbered one rank after another, and copies of the
-    /// rows with the numbers `ghosts`; so many `components` belong to each.
+    /// A vector with a number of rows on this rank, which are numbered one rank after another, and copies of the
+    /// rows with the numbers `ghosts`; each row has this number of `components`.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -330,7 +330,7 @@ impl GhostedVector {
     }
 }
 
-/// Works on the entries of a vector that this rank holds, so many.
+/// Runs `work` on the `count` entries of a vector that this rank holds.
 fn with_entries(raw: ffi::Vec, count: usize, work: impl FnOnce(&mut [f64])) -> Result<(), PetscError> {
     let mut entries = null_mut();
     // SAFETY: the vector exists, and the answer outlives the call.
@@ -355,7 +355,7 @@ fn with_given<T>(raw: ffi::Vec, work: impl FnOnce(&[f64]) -> T) -> Result<T, Pet
         check(ffi::VecGetArrayRead(raw, &mut entries))?;
     }
     let done = match usize::try_from(count) {
-        // SAFETY: the vector has so many entries here, f64 as in all PETSc of real numbers, and nobody
+        // SAFETY: the vector has `count` entries here, f64 as in all PETSc of real numbers, and nobody
         // changes them until the array is given back.
         Ok(count) if count > 0 && !entries.is_null() => {
             work(unsafe { std::slice::from_raw_parts(entries, count) })
@@ -382,7 +382,7 @@ pub struct Vector<const N: usize> {
 }
 
 impl<const N: usize> Vector<N> {
-    /// Zeros for so many rows of this rank.
+    /// Zeros for the rows of this rank.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -521,8 +521,8 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// A matrix of `rows` rows on this rank, in blocks of so many unknowns, with entries at these places; a
-    /// place may come more than once, and in the rows of another rank. Negative places are left out.
+    /// A matrix of `rows` rows on this rank, in square blocks, with entries at these places; a place
+    /// may come more than once, and in the rows of another rank. Negative places are left out.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -558,7 +558,7 @@ impl Matrix {
         Ok(matrix)
     }
 
-    /// The product of operators, for so many free nodes of this rank.
+    /// Product with an operator on the free nodes of this rank.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -824,7 +824,7 @@ impl Krylov {
         Ok(Iteration { iterations: usize::try_from(iterations).unwrap_or(0), end })
     }
 
-    /// Solves A x = b as far as the options say.
+    /// Solves A x = b to the tolerance of the options.
     ///
     /// # Errors
     /// [`PetscError`].

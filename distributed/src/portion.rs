@@ -14,7 +14,7 @@ pub struct Homes {
 }
 
 impl Homes {
-    /// Homes of so many nodes among all ranks.
+    /// Homes of nodes among all ranks.
     #[must_use]
     pub fn new(total: u64, ranks: usize) -> Self {
         Self { total, each: total.div_ceil(ranks as u64).max(1) }

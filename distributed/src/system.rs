@@ -36,7 +36,7 @@ const DEFAULTS: &[(&str, &str)] = &[
 /// PETSc's name for a preconditioner that is a function: piola's.
 const OWN: &str = "shell";
 
-/// An old preconditioner of PETSc's may take so many times the iterations that it took for its own matrix.
+/// Factor by which an old preconditioner of PETSc may exceed the iterations for its own matrix.
 const PATIENCE: f64 = 2.0;
 
 /// The unknowns of free nodes, matrix and solver.

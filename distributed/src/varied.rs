@@ -54,7 +54,7 @@ impl Varied {
             let line = row.position().map_or(0, csv::Position::line);
             let tag = row.get(column).unwrap_or_default();
             let tag: u64 =
-                tag.parse().map_err(|_| wrong(format!("line {line}: `{tag}` is no number of an element")))?;
+                tag.parse().map_err(|_| wrong(format!("line {line}: `{tag}` is not the number of an element")))?;
             if tags.contains(&tag) {
                 let cells = row.iter().enumerate().filter_map(others).collect();
                 if let Some((before, _)) = rows.insert(tag, (line, cells)) {
@@ -145,7 +145,7 @@ mod tests {
             ("mu\n1e5\n", "a title `element`"),
             ("element\n3\n", "one for each parameter"),
             ("element,mu\n3,1e5\n", "no row of element 5"),
-            ("element,mu\n3,1e5\nfive,1e5\n", "line 3: `five` is no number of an element"),
+            ("element,mu\n3,1e5\nfive,1e5\n", "line 3: `five` is not the number of an element"),
             ("element,mu\n3,1e5\n3,1e5\n", "element 3 has two rows, in lines 2 and 3"),
             ("element,mu\n3,1e5\n5,soft\n", "line 3: mu: "),
             ("element,mu,mu\n3,1e5,1e5\n5,1e5,2e5\n", "two columns have the title `mu`"),

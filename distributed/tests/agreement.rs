@@ -36,7 +36,7 @@ fn newton() -> NewtonSettings {
         .with_tolerance(1e-12)
 }
 
-/// Options that solve as far as [`newton`] does.
+/// Options that solve to the tolerance of [`newton`].
 const SOLVED: &str = "--newton full --newton-tolerance 1e-12 --newton-iterations 200 --filter clamp";
 
 /// Largest distance between nodes, m.
@@ -194,7 +194,7 @@ fn steps_within_a_tolerance_go_the_same_way() -> TestResult {
     let error = distance(&found.positions, play.simulation().positions()) / geometry.mesh.bounds().size()[1];
     let summary: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("summary.json"))?)?;
     println!("{taken} steps, and {} on two ranks: {error:.1e} body heights", summary["steps"]["taken"]);
-    assert!(taken > frames, "{taken} steps are no test of this");
+    assert!(taken > frames, "{taken} steps do not test this");
     assert_eq!(summary["steps"]["taken"], taken);
     assert!(error <= 0.1 * tolerance * dt * frames as f64, "{error:e} body heights");
     Ok(())

@@ -16,7 +16,7 @@ pub(crate) type TestResult = Result<(), Box<dyn Error>>;
 /// Longer than any run of a test takes: whatever goes on after it hangs.
 const LIMIT: Duration = Duration::from_secs(240);
 
-/// The command that starts the program on so many ranks, however many cores there are and whoever runs it.
+/// Command that starts the program on a number of ranks, for any number of cores and any user.
 pub(crate) fn command(ranks: usize, words: impl IntoIterator<Item = String>) -> Command {
     let mut command = Command::new("mpirun");
     command

@@ -48,7 +48,7 @@ pub struct Cholesky {
     pattern: Arc<SymbolicSparseColMat<usize>>,
     symbolic: Arc<SymbolicCholesky<usize>>,
     factor: Vec<f64>,
-    /// Whether `factor` is that of a matrix: not before the first, nor after one that is not positive.
+    /// True if `factor` belongs to a matrix: not before the first, nor after one that is not positive.
     is_factored: bool,
     memory: MemBuffer,
 }
@@ -172,7 +172,7 @@ fn scratch(symbolic: &SymbolicCholesky<usize>) -> StackReq {
         .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq))
 }
 
-/// Why a system cannot be solved.
+/// Reason why a system cannot be solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LinearError {

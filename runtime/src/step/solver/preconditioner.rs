@@ -68,7 +68,7 @@ enum InUse {
 }
 
 impl<D: Division> Preconditioner<D> {
-    /// Memory for so many nodes that this machine owns, divided like this.
+    /// Memory for the nodes that this machine owns, with their division.
     #[must_use]
     pub fn new(nodes: usize, division: D) -> Self {
         Self { blocks: BlockJacobi::new(nodes), multigrid: Multigrid::new(division), in_use: InUse::Nothing }

@@ -298,7 +298,7 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    /// Random neighbours of each of so many rows, and a hub that all are neighbours of.
+    /// Random neighbours of each row, and a hub that all are neighbours of.
     fn random_graph(random: &mut Random, rows: usize) -> Graph {
         let mut upper = vec![Vec::new(); rows];
         for row in 0..rows - 1 {

@@ -1,10 +1,10 @@
-//! How the rows of a level are divided among machines, and what multigrid asks of them.
+//! Division of the rows of a level among machines, for multigrid.
 //!
-//! A machine has the part of a matrix that its elements add up to: the matrix is the sum over the machines.
+//! A machine has the part of a matrix that is the sum of its elements: the matrix is the sum over the machines.
 //! The rows of a part are those that the machine owns, then copies of rows of others. So a product is that of
 //! the parts, between two exchanges: entries of a vector go from owners to copies, and what the parts add to
 //! copies goes to the owners. PᵀA P is the sum of such products of the parts as well, where each machine
-//! knows the rows of P of its copies. Aggregates are made of rows of one owner.
+//! has the rows of P of its copies. Aggregates are made of rows of one owner.
 
 use std::collections::HashMap;
 
@@ -20,7 +20,7 @@ pub(super) const ROWS: usize = 1024;
 /// Division of the rows of a matrix among machines, as one of them sees it.
 ///
 /// The rows of a machine are those that it owns, then copies of rows that others own. All machines call all
-/// functions in one order. A function that cannot reach other machines keeps its error for whoever has made
+/// functions in one order. A function that cannot reach other machines keeps its error for the code that made
 /// the division: the vectors are then meaningless.
 pub trait Division: Sized {
     /// Error of the functions that can fail.
@@ -50,17 +50,17 @@ pub trait Division: Sized {
     /// Largest number of any machine.
     fn largest(&self, number: f64) -> f64;
 
-    /// The number of this machine's first row where each owns so many, counted machine after machine.
+    /// Number of the first row of this machine, which owns `rows` of them, counted machine after machine.
     fn first(&self, rows: usize) -> u64;
 
-    /// The division of the next level, of which this machine owns so many rows and has copies of those with
-    /// these numbers.
+    /// Division of the next level, in which this machine owns `rows` rows and has copies of the rows with the
+    /// numbers `copies`.
     ///
     /// # Errors
     /// [`Division::Error`].
     fn coarse(&self, rows: usize, copies: Vec<u64>) -> Result<Self, Self::Error>;
 
-    /// Whether a level of so many rows of all machines is the last, for so many nodes of all machines.
+    /// True if a level with `rows` rows of all machines is the last one, for `nodes` nodes of all machines.
     fn is_last(&self, rows: usize, nodes: usize) -> bool;
 
     /// The solver of the last level, of which this is the division.

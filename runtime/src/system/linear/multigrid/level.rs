@@ -32,7 +32,7 @@ pub(super) struct Level<const N: usize> {
     inverses: Vec<[[f32; N]; N]>,
     /// Bound of the eigenvalues of D⁻¹A.
     largest: f32,
-    /// The eigenvector of the largest of them, as far as it is known.
+    /// Estimate of the eigenvector of the largest of them.
     roughest: Vec<[f32; N]>,
     prolongation: Rows<f32, N, 6>,
     columns: Columns,
@@ -168,7 +168,7 @@ impl<const N: usize> Level<N> {
         });
     }
 
-    /// Bounds the eigenvalues of D⁻¹A by so many iterations of the power method.
+    /// Bounds the eigenvalues of D⁻¹A by iterations of the power method.
     fn find_largest(&mut self, iterations: usize, division: &mut impl Division) {
         let Self { matrix, roughest, product, inverses, .. } = self;
         let owned = inverses.len();

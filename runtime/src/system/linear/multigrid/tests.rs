@@ -8,8 +8,8 @@ use crate::system::linear::conjugate_gradients::{ConjugateGradients, End, Iterat
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::testing::{KIRCHHOFF, shake};
 
-/// The stiffness of a cube of so many cells along an edge whose nodes are at `deform` of their rest
-/// positions, which of its nodes are free, and where they are.
+/// Stiffness of a cube with a number of cells along an edge, whose nodes are at `deform` of their rest
+/// positions; the free nodes, and all positions.
 fn cube(
     cells: usize,
     filter: Filter,
