@@ -351,7 +351,7 @@ impl<'a> Printer<'a> {
         let numerator = if above.is_empty() { one.to_owned() } else { above.join(times) };
         let text = match (&below[..], self.notation) {
             ([], _) => numerator,
-            ([single], Notation::Formula) => format!("{numerator}/{single}"),
+            ([single], Notation::Formula) if !is_open(single) => format!("{numerator}/{single}"),
             (several, Notation::Formula) => format!("{numerator}/({})", several.join(" ")),
             (several, Notation::Rust) => format!("{numerator} / {}", several.join(" / ")),
         };
@@ -408,6 +408,19 @@ impl<'a> Printer<'a> {
         let real = real.map(|real| (false, self.print(real, Context::Sum)));
         self.notation.sum(real.into_iter().collect(), rational).1
     }
+}
+
+/// True if a formula has a space outside of parentheses, so that a divisor `a b` needs them.
+fn is_open(text: &str) -> bool {
+    let mut depth = 0;
+    text.chars().any(|c| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
+        }
+        c == ' ' && depth == 0
+    })
 }
 
 /// The power of J in powers of the three stretches, and the whole powers that are left.

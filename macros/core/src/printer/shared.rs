@@ -121,6 +121,15 @@ mod tests {
     }
 
     #[test]
+    fn divisors_that_are_products_are_in_parentheses() {
+        check(
+            &syn::parse_quote!(c * I1b.ln() + d * J),
+            &[("s₁", "4/3 λ₁ J^(−2/3) − 2/3 λ₂² J^(−2/3)/λ₁ − 2/3 λ₃² J^(−2/3)/λ₁")],
+            "d λ₂ λ₃ + c s₁/(I1 J^(−2/3))",
+        );
+    }
+
+    #[test]
     fn long_parts_that_occur_more_than_once_have_names() {
         check(
             &syn::parse_quote!(c * (I1b - 3.0) + d * (I1b - 3.0).powi(2) + d * (I1b - 3.0).powi(3)),
