@@ -128,10 +128,19 @@ fn flags(cell: &StatusCell) -> u8 {
 fn outside(survey: Survey, first: usize, points: &[usize]) -> PyErr {
     let index = shape::index(first, points);
     let Survey { refused, nonfinite, .. } = survey;
+    let count = points.iter().product::<usize>();
+    let reasons: Vec<String> = [
+        (refused, "are outside the domain of the energy"),
+        (nonfinite, "have an F or a result that is not finite"),
+    ]
+    .into_iter()
+    .filter(|(number, _)| *number > 0)
+    .map(|(number, reason)| format!("{number} of {count} points {reason}"))
+    .collect();
     let message = format!(
-        "of {} points, {refused} are outside the domain of the energy, and {nonfinite} have an F or a result \
-         that is not finite; the first has the index {}",
-        points.iter().product::<usize>(),
+        "{}; the first has the index {}. `extend=` of the material continues an energy beyond J > 0; `status=` \
+         returns flags instead of this error",
+        reasons.join(", "),
         shape::text(&index)
     );
     DomainError::new_err((message, index, refused, nonfinite))

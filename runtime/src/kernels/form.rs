@@ -211,9 +211,8 @@ impl<R: Real> Rest<R> {
     /// volume, which has no root, is not.
     #[inline(always)]
     fn keeps_finite(&self, tangent: R) -> R::Mask {
-        let shape = largest(to_row_major(self.inverse));
-        let size = (shape * self.volume) * R::splat(1024.0) * (shape * tangent);
-        size.is_finite() & !self.volume.less(R::splat(0.0))
+        let shape = largest(to_row_major(self.inverse)) * self.volume.sqrt();
+        (shape * R::splat(1024.0) * (shape * tangent)).is_finite()
     }
 
     /// The gradients of the barycentric coordinates of nodes 1, 2, 3, a row for each, times √volume.
@@ -270,13 +269,12 @@ fn stiffness_is_finite<R: Real>(blocks: &Blocks<R>, rest: &Rest<R>) -> R::Mask {
     rest.keeps_finite(largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]))
 }
 
-/// True if nothing can overflow on the way from stress to the gradient, a sum of nine products of the stress,
-/// Dm⁻¹ and the volume, and the volume is not negative.
+/// True if nothing can overflow on the way from stress to the gradient: a sum of nine products of the stress,
+/// Dm⁻¹ and the volume.
 #[inline(always)]
 pub(crate) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
     let Rest { inverse, volume } = Rest::new(*rest);
-    let size = largest(to_row_major(inverse)) * volume * R::splat(16.0) * largest(to_row_major(*stress));
-    size.is_finite() & !volume.less(R::splat(0.0))
+    (largest(to_row_major(inverse)) * volume * R::splat(16.0) * largest(to_row_major(*stress))).is_finite()
 }
 
 /// Bounds the twists of the blocks for any form of a stiffness, and reports whether it overflows.

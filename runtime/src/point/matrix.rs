@@ -45,6 +45,7 @@ macro_rules! symmetric {
 
 /// `thrice!(i => { … })` does it with i = 0, 1, 2: a loop that needs no unrolling, so that every index is a
 /// constant from the beginning.
+#[cfg(feature = "batch")]
 macro_rules! thrice {
     ($i:ident => $body:block) => {{
         {
@@ -62,7 +63,9 @@ macro_rules! thrice {
     }};
 }
 
-pub(crate) use {symmetric, three, thrice};
+#[cfg(feature = "batch")]
+pub(crate) use thrice;
+pub(crate) use {symmetric, three};
 
 /// The scalar product x·y.
 #[inline(always)]

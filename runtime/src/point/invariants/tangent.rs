@@ -45,11 +45,10 @@
 use super::super::Matrix3;
 #[cfg(feature = "batch")]
 use super::super::matrix::multiply_transposed;
-use super::super::matrix::{dot, symmetric, three, thrice};
+use super::super::matrix::{dot, symmetric, three};
 use super::super::tangent::Assemble;
 use super::{cofactor, cross, square, stress_of_terms};
 use crate::lanes::Real;
-use crate::material::PAIRS;
 
 /// A bound of every term of an entry of dP/dF together, N in the text above, and one of the entries of P;
 /// without `HAS_SECOND` or `HAS_ALL` as in [`Terms`].
@@ -358,19 +357,31 @@ impl<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool> Terms<R, HAS_SECOND, 
         let (F, C) = (coordinates.pulled(&self.F), coordinates.pulled(&self.C));
         let D = if HAS_SECOND && HAS_ALL { coordinates.pulled(&self.D) } else { C };
         let seen = &Pulled { F, C, D, T: coordinates.pulled_normals(&self.T) };
-        thrice!(a => {
-            let block = self.diagonal_block(a, seen, coordinates);
-            if C::ARE_ENTRIES {
-                for x in 0..3 {
-                    largest = block[x][x].abs().max(largest);
-                }
+        largest = self.put_diagonal(0, largest, seen, coordinates, to);
+        to.block(0, 1, &self.mixed_block([0, 1], seen, coordinates));
+        to.block(0, 2, &self.mixed_block([0, 2], seen, coordinates));
+        largest = self.put_diagonal(1, largest, seen, coordinates, to);
+        to.block(1, 2, &self.mixed_block([1, 2], seen, coordinates));
+        self.put_diagonal(2, largest, seen, coordinates, to)
+    }
+
+    /// Puts a block on the diagonal. Returns the largest entry on the diagonal of dP/dF so far.
+    #[inline(always)]
+    fn put_diagonal<C: Coordinates<R>>(
+        &self,
+        a: usize,
+        mut largest: R,
+        seen: &Pulled<R>,
+        coordinates: &C,
+        to: &mut impl Assemble<R>,
+    ) -> R {
+        let block = self.diagonal_block(a, seen, coordinates);
+        if C::ARE_ENTRIES {
+            for x in 0..3 {
+                largest = block[x][x].abs().max(largest);
             }
-            to.block(a, a, &block);
-        });
-        thrice!(pair => {
-            let (a, c) = PAIRS[pair];
-            to.block(a, c, &self.mixed_block([a, c], seen, coordinates));
-        });
+        }
+        to.block(a, a, &block);
         largest
     }
 }
