@@ -39,7 +39,10 @@ pub(crate) enum Command {
     View(Box<View>),
     /// List the materials with formula, parameters and typical values of them, domain and small-strain
     /// moduli.
-    Materials,
+    Materials {
+        /// Only this material
+        name: Option<String>,
+    },
     /// Print test curves of a material, with R² of measured ones; or rank all rubbers by it.
     Curve(Box<Curve>),
     /// Fit the parameters of a material to measured curves.

@@ -49,7 +49,7 @@ pub fn main() -> ExitCode {
     let result = match command {
         Command::Run(arguments) => play(*arguments),
         Command::View(arguments) => serve(*arguments).map(|()| ExitCode::SUCCESS),
-        Command::Materials => materials::pages().map_err(Error::from).and_then(say),
+        Command::Materials { name } => materials::pages(name.as_deref()).map_err(Error::from).and_then(say),
         Command::Curve(curve) => curve.run().and_then(say),
         Command::Fit(fit) => fit.run().and_then(say),
         Command::Check(check) => check.run().and_then(say),

@@ -9,8 +9,11 @@ use piola_scenes::error::Error;
 use piola_scenes::material::MaterialSpec;
 use rayon::prelude::*;
 
-/// A page for each material of the catalogue, separated by blank lines.
-pub(crate) fn pages() -> Result<String, Error> {
+/// A page for a material, or for each one of the catalogue, separated by blank lines.
+pub(crate) fn pages(name: Option<&str>) -> Result<String, Error> {
+    if let Some(name) = name {
+        return page(name);
+    }
     let pages: Vec<_> =
         DECLARATIONS.par_iter().map(|declaration| page(declaration.name)).collect::<Result<_, _>>()?;
     Ok(pages.join("\n"))

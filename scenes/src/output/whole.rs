@@ -46,7 +46,12 @@ fn replace(path: &Path, content: &[u8], earlier: Option<Permissions>) -> io::Res
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     // Nobody has given the name of a temporary file that such an error has.
-    let mut aside = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
+    let mut aside = builder.tempfile_in(folder).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => {
+            io::Error::other(format!("the folder {} does not exist", folder.display()))
+        }
+        kind => io::Error::from(kind),
+    })?;
     if let Some(earlier) = earlier {
         aside.as_file().set_permissions(earlier)?;
     }

@@ -211,8 +211,15 @@ impl<'a> Course<'a> {
                     material.as_ref(),
                 ))
             });
+        let (scene, end) = (self.setup.settings.scene, self.setup.play.clock().time());
+        let released = scene.pulls.iter().map(|pull| pull.released).filter(|released| released.is_finite());
+        let held_until = released.fold(end, f64::max);
+        let is_held = ended == Ended::Finished && !recovered && held_until > end;
+        let held = is_held.then(|| {
+            format!("the last frame is at {end:.2} s, and the body is pulled until {held_until:.2} s: more frames show if it recovers")
+        });
         let final_state = match ended {
-            Ended::Finished if !recovered => self.examine(watch).unwrap_or_else(|error| {
+            Ended::Finished if !recovered && !is_held => self.examine(watch).unwrap_or_else(|error| {
                 match error {
                     Error::Interrupted => ended = Ended::Interrupted,
                     Error::Equilibrium(_) => self.failures.push(error.to_string()),
@@ -249,7 +256,7 @@ impl<'a> Course<'a> {
             frames_wanted: settings.frames,
             ended,
             failures,
-            warnings: warnings.chain(missing).chain(at_rest.warning()).collect(),
+            warnings: warnings.chain(missing).chain(held).chain(at_rest.warning()).collect(),
             dt: settings.dt,
             newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
             inverted_at_start: progress.inverted_at_start,
