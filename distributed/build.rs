@@ -1,7 +1,7 @@
-//! Bindings to the functions of PETSc that `src/petsc.rs` calls, made from its headers: the widths of its
-//! integers and the numbers of its enumerations are those of the PETSc that is linked.
+//! Bindings to the functions of PETSc that `src/petsc.rs` calls, generated from its headers: the widths of
+//! integers and the values of enumerations are those of the PETSc that is linked.
 
-#![expect(clippy::print_stderr, reason = "so a build script talks to people")]
+#![expect(clippy::print_stderr, reason = "a build script reports errors in this way")]
 
 use std::env;
 use std::path::PathBuf;
@@ -10,7 +10,8 @@ use std::process::exit;
 const ADVICE: &str = "on Debian: apt-get install -y --no-install-recommends gcc libc6-dev pkg-config libclang-dev \
                       petsc-dev libopenmpi-dev openmpi-bin";
 
-/// bindgen loads the newest libclang that it finds, and gives it the headers of the program `clang`.
+/// Advice against two versions of clang: bindgen loads the newest libclang that it finds, with the headers of
+/// the program `clang`.
 const VERSIONS: &str = "if the header at fault is one of clang's own, several versions of clang are installed: set \
                         LIBCLANG_PATH to the folder of the libclang that belongs to `clang`";
 
@@ -90,7 +91,9 @@ const NAMES: &[&str] = &[
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
     let library = pkg_config::Config::new().atleast_version("3.18").probe("PETSc").unwrap_or_else(|error| {
-        eprintln!("PETSc 3.18 or later is not there, or pkg-config does not find it: {ADVICE}\n\n{error}");
+        eprintln!(
+            "PETSc 3.18 or later is not installed, or pkg-config does not find it: {ADVICE}\n\n{error}"
+        );
         exit(1);
     });
     let mpi = pkg_config::Config::new()

@@ -1,7 +1,7 @@
-//! The cube of `piola-mpi box` by piola on one machine, without PETSc: what its times are compared with.
+//! The cube of `piola-mpi box` with piola on one machine, without PETSc, for a comparison of times.
 //!
-//! `cargo run --release --example alone -- 10000,94000 1`, on one thread, beside `piola-mpi box --elements
-//! 94000`.
+//! `cargo run --release --example alone -- 10000,94000 1`, on one thread, is compared with
+//! `piola-mpi box --elements 94000`.
 
 #![expect(clippy::print_stdout, reason = "a program for the command line")]
 
@@ -17,11 +17,12 @@ use piola_scenes::material::MaterialSpec;
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().collect();
     let [_, sizes, threads] = words.as_slice() else {
-        return Err("which numbers of elements, on how many threads? write 10000,94000 1".into());
+        return Err("expected numbers of elements and a number of threads, such as 10000,94000 1".into());
     };
     rayon::ThreadPoolBuilder::new().num_threads(threads.parse()?).use_current_thread().build_global()?;
     println!(
-        "| elements | Newton | conjugate gradients | residual | set-up s | solve s |\n|---|---|---|---|---|---|"
+        "| elements | Newton iterations | CG iterations, total | relative residual | set-up time, s | solve time, s |\n\
+         |---|---|---|---|---|---|"
     );
     for elements in sizes.split(',') {
         let clock = Instant::now();

@@ -1,9 +1,9 @@
-//! Checkpoints: the state of all nodes in one file, from which a run on any number of ranks goes on.
+//! Checkpoints: the state of all nodes in one file, from which a run on any number of ranks can continue.
 //!
-//! A line of JSON, filled up with spaces to [`HEADER`] bytes, is followed by the positions, velocities and
-//! accelerations of all nodes in the order of the mesh, little-endian. Every rank writes the nodes that are
-//! at home on it, beside the last checkpoint, which is replaced once all of it is on the disk. The ranks must
-//! see the same folder.
+//! The header is a line of JSON, padded with spaces to [`HEADER`] bytes. The positions, velocities and
+//! accelerations of all nodes follow in the order of the mesh, little-endian. Every rank writes the nodes
+//! that are at home on it into a new file. This file replaces the previous checkpoint when all of it is on
+//! the disk. All ranks must be able to access the same folder.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -21,23 +21,23 @@ use crate::team::Team;
 /// Length of the header, bytes.
 pub const HEADER: usize = 65536;
 
-/// First words of a checkpoint.
+/// Name and version of the format, in the header of a checkpoint.
 const FORMAT: &str = "piola-mpi checkpoint 1";
 
-/// Bytes of a node in each of the three lists.
+/// Number of bytes of a node in each of the three lists.
 const NODE: u64 = 24;
 
-/// What a checkpoint says of itself.
+/// Header of a checkpoint.
 #[derive(Debug, Serialize, Deserialize)]
 struct Header<T> {
     format: String,
     nodes: u64,
-    /// CRC-32 of all that follows the header.
+    /// CRC-32 of all bytes after the header.
     checksum: u32,
     about: T,
 }
 
-/// The lists of a state.
+/// Positions, velocities and accelerations of all nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Position of each node, m.
@@ -48,10 +48,11 @@ pub struct State {
     pub accelerations: Vec<[f64; 3]>,
 }
 
-/// Writes a checkpoint, and what it is `about`, in place of an earlier one.
+/// Writes a checkpoint with the description `about`, and replaces the previous checkpoint.
 ///
 /// # Errors
-/// [`Error::OnRank`] with the reason of the first rank that cannot write; the earlier one is then as it was.
+/// [`Error::OnRank`] with the reason of the first rank that cannot write; the previous checkpoint is then
+/// unchanged.
 pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Serialize) -> Result<(), Error> {
     let (share, state) = (simulation.share(), simulation.state());
     let homes = Homes::new(share.totals[0] as u64, team.size());
@@ -93,7 +94,7 @@ pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Ser
     let finish = || -> io::Result<()> {
         fs::rename(&aside, path)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        // Some systems make names durable in their own time.
+        // Some file systems do not support this, and write names to the disk later.
         let _ = File::open(folder.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
         Ok(())
     };
@@ -103,17 +104,17 @@ pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Ser
         .and_then(|()| team.agree(put().map_err(failed)))
         .and_then(|()| team.agree(if is_first { finish() } else { Ok(()) }.map_err(failed)));
     if written.is_err() && is_first {
-        // What is left of it helps nobody.
+        // An incomplete file is of no use.
         let _ = fs::remove_file(&aside);
     }
     written
 }
 
-/// Reads a checkpoint into a simulation of the same mesh; returns what it is about.
+/// Reads a checkpoint into a simulation of the same mesh; returns the description of the checkpoint.
 ///
 /// # Errors
-/// [`Error::OnRank`] if it cannot be read, is damaged or of another mesh, or `check` finds a reason against
-/// it.
+/// [`Error::OnRank`] if the checkpoint cannot be read, is damaged, belongs to another mesh, or is refused by
+/// `check`.
 pub fn read<T: DeserializeOwned>(
     team: &Team,
     path: &Path,
@@ -126,7 +127,7 @@ pub fn read<T: DeserializeOwned>(
     let failed = |reason: String| Error::Checkpoint { path: path.into(), reason };
     let loaded = read_header::<T>(path).and_then(|(file, header)| {
         if header.nodes != nodes {
-            return Err(format!("it is of {} nodes, and the mesh has {nodes}", header.nodes));
+            return Err(format!("it has {} nodes, and the mesh has {nodes}", header.nodes));
         }
         check(&header.about)?;
         let range = homes.range(team.rank());
@@ -164,7 +165,7 @@ pub fn read<T: DeserializeOwned>(
     Ok(header.about)
 }
 
-/// Reads a whole checkpoint without a team: what it is about, and the state of all nodes.
+/// Reads a whole checkpoint without a team; returns its description and the state of all nodes.
 ///
 /// # Errors
 /// [`Error::Checkpoint`].
@@ -183,7 +184,7 @@ pub fn read_alone<T: DeserializeOwned>(path: &Path) -> Result<(T, State), Error>
     Ok((header.about, State { positions: next(), velocities: next(), accelerations: next() }))
 }
 
-/// Opens a checkpoint behind its header.
+/// Opens a checkpoint and reads its header; the file is then positioned after the header.
 fn read_header<T: DeserializeOwned>(path: &Path) -> Result<(File, Header<T>), String> {
     let mut text = vec![0; HEADER];
     let mut file = File::open(path).map_err(|error| error.to_string())?;
@@ -192,12 +193,12 @@ fn read_header<T: DeserializeOwned>(path: &Path) -> Result<(File, Header<T>), St
     if header.format == FORMAT { Ok((file, header)) } else { Err(format!("it is not a {FORMAT}")) }
 }
 
-/// Where the nodes at home on a rank begin in a list.
+/// Position, in the file, of the nodes at home on a rank in one of the lists.
 fn place(homes: &Homes, rank: usize, list: usize) -> u64 {
     HEADER as u64 + NODE * (list as u64 * homes.total() + homes.range(rank).start)
 }
 
-/// Checksum of three lists, of which each rank has a part, one behind the other.
+/// Checksum of three consecutive lists, of each of which every rank has a part.
 fn checksum(team: &Team, lists: &[Vec<u8>]) -> u32 {
     let mut sum = crc32fast::Hasher::new();
     for list in lists {
@@ -209,7 +210,7 @@ fn checksum(team: &Team, lists: &[Vec<u8>]) -> u32 {
     sum.finalize()
 }
 
-/// The file of checkpoints in the folder of a run.
+/// Path of the checkpoint in the folder of a run.
 #[must_use]
 pub fn file_in(folder: &Path) -> PathBuf {
     folder.join("checkpoint.piola")

@@ -1,7 +1,6 @@
-//! What piola's levels of multigrid leave to PETSc: a matrix of six unknowns for each row, and its solver.
+//! Last level of piola's multigrid, solved by PETSc: a matrix with six unknowns for each row, and its solver.
 //!
-//! The solver is one of PETSc's, with all of its options behind the prefix `coarse_`. This module knows no
-//! bodies.
+//! The solver has all options of PETSc, with the prefix `coarse_`. This module does not depend on bodies.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -12,7 +11,7 @@ use crate::division::{Copies, Failure};
 use crate::petsc::{Krylov, Library, Matrix, PetscError, Vector};
 use crate::team::Team;
 
-/// Options of PETSc for the solver of the last level unless the user sets others.
+/// Default options of PETSc for the solver of the last level.
 const DEFAULTS: &[(&str, &str)] = &[
     ("coarse_redundant_pc_type", "cholesky"),
     ("coarse_redundant_pc_factor_shift_type", "positive_definite"),
@@ -21,10 +20,11 @@ const DEFAULTS: &[(&str, &str)] = &[
     ("coarse_mg_levels_pc_type", "jacobi"),
 ];
 
-/// Rows up to which every rank factors the whole matrix, and multigrid would have nothing to make smaller.
+/// Largest number of rows for which every rank factors the whole matrix: multigrid would not reduce it
+/// further.
 const FACTORED: usize = 512;
 
-/// A motion that is smaller than this beside what it has in others is one of them.
+/// Tolerance of linear dependence: norm of the orthogonal part of a motion, relative to the motion.
 const DEPENDENT: f64 = 1e-9;
 
 /// Solver of the last level of piola's multigrid.
@@ -36,10 +36,10 @@ pub struct Coarse {
 }
 
 impl Coarse {
-    /// A solver for the rows of a division.
+    /// Sets up a solver for the rows of a division.
     ///
     /// # Errors
-    /// [`PetscError`], also for an option with a value that PETSc does not know.
+    /// [`PetscError`], also for an option with a value that PETSc does not support.
     pub(crate) fn new(rows: &Copies, level: &LastLevel<'_>) -> Result<Self, PetscError> {
         let (team, owned) = (rows.team(), rows.owned());
         let library = team.library();
@@ -76,7 +76,7 @@ impl Coarse {
         })
     }
 
-    /// The solver, as PETSc shows it.
+    /// Solver of PETSc, for `-ksp_view`.
     pub(crate) fn krylov(&self) -> &Krylov {
         &self.krylov
     }
@@ -97,7 +97,7 @@ impl LastSolver for Coarse {
     }
 }
 
-/// Orthonormal basis of the columns of these blocks, without dependent ones.
+/// Orthonormal basis of the columns of these blocks; dependent columns are left out.
 fn orthonormal(
     team: &Team,
     library: &Library,
@@ -110,7 +110,7 @@ fn orthonormal(
     for c in 0..6 {
         let mut motion: Vec<[f64; 6]> = motions.iter().map(|block| block.map(|row| row[c])).collect();
         let before = dot(&motion, &motion).sqrt();
-        // Gram and Schmidt, twice.
+        // Gram–Schmidt orthogonalisation, twice.
         for other in found.iter().chain(&found) {
             let along = dot(other, &motion);
             for (x, other) in motion.as_flattened_mut().iter_mut().zip(other.as_flattened()) {

@@ -1,4 +1,4 @@
-//! The command line: options of piola-mpi, and those of PETSc among them.
+//! Command line: options of piola-mpi, mixed with options of PETSc.
 
 use std::path::PathBuf;
 
@@ -16,38 +16,38 @@ use crate::setting::Move;
 
 /// Elastic bodies on many machines: scenes of piola with the solvers of PETSc, over MPI.
 ///
-/// Run it as `mpirun -n N piola-mpi …`. Options of PETSc may stand anywhere, with one dash: -ksp_type cg
+/// Run it as `mpirun -n N piola-mpi …`. Options of PETSc, with one dash, may be at any place: -ksp_type cg
 /// -pc_type gamg.
 #[derive(Debug, Parser)]
 #[command(version, name = "piola-mpi")]
 pub struct Cli {
-    /// What to do.
+    /// Subcommand.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// What to do.
+/// Subcommand, with its options.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Let a cube of 1 m, held at one face, sag under its own weight, generated in parallel; prints its
-    /// iterations and times.
+    /// Let a cube of 1 m, held at one face, sag under its own weight; the mesh is generated in parallel.
+    /// Prints numbers of iterations and times.
     Box(BoxOptions),
-    /// Take a body to equilibrium under gravity.
+    /// Compute the equilibrium of a body under gravity.
     #[command(after_help = scenes())]
     Statics(Box<StaticsOptions>),
-    /// Run a scene, or a mesh, in steps of time.
+    /// Run a scene, or a mesh, in time steps.
     #[command(after_help = scenes())]
     Run(Box<RunOptions>),
 }
 
-/// Options of a box.
+/// Options of the subcommand `box`.
 #[derive(Debug, Parser)]
 pub struct BoxOptions {
-    /// Number of tetrahedra, at least; the cube has six in each of N³ cells.
+    /// Minimum number of tetrahedra; the cube has n³ cells of six tetrahedra each.
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     pub elements: u64,
 
-    /// Folder for a checkpoint of the result [default: none is written].
+    /// Folder for a checkpoint of the result [default: no checkpoint].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -96,17 +96,17 @@ pub struct RunOptions {
     #[arg(long)]
     pub force: bool,
 
-    /// Continue from the checkpoint in the folder, on any number of ranks; needs the options of its first run,
-    /// except --frames and those of the solver.
+    /// Continue from the checkpoint in the folder, on any number of ranks; needs the options of its first
+    /// run, except --frames and those of the solver.
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
 
-    /// Write the tetrahedra of each frame, frame_NNNN.pvtu with a piece of each rank and frames.pvd with
-    /// times, for ParaView.
+    /// Write the tetrahedra of each frame for ParaView: frame_NNNN.pvtu with a piece of each rank, and
+    /// frames.pvd with the times.
     #[arg(long)]
     pub vtu: bool,
 
-    /// Steps from one checkpoint to the next; 0 for one at the end alone.
+    /// Number of steps between two checkpoints; with 0, only the end is written.
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub checkpoint_every: usize,
 
@@ -115,28 +115,28 @@ pub struct RunOptions {
     pub solver: SolverOptions,
 }
 
-/// How steps are solved.
+/// Options of the solvers in a step.
 #[derive(Clone, Debug, Parser)]
 pub struct SolverOptions {
-    /// Share of the first residual to which Newton's method goes.
+    /// Tolerance of Newton's method, relative to the first residual.
     #[arg(long, value_name = "T", default_value_t = 1e-6)]
     newton_tolerance: f64,
 
-    /// Newton iterations after which a step ends.
+    /// Maximum number of Newton iterations in a step.
     #[arg(long, value_name = "N", default_value_t = 50)]
     newton_iterations: usize,
 
-    /// Share of the residual to which linear systems are solved at first; near the end they are solved to the
-    /// share that Newton's tolerance needs [default: 0.01, or 1e-8 with --newton single].
+    /// Tolerance of the first linear systems, relative to their right sides; the last ones have the tolerance
+    /// that the tolerance of Newton's method requires [default: 0.01, or 1e-8 with --newton single].
     #[arg(long, value_name = "T")]
     linear_tolerance: Option<f64>,
 
-    /// Projection of the tangents: on-demand where the matrix is not positive definite without, clamp or
-    /// absolute always, or none [default: on-demand, or clamp with --newton single].
+    /// Projection of the tangents: on-demand (if the matrix is not positive definite otherwise), clamp or
+    /// absolute (always), or none [default: on-demand, or clamp with --newton single].
     #[arg(long, value_name = "WHEN", value_parser = filtering)]
     filter: Option<Filtering>,
 
-    /// Threads of each rank for the elements; PETSc itself has one.
+    /// Number of threads of each rank; PETSc itself uses one.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub threads: usize,
 }
@@ -148,39 +148,39 @@ struct Choice {
     scene: SceneOptions,
 
     /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO, where
-    /// NAME may be a file of Rust. Without parameters, as stiff as the scene's; may be repeated.
+    /// NAME may be a file of Rust. Without parameters, the stiffness is the scene's. May be repeated.
     #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     parts: Vec<String>,
 
-    /// Parameters of each tetrahedron by itself: a table whose first line is `element,PARAM,…`, with a line
-    /// for each tetrahedron: its number in the file of the mesh, and values as of --param, lists in quotes.
-    /// Groups with a --part need no lines.
+    /// Individual parameters of each tetrahedron: a table with the first line `element,PARAM,…` and a line
+    /// for each tetrahedron. A line has the number of the tetrahedron in the file of the mesh, and values in
+    /// the format of --param, with lists in quotes. Groups with a --part need no lines.
     #[arg(long, value_name = "FILE.csv")]
     vary: Option<PathBuf>,
 
-    /// Nodes that are moved: BOX|GROUP=X,Y,Z@T, steadily by X, Y, Z in m until the time T in s, and held
-    /// there; in statics at once. May be repeated.
+    /// Displacement of nodes: BOX|GROUP=X,Y,Z@T moves them steadily by X, Y, Z in m until the time T in s,
+    /// and then holds them; in statics the whole displacement is applied at once. May be repeated.
     #[arg(long = "move", value_name = "BOX|GROUP=X,Y,Z@T", value_parser = motion, allow_hyphen_values = true)]
     moves: Vec<Move>,
 }
 
-/// What a run is to do.
+/// Settings of a run: scene, materials and prescribed motions.
 #[derive(Debug)]
 pub struct Task {
     /// The scene with its overrides.
     pub settings: Settings,
-    /// Groups with materials of their own.
+    /// Names of the groups with another material.
     pub groups: Vec<String>,
     /// The materials of these groups.
     pub materials: Vec<MaterialPart>,
-    /// A table with parameters of elements.
+    /// Path of a table with parameters of elements.
     pub table: Option<PathBuf>,
     /// Motions of nodes.
     pub moves: Vec<Move>,
 }
 
 impl StaticsOptions {
-    /// What is to be done.
+    /// Settings of the run.
     ///
     /// # Errors
     /// [`Error::Scene`], [`Error::Options`].
@@ -190,7 +190,7 @@ impl StaticsOptions {
 }
 
 impl RunOptions {
-    /// What is to be done.
+    /// Settings of the run.
     ///
     /// # Errors
     /// [`Error::Scene`], [`Error::Options`].
@@ -202,7 +202,7 @@ impl RunOptions {
         Ok(task)
     }
 
-    /// How steps are solved.
+    /// Settings of Newton's method.
     ///
     /// # Errors
     /// [`Error::Options`].
@@ -212,10 +212,10 @@ impl RunOptions {
 }
 
 impl SolverOptions {
-    /// How steps are solved, in one iteration or in full.
+    /// Settings of Newton's method, with one iteration or as many as needed.
     ///
     /// # Errors
-    /// [`Error::Options`] for a number that is out of range.
+    /// [`Error::Options`] for a value that is out of range.
     pub fn settings(&self, is_single: bool) -> Result<NewtonSettings, Error> {
         let linear = self.linear_tolerance.unwrap_or(if is_single { 1e-8 } else { 1e-2 });
         for (option, value) in [("--newton-tolerance", self.newton_tolerance), ("--linear-tolerance", linear)]
@@ -313,8 +313,8 @@ fn filtering(text: &str) -> Result<Filtering, String> {
 /// Options of PETSc: names without their dash, with their values.
 pub type PetscOptions = Vec<(String, Option<String>)>;
 
-/// Takes the options of PETSc out of a command line: one dash and a word, and the value behind it unless that
-/// is an option too.
+/// Separates the options of PETSc from a command line: one dash and a word, and the next argument as value
+/// unless it is an option too.
 pub fn split(arguments: impl IntoIterator<Item = String>) -> (Vec<String>, PetscOptions) {
     let is_petsc = |text: &str| {
         let mut letters = text.chars();
@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn options_of_petsc_are_told_from_ours() {
+    fn options_of_petsc_are_separated() {
         let words = [
             "piola-mpi",
             "run",

@@ -1,7 +1,7 @@
-//! Rows of a level of multigrid that other ranks have copies of, and copies of theirs.
+//! Exchange of the rows of a multigrid level between ranks: owned rows, and copies of rows of other ranks.
 //!
-//! Vectors are exchanged by PETSc, lists of numbers by [`Team::exchange`]. The solver of the last level is
-//! PETSc's too. This module knows no bodies.
+//! Vectors are exchanged by PETSc, lists of integers by [`Team::exchange`]. PETSc also solves the last level.
+//! This module does not depend on bodies.
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -14,56 +14,58 @@ use crate::error::Error;
 use crate::petsc::{GhostedVector, PetscError};
 use crate::team::Team;
 
-/// Rows of a level that is always the last. Large bodies have a larger last level, of half the root of the
-/// number of their nodes: an aggregate of a small level is most of it, and takes iterations.
+/// Largest number of rows of a level that is always the last. Large bodies have a larger last level, with
+/// half the square root of the number of nodes as the number of rows: on a small level, one aggregate would
+/// contain most rows, which would increase the number of iterations.
 const FEW: usize = 64;
 
-/// Rows up to which the last level grows with the body: PETSc takes a second or so to factor them.
+/// Maximum number of rows of a last level that grows with the body; PETSc factors them in about a second.
 const MOST: usize = 512;
 
-/// Rows of a rank, on average, with which a level is the last: fewer would be hardly any aggregates.
+/// Average number of rows on a rank at which a level is the last: fewer rows would give hardly any
+/// aggregates.
 const FEW_OF_A_RANK: usize = 32;
 
-/// The first error of exchanges that cannot return one, since it was taken last.
+/// First error, since the last call of [`Failure::take`], of exchanges that cannot return an error.
 #[derive(Clone, Default)]
 pub struct Failure(Rc<RefCell<Option<PetscError>>>);
 
 impl Failure {
-    /// Keeps an error unless there is one.
+    /// Keeps an error, unless an earlier one is kept.
     pub fn note(&self, result: Result<(), PetscError>) {
         if let Err(error) = result {
             self.0.borrow_mut().get_or_insert(error);
         }
     }
 
-    /// Takes the error.
+    /// Removes the error, and returns it.
     ///
     /// # Errors
-    /// The [`PetscError`] that there was.
+    /// The first [`PetscError`] that was noted.
     pub fn take(&self) -> Result<(), PetscError> {
         self.0.borrow_mut().take().map_or(Ok(()), Err)
     }
 }
 
-/// The rows of a level on one rank: its own, and copies.
+/// Rows of a level on one rank: owned rows, and copies of rows of other ranks.
 pub struct Copies {
     team: Team,
     failure: Failure,
-    /// Numbers of the owned rows among those of all ranks.
+    /// Global numbers of the owned rows.
     owned: Range<u64>,
-    /// Number of each copy.
+    /// Global number of each copy.
     numbers: Vec<usize>,
-    /// For each rank the owned rows that it has copies of.
+    /// Owned rows, for each rank, of which that rank has copies.
     sent: Vec<Vec<usize>>,
-    /// For each rank the copies of its rows.
+    /// Copies, for each rank, of rows of that rank.
     received: Vec<Vec<usize>>,
-    /// Of three components, and of six: where they have been asked for.
+    /// Vectors of three and of six components, created when they are first used.
     vectors: [Option<GhostedVector>; 2],
 }
 
 impl Copies {
-    /// Division in which this rank owns a number of rows and copies of the rows with these numbers, rank after rank.
-    /// Errors of exchanges are noted in `failure`.
+    /// Division with a number of owned rows on this rank, and copies of the rows with the global numbers
+    /// `numbers`, which are counted rank after rank. Errors of exchanges are noted in `failure`.
     #[must_use]
     pub fn new(team: &Team, failure: &Failure, owned: usize, numbers: Vec<usize>) -> Self {
         let mut starts = vec![0];
@@ -89,7 +91,7 @@ impl Copies {
         }
     }
 
-    /// Number of each row of this rank, copies included, among those of all ranks.
+    /// Global number of each row of this rank, copies included.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = usize> {
         self.owned.clone().map(|number| number as usize).chain(self.numbers.iter().copied())
     }
@@ -106,7 +108,7 @@ impl Copies {
         &self.failure
     }
 
-    /// Exchanges vectors of N components, on several ranks.
+    /// Exchanges a vector of N components, if there are several ranks.
     fn with_vector<const N: usize>(
         &mut self,
         exchange: impl FnOnce(&mut GhostedVector) -> Result<(), PetscError>,
@@ -124,14 +126,14 @@ impl Copies {
         self.failure.note(exchanged);
     }
 
-    /// Sends the lists of some rows to other ranks, and returns those that they send for some rows.
+    /// Sends the lists of the rows `rows` to other ranks, and returns the lists received for the rows `to`.
     fn lists(
         &self,
         rows: &[Vec<usize>],
         mut list: impl FnMut(usize, &mut Vec<u64>),
         to: &[Vec<usize>],
     ) -> Vec<(usize, Vec<u64>)> {
-        // Each list after its length.
+        // Each list follows its length.
         let mut words = |rows: &Vec<usize>| {
             let mut words = Vec::new();
             for &row in rows {

@@ -1,7 +1,7 @@
 //! Energy, forces and stiffness of the elements of a rank, evaluated by piola's kernels.
 //!
-//! The elements are a body of piola, whose nodes are the owned ones and the copies. This module knows no time
-//! and no solver.
+//! The elements are a body of piola, whose nodes are the owned nodes and the copies. This module does not
+//! depend on time or on a solver.
 
 use std::sync::Arc;
 
@@ -16,42 +16,42 @@ use crate::petsc::{GhostedVector, PetscError};
 use crate::share::Share;
 use crate::varied::Varied;
 
-/// Material and density, kg/m³, of the elements of a number.
+/// Material and density of the elements of a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialPart {
     /// The material.
     pub material: MaterialSpec,
-    /// Parameters of each element by itself, in place of the material's.
+    /// Individual parameters of each element, which replace the parameters of the material.
     pub varied: Option<Arc<Varied>>,
     /// Mass per rest volume, kg/m³.
     pub density: f64,
 }
 
-/// The elements of a rank.
+/// Elements of a rank, with their energy, gradient and stiffness.
 pub struct Elastic {
     piece: Option<Piece>,
-    /// Gradients of all nodes of the rank, N.
+    /// Gradient at all nodes of the rank, N.
     gradient: Vec<[f64; 3]>,
-    /// Sum over the elements of stiffness times length, N/m, as regularisation of statics has it.
+    /// Sum over the elements of stiffness times length, N/m, for the regularisation of statics.
     stiffness: f64,
     filtered: usize,
     bounded: usize,
 }
 
-/// Elements, as a body of piola: its nodes are those of the share.
+/// Elements as a body of piola, with the nodes of the share.
 struct Piece {
     body: Body,
     response: ElasticResponse,
     energy: f64,
-    /// Tag of the first element that has no energy, gradient or tangent where one was evaluated last.
+    /// Tag of the first element without an energy, gradient or tangent in the last evaluation.
     refused: Option<usize>,
 }
 
 impl Elastic {
-    /// The elements of a share.
+    /// Elements of a share.
     ///
     /// # Errors
-    /// [`Error::Body`] for an element that is none, such as an inverted one, [`Error::Scene`] for a material.
+    /// [`Error::Body`] for an invalid element, such as an inverted one; [`Error::Scene`] for a material.
     pub fn new(share: &Share, parts: &[MaterialPart]) -> Result<Self, Error> {
         let mut stiffness = 0.0;
         let piece = match share.elements.is_empty() {
@@ -61,7 +61,7 @@ impl Elastic {
         Ok(Self { piece, gradient: vec![[0.0; 3]; share.ids.len()], stiffness, filtered: 0, bounded: 0 })
     }
 
-    /// A stiffness of zeros.
+    /// Stiffness matrix of zeros, for these elements.
     ///
     /// # Errors
     /// [`Error::Linear`].
@@ -72,7 +72,7 @@ impl Elastic {
         })
     }
 
-    /// Adds what the elements weigh to the masses of all nodes of the rank, kg.
+    /// Adds the masses of the elements to the masses of all nodes of the rank, kg.
     pub fn add_masses(&self, masses: &mut [f64]) {
         if let Some(piece) = &self.piece {
             masses.iter_mut().zip(piece.body.masses()).for_each(|(total, mass)| *total += mass);
@@ -88,7 +88,7 @@ impl Elastic {
     /// Evaluates the energies of the elements.
     pub fn evaluate(&mut self, positions: &[[f64; 3]]) {
         if let Some(Piece { body, response, energy, refused }) = &mut self.piece {
-            // Lengths are those that both were made with.
+            // The slices have the lengths with which the body was made.
             if let Ok((found, survey)) = response.energy(body, positions) {
                 *energy = found;
                 *refused = survey.first.map(|element| body.elements()[element].tag);
@@ -96,37 +96,36 @@ impl Elastic {
         }
     }
 
-    /// The smallest tag of an element of this rank that has no energy, gradient or tangent where one was
-    /// evaluated last.
+    /// Smallest tag of an element of this rank without an energy, gradient or tangent in the last evaluation.
     #[must_use]
     pub fn refused(&self) -> Option<usize> {
         self.piece.as_ref()?.refused
     }
 
-    /// Energy on this rank, J.
+    /// Energy of the elements of this rank, J.
     #[must_use]
     pub fn energy(&self) -> f64 {
         self.piece.as_ref().map_or(0.0, |piece| piece.energy)
     }
 
-    /// Number of elements of this rank whose tangent was filtered last.
+    /// Number of elements of this rank with a filtered tangent in the last evaluation.
     #[must_use]
     pub fn filtered(&self) -> usize {
         self.filtered
     }
 
-    /// Number of elements of this rank whose tangent was at a pole last.
+    /// Number of elements of this rank with a tangent at a pole in the last evaluation.
     #[must_use]
     pub fn bounded(&self) -> usize {
         self.bounded
     }
 
-    /// Makes the energies evaluated last those that differences are taken from.
+    /// Makes the last evaluated energies the base of differences.
     pub fn set_base(&mut self) {
         self.piece.iter_mut().for_each(|piece| piece.response.set_base());
     }
 
-    /// Energy on this rank minus that of the base, J.
+    /// Energy of the elements of this rank minus their energy at the base, J.
     #[must_use]
     pub fn change(&self) -> EnergyChange {
         let mut sum = EnergyChange::default();
@@ -137,8 +136,8 @@ impl Elastic {
         sum
     }
 
-    /// Replaces `gradient`, N, of the owned nodes by that of all ranks' elements where these were evaluated
-    /// last.
+    /// Replaces `gradient`, N, at the owned nodes by the gradient of the elements of all ranks, at the last
+    /// evaluated positions.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -153,8 +152,8 @@ impl Elastic {
         self.sum(exchange, gradient)
     }
 
-    /// Replaces `gradient` as [`Elastic::gradient`] does, and `stiffness`, which
-    /// [`Elastic::nodal_stiffness`] has made, by the filtered one of this rank's elements.
+    /// Replaces `gradient` as [`Elastic::gradient`] does, and `stiffness`, a result of
+    /// [`Elastic::nodal_stiffness`], by the filtered stiffness of this rank's elements.
     ///
     /// # Errors
     /// [`PetscError`].

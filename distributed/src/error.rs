@@ -1,4 +1,4 @@
-//! Why a run cannot begin or go on.
+//! Errors of a run.
 
 use std::io;
 use std::path::PathBuf;
@@ -8,33 +8,33 @@ use piola::system::{BodyError, LinearError};
 
 use crate::petsc::PetscError;
 
-/// Why a run cannot begin or go on.
+/// Reason why a run cannot begin or continue.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A rank has failed, and all others have learnt of it.
+    /// Failure of a rank, reported on all ranks.
     #[error("{message}")]
     OnRank {
-        /// The first rank that has failed, from 0.
+        /// Number of the first rank that failed, from 0.
         rank: usize,
-        /// What failed there.
+        /// Error message of that rank.
         message: String,
     },
-    /// PETSc has failed, perhaps on this rank alone.
+    /// Failure of PETSc, possibly on this rank alone.
     #[error(transparent)]
     Petsc(#[from] PetscError),
-    /// Options that no part of PETSc has asked for.
+    /// Options that no part of PETSc has used.
     #[error(
-        "PETSc has no use for {}: the name is misspelt, or belongs to a solver that is not in use",
+        "PETSc does not use {}: the name is misspelt, or belongs to a solver that is not in use",
         names.iter().map(|name| format!("-{name}")).collect::<Vec<_>>().join(", ")
     )]
     UnusedOptions {
         /// Names without their dash.
         names: Vec<String>,
     },
-    /// There is less than an element for each rank.
+    /// Fewer elements than ranks.
     #[error(
-        "{ranks} ranks cannot share {elements} elements: take as many ranks at most as there are elements"
+        "{ranks} ranks cannot share {elements} elements: use at most as many ranks as there are elements"
     )]
     TooManyRanks {
         /// Number of ranks.
@@ -54,10 +54,10 @@ pub enum Error {
     /// A matrix does not fit into memory, perhaps on this rank alone.
     #[error(transparent)]
     Linear(#[from] LinearError),
-    /// A combination of options that makes no sense.
+    /// Invalid options, files or combinations of options.
     #[error("{0}")]
     Options(String),
-    /// An element cannot be deformed as the step begins.
+    /// Element without a finite energy at the beginning of a step.
     #[error(
         "element {element} is outside the domain of its material before the step, or its energy is not finite \
          (`--inversion` continues energies beyond J > 0)"
@@ -66,13 +66,13 @@ pub enum Error {
         /// Tag of the element.
         element: usize,
     },
-    /// The matrix is not positive definite with any multiple of inertia added.
+    /// Matrix that is not positive definite with any multiple of the inertia added.
     #[error("the matrix is not positive definite, even with {shift:e} times the inertia added")]
     NotPositive {
-        /// The largest multiple of inertia that was tried.
+        /// Largest multiple of the inertia that was tried.
         shift: f64,
     },
-    /// Newton's method fails for another reason, on all ranks.
+    /// Another failure of Newton's method, on all ranks.
     #[error(transparent)]
     Newton(#[from] NewtonError),
     /// A file cannot be written.
@@ -83,8 +83,8 @@ pub enum Error {
         /// The reason.
         source: io::Error,
     },
-    /// A checkpoint cannot be gone on from.
-    #[error("cannot go on from {}: {reason}", path.display())]
+    /// Checkpoint from which a run cannot continue.
+    #[error("cannot continue from {}: {reason}", path.display())]
     Checkpoint {
         /// The file.
         path: PathBuf,
@@ -94,13 +94,13 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether no shorter step can help against this error: it may be of one rank alone, or is about options.
+    /// True if a shorter step cannot avoid this error: it may concern one rank alone, or concerns options.
     #[must_use]
     pub fn is_final(&self) -> bool {
         !self.is_common() || matches!(self, Self::UnusedOptions { .. })
     }
 
-    /// Whether all ranks have it, so that each can end in its turn.
+    /// True if all ranks have this error, so that each can end normally.
     #[must_use]
     pub fn is_common(&self) -> bool {
         !matches!(self, Self::Petsc(_) | Self::Linear(_))

@@ -1,15 +1,15 @@
-//! Elastic bodies that are larger than a machine: piola's elements, divided among the ranks of MPI, with the
-//! solvers of PETSc.
+//! Simulation of elastic bodies that are too large for one machine: piola's elements, divided among the ranks
+//! of MPI, with the solvers of PETSc.
 //!
 //! The mathematics of materials and elements is piola's: each rank evaluates its elements by piola's kernels,
-//! and steps as [`piola::step`] says. What is here is how a mesh is divided ([`portion`], [`share`]), what
-//! ranks send each other ([`team`], [`petsc`]), and the objective of a step as sums over ranks
-//! ([`minimisation`]).
+//! and the steps are those of [`piola::step`]. This crate contains the division of a mesh ([`portion`],
+//! [`share`]), the messages between ranks ([`team`], [`petsc`]), and the objective of a step as sums over
+//! ranks ([`minimisation`]).
 //!
-//! Every rank calls every function, in one order. An error that concerns one rank is told to all, and ends
+//! Every rank calls every function, in the same order. An error on one rank is sent to all ranks, and ends
 //! them together.
 //!
-//! There is no contact, and no surface embedded in the tetrahedra.
+//! Contact, and surfaces embedded in the tetrahedra, are not supported.
 
 pub mod checkpoint;
 pub mod coarse;

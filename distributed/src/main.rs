@@ -12,13 +12,13 @@ use piola_distributed::run::{TITLES, run, sag, statics};
 use piola_distributed::team::Team;
 use piola_scenes::output::Ended;
 
-/// How long a rank that cannot tell others of its error waits for rank 0, which may have the same one.
+/// Time that a rank waits before it ends all ranks because of its error: rank 0 may report the same error.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 #[expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 fn main() -> ExitCode {
     let (own, petsc) = split(env::args());
-    // Before MPI runs: help and wrong options of ours need no ranks.
+    // Before MPI runs: help and errors in options of piola-mpi need no ranks.
     let parsed = Cli::try_parse_from(own);
     let help = parsed.as_ref().err().filter(|error| !error.use_stderr());
     let library = match Library::start(&petsc) {
@@ -45,7 +45,7 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    // A rank that panics cannot tell the others.
+    // A rank that panics cannot inform the others.
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         report(panic);
@@ -76,7 +76,7 @@ fn play(team: &Team, command: &Command) -> Result<(), Error> {
         Command::Statics(options) => options.solver.threads,
         Command::Run(options) => options.solver.threads,
     };
-    // This thread is one of them, so that nothing waits for another where there is one.
+    // This thread is one of the pool, so that a single thread does not wait for another one.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).use_current_thread().build_global();
     team.agree(pool.map_err(|error| Error::Options(format!("--threads {threads}: {error}"))))?;
     let summary = match command {
@@ -92,8 +92,8 @@ fn play(team: &Team, command: &Command) -> Result<(), Error> {
     };
     if team.rank() == 0 {
         println!(
-            "{}: {} tetrahedra, {} nodes on {} ranks; {} of {} steps, {:.2} Newton iterations a step, {:.1} of the linear solver \
-             each; residual {:.1e}, smallest det F {:.3}, elastic energy {:.6e} J",
+            "{}: {} tetrahedra, {} nodes on {} ranks; {} of {} steps, {:.2} Newton iterations per step, {:.1} CG \
+             iterations per linear system (means); relative residual {:.1e}, smallest det F {:.3}, elastic energy {:.6e} J",
             summary.scene,
             summary.tets,
             summary.nodes,

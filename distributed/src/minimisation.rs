@@ -1,19 +1,19 @@
-//! Newton's method on a body that is divided among ranks.
+//! Newton's method for a body that is divided among ranks.
 //!
-//! The method is piola's ([`piola::step::divided::minimize`]): it sees this body as a [`Minimisation`] whose
-//! results are sums and extrema over the ranks, so that all ranks make the same decisions. A point that an
-//! element of any rank refuses is a step too long on every rank. PETSc's SNES is not used: it supports
-//! neither pins that move into the first system, nor a filter on demand, nor an end below the rounding error
-//! of the energy.
+//! The method is piola's ([`piola::step::divided::minimize`]). This body is a [`Minimisation`] whose results
+//! are sums and extrema over the ranks, so that all ranks make the same decisions. If an element of any rank
+//! refuses a point, the step is too long on every rank. PETSc's SNES is not used, because it does not support
+//! pins that move into the first system, a filter on demand, or an end below the rounding error of the
+//! energy.
 //!
-//! The objective is that of a stage (see [`piola::step::divided::StagedSteps`]),
+//! The objective is the one of a stage (see [`piola::step::divided::StagedSteps`]),
 //!
 //! ```text
 //! E(x) = ½‖x − s − τ w‖²_M / (τσ) + α/(2τ) ‖x − s‖²_M + Ψ(x) − Σ m g·x + Σ springs
 //! ```
 //!
-//! Positions of copies follow those of their owners without being sent: every rank moves them by the same
-//! arithmetic, along directions that are sent once in an iteration.
+//! Positions of copies are not sent: every rank moves them with the same arithmetic as their owners, along
+//! directions that are sent once in an iteration.
 
 use piola::point::Filter;
 use piola::step::divided::{Definiteness, End, Line, Linearised, Minimisation, Solution, Stage};
@@ -26,19 +26,19 @@ use crate::share::Share;
 use crate::system::LinearSystem;
 use crate::team::Team;
 
-/// What does not change in a minimisation, on one rank.
+/// Data of one rank that do not change during a minimisation.
 pub struct Objective<'a> {
-    /// All ranks.
+    /// Team of all ranks.
     pub team: &'a Team,
-    /// The nodes of this rank.
+    /// Nodes and elements of this rank.
     pub share: &'a Share,
-    /// The elements of this rank.
+    /// Energies of the elements of this rank.
     pub elastic: &'a mut Elastic,
-    /// Sends copies and sums.
+    /// Vector that exchanges copies and sums.
     pub exchange: &'a mut GhostedVector,
     /// Mass of each owned node, kg.
     pub masses: &'a [f64],
-    /// The stage of the step.
+    /// Stage of the step.
     pub stage: &'a Stage,
     /// α of damping proportional to mass, 1/s.
     pub damping: f64,
@@ -46,9 +46,9 @@ pub struct Objective<'a> {
     pub gravity: [f64; 3],
     /// Springs at owned nodes.
     pub springs: &'a Vec<Spring>,
-    /// Diagonal that a unit of regularisation adds for each mass, 1/s².
+    /// Diagonal entry of one unit of regularisation, per mass, 1/s².
     pub regularisation: f64,
-    /// Diagonal that is always added for each mass to the second derivatives, 1/s².
+    /// Diagonal entry that is always added to the second derivatives, per mass, 1/s².
     pub guard: f64,
 }
 
@@ -72,19 +72,19 @@ impl Objective<'_> {
         stiffness
     }
 
-    /// Evaluates the energies of all elements; the tag of an element of any rank without one.
+    /// Evaluates the energies of all elements; returns the tag of an element, on any rank, without an energy.
     fn evaluate(&mut self, x: &[[f64; 3]]) -> Option<usize> {
         self.elastic.evaluate(x);
         self.refused()
     }
 
-    /// The smallest tag of an element of any rank that lacks what was evaluated last.
+    /// Smallest tag of an element, on any rank, without a result of the last evaluation.
     fn refused(&self) -> Option<usize> {
         let tag = self.team.min(self.elastic.refused().map_or(f64::INFINITY, |tag| tag as f64));
         tag.is_finite().then_some(tag as usize)
     }
 
-    /// Adds the gradient of all but deformation at the owned nodes, N.
+    /// Adds the gradient at the owned nodes, N, of inertia, damping and gravity.
     fn add_quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         for (node, total) in gradient.iter_mut().enumerate() {
             let [v, a] = self.stage.motion(node, x[node]);
@@ -94,7 +94,7 @@ impl Objective<'_> {
         }
     }
 
-    /// Replaces `gradient`, N, of the owned nodes, where the energies were evaluated last.
+    /// Replaces `gradient`, N, at the owned nodes by the gradient at the last evaluated positions.
     fn gradient(&mut self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) -> Result<(), PetscError> {
         self.elastic.gradient(self.exchange, gradient)?;
         self.springs.add_gradient(x, gradient);
@@ -102,7 +102,7 @@ impl Objective<'_> {
         Ok(())
     }
 
-    /// Sum over all ranks of products of the free nodes.
+    /// Scalar product over the free nodes of all ranks.
     fn product(&self, a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
         let pairs = a[..self.share.free].iter().zip(b);
         let own: f64 = pairs.map(|(a, b)| a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).sum();
@@ -113,13 +113,13 @@ impl Objective<'_> {
 /// Limits of the linear solver.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// Share of the right side to which the first system is solved, and later ones at most.
+    /// Relative tolerance of the first linear system, and upper bound of later tolerances.
     pub tolerance: f64,
-    /// Number of iterations after which to give up.
+    /// Maximum number of iterations.
     pub max_iterations: usize,
 }
 
-/// The minimisation of a stage of a step, on one rank.
+/// Minimisation of a stage of a step, on one rank.
 pub struct StageMinimisation<'a> {
     objective: Objective<'a>,
     system: &'a mut LinearSystem,
@@ -134,9 +134,9 @@ pub struct StageMinimisation<'a> {
     direction: Vec<[f64; 3]>,
     trial: Vec<[f64; 3]>,
     spring_stiffness: Vec<f64>,
-    /// Slope and curvature along the direction of all but deformation and springs.
+    /// Slope and curvature of inertia, damping and gravity along the direction.
     quadratic: [f64; 2],
-    /// Number of iterations of the linear solver in each system.
+    /// Number of iterations of the linear solver in each linear system.
     systems: Vec<usize>,
 }
 
@@ -144,7 +144,7 @@ impl<'a> StageMinimisation<'a> {
     /// Begins at `x`, m, the positions of the nodes of the rank.
     ///
     /// # Errors
-    /// [`Error::Inadmissible`], which all ranks have.
+    /// [`Error::Inadmissible`], on all ranks.
     pub fn new(
         mut objective: Objective<'a>,
         system: &'a mut LinearSystem,
@@ -171,7 +171,7 @@ impl<'a> StageMinimisation<'a> {
         })
     }
 
-    /// Number of iterations of the linear solver in each system, including failed attempts.
+    /// Number of iterations of the linear solver in each linear system, including failed attempts.
     #[must_use]
     pub fn systems(self) -> Vec<usize> {
         self.systems
@@ -241,7 +241,7 @@ impl Minimisation for StageMinimisation<'_> {
         })
     }
 
-    /// Sends the direction to copies.
+    /// Solves for the direction, and sends it to copies.
     fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, Error> {
         let Self { objective, system, direction, gradient, spring_stiffness, systems, .. } = self;
         let Objective { share, team, .. } = *objective;
@@ -267,7 +267,7 @@ impl Minimisation for StageMinimisation<'_> {
             if must_be_definite {
                 return Ok(None);
             }
-            // What conjugate gradients have found before they met a direction of negative curvature descends.
+            // Conjugate gradients that end at negative curvature return a direction of descent.
             if solved.end == End::NegativeCurvature && descends {
                 solution.truncated = true;
                 break;

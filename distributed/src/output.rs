@@ -1,4 +1,4 @@
-//! Files of a run: frames for ParaView, of which each rank writes its own part, and a summary.
+//! Files of a run: a summary, and frames for ParaView, of which each rank writes its own part.
 
 use std::fs;
 use std::io::{self, Write};
@@ -19,17 +19,17 @@ pub const SUMMARY: &str = "summary.json";
 /// Name of the list of frames.
 pub const FRAMES: &str = "frames.pvd";
 
-/// Results of a run. In JSON the keys are the names of the fields, those of `piola run` where they mean the
-/// same.
+/// Results of a run. The keys in JSON are the names of the fields, and have the same meaning as in `piola
+/// run`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Name of the scene; that of the problem where there is none.
+    /// Name of the scene, or of the problem if there is no scene.
     pub scene: String,
     /// Name of the material.
     pub material: String,
     /// Parameters of the material by name, in SI units.
     pub parameters: Parameters,
-    /// Table with parameters of elements in place of these.
+    /// Path of a table with parameters of elements, which replace `parameters`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<PathBuf>,
     /// Number of tetrahedra.
@@ -38,51 +38,51 @@ pub struct Summary {
     pub nodes: usize,
     /// Number of ranks.
     pub ranks: usize,
-    /// Most nodes of other ranks that a rank has copies of.
+    /// Largest number of copies, on one rank, of nodes of other ranks.
     pub copies_max: usize,
-    /// Most bytes that a rank sends in a Newton iteration beside its linear system: a direction and a
-    /// gradient.
+    /// Largest number of bytes that a rank sends in a Newton iteration, in addition to the linear system: a
+    /// direction and a gradient.
     pub bytes_per_iteration: usize,
-    /// Number of time steps that have been made.
+    /// Number of completed time steps.
     pub frames: usize,
-    /// Number of time steps that were to be made.
+    /// Requested number of time steps.
     pub frames_wanted: usize,
     /// End of the run.
     pub ended: Ended,
-    /// Reasons why it ended before its last step.
+    /// Reasons why the run ended before its last step.
     pub failures: Vec<String>,
-    /// Properties of the mesh that may not be meant.
+    /// Properties of the mesh that may be unintended.
     pub warnings: Vec<String>,
     /// Time step, s; `None` in statics.
     pub dt: Option<f64>,
-    /// Method by which steps advanced in time; `None` in statics.
+    /// Time integrator; `None` in statics.
     pub integrator: Option<Integrator>,
-    /// Largest error of the motion that steps of time were to make, body heights per second; `None` for one
-    /// step in each frame.
+    /// Tolerance for the error of the motion in time steps, body heights per second; `None` for one step in
+    /// each frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Steps of time by which the frames were made.
+    /// Numbers of time steps within the frames.
     pub steps: StepCounts,
-    /// Newton iterations per step, on average.
+    /// Mean number of Newton iterations per step.
     pub newton_iterations_mean: f64,
-    /// Iterations of the linear solver in each system, on average.
+    /// Mean number of iterations of the linear solver per linear system.
     pub linear_iterations_mean: f64,
-    /// Norm of the gradient over that before the first iteration, in the last step.
+    /// Norm of the gradient relative to its norm before the first iteration, in the last step.
     pub relative_residual: f64,
-    /// The smallest determinant of a deformation gradient in any frame.
+    /// Smallest determinant of a deformation gradient in any frame.
     pub min_det_f: f64,
-    /// The largest distance of a node from its rest position in the final frame, in body heights; `None` for
-    /// bodies that may move as a whole.
+    /// Largest distance of a node from its rest position in the final frame, in body heights; `None` for
+    /// bodies that can move as a whole.
     pub max_distance_from_rest: Option<f64>,
     /// Elastic energy of the final frame, J.
     pub energy: f64,
-    /// Median time of a step, ms; `None` without a step.
+    /// Median wall-clock time of a step, ms; `None` without a step.
     pub ms_per_step_median: Option<f64>,
     /// Steps per second; `None` without a step.
     pub steps_per_second: Option<f64>,
 }
 
-/// Makes the folder of a run, and refuses one with results of another unless they may be replaced.
+/// Creates the folder of a run. A folder with results of another run is refused unless `may_replace`.
 ///
 /// # Errors
 /// [`Error::OnRank`].
@@ -98,7 +98,7 @@ fn make(folder: &Path, may_replace: bool) -> Result<(), Error> {
     let results = [folder.join(SUMMARY), folder.join(FRAMES), checkpoint];
     match results.iter().find(|path| path.exists()) {
         Some(path) if !may_replace => Err(Error::Options(format!(
-            "{} holds results already, {}: give another folder, or --force to replace them",
+            "{} already contains results ({}): choose another folder, or replace them with --force",
             folder.display(),
             path.file_name().unwrap_or_default().display()
         ))),
@@ -118,7 +118,7 @@ pub fn write_summary(team: &Team, folder: &Path, summary: &Summary) -> Result<()
     write_once(team, folder.join(SUMMARY), write)
 }
 
-/// Writes a file by the first rank.
+/// Writes a file on the first rank.
 fn write_once(
     team: &Team,
     path: PathBuf,
@@ -133,7 +133,7 @@ fn write(path: PathBuf, content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) ->
     Ok(write_whole(&path, &bytes)?)
 }
 
-/// Writes the tetrahedra of a frame: a piece of each rank, and a file that names the pieces.
+/// Writes the tetrahedra of a frame: a piece for each rank, and a file that lists the pieces.
 ///
 /// # Errors
 /// [`Error::OnRank`].
@@ -178,12 +178,12 @@ fn write_pvtu(target: &mut impl Write, pieces: impl Iterator<Item = String>) -> 
     writeln!(target, "</PUnstructuredGrid>\n</VTKFile>")
 }
 
-/// Name of the file that names the pieces of a frame.
+/// Name of the file that lists the pieces of a frame.
 fn frame_file(frame: usize) -> String {
     format!("frame_{frame:04}.pvtu")
 }
 
-/// Writes the list of all frames up to the last one, which are `dt` apart, s.
+/// Writes the list of all frames up to the frame `last`, at intervals of `dt`, s.
 ///
 /// # Errors
 /// [`Error::OnRank`].

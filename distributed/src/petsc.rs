@@ -1,10 +1,10 @@
-//! The border to PETSc: vectors of a divided body, sparse matrices, Krylov solvers, partitions of graphs.
+//! Interface to PETSc: vectors of a divided body, sparse matrices, Krylov solvers, partitions of graphs.
 //!
-//! No other module calls PETSc, and no other has code that the compiler cannot check. Each type owns one
-//! object of PETSc, keeps the library running while it lives, and destroys it in the end. All functions are
-//! collective: every rank calls them, in one order. This module knows no meshes and no materials.
+//! No other module calls PETSc or contains unsafe code. Each type owns one object of PETSc, which it destroys
+//! when it is dropped; the library runs until then. All functions are collective: all ranks must call them,
+//! in the same order. This module does not depend on meshes or on materials.
 
-#![expect(unsafe_code, reason = "PETSc is a library of C: this is its border")]
+#![expect(unsafe_code, reason = "PETSc is a C library: this is the interface to it")]
 
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
@@ -25,26 +25,26 @@ use ffi::PetscInt;
     non_snake_case,
     non_upper_case_globals,
     unreachable_pub,
-    reason = "generated from headers of C, of which each version breaks others of these"
+    reason = "generated from C headers, which violate different lints in each version"
 )]
 mod ffi {
     include!(concat!(env!("OUT_DIR"), "/petsc_functions.rs"));
 }
 
-/// What PETSc says has failed.
+/// Error of PETSc.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("PETSc: {message}")]
 pub struct PetscError {
-    /// The message of the function that failed first.
+    /// Message of the function that failed first.
     pub message: String,
 }
 
-/// A number that PETSc's integers do not hold.
+/// Error for an integer that is too large for PETSc's integers.
 fn too_large(number: usize) -> PetscError {
     let bits = PetscInt::BITS;
     PetscError {
         message: format!(
-            "this PETSc counts with {bits} bits, and {number} does not fit; build it with 64-bit indices"
+            "{number} does not fit into the {bits}-bit integers of this PETSc; build PETSc with 64-bit indices"
         ),
     }
 }
@@ -53,18 +53,18 @@ fn int(number: usize) -> Result<PetscInt, PetscError> {
     PetscInt::try_from(number).map_err(|_| too_large(number))
 }
 
-/// What PETSc calls PETSC_DECIDE and PETSC_DETERMINE, macros of C: a size that it finds itself.
+/// Value of the C macros PETSC_DECIDE and PETSC_DETERMINE: a size that PETSc computes.
 const DECIDE: PetscInt = -1;
 
 thread_local! {
-    /// The message of the first function that has failed since it was taken last.
+    /// Message of the first function that failed since the message was last removed.
     static MESSAGE: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// Keeps the message of the function that failed first, in place of printing it.
+/// Error handler that keeps the message of the function that failed first, instead of printing it.
 ///
 /// # Safety
-/// `text` must be null or point to a string of C.
+/// `text` must be null or point to a C string.
 unsafe extern "C" fn keep_message(
     _: mpi::ffi::MPI_Comm,
     _: c_int,
@@ -76,9 +76,9 @@ unsafe extern "C" fn keep_message(
     _: *mut c_void,
 ) -> ffi::PetscErrorCode {
     if kind == ffi::PetscErrorType_PETSC_ERROR_INITIAL && !text.is_null() {
-        // SAFETY: it is not null, and the caller says that it is then a string of C.
+        // SAFETY: it is not null, and is then a C string by the condition on callers.
         let text = unsafe { CStr::from_ptr(text) }.to_string_lossy().trim().to_owned();
-        // Where the thread is about to end there is nobody left to read it.
+        // If the thread is about to end, nothing reads the message.
         let _ = MESSAGE.try_with(|message| message.try_borrow_mut().map(|mut message| *message = Some(text)));
     }
     code
@@ -92,7 +92,7 @@ fn check(code: ffi::PetscErrorCode) -> Result<(), PetscError> {
     Err(PetscError { message: message.unwrap_or_else(|| format!("error {code}")) })
 }
 
-/// MPI and PETSc, running until the last handle and the last object that it was given to is gone.
+/// Handle of MPI and PETSc, which run until the last handle, and the last object with one, is dropped.
 #[derive(Clone)]
 pub struct Library(Rc<Running>);
 
@@ -100,60 +100,60 @@ struct Running {
     world: SimpleCommunicator,
     /// Ends MPI, after PETSc has ended.
     _universe: Universe,
-    /// Options that were set here unless a user had set them.
+    /// Default options that were set because the user had not set them.
     defaults: RefCell<Vec<String>>,
 }
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // SAFETY: PETSc was initialised when this was made, and no object of it is left: each holds a handle
-        // of this.
+        // SAFETY: PETSc was initialised before this was created, and none of its objects is left: each holds
+        // a handle of this.
         let _ = unsafe { ffi::PetscFinalize() };
     }
 }
 
 impl Library {
-    /// Starts MPI and PETSc with options of PETSc, names without their dash.
+    /// Starts MPI and PETSc with options of PETSc, with names without their dash.
     ///
     /// # Errors
-    /// [`PetscError`] if MPI or PETSc cannot be started, or has been before.
+    /// [`PetscError`] if MPI or PETSc cannot be started, or was started before.
     pub fn start(options: &[(String, Option<String>)]) -> Result<Self, PetscError> {
         let failed = |message: &str| PetscError { message: message.to_owned() };
-        // Partitioners such as PTScotch divide graphs on several threads, each of which talks to other ranks:
-        // on fewer rights than these they hang now and then.
+        // Partitioners such as PTScotch divide graphs on several threads, each of which sends messages to
+        // other ranks. With a lower level of thread support they occasionally hang.
         let universe = mpi::initialize_with_threading(mpi::Threading::Multiple)
             .map(|(universe, _)| universe)
-            .ok_or_else(|| failed("MPI has been started before"))?;
+            .ok_or_else(|| failed("MPI was started before"))?;
         let world = universe.world();
-        // Signals end the program as they end others.
+        // Signals end the program, without a handler of PETSc.
         set_option("no_signal_handler", None)?;
         for (name, value) in options {
             set_option(name, value.as_deref())?;
         }
-        // SAFETY: MPI runs, and PETSc does not: only here it is initialised, and MPI starts once in a
+        // SAFETY: MPI runs, and PETSc does not: it is initialised only here, and MPI starts once in a
         // process.
         check(unsafe { ffi::PetscInitializeNoArguments() })?;
-        // SAFETY: the handler has the signature that PETSc asks for, lives as long as the program and needs
-        // no context.
+        // SAFETY: the handler has the signature that PETSc requires, exists as long as the program, and does
+        // not need a context.
         check(unsafe { ffi::PetscPushErrorHandler(Some(keep_message), null_mut()) })?;
         Ok(Self(Rc::new(Running { world, _universe: universe, defaults: RefCell::default() })))
     }
 
-    /// All ranks.
+    /// Communicator of all ranks.
     #[must_use]
     pub fn world(&self) -> &SimpleCommunicator {
         &self.0.world
     }
 
-    /// Whether an option has this value.
+    /// True if an option has this value.
     ///
     /// # Errors
     /// [`PetscError`].
     pub fn is_set_to(&self, name: &str, value: &str) -> Result<bool, PetscError> {
         let dashed = dashed(name)?;
         let (mut text, mut is_set): ([c_char; 64], _) = ([0; 64], ffi::PetscBool_PETSC_FALSE);
-        // SAFETY: the name is a string of C, PETSc writes a string of C of at most as many bytes as it is
-        // told, and the answers go to variables that outlive the call.
+        // SAFETY: the name is a C string, PETSc writes a C string of at most the given number of bytes, and
+        // the results go to variables that outlive the call.
         let text = unsafe {
             let (to, bytes) = (text.as_mut_ptr(), text.len());
             check(ffi::PetscOptionsGetString(null_mut(), null(), dashed.as_ptr(), to, bytes, &mut is_set))?;
@@ -162,14 +162,14 @@ impl Library {
         Ok(is_set == ffi::PetscBool_PETSC_TRUE && text.to_bytes() == value.as_bytes())
     }
 
-    /// Sets an option unless the user has.
+    /// Sets an option, unless the user has set it.
     ///
     /// # Errors
     /// [`PetscError`].
     pub fn default_option(&self, name: &str, value: &str) -> Result<(), PetscError> {
         let dashed = dashed(name)?;
         let mut is_set = ffi::PetscBool_PETSC_FALSE;
-        // SAFETY: the name is a string of C, and the answer goes to a variable that outlives the call.
+        // SAFETY: the name is a C string, and the result goes to a variable that outlives the call.
         check(unsafe { ffi::PetscOptionsHasName(null_mut(), null(), dashed.as_ptr(), &mut is_set) })?;
         if is_set == ffi::PetscBool_PETSC_FALSE {
             set_option(name, Some(value))?;
@@ -178,24 +178,24 @@ impl Library {
         Ok(())
     }
 
-    /// Options of the user that nothing has asked for so far: they are misspelt, or belong to what is not in
-    /// use.
+    /// Options of the user that PETSc has not used up to now: they are misspelt, or belong to a solver that
+    /// is not in use.
     ///
     /// # Errors
     /// [`PetscError`].
     pub fn unused_options(&self) -> Result<Vec<String>, PetscError> {
         let (mut count, mut names, mut values) = (0, null_mut(), null_mut());
-        // SAFETY: the three answers go to variables that outlive the call.
+        // SAFETY: the three results go to variables that outlive the call.
         check(unsafe { ffi::PetscOptionsLeftGet(null_mut(), &mut count, &mut names, &mut values) })?;
         let mut unused = Vec::new();
         for index in 0..usize::try_from(count).unwrap_or(0) {
-            // SAFETY: `names` holds `count` strings of C until they are given back below.
+            // SAFETY: `names` holds `count` C strings until they are released below.
             let name = unsafe { CStr::from_ptr(*names.add(index)) }.to_string_lossy().into_owned();
             if !self.0.defaults.borrow().contains(&name) {
                 unused.push(name);
             }
         }
-        // SAFETY: these are the answers of the call above, and no string of them is used from here on.
+        // SAFETY: these are the results of the call above, and none of the strings is used from here on.
         check(unsafe { ffi::PetscOptionsLeftRestore(null_mut(), &mut count, &mut names, &mut values) })?;
         Ok(unused)
     }
@@ -210,22 +210,22 @@ fn dashed(name: &str) -> Result<CString, PetscError> {
 }
 
 fn string(text: &str) -> Result<CString, PetscError> {
-    CString::new(text).map_err(|_| PetscError { message: "an option holds a zero byte".to_owned() })
+    CString::new(text).map_err(|_| PetscError { message: "an option contains a zero byte".to_owned() })
 }
 
 fn set_option(name: &str, value: Option<&str>) -> Result<(), PetscError> {
     let (name, value) = (dashed(name)?, value.map(string).transpose()?);
     let value = value.as_ref().map_or(null(), |value| value.as_ptr());
-    // SAFETY: both are null or strings of C, which PETSc copies; it allows this before it is initialised.
+    // SAFETY: both are null or C strings, which PETSc copies; this is allowed before PETSc is initialised.
     check(unsafe { ffi::PetscOptionsSetValue(null_mut(), name.as_ptr(), value) })
 }
 
-/// A real number of a vector that is sent: PETSc's are f64.
+/// Real number in a vector that is sent as f64, the type of PETSc.
 pub trait Entry: Copy {
-    /// The number itself, or the nearest one.
+    /// Nearest value of this type.
     fn of(number: f64) -> Self;
 
-    /// The number in f64.
+    /// Value in f64.
     fn wide(self) -> f64;
 }
 
@@ -249,7 +249,7 @@ impl Entry for f32 {
     }
 }
 
-/// A vector of some components for each row, of which each rank owns some and has copies of others.
+/// Vector with some components for each row. Each rank owns some rows, and has copies of other rows.
 pub struct GhostedVector {
     _library: Library,
     raw: ffi::Vec,
@@ -258,8 +258,8 @@ pub struct GhostedVector {
 }
 
 impl GhostedVector {
-    /// A vector with a number of rows on this rank, which are numbered one rank after another, and copies of the
-    /// rows with the numbers `ghosts`; each row has this number of `components`.
+    /// Vector with a number of owned rows on this rank and copies of the rows with the numbers `ghosts`. Rows
+    /// are numbered rank after rank, and have this number of `components`.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -271,7 +271,7 @@ impl GhostedVector {
     ) -> Result<Self, PetscError> {
         let numbers: Vec<PetscInt> = ghosts.iter().map(|&number| int(number)).collect::<Result<_, _>>()?;
         let mut raw = null_mut();
-        // SAFETY: there are as many numbers as the call says, which PETSc copies, and the answer outlives it.
+        // SAFETY: the number of ghosts is correct, PETSc copies them, and the result outlives the call.
         check(unsafe {
             ffi::VecCreateGhostBlock(
                 library.comm(),
@@ -287,7 +287,7 @@ impl GhostedVector {
         Ok(Self { _library: library.clone(), raw, local, owned })
     }
 
-    /// Replaces the copies, with which `all` ends, by the entries of their owners.
+    /// Replaces the copies, the last rows of `all`, by the entries of their owners.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -299,7 +299,7 @@ impl GhostedVector {
         self.with_local(|entries| copies.iter_mut().zip(&entries[owned..]).for_each(|(x, e)| *x = E::of(*e)))
     }
 
-    /// Adds the copies, with which `all` ends, to the entries of their owners.
+    /// Adds the copies, the last rows of `all`, to the entries of their owners.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -311,58 +311,58 @@ impl GhostedVector {
     }
 
     fn update(&mut self, mode: ffi::InsertMode, direction: ffi::ScatterMode) -> Result<(), PetscError> {
-        // SAFETY: the vector was made by `VecCreateGhostBlock` and is not destroyed before this.
+        // SAFETY: the vector was created by `VecCreateGhostBlock`, and is not destroyed before this.
         unsafe {
             check(ffi::VecGhostUpdateBegin(self.raw, mode, direction))?;
             check(ffi::VecGhostUpdateEnd(self.raw, mode, direction))
         }
     }
 
-    /// Works on the owned entries and the copies.
+    /// Calls `work` with the owned entries and the copies.
     fn with_local(&mut self, work: impl FnOnce(&mut [f64])) -> Result<(), PetscError> {
         let mut form = null_mut();
-        // SAFETY: the vector has copies, and the answer outlives the call.
+        // SAFETY: the vector has copies, and the result outlives the call.
         check(unsafe { ffi::VecGhostGetLocalForm(self.raw, &mut form) })?;
         let done = with_entries(form, self.local, work);
-        // SAFETY: the form is that of the call above, and its entries are given back.
+        // SAFETY: the form is the result of the call above, and its entries are released.
         check(unsafe { ffi::VecGhostRestoreLocalForm(self.raw, &mut form) })?;
         done
     }
 }
 
-/// Runs `work` on the `count` entries of a vector that this rank holds.
+/// Calls `work` with the `count` entries of a vector on this rank.
 fn with_entries(raw: ffi::Vec, count: usize, work: impl FnOnce(&mut [f64])) -> Result<(), PetscError> {
     let mut entries = null_mut();
-    // SAFETY: the vector exists, and the answer outlives the call.
+    // SAFETY: the vector exists, and the result outlives the call.
     check(unsafe { ffi::VecGetArray(raw, &mut entries) })?;
     if count == 0 || entries.is_null() {
         work(&mut []);
     } else {
-        // SAFETY: callers say how many entries this rank holds, f64 as in all PETSc of real numbers, and
-        // nobody else has the array until it is given back.
+        // SAFETY: callers pass the number of entries on this rank, entries are f64 in any PETSc with real
+        // numbers, and the array is not used elsewhere until it is released.
         work(unsafe { std::slice::from_raw_parts_mut(entries, count) });
     }
-    // SAFETY: the array is that of the call above, and the slice made of it is gone.
+    // SAFETY: the array is the result of the call above, and its slice is not used any more.
     check(unsafe { ffi::VecRestoreArray(raw, &mut entries) })
 }
 
-/// Works on the entries of a vector that this rank holds, which stay as they are.
+/// Calls `work` with the entries of a vector on this rank, without changing them.
 fn with_given<T>(raw: ffi::Vec, work: impl FnOnce(&[f64]) -> T) -> Result<T, PetscError> {
     let (mut entries, mut count) = (null(), 0);
-    // SAFETY: the vector exists, and the answers outlive the calls.
+    // SAFETY: the vector exists, and the results outlive the calls.
     unsafe {
         check(ffi::VecGetLocalSize(raw, &mut count))?;
         check(ffi::VecGetArrayRead(raw, &mut entries))?;
     }
     let done = match usize::try_from(count) {
-        // SAFETY: the vector has `count` entries here, f64 as in all PETSc of real numbers, and nobody
-        // changes them until the array is given back.
+        // SAFETY: the vector has `count` entries here, entries are f64 in any PETSc with real numbers, and
+        // they do not change until the array is released.
         Ok(count) if count > 0 && !entries.is_null() => {
             work(unsafe { std::slice::from_raw_parts(entries, count) })
         }
         _ => work(&[]),
     };
-    // SAFETY: the array is that of the call above, and the slice made of it is gone.
+    // SAFETY: the array is the result of the call above, and its slice is not used any more.
     check(unsafe { ffi::VecRestoreArrayRead(raw, &mut entries) })?;
     Ok(done)
 }
@@ -374,7 +374,7 @@ impl Drop for GhostedVector {
     }
 }
 
-/// A vector of unknowns, N for each row.
+/// Vector of unknowns, N for each row.
 pub struct Vector<const N: usize> {
     _library: Library,
     raw: ffi::Vec,
@@ -382,13 +382,13 @@ pub struct Vector<const N: usize> {
 }
 
 impl<const N: usize> Vector<N> {
-    /// Zeros for the rows of this rank.
+    /// Vector of zeros, with a number of rows on this rank.
     ///
     /// # Errors
     /// [`PetscError`].
     pub fn new(library: &Library, rows: usize) -> Result<Self, PetscError> {
         let mut raw = null_mut();
-        // SAFETY: the answer goes to a variable that outlives the call.
+        // SAFETY: the result goes to a variable that outlives the call.
         check(unsafe { ffi::VecCreateMPI(library.comm(), int(N * rows)?, DECIDE, &mut raw) })?;
         let vector = Self { _library: library.clone(), raw, rows };
         // SAFETY: the vector exists, and N divides the number of its entries on each rank.
@@ -396,7 +396,7 @@ impl<const N: usize> Vector<N> {
         Ok(vector)
     }
 
-    /// Works on the entries of this rank.
+    /// Calls `work` with the entries of this rank.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -412,37 +412,37 @@ impl<const N: usize> Drop for Vector<N> {
     }
 }
 
-/// A stiffness and a preconditioner that PETSc knows as functions of vectors: those of the unknowns of free
+/// Stiffness and preconditioner as functions that PETSc calls. Their vectors have the unknowns of the free
 /// nodes of this rank.
 pub trait Operators {
-    /// Replaces `product`, N, by that with a displacement, m.
+    /// Replaces `product`, N, by the product of the stiffness with a displacement, m.
     ///
     /// # Errors
     /// [`PetscError`].
     fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), PetscError>;
 
-    /// Replaces `z`, m, by about A⁻¹ r.
+    /// Replaces `z`, m, by an approximation of A⁻¹ r.
     ///
     /// # Errors
     /// [`PetscError`].
     fn precondition(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) -> Result<(), PetscError>;
 
-    /// Lines that `-ksp_view` shows of the preconditioner, and a solver within it.
+    /// Description of the preconditioner for `-ksp_view`, and the solver within it.
     fn view(&self) -> (String, Option<&Krylov>);
 }
 
-/// What PETSc's objects that are functions refer to.
+/// Context of PETSc's objects that are functions.
 type Shared = Rc<RefCell<dyn Operators>>;
 
-/// Calls one of the operators for vectors of PETSc. A message of an error is kept as that of PETSc's own is.
+/// Calls an operator for vectors of PETSc. The message of an error is kept like a message of PETSc.
 fn call(
     operators: *mut c_void,
     x: ffi::Vec,
     y: ffi::Vec,
     work: impl FnOnce(&mut dyn Operators, &[[f64; 3]], &mut [[f64; 3]]) -> Result<(), PetscError>,
 ) -> ffi::PetscErrorCode {
-    // SAFETY: contexts are made of boxes of this type, which live as long as the object of PETSc that has
-    // them.
+    // SAFETY: contexts are created from boxes of this type, which exist as long as the object of PETSc that
+    // refers to them.
     let operators: &Shared = unsafe { &*operators.cast() };
     let done = with_given(x, |x| {
         let mut done = Ok(());
@@ -455,13 +455,13 @@ fn call(
     FAILED
 }
 
-/// What PETSc calls PETSC_ERR_LIB, a macro of C: an error in a library that it calls.
+/// Value of the C macro PETSC_ERR_LIB: an error in a library that PETSc calls.
 const FAILED: ffi::PetscErrorCode = 76;
 
-/// The product of a matrix that is a function.
+/// Computes the product of a matrix that is a function.
 ///
 /// # Safety
-/// `matrix` must be one of [`Matrix::of_function`].
+/// `matrix` must be a result of [`Matrix::of_function`].
 unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> ffi::PetscErrorCode {
     let mut operators: *mut c_void = null_mut();
     // SAFETY: the matrix exists, and its context is a pointer, which goes to a variable that outlives the
@@ -472,10 +472,10 @@ unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> ffi
     }
 }
 
-/// A preconditioner that is a function.
+/// Applies a preconditioner that is a function.
 ///
 /// # Safety
-/// `preconditioner` must be one of [`Krylov::precondition_by`].
+/// `preconditioner` must have been set by [`Krylov::precondition_by`].
 unsafe extern "C" fn precondition(preconditioner: ffi::PC, r: ffi::Vec, z: ffi::Vec) -> ffi::PetscErrorCode {
     let mut operators: *mut c_void = null_mut();
     // SAFETY: as in `multiply`.
@@ -488,7 +488,7 @@ unsafe extern "C" fn precondition(preconditioner: ffi::PC, r: ffi::Vec, z: ffi::
 /// Shows a preconditioner that is a function, and the solver within it.
 ///
 /// # Safety
-/// `preconditioner` must be one of [`Krylov::precondition_by`].
+/// `preconditioner` must have been set by [`Krylov::precondition_by`].
 unsafe extern "C" fn view(preconditioner: ffi::PC, viewer: ffi::PetscViewer) -> ffi::PetscErrorCode {
     let mut operators: *mut c_void = null_mut();
     // SAFETY: as in `multiply`.
@@ -501,7 +501,7 @@ unsafe extern "C" fn view(preconditioner: ffi::PC, viewer: ffi::PetscViewer) -> 
     let operators = operators.borrow();
     let (text, within) = operators.view();
     let Ok(text) = string(&text) else { return FAILED };
-    // SAFETY: the viewer is PETSc's, the format takes one string of C, and the solver exists.
+    // SAFETY: the viewer is PETSc's, the format has one C string, and the solver exists.
     let shown = unsafe {
         check(ffi::PetscViewerASCIIPrintf(viewer, c"  %s\n".as_ptr(), text.as_ptr()))
             .and_then(|()| check(ffi::PetscViewerASCIIPushTab(viewer)))
@@ -511,18 +511,18 @@ unsafe extern "C" fn view(preconditioner: ffi::PC, viewer: ffi::PetscViewer) -> 
     if shown.is_ok() { 0 } else { FAILED }
 }
 
-/// A square sparse matrix in compressed rows, divided among the ranks by rows; or a function.
+/// Square sparse matrix in compressed rows, divided among the ranks by rows; or a function.
 pub struct Matrix {
     library: Library,
     raw: ffi::Mat,
     places: usize,
-    /// Lives as long as the matrix refers to it.
+    /// Operators to which the matrix refers.
     _operators: Option<Box<Shared>>,
 }
 
 impl Matrix {
-    /// A matrix of `rows` rows on this rank, in square blocks, with entries at these places; a place
-    /// may come more than once, and in the rows of another rank. Negative places are left out.
+    /// Matrix with `rows` rows on this rank, in square blocks, with entries at these places. A place may
+    /// occur more than once, and in the rows of another rank. Places of `None` are left out.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -538,12 +538,12 @@ impl Matrix {
         let (mut row_numbers, mut columns) = (side(0)?, side(1)?);
         let rows = int(rows)?;
         let mut raw = null_mut();
-        // SAFETY: the answer goes to a variable that outlives the call.
+        // SAFETY: the result goes to a variable that outlives the call.
         check(unsafe { ffi::MatCreate(library.comm(), &mut raw) })?;
         let matrix = Self { library: library.clone(), raw, places: row_numbers.len(), _operators: None };
         let kind = string("aij")?;
-        // SAFETY: the matrix exists and has neither type nor sizes; `kind` is a string of C; the two slices
-        // have the length that the call says, and PETSc may overwrite them, for nobody reads them again.
+        // SAFETY: the matrix exists and has neither type nor sizes; `kind` is a C string; the two slices have
+        // the given length, and PETSc may overwrite them, because they are not read again.
         unsafe {
             check(ffi::MatSetSizes(raw, rows, rows, DECIDE, DECIDE))?;
             check(ffi::MatSetType(raw, kind.as_ptr()))?;
@@ -558,7 +558,7 @@ impl Matrix {
         Ok(matrix)
     }
 
-    /// Product with an operator on the free nodes of this rank.
+    /// Matrix that is a function: the product with an operator on the free nodes of this rank.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -567,15 +567,15 @@ impl Matrix {
         let (rows, operators) = (int(3 * nodes)?, Box::new(operators));
         let context: *const Shared = &raw const *operators;
         let mut raw = null_mut();
-        // SAFETY: the answer goes to a variable that outlives the call; the context lives as long as the
+        // SAFETY: the result goes to a variable that outlives the call; the context exists as long as the
         // matrix.
         check(unsafe {
             let context = context.cast_mut().cast();
             ffi::MatCreateShell(library.comm(), rows, rows, DECIDE, DECIDE, context, &mut raw)
         })?;
         let matrix = Self { library: library.clone(), raw, places: 0, _operators: Some(operators) };
-        // SAFETY: the matrix exists, and PETSc calls what it is given for this operation with the arguments
-        // of `multiply`.
+        // SAFETY: the matrix exists, and PETSc calls the function of this operation with the arguments of
+        // `multiply`.
         check(unsafe {
             let function = std::mem::transmute::<Product, unsafe extern "C" fn()>(multiply);
             ffi::MatShellSetOperation(raw, ffi::MatOperation_MATOP_MULT, Some(function))
@@ -583,7 +583,7 @@ impl Matrix {
         Ok(matrix)
     }
 
-    /// Says that the matrix will always be symmetric.
+    /// Declares that the matrix is always symmetric.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -598,7 +598,7 @@ impl Matrix {
     /// Replaces all entries by the sums of these values, one for each place.
     ///
     /// # Errors
-    /// [`PetscError`], also if there is not one value for each place.
+    /// [`PetscError`], also unless there is one value for each place.
     pub fn set_values(&mut self, values: &[f64]) -> Result<(), PetscError> {
         if values.len() != self.places {
             let message = format!("{} values for {} places of a matrix", values.len(), self.places);
@@ -608,18 +608,18 @@ impl Matrix {
         check(unsafe { ffi::MatSetValuesCOO(self.raw, values.as_ptr(), ffi::InsertMode_INSERT_VALUES) })
     }
 
-    /// Tells preconditioners that rigid motions of nodes at these places, m, are nearly in the null space.
+    /// Sets the near null space for preconditioners to the rigid motions of nodes at these places, m.
     ///
     /// # Errors
     /// [`PetscError`].
     pub fn set_rigid_motions(&mut self, places: &Vector<3>) -> Result<(), PetscError> {
         let mut space = null_mut();
-        // SAFETY: the vector exists, and the answer goes to a variable that outlives the call.
+        // SAFETY: the vector exists, and the result goes to a variable that outlives the call.
         check(unsafe { ffi::MatNullSpaceCreateRigidBody(places.raw, &mut space) })?;
         self.set_near_null_space(space)
     }
 
-    /// Tells preconditioners that these vectors, which must be orthonormal, are nearly in the null space.
+    /// Sets the near null space for preconditioners to these vectors, which must be orthonormal.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -627,8 +627,8 @@ impl Matrix {
         let vectors: Vec<ffi::Vec> = motions.iter().map(|vector| vector.raw).collect();
         let (is_constant, count) = (ffi::PetscBool_PETSC_FALSE, int(vectors.len())?);
         let mut space = null_mut();
-        // SAFETY: there are as many vectors as the call says, to which PETSc keeps references, and the answer
-        // goes to a variable that outlives the call.
+        // SAFETY: the number of vectors is correct, PETSc keeps references to them, and the result goes to a
+        // variable that outlives the call.
         check(unsafe {
             let comm = self.library.comm();
             ffi::MatNullSpaceCreate(comm, is_constant, count, vectors.as_ptr(), &mut space)
@@ -637,7 +637,7 @@ impl Matrix {
     }
 
     fn set_near_null_space(&mut self, mut space: ffi::MatNullSpace) -> Result<(), PetscError> {
-        // SAFETY: both objects exist, and the space, which the matrix keeps a reference to, is destroyed
+        // SAFETY: both objects exist, the matrix keeps a reference to the space, and the space is destroyed
         // once.
         unsafe {
             let set = check(ffi::MatSetNearNullSpace(self.raw, space));
@@ -646,16 +646,15 @@ impl Matrix {
         }
     }
 
-    /// The rank to which a partitioner gives each row of this rank, as few neighbours as possible being
-    /// parted.
+    /// Rank of each row of this rank, chosen by a partitioner so that few neighbours are separated.
     ///
     /// # Errors
     /// [`PetscError`].
     pub fn partition(&self) -> Result<Vec<usize>, PetscError> {
         let (mut partitioning, mut set) = (null_mut(), null_mut());
         let mut ranks = Vec::new();
-        // SAFETY: the matrix exists, the answers outlive the calls, and what was created is destroyed once;
-        // where a call fails, PETSc loses what was created, which leaks and nothing else.
+        // SAFETY: the matrix exists, the results outlive the calls, and created objects are destroyed once.
+        // If a call fails, created objects leak, without other consequences.
         unsafe {
             check(ffi::MatPartitioningCreate(self.library.comm(), &mut partitioning))?;
             check(ffi::MatPartitioningSetAdjacency(partitioning, self.raw))?;
@@ -664,16 +663,16 @@ impl Matrix {
             check(ffi::MatPartitioningDestroy(&mut partitioning))?;
         }
         let (mut entries, mut count) = (null(), 0);
-        // SAFETY: the set exists, the answers outlive the calls.
+        // SAFETY: the set exists, and the results outlive the calls.
         unsafe {
             check(ffi::ISGetLocalSize(set, &mut count))?;
             check(ffi::ISGetIndices(set, &mut entries))?;
         }
         for index in 0..usize::try_from(count).unwrap_or(0) {
-            // SAFETY: there are `count` entries until they are given back below.
+            // SAFETY: there are `count` entries until they are released below.
             ranks.push(usize::try_from(unsafe { *entries.add(index) }).unwrap_or(0));
         }
-        // SAFETY: the entries are those of the call above, and are not used from here on; the set is
+        // SAFETY: the entries are the result of the call above, and are not used from here on; the set is
         // destroyed once.
         unsafe {
             check(ffi::ISRestoreIndices(set, &mut entries))?;
@@ -690,21 +689,21 @@ impl Drop for Matrix {
     }
 }
 
-/// A solver of linear systems, as the options of PETSc say.
+/// Solver of linear systems, configured by the options of PETSc.
 pub struct Krylov {
     raw: ffi::KSP,
-    /// Lives as long as the solver refers to it.
+    /// Matrix to which the solver refers.
     matrix: Rc<RefCell<Matrix>>,
-    /// Lives as long as the preconditioner refers to it.
+    /// Operators to which the preconditioner refers.
     operators: Option<Box<Shared>>,
 }
 
 impl Krylov {
-    /// A solver by conjugate gradients for a matrix, or what the options say whose names begin with
-    /// `prefix`.
+    /// Solver for a matrix, by conjugate gradients unless options with the prefix `prefix` select another
+    /// one.
     ///
     /// # Errors
-    /// [`PetscError`], also for an option with a value that PETSc does not know.
+    /// [`PetscError`], also for an option with a value that PETSc does not support.
     pub fn new(library: &Library, matrix: Rc<RefCell<Matrix>>, prefix: &str) -> Result<Self, PetscError> {
         let solver = Self::of_kind(library, matrix, "cg", prefix)?;
         // SAFETY: the solver exists.
@@ -715,11 +714,11 @@ impl Krylov {
         Ok(solver)
     }
 
-    /// A solver that applies a preconditioner of this kind once, or what the options say whose names begin
-    /// with `prefix`.
+    /// Solver that applies a preconditioner of this kind once, unless options with the prefix `prefix` select
+    /// another one.
     ///
     /// # Errors
-    /// [`PetscError`], also for an option with a value that PETSc does not know.
+    /// [`PetscError`], also for an option with a value that PETSc does not support.
     pub fn once(
         library: &Library,
         matrix: Rc<RefCell<Matrix>>,
@@ -728,7 +727,7 @@ impl Krylov {
     ) -> Result<Self, PetscError> {
         let solver = Self::of_kind(library, matrix, "preonly", prefix)?;
         let (kind, preconditioner) = (string(kind)?, solver.preconditioner()?);
-        // SAFETY: both objects exist, and the text is a string of C, which PETSc copies.
+        // SAFETY: both objects exist, and the text is a C string, which PETSc copies.
         unsafe {
             check(ffi::PCSetType(preconditioner, kind.as_ptr()))?;
             check(ffi::KSPSetFromOptions(solver.raw))?;
@@ -743,12 +742,12 @@ impl Krylov {
         prefix: &str,
     ) -> Result<Self, PetscError> {
         let mut raw = null_mut();
-        // SAFETY: the answer goes to a variable that outlives the call.
+        // SAFETY: the result goes to a variable that outlives the call.
         check(unsafe { ffi::KSPCreate(library.comm(), &mut raw) })?;
         let mat = matrix.borrow().raw;
         let solver = Self { raw, matrix, operators: None };
         let (kind, prefix) = (string(kind)?, string(prefix)?);
-        // SAFETY: solver and matrix exist, and both texts are strings of C, which PETSc copies.
+        // SAFETY: solver and matrix exist, and both texts are C strings, which PETSc copies.
         unsafe {
             check(ffi::KSPSetOptionsPrefix(raw, prefix.as_ptr()))?;
             check(ffi::KSPSetType(raw, kind.as_ptr()))?;
@@ -759,12 +758,12 @@ impl Krylov {
 
     fn preconditioner(&self) -> Result<ffi::PC, PetscError> {
         let mut preconditioner = null_mut();
-        // SAFETY: the solver exists, and the answer goes to a variable that outlives the call.
+        // SAFETY: the solver exists, and the result goes to a variable that outlives the call.
         check(unsafe { ffi::KSPGetPC(self.raw, &mut preconditioner) })?;
         Ok(preconditioner)
     }
 
-    /// Preconditions by operators, which options know as the type `shell`.
+    /// Preconditions by operators; the type of the preconditioner in options is `shell`.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -772,8 +771,8 @@ impl Krylov {
         let preconditioner = self.preconditioner()?;
         let operators = self.operators.insert(Box::new(operators));
         let context: *const Shared = &raw const **operators;
-        // SAFETY: the preconditioner exists, the name is a string of C, which PETSc copies, the context lives
-        // as long as the solver, and the functions have the signatures that PETSc asks for.
+        // SAFETY: the preconditioner exists, the name is a C string, which PETSc copies, the context exists
+        // as long as the solver, and the functions have the signatures that PETSc requires.
         unsafe {
             check(ffi::PCShellSetContext(preconditioner, context.cast_mut().cast()))?;
             check(ffi::PCShellSetApply(preconditioner, Some(precondition)))?;
@@ -782,7 +781,7 @@ impl Krylov {
         }
     }
 
-    /// Keeps the preconditioner as it is, or makes it anew for the next system.
+    /// Keeps the preconditioner for the next system, or sets up a new one.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -792,7 +791,7 @@ impl Krylov {
         check(unsafe { ffi::KSPSetReusePreconditioner(self.raw, keep) })
     }
 
-    /// Solves A x = b from x = 0 to a share `tolerance` of |b|.
+    /// Solves A x = b from x = 0 to a residual of `tolerance` times |b|.
     ///
     /// # Errors
     /// [`PetscError`].
@@ -805,7 +804,7 @@ impl Krylov {
     ) -> Result<Iteration, PetscError> {
         let matrix = self.matrix.borrow().raw;
         let (mut reason, mut iterations) = (0, 0);
-        // SAFETY: solver, matrix and vectors exist, and the answers outlive the calls.
+        // SAFETY: solver, matrix and vectors exist, and the results outlive the calls.
         unsafe {
             check(ffi::KSPSetOperators(self.raw, matrix, matrix))?;
             check(ffi::KSPSetTolerances(self.raw, tolerance, 1e-300, 1e10, int(max_iterations)?))?;
@@ -837,7 +836,7 @@ impl Krylov {
 impl Drop for Krylov {
     fn drop(&mut self) {
         // SAFETY: the solver exists, this is its only owner, and PETSc still runs: the matrix has a handle of
-        // it.
+        // the library.
         let _ = unsafe { ffi::KSPDestroy(&mut self.raw) };
     }
 }

@@ -1,12 +1,12 @@
-//! What a rank holds of a mesh before it is divided: some of the elements, and the nodes of its home range.
+//! Part of a mesh on a rank before the mesh is divided: some of the elements, and the nodes of a home range.
 //!
-//! This module knows no parts and no solver.
+//! This module does not depend on parts of a body or on a solver.
 
 use std::ops::Range;
 
 use crate::team::Team;
 
-/// Where the node of each number is at home: rank after rank, equally many.
+/// Home rank of each node: contiguous ranges of node numbers of equal length, rank after rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Homes {
     total: u64,
@@ -14,7 +14,7 @@ pub struct Homes {
 }
 
 impl Homes {
-    /// Homes of nodes among all ranks.
+    /// Divides a number of nodes among all ranks.
     #[must_use]
     pub fn new(total: u64, ranks: usize) -> Self {
         Self { total, each: total.div_ceil(ranks as u64).max(1) }
@@ -26,20 +26,20 @@ impl Homes {
         self.total
     }
 
-    /// The rank where a node is at home.
+    /// Home rank of a node.
     #[must_use]
     pub fn of(&self, node: u64) -> usize {
         (node / self.each) as usize
     }
 
-    /// The nodes that are at home on a rank.
+    /// Numbers of the nodes that are at home on a rank.
     #[must_use]
     pub fn range(&self, rank: usize) -> Range<u64> {
         let at = |rank: usize| (rank as u64 * self.each).min(self.total);
         at(rank)..at(rank + 1)
     }
 
-    /// Lists of these rows by the home of the node that each begins with.
+    /// List of rows for each rank; the first entry of a row is a node, whose home is the rank.
     #[must_use]
     pub fn sort<const N: usize>(
         &self,
@@ -51,7 +51,8 @@ impl Homes {
         lists
     }
 
-    /// Asks the homes of these nodes, ascending, for what they know.
+    /// Answers of the homes of these nodes, which must be ascending; `answer` has the index of a node in the
+    /// home range.
     #[must_use]
     pub fn ask<const N: usize>(
         &self,
@@ -68,32 +69,32 @@ impl Homes {
     }
 }
 
-/// A node before the mesh is divided.
+/// Node before the mesh is divided.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Position at rest, m.
     pub rest: [f64; 3],
     /// Position before the first step, m.
     pub start: [f64; 3],
-    /// What is done to it: bit 0 for a pin, others as the caller says.
+    /// Prescribed motions and springs of the node: bit 0 for a pin; the caller defines the other bits.
     pub marks: u64,
 }
 
 impl Place {
-    /// A node that is at rest, or pinned there.
+    /// Place of a node at rest, free or pinned.
     #[must_use]
     pub fn at_rest(rest: [f64; 3], is_pinned: bool) -> Self {
         Self { rest, start: rest, marks: u64::from(is_pinned) }
     }
 
-    /// The words of it.
+    /// Encoding of the place as words.
     #[must_use]
     pub fn to_words(self) -> [u64; 7] {
         let [r, s] = [self.rest, self.start].map(|x| x.map(f64::to_bits));
         [r[0], r[1], r[2], s[0], s[1], s[2], self.marks]
     }
 
-    /// A place of these words.
+    /// Decodes the words of [`Place::to_words`].
     #[must_use]
     pub fn from_words(words: &[u64]) -> Self {
         let vector = |at: usize| std::array::from_fn(|c| f64::from_bits(words[at + c]));
@@ -101,7 +102,7 @@ impl Place {
     }
 }
 
-/// A tetrahedron before the mesh is divided: its four nodes, its tag and the number of its material.
+/// Tetrahedron before the mesh is divided: its four nodes, its tag and the number of its material.
 pub type Element = [u64; 6];
 
 /// Part of a mesh before it is divided.
@@ -109,14 +110,14 @@ pub type Element = [u64; 6];
 pub struct Portion {
     /// Homes of all nodes.
     pub homes: Homes,
-    /// The nodes that are at home on this rank.
+    /// Nodes that are at home on this rank.
     pub places: Vec<Place>,
-    /// Any elements; each is on one rank.
+    /// Some elements of the mesh; each element is on one rank.
     pub elements: Vec<Element>,
 }
 
 impl Portion {
-    /// Spreads a mesh that rank 0 holds; the lists of others are empty.
+    /// Distributes a mesh from rank 0; the lists of other ranks must be empty.
     #[must_use]
     pub fn spread(team: &Team, places: Vec<Place>, elements: Vec<Element>) -> Self {
         let [nodes, count] = [places.len(), elements.len()].map(|number| team.count(number) as u64);
@@ -141,8 +142,8 @@ impl Portion {
         }
     }
 
-    /// The part on this rank of a cube of six tetrahedra in each of `cells`³ cells, as
-    /// [`piola::mesh::tetrahedral_box`] has it, made without the rest. Nodes with x = 0 are pinned.
+    /// Part, on this rank, of a cube with six tetrahedra in each of `cells`³ cells, equal to the mesh of
+    /// [`piola::mesh::tetrahedral_box`]. The rest of the mesh is not generated. Nodes with x = 0 are pinned.
     #[must_use]
     pub fn of_cube(team: &Team, cells: u64, length: f64) -> Self {
         let side = cells + 1;
@@ -153,7 +154,8 @@ impl Portion {
             Place::at_rest(at.map(coordinate), at[0] == 0)
         };
         let of_cells = Homes::new(cells * cells * cells, team.size());
-        // From a corner of the cell along the three axes to the opposite one; odd orders are mirrored.
+        // Paths from a corner of the cell to the opposite corner, along the three axes; odd orders are
+        // mirrored.
         const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
         let strides = [side * side, side, 1];
         let tetrahedra = of_cells.range(team.rank()).flat_map(|cell| {

@@ -1,4 +1,4 @@
-//! What the subcommands do.
+//! Subcommands: a box that sags, statics, and runs in time.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -26,24 +26,24 @@ use crate::share::Share;
 use crate::simulation::{Simulation, StageReport};
 use crate::team::Team;
 
-/// What a checkpoint of a run is about.
+/// Description of a checkpoint of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct About {
-    /// Settings that the motion depends on.
+    /// Settings on which the motion depends.
     pub settings: String,
     /// Checksum of the mesh.
     pub body: u32,
     /// Checksum of the table with parameters of elements.
     #[serde(default)]
     pub table: Option<u32>,
-    /// Number of steps done.
+    /// Number of completed steps.
     pub frame: usize,
-    /// The clock then; `None` in statics.
+    /// Clock at the checkpoint; `None` in statics.
     pub clock: Option<Clock>,
     progress: Progress,
 }
 
-/// What a run has measured so far.
+/// Measurements of a run up to now.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Progress {
     newton_iterations: usize,
@@ -88,7 +88,7 @@ fn relative_residual(report: &NewtonReport) -> f64 {
     if report.residual == 0.0 { 0.0 } else { report.residual / report.first_residual }
 }
 
-/// Lets a cube sag under its own weight; returns a line of results.
+/// Computes the sag of a cube under its own weight; returns a row of the table with the titles [`TITLES`].
 ///
 /// # Errors
 /// An [`Error`] of the options, the solver or a file.
@@ -124,7 +124,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     if report.convergence == Convergence::Limit {
         let residual = relative_residual(&report);
         return Err(Error::Options(format!(
-            "the body is not in equilibrium: the residual has fallen to {residual:.1e}"
+            "the body is not in equilibrium: the relative residual is {residual:.1e}"
         )));
     }
     let memory = team.sum([peak_memory()])[0] / f64::from(1 << 20);
@@ -145,12 +145,14 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     ))
 }
 
-/// Titles of the columns of [`sag`].
+/// Head of the table of which [`sag`] returns a row.
 pub const TITLES: &str = "\
-| elements | nodes | ranks | Newton | conjugate gradients | mean | most | residual | set-up s | solve s | MiB | copies |
+| elements | nodes | ranks | Newton iterations | CG iterations, total | CG iterations per linear system, mean \
+| CG iterations per linear system, maximum | relative residual | set-up time, s | solve time, s \
+| peak memory, total of all ranks, MiB | copies on a rank, maximum |
 |---|---|---|---|---|---|---|---|---|---|---|---|";
 
-/// Most memory that this process has had, bytes; 0 where the system does not say.
+/// Peak memory of this process, bytes; 0 if the system does not report it.
 fn peak_memory() -> f64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
@@ -158,7 +160,7 @@ fn peak_memory() -> f64 {
     1024.0 * kibibytes.unwrap_or(0.0)
 }
 
-/// Takes a body to equilibrium; returns its summary.
+/// Computes the equilibrium of a body; returns its summary.
 ///
 /// # Errors
 /// An [`Error`] of the options, the body, the solver or a file.
@@ -169,7 +171,7 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
     let mut setting = setting(team, &task)?;
     output::prepare(team, &folder, options.force)?;
     let mut simulation = simulation(team, &task, &mut setting, newton)?;
-    // Motions are complete where there is no time.
+    // In statics, prescribed motions are complete.
     let share = setting.share.clone();
     simulation.prescribe(|node| setting.place(&share, node, f64::INFINITY))?;
     let clock = Instant::now();
@@ -185,7 +187,7 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
     (summary.frames_wanted, summary.dt, summary.integrator) = (1, None, None);
     if report.newton.convergence == Convergence::Limit {
         summary.ended = Ended::Failed;
-        summary.failures.push("the body is not in equilibrium; take more --newton-iterations".to_owned());
+        summary.failures.push("the body is not in equilibrium; increase --newton-iterations".to_owned());
     }
     output::write_summary(team, &folder, &summary)?;
     Ok(summary)
@@ -194,8 +196,8 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
 /// Runs a scene; returns its summary.
 ///
 /// # Errors
-/// An [`Error`] of the options, the body, the first step or a file. A later step that fails ends the run with
-/// a summary that says so.
+/// An [`Error`] of the options, the body, the first step or a file. If a later step fails, the run
+/// ends, and the summary contains the failure.
 pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.newton()?;
@@ -226,7 +228,7 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
         let stepped = course.step(clock);
         clock = clock.next();
         if let Err(error) = stepped {
-            // The first step says that the run cannot be; of PETSc's errors other ranks may not know.
+            // A failure of the first step is an error of the run; errors of PETSc may be on one rank alone.
             if course.frame == 0 || !error.is_common() {
                 return Err(error);
             }
@@ -277,7 +279,7 @@ fn simulation(
     Simulation::new(team, setting.share.clone(), &materials, settings)
 }
 
-/// A run between its first step and its last.
+/// State of a run between its first and its last step.
 struct Course<'a> {
     team: &'a Team,
     task: &'a Task,
@@ -288,7 +290,7 @@ struct Course<'a> {
 }
 
 impl Course<'_> {
-    /// Makes the frame after the one at the clock.
+    /// Advances from the frame at the clock to the next one.
     fn step(&mut self, clock: Clock) -> Result<(), Error> {
         let (first, last) = self.setting.stretches(clock);
         for stretch in first.into_iter().chain([last]) {
@@ -317,7 +319,7 @@ impl Course<'_> {
         Ok(())
     }
 
-    /// What the motion depends on.
+    /// Settings on which the motion depends, as JSON.
     fn settings(&self) -> Result<String, Error> {
         let Task { settings, groups, materials, moves, .. } = self.task;
         let lasting: Settings = settings.clone().with_frames(1).with_threads(1).with_newton(Newton::Single);
@@ -341,13 +343,13 @@ impl Course<'_> {
         let (settings, body, table) = (self.settings()?, self.setting.body.checksum, self.setting.table());
         let check = |about: &About| {
             if about.body != body {
-                return Err("it is of another mesh".to_owned());
+                return Err("it belongs to another mesh".to_owned());
             }
             if about.table != table {
-                return Err("it was begun with another table for --vary, or without one".to_owned());
+                return Err("its run began with another table for --vary, or without one".to_owned());
             }
             if about.settings != settings || about.clock.is_none() {
-                return Err(format!("it was begun with other options: {}", about.settings));
+                return Err(format!("its run began with other options: {}", about.settings));
             }
             Ok(())
         };
@@ -383,7 +385,7 @@ impl Course<'_> {
             nodes: share.totals[0],
             ranks: team.size(),
             copies_max: copies,
-            // A vector of three numbers each way.
+            // A vector of three components each way.
             bytes_per_iteration: 2 * 24 * copies,
             frames: self.frame,
             frames_wanted: settings.frames,

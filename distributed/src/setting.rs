@@ -1,4 +1,4 @@
-//! The setting of a run: a scene's body, read and divided, and what acts on it.
+//! Setting of a run: the body of a scene, read and divided, with pins, prescribed motions and springs.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -23,50 +23,50 @@ use crate::varied::Varied;
 
 mod parts;
 
-/// A motion of some nodes, which are pinned for it.
+/// Prescribed motion of some nodes, which are pinned for it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Move {
-    /// A box, or the name of a group.
+    /// Nodes that move: a box, or the name of a group.
     pub nodes: String,
-    /// Displacement at its end, m.
+    /// Displacement at the end of the motion, m.
     pub displacement: [f64; 3],
-    /// The motion is steady until this time, s, and the nodes then stay.
+    /// End of the steady motion, s; the nodes are held afterwards.
     pub reached: f64,
 }
 
-/// The setting of a run on one rank.
+/// Setting of a run on one rank.
 #[derive(Debug)]
 pub struct Setting {
-    /// The nodes and elements of this rank.
+    /// Nodes and elements of this rank.
     pub share: Share,
-    /// What all ranks know of the body.
+    /// Properties of the whole body, equal on all ranks.
     pub body: BodyFacts,
-    /// The springs of each pull at the owned nodes of this rank.
+    /// Springs of each pull, at the owned nodes of this rank.
     pulls: Vec<DragSprings>,
     moves: Vec<Move>,
-    /// Parameters of elements by themselves, until their materials are made.
+    /// Individual parameters of elements, until their materials are created.
     varied: Option<Arc<Varied>>,
     /// Checksum of the table with these parameters.
     table: Option<u32>,
 }
 
-/// What all ranks know of the body.
+/// Properties of the whole body, equal on all ranks.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct BodyFacts {
     /// Bounding box at rest, m.
     pub bounds: Bounds,
     /// Checksum of the mesh.
     pub checksum: u32,
-    /// Properties of the mesh that may not be meant.
+    /// Properties of the mesh that may be unintended.
     pub warnings: Vec<String>,
     /// Stiffness of each spring of each pull, N/m.
     stiffnesses: Vec<f64>,
 }
 
-/// Most pulls, and most moves: the marks of a node have a bit for each.
+/// Maximum number of pulls, and of moves: the marks of a node have a bit for each.
 const MOST: usize = 24;
 
-/// Marks of nodes that are held where they are, or moved.
+/// Mark of nodes that are held, or have a prescribed motion.
 const PINNED: u64 = 1;
 
 /// Mark of the nodes of a pull.
@@ -79,7 +79,7 @@ fn move_mark(number: usize) -> u64 {
     1 << (32 + number)
 }
 
-/// TetGen's file that all ranks can read at once.
+/// Path of a TetGen file that all ranks can read at once; `None` if rank 0 must read the mesh.
 fn in_parts(settings: &Settings) -> Option<&Path> {
     let starts_at_rest =
         matches!(settings.start, Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. });
@@ -89,9 +89,9 @@ fn in_parts(settings: &Settings) -> Option<&Path> {
 }
 
 impl Setting {
-    /// Reads the body and divides it; `groups` are those with a material of their own, behind that of all
-    /// others. TetGen's files are read by all ranks at once where the body starts at rest; others are read by
-    /// rank 0, which holds them whole.
+    /// Reads the body and divides it. The elements of `groups` have the materials with the numbers 1, 2, …;
+    /// all other elements have the material with the number 0. All ranks read TetGen's files at once if the
+    /// body starts at rest. Rank 0 reads all other files as a whole.
     ///
     /// # Errors
     /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Options`],
@@ -112,7 +112,7 @@ impl Setting {
                 let (places, elements, facts) = team.agree(read)?.unwrap_or_default();
                 let facts = team.from_first(facts);
                 let body: BodyFacts = serde_json::from_slice(&facts)
-                    .map_err(|error| Error::Options(format!("ranks run different programs: {error}")))?;
+                    .map_err(|error| Error::Options(format!("the ranks run different programs: {error}")))?;
                 (Share::of(team, Portion::spread(team, places, elements))?, body)
             }
         };
@@ -128,11 +128,11 @@ impl Setting {
         Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), varied: None, table: None, share, body })
     }
 
-    /// Gives each element of the settings' material its parameters in a table. Every rank reads all of it,
-    /// and keeps the rows of its elements.
+    /// Reads individual parameters of the elements with the material of the settings from a table. Every rank
+    /// reads the whole table, and keeps the rows of its elements.
     ///
     /// # Errors
-    /// [`Error::OnRank`] for a table that is malformed, [`Error::Options`] where ranks read different ones.
+    /// [`Error::OnRank`] for a malformed table, [`Error::Options`] if ranks read different tables.
     pub fn vary(&mut self, team: &Team, table: &Path) -> Result<(), Error> {
         let tags = self.share.elements.iter().map(|&(_, tag, _)| tag).collect();
         let varied = team.agree(Varied::read(table, &tags))?;
@@ -153,8 +153,8 @@ impl Setting {
         self.table
     }
 
-    /// The materials of a run: that of the settings, with the table's parameters the first time, and those of
-    /// groups with their density.
+    /// Materials of a run with their densities: the material of the settings, then the materials of groups.
+    /// The first call returns the parameters of the table, too.
     #[must_use]
     pub fn materials(&mut self, settings: &Settings, groups: &[MaterialPart]) -> Vec<MaterialPart> {
         let (material, varied) = (settings.material.clone(), self.varied.take());
@@ -162,19 +162,19 @@ impl Setting {
         std::iter::once(first).chain(groups.iter().cloned()).collect()
     }
 
-    /// The springs at owned nodes at the end of a stretch of time, s.
+    /// Springs at owned nodes at the end of a time interval, s.
     #[must_use]
     pub fn springs(&self, start: f64, end: f64) -> Vec<Spring> {
         self.pulls.iter().flat_map(|pull| pull.during(start, end)).collect()
     }
 
-    /// The stretches of time of the next frame, equal on all ranks.
+    /// Time intervals of the next frame, equal on all ranks.
     #[must_use]
     pub fn stretches(&self, clock: Clock) -> (Vec<Stretch>, Stretch) {
         play::stretches(&self.pulls, clock)
     }
 
-    /// Where a pinned node is at a time, s, if something moves it.
+    /// Position of a pinned node at a time, s, if it has a prescribed motion.
     #[must_use]
     pub fn place(&self, share: &Share, node: usize, time: f64) -> Option<[f64; 3]> {
         let Place { rest, marks, .. } = share.places[node];
@@ -196,7 +196,7 @@ impl Setting {
     }
 }
 
-/// Places, elements and facts of the whole body.
+/// Places, elements and properties of the whole body; the properties are in JSON.
 type Whole = (Vec<Place>, Vec<Element>, Vec<u8>);
 
 fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole, Error> {

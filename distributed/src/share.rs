@@ -1,9 +1,8 @@
-//! The share of a rank: the nodes that it owns, copies of those that its elements touch besides, and its
-//! elements.
+//! Share of a rank: its elements, the nodes that it owns, and copies of the other nodes of its elements.
 //!
-//! A partitioner divides the graph of the nodes. An element goes to the rank that owns most of its nodes, so
-//! that every element is evaluated once, and what it adds to nodes of other ranks is sent there. A node is
-//! owned by a rank that has an element of it. This module knows no materials and no time.
+//! A partitioner divides the graph of the nodes. An element is assigned to the rank that owns most of its
+//! nodes, so that every element is evaluated once. Its forces on nodes of other ranks are sent there. The
+//! owner of a node has at least one element of the node. This module does not depend on materials or on time.
 
 use std::collections::HashMap;
 
@@ -14,29 +13,29 @@ use crate::petsc::Matrix;
 use crate::portion::{Element, Homes, Place, Portion};
 use crate::team::Team;
 
-/// What a rank holds of a divided mesh. Owned nodes come before copies, and free ones before pinned ones
-/// among the owned.
+/// Part of a divided mesh on a rank. Owned nodes come before copies. Among owned nodes, free nodes come
+/// before pinned nodes.
 #[derive(Clone, Debug)]
 pub struct Share {
     /// Number of each node in the whole mesh.
     pub ids: Vec<u64>,
-    /// Number of owned nodes, with which the others begin.
+    /// Number of owned nodes, the first of the nodes.
     pub owned: usize,
-    /// Number of owned nodes that are free, with which these begin.
+    /// Number of free owned nodes, the first of the owned nodes.
     pub free: usize,
-    /// Where the nodes are, and what is done to them.
+    /// Positions and marks of the nodes.
     pub places: Vec<Place>,
-    /// Number of each copy among all nodes, counted rank after rank.
+    /// Global number of each copy, counted rank after rank.
     pub copies: Vec<usize>,
-    /// Number of each node among all free nodes, counted rank after rank.
+    /// Global number of each node among the free nodes, counted rank after rank; `None` for a pinned node.
     pub free_numbers: Vec<Option<usize>>,
-    /// The elements, by nodes of this share, with tag and material.
+    /// Elements: indices of the four nodes in this share, tag, and number of the material.
     pub elements: Vec<([usize; 4], u64, u64)>,
-    /// Number of nodes and elements of all ranks.
+    /// Numbers of nodes and of elements of all ranks.
     pub totals: [usize; 2],
 }
 
-/// Number of a node that is pinned among the free ones.
+/// Number among the free nodes that stands for a pinned node.
 const PINNED: u64 = u64::MAX;
 
 impl Share {
@@ -52,7 +51,7 @@ impl Share {
         }
         let mut owner_here = owners(team, &homes, &elements)?;
 
-        // Elements to their ranks.
+        // Send elements to their ranks.
         let mut touched: Vec<u64> = elements.iter().flat_map(|element| &element[..4]).copied().collect();
         touched.sort_unstable();
         touched.dedup();
@@ -67,7 +66,7 @@ impl Share {
         let mut elements = team.exchange_rows(&lists).concat();
         elements.sort_unstable_by_key(|element| element[4]);
 
-        // A node whose elements have all gone to others goes to one of these.
+        // If a rank has no element of a node, another rank that has one becomes the owner of the node.
         let first = homes.range(team.rank()).start;
         let mut touched: Vec<u64> = elements.iter().flat_map(|element| &element[..4]).copied().collect();
         touched.sort_unstable();
@@ -83,7 +82,7 @@ impl Share {
             }
         }
 
-        // Nodes to their owners.
+        // Send nodes to their owners.
         let mut lists = vec![Vec::new(); team.size()];
         for (node, place) in places.iter().enumerate() {
             let mut row = [0; 8];
@@ -95,7 +94,7 @@ impl Share {
         owned.sort_unstable_by_key(|row| (row[7] & 1, row[0]));
         let free = owned.iter().filter(|row| row[7] & 1 == 0).count();
 
-        // Numbers of owned nodes, which their homes learn for those that have copies.
+        // Send the numbers of owned nodes to their homes, for the ranks with copies.
         let before = |number: usize| team.all(number)[..team.rank()].iter().sum::<usize>();
         let (first_owned, first_free) = (before(owned.len()), before(free));
         let free_number = |node: usize| if node < free { (first_free + node) as u64 } else { PINNED };
@@ -108,7 +107,7 @@ impl Share {
             known[(node - first) as usize] = [number, free];
         }
 
-        // Copies.
+        // Request copies from the homes of the nodes.
         let mut index: HashMap<u64, usize> =
             owned.iter().enumerate().map(|(node, row)| (row[0], node)).collect();
         let mut copied: Vec<u64> = elements
@@ -148,7 +147,7 @@ impl Share {
         })
     }
 
-    /// Gives every element the orientation of positive volume, of meshes that promise none.
+    /// Gives every element the orientation of positive volume, for meshes without a defined orientation.
     pub fn turn_inverted(&mut self) {
         let rest: Vec<[f64; 3]> = self.places.iter().map(|place| place.rest).collect();
         for (nodes, ..) in &mut self.elements {
@@ -156,15 +155,15 @@ impl Share {
         }
     }
 
-    /// The pinned nodes among those of this rank and the copies, ascending.
+    /// Pinned nodes of this rank, copies included, ascending.
     #[must_use]
     pub fn pinned(&self) -> Vec<usize> {
         (0..self.places.len()).filter(|&node| self.places[node].marks & 1 == 1).collect()
     }
 }
 
-/// The rank of an element with these owners of its nodes, in whatever order: the one that comes most often,
-/// by the tag among equals.
+/// Rank of an element with these owners of its nodes, in any order: the most frequent owner. Among equally
+/// frequent owners, the tag of the element decides.
 fn rank_of(mut owners: [u64; 4], tag: u64) -> usize {
     owners.sort_unstable();
     let times = |owner: u64| owners.iter().filter(|&&other| other == owner).count();
@@ -174,7 +173,7 @@ fn rank_of(mut owners: [u64; 4], tag: u64) -> usize {
     in_turn.into_iter().find(|&owner| times(owner) == most).unwrap_or(0) as usize
 }
 
-/// The rank that is to own each node that is at home here.
+/// Owner of each node that is at home on this rank.
 fn owners(team: &Team, homes: &Homes, elements: &[Element]) -> Result<Vec<u64>, Error> {
     let range = homes.range(team.rank());
     let here = (range.end - range.start) as usize;
@@ -205,7 +204,7 @@ mod tests {
     fn an_element_goes_to_the_owner_of_most_of_its_nodes() {
         assert_eq!(rank_of([2, 1, 2, 2], 0), 2);
         assert_eq!(rank_of([0, 3, 1, 3], 7), 3);
-        // Equals take turns, in whatever order the nodes are.
+        // Equally frequent owners take turns, for any order of the nodes.
         let of_tags = |owners| (0..4).map(|tag| rank_of(owners, tag)).collect::<Vec<_>>();
         assert_eq!(of_tags([5, 6, 5, 6]), of_tags([6, 5, 6, 5]));
         assert_eq!(of_tags([5, 6, 5, 6]), [5, 5, 6, 6]);

@@ -1,4 +1,4 @@
-//! A body that is divided among ranks, stepped in time.
+//! Time steps of a body that is divided among ranks.
 
 use piola::step::divided::{InStage, Pace, Repeatable, StagedSteps, advance_within, minimize};
 use piola::step::{Damping, LinearSolver, NewtonReport, SimulationSettings, Spring};
@@ -11,19 +11,19 @@ use crate::share::Share;
 use crate::system::LinearSystem;
 use crate::team::Team;
 
-/// Number of units of regularisation, in statics, for a body that may move as a whole.
+/// Regularisation, in its units, that is added in statics for a body that can move as a whole.
 const DRIFT: f64 = 1e-4;
 
-/// Report of a stage of a step, the same on all ranks.
+/// Report of a stage of a step, equal on all ranks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StageReport {
     /// Report of Newton's method.
     pub newton: NewtonReport,
-    /// Number of iterations of the linear solver in each system, including failed attempts.
+    /// Number of iterations of the linear solver in each linear system, including failed attempts.
     pub systems: Vec<usize>,
 }
 
-/// Energies of the body, J, as [`piola::step::Energies`] has them.
+/// Energies of the body, J, with the definitions of [`piola::step::Energies`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energies {
     /// Energy of deformation.
@@ -36,7 +36,7 @@ pub struct Energies {
     pub springs: f64,
 }
 
-/// A divided body with its state, as one rank sees it. All functions are called by all ranks.
+/// Divided body with its state, on one rank. All ranks must call all functions.
 pub struct Simulation {
     team: Team,
     share: Share,
@@ -47,7 +47,7 @@ pub struct Simulation {
     elastic: Elastic,
     exchange: GhostedVector,
     system: LinearSystem,
-    /// Of owned nodes, kg.
+    /// Masses of owned nodes, kg.
     masses: Vec<f64>,
     steps: StagedSteps,
     static_regularisation: f64,
@@ -55,7 +55,7 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// A simulation that starts at rest where the share has its nodes.
+    /// Simulation that starts at rest, with the nodes at the start positions of the share.
     ///
     /// # Errors
     /// An [`Error`] of an element, a material, a setting or of PETSc.
@@ -101,20 +101,20 @@ impl Simulation {
         })
     }
 
-    /// The nodes and elements of this rank.
+    /// Nodes and elements of this rank.
     #[must_use]
     pub fn share(&self) -> &Share {
         &self.share
     }
 
-    /// Positions, m, velocities, m/s, and accelerations, m/s², of the nodes of this rank and of its copies.
+    /// Positions, m, velocities, m/s, and accelerations, m/s², of the nodes of this rank, copies included.
     #[must_use]
     pub fn state(&self) -> &StagedSteps {
         &self.steps
     }
 
-    /// Replaces the state of the nodes of this rank and of its copies. Accelerations are those at the
-    /// end of the step before.
+    /// Replaces the state of the nodes of this rank, copies included. Accelerations are the ones at the end
+    /// of the previous step.
     ///
     /// # Errors
     /// [`Error::OnRank`] unless there is one finite vector of each for each node.
@@ -145,11 +145,11 @@ impl Simulation {
         self.team.agree(set.map_err(Error::from))
     }
 
-    /// Replaces the springs at owned nodes. A spring at the same index and anchor as one before moves evenly
-    /// to its new target.
+    /// Replaces the springs at owned nodes. If a spring has the index and anchor of a previous spring, its
+    /// target moves uniformly to the new one.
     ///
     /// # Errors
-    /// [`Error::OnRank`] for a spring that is not finite, or names a node that does not exist.
+    /// [`Error::OnRank`] for a spring that is not finite, or is attached to a node that does not exist.
     pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), Error> {
         let set = self.steps.set_springs(springs);
         self.team.agree(set.map_err(Error::from))
@@ -193,9 +193,9 @@ impl Simulation {
         Ok(reports)
     }
 
-    /// Advances the state by a time, s, in steps so short that they make no error of positions above
-    /// `tolerance`, m/s, times the time, as [`piola::step::Simulation::advance_within`] does. Returns the
-    /// steps, with the reports of all of their stages, including refused ones.
+    /// Advances the state over a time interval, s, with adaptive steps. The error of positions stays within
+    /// `tolerance`, m/s, times the interval, as in [`piola::step::Simulation::advance_within`]. Returns the
+    /// steps, with the reports of all of their stages, including refused steps.
     ///
     /// # Errors
     /// An [`Error`] of the shortest step, or of PETSc.
@@ -203,18 +203,18 @@ impl Simulation {
         advance_within(self, duration, tolerance * duration)
     }
 
-    /// Moves the body to a minimum of its energy with gravity and springs, without inertia, where it is at
-    /// rest.
+    /// Moves the body to equilibrium: a minimum of its energy with gravity and springs, without inertia.
     ///
     /// # Errors
     /// An [`Error`] of Newton's method or of PETSc.
     pub fn equilibrate(&mut self) -> Result<StageReport, Error> {
         let mut reports = self.step(f64::INFINITY)?;
-        // Statics are one stage.
+        // Statics have one stage.
         Ok(reports.remove(0))
     }
 
-    /// Evaluates the energies of all elements at the current state; the tag of one without.
+    /// Evaluates the energies of all elements at the current state; the error is the tag of an element
+    /// without an energy.
     fn evaluate(&mut self) -> Result<(), u64> {
         let x = self.steps.positions();
         self.elastic.evaluate(x);
@@ -222,7 +222,8 @@ impl Simulation {
         if tag.is_finite() { Err(tag as u64) } else { Ok(()) }
     }
 
-    /// Energies of the current state; the elastic one is NaN if an element is outside its domain.
+    /// Energies of the current state; the elastic energy is NaN if an element is outside the domain of its
+    /// material.
     #[must_use]
     pub fn energies(&mut self) -> Energies {
         let is_admissible = self.evaluate().is_ok();
@@ -241,7 +242,7 @@ impl Simulation {
     }
 }
 
-/// A setting that bodies divided among ranks do not support.
+/// Error for a setting that is not supported for bodies divided among ranks.
 fn not_divided(setting: &str) -> Error {
     Error::Options(format!("{setting} is not supported for a body that is divided among ranks"))
 }

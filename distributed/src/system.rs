@@ -1,10 +1,10 @@
-//! The linear system of a Newton iteration, on one rank, and how PETSc solves it.
+//! Linear system of a Newton iteration, on one rank, and its solution by PETSc.
 //!
-//! The stiffness of a rank is that of its elements: half of a matrix of 3×3 blocks, a row for each node of
-//! the rank, copies included. Ranks add up to the whole. PETSc's conjugate gradients know it as a function,
-//! and as another function its preconditioner, which is piola's: blocks on the diagonal or multigrid, whose
-//! last level is PETSc's again. Where an option asks for another preconditioner, PETSc is given a whole
-//! matrix in compressed rows instead.
+//! The stiffness of a rank is the sum over its elements: half of a matrix of 3×3 blocks, with a row for each
+//! node of the rank, copies included. The sum over the ranks is the whole stiffness. PETSc's conjugate
+//! gradients call two functions: the product with the stiffness, and piola's preconditioner, which is block
+//! Jacobi or multigrid. PETSc solves the last level of multigrid. If an option selects another
+//! preconditioner, a whole matrix in compressed rows is passed to PETSc instead.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -18,9 +18,9 @@ use crate::petsc::{GhostedVector, Krylov, Matrix, Operators, PetscError, Vector}
 use crate::share::Share;
 use crate::team::Team;
 
-/// Options of PETSc unless the user sets others: piola's preconditioner or, where `-pc_type gamg` asks for
-/// it, smoothed aggregation with two steps of Chebyshev's iteration and Jacobi's diagonal on each level, and
-/// the aggregates of the first system for all later ones.
+/// Default options of PETSc. The preconditioner is piola's. With `-pc_type gamg` it is smoothed aggregation,
+/// with two steps of Chebyshev's iteration and Jacobi's diagonal on each level, and with the aggregates of
+/// the first system for all later systems.
 const DEFAULTS: &[(&str, &str)] = &[
     ("pc_type", OWN),
     ("pc_gamg_type", "agg"),
@@ -33,23 +33,24 @@ const DEFAULTS: &[(&str, &str)] = &[
     ("fallback_pc_type", "jacobi"),
 ];
 
-/// PETSc's name for a preconditioner that is a function: piola's.
+/// PETSc's name for a preconditioner that is a function, such as piola's.
 const OWN: &str = "shell";
 
-/// Factor by which an old preconditioner of PETSc may exceed the iterations for its own matrix.
+/// Largest number of iterations with an old preconditioner of PETSc, relative to the number for the matrix of
+/// the preconditioner.
 const PATIENCE: f64 = 2.0;
 
-/// The unknowns of free nodes, matrix and solver.
+/// Linear system of the free nodes: matrix, vectors and solver.
 pub struct LinearSystem {
     own: Rc<RefCell<Own>>,
     way: Way,
     right: Vector<3>,
     solution: Vector<3>,
-    /// Whether the options have been looked through for those without use, at first and with levels.
+    /// True if the options have been checked for unused ones: at first, and with levels of multigrid.
     is_checked: [bool; 2],
 }
 
-/// A right side, a place for the solution, and how far to solve.
+/// Right side, memory for the solution, and limits of the solver.
 struct Task<'a> {
     right: &'a Vector<3>,
     solution: &'a mut Vector<3>,
@@ -57,29 +58,29 @@ struct Task<'a> {
     max_iterations: usize,
 }
 
-/// The way to solve.
+/// Form of the matrix in PETSc.
 enum Way {
-    /// By functions.
+    /// Matrix and preconditioner as functions.
     Own(Krylov),
-    /// By a matrix of PETSc's.
+    /// Whole matrix of PETSc.
     Assembled(Assembled),
 }
 
-/// The stiffness of a rank, and piola's preconditioner.
+/// Stiffness of a rank, and piola's preconditioner.
 struct Own {
     stiffness: NodalStiffness,
     preconditioner: Preconditioner<Copies>,
     exchange: GhostedVector,
     failure: Failure,
     is_free: Vec<bool>,
-    /// A vector for each node of the rank, and the product with it.
+    /// Vector with an entry for each node of the rank, and its product with the stiffness.
     x: Vec<[f64; 3]>,
     product: Vec<[f64; 3]>,
 }
 
 impl Operators for Own {
     fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), PetscError> {
-        // Pinned nodes follow, with zeros.
+        // The entries of pinned nodes follow, and are zero.
         self.x[..x.len()].copy_from_slice(x);
         self.multiply_x()?;
         product.copy_from_slice(&self.product[..product.len()]);
@@ -101,21 +102,21 @@ impl Operators for Own {
 }
 
 impl Own {
-    /// Multiplies the vector `x` of the owned nodes.
+    /// Multiplies the stiffness by the vector `x` of the owned nodes.
     fn multiply_x(&mut self) -> Result<(), PetscError> {
         let Self { stiffness, exchange, x, product, .. } = self;
         exchange.copy(x.as_flattened_mut())?;
-        // Both have the length of the stiffness.
+        // Both vectors have the length of the stiffness.
         let _ = stiffness.multiply(x, product);
         exchange.sum(product.as_flattened_mut())
     }
 }
 
 impl LinearSystem {
-    /// Sets PETSc's solver up for a stiffness of the nodes of a share.
+    /// Sets up PETSc's solver for a stiffness of the nodes of a share.
     ///
     /// # Errors
-    /// [`Error::Petsc`], also for an option with a value that PETSc does not know.
+    /// [`Error::Petsc`], also for an option with a value that PETSc does not support.
     pub fn new(team: &Team, share: &Share, stiffness: NodalStiffness) -> Result<Self, Error> {
         let library = team.library();
         for (name, value) in DEFAULTS {
@@ -144,18 +145,18 @@ impl LinearSystem {
         Ok(Self { own, way, right: vector()?, solution: vector()?, is_checked: [false; 2] })
     }
 
-    /// Works on the stiffness of this rank's elements.
+    /// Calls `work` with the stiffness of this rank's elements.
     pub fn with_stiffness<T>(&mut self, work: impl FnOnce(&mut NodalStiffness) -> T) -> T {
         work(&mut self.own.borrow_mut().stiffness)
     }
 
-    /// Adds to the diagonal of each owned node, N/m.
+    /// Adds `stiffness(node)`, N/m, to the diagonal of each owned node.
     pub fn add_to_diagonal(&mut self, share: &Share, stiffness: impl Fn(usize) -> f64) {
         let mut own = self.own.borrow_mut();
         (0..share.owned).for_each(|node| own.stiffness.add_to_diagonal(node, stiffness(node)));
     }
 
-    /// Adds the product of the stiffness with a displacement of each node of the rank, m, to `total`, N, of
+    /// Adds the product of the stiffness with a displacement, m, of the nodes of the rank to `total`, N, at
     /// the owned nodes.
     ///
     /// # Errors
@@ -175,7 +176,7 @@ impl LinearSystem {
         Ok(())
     }
 
-    /// Forgets the preconditioner, so that what is to come does not depend on what was before.
+    /// Discards the preconditioner, so that later results do not depend on earlier systems.
     pub fn begin(&mut self) {
         self.own.borrow_mut().preconditioner.forget();
         if let Way::Assembled(assembled) = &mut self.way {
@@ -183,13 +184,14 @@ impl LinearSystem {
         }
     }
 
-    /// Solves for the displacement, m, that balances a gradient, N: of the free nodes, with which both slices
-    /// begin. The nodes are at `x`, m, and inertia has added `inertia(node)`, N/m, to the diagonal. A matrix
-    /// that `may_fall_back` is solved by the fallback where PETSc's preconditioner finds it indefinite.
+    /// Solves for the displacement, m, that balances a gradient, N, at the free nodes; these are the first
+    /// entries of both slices. The nodes are at `x`, m, and `inertia(node)`, N/m, is the part of inertia in
+    /// the diagonal. With `may_fall_back`, the fallback solves a system whose matrix is indefinite with
+    /// PETSc's preconditioner.
     ///
     /// # Errors
     /// [`Error::Petsc`], [`Error::UnusedOptions`] after the first system.
-    #[expect(clippy::too_many_arguments, reason = "a system, where it was taken, and how far to solve it")]
+    #[expect(clippy::too_many_arguments, reason = "a system, its nodes, and the limits of its solver")]
     pub fn solve(
         &mut self,
         team: &Team,
@@ -223,7 +225,7 @@ impl LinearSystem {
         Ok(iteration)
     }
 
-    /// Looks for options of the user without use. Those of the last level have one where there are levels.
+    /// Checks for unused options of the user. Options of the last level are checked only if there are levels.
     fn check_options(&mut self, team: &Team) -> Result<(), Error> {
         let is_with_levels = match self.way {
             Way::Own(_) => self.own.borrow().preconditioner.levels().is_some(),
@@ -240,7 +242,7 @@ impl LinearSystem {
     }
 }
 
-/// Solves with piola's preconditioner, again with another where one takes too long.
+/// Solves with piola's preconditioner, and again with a new one if the first needs too many iterations.
 fn solve(
     own: &RefCell<Own>,
     krylov: &mut Krylov,
@@ -268,19 +270,19 @@ fn solve(
     }
 }
 
-/// A whole matrix of PETSc's, and solvers with its preconditioners.
+/// Whole matrix of PETSc, and solvers with preconditioners of PETSc.
 struct Assembled {
     matrix: Rc<RefCell<Matrix>>,
     krylov: Krylov,
     fallback: Krylov,
     places: Vector<3>,
     values: Vec<f64>,
-    /// Iterations a digit right after the preconditioner was made; `None` before.
+    /// Number of iterations per digit directly after the set-up of the preconditioner; `None` before.
     pace: Option<f64>,
 }
 
 impl Assembled {
-    /// Finds the places of all entries.
+    /// Computes the places of all entries.
     fn new(team: &Team, share: &Share, stiffness: &NodalStiffness) -> Result<Self, Error> {
         let library = team.library();
         let mut blocks = Vec::new();
@@ -339,7 +341,7 @@ impl Assembled {
         matrix.set_rigid_motions(&self.places)
     }
 
-    /// Solves by the fallback where the matrix, or the preconditioner made of it, is found indefinite.
+    /// Solves, and uses the fallback if the matrix or its preconditioner is found to be indefinite.
     fn solve(&mut self, task: &mut Task<'_>, may_fall_back: bool) -> Result<Iteration, PetscError> {
         let first = self.solve_at_pace(task)?;
         if !(may_fall_back && matches!(first.end, End::NegativeCurvature | End::NotFinite)) {
@@ -351,8 +353,8 @@ impl Assembled {
         Ok(Iteration { iterations: first.iterations + iterations, end })
     }
 
-    /// Solves with the preconditioner of an earlier matrix as long as it gets on: making another costs as
-    /// much as many iterations.
+    /// Solves with the preconditioner of an earlier matrix while it converges fast enough, because the set-up
+    /// of a new preconditioner takes as long as many iterations.
     fn solve_at_pace(&mut self, task: &mut Task<'_>) -> Result<Iteration, PetscError> {
         let Self { krylov, pace, .. } = self;
         let Task { right, solution, tolerance, max_iterations } = task;

@@ -1,6 +1,6 @@
-//! The ranks of a run as a team: sums, exchanges, and errors that all of them learn of.
+//! Communication of all ranks of a run: sums, exchanges, and errors that are sent to all ranks.
 //!
-//! This module knows no bodies. Every function is called by all ranks, in one order.
+//! This module does not depend on bodies. All ranks must call every function, in the same order.
 
 use mpi::collective::SystemOperation;
 use mpi::datatype::{Partition, PartitionMut};
@@ -11,7 +11,7 @@ use mpi::{Count, Rank};
 use crate::error::Error;
 use crate::petsc::Library;
 
-/// All ranks of a run, as one of them sees them.
+/// Team of all ranks of a run, on one rank.
 #[derive(Clone)]
 pub struct Team {
     library: Library,
@@ -20,7 +20,7 @@ pub struct Team {
 }
 
 impl Team {
-    /// The team of all ranks that run the library.
+    /// Team of all ranks that run the library.
     #[must_use]
     pub fn new(library: &Library) -> Self {
         let world = library.world();
@@ -28,7 +28,7 @@ impl Team {
         Self { library: library.clone(), rank, size }
     }
 
-    /// The library that runs on all ranks.
+    /// Library that runs on all ranks.
     #[must_use]
     pub fn library(&self) -> &Library {
         &self.library
@@ -50,7 +50,7 @@ impl Team {
         self.library.world()
     }
 
-    /// Sum over the ranks of each entry.
+    /// Sum of each entry over the ranks.
     #[must_use]
     pub fn sum<const N: usize>(&self, entries: [f64; N]) -> [f64; N] {
         let mut total = [0.0; N];
@@ -58,7 +58,7 @@ impl Team {
         total
     }
 
-    /// Sum over the ranks.
+    /// Sum of a number over the ranks.
     #[must_use]
     pub fn count(&self, number: usize) -> usize {
         let mut total = 0_u64;
@@ -66,10 +66,10 @@ impl Team {
         total as usize
     }
 
-    /// Largest value of any rank; NaN where one is NaN.
+    /// Largest value of any rank; NaN if a value is NaN.
     #[must_use]
     pub fn max(&self, number: f64) -> f64 {
-        // MPI does not say what becomes of NaN.
+        // MPI does not define the maximum of NaN.
         let mut total = [0.0; 2];
         let own =
             [if number.is_nan() { f64::NEG_INFINITY } else { number }, f64::from(u8::from(number.is_nan()))];
@@ -77,13 +77,13 @@ impl Team {
         if total[1] > 0.0 { f64::NAN } else { total[0] }
     }
 
-    /// Smallest value of any rank; NaN where one is NaN.
+    /// Smallest value of any rank; NaN if a value is NaN.
     #[must_use]
     pub fn min(&self, number: f64) -> f64 {
         -self.max(-number)
     }
 
-    /// Value of each rank.
+    /// Values of all ranks.
     #[must_use]
     pub fn all(&self, number: usize) -> Vec<usize> {
         let mut numbers = vec![0_u64; self.size];
@@ -91,12 +91,12 @@ impl Team {
         numbers.into_iter().map(|number| number as usize).collect()
     }
 
-    /// Waits until all ranks are here.
+    /// Waits until all ranks have called this function.
     pub fn wait(&self) {
         self.world().barrier();
     }
 
-    /// Sends to each rank its list, and returns the list from each.
+    /// Sends a list to each rank, and returns the list received from each rank.
     #[must_use]
     pub fn exchange<T: Equivalence + Copy + Default>(&self, outgoing: &[Vec<T>]) -> Vec<Vec<T>> {
         let lengths: Vec<Count> = outgoing.iter().map(|list| list.len() as Count).collect();
@@ -118,14 +118,14 @@ impl Team {
         lists
     }
 
-    /// Sends to each rank its rows of numbers, and returns the rows from each.
+    /// Sends rows of integers to each rank, and returns the rows received from each rank.
     #[must_use]
     pub fn exchange_rows<const N: usize>(&self, outgoing: &[Vec<[u64; N]>]) -> Vec<Vec<[u64; N]>> {
         let flat: Vec<Vec<u64>> = outgoing.iter().map(|rows| rows.as_flattened().to_vec()).collect();
         self.exchange(&flat).iter().map(|numbers| numbers.as_chunks().0.to_vec()).collect()
     }
 
-    /// The bytes of rank 0, on all ranks.
+    /// Bytes of rank 0, sent to all ranks.
     #[must_use]
     pub fn from_first(&self, bytes: Vec<u8>) -> Vec<u8> {
         let root = self.world().process_at_rank(0);
@@ -137,8 +137,8 @@ impl Team {
         bytes
     }
 
-    /// The result of this rank where all have one; else the error of the first rank that has failed, on all
-    /// ranks.
+    /// Result of this rank if all ranks succeed; otherwise, on all ranks, the error of the first rank that
+    /// failed.
     ///
     /// # Errors
     /// [`Error::OnRank`].
@@ -162,7 +162,7 @@ impl Team {
         Err(Error::OnRank { rank: first as usize, message: String::from_utf8_lossy(&message).into_owned() })
     }
 
-    /// Ends all ranks at once, because this one cannot tell the others what has failed.
+    /// Ends all ranks at once, after an error that cannot be sent to the others.
     pub fn abort(&self) -> ! {
         self.world().abort(1)
     }

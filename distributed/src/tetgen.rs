@@ -1,6 +1,6 @@
-//! TetGen's files read by all ranks at once: each takes a part of their bytes, so that none holds the mesh.
+//! Parallel reader of TetGen's files: each rank reads a part of the bytes, so that none holds the whole mesh.
 //!
-//! This module knows no materials and nothing that is done to the nodes.
+//! This module does not depend on materials, pins or prescribed motions.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom};
@@ -12,24 +12,24 @@ use crate::error::Error;
 use crate::portion::Homes;
 use crate::team::Team;
 
-/// The part of a mesh on a rank.
+/// Part of a mesh on a rank.
 #[derive(Debug)]
 pub struct Part {
     /// Homes of all nodes.
     pub homes: Homes,
     /// Position, m, and boundary marker of each node that is at home on this rank.
     pub nodes: Vec<([f64; 3], i64)>,
-    /// Elements by their nodes, in either orientation, with number and region; each is on one rank.
+    /// Elements: four nodes, in either orientation, number and region. Each element is on one rank.
     pub elements: Vec<([u64; 4], u64, Option<i64>)>,
-    /// Number of nodes of the file that belong to no tetrahedron, and are left out.
+    /// Number of nodes of the file that do not belong to a tetrahedron, and are left out.
     pub dropped: usize,
 }
 
-/// Reads a `.ele` file and the `.node` file beside it; either may be named. The nodes must be numbered one
-/// after the other, in any order of lines.
+/// Reads a `.ele` file and the `.node` file with the same name; `path` is one of them. The nodes must be
+/// numbered consecutively; the lines may be in any order.
 ///
 /// # Errors
-/// [`Error::OnRank`] that says where the files are malformed.
+/// [`Error::OnRank`], with the place at which a file is malformed.
 pub fn read(team: &Team, path: &Path) -> Result<Part, Error> {
     let (node_file, tet_file) = (path.with_extension("node"), path.with_extension("ele"));
     let nodes = part(team, &node_file, NodeLines::of_first_line, NodeLines::node);
@@ -43,7 +43,7 @@ pub fn read(team: &Team, path: &Path) -> Result<Part, Error> {
     let first = team.min(least) as usize;
     let index = |number: usize| number.checked_sub(first).filter(|&node| node < format.count);
     let no_node = |number: usize| {
-        let problem = format!("node {number} is not among {} nodes from {first} on", format.count);
+        let problem = format!("node {number} is not one of the {} nodes from {first} on", format.count);
         Error::Options(format!("{}: {problem}", tet_file.display()))
     };
     let corners = tets.iter().map(|tet| {
@@ -53,7 +53,7 @@ pub fn read(team: &Team, path: &Path) -> Result<Part, Error> {
     });
     let corners: Vec<[u64; 4]> = team.agree(corners.collect())?;
 
-    // Nodes to their homes.
+    // Send nodes to their homes.
     let homes = Homes::new(format.count as u64, team.size());
     let mut rows = Vec::new();
     let mut stray = None;
@@ -70,7 +70,7 @@ pub fn read(team: &Team, path: &Path) -> Result<Part, Error> {
     let mut here = team.exchange_rows(&homes.sort(team, rows)).concat();
     here.sort_unstable_by_key(|row| row[0]);
     let wanted = homes.range(team.rank());
-    // The first node that is missing, or is there twice.
+    // First node that is missing, or occurs twice.
     let out_of_order = (0..here.len().max((wanted.end - wanted.start) as usize)).find_map(|place| {
         let expected = Some(wanted.start + place as u64).filter(|node| wanted.contains(node));
         let found = here.get(place).map(|row| row[0]);
@@ -80,13 +80,13 @@ pub fn read(team: &Team, path: &Path) -> Result<Part, Error> {
     let ordered = match stray.or(out_of_order) {
         None => Ok(()),
         Some(number) => Err(Error::Options(format!(
-            "{}: the nodes must be numbered one after the other, each once, for ranks to read them in parts; see node {number}",
+            "{}: the nodes must be numbered consecutively, each once, so that ranks can read them in parts; see node {number}",
             node_file.display(),
         ))),
     };
     team.agree(ordered)?;
 
-    // Nodes without a tetrahedron are left out, and the others move up.
+    // Nodes without a tetrahedron are left out, and the others are renumbered.
     let mut touched: Vec<u64> = corners.as_flattened().to_vec();
     touched.sort_unstable();
     touched.dedup();
@@ -126,7 +126,7 @@ pub fn read(team: &Team, path: &Path) -> Result<Part, Error> {
     Ok(Part { homes: new_homes, nodes, elements, dropped: format.count - total })
 }
 
-/// Reads the first line of a file, and those of the others that begin in this rank's part of the bytes.
+/// Reads the first line of a file, and the other lines that begin in this rank's part of the bytes.
 fn part<F, L>(
     team: &Team,
     path: &Path,
@@ -156,7 +156,7 @@ fn part<F, L>(
     let share = |rank: usize| at + ((length - at) as u128 * rank as u128 / team.size() as u128) as u64;
     let (begin, end) = (share(team.rank()), share(team.rank() + 1));
     if begin > at {
-        // A line that begins before belongs to the rank before.
+        // A line that begins before this part belongs to the previous rank.
         file.seek(SeekFrom::Start(begin - 1)).map_err(unreadable)?;
         at = begin - 1;
         next(&mut file, &mut at)?;
@@ -170,14 +170,14 @@ fn part<F, L>(
     Ok((format, lines))
 }
 
-/// Checks that all ranks together have read as many lines as the first one says.
+/// Checks that the ranks together have read as many lines as the first line announces.
 fn check_count(team: &Team, path: &Path, what: &str, here: usize, announced: usize) -> Result<(), Error> {
     let found = team.count(here);
     if found == announced {
         return Ok(());
     }
     Err(Error::Options(format!(
-        "{}: its first line says {announced} {what}, and there are {found}",
+        "{}: its first line announces {announced} {what}, but it has {found}",
         path.display()
     )))
 }

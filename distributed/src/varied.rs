@@ -1,4 +1,4 @@
-//! Parameters of each element by itself, from a table.
+//! Individual parameters of elements, from a table.
 
 use std::collections::{HashMap, HashSet};
 use std::fs::File;
@@ -12,15 +12,15 @@ use piola_scenes::options::{parameter, with_values};
 
 use crate::error::Error;
 
-/// Title of the column with numbers of elements.
+/// Title of the column with the numbers of elements.
 const ELEMENT: &str = "element";
 
-/// What a table says of the elements of a rank.
+/// Rows of a table for the elements of a rank.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varied {
     path: PathBuf,
     parameters: Vec<String>,
-    /// Line of the table and cells, in the order of the parameters, of each element by its tag.
+    /// Line of the table, and cells in the order of the parameters, of each element, by its tag.
     rows: HashMap<u64, (u64, Vec<String>)>,
     checksum: u32,
 }
@@ -29,7 +29,7 @@ impl Varied {
     /// Reads the rows of these elements from a table with a title line, values separated by commas.
     ///
     /// # Errors
-    /// [`Error::Options`] that says what is wrong, and in which line.
+    /// [`Error::Options`], with the line and the problem.
     pub fn read(path: &Path, tags: &HashSet<u64>) -> Result<Self, Error> {
         let wrong = |reason: String| Error::Options(format!("--vary {}: {reason}", path.display()));
         let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
@@ -53,8 +53,9 @@ impl Varied {
             let row = row.map_err(|error| wrong(error.to_string()))?;
             let line = row.position().map_or(0, csv::Position::line);
             let tag = row.get(column).unwrap_or_default();
-            let tag: u64 =
-                tag.parse().map_err(|_| wrong(format!("line {line}: `{tag}` is not the number of an element")))?;
+            let tag: u64 = tag
+                .parse()
+                .map_err(|_| wrong(format!("line {line}: `{tag}` is not the number of an element")))?;
             if tags.contains(&tag) {
                 let cells = row.iter().enumerate().filter_map(others).collect();
                 if let Some((before, _)) = rows.insert(tag, (line, cells)) {
@@ -72,10 +73,10 @@ impl Varied {
         self.checksum
     }
 
-    /// A material whose parameters are those of the table for the elements with these tags, in their order.
+    /// Material with the parameters of the table for the elements with these tags, in the order of the tags.
     ///
     /// # Errors
-    /// [`Error::Options`] for an element without a row, and for a value that the material does not admit.
+    /// [`Error::Options`] for an element without a row, and for a value that the material refuses.
     pub fn elements(
         &self,
         material: &MaterialSpec,
@@ -100,7 +101,7 @@ impl Varied {
     }
 }
 
-/// A file whose checksum is taken while it is read.
+/// File with a checksum that is computed during reading.
 struct Summed {
     file: BufReader<File>,
     sum: crc32fast::Hasher,
@@ -140,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said_with_its_line() {
+    fn errors_have_the_line() {
         for (text, expected) in [
             ("mu\n1e5\n", "a title `element`"),
             ("element\n3\n", "one for each parameter"),

@@ -1,6 +1,6 @@
-//! Runs on several ranks end where the simulation on one machine does.
+//! Agreement of runs on several ranks with the simulation on one machine.
 //!
-//! Each is started as a user would, by `mpirun`; its checkpoint is compared with the positions of piola's own
+//! Each run is started by `mpirun`. The positions in its checkpoint are compared with those of piola's
 //! simulation.
 
 mod common;
@@ -22,10 +22,10 @@ use piola_scenes::play::{Play, step_settings};
 use piola_scenes::scene::{DINOSAUR, HORSE, Scene, TWIST};
 use piola_scenes::settings::Settings;
 
-/// Ranks of the tests that are run always; three besides with PIOLA_RANKS=1,2,3,4.
+/// Numbers of ranks: one, two and four by default; three in addition with PIOLA_RANKS=1,2,3,4.
 fn ranks() -> Vec<usize> {
     let given = std::env::var("PIOLA_RANKS").unwrap_or_else(|_| "1,2,4".to_owned());
-    given.split(',').map(|count| count.parse().expect("numbers with commas between")).collect()
+    given.split(',').map(|count| count.parse().expect("integers separated by commas")).collect()
 }
 
 fn newton() -> NewtonSettings {
@@ -51,10 +51,10 @@ fn matching(scene: &Scene, name: &str) -> Result<MaterialSpec, Box<dyn std::erro
     Ok(if own.is(name) { own } else { MaterialSpec::matching(name, own.build()?.moduli) })
 }
 
-/// Goes `frames` steps, each solved to its end, from where a cheap run has taken the body in `before`: on one
-/// machine, and on several numbers of ranks.
+/// Compares one machine with several numbers of ranks over `frames` fully solved steps. The initial state is
+/// the result of a cheap run over `before` steps.
 #[track_caller]
-#[expect(clippy::print_stdout, reason = "figures for whoever asks for them by --nocapture")]
+#[expect(clippy::print_stdout, reason = "figures, shown with --nocapture")]
 fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usize) -> TestResult {
     let settings = Settings::new(scene).with_material(matching(scene, material)?);
     let geometry = Geometry::load(&settings)?;
@@ -79,7 +79,7 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
         play.resume(about.clock.expect("of a run"), &state.positions, &state.velocities)?;
         for _ in 0..frames {
             let report = play.step()?.newton;
-            // Where 10⁻¹² is below the rounding of the forces, they end there.
+            // If 10⁻¹² is below the rounding error of the forces, the iterations end at this error.
             let is_solved =
                 report.convergence != Convergence::Limit && report.residual <= 1e-10 * report.first_residual;
             assert!(is_solved, "{report:?}");
@@ -94,24 +94,24 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
 }
 
 #[test]
-fn a_dinosaur_of_three_energies_goes_the_same_way() -> TestResult {
+fn a_dinosaur_of_three_energies_moves_equally() -> TestResult {
     check_scene(&DINOSAUR, "Ogden", 20, 4)?;
     check_scene(&DINOSAUR, "stable neo-Hookean", 50, 4)?;
     check_scene(&DINOSAUR, "rotated linear", 50, 4)
 }
 
-/// From where its steps can be solved to their end: while it is flat, the stress of rotated linear elasticity
-/// jumps.
+/// Begins after the flat phase, in which the stress of rotated linear elasticity is discontinuous, so that
+/// steps cannot be solved to the tolerance.
 #[test]
-fn a_horse_of_three_energies_goes_the_same_way() -> TestResult {
+fn a_horse_of_three_energies_moves_equally() -> TestResult {
     check_scene(&HORSE, "rotated linear", 30, 4)?;
     check_scene(&HORSE, "neo-Hookean", 30, 4)?;
     check_scene(&HORSE, "Ogden", 30, 4)
 }
 
-/// Every method but implicit Euler's, in the pull of the dinosaur.
+/// All integrators except implicit Euler, in the pull of the dinosaur.
 #[test]
-fn integrators_go_the_same_way() -> TestResult {
+fn integrators_agree() -> TestResult {
     for (name, integrator) in [("sdirk2", Integrator::Sdirk2), ("sdirk3", Integrator::Sdirk3)] {
         let frames = 5;
         let settings = Settings::new(&DINOSAUR).with_integrator(integrator).with_gravity(9.81);
@@ -136,7 +136,7 @@ fn integrators_go_the_same_way() -> TestResult {
     Ok(())
 }
 
-/// Where a pull ends within a frame, the frame is divided there; and the energy is a formula.
+/// A frame is divided at the end of a pull within it. The energy is a formula.
 #[test]
 fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
     let spec = matching(&DINOSAUR, "neo-Hookean")?;
@@ -146,7 +146,7 @@ fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
     let geometry = Geometry::load(&settings)?;
     let mut play = Play::new(&settings, &geometry)?;
     play.set_step_settings(step_settings(&settings).with_newton(newton()))?;
-    // Let go at 2 s; all of the way at 1.5 s.
+    // The pull reaches its end at 1.5 s, and is released at 2 s.
     let frames = 4;
     for _ in 0..frames {
         play.step()?;
@@ -167,10 +167,10 @@ fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
     Ok(())
 }
 
-/// Each program makes steps as short as the tolerance takes; where the other solves one to fewer digits,
-/// trajectories part by a share of it.
+/// Each program chooses steps that satisfy the tolerance. Steps are solved to different numbers of digits, so
+/// that trajectories differ by a fraction of the tolerance.
 #[test]
-fn steps_within_a_tolerance_go_the_same_way() -> TestResult {
+fn steps_within_a_tolerance_agree() -> TestResult {
     let (tolerance, dt, frames) = (0.05, 0.1, 4);
     let settings = Settings::new(&DINOSAUR)
         .with_dt(dt)
@@ -200,7 +200,7 @@ fn steps_within_a_tolerance_go_the_same_way() -> TestResult {
     Ok(())
 }
 
-/// The cube of `piola-mpi box`, as the bench `statics` has it.
+/// The cube of `piola-mpi box`, with the settings of the bench `statics`.
 #[test]
 fn a_box_sags_as_on_one_machine() -> TestResult {
     let cells = 8;
@@ -233,8 +233,8 @@ fn a_box_sags_as_on_one_machine() -> TestResult {
     Ok(())
 }
 
-/// PETSc shows piola's levels with the solver that they leave to it; options replace that solver, and the
-/// levels, and all find the same.
+/// `-ksp_view` shows piola's levels and the solver of the last one. Options replace this solver and the
+/// levels, with the same results.
 #[test]
 fn preconditioners_are_shown_and_replaced() -> TestResult {
     let scratch = tempfile::tempdir()?;
@@ -266,7 +266,7 @@ fn preconditioners_are_shown_and_replaced() -> TestResult {
     Ok(())
 }
 
-/// A bar that stands under its own weight and is bent at its top.
+/// A bar stands under its own weight and is bent at its top.
 #[test]
 fn statics_end_as_on_one_machine() -> TestResult {
     let mesh = Geometry::of(piola_scenes::scene::Body::BAR)?.mesh;
@@ -297,7 +297,7 @@ fn statics_end_as_on_one_machine() -> TestResult {
     Ok(())
 }
 
-/// A bar of two materials and densities, whose top is moved while its foot is held, on damped gravity.
+/// A bar of two materials and densities under gravity, with damping; its top moves and its foot is held.
 #[test]
 fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
     let mut mesh = tetrahedral_box([2, 8, 2], [0.25, 1.0, 0.25])?;
@@ -369,7 +369,7 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
     Ok(())
 }
 
-/// A bar that is softer from element to element, whose upper half is of another material, hangs at its top.
+/// A bar hangs at its top. Its elements are increasingly soft, and the upper half has another material.
 #[test]
 fn parameters_of_each_element_are_those_of_one_machine() -> TestResult {
     let mut mesh = tetrahedral_box([2, 8, 2], [0.25, 1.0, 0.25])?;
@@ -435,8 +435,8 @@ fn parameters_of_each_element_are_those_of_one_machine() -> TestResult {
     Ok(())
 }
 
-/// A bar in TetGen's files, which ranks read in parts: with markers and regions, a stray node among the
-/// others, comments, and tetrahedra in both orientations.
+/// A bar in TetGen's files, which ranks read in parts. The files have markers and regions, an unused node,
+/// comments, and tetrahedra in both orientations.
 #[test]
 fn files_read_in_parts_are_those_read_whole() -> TestResult {
     let bar = tetrahedral_box([2, 6, 2], [0.3, 1.0, 0.3])?;

@@ -1,5 +1,5 @@
-//! What goes wrong ends every rank with one clear message and a code that is not zero, and leaves the last
-//! checkpoint intact.
+//! Failures: every rank ends with a non-zero exit code, there is one clear message, and the last checkpoint
+//! remains intact.
 
 mod common;
 
@@ -21,7 +21,7 @@ fn words(text: &str) -> impl Iterator<Item = String> {
     text.split_whitespace().map(str::to_owned)
 }
 
-/// The message of a run that must fail, which says these words once.
+/// Checks that a run has failed with a message that contains these words once.
 #[track_caller]
 fn check_failure(output: &Output, expected: &str) {
     let text = String::from_utf8_lossy(&output.stderr);
@@ -35,13 +35,16 @@ fn wrong_options_are_named_once() -> TestResult {
     let folder = scratch.path().join("run");
     for (options, expected) in [
         ("box --elemens 6", "--elemens"),
-        ("box --elements 60 -ksp_typ cg", "PETSc has no use for -ksp_typ:"),
+        ("box --elements 60 -ksp_typ cg", "PETSc does not use -ksp_typ:"),
         ("box --elements 60 -ksp_type nonsense", "piola-mpi: PETSc:"),
         ("box --elements 6 --newton-tolerance 2", "--newton-tolerance 2"),
         ("run no-such-scene", "there is no scene `no-such-scene`"),
         ("run horse --mesh no-such-file.msh", "no-such-file.msh"),
         ("run horse --vary no-such-table.csv", "--vary no-such-table.csv: "),
-        ("run horse --frames 1 --dt 0.1 --resume --out no-such-folder", "cannot go on from no-such-folder"),
+        (
+            "run horse --frames 1 --dt 0.1 --resume --out no-such-folder",
+            "cannot continue from no-such-folder",
+        ),
     ] {
         let options = options.replace("FOLDER", folder.to_str().ok_or("UTF-8")?);
         check_failure(&finish(command(3, words(&options)))?, expected);
@@ -56,7 +59,7 @@ fn more_ranks_than_elements_are_refused() -> TestResult {
 }
 
 #[test]
-fn a_run_goes_on_with_other_ranks() -> TestResult {
+fn a_run_continues_with_other_ranks() -> TestResult {
     let scratch = tempfile::tempdir()?;
     let [whole, parts] = ["whole", "parts"].map(|name| scratch.path().join(name));
     let solved = "run dinosaur --newton full --newton-tolerance 1e-12 --filter clamp --integrator sdirk2";
@@ -70,9 +73,9 @@ fn a_run_goes_on_with_other_ranks() -> TestResult {
     for (found, expected) in found.positions.as_flattened().iter().zip(expected.positions.as_flattened()) {
         assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
     }
-    // Other options, and another body, are refused.
+    // Other options, and a damaged checkpoint, are refused.
     let other = format!("{solved} --gravity 1 --frames 12 --resume --out {}", parts.display());
-    check_failure(&finish(command(2, words(&other)))?, "begun with other options");
+    check_failure(&finish(command(2, words(&other)))?, "began with other options");
     let damaged = parts.join("checkpoint.piola");
     let mut bytes = fs::read(&damaged)?;
     let last = bytes.len() - 1;
@@ -83,7 +86,7 @@ fn a_run_goes_on_with_other_ranks() -> TestResult {
     Ok(())
 }
 
-/// The processes that a process has started, and those which these have.
+/// Processes started by a process, and their descendants.
 fn descendants(parent: u32) -> Vec<u32> {
     let mut found = Vec::new();
     for entry in fs::read_dir("/proc").into_iter().flatten().flatten() {
@@ -91,7 +94,7 @@ fn descendants(parent: u32) -> Vec<u32> {
             continue;
         };
         let stat = fs::read_to_string(entry.path().join("stat")).unwrap_or_default();
-        // Behind the name, which may hold anything: state and parent.
+        // State and parent follow the name, which may contain any characters.
         let words = stat.rsplit(')').next().map(|rest| rest.split_whitespace().collect::<Vec<_>>());
         if words.and_then(|words| words.get(1)?.parse::<u32>().ok()) == Some(parent) {
             found.push(process);
@@ -131,7 +134,7 @@ fn a_killed_rank_ends_all_and_leaves_a_checkpoint() -> TestResult {
     Ok(())
 }
 
-/// In a name space of its own, where a small disk can be mounted.
+/// Runs in a separate name space, in which a small disk can be mounted.
 #[test]
 fn a_full_disk_ends_the_run_and_leaves_the_checkpoint() -> TestResult {
     let scratch = tempfile::tempdir()?;
@@ -170,12 +173,12 @@ fn a_full_disk_ends_the_run_and_leaves_the_checkpoint() -> TestResult {
     Ok(())
 }
 
-/// Whether what this process makes belongs to root.
+/// True if files of this process belong to root.
 fn is_root(made: &fs::Metadata) -> bool {
     std::os::unix::fs::MetadataExt::uid(made) == 0
 }
 
-/// A mesh whose file holds an element that is inside out.
+/// A mesh file contains an inverted element.
 #[test]
 fn an_inverted_element_of_a_file_is_named() -> TestResult {
     let scratch = tempfile::tempdir()?;
@@ -202,7 +205,7 @@ fn an_inverted_element_on_rank_3_ends_all_ranks() -> TestResult {
     Ok(())
 }
 
-/// As a rank of the test above: every rank learns which element is inverted on rank 3.
+/// Runs as a rank of the test above: every rank receives the tag of the inverted element on rank 3.
 #[test]
 fn elements_are_judged_on_their_rank() -> TestResult {
     if std::env::var_os("PIOLA_IS_A_RANK").is_none() {
@@ -228,8 +231,8 @@ fn elements_are_judged_on_their_rank() -> TestResult {
     Ok(())
 }
 
-/// One of the ranks has the element whose value the material does not admit; a table that has changed is
-/// noticed when a run goes on.
+/// One rank has an element with a value that the material refuses. A changed table is detected when a run
+/// continues.
 #[test]
 fn tables_of_parameters_are_judged() -> TestResult {
     let scratch = tempfile::tempdir()?;
@@ -259,7 +262,7 @@ fn tables_of_parameters_are_judged() -> TestResult {
     Ok(())
 }
 
-/// Ranks that read a file in parts say where it is malformed, whichever of them it is.
+/// Ranks that read a file in parts report the place at which it is malformed, on any of them.
 #[test]
 fn files_read_in_parts_are_malformed_at_a_byte() -> TestResult {
     let scratch = tempfile::tempdir()?;
@@ -275,11 +278,15 @@ fn files_read_in_parts_are_malformed_at_a_byte() -> TestResult {
         (
             nodes.replace("4 0 0 1", "7 0 0 1"),
             tets.into(),
-            "each once, for ranks to read them in parts; see node 7",
+            "each once, so that ranks can read them in parts; see node 7",
         ),
         (nodes.replace("4 0 0 1", "3 0 0 1"), tets.into(), "see node 3"),
-        (nodes.replace("5 3", "6 3"), tets.into(), "tet.node: its first line says 6 nodes, and there are 5"),
-        (nodes.into(), tets.replace("3 4 5", "3 4 6"), "tet.ele: node 6 is not among 5 nodes from 1 on"),
+        (
+            nodes.replace("5 3", "6 3"),
+            tets.into(),
+            "tet.node: its first line announces 6 nodes, but it has 5",
+        ),
+        (nodes.into(), tets.replace("3 4 5", "3 4 6"), "tet.ele: node 6 is not one of the 5 nodes from 1 on"),
         (nodes.into(), tets.replace("2 4\n", "2 5\n"), "tetrahedra have 5 nodes; they must have 4"),
         (nodes.into(), tets.replace("2 4\n", "2 10\n"), "2 second-order tetrahedra (10 nodes)"),
     ] {

@@ -1,4 +1,4 @@
-//! A body that no rank reads whole, and what is done to its nodes.
+//! Body that no rank reads as a whole, with the marks of its nodes.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -17,18 +17,18 @@ use crate::portion::{Place, Portion};
 use crate::team::Team;
 use crate::tetgen::{self, Part};
 
-/// Some nodes of a body.
+/// Selection of nodes of a body.
 #[derive(Clone, Copy)]
 enum Nodes {
     InBox(Bounds),
-    /// Those with this marker, and those of tetrahedra of this region.
+    /// Nodes with this marker, and nodes of tetrahedra of this region.
     OfGroup(i64),
 }
 
 /// Reads TetGen's files in parts, and marks the nodes.
 ///
 /// # Errors
-/// As of [`super::Setting::new`].
+/// The errors of [`super::Setting::new`].
 pub(super) fn read(
     team: &Team,
     path: &Path,
@@ -97,14 +97,14 @@ pub(super) fn read(
     Ok((Portion { homes: part.homes, places, elements }, facts))
 }
 
-/// The box around the nodes of all ranks, m.
+/// Bounding box of the nodes of all ranks, m.
 fn bounds(team: &Team, part: &Part) -> Bounds {
     let positions: Vec<[f64; 3]> = part.nodes.iter().map(|&(position, _)| position).collect();
     let Bounds { min, max } = Bounds::around(&positions);
     Bounds { min: min.map(|x| team.min(x)), max: max.map(|x| team.max(x)) }
 }
 
-/// The markers and regions of all ranks.
+/// Markers and regions of all ranks.
 fn groups_of(team: &Team, part: &Part) -> BTreeSet<i64> {
     let markers = part.nodes.iter().map(|&(_, marker)| marker).filter(|&marker| marker != 0);
     let regions = part.elements.iter().filter_map(|&(_, _, region)| region);
@@ -113,7 +113,7 @@ fn groups_of(team: &Team, part: &Part) -> BTreeSet<i64> {
     team.exchange(&vec![here; team.size()]).concat().into_iter().map(|group| group as i64).collect()
 }
 
-/// The nodes that a text means: what could be a box may also be the name of a group, and then means that.
+/// Nodes selected by a text: the name of a group, or else a box. The name of a group takes precedence.
 fn selected(text: &str, known: &BTreeSet<i64>) -> Result<Nodes, Error> {
     if let Some(&group) = known.iter().find(|group| group.to_string() == text) {
         return Ok(Nodes::OfGroup(group));
@@ -124,7 +124,7 @@ fn selected(text: &str, known: &BTreeSet<i64>) -> Result<Nodes, Error> {
     })
 }
 
-/// What is done to the nodes that are at home on a rank.
+/// Marks of the nodes that are at home on a rank.
 struct Marks<'a> {
     team: &'a Team,
     part: &'a Part,
@@ -133,7 +133,10 @@ struct Marks<'a> {
 }
 
 impl Marks<'_> {
-    /// Marks nodes, of which there must be some.
+    /// Marks nodes.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a box without nodes.
     fn set(&mut self, mark: u64, nodes: Nodes, what: &str) -> Result<(), Error> {
         match (self.add(mark, nodes), nodes) {
             (0, Nodes::InBox(bounds)) => {
@@ -144,7 +147,7 @@ impl Marks<'_> {
         }
     }
 
-    /// Marks nodes; returns how many of all ranks.
+    /// Marks nodes; returns the number of marked nodes on all ranks.
     fn add(&mut self, mark: u64, nodes: Nodes) -> usize {
         let homes = &self.part.homes;
         let mut is_chosen: Vec<bool> = self
@@ -170,7 +173,7 @@ impl Marks<'_> {
     }
 }
 
-/// A checksum of nodes and elements that does not depend on the number of ranks.
+/// Checksum of nodes and elements that does not depend on the number of ranks.
 fn checksum(team: &Team, part: &Part) -> u32 {
     let mut whole = crc32fast::Hasher::new();
     let nodes = part

@@ -1,4 +1,4 @@
-//! The program as tests start it.
+//! Functions that run the program in tests.
 
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
@@ -13,7 +13,7 @@ use piola_distributed::run::About;
 
 pub(crate) type TestResult = Result<(), Box<dyn Error>>;
 
-/// Longer than any run of a test takes: whatever goes on after it hangs.
+/// Time after which a run counts as hanging; every run of a test is shorter.
 const LIMIT: Duration = Duration::from_secs(240);
 
 /// Command that starts the program on a number of ranks, for any number of cores and any user.
@@ -43,7 +43,7 @@ pub(crate) fn finish(mut command: Command) -> Result<Output, Box<dyn Error>> {
     Ok(child.wait_with_output()?)
 }
 
-/// Runs the program, and reads the state that it leaves in a folder.
+/// Runs the program, and reads the state in the checkpoint that it writes into a folder.
 pub(crate) fn state_after(
     ranks: usize,
     words: impl IntoIterator<Item = String>,
