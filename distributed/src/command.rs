@@ -97,7 +97,7 @@ pub struct RunOptions {
     pub force: bool,
 
     /// Continue from the checkpoint in the folder, on any number of ranks; needs the options of its first
-    /// run, except --frames and those of the solver.
+    /// run, except --frames and the options of the solver.
     #[arg(long, conflicts_with = "force")]
     pub resume: bool,
 
@@ -147,8 +147,8 @@ struct Choice {
     #[command(flatten)]
     scene: SceneOptions,
 
-    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO, where
-    /// NAME may be a file of Rust. Without parameters, the stiffness is the scene's. May be repeated.
+    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. NAME may
+    /// be a file of Rust. Without parameters, the material is as stiff as the scene's. May be repeated.
     #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     parts: Vec<String>,
 

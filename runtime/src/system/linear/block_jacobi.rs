@@ -2,17 +2,17 @@
 
 use rayon::prelude::*;
 
-/// Blocks that one thread takes without a further division.
+/// Minimum number of blocks per thread.
 const BLOCKS: usize = 1024;
 
-/// A block as L D Lᵀ with D > 0: 1/D on the diagonal, L below it. Positive definite whatever rounding did to
-/// the block.
+/// Factors of a block, L D Lᵀ with D > 0: 1/D on the diagonal, L below it. Positive definite for any rounding
+/// errors in the block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Factor([[f64; 3]; 3]);
 
 impl Factor {
-    /// Factors the lower triangle of a symmetric block; if that is not positive definite, the unit matrix
-    /// times its norm.
+    /// Factors a symmetric block, given by its lower triangle. If the block is not positive definite, the
+    /// unit matrix times its norm is factored instead.
     fn new(block: &[[f64; 3]; 3]) -> Self {
         let [[a00, ..], [a10, a11, _], [a20, a21, a22]] = *block;
         let (l10, l20) = (a10 / a00, a20 / a00);
@@ -27,7 +27,7 @@ impl Factor {
         Self([[inverse, 0.0, 0.0], [0.0, inverse, 0.0], [0.0, 0.0, inverse]])
     }
 
-    /// The inverse of the block times a vector.
+    /// Product of the inverse of the block with a vector.
     fn solve(&self, [r0, r1, r2]: [f64; 3]) -> [f64; 3] {
         let [[d0, ..], [l10, d1, _], [l20, l21, d2]] = self.0;
         let y1 = r1 - l10 * r0;
@@ -38,14 +38,14 @@ impl Factor {
     }
 }
 
-/// The blocks on the diagonal of a matrix, factored.
+/// Factored blocks on the diagonal of a matrix.
 #[derive(Clone)]
 pub(crate) struct BlockJacobi {
     factors: Vec<Factor>,
 }
 
 impl BlockJacobi {
-    /// The preconditioner of the unit matrix.
+    /// Preconditioner of the unit matrix.
     pub(crate) fn new(blocks: usize) -> Self {
         Self { factors: vec![Factor::new(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]); blocks] }
     }
@@ -60,7 +60,7 @@ impl BlockJacobi {
         factors.for_each(|(row, factor)| *factor = Factor::new(block(row)));
     }
 
-    /// Computes z, each part of r divided by its block.
+    /// Computes z: the inverse of each block times its part of r.
     pub(crate) fn solve(&self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
         let parts = self.factors.par_iter().zip(r).zip(z).with_min_len(BLOCKS);
         parts.for_each(|((factor, r), z)| *z = factor.solve(*r));

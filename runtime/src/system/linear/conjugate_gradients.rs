@@ -1,15 +1,15 @@
-//! Conjugate gradients [HS52] for A x = b with a preconditioner, stopped where a minimisation wants it [NW06
-//! §7.1].
+//! Preconditioned conjugate gradients [HS52] for A x = b, with the termination criteria of a minimisation
+//! [NW06 §7.1].
 //!
-//! From x = 0 on, each iterate x of a positive definite system is a minimum of ½ xᵀA x − bᵀx over more
-//! directions than the one before, and bᵀx > 0: wherever the iteration stops, x is a direction of descent for
-//! a gradient −b. If a search direction p meets pᵀA p ≤ 0, A is not positive definite; the iteration stops
-//! with what it has, and in the first iteration with p itself, which is the preconditioned direction of
-//! steepest descent.
+//! The iteration begins at x = 0. If A is positive definite, each iterate x minimises ½ xᵀA x − bᵀx over more
+//! directions than the previous iterate, and bᵀx > 0. Every iterate is therefore a direction of descent for a
+//! gradient −b. If pᵀA p ≤ 0 for a search direction p, A is not positive definite, and the iteration ends
+//! with the current iterate. In the first iteration it ends with p, the preconditioned direction of steepest
+//! descent.
 //!
-//! The residual b − A x is carried along, not computed anew: it departs from the true one by about u ‖A‖ ‖x‖,
-//! which is what a factorisation leaves too. Sums are made in chunks of fixed size, so that they have the
-//! same bits for any number of threads. This module knows no nodes.
+//! The residual b − A x is updated instead of recomputed. It differs from the true residual by about
+//! u ‖A‖ ‖x‖, as much as the residual of a factorisation. Sums are computed in chunks of fixed size, so that
+//! they have the same bits for any number of threads. This module does not depend on nodes.
 //!
 //! \[HS52\] Hestenes, Stiefel, *Methods of Conjugate Gradients for Solving Linear Systems*, 1952.
 //! \[NW06\] Nocedal, Wright, *Numerical Optimization*, 2nd edition, 2006: "line search Newton–CG".
@@ -18,15 +18,15 @@
 
 use rayon::prelude::*;
 
-/// Number of entries that one thread takes without a further division.
+/// Number of entries in a chunk.
 const CHUNK: usize = 4096;
 
-/// A symmetric matrix, and a positive definite approximation of its inverse.
+/// Symmetric matrix, and a positive definite approximation of its inverse.
 pub(crate) trait System {
     /// Computes A x.
     fn apply(&mut self, x: &[f64], product: &mut [f64]);
 
-    /// Computes about A⁻¹ r.
+    /// Computes an approximation of A⁻¹ r.
     fn precondition(&mut self, r: &[f64], z: &mut [f64]);
 }
 
@@ -50,20 +50,20 @@ pub(crate) struct ConjugateGradients {
 pub struct Iteration {
     /// Number of products with the matrix A.
     pub iterations: usize,
-    /// Reason why they ended.
+    /// Reason why the iteration ended.
     pub end: End,
 }
 
-/// Reason why conjugate gradients for A x = b ended, with the residual r = b − A x.
+/// Reason why conjugate gradients for A x = b ended; the residual is r = b − A x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// ‖r‖ ≤ tolerance ‖b‖.
+    /// Convergence: ‖r‖ ≤ tolerance ‖b‖.
     Converged,
-    /// The limit of iterations is reached.
+    /// Maximum number of iterations reached.
     Limit,
-    /// A is not positive definite.
+    /// Negative curvature: A is not positive definite.
     NegativeCurvature,
-    /// An entry is infinite or NaN, or the preconditioner not positive definite; x is meaningless.
+    /// Infinite or NaN entry, or a preconditioner that is not positive definite; x is meaningless.
     NotFinite,
 }
 
@@ -79,8 +79,8 @@ impl ConjugateGradients {
         }
     }
 
-    /// Replaces b by x with ‖b − A x‖ ≤ tolerance ‖b‖, Euclidean norms, or by the last iterate if it ends
-    /// before that.
+    /// Replaces b by x with ‖b − A x‖ ≤ tolerance ‖b‖ in Euclidean norms, or by the last iterate if the
+    /// iteration ends earlier.
     pub(crate) fn solve(
         &mut self,
         system: &mut impl System,
@@ -133,7 +133,7 @@ impl ConjugateGradients {
     }
 }
 
-/// Σ a·b, in the same order for any number of threads.
+/// Scalar product Σ a·b, summed in the same order for any number of threads.
 fn dot(a: &[f64], b: &[f64], sums: &mut [f64]) -> f64 {
     let chunks = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK));
     sums.par_iter_mut().zip(chunks).for_each(|(sum, (a, b))| {
@@ -142,7 +142,7 @@ fn dot(a: &[f64], b: &[f64], sums: &mut [f64]) -> f64 {
     sums.iter().sum()
 }
 
-/// Replaces each entry of `to` by a function of it and the entry of `from`.
+/// Replaces each entry of `to` by a function of this entry and the corresponding entry of `from`.
 fn combine(to: &mut [f64], with: impl Fn(f64, f64) -> f64 + Sync, from: &[f64]) {
     to.par_chunks_mut(CHUNK).zip(from.par_chunks(CHUNK)).for_each(|(to, from)| {
         for (to, from) in to.iter_mut().zip(from) {
@@ -156,7 +156,7 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    /// A diagonal matrix between dense reflections I − 2wwᵀ, and its diagonal part as a preconditioner.
+    /// Diagonal matrix between dense reflections I − 2wwᵀ, without a preconditioner.
     struct Reflected {
         diagonal: Vec<f64>,
         w: Vec<f64>,
@@ -189,7 +189,7 @@ mod tests {
         }
     }
 
-    /// A right side, what becomes of it, and how.
+    /// Right side, solution, and outcome of the iteration.
     fn solve(diagonal: Vec<f64>, tolerance: f64, limit: usize) -> (Vec<f64>, Vec<f64>, Iteration) {
         let mut random = Random::new(2);
         let b: Vec<f64> = diagonal.iter().map(|_| random.uniform(-1.0, 1.0)).collect();
@@ -205,14 +205,14 @@ mod tests {
 
     #[test]
     fn few_eigenvalues_take_few_iterations() {
-        // Enough numbers for three chunks.
+        // Enough entries for three chunks.
         let diagonal: Vec<f64> = (0..10_000).map(|i| [1.0, 3.0, 10.0, 40.0][i % 4]).collect();
         let (b, x, iteration) = solve(diagonal.clone(), 1e-12, 100);
         assert_eq!(iteration, Iteration { iterations: 4, end: End::Converged });
         let mut residual = vec![0.0; b.len()];
         Reflected::new(diagonal).apply(&x, &mut residual);
         residual.iter_mut().zip(&b).for_each(|(r, b)| *r -= b);
-        // The true residual is the carried one up to u ‖A‖ ‖x‖ ≤ 40 u ‖b‖ for each of the four steps.
+        // The true residual is the updated one up to u ‖A‖ ‖x‖ ≤ 40 u ‖b‖ for each of the four steps.
         assert!(norm(&residual) <= (1e-12 + 160.0 * f64::EPSILON) * norm(&b), "{}", norm(&residual));
     }
 
@@ -231,7 +231,7 @@ mod tests {
         }
         let (b, x, iteration) = solve(indefinite, 1e-10, 500);
         assert_eq!(iteration.end, End::NegativeCurvature);
-        assert!(iteration.iterations > 1, "it has found directions before the negative one");
+        assert!(iteration.iterations > 1, "directions precede the one of negative curvature");
         assert!(b.iter().zip(&x).map(|(b, x)| b * x).sum::<f64>() > 0.0);
         let (b, x, _) = solve(negative, 1e-10, 100);
         assert_eq!(b, x, "steepest descent");

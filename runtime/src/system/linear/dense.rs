@@ -7,8 +7,8 @@ use faer::{Mat, Par};
 
 use super::LinearError;
 
-/// Eigenvalues, ascending, and their orthonormal vectors, of a symmetric n×n matrix given by its entries. One
-/// thread computes them, so that they have the same bits for any number of threads.
+/// Eigenvalues, ascending, and orthonormal eigenvectors of a symmetric n×n matrix, given by its entries. A
+/// single thread computes them, so that the bits do not depend on the number of threads.
 ///
 /// # Errors
 /// [`LinearError::NoEigenvalues`].

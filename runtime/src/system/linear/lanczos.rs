@@ -1,8 +1,8 @@
-//! The largest eigenvalue of a symmetric operator, by Lanczos' method \[Par98, chapter 13\].
+//! Largest eigenvalue of a symmetric operator, by Lanczos' method \[Par98, chapter 13\].
 //!
-//! The vectors are kept, a hundred at most, and each new one is made orthogonal to all before it twice, which
-//! is enough \[Par98, §6.9\]: no eigenvalue is found twice, and vectors to be left out stay out. This module
-//! knows no matrix.
+//! All vectors are kept, at most a hundred. Each new vector is orthogonalised twice against all previous
+//! ones, which suffices \[Par98, §6.9\]: no eigenvalue is found twice, and deflated vectors are excluded.
+//! This module does not depend on a form of matrix.
 //!
 //! \[Par98\] Parlett, *The Symmetric Eigenvalue Problem*, 1998.
 
@@ -10,21 +10,21 @@ use super::LinearError;
 use super::dense::eigen;
 use crate::random::Random;
 
-/// Number of products after which to stop.
+/// Maximum number of products.
 const MAX_STEPS: usize = 100;
 
 /// Number of products between two tests of convergence.
 const STRIDE: usize = 5;
 
-/// Residual, as a share of the eigenvalue, at which to stop: the eigenvalue then has twice as many digits.
+/// Tolerance of the residual, relative to the eigenvalue; the eigenvalue has twice as many accurate digits.
 const TOLERANCE: f64 = 1e-9;
 
-/// Eigenvector of the largest eigenvalue of an operator, as accurate as a hundred products give it; `None` if
-/// no direction is left.
+/// Eigenvector of the largest eigenvalue of an operator, from at most a hundred products; `None` if the
+/// deflated vectors span the whole space.
 ///
 /// The operator is symmetric in the inner product Σ mᵢ xᵢ yᵢ of the positive `masses`, in which the vector
-/// has the norm 1. The span of the `deflated` vectors, orthonormal in that product, is left out. `apply`
-/// replaces its second argument by the product with the first.
+/// has the norm 1. The span of the `deflated` vectors, which are orthonormal in this product, is left
+/// out. `apply` replaces its second argument by the product with its first.
 ///
 /// # Errors
 /// [`LinearError::NoEigenvalues`].
@@ -51,7 +51,7 @@ pub(crate) fn largest(
         let before = norm(masses, &product);
         length = orthogonalize(masses, deflated, &vectors, &mut product);
         next = product;
-        // The vectors span all that is left: the rest is rounding.
+        // The vectors span the remaining space: the rest is rounding error.
         let exhausted = length <= 1e-12 * before || vectors.len() == MAX_STEPS;
         if exhausted || vectors.len().is_multiple_of(STRIDE) {
             let (value, weights) = largest_of_tridiagonal(&diagonal, &beside)?;
@@ -68,7 +68,7 @@ pub(crate) fn largest(
     }
 }
 
-/// Largest eigenvalue of a symmetric tridiagonal matrix, and its vector.
+/// Largest eigenvalue of a symmetric tridiagonal matrix, and its eigenvector.
 fn largest_of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> Result<(f64, Vec<f64>), LinearError> {
     let (mut values, mut vectors) = eigen(diagonal.len(), |i, j| match i.abs_diff(j) {
         0 => diagonal[i],
@@ -78,7 +78,7 @@ fn largest_of_tridiagonal(diagonal: &[f64], beside: &[f64]) -> Result<(f64, Vec<
     values.pop().zip(vectors.pop()).ok_or(LinearError::NoEigenvalues)
 }
 
-/// Removes the parts along orthonormal vectors, twice, and returns the norm of the rest.
+/// Removes the components along orthonormal vectors, twice, and returns the norm of the remainder.
 fn orthogonalize(masses: &[f64], deflated: &[Vec<f64>], vectors: &[Vec<f64>], x: &mut [f64]) -> f64 {
     for vector in deflated.iter().chain(vectors).chain(deflated).chain(vectors) {
         add(-dot(masses, vector, x), vector, x);
@@ -102,7 +102,7 @@ pub(crate) fn add(factor: f64, x: &[f64], total: &mut [f64]) {
 mod tests {
     use super::*;
 
-    /// Diagonal operators: eigenvalues are plain to see.
+    /// Eigenvector of a diagonal operator, whose eigenvalues are its entries.
     fn found(values: &[f64], deflated: &[Vec<f64>]) -> Option<Vec<f64>> {
         let masses = vec![4.0; values.len()];
         largest(&masses, deflated, |x, y| {

@@ -1,30 +1,32 @@
 //! Multigrid by smoothed aggregation [VMB96]: a preconditioner for the stiffness of bodies of any size.
 //!
-//! Conjugate gradients preconditioned by the blocks on the diagonal carry a change from node to node, one
-//! element in each iteration, so that a body of twice the elements along an edge needs twice the
-//! iterations. Here the slow part of an error, in which neighbours move alike, is handed to a smaller
-//! system, and its slow part to a still smaller one, until a factorisation takes what is left: the number
-//! of iterations hardly grows.
+//! With block-Jacobi preconditioning, conjugate gradients propagate a change by one element in each
+//! iteration. Twice as many elements along an edge of a body therefore need twice as many iterations.
+//! Multigrid transfers the slow part of an error, in which neighbours move alike, to a smaller system, and
+//! the slow part of its error to a still smaller one. The last system is solved by a factorisation. The
+//! number of iterations then hardly grows.
 //!
-//! *Levels.* Rows (at first: nodes) are grouped into aggregates of a row and its neighbours. An aggregate
-//! moves as a rigid body: six unknowns. With T the matrix that gives the nodes their parts of those
-//! motions, orthonormal within an aggregate, and D the blocks of A on the diagonal, P = (I − ω D⁻¹A) T, ω =
-//! 4/(3 λmax), carries corrections from an aggregate to its nodes, smoothly, and PᵀA P is the matrix of the
-//! next level. The six rigid motions of the whole body, at the positions where the stiffness is taken, are
-//! combinations of those of the aggregates, on each level: they cost no energy, and must not be lost.
+//! *Levels.* Rows (on the finest level: nodes) are grouped into aggregates of a row and its neighbours. An
+//! aggregate moves as a rigid body, with six unknowns. Let T be the matrix of the rigid motions of the
+//! aggregates at their nodes, orthonormal within an aggregate, and D the blocks of A on the diagonal. Then
+//! P = (I − ω D⁻¹A) T with ω = 4/(3 λmax) interpolates corrections smoothly from aggregates to nodes, and
+//! PᵀA P is the matrix of the next level. On each level, combinations of the motions of the aggregates
+//! represent the six rigid motions of the whole body at the positions of the stiffness. These motions need no
+//! energy, and must be preserved.
 //!
-//! *Cycle.* Chebyshev polynomials in D⁻¹A of degree 2 [ABHT03] damp what a level can carry, before and after
-//! the next one has corrected the rest. The polynomials need λmax(D⁻¹A), found by the power method, and are
-//! symmetric: so is the cycle, which conjugate gradients demand.
+//! *Cycle.* Chebyshev polynomials of degree 2 in D⁻¹A [ABHT03] smooth the error on a level, before and after
+//! the correction by the next level. The polynomials need λmax(D⁻¹A), which the power method computes. They
+//! are symmetric, so that the cycle is symmetric, as conjugate gradients require.
 //!
-//! *Precision.* A cycle is in f32, scaled so that stiffness of any unit fits: half of what it reads. The
-//! matrices of the levels are made in f64, since PᵀA P cancels.
+//! *Precision.* A cycle is computed in f32, which halves the memory traffic. The matrix is scaled so that a
+//! stiffness in any unit is in the range of f32. The matrices of the levels are computed in f64, because of
+//! the cancellation in PᵀA P.
 //!
-//! *Indefinite matrices.* A polynomial stays positive at negative eigenvalues, and the factor of the last
-//! level gets a larger diagonal until it exists, so that the cycle is positive definite whatever the matrix
-//! is; conjugate gradients find the negative curvature of the matrix itself.
+//! *Indefinite matrices.* The polynomial is positive at negative eigenvalues, and the diagonal of the last
+//! level is increased until the factorisation succeeds. The cycle is therefore positive definite for any
+//! matrix. Conjugate gradients detect the negative curvature of the matrix.
 //!
-//! *Many machines.* Each level is divided as [`Division`] says; on one machine nothing is exchanged.
+//! *Many machines.* A [`Division`] divides each level; on one machine nothing is exchanged.
 //!
 //! \[VMB96\] Vaněk, Mandel, Brezina, *Algebraic Multigrid by Smoothed Aggregation for Second and Fourth Order
 //! Elliptic Problems*, 1996.
@@ -49,7 +51,7 @@ pub(crate) use division::diagonals;
 pub use division::{Division, Whole};
 pub use last::{LastLevel, LastSolver};
 
-/// Levels of a matrix of 3×3 blocks: none at first.
+/// Multigrid levels of a matrix of 3×3 blocks; initially there are none.
 #[derive(Clone)]
 pub(crate) struct Multigrid<D: Division> {
     /// Division of the nodes.
@@ -61,21 +63,21 @@ pub(crate) struct Multigrid<D: Division> {
 struct Levels<D, L> {
     /// Number of rows of each level, on all machines.
     rows: Vec<usize>,
-    /// Times the matrix: its largest entry becomes 1.
+    /// Scale of the matrix, with which its largest entry is 1.
     scale: f64,
     finest: Level<3>,
-    /// Levels with the divisions of their rows.
+    /// Levels, each with the division of its rows.
     coarse: Vec<(Level<6>, D)>,
     last: L,
     last_division: D,
-    /// The right side of the finest level.
+    /// Right side of the finest level.
     b: Vec<[f32; 3]>,
     /// Right sides, then solutions, of the coarse levels and the last.
     coarse_b: Vec<Vec<[f32; 6]>>,
 }
 
 impl<D: Division> Multigrid<D> {
-    /// No levels, for nodes that are divided like this.
+    /// Multigrid without levels, for nodes with this division.
     pub(crate) fn new(division: D) -> Self {
         Self { division, levels: None }
     }
@@ -89,11 +91,11 @@ impl<D: Division> Multigrid<D> {
         self.levels.as_ref().map(|levels| (levels.rows.as_slice(), &levels.last))
     }
 
-    /// Makes all levels for a matrix of 3×3 blocks, one row for each node. The blocks on its diagonal are
-    /// those that all machines' parts add up to.
+    /// Sets up all levels for a matrix of 3×3 blocks, with one row for each node. `diagonals` are the blocks
+    /// on the diagonal of the sum of all machines' parts.
     ///
-    /// `order` is the one in which rows are taken, which should keep neighbours together; rows that are not
-    /// `included` have zeros for right sides and solutions.
+    /// `order` is the order of the aggregation, in which neighbours should be close to each other. Rows that
+    /// are not `included` have zeros in right sides and solutions.
     ///
     /// # Errors
     /// [`Division::Error`], also for an entry that is not finite.
@@ -119,7 +121,7 @@ impl<D: Division> Multigrid<D> {
         loop {
             let Coarse { matrix, diagonals, graph, motions, division } = &mut next;
             let rows = division.total(diagonals.len() as f64) as usize;
-            // An aggregate has two rows at least, except where all neighbours are of other machines.
+            // An aggregate has at least two rows, unless all neighbours belong to other machines.
             let has_stalled = counts.last().is_some_and(|&before| 2 * rows > before);
             counts.push(rows);
             if has_stalled || division.is_last(rows, nodes) {
@@ -141,7 +143,7 @@ impl<D: Division> Multigrid<D> {
         Ok(())
     }
 
-    /// Takes other entries for the finest level, and leaves the others as they are.
+    /// Replaces the entries of the finest level, and leaves the other levels unchanged.
     pub(crate) fn take(
         &mut self,
         matrix: &SymmetricBlocks<f64, 3>,
@@ -153,8 +155,8 @@ impl<D: Division> Multigrid<D> {
         }
     }
 
-    /// Computes about A⁻¹ r, by one cycle, of the rows that this machine owns; where `r` and `z` are shorter,
-    /// zeros follow.
+    /// Computes an approximation of A⁻¹ r by one cycle, in the rows that this machine owns. If `r` and `z`
+    /// are shorter, zeros follow.
     pub(crate) fn solve(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
         let Self { division, levels } = self;
         let Some(Levels { scale, finest, coarse, last, last_division, b, coarse_b, .. }) = levels else {
@@ -188,8 +190,8 @@ impl<D: Division> Multigrid<D> {
     }
 }
 
-/// Rigid motions of the body at each node: displacements along the axes, and by turns about them at its
-/// centre.
+/// Rigid motions of the body at each node: translations along the axes, and rotations about the axes through
+/// its centre.
 fn rigid(positions: &[[f64; 3]], division: &impl Division) -> Vec<[[f64; 6]; 3]> {
     let nodes = division.total(positions.len() as f64).max(1.0);
     let centre: [f64; 3] =
@@ -204,7 +206,7 @@ fn rigid(positions: &[[f64; 3]], division: &impl Division) -> Vec<[[f64; 6]; 3]>
     motions.collect()
 }
 
-/// The factor that makes the largest entry on the diagonal 1.
+/// Factor with which the largest entry on the diagonal is 1.
 fn scale_of(diagonals: &[[[f64; 3]; 3]], division: &impl Division) -> f64 {
     let entries = diagonals.iter().flat_map(|block| (0..3).map(|c| block[c][c].abs()));
     let largest = division.largest(entries.fold(0.0, f64::max));

@@ -1,12 +1,12 @@
-//! A symmetric matrix of N×N blocks of which the upper half is stored, and its product with a vector.
+//! Symmetric matrix of N×N blocks, of which the upper half is stored, and its product with a vector.
 //!
-//! A product of a large matrix costs what it reads, and half a matrix is half of that. But a block above the
-//! diagonal then adds to two rows, one of which may belong to another thread. So rows are divided into chunks
-//! of fixed size. Each makes its products with the vector that it has gathered, sums what falls on its own
-//! rows and what falls on those of others, and a second pass adds up the sums of each row in the order of the
-//! chunks: no atomics, and the same bits for any number of threads.
+//! The memory traffic determines the time of a product with a large matrix, and half a matrix needs half of
+//! it. But a block above the diagonal then contributes to two rows, one of which may belong to another
+//! thread. Rows are therefore divided into chunks of fixed size. Each chunk gathers its part of the vector,
+//! and sums its products for its own rows and for rows of other chunks. A second pass adds the sums of each
+//! row in the order of the chunks. This needs no atomics, and gives the same bits for any number of threads.
 //!
-//! The fewer rows of others a chunk touches the better: rows come in an order that keeps neighbours together.
+//! A chunk should touch few rows of other chunks. The order of the rows therefore keeps neighbours together.
 
 use std::sync::Arc;
 
@@ -17,49 +17,50 @@ use crate::lanes::Real;
 use crate::system::graph::Graph;
 use crate::system::memory::{filled, reserved};
 
-/// Rows of a chunk: its sums and its part of the vector stay in the cache next to the processor.
+/// Number of rows in a chunk: its sums and its part of the vector stay in the cache next to the processor.
 const ROWS: usize = 256;
 
-/// Rows whose sums one thread adds up without a further division.
+/// Minimum number of rows per thread in the second pass.
 const SUMS: usize = 1024;
 
-/// The upper half of a matrix.
+/// Upper half of a symmetric matrix.
 #[derive(Clone)]
 pub(crate) struct SymmetricBlocks<E, const N: usize> {
     pattern: Arc<Pattern>,
-    /// Chunk by chunk, row by row, that on the diagonal first. Those on the diagonal are stored in full.
+    /// Blocks, chunk by chunk and row by row, the block on the diagonal first. Blocks on the diagonal are
+    /// stored in full.
     blocks: Vec<[[E; N]; N]>,
     memory: Vec<Memory<E, N>>,
 }
 
-/// The places of the blocks.
+/// Places of the blocks of a matrix.
 pub(crate) struct Pattern {
     chunks: Vec<Chunk>,
-    /// The chunk of each row and its place there.
+    /// Chunk of each row, and place of the row in the chunk.
     place_of_row: Vec<Place>,
-    /// Start of the sums of each row, and the end of the last.
+    /// Start of the sums of each row, followed by the end of the last row.
     starts: Vec<u32>,
     sums: Vec<Place>,
 }
 
-/// Some rows.
+/// Chunk of rows, with the columns of their blocks.
 struct Chunk {
-    /// Its own rows, then the other columns of their blocks.
+    /// Rows of the chunk, then the other columns of their blocks.
     rows: Vec<u32>,
-    /// Start of each of its own rows among the blocks, and the end of the last.
+    /// Start of each row of the chunk among the blocks, followed by the end of the last row.
     starts: Vec<usize>,
-    /// The place of each block's column among `rows`.
+    /// Place of the column of each block among `rows`.
     columns: Vec<u32>,
 }
 
-/// A row in a chunk.
+/// Place of a row in a chunk.
 #[derive(Clone, Copy)]
 struct Place {
     chunk: u32,
     place: u32,
 }
 
-/// A chunk's part of a product.
+/// Part of a product in a chunk.
 #[derive(Clone)]
 struct Memory<E, const N: usize> {
     x: Vec<[E; N]>,
@@ -67,19 +68,19 @@ struct Memory<E, const N: usize> {
 }
 
 impl Chunk {
-    /// Number of rows that it holds.
+    /// Number of rows of the chunk.
     fn own(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// Indices of all of its blocks.
+    /// Indices of all blocks of the chunk.
     fn range(&self) -> std::ops::Range<usize> {
         self.starts[0]..self.starts[self.own()]
     }
 }
 
 impl Pattern {
-    /// The pattern of a graph whose rows are divided into chunks in this order.
+    /// Pattern of a graph, with rows divided into chunks in this order.
     ///
     /// # Errors
     /// [`LinearError::OutOfMemory`].
@@ -165,7 +166,7 @@ impl Pattern {
         self.chunks[chunk as usize].starts[place as usize]
     }
 
-    /// Index of the block of two rows, and whether it is stored as that of `column` and `row`.
+    /// Index of the block of two rows, and true if it is stored as the block of `column` and `row`.
     pub(crate) fn block(&self, row: usize, column: usize) -> Option<(usize, bool)> {
         let find = |row: usize, column: usize| {
             let mut stored = self.upper(row);
@@ -174,12 +175,12 @@ impl Pattern {
         find(row, column).map(|block| (block, false)).or_else(|| find(column, row).map(|block| (block, true)))
     }
 
-    /// The chunk of a block.
+    /// Chunk of a block.
     pub(crate) fn chunk_of(&self, block: usize) -> usize {
         self.chunks.partition_point(|chunk| chunk.range().end <= block)
     }
 
-    /// The stored blocks of a row, each with its column: that on the diagonal, then later ones.
+    /// Stored blocks of a row, each with its column: the block on the diagonal, then the later blocks.
     pub(crate) fn upper(&self, row: usize) -> impl Iterator<Item = (usize, usize)> {
         let Place { chunk, place } = self.place_of_row[row];
         let chunk = &self.chunks[chunk as usize];
@@ -190,7 +191,7 @@ impl Pattern {
 }
 
 impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
-    /// A matrix of zeros.
+    /// Matrix of zeros.
     ///
     /// # Errors
     /// [`LinearError::OutOfMemory`].
@@ -219,12 +220,13 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
         &mut self.blocks
     }
 
-    /// The block on the diagonal of a row.
+    /// Block on the diagonal of a row.
     pub(crate) fn diagonal(&self, row: usize) -> &[[E; N]; N] {
         &self.blocks[self.pattern.diagonal(row)]
     }
 
-    /// Hands the blocks of each chunk, and the index of the first, to a thread.
+    /// Calls `change` for each chunk, in parallel, with its number, the index of its first block, and its
+    /// blocks.
     pub(crate) fn for_each_chunk(&mut self, change: impl Fn(usize, usize, &mut [[[E; N]; N]]) + Sync) {
         let mut rest = self.blocks.as_mut_slice();
         let mut parts = Vec::with_capacity(self.pattern.chunks.len());
@@ -261,7 +263,7 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
 }
 
 impl Chunk {
-    /// The products of its blocks with the vector in memory.
+    /// Computes the products of the blocks of the chunk with the vector in memory.
     fn multiply<E: Real, const N: usize>(&self, blocks: &[[[E; N]; N]], memory: &mut Memory<E, N>) {
         let Memory { x, sums } = memory;
         sums.fill([E::splat(0.0); N]);
@@ -298,7 +300,7 @@ mod tests {
     use super::*;
     use crate::random::Random;
 
-    /// Random neighbours of each row, and a hub that all are neighbours of.
+    /// Random neighbours of each row, and a hub that is a neighbour of all rows.
     fn random_graph(random: &mut Random, rows: usize) -> Graph {
         let mut upper = vec![Vec::new(); rows];
         for row in 0..rows - 1 {
@@ -316,7 +318,7 @@ mod tests {
     #[test]
     fn the_product_is_that_of_the_whole_matrix() {
         let mut random = Random::new(1);
-        // More rows than two chunks hold, in another order than that of their numbers.
+        // More rows than in two chunks, in an order different from their numbers.
         let rows = 2 * ROWS + 17;
         let graph = random_graph(&mut random, rows);
         let order: Vec<u32> = (0..rows as u32).rev().collect();
@@ -358,7 +360,7 @@ mod tests {
                 expected += entry * x;
                 size += (entry * x).abs();
             }
-            // Two sums of as many terms, in different orders.
+            // Two sums of equally many terms, in different orders.
             let bound = 6.0 * rows as f64 * f64::EPSILON * size;
             assert!((found - expected).abs() <= bound, "{found} for {expected} in row {row}");
         }

@@ -2,9 +2,9 @@
 
 use crate::system::graph::Graph;
 
-/// The aggregate of each row.
+/// Aggregate of each row.
 pub(super) struct Aggregates {
-    /// `NONE` for rows that are left to the smoother.
+    /// Aggregate of each row, `NONE` for rows that only the smoother corrects.
     of_row: Vec<u32>,
     count: usize,
 }
@@ -12,11 +12,12 @@ pub(super) struct Aggregates {
 const NONE: u32 = u32::MAX;
 
 impl Aggregates {
-    /// Takes rows in this order: one without neighbours in an aggregate founds one with all its neighbours.
-    /// Rows that are left then join the aggregate that most of their neighbours belong to.
+    /// Groups rows in this order: a row without neighbours in an aggregate forms one with all its neighbours.
+    /// Each remaining row then joins the aggregate to which most of its neighbours belong.
     ///
-    /// Rows that are not `included`, and those without any neighbour that is, belong to none. So do all rows
-    /// but the first `owned`; a row that has none of these for a neighbour is an aggregate by itself.
+    /// Rows that are not `included`, and rows without an included neighbour, do not belong to an aggregate.
+    /// Only the first `owned` rows can belong to one; a row with no neighbour among them is an aggregate by
+    /// itself.
     pub(super) fn new(graph: &Graph, order: &[u32], included: &[bool], owned: usize) -> Self {
         let mut of_row = vec![NONE; graph.rows()];
         let mut count = 0;
@@ -62,7 +63,7 @@ impl Aggregates {
         self.count
     }
 
-    /// The aggregate of a row, if it has one.
+    /// Aggregate of a row, if it has one.
     pub(super) fn of(&self, row: usize) -> Option<usize> {
         (self.of_row[row] != NONE).then(|| self.of_row[row] as usize)
     }

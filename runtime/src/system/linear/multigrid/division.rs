@@ -1,10 +1,11 @@
 //! Division of the rows of a level among machines, for multigrid.
 //!
-//! A machine has the part of a matrix that is the sum of its elements: the matrix is the sum over the machines.
-//! The rows of a part are those that the machine owns, then copies of rows of others. So a product is that of
-//! the parts, between two exchanges: entries of a vector go from owners to copies, and what the parts add to
-//! copies goes to the owners. PᵀA P is the sum of such products of the parts as well, where each machine
-//! has the rows of P of its copies. Aggregates are made of rows of one owner.
+//! The part of a matrix on a machine is the sum over its elements. The matrix is the sum over the machines.
+//! The rows of a part are the rows that the machine owns, followed by copies of rows of other machines. A
+//! product consists of the products of the parts between two exchanges. First, the entries of a vector are
+//! sent from owners to copies. Afterwards, the results at copies are sent to their owners and added. PᵀA P is
+//! the sum of such products of the parts too, if each machine has the rows of P of its copies. All rows of an
+//! aggregate have the same owner.
 
 use std::collections::HashMap;
 
@@ -14,47 +15,48 @@ use super::last::{Last, LastLevel, LastSolver};
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 
-/// Rows that one thread takes without a further division.
+/// Minimum number of rows per thread.
 pub(super) const ROWS: usize = 1024;
 
-/// Division of the rows of a matrix among machines, as one of them sees it.
+/// Division of the rows of a matrix among machines, on one of the machines.
 ///
-/// The rows of a machine are those that it owns, then copies of rows that others own. All machines call all
-/// functions in one order. A function that cannot reach other machines keeps its error for the code that made
-/// the division: the vectors are then meaningless.
+/// The rows of a machine are the rows that it owns, followed by copies of rows that other machines own. All
+/// machines must call all functions, in the same order. If a function cannot communicate with other machines,
+/// the division keeps the error for the code that created it, and the vectors are meaningless.
 pub trait Division: Sized {
     /// Error of the functions that can fail.
     type Error: From<LinearError>;
     /// Solver of the last level.
     type Last: LastSolver;
 
-    /// Number of copies, the last rows.
+    /// Number of copies; these are the last rows.
     fn copies(&self) -> usize;
 
     /// Replaces the copies by the entries of their owners.
     fn copy<const N: usize>(&mut self, rows: &mut [[f32; N]]);
 
-    /// Adds the copies of each owned row to it.
+    /// Adds all copies of each owned row to the row.
     fn sum<const N: usize>(&mut self, rows: &mut [[f32; N]]);
 
-    /// The list that the owner of each copy makes of its row.
+    /// List, for each copy, that its owner writes for the row.
     fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>>;
 
-    /// Owned rows, each with a list that another machine makes of its copy, which has this number among its
-    /// copies.
+    /// Owned rows, each with a list that another machine writes for its copy of the row. The argument of
+    /// `list` is the number of the copy among the copies of the machine.
     fn lists_for_owners(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<(usize, Vec<u64>)>;
 
     /// Sum over all machines.
     fn total(&self, number: f64) -> f64;
 
-    /// Largest number of any machine.
+    /// Maximum over all machines.
     fn largest(&self, number: f64) -> f64;
 
-    /// Number of the first row of this machine, which owns `rows` of them, counted machine after machine.
+    /// Global number of the first row of this machine, which owns `rows` rows; rows are counted machine after
+    /// machine.
     fn first(&self, rows: usize) -> u64;
 
     /// Division of the next level, in which this machine owns `rows` rows and has copies of the rows with the
-    /// numbers `copies`.
+    /// global numbers `copies`.
     ///
     /// # Errors
     /// [`Division::Error`].
@@ -63,7 +65,7 @@ pub trait Division: Sized {
     /// True if a level with `rows` rows of all machines is the last one, for `nodes` nodes of all machines.
     fn is_last(&self, rows: usize, nodes: usize) -> bool;
 
-    /// The solver of the last level, of which this is the division.
+    /// Solver of the last level, if this is its division.
     ///
     /// # Errors
     /// [`Division::Error`].
@@ -74,8 +76,9 @@ pub trait Division: Sized {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Whole;
 
-/// Rows of a level that is always factored. Large bodies have a larger last level, of half the root of the
-/// number of their nodes: its factor takes less time than the finest level all the same.
+/// Largest number of rows of a level that is always factored. Large bodies have a larger last level, with
+/// half the square root of the number of nodes as the number of rows; its factor still takes less time than
+/// the finest level.
 const FEW: usize = 64;
 
 impl Division for Whole {
@@ -123,7 +126,7 @@ impl Division for Whole {
     }
 }
 
-/// The numbers that columns of a machine's part have among those of all machines: its own, then others.
+/// Global numbers of the columns of a machine's part: the columns of the machine, then columns of others.
 pub(super) struct Numbers {
     first: u64,
     own: usize,
@@ -132,7 +135,7 @@ pub(super) struct Numbers {
 }
 
 impl Numbers {
-    /// The numbers of a machine's own columns, `first` and those that follow.
+    /// Consecutive numbers, from `first` on, of the columns of this machine.
     pub(super) fn new(first: u64, own: usize) -> Self {
         Self { first, own, others: Vec::new(), places: HashMap::new() }
     }
@@ -141,7 +144,7 @@ impl Numbers {
         self.own + self.others.len()
     }
 
-    /// The numbers of the columns of other machines.
+    /// Global numbers of the columns of other machines.
     pub(super) fn others(self) -> Vec<u64> {
         self.others
     }
@@ -153,7 +156,7 @@ impl Numbers {
         }
     }
 
-    /// The column of a number, which is another one from now on unless it is known.
+    /// Column with a global number; a new number is added as another column.
     fn column(&mut self, number: u64) -> usize {
         match number.checked_sub(self.first) {
             Some(column) if column < self.own as u64 => column as usize,
@@ -179,19 +182,19 @@ impl Numbers {
         }
     }
 
-    /// Reads what another machine has written.
+    /// Reads a row written by another machine.
     pub(super) fn read<const N: usize>(&mut self, list: &[u64]) -> Vec<(usize, [[f64; 6]; N])> {
         let blocks = list.chunks_exact(1 + 6 * N);
         blocks.map(|words| (self.column(words[0]), block(&words[1..]))).collect()
     }
 }
 
-/// A block of these bits.
+/// Block with entries of these bits.
 fn block<const C: usize, const R: usize>(words: &[u64]) -> [[f64; C]; R] {
     std::array::from_fn(|r| std::array::from_fn(|c| f64::from_bits(words[C * r + c])))
 }
 
-/// The blocks on the diagonal of the sum of all machines' parts, of the rows that this one owns.
+/// Blocks on the diagonal of the sum of all machines' parts, in the rows that this machine owns.
 pub(crate) fn diagonals<const N: usize>(
     matrix: &SymmetricBlocks<f64, N>,
     division: &mut impl Division,

@@ -1,10 +1,10 @@
-//! The last level: what of a matrix is left for a direct solver.
+//! Last level, which a direct solver solves.
 
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::linear::{Cholesky, LinearError};
 
-/// Growth of the diagonal of the last level, relative to its largest entry, where the factor fails: a
-/// hundredfold more each time.
+/// First increase of the diagonal of the last level, relative to its largest entry, if the factorisation
+/// fails. Each further increase is a hundred times larger.
 const FIRST_GROWTH: f64 = 1e-12;
 
 /// Solver of the last level of multigrid.
@@ -13,17 +13,17 @@ pub trait LastSolver {
     fn solve(&mut self, b: &mut [[f32; 6]]);
 }
 
-/// The matrix of the last level of multigrid: six unknowns for each row.
+/// Matrix of the last level of multigrid, with six unknowns for each row.
 pub struct LastLevel<'a> {
     pub(super) matrix: &'a SymmetricBlocks<f64, 6>,
-    /// Times the matrix.
+    /// Scale of the matrix.
     pub(super) scale: f64,
     pub(super) motions: &'a [[[f64; 6]; 6]],
 }
 
 impl LastLevel<'_> {
-    /// Row, column and entries of the blocks of this machine's part. Of two different rows there is one
-    /// block; that of `column` and `row` is its transpose.
+    /// Row, column and entries of the blocks of this machine's part. There is one block for two different
+    /// rows; the block of `column` and `row` is its transpose.
     pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, [[f64; 6]; 6])> {
         let pattern = self.matrix.pattern();
         let row = move |row: usize| pattern.upper(row).map(move |(block, column)| (row, column, block));
@@ -31,14 +31,14 @@ impl LastLevel<'_> {
         (0..pattern.rows()).flat_map(row).map(move |(row, column, block)| (row, column, entries(block)))
     }
 
-    /// Six rigid motions of the body in the unknowns of each owned row, one in each column.
+    /// Six rigid motions of the body in the unknowns of each owned row, each motion in a column.
     #[must_use]
     pub fn motions(&self) -> &[[[f64; 6]; 6]] {
         self.motions
     }
 }
 
-/// The factor of the last level, on one machine.
+/// Factor of the last level, on one machine.
 #[derive(Clone)]
 pub struct Last {
     cholesky: Cholesky,
@@ -46,7 +46,7 @@ pub struct Last {
 }
 
 impl Last {
-    /// Factors `scale` times a matrix, with a larger diagonal if need be.
+    /// Factors `scale` times a matrix, with a larger diagonal if necessary.
     pub(super) fn new(level: &LastLevel<'_>) -> Result<Self, LinearError> {
         let LastLevel { matrix, scale, .. } = *level;
         let pattern = matrix.pattern();

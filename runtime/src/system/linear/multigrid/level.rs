@@ -1,4 +1,4 @@
-//! A level: a matrix, what damps the errors that it can carry, and the way to the next level and back.
+//! Multigrid level: a matrix, a smoother, and the transfer to the next level and back.
 
 use std::sync::Arc;
 
@@ -10,41 +10,45 @@ use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, graph_of};
 use crate::system::graph::Graph;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 
-/// Degree of the polynomials.
+/// Degree of the Chebyshev polynomials.
 const DEGREE: usize = 2;
 
-/// Smallest eigenvalue that a polynomial damps, relative to the largest.
+/// Smallest eigenvalue that a polynomial damps, relative to the largest eigenvalue.
 const DAMPED: f32 = 0.1;
 
-/// Iterations of the power method, for the first matrix and for each later one, and what its result may miss.
+/// Number of iterations of the power method for the first matrix.
 const FIRST_POWERS: usize = 12;
+
+/// Number of iterations of the power method for each later matrix.
 const POWERS: usize = 3;
+
+/// Factor between the estimate of the power method and the bound of the eigenvalues.
 const MARGIN: f64 = 1.1;
 
-/// A motion of an aggregate that is smaller than this beside its parts in others is one of them.
+/// Tolerance of linear dependence: norm of the orthogonal part of a motion, relative to the motion.
 const DEPENDENT: f64 = 1e-6;
 
-/// A matrix in f32 and memory for a cycle.
+/// Matrix in f32, and memory for a cycle.
 #[derive(Clone)]
 pub(super) struct Level<const N: usize> {
     matrix: SymmetricBlocks<f32, N>,
-    /// Inverses of the blocks on the diagonal, of owned rows; zero for rows that are not included.
+    /// Inverses of the blocks on the diagonal of owned rows; zero for rows that are not included.
     inverses: Vec<[[f32; N]; N]>,
-    /// Bound of the eigenvalues of D⁻¹A.
+    /// Upper bound of the eigenvalues of D⁻¹A.
     largest: f32,
-    /// Estimate of the eigenvector of the largest of them.
+    /// Estimate of the eigenvector of the largest eigenvalue of D⁻¹A.
     roughest: Vec<[f32; N]>,
     prolongation: Rows<f32, N, 6>,
     columns: Columns,
     /// Solution in the owned rows.
     x: Vec<[f32; N]>,
-    /// b − A x, of owned rows.
+    /// Residual b − A x in owned rows.
     residual: Vec<[f32; N]>,
     step: Vec<[f32; N]>,
     product: Vec<[f32; N]>,
 }
 
-/// Matrix and motions of the next level, before it is made.
+/// Matrix and rigid motions of the next level, before its set-up.
 pub(super) struct Coarse<D> {
     pub(super) matrix: SymmetricBlocks<f64, 6>,
     pub(super) diagonals: Vec<[[f64; 6]; 6]>,
@@ -55,8 +59,8 @@ pub(super) struct Coarse<D> {
 }
 
 impl<const N: usize> Level<N> {
-    /// The level of `scale` times a matrix, and the one after it.
-    #[expect(clippy::too_many_arguments, reason = "a matrix, its graph and what is known of its rows")]
+    /// Level of `scale` times a matrix, and the data of the next level.
+    #[expect(clippy::too_many_arguments, reason = "a matrix, its graph and properties of its rows")]
     pub(super) fn new<D: Division>(
         matrix: &SymmetricBlocks<f64, N>,
         diagonals: &[[[f64; N]; N]],
@@ -134,7 +138,7 @@ impl<const N: usize> Level<N> {
         Ok((level, Coarse { matrix: coarse, diagonals, graph, division, motions }))
     }
 
-    /// Takes `scale` times a matrix of the same pattern.
+    /// Replaces the matrix by `scale` times a matrix of the same pattern.
     pub(super) fn take(
         &mut self,
         matrix: &SymmetricBlocks<f64, N>,
@@ -168,7 +172,7 @@ impl<const N: usize> Level<N> {
         });
     }
 
-    /// Bounds the eigenvalues of D⁻¹A by iterations of the power method.
+    /// Computes an upper bound of the eigenvalues of D⁻¹A by the power method.
     fn find_largest(&mut self, iterations: usize, division: &mut impl Division) {
         let Self { matrix, roughest, product, inverses, .. } = self;
         let owned = inverses.len();
@@ -200,7 +204,8 @@ impl<const N: usize> Level<N> {
         self.columns.len()
     }
 
-    /// Damps the error of x = 0 for a right side, and hands this machine's part of the residual on.
+    /// Smooths the error of x = 0 for a right side, and restricts this machine's part of the residual to the
+    /// next level.
     pub(super) fn down(&mut self, b: &[[f32; N]], coarse: &mut [[f32; 6]], division: &mut impl Division) {
         self.x.par_iter_mut().with_min_len(ROWS).for_each(|x| *x = [0.0; N]);
         self.residual.copy_from_slice(&b[..self.x.len()]);
@@ -220,7 +225,7 @@ impl<const N: usize> Level<N> {
         });
     }
 
-    /// Adds the correction of the next level, and damps what it has roughened.
+    /// Adds the correction of the next level, and smooths the error again.
     pub(super) fn up(&mut self, coarse: &[[f32; 6]], division: &mut impl Division) {
         let Self { step, prolongation, x, .. } = self;
         step[..x.len()].par_iter_mut().with_min_len(ROWS).enumerate().for_each(|(row, step)| {
@@ -238,12 +243,12 @@ impl<const N: usize> Level<N> {
         self.smooth(false, division);
     }
 
-    /// The solution.
+    /// Solution in the owned rows.
     pub(super) fn x(&self) -> &[[f32; N]] {
         &self.x
     }
 
-    /// Adds the Chebyshev polynomial of D⁻¹A, times D⁻¹ r, to x; the residual is kept up to date on demand.
+    /// Adds the Chebyshev polynomial of D⁻¹A, times D⁻¹ r, to x; the residual is updated on demand.
     fn smooth(&mut self, keep_residual: bool, division: &mut impl Division) {
         let (theta, delta) = (0.5 * (1.0 + DAMPED) * self.largest, 0.5 * (1.0 - DAMPED) * self.largest);
         let sigma = theta / delta;
@@ -263,20 +268,20 @@ impl<const N: usize> Level<N> {
         }
     }
 
-    /// step = a step + b D⁻¹ r.
+    /// Computes step = a step + b D⁻¹ r.
     fn advance(&mut self, a: f32, b: f32) {
         let Self { step, residual, inverses, .. } = self;
         let rows = step.par_iter_mut().zip(residual).zip(inverses).with_min_len(ROWS);
         rows.for_each(|((step, residual), inverse)| {
             let damped = times(inverse, residual);
             for c in 0..N {
-                // The first step may be anything, but is to be forgotten.
+                // The previous step may contain any values, and must not be used.
                 step[c] = if a == 0.0 { b * damped[c] } else { a * step[c] + b * damped[c] };
             }
         });
     }
 
-    /// x += step, r −= A step.
+    /// Computes x += step and r −= A step.
     fn follow(&mut self, division: &mut impl Division) {
         division.copy(&mut self.step);
         self.matrix.multiply(&self.step, &mut self.product);
@@ -300,7 +305,7 @@ impl<const N: usize> Level<N> {
     }
 }
 
-/// A vector with a part in every direction: one without symmetry.
+/// Vector without symmetry, with a component in every direction.
 fn anything<const N: usize>(row: usize) -> [f32; N] {
     std::array::from_fn(|c| {
         let hash = ((N * row + c + 1) as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
@@ -318,8 +323,8 @@ fn times<const N: usize>(matrix: &[[f32; N]; N], x: &[f32; N]) -> [f32; N] {
     product
 }
 
-/// The rigid motions of each aggregate, orthonormal, as those of its rows, and those of the body as
-/// combinations of them. A motion that an aggregate of few rows cannot make is zero in both.
+/// Rigid motions of each aggregate, orthonormal, at its rows, and rigid motions of the body as combinations
+/// of them. A motion that is impossible for an aggregate of few rows is zero in both.
 fn orthonormal<const N: usize>(
     aggregates: &Aggregates,
     motions: &[[[f64; 6]; N]],
@@ -327,7 +332,7 @@ fn orthonormal<const N: usize>(
     let mut blocks = motions.to_vec();
     let mut combinations = vec![[[0.0; 6]; 6]; aggregates.len()];
     let members = || (0..motions.len()).filter_map(|row| Some((row, aggregates.of(row)?)));
-    // Of one motion, for each aggregate.
+    // Products of one motion, for each aggregate.
     let squared_lengths = |blocks: &[[[f64; 6]; N]], c: usize| {
         let mut squares = vec![0.0; aggregates.len()];
         for (row, aggregate) in members() {
@@ -335,7 +340,7 @@ fn orthonormal<const N: usize>(
         }
         squares
     };
-    // Gram and Schmidt, twice, for all aggregates at once.
+    // Gram–Schmidt orthogonalisation, twice, for all aggregates at once.
     for c in 0..6 {
         let before = squared_lengths(&blocks, c);
         for _ in 0..2 {
@@ -380,7 +385,7 @@ fn orthonormal<const N: usize>(
     (rows, combinations)
 }
 
-/// Adds the rows of copies, as their owners have them.
+/// Adds the rows of copies, with the values of their owners.
 fn extend<const N: usize>(rows: &mut Rows<f64, N, 6>, numbers: &mut Numbers, division: &mut impl Division) {
     let lists = division.lists_for_copies(|row, list| numbers.write(rows.row(row), list));
     for list in lists {
@@ -389,7 +394,7 @@ fn extend<const N: usize>(rows: &mut Rows<f64, N, 6>, numbers: &mut Numbers, div
     }
 }
 
-/// The owned rows of the sum of all machines' parts.
+/// Owned rows of the sum of all machines' parts.
 fn sum<const N: usize>(
     rows: Rows<f64, N, 6>,
     owned: usize,
@@ -404,8 +409,8 @@ fn sum<const N: usize>(
     rows.add(owned, &parts)
 }
 
-/// The blocks on the diagonal of a coarse matrix. Motions that an aggregate cannot make are given an entry
-/// first, so that there is an inverse.
+/// Blocks on the diagonal of a coarse matrix. Motions that are impossible for an aggregate are first given a
+/// diagonal entry, so that the inverse exists.
 fn regular_diagonals(
     matrix: &mut SymmetricBlocks<f64, 6>,
     division: &mut impl Division,
@@ -424,10 +429,10 @@ fn regular_diagonals(
     diagonals
 }
 
-/// The inverse of a symmetric block; if that is not positive definite, that of the unit matrix times its
-/// norm.
+/// Inverse of a symmetric block. If the block is not positive definite, the inverse of the unit matrix times
+/// its norm.
 fn inverse<const N: usize>(block: &[[f64; N]; N]) -> [[f64; N]; N] {
-    // Gauss and Jordan without pivoting, which a positive definite block does not need.
+    // Gauss–Jordan elimination, without pivoting, which a positive definite block does not need.
     let mut a = *block;
     let mut inverse: [[f64; N]; N] = std::array::from_fn(|r| std::array::from_fn(|c| f64::from(r == c)));
     for k in 0..N {

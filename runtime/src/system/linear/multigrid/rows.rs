@@ -1,4 +1,4 @@
-//! Sparse matrices of blocks by their rows, and the products that make the matrix of the next level.
+//! Sparse matrices of blocks in compressed rows, and the products for the matrix of the next level.
 
 use std::collections::HashMap;
 
@@ -7,28 +7,28 @@ use rayon::prelude::*;
 use crate::system::graph::Graph;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 
-/// Rows that one thread makes without a further division.
+/// Number of rows in a chunk, which one thread computes.
 const ROWS: usize = 512;
 
-/// Blocks that are added to rows: the columns and blocks of each.
+/// Blocks that are added to rows: each row, with its columns and blocks.
 pub(super) type Parts<E, const R: usize, const C: usize> = HashMap<usize, Vec<(usize, [[E; C]; R])>>;
 
-/// A matrix of R×C blocks, row by row.
+/// Sparse matrix of R×C blocks, row by row.
 #[derive(Clone)]
 pub(super) struct Rows<E, const R: usize, const C: usize> {
-    /// Start of each row among the blocks, and the end of the last.
+    /// Start of each row among the blocks, followed by the end of the last row.
     starts: Vec<usize>,
     columns: Vec<u32>,
     blocks: Vec<[[E; C]; R]>,
 }
 
 impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
-    /// No rows.
+    /// Matrix without rows.
     pub(super) fn new() -> Self {
         Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() }
     }
 
-    /// Ends the row that `push` has filled.
+    /// Ends the current row, with the blocks of `push`.
     pub(super) fn end_row(&mut self) {
         self.starts.push(self.columns.len());
     }
@@ -42,7 +42,7 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         self.starts.len() - 1
     }
 
-    /// Adds blocks to some of the first `rows` rows, and leaves out those that follow.
+    /// Adds blocks to some of the first `rows` rows; the result does not have later rows.
     pub(super) fn add(self, rows: usize, parts: &Parts<E, R, C>) -> Self
     where
         E: std::ops::AddAssign,
@@ -69,7 +69,7 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         sum
     }
 
-    /// The columns and blocks of a row.
+    /// Columns and blocks of a row.
     pub(super) fn row(&self, row: usize) -> impl Iterator<Item = (usize, &[[E; C]; R])> {
         let range = self.starts[row]..self.starts[row + 1];
         self.columns[range.clone()].iter().map(|&column| column as usize).zip(&self.blocks[range])
@@ -79,7 +79,7 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         &self.blocks[index]
     }
 
-    /// Hands the columns and blocks of each row to a thread, to change them.
+    /// Calls `change` for each row, in parallel, with the columns and the mutable blocks of the row.
     pub(super) fn for_each_row(
         &mut self,
         change: impl Fn(usize, &mut dyn Iterator<Item = (usize, &mut [[E; C]; R])>) + Sync,
@@ -106,14 +106,14 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         });
     }
 
-    /// Replaces each entry by a function of it.
+    /// Replaces each entry by a function of the entry.
     pub(super) fn map<T>(self, change: impl Fn(E) -> T) -> Rows<T, R, C> {
         let Self { starts, columns, blocks } = self;
         let blocks = blocks.iter().map(|block| block.map(|row| row.map(&change))).collect();
         Rows { starts, columns, blocks }
     }
 
-    /// Makes rows in parallel, in chunks of fixed size.
+    /// Computes rows in parallel, in chunks of fixed size.
     fn make(rows: usize, columns: usize, make: impl Fn(usize, &mut Sum<E, R, C>) + Sync, zero: E) -> Self
     where
         E: Send + Sync,
@@ -147,9 +147,9 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
     }
 }
 
-/// A row that is being summed up.
+/// Row during its summation.
 struct Sum<E, const R: usize, const C: usize> {
-    /// The place of each column of the matrix in the row; `u32::MAX` where it has none.
+    /// Place of each column of the matrix in the row; `u32::MAX` for a column without a block.
     place: Vec<u32>,
     columns: Vec<u32>,
     blocks: Vec<[[E; C]; R]>,
@@ -157,7 +157,7 @@ struct Sum<E, const R: usize, const C: usize> {
 }
 
 impl<E: Copy, const R: usize, const C: usize> Sum<E, R, C> {
-    /// The block of a column, of zeros at first.
+    /// Block of a column; a new block is zero.
     fn block(&mut self, column: usize) -> &mut [[E; C]; R] {
         let place = &mut self.place[column];
         if *place == u32::MAX {
@@ -177,7 +177,7 @@ impl<E: Copy, const R: usize, const C: usize> Sum<E, R, C> {
     }
 }
 
-/// All blocks of each row of a symmetric matrix: its column, its index, whether it is transposed.
+/// All blocks of each row of a symmetric matrix: column, index, and true if the block is transposed.
 pub(super) struct WholeRows {
     starts: Vec<usize>,
     blocks: Vec<(u32, u32, bool)>,
@@ -211,7 +211,7 @@ impl WholeRows {
         Self { starts, blocks }
     }
 
-    /// A symmetric matrix with these rows, where they are `included`, times another.
+    /// Product of the `included` rows of a symmetric matrix with another matrix.
     pub(super) fn multiply<const N: usize, const C: usize>(
         &self,
         matrix: &SymmetricBlocks<f64, N>,
@@ -246,7 +246,7 @@ impl WholeRows {
     }
 }
 
-/// The blocks of each column of a matrix by rows: the row, and the index of the block.
+/// Blocks of each column of a matrix in compressed rows: row, and index of the block.
 #[derive(Clone)]
 pub(super) struct Columns {
     starts: Vec<usize>,
@@ -286,14 +286,14 @@ impl Columns {
     }
 }
 
-/// The upper half of the symmetric matrix Pᵀ (A P), row by row.
+/// Upper half of the symmetric matrix Pᵀ (A P), row by row.
 pub(super) fn coarse_rows<const N: usize, const C: usize>(
     prolongation: &Rows<f64, N, C>,
     columns: &Columns,
     product: &Rows<f64, N, C>,
 ) -> Rows<f64, C, C> {
     let make = |coarse: usize, sum: &mut Sum<f64, C, C>| {
-        // On the diagonal first, also where nothing adds up to it.
+        // The block on the diagonal is first, even if nothing is added to it.
         sum.block(coarse);
         for (row, index) in columns.column(coarse) {
             let left = prolongation.block(index);
@@ -312,7 +312,7 @@ pub(super) fn coarse_rows<const N: usize, const C: usize>(
     Rows::make(columns.len(), columns.len(), make, 0.0)
 }
 
-/// The graph of a symmetric matrix by the rows of its upper half.
+/// Graph of a symmetric matrix, from the rows of its upper half.
 pub(super) fn graph_of<E: Copy, const N: usize>(upper: &Rows<E, N, N>) -> Graph {
     let above = |row: usize| {
         upper.row(row).map(|(column, _)| column as u32).filter(move |&column| column as usize != row)

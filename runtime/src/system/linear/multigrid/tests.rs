@@ -8,8 +8,8 @@ use crate::system::linear::conjugate_gradients::{ConjugateGradients, End, Iterat
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::testing::{KIRCHHOFF, shake};
 
-/// Stiffness of a cube with a number of cells along an edge, whose nodes are at `deform` of their rest
-/// positions; the free nodes, and all positions.
+/// Stiffness of a cube with a number of cells along an edge, with nodes at `deform` of their rest positions;
+/// also the free nodes, and all positions.
 fn cube(
     cells: usize,
     filter: Filter,
@@ -47,7 +47,7 @@ impl System for Preconditioned<'_> {
     }
 }
 
-/// Solves a system of random right side, zero at pinned nodes.
+/// Solves a system with a random right side that is zero at pinned nodes.
 fn solve(
     stiffness: &NodalStiffness,
     multigrid: &Multigrid<Whole>,
@@ -82,11 +82,11 @@ fn iterations_hardly_grow_with_the_body() {
         iterations
     };
     let (few, many) = (iterations(5), iterations(15));
-    // Blocks on the diagonal alone take 90 and 300.
+    // Block-Jacobi preconditioning needs 90 and 300 iterations.
     assert!(few <= 30 && many as f64 <= 1.5 * few as f64, "{few} iterations, then {many}");
 }
 
-/// Levels made where a body is at rest, for what it is after it has been bent and turned: worse, but of use.
+/// Levels of a body at rest are less accurate, but useful, after the body has been bent and rotated.
 #[test]
 fn old_levels_serve_another_matrix() {
     let turn = |[x, y, z]: [f64; 3]| {
@@ -105,7 +105,7 @@ fn old_levels_serve_another_matrix() {
 
 #[test]
 fn the_cycle_is_symmetric_and_positive_whatever_the_matrix() {
-    // Squeezed, a body has directions of negative curvature.
+    // A compressed body has directions of negative curvature.
     let squeezed = |[x, y, z]: [f64; 3]| [0.4 * x, y, z];
     for (filter, deform) in [(Filter::Clamp, (|x| x) as fn([f64; 3]) -> [f64; 3]), (Filter::None, squeezed)] {
         let (stiffness, is_free, positions) = cube(6, filter, deform);
@@ -125,7 +125,7 @@ fn the_cycle_is_symmetric_and_positive_whatever_the_matrix() {
             multigrid.solve(&y, &mut of_y);
             let scale = (dot(&x, &of_x) * dot(&y, &of_y)).sqrt();
             assert!(scale > 0.0, "not positive");
-            // Rounding of f32, grown by the condition.
+            // Rounding error of f32 times the condition.
             assert!((dot(&x, &of_y) - dot(&y, &of_x)).abs() <= 1e-3 * scale, "not symmetric");
             assert!(
                 of_x.iter().zip(&is_free).all(|(x, is_free)| *is_free || *x == [0.0; 3]),
@@ -138,13 +138,13 @@ fn the_cycle_is_symmetric_and_positive_whatever_the_matrix() {
 #[test]
 fn matrices_without_anything_to_aggregate_are_no_exception() {
     let (stiffness, _, positions) = cube(1, Filter::Clamp, |x| x);
-    // One free node, which has no free neighbour, and none.
+    // One free node, without a free neighbour, and no free node.
     for free in [Some(3), None] {
         let is_free: Vec<bool> = (0..positions.len()).map(|node| Some(node) == free).collect();
         let multigrid = set_up(&stiffness, &is_free, &positions);
         assert_eq!(solve(&stiffness, &multigrid, &is_free, 1e-6).end, End::Converged);
     }
-    // Not pinned at all: the matrix is singular, and right sides that it can have are solved for.
+    // Without pins the matrix is singular; systems with right sides in its range are solved.
     let all = vec![true; positions.len()];
     let mut multigrid = set_up(&stiffness, &all, &positions);
     let mut z = vec![[f64::NAN; 3]; positions.len()];

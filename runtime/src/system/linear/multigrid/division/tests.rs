@@ -1,4 +1,4 @@
-//! Multigrid for a matrix that is divided among threads, which meet at a board with lists of numbers.
+//! Multigrid for a matrix that is divided among threads, which exchange lists of integers.
 
 use std::sync::{Arc, Barrier, Mutex};
 
@@ -13,7 +13,7 @@ use crate::system::linear::multigrid::Multigrid;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::testing::KIRCHHOFF;
 
-/// Where each machine posts a list, and reads those of all.
+/// Board on which each machine posts a list, and reads the lists of all machines.
 struct Board {
     barrier: Barrier,
     lists: Mutex<Vec<Vec<u64>>>,
@@ -29,12 +29,12 @@ impl Board {
     }
 }
 
-/// The rows of a level on one machine.
+/// Rows of a level on one machine.
 #[derive(Clone)]
 struct Machine {
     board: Arc<Board>,
     number: usize,
-    /// Number of the first owned row of each machine, and the number of all rows.
+    /// Global number of the first owned row of each machine, followed by the number of all rows.
     starts: Vec<u64>,
     copies: Vec<u64>,
 }
@@ -52,7 +52,7 @@ impl Machine {
         self.starts[self.number]..self.starts[self.number + 1]
     }
 
-    /// Posts lists of rows, and returns those of all machines, in their order.
+    /// Posts lists of rows, and returns the lists of all machines, in the order of the machines.
     fn lists(&self, lists: impl Iterator<Item = (u64, Vec<u64>)>) -> Vec<(u64, Vec<u64>)> {
         let words = lists.flat_map(|(row, list)| [vec![row, list.len() as u64], list].concat()).collect();
         let mut all = Vec::new();
@@ -170,7 +170,7 @@ impl Division for Machine {
     }
 }
 
-/// The whole of the last level, on each machine.
+/// Whole last level, on each machine.
 struct Gathered {
     rows: Machine,
     cholesky: Cholesky,
@@ -189,7 +189,7 @@ impl LastSolver for Gathered {
     }
 }
 
-/// What a machine has of a body: its elements, the numbers of its nodes, how many it owns.
+/// Part of a body on a machine: its elements, the numbers of its nodes, and the number of owned nodes.
 struct Part {
     mesh: TetMesh,
     nodes: Vec<usize>,
@@ -224,7 +224,7 @@ fn divide(mesh: &TetMesh, machines: usize) -> (Vec<Part>, Vec<usize>) {
     ((0..machines).map(part).collect(), number)
 }
 
-/// Corrects the solution by a cycle and the next by another; returns how the residual falls, on a machine.
+/// Applies cycles to a solution on a machine; returns the norms of the residual.
 fn residuals(part: &Part, number: &[usize], board: &Arc<Board>, machine: usize) -> Vec<f64> {
     let Part { mesh, nodes, owned } = part;
     let body = Body::new(mesh, KIRCHHOFF, 1000.0).expect("a body");
