@@ -232,8 +232,8 @@ pub struct Summary {
     /// Stretch and stress at the end of a tensile test; `None` for other scenes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reading: Option<TensileReading>,
-    /// Equilibrium of a body that has not recovered at the end of all steps and is not pulled then; `None` for
-    /// others.
+    /// Equilibrium of a body that has not recovered at the end of all steps and is not pulled then; `None`
+    /// for others.
     pub final_state: Option<FinalState>,
 }
 
