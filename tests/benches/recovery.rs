@@ -162,7 +162,8 @@ impl fmt::Display for Row<'_> {
                 let first: Vec<_> =
                     numbers.iter().take(NAMED).map(|(number, _)| format!("{number}")).collect();
                 let more = if numbers.len() > NAMED { ", …" } else { "" };
-                write!(f, "{separator}{} {place} ({}{more})", numbers.len(), first.join(", "))?;
+                let seeds = if numbers.len() == 1 { "seed" } else { "seeds" };
+                write!(f, "{separator}{} {place} ({seeds} {}{more})", numbers.len(), first.join(", "))?;
                 separator = "; ";
             }
         }
