@@ -63,7 +63,7 @@
 //!     // Nine components of each F, row by row: here a simple shear by 0.1.
 //!     let F = [1.0, 0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(1000);
 //!     // Six components of each τ: 11, 22, 33, 23, 13, 12.
-//!     let mut tau = vec![0.0; 6 * 1000];
+//!     let mut tau = vec![0.0_f64; 6 * 1000];
 //!     let survey = Batch::new(&rubber).measured_stresses(Measure::Kirchhoff, &F, &mut tau)?;
 //!     assert!(survey.is_clean());
 //!     // τ = μ (F Fᵀ − I) + λ ln J I.
