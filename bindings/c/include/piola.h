@@ -94,9 +94,9 @@ typedef enum piola_filter {
 typedef enum piola_layout {
     // Point by point: component k of point p at p N + k.
     PIOLA_LAYOUT_POINTS = 0,
-    // Lines of L points, 8 in double precision and 16 in single precision: component k of point p at (p/L N
-    // + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line up with
-    // identities.
+    // Lines of L points, 8 in double precision and 16 in single precision: component k of point p is
+    // at (p/L N + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line
+    // up with identities.
     PIOLA_LAYOUT_LINES = 1,
 } piola_layout;
 

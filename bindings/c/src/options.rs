@@ -26,9 +26,9 @@ pub enum Filter {
 pub enum PointLayout {
     /// Point by point: component k of point p at p N + k.
     Points = 0,
-    /// Lines of L points, 8 in double precision and 16 in single precision: component k of point p at (p/L N
-    /// + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line up with
-    /// identities.
+    /// Lines of L points, 8 in double precision and 16 in single precision: component k of point p is
+    /// at (p/L N + k) L + p mod L. Faster. The number of points must be a multiple of L: fill the last line
+    /// up with identities.
     Lines = 1,
 }
 
