@@ -1,0 +1,162 @@
+//! Krylov solvers of PETSc, and their preconditioners.
+
+use std::cell::RefCell;
+use std::ptr::null_mut;
+use std::rc::Rc;
+
+use piola::step::divided::{End, Iteration};
+
+use super::operators::{Shared, precondition, view};
+use super::{Library, Matrix, PetscError, Vector, check, ffi, int, string};
+
+/// Solver of linear systems, configured by the options of PETSc.
+pub struct Krylov {
+    pub(super) raw: ffi::KSP,
+    /// Matrix to which the solver refers.
+    matrix: Rc<RefCell<Matrix>>,
+    /// Operators to which the preconditioner refers.
+    operators: Option<Box<Shared>>,
+}
+
+impl Krylov {
+    /// Solver for a matrix, by conjugate gradients unless options with the prefix `prefix` select another
+    /// one.
+    ///
+    /// # Errors
+    /// [`PetscError`], also for an option with a value that PETSc does not support.
+    pub fn new(library: &Library, matrix: Rc<RefCell<Matrix>>, prefix: &str) -> Result<Self, PetscError> {
+        let solver = Self::of_kind(library, matrix, "cg", prefix)?;
+        // SAFETY: the solver exists.
+        unsafe {
+            check(ffi::KSPSetNormType(solver.raw, ffi::KSPNormType_KSP_NORM_UNPRECONDITIONED))?;
+            check(ffi::KSPSetFromOptions(solver.raw))?;
+        }
+        Ok(solver)
+    }
+
+    /// Solver that applies a preconditioner of this kind once, unless options with the prefix `prefix` select
+    /// another one.
+    ///
+    /// # Errors
+    /// [`PetscError`], also for an option with a value that PETSc does not support.
+    pub fn once(
+        library: &Library,
+        matrix: Rc<RefCell<Matrix>>,
+        kind: &str,
+        prefix: &str,
+    ) -> Result<Self, PetscError> {
+        let solver = Self::of_kind(library, matrix, "preonly", prefix)?;
+        let (kind, preconditioner) = (string(kind)?, solver.preconditioner()?);
+        // SAFETY: both objects exist, and the text is a C string, which PETSc copies.
+        unsafe {
+            check(ffi::PCSetType(preconditioner, kind.as_ptr()))?;
+            check(ffi::KSPSetFromOptions(solver.raw))?;
+        }
+        Ok(solver)
+    }
+
+    fn of_kind(
+        library: &Library,
+        matrix: Rc<RefCell<Matrix>>,
+        kind: &str,
+        prefix: &str,
+    ) -> Result<Self, PetscError> {
+        let mut raw = null_mut();
+        // SAFETY: the result goes to a variable that outlives the call.
+        check(unsafe { ffi::KSPCreate(library.comm(), &mut raw) })?;
+        let mat = matrix.borrow().raw;
+        let solver = Self { raw, matrix, operators: None };
+        let (kind, prefix) = (string(kind)?, string(prefix)?);
+        // SAFETY: solver and matrix exist, and both texts are C strings, which PETSc copies.
+        unsafe {
+            check(ffi::KSPSetOptionsPrefix(raw, prefix.as_ptr()))?;
+            check(ffi::KSPSetType(raw, kind.as_ptr()))?;
+            check(ffi::KSPSetOperators(raw, mat, mat))?;
+        }
+        Ok(solver)
+    }
+
+    fn preconditioner(&self) -> Result<ffi::PC, PetscError> {
+        let mut preconditioner = null_mut();
+        // SAFETY: the solver exists, and the result goes to a variable that outlives the call.
+        check(unsafe { ffi::KSPGetPC(self.raw, &mut preconditioner) })?;
+        Ok(preconditioner)
+    }
+
+    /// Preconditions by operators; the type of the preconditioner in options is `shell`.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn precondition_by(&mut self, operators: Shared) -> Result<(), PetscError> {
+        let preconditioner = self.preconditioner()?;
+        let operators = self.operators.insert(Box::new(operators));
+        let context: *const Shared = &raw const **operators;
+        // SAFETY: the preconditioner exists, the name is a C string, which PETSc copies, the context exists
+        // as long as the solver, and the functions have the signatures that PETSc requires.
+        unsafe {
+            check(ffi::PCShellSetContext(preconditioner, context.cast_mut().cast()))?;
+            check(ffi::PCShellSetApply(preconditioner, Some(precondition)))?;
+            check(ffi::PCShellSetView(preconditioner, Some(view)))?;
+            check(ffi::PCShellSetName(preconditioner, c"piola".as_ptr()))
+        }
+    }
+
+    /// Keeps the preconditioner for the next system, or sets up a new one.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn keep_preconditioner(&mut self, keep: bool) -> Result<(), PetscError> {
+        let keep = if keep { ffi::PetscBool_PETSC_TRUE } else { ffi::PetscBool_PETSC_FALSE };
+        // SAFETY: the solver exists.
+        check(unsafe { ffi::KSPSetReusePreconditioner(self.raw, keep) })
+    }
+
+    /// Solves A x = b from x = 0 to a residual of `tolerance` times |b|.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn solve<const N: usize>(
+        &mut self,
+        b: &Vector<N>,
+        x: &mut Vector<N>,
+        tolerance: f64,
+        max_iterations: usize,
+    ) -> Result<Iteration, PetscError> {
+        let matrix = self.matrix.borrow().raw;
+        let (mut reason, mut iterations) = (0, 0);
+        // SAFETY: solver, matrix and vectors exist, and the results outlive the calls.
+        unsafe {
+            check(ffi::KSPSetOperators(self.raw, matrix, matrix))?;
+            check(ffi::KSPSetTolerances(self.raw, tolerance, 1e-300, 1e10, int(max_iterations)?))?;
+            check(ffi::KSPSolve(self.raw, b.raw, x.raw))?;
+            check(ffi::KSPGetConvergedReason(self.raw, &mut reason))?;
+            check(ffi::KSPGetIterationNumber(self.raw, &mut iterations))?;
+        }
+        let end = match reason {
+            reason if reason > 0 => End::Converged,
+            ffi::KSPConvergedReason_KSP_DIVERGED_INDEFINITE_MAT
+            | ffi::KSPConvergedReason_KSP_DIVERGED_INDEFINITE_PC => End::NegativeCurvature,
+            ffi::KSPConvergedReason_KSP_DIVERGED_NANORINF
+            | ffi::KSPConvergedReason_KSP_DIVERGED_PC_FAILED => End::NotFinite,
+            _ => End::Limit,
+        };
+        Ok(Iteration { iterations: usize::try_from(iterations).unwrap_or(0), end })
+    }
+
+    /// Solves A x = b to the tolerance of the options.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn apply<const N: usize>(&mut self, b: &Vector<N>, x: &mut Vector<N>) -> Result<(), PetscError> {
+        // SAFETY: solver and vectors exist.
+        check(unsafe { ffi::KSPSolve(self.raw, b.raw, x.raw) })
+    }
+}
+
+impl Drop for Krylov {
+    fn drop(&mut self) {
+        // SAFETY: the solver exists, this is its only owner, and PETSc still runs: the matrix has a handle of
+        // the library.
+        let _ = unsafe { ffi::KSPDestroy(&mut self.raw) };
+    }
+}

@@ -1,0 +1,201 @@
+//! Vectors of PETSc: with copies of rows of other ranks, and of unknowns.
+
+use std::ptr::{null, null_mut};
+
+use super::{DECIDE, Library, PetscError, PetscInt, check, ffi, int};
+
+/// Real number in a vector that is sent as f64, the type of PETSc.
+pub trait Entry: Copy {
+    /// Nearest value of this type.
+    fn of(number: f64) -> Self;
+
+    /// Value in f64.
+    fn wide(self) -> f64;
+}
+
+impl Entry for f64 {
+    fn of(number: f64) -> Self {
+        number
+    }
+
+    fn wide(self) -> f64 {
+        self
+    }
+}
+
+impl Entry for f32 {
+    fn of(number: f64) -> Self {
+        number as Self
+    }
+
+    fn wide(self) -> f64 {
+        self.into()
+    }
+}
+
+/// Vector with some components for each row. Each rank owns some rows, and has copies of other rows.
+pub struct GhostedVector {
+    _library: Library,
+    raw: ffi::Vec,
+    local: usize,
+    owned: usize,
+}
+
+impl GhostedVector {
+    /// Vector with a number of owned rows on this rank and copies of the rows with the numbers `ghosts`. Rows
+    /// are numbered rank after rank, and have this number of `components`.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn new(
+        library: &Library,
+        components: usize,
+        owned: usize,
+        ghosts: &[usize],
+    ) -> Result<Self, PetscError> {
+        let numbers: Vec<PetscInt> = ghosts.iter().map(|&number| int(number)).collect::<Result<_, _>>()?;
+        let mut raw = null_mut();
+        // SAFETY: the number of ghosts is correct, PETSc copies them, and the result outlives the call.
+        check(unsafe {
+            ffi::VecCreateGhostBlock(
+                library.comm(),
+                int(components)?,
+                int(components * owned)?,
+                DECIDE,
+                int(ghosts.len())?,
+                numbers.as_ptr(),
+                &mut raw,
+            )
+        })?;
+        let [local, owned] = [owned + ghosts.len(), owned].map(|rows| components * rows);
+        Ok(Self { _library: library.clone(), raw, local, owned })
+    }
+
+    /// Replaces the copies, the last rows of `all`, by the entries of their owners.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn copy<E: Entry>(&mut self, all: &mut [E]) -> Result<(), PetscError> {
+        let owned = self.owned;
+        self.with_local(|entries| entries.iter_mut().zip(&all[..owned]).for_each(|(e, x)| *e = x.wide()))?;
+        self.update(ffi::InsertMode_INSERT_VALUES, ffi::ScatterMode_SCATTER_FORWARD)?;
+        let copies = &mut all[owned..];
+        self.with_local(|entries| copies.iter_mut().zip(&entries[owned..]).for_each(|(x, e)| *x = E::of(*e)))
+    }
+
+    /// Adds the copies, the last rows of `all`, to the entries of their owners.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn sum<E: Entry>(&mut self, all: &mut [E]) -> Result<(), PetscError> {
+        self.with_local(|entries| entries.iter_mut().zip(&*all).for_each(|(e, x)| *e = x.wide()))?;
+        self.update(ffi::InsertMode_ADD_VALUES, ffi::ScatterMode_SCATTER_REVERSE)?;
+        let owned = &mut all[..self.owned];
+        self.with_local(|entries| owned.iter_mut().zip(&*entries).for_each(|(x, e)| *x = E::of(*e)))
+    }
+
+    fn update(&mut self, mode: ffi::InsertMode, direction: ffi::ScatterMode) -> Result<(), PetscError> {
+        // SAFETY: the vector was created by `VecCreateGhostBlock`, and is not destroyed before this.
+        unsafe {
+            check(ffi::VecGhostUpdateBegin(self.raw, mode, direction))?;
+            check(ffi::VecGhostUpdateEnd(self.raw, mode, direction))
+        }
+    }
+
+    /// Calls `work` with the owned entries and the copies.
+    fn with_local(&mut self, work: impl FnOnce(&mut [f64])) -> Result<(), PetscError> {
+        let mut form = null_mut();
+        // SAFETY: the vector has copies, and the result outlives the call.
+        check(unsafe { ffi::VecGhostGetLocalForm(self.raw, &mut form) })?;
+        let done = with_entries(form, self.local, work);
+        // SAFETY: the form is the result of the call above, and its entries are released.
+        check(unsafe { ffi::VecGhostRestoreLocalForm(self.raw, &mut form) })?;
+        done
+    }
+}
+
+/// Calls `work` with the `count` entries of a vector on this rank.
+pub(super) fn with_entries(
+    raw: ffi::Vec,
+    count: usize,
+    work: impl FnOnce(&mut [f64]),
+) -> Result<(), PetscError> {
+    let mut entries = null_mut();
+    // SAFETY: the vector exists, and the result outlives the call.
+    check(unsafe { ffi::VecGetArray(raw, &mut entries) })?;
+    if count == 0 || entries.is_null() {
+        work(&mut []);
+    } else {
+        // SAFETY: callers pass the number of entries on this rank, entries are f64 in any PETSc with real
+        // numbers, and the array is not used elsewhere until it is released.
+        work(unsafe { std::slice::from_raw_parts_mut(entries, count) });
+    }
+    // SAFETY: the array is the result of the call above, and its slice is not used any more.
+    check(unsafe { ffi::VecRestoreArray(raw, &mut entries) })
+}
+
+/// Calls `work` with the entries of a vector on this rank, without changing them.
+pub(super) fn with_given<T>(raw: ffi::Vec, work: impl FnOnce(&[f64]) -> T) -> Result<T, PetscError> {
+    let (mut entries, mut count) = (null(), 0);
+    // SAFETY: the vector exists, and the results outlive the calls.
+    unsafe {
+        check(ffi::VecGetLocalSize(raw, &mut count))?;
+        check(ffi::VecGetArrayRead(raw, &mut entries))?;
+    }
+    let done = match usize::try_from(count) {
+        // SAFETY: the vector has `count` entries here, entries are f64 in any PETSc with real numbers, and
+        // they do not change until the array is released.
+        Ok(count) if count > 0 && !entries.is_null() => {
+            work(unsafe { std::slice::from_raw_parts(entries, count) })
+        }
+        _ => work(&[]),
+    };
+    // SAFETY: the array is the result of the call above, and its slice is not used any more.
+    check(unsafe { ffi::VecRestoreArrayRead(raw, &mut entries) })?;
+    Ok(done)
+}
+
+impl Drop for GhostedVector {
+    fn drop(&mut self) {
+        // SAFETY: the vector exists, this is its only owner, and PETSc still runs.
+        let _ = unsafe { ffi::VecDestroy(&mut self.raw) };
+    }
+}
+
+/// Vector of unknowns, N for each row.
+pub struct Vector<const N: usize> {
+    _library: Library,
+    pub(super) raw: ffi::Vec,
+    rows: usize,
+}
+
+impl<const N: usize> Vector<N> {
+    /// Vector of zeros, with a number of rows on this rank.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn new(library: &Library, rows: usize) -> Result<Self, PetscError> {
+        let mut raw = null_mut();
+        // SAFETY: the result goes to a variable that outlives the call.
+        check(unsafe { ffi::VecCreateMPI(library.comm(), int(N * rows)?, DECIDE, &mut raw) })?;
+        let vector = Self { _library: library.clone(), raw, rows };
+        // SAFETY: the vector exists, and N divides the number of its entries on each rank.
+        check(unsafe { ffi::VecSetBlockSize(raw, int(N)?) })?;
+        Ok(vector)
+    }
+
+    /// Calls `work` with the entries of this rank.
+    ///
+    /// # Errors
+    /// [`PetscError`].
+    pub fn with(&mut self, work: impl FnOnce(&mut [[f64; N]])) -> Result<(), PetscError> {
+        with_entries(self.raw, N * self.rows, |entries| work(entries.as_chunks_mut().0))
+    }
+}
+
+impl<const N: usize> Drop for Vector<N> {
+    fn drop(&mut self) {
+        // SAFETY: the vector exists, this is its only owner, and PETSc still runs.
+        let _ = unsafe { ffi::VecDestroy(&mut self.raw) };
+    }
+}
