@@ -1,8 +1,8 @@
 //! Interface to PETSc: vectors of a divided body, sparse matrices, Krylov solvers, partitions of graphs.
 //!
-//! No module outside of this one calls PETSc or contains unsafe code. Each type owns one object of PETSc, which it destroys
-//! when it is dropped; the library runs until then. All functions are collective: all ranks must call them,
-//! in the same order. This module does not depend on meshes or on materials.
+//! No module outside of this one calls PETSc or contains unsafe code. Each type owns one object of PETSc,
+//! which it destroys when it is dropped; the library runs until then. All functions are collective: all ranks
+//! must call them, in the same order. This module does not depend on meshes or on materials.
 
 #![expect(unsafe_code, reason = "PETSc is a C library: this is the interface to it")]
 
