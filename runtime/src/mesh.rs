@@ -12,8 +12,8 @@ pub use boxes::{BoxError, tetrahedral_box};
 pub use elements::ElementCounts;
 pub use embed::{Anchor, EmbedError, Embedding};
 pub use io::{
-    NodeLine, NodeLines, ReadError, Surface, TetLine, TetLines, parse_msh, parse_surface_obj, read_msh,
-    read_surface_obj, read_tetgen, turned,
+    MshItem, MshOutline, MshRun, NodeLine, NodeLines, ReadError, Surface, TetLine, TetLines, parse_msh,
+    parse_surface_obj, read_msh, read_surface_obj, read_tetgen, turned,
 };
 pub(crate) use tet::lumped_masses;
 pub use tet::{Bounds, Group, MeshError, RestShape, TetMesh};

@@ -175,11 +175,12 @@ const NODE: &str = "the number of a node";
 
 /// Line without its comment; `None` if nothing is left.
 fn filled(line: &str) -> Option<Line<'_>> {
-    Cursor::with_comments(line, '#').next_filled()
+    let text = line.split('#').next().unwrap_or_default();
+    (!text.trim().is_empty()).then(|| Line::new(0, text))
 }
 
 fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
-    let mut cursor = Cursor::with_comments(text, '#');
+    let mut cursor = Cursor::with_comments(text, b'#');
     let lines = NodeLines::read(&mut cursor.next("the number of nodes")?)?;
     let mut nodes = Nodes::default();
     for node in 0..lines.count {
@@ -196,7 +197,7 @@ fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
 }
 
 fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
-    let mut cursor = Cursor::with_comments(text, '#');
+    let mut cursor = Cursor::with_comments(text, b'#');
     let lines = TetLines::read(&mut cursor.next("the number of tetrahedra")?)?;
     let (mut tets, mut tags) = (Vec::new(), Vec::new());
     let mut regions: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
