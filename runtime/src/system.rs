@@ -12,6 +12,7 @@ pub(crate) mod linear;
 mod lower_triangle;
 mod memory;
 pub(crate) mod nodal_stiffness;
+pub(crate) mod parts;
 mod pins;
 mod response;
 pub(crate) mod stiffnesses;

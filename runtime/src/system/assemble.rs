@@ -28,6 +28,7 @@ use rayon::prelude::*;
 
 use super::body::Body;
 use super::element::{ElementGroup, Evaluated, StiffnessBlocks, Tetrahedron};
+use super::parts::for_each_part;
 use crate::batch::TileMaterial;
 use crate::batch::element::TILE;
 use crate::point::{Filter, svd};
@@ -63,7 +64,7 @@ impl Elastic {
 
     /// Evaluates the energies at these positions.
     pub(crate) fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Evaluated {
-        self.groups.par_iter_mut().for_each(|state| {
+        self.for_each_group(|state| {
             let mut min_det = f64::INFINITY;
             state.evaluate(body, |group, material, elements| {
                 let (status, det) = group.evaluate(material, elements, positions);
@@ -77,7 +78,11 @@ impl Elastic {
 
     /// Evaluates the gradients where the energies were evaluated last.
     pub(crate) fn evaluate_gradients(&mut self, body: &Body) {
-        self.groups.par_iter_mut().for_each(|state| state.evaluate(body, ElementGroup::evaluate_gradients));
+        self.for_each_group(|state| state.evaluate(body, ElementGroup::evaluate_gradients));
+    }
+
+    fn for_each_group(&mut self, evaluate: impl Fn(&mut State) + Sync) {
+        for_each_part(&mut self.groups, 1, |_, states| states.iter_mut().for_each(&evaluate));
     }
 
     /// Evaluates gradients and filtered stiffnesses of the groups from `first` on, one for each tile, where

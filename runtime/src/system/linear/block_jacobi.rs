@@ -1,6 +1,6 @@
 //! Block-Jacobi preconditioning: the inverses of the 3×3 blocks on the diagonal of a matrix.
 
-use rayon::prelude::*;
+use crate::system::parts::for_each_part;
 
 /// Minimum number of blocks per thread.
 const BLOCKS: usize = 1024;
@@ -56,14 +56,18 @@ impl BlockJacobi {
 
     /// Factors the block of each row.
     pub(crate) fn factor<'a>(&mut self, block: impl Fn(usize) -> &'a [[f64; 3]; 3] + Sync) {
-        let factors = self.factors.par_iter_mut().enumerate().with_min_len(BLOCKS);
-        factors.for_each(|(row, factor)| *factor = Factor::new(block(row)));
+        for_each_part(&mut self.factors, BLOCKS, |first, factors| {
+            factors.iter_mut().zip(first..).for_each(|(factor, row)| *factor = Factor::new(block(row)));
+        });
     }
 
     /// Computes z: the inverse of each block times its part of r.
     pub(crate) fn solve(&self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
-        let parts = self.factors.par_iter().zip(r).zip(z).with_min_len(BLOCKS);
-        parts.for_each(|((factor, r), z)| *z = factor.solve(*r));
+        for_each_part(z, BLOCKS, |first, z| {
+            for ((z, r), factor) in z.iter_mut().zip(&r[first..]).zip(&self.factors[first..]) {
+                *z = factor.solve(*r);
+            }
+        });
     }
 }
 

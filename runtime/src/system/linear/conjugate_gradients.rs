@@ -16,7 +16,7 @@
 
 #![expect(non_snake_case, reason = "A as in the literature")]
 
-use rayon::prelude::*;
+use crate::system::parts::for_each_part;
 
 /// Number of entries in a chunk.
 const CHUNK: usize = 4096;
@@ -135,17 +135,19 @@ impl ConjugateGradients {
 
 /// Scalar product Σ a·b, summed in the same order for any number of threads.
 fn dot(a: &[f64], b: &[f64], sums: &mut [f64]) -> f64 {
-    let chunks = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK));
-    sums.par_iter_mut().zip(chunks).for_each(|(sum, (a, b))| {
-        *sum = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    for_each_part(sums, 1, |chunk, sums| {
+        let first = chunk * CHUNK;
+        let chunk = first..a.len().min(first + CHUNK);
+        let products = a[chunk.clone()].iter().zip(&b[chunk]).map(|(a, b)| a * b);
+        sums[0] = products.sum();
     });
     sums.iter().sum()
 }
 
 /// Replaces each entry of `to` by a function of this entry and the corresponding entry of `from`.
 fn combine(to: &mut [f64], with: impl Fn(f64, f64) -> f64 + Sync, from: &[f64]) {
-    to.par_chunks_mut(CHUNK).zip(from.par_chunks(CHUNK)).for_each(|(to, from)| {
-        for (to, from) in to.iter_mut().zip(from) {
+    for_each_part(to, CHUNK, |first, to| {
+        for (to, from) in to.iter_mut().zip(&from[first..]) {
             *to = with(*to, *from);
         }
     });

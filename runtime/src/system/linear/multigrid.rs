@@ -43,6 +43,7 @@ use rayon::prelude::*;
 
 use super::symmetric_blocks::SymmetricBlocks;
 use crate::system::graph::Graph;
+use crate::system::parts::for_each_part;
 
 use division::ROWS;
 use level::{Coarse, Level};
@@ -167,7 +168,9 @@ impl<D: Division> Multigrid<D> {
             r.par_iter().with_min_len(ROWS).flatten_iter().map(|r| r.abs()).reduce(|| 0.0, f64::max);
         let largest = division.largest(largest);
         let unit = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        b.par_iter_mut().zip(r).with_min_len(ROWS).for_each(|(b, r)| *b = r.map(|r| (unit * r) as f32));
+        for_each_part(&mut b[..r.len()], ROWS, |first, b| {
+            b.iter_mut().zip(&r[first..]).for_each(|(b, r)| *b = r.map(|r| (unit * r) as f32));
+        });
         finest.down(b, &mut coarse_b[0], division);
         for (depth, (level, division)) in coarse.iter_mut().enumerate() {
             let (to_here, after) = coarse_b.split_at_mut(depth + 1);
@@ -185,8 +188,10 @@ impl<D: Division> Multigrid<D> {
         }
         finest.up(&coarse_b[0], division);
         let unit = *scale / unit;
-        let rows = z.par_iter_mut().zip(finest.x()).with_min_len(ROWS);
-        rows.for_each(|(z, x)| *z = x.map(|x| unit * f64::from(x)));
+        let x = finest.x();
+        for_each_part(z, ROWS, |first, z| {
+            z.iter_mut().zip(&x[first..]).for_each(|(z, x)| *z = x.map(|x| unit * f64::from(x)));
+        });
     }
 }
 

@@ -10,17 +10,16 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::LinearError;
 use crate::lanes::Real;
 use crate::system::graph::Graph;
 use crate::system::memory::{filled, reserved};
+use crate::system::parts::for_each_part;
 
 /// Number of rows in a chunk: its sums and its part of the vector stay in the cache next to the processor.
 const ROWS: usize = 256;
 
-/// Minimum number of rows per thread in the second pass.
+/// Number of rows that a thread takes at a time in the second pass.
 const SUMS: usize = 1024;
 
 /// Upper half of a symmetric matrix.
@@ -235,29 +234,35 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
             parts.push((chunk.range().start, part));
             rest = after;
         }
-        parts.into_par_iter().enumerate().for_each(|(chunk, (first, part))| change(chunk, first, part));
+        for_each_part(&mut parts, 1, |chunk, parts| {
+            parts.iter_mut().for_each(|(first, part)| change(chunk, *first, part));
+        });
     }
 
     /// Computes the product with a vector.
     pub(crate) fn multiply(&mut self, x: &[[E; N]], product: &mut [[E; N]]) {
         let Self { pattern, blocks, memory } = self;
-        memory.par_iter_mut().zip(&pattern.chunks).for_each(|(memory, chunk)| {
-            for (here, &row) in memory.x.iter_mut().zip(&chunk.rows) {
-                *here = x[row as usize];
+        for_each_part(memory, 1, |first, part| {
+            for (memory, chunk) in part.iter_mut().zip(&pattern.chunks[first..]) {
+                for (here, &row) in memory.x.iter_mut().zip(&chunk.rows) {
+                    *here = x[row as usize];
+                }
+                chunk.multiply(&blocks[chunk.range()], memory);
             }
-            chunk.multiply(&blocks[chunk.range()], memory);
         });
         let memory = &*memory;
-        product.par_iter_mut().with_min_len(SUMS).enumerate().for_each(|(row, total)| {
-            let mut sum = [E::splat(0.0); N];
-            let sums = pattern.starts[row] as usize..pattern.starts[row + 1] as usize;
-            for &Place { chunk, place } in &pattern.sums[sums] {
-                let part = memory[chunk as usize].sums[place as usize];
-                for a in 0..N {
-                    sum[a] = sum[a] + part[a];
+        for_each_part(product, SUMS, |first, part| {
+            for (total, row) in part.iter_mut().zip(first..) {
+                let mut sum = [E::splat(0.0); N];
+                let sums = pattern.starts[row] as usize..pattern.starts[row + 1] as usize;
+                for &Place { chunk, place } in &pattern.sums[sums] {
+                    let part = memory[chunk as usize].sums[place as usize];
+                    for a in 0..N {
+                        sum[a] = sum[a] + part[a];
+                    }
                 }
+                *total = sum;
             }
-            *total = sum;
         });
     }
 }

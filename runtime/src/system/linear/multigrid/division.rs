@@ -9,13 +9,12 @@
 
 use std::collections::HashMap;
 
-use rayon::prelude::*;
-
 use super::last::{Last, LastLevel, LastSolver};
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
+use crate::system::parts::for_each_part;
 
-/// Minimum number of rows per thread.
+/// Number of rows that a thread takes at a time.
 pub(super) const ROWS: usize = 1024;
 
 /// Division of the rows of a matrix among machines, on one of the machines.
@@ -201,8 +200,9 @@ pub(crate) fn diagonals<const N: usize>(
 ) -> Vec<[[f64; N]; N]> {
     let owned = matrix.pattern().rows() - division.copies();
     let mut blocks = vec![[[0.0; N]; N]; owned];
-    let rows = blocks.par_iter_mut().with_min_len(ROWS).enumerate();
-    rows.for_each(|(row, block)| *block = *matrix.diagonal(row));
+    for_each_part(&mut blocks, ROWS, |first, blocks| {
+        blocks.iter_mut().zip(first..).for_each(|(block, row)| *block = *matrix.diagonal(row));
+    });
     let parts = division.lists_for_owners(|copy, list| {
         list.extend(matrix.diagonal(owned + copy).as_flattened().iter().map(|entry| entry.to_bits()));
     });

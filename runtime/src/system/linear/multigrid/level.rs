@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::aggregation::Aggregates;
 use super::division::{Division, Numbers, ROWS, diagonals};
 use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, graph_of};
 use crate::system::graph::Graph;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
+use crate::system::parts::for_each_part;
 
 /// Degree of the Chebyshev polynomials.
 const DEGREE: usize = 2;
@@ -163,12 +162,14 @@ impl<const N: usize> Level<N> {
                 *single = block.map(|row| row.map(|entry| (scale * entry) as f32));
             }
         });
-        self.inverses.par_iter_mut().with_min_len(ROWS).enumerate().for_each(|(row, single)| {
-            *single = match included[row] {
-                true => inverse(&diagonals[row].map(|row| row.map(|entry| scale * entry)))
-                    .map(|row| row.map(|entry| entry as f32)),
-                false => [[0.0; N]; N],
-            };
+        for_each_part(&mut self.inverses, ROWS, |first, inverses| {
+            for (single, row) in inverses.iter_mut().zip(first..) {
+                *single = match included[row] {
+                    true => inverse(&diagonals[row].map(|row| row.map(|entry| scale * entry)))
+                        .map(|row| row.map(|entry| entry as f32)),
+                    false => [[0.0; N]; N],
+                };
+            }
         });
     }
 
@@ -181,14 +182,19 @@ impl<const N: usize> Level<N> {
             division.copy(roughest);
             matrix.multiply(roughest, product);
             division.sum(product);
-            let rows = roughest.par_iter_mut().zip(&*product).zip(&*inverses).with_min_len(ROWS);
-            rows.for_each(|((x, product), inverse)| *x = times(inverse, product));
+            for_each_part(&mut roughest[..owned], ROWS, |first, x| {
+                for ((x, product), inverse) in x.iter_mut().zip(&product[first..]).zip(&inverses[first..]) {
+                    *x = times(inverse, product);
+                }
+            });
             let entries = roughest[..owned].as_flattened().iter();
             let square = division.total(entries.map(|&x| f64::from(x) * f64::from(x)).sum());
             if square > 0.0 && square.is_finite() {
                 largest = square.sqrt();
                 let unit = (1.0 / largest) as f32;
-                roughest.par_iter_mut().with_min_len(ROWS).for_each(|x| *x = x.map(|x| unit * x));
+                for_each_part(roughest, ROWS, |_, x| {
+                    x.as_flattened_mut().iter_mut().for_each(|x| *x *= unit)
+                });
             }
         }
         self.largest = (MARGIN * largest) as f32;
@@ -207,37 +213,41 @@ impl<const N: usize> Level<N> {
     /// Smooths the error of x = 0 for a right side, and restricts this machine's part of the residual to the
     /// next level.
     pub(super) fn down(&mut self, b: &[[f32; N]], coarse: &mut [[f32; 6]], division: &mut impl Division) {
-        self.x.par_iter_mut().with_min_len(ROWS).for_each(|x| *x = [0.0; N]);
+        for_each_part(&mut self.x, ROWS, |_, x| x.fill([0.0; N]));
         self.residual.copy_from_slice(&b[..self.x.len()]);
         self.smooth(true, division);
         let Self { residual, prolongation, columns, .. } = self;
-        coarse.par_iter_mut().with_min_len(ROWS / 16).enumerate().for_each(|(column, coarse)| {
-            let mut sum = [0.0; 6];
-            for (row, index) in columns.column(column) {
-                let (block, residual) = (prolongation.block(index), &residual[row]);
-                for k in 0..N {
-                    for c in 0..6 {
-                        sum[c] += block[k][c] * residual[k];
+        for_each_part(coarse, ROWS / 16, |first, coarse| {
+            for (coarse, column) in coarse.iter_mut().zip(first..) {
+                let mut sum = [0.0; 6];
+                for (row, index) in columns.column(column) {
+                    let (block, residual) = (prolongation.block(index), &residual[row]);
+                    for k in 0..N {
+                        for c in 0..6 {
+                            sum[c] += block[k][c] * residual[k];
+                        }
                     }
                 }
+                *coarse = sum;
             }
-            *coarse = sum;
         });
     }
 
     /// Adds the correction of the next level, and smooths the error again.
     pub(super) fn up(&mut self, coarse: &[[f32; 6]], division: &mut impl Division) {
         let Self { step, prolongation, x, .. } = self;
-        step[..x.len()].par_iter_mut().with_min_len(ROWS).enumerate().for_each(|(row, step)| {
-            let mut sum = [0.0; N];
-            for (column, block) in prolongation.row(row) {
-                for r in 0..N {
-                    for c in 0..6 {
-                        sum[r] += block[r][c] * coarse[column][c];
+        for_each_part(&mut step[..x.len()], ROWS, |first, step| {
+            for (step, row) in step.iter_mut().zip(first..) {
+                let mut sum = [0.0; N];
+                for (column, block) in prolongation.row(row) {
+                    for r in 0..N {
+                        for c in 0..6 {
+                            sum[r] += block[r][c] * coarse[column][c];
+                        }
                     }
                 }
+                *step = sum;
             }
-            *step = sum;
         });
         self.follow(division);
         self.smooth(false, division);
@@ -271,12 +281,14 @@ impl<const N: usize> Level<N> {
     /// Computes step = a step + b D⁻¹ r.
     fn advance(&mut self, a: f32, b: f32) {
         let Self { step, residual, inverses, .. } = self;
-        let rows = step.par_iter_mut().zip(residual).zip(inverses).with_min_len(ROWS);
-        rows.for_each(|((step, residual), inverse)| {
-            let damped = times(inverse, residual);
-            for c in 0..N {
-                // The previous step may contain any values, and must not be used.
-                step[c] = if a == 0.0 { b * damped[c] } else { a * step[c] + b * damped[c] };
+        for_each_part(&mut step[..residual.len()], ROWS, |first, step| {
+            let rows = step.iter_mut().zip(&residual[first..]).zip(&inverses[first..]);
+            for ((step, residual), inverse) in rows {
+                let damped = times(inverse, residual);
+                for c in 0..N {
+                    // The previous step may contain any values, and must not be used.
+                    step[c] = if a == 0.0 { b * damped[c] } else { a * step[c] + b * damped[c] };
+                }
             }
         });
     }
@@ -287,20 +299,22 @@ impl<const N: usize> Level<N> {
         self.matrix.multiply(&self.step, &mut self.product);
         division.sum(&mut self.product);
         let Self { residual, product, .. } = self;
-        residual.par_iter_mut().zip(product).with_min_len(ROWS).for_each(|(residual, product)| {
-            for c in 0..N {
-                residual[c] -= product[c];
-            }
+        for_each_part(residual, ROWS, |first, residual| {
+            let product = product[first..].as_flattened();
+            residual
+                .as_flattened_mut()
+                .iter_mut()
+                .zip(product)
+                .for_each(|(residual, product)| *residual -= product);
         });
         self.add_step();
     }
 
     fn add_step(&mut self) {
         let Self { x, step, .. } = self;
-        x.par_iter_mut().zip(step).with_min_len(ROWS).for_each(|(x, step)| {
-            for c in 0..N {
-                x[c] += step[c];
-            }
+        for_each_part(x, ROWS, |first, x| {
+            let step = step[first..].as_flattened();
+            x.as_flattened_mut().iter_mut().zip(step).for_each(|(x, step)| *x += step);
         });
     }
 }

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use crate::system::graph::Graph;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
+use crate::system::parts::for_each_part;
 
 /// Number of rows in a chunk, which one thread computes.
 const ROWS: usize = 512;
@@ -96,12 +97,14 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
             parts.push((first..end, part));
             rest = after;
         }
-        parts.into_par_iter().for_each(|(range, mut part)| {
-            for row in range {
-                let (blocks, after) = std::mem::take(&mut part).split_at_mut(starts[row + 1] - starts[row]);
-                let columns = columns[starts[row]..starts[row + 1]].iter().map(|&column| column as usize);
-                change(row, &mut columns.zip(blocks));
-                part = after;
+        for_each_part(&mut parts, 1, |_, parts| {
+            for (range, part) in parts {
+                for row in range.clone() {
+                    let (blocks, after) = std::mem::take(part).split_at_mut(starts[row + 1] - starts[row]);
+                    let columns = columns[starts[row]..starts[row + 1]].iter().map(|&column| column as usize);
+                    change(row, &mut columns.zip(blocks));
+                    *part = after;
+                }
             }
         });
     }
