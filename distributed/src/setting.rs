@@ -79,19 +79,17 @@ fn move_mark(number: usize) -> u64 {
     1 << (32 + number)
 }
 
-/// Path of a TetGen file that all ranks can read at once; `None` if rank 0 must read the mesh.
+/// Path of a file that all ranks can read at once; `None` if rank 0 must read the mesh.
 fn in_parts(settings: &Settings) -> Option<&Path> {
     let starts_at_rest =
         matches!(settings.start, Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. });
-    let file = settings.files.as_ref().map(|files| files.mesh.as_path())?;
-    let is_tetgen = file.extension().is_some_and(|end| end == "node" || end == "ele");
-    (is_tetgen && starts_at_rest).then_some(file)
+    settings.files.as_ref().map(|files| files.mesh.as_path()).filter(|_| starts_at_rest)
 }
 
 impl Setting {
     /// Reads the body and divides it. The elements of `groups` have the materials with the numbers 1, 2, …;
-    /// all other elements have the material with the number 0. All ranks read TetGen's files at once if the
-    /// body starts at rest. Rank 0 reads all other files as a whole.
+    /// all other elements have the material with the number 0. All ranks read a file at once if the body starts at
+    /// rest and consists of linear tetrahedra only. Rank 0 reads all other files as a whole.
     ///
     /// # Errors
     /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Options`],
@@ -100,13 +98,9 @@ impl Setting {
         if moves.len() > MOST || settings.scene.pulls.len() > MOST {
             return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
         }
-        let (share, body) = match in_parts(settings) {
-            Some(path) => {
-                let (portion, body) = parts::read(team, path, settings, groups, moves)?;
-                let mut share = Share::of(team, portion)?;
-                share.turn_inverted();
-                (share, body)
-            }
+        let in_parts = in_parts(settings).map(|path| parts::read(team, path, settings, groups, moves));
+        let (share, body) = match in_parts.transpose()?.flatten() {
+            Some(read) => read,
             None => {
                 let read = if team.rank() == 0 { read(settings, groups, moves).map(Some) } else { Ok(None) };
                 let (places, elements, facts) = team.agree(read)?.unwrap_or_default();

@@ -13,19 +13,21 @@ use piola_scenes::settings::Settings;
 
 use super::{BodyFacts, Move, PINNED, move_mark, pull_mark};
 use crate::error::Error;
+use crate::files::{self, Part};
 use crate::portion::{Place, Portion};
+use crate::share::Share;
 use crate::team::Team;
-use crate::tetgen::{self, Part};
 
 /// Selection of nodes of a body.
 #[derive(Clone, Copy)]
-enum Nodes {
+enum Nodes<'a> {
     InBox(Bounds),
-    /// Nodes with this marker, and nodes of tetrahedra of this region.
-    OfGroup(i64),
+    /// Nodes of all groups with this name.
+    OfGroup(&'a str),
 }
 
-/// Reads TetGen's files in parts, and marks the nodes.
+/// Reads a file in parts, divides the mesh, and marks the nodes. The result is `None` if one rank must read the
+/// file as a whole.
 ///
 /// # Errors
 /// The errors of [`super::Setting::new`].
@@ -35,14 +37,13 @@ pub(super) fn read(
     settings: &Settings,
     groups: &[String],
     moves: &[Move],
-) -> Result<(Portion, BodyFacts), Error> {
-    let mut part = tetgen::read(team, path)?;
-    for (position, _) in &mut part.nodes {
+) -> Result<Option<(Share, BodyFacts)>, Error> {
+    let Some(mut part) = files::read(team, path)? else { return Ok(None) };
+    for position in &mut part.nodes {
         *position = position.map(|x| settings.unit.to_metres(x));
     }
     let bounds = bounds(team, &part);
     check_bounds(bounds)?;
-    let known = groups_of(team, &part);
     let mut marks = Marks { team, part: &part, bounds, marks: vec![0; part.nodes.len()] };
 
     match settings.scene.pinned {
@@ -53,10 +54,10 @@ pub(super) fn read(
         _ => {}
     }
     for pin in &settings.pins {
-        marks.set(PINNED, selected(pin, &known)?, &format!("`{pin}`"))?;
+        marks.set(PINNED, selected(pin, &part)?, &format!("`{pin}`"))?;
     }
     for (number, motion) in moves.iter().enumerate() {
-        let nodes = selected(&motion.nodes, &known)?;
+        let nodes = selected(&motion.nodes, &part)?;
         marks.set(PINNED | move_mark(number), nodes, &format!("`{}`", motion.nodes))?;
     }
     let young = settings.material.build()?.moduli.young();
@@ -69,57 +70,63 @@ pub(super) fn read(
 
     let Marks { marks, .. } = marks;
     let places = part.nodes.iter().zip(marks);
-    let places = places.map(|(&(rest, _), marks)| Place { rest, start: rest, marks }).collect();
-    let number_of = |region: Option<i64>| {
-        let name = region.map(|region| region.to_string());
-        name.and_then(|name| groups.iter().position(|group| *group == name)).map_or(0, |group| group + 1)
-    };
-    let elements: Vec<_> = part
-        .elements
-        .iter()
-        .map(|&([a, b, c, d], tag, region)| [a, b, c, d, tag, number_of(region) as u64])
-        .collect();
-    for (number, name) in groups.iter().enumerate() {
-        let here = elements.iter().filter(|element| element[5] == number as u64 + 1).count();
-        if team.count(here) == 0 {
-            return Err(Error::Options(format!("the mesh has no group `{name}` of tetrahedra")));
-        }
+    let places = places.map(|(&rest, marks)| Place { rest, start: rest, marks }).collect();
+    let materials = team.agree(materials(&part, groups))?;
+    let elements = part.elements.iter().zip(materials);
+    let elements = elements.map(|(&([a, b, c, d], tag), material)| [a, b, c, d, tag, material]).collect();
+    let mut share = Share::of(team, Portion { homes: part.homes, places, elements })?;
+    if !part.is_oriented {
+        share.turn_inverted();
     }
     let dropped = (part.dropped > 0).then_some(GeometryWarning::NodesDropped { nodes: part.dropped });
     let idle = is_idle.then_some(GeometryWarning::NothingPulled);
-    let warnings = [size_warning(bounds), dropped, idle];
+    let warnings = [size_warning(bounds), dropped, in_pieces(team, &share), idle];
     let facts = BodyFacts {
         bounds,
         checksum: checksum(team, &part),
         warnings: warnings.iter().flatten().map(ToString::to_string).collect(),
         stiffnesses,
     };
-    Ok((Portion { homes: part.homes, places, elements }, facts))
+    Ok(Some((share, facts)))
+}
+
+/// Number of the material of each element of this rank: 0, or 1, 2, … for the elements of groups.
+fn materials(part: &Part, groups: &[String]) -> Result<Vec<u64>, Error> {
+    let mut materials = vec![0; part.elements.len()];
+    for (number, name) in groups.iter().enumerate() {
+        let group = part.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
+        let group =
+            group.ok_or_else(|| Error::Options(format!("the mesh has no group `{name}` of tetrahedra")))?;
+        for &element in &group.members {
+            if std::mem::replace(&mut materials[element], number as u64 + 1) != 0 {
+                let (_, tag) = part.elements[element];
+                return Err(Error::Options(format!("element {tag} has two materials")));
+            }
+        }
+    }
+    Ok(materials)
+}
+
+/// Warns of a body that is not connected.
+fn in_pieces(team: &Team, share: &Share) -> Option<GeometryWarning> {
+    let pieces = share.pieces(team);
+    let (largest, [_, tetrahedra]) = (pieces.iter().copied().max()?, share.totals);
+    (pieces.len() > 1).then_some(GeometryWarning::InPieces { pieces: pieces.len(), largest, tetrahedra })
 }
 
 /// Bounding box of the nodes of all ranks, m.
 fn bounds(team: &Team, part: &Part) -> Bounds {
-    let positions: Vec<[f64; 3]> = part.nodes.iter().map(|&(position, _)| position).collect();
-    let Bounds { min, max } = Bounds::around(&positions);
+    let Bounds { min, max } = Bounds::around(&part.nodes);
     Bounds { min: min.map(|x| team.min(x)), max: max.map(|x| team.max(x)) }
 }
 
-/// Markers and regions of all ranks.
-fn groups_of(team: &Team, part: &Part) -> BTreeSet<i64> {
-    let markers = part.nodes.iter().map(|&(_, marker)| marker).filter(|&marker| marker != 0);
-    let regions = part.elements.iter().filter_map(|&(_, _, region)| region);
-    let here: BTreeSet<i64> = markers.chain(regions).collect();
-    let here: Vec<u64> = here.into_iter().map(|group| group as u64).collect();
-    team.exchange(&vec![here; team.size()]).concat().into_iter().map(|group| group as i64).collect()
-}
-
 /// Nodes selected by a text: the name of a group, or else a box. The name of a group takes precedence.
-fn selected(text: &str, known: &BTreeSet<i64>) -> Result<Nodes, Error> {
-    if let Some(&group) = known.iter().find(|group| group.to_string() == text) {
-        return Ok(Nodes::OfGroup(group));
+fn selected<'a>(text: &'a str, part: &Part) -> Result<Nodes<'a>, Error> {
+    if part.groups.iter().any(|group| group.name == text) {
+        return Ok(Nodes::OfGroup(text));
     }
     region::parse(text).map(Nodes::InBox).map_err(|source| {
-        let groups = known.iter().map(ToString::to_string).collect();
+        let groups = part.groups.iter().map(|group| group.name.clone()).collect();
         Error::Scene(SceneError::UnknownPin { pin: text.to_owned(), groups, source })
     })
 }
@@ -136,36 +143,40 @@ impl Marks<'_> {
     /// Marks nodes.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a box without nodes.
-    fn set(&mut self, mark: u64, nodes: Nodes, what: &str) -> Result<(), Error> {
-        match (self.add(mark, nodes), nodes) {
-            (0, Nodes::InBox(bounds)) => {
-                let source = PinError::EmptyBox { bounds, body: self.bounds }.into();
-                Err(Error::Scene(SceneError::Pin { pin: what.to_owned(), source }))
-            }
-            _ => Ok(()),
+    /// [`Error::Scene`] for a box or a group without nodes.
+    fn set(&mut self, mark: u64, nodes: Nodes<'_>, what: &str) -> Result<(), Error> {
+        if self.add(mark, nodes) > 0 {
+            return Ok(());
         }
+        let source = match nodes {
+            Nodes::InBox(bounds) => PinError::EmptyBox { bounds, body: self.bounds },
+            Nodes::OfGroup(name) => PinError::EmptyGroup { name: name.to_owned() },
+        };
+        Err(Error::Scene(SceneError::Pin { pin: what.to_owned(), source: source.into() }))
     }
 
     /// Marks nodes; returns the number of marked nodes on all ranks.
-    fn add(&mut self, mark: u64, nodes: Nodes) -> usize {
-        let homes = &self.part.homes;
-        let mut is_chosen: Vec<bool> = self
-            .part
-            .nodes
-            .iter()
-            .map(|&(position, marker)| match nodes {
-                Nodes::InBox(bounds) => bounds.contains(position),
-                Nodes::OfGroup(group) => marker == group,
-            })
-            .collect();
-        if let Nodes::OfGroup(group) = nodes {
-            let elements = self.part.elements.iter().filter(|&&(.., region)| region == Some(group));
-            let corners: BTreeSet<u64> = elements.flat_map(|&(corners, ..)| corners).collect();
-            let rows = homes.sort(self.team, corners.into_iter().map(|node| [node]));
-            let first = homes.range(self.team.rank()).start;
-            for [node] in self.team.exchange_rows(&rows).concat() {
-                is_chosen[(node - first) as usize] = true;
+    fn add(&mut self, mark: u64, nodes: Nodes<'_>) -> usize {
+        let Part { homes, nodes: positions, elements, groups, .. } = self.part;
+        let mut is_chosen = vec![false; positions.len()];
+        match nodes {
+            Nodes::InBox(bounds) => {
+                let is_inside = positions.iter().map(|&position| bounds.contains(position));
+                is_chosen = is_inside.collect();
+            }
+            Nodes::OfGroup(name) => {
+                let first = homes.range(self.team.rank()).start;
+                for group in groups.iter().filter(|group| group.name == name) {
+                    if group.dimension == 3 {
+                        let corners: BTreeSet<u64> =
+                            group.members.iter().flat_map(|&element| elements[element].0).collect();
+                        let rows = homes.sort(self.team, corners.into_iter().map(|node| [node]));
+                        let chosen = self.team.exchange_rows(&rows).concat();
+                        chosen.iter().for_each(|[node]| is_chosen[(node - first) as usize] = true);
+                    } else {
+                        group.members.iter().for_each(|&node| is_chosen[node] = true);
+                    }
+                }
             }
         }
         let chosen = self.marks.iter_mut().zip(&is_chosen).filter(|&(_, &is_chosen)| is_chosen);
@@ -173,17 +184,20 @@ impl Marks<'_> {
     }
 }
 
-/// Checksum of nodes and elements that does not depend on the number of ranks.
+/// Checksum of nodes, elements and groups that does not depend on the number of ranks.
 fn checksum(team: &Team, part: &Part) -> u32 {
     let mut whole = crc32fast::Hasher::new();
-    let nodes = part
-        .nodes
-        .iter()
-        .flat_map(|&([x, y, z], marker)| [x, y, z].map(f64::to_bits).into_iter().chain([marker as u64]));
-    let elements = part.elements.iter().flat_map(|&(corners, tag, region)| {
-        corners.into_iter().chain([tag, region.unwrap_or_default() as u64])
-    });
-    for words in [nodes.collect::<Vec<_>>(), elements.collect()] {
+    let nodes = part.nodes.iter().flat_map(|position| position.map(f64::to_bits));
+    let elements = part.elements.iter().flat_map(|&(corners, tag)| corners.into_iter().chain([tag]));
+    let mut lists = vec![nodes.collect::<Vec<_>>(), elements.collect()];
+    let first_element: usize = team.all(part.elements.len())[..team.rank()].iter().sum();
+    let first_node = part.homes.range(team.rank()).start as usize;
+    for group in &part.groups {
+        whole.update(group.name.as_bytes());
+        let first = if group.dimension == 3 { first_element } else { first_node };
+        lists.push(group.members.iter().map(|member| (first + member) as u64).collect());
+    }
+    for words in lists {
         let mut here = crc32fast::Hasher::new();
         words.iter().for_each(|word| here.update(&word.to_le_bytes()));
         let (sums, lengths) = (team.all(here.finalize() as usize), team.all(8 * words.len()));

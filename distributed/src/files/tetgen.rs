@@ -1,36 +1,23 @@
-//! Parallel reader of TetGen's files: each rank reads a part of the bytes, so that none holds the whole mesh.
-//!
-//! This module does not depend on materials, pins or prescribed motions.
+//! Parallel reader of TetGen's files: each rank reads a part of the bytes.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom};
 use std::path::Path;
 
 use piola::mesh::{NodeLines, TetLines};
 
+use super::{NO_GROUP, Part, Rows};
 use crate::error::Error;
 use crate::portion::Homes;
 use crate::team::Team;
-
-/// Part of a mesh on a rank.
-#[derive(Debug)]
-pub struct Part {
-    /// Homes of all nodes.
-    pub homes: Homes,
-    /// Position, m, and boundary marker of each node that is at home on this rank.
-    pub nodes: Vec<([f64; 3], i64)>,
-    /// Elements: four nodes, in either orientation, number and region. Each element is on one rank.
-    pub elements: Vec<([u64; 4], u64, Option<i64>)>,
-    /// Number of nodes of the file that do not belong to a tetrahedron, and are left out.
-    pub dropped: usize,
-}
 
 /// Reads a `.ele` file and the `.node` file with the same name; `path` is one of them. The nodes must be
 /// numbered consecutively; the lines may be in any order.
 ///
 /// # Errors
 /// [`Error::OnRank`], with the place at which a file is malformed.
-pub fn read(team: &Team, path: &Path) -> Result<Part, Error> {
+pub(super) fn read(team: &Team, path: &Path) -> Result<Part, Error> {
     let (node_file, tet_file) = (path.with_extension("node"), path.with_extension("ele"));
     let nodes = part(team, &node_file, NodeLines::of_first_line, NodeLines::node);
     let (format, nodes) = team.agree(nodes)?;
@@ -55,13 +42,15 @@ pub fn read(team: &Team, path: &Path) -> Result<Part, Error> {
 
     // Send nodes to their homes.
     let homes = Homes::new(format.count as u64, team.size());
-    let mut rows = Vec::new();
-    let mut stray = None;
+    let (mut rows, mut members, mut stray) = (Vec::new(), Vec::new(), None);
     for node in &nodes {
         match index(node.number) {
             Some(index) => {
                 let [x, y, z] = node.position.map(f64::to_bits);
-                rows.push([index as u64, x, y, z, node.marker as u64]);
+                rows.push([index as u64, x, y, z]);
+                if node.marker != 0 {
+                    members.push([index as u64, 2, node.marker as u64]);
+                }
             }
             None => stray = stray.or(Some(node.number)),
         }
@@ -86,44 +75,13 @@ pub fn read(team: &Team, path: &Path) -> Result<Part, Error> {
     };
     team.agree(ordered)?;
 
-    // Nodes without a tetrahedron are left out, and the others are renumbered.
-    let mut touched: Vec<u64> = corners.as_flattened().to_vec();
-    touched.sort_unstable();
-    touched.dedup();
-    let mut is_used = vec![false; here.len()];
-    for [node] in team.exchange_rows(&homes.sort(team, touched.iter().map(|&node| [node]))).concat() {
-        is_used[(node - wanted.start) as usize] = true;
-    }
-    let used = is_used.iter().filter(|&&used| used).count();
-    let mut next = team.all(used)[..team.rank()].iter().sum::<usize>() as u64;
-    let new: Vec<u64> = is_used
-        .iter()
-        .map(|&used| {
-            let number = next;
-            next += u64::from(used);
-            number
-        })
-        .collect();
-    let answers = homes.ask(team, &touched, |node| [new[node]]);
-    let total = team.count(used);
-    let new_homes = Homes::new(total as u64, team.size());
-    let rows = here.iter().zip(&new).zip(&is_used).filter(|&(_, &used)| used);
-    let rows = rows.map(|((&[_, x, y, z, marker], &number), _)| [number, x, y, z, marker]);
-    let mut here = team.exchange_rows(&new_homes.sort(team, rows)).concat();
-    here.sort_unstable_by_key(|row| row[0]);
-
-    let renumbered = |node: u64| match touched.binary_search(&node) {
-        Ok(at) => answers[at][0],
-        Err(_) => node,
-    };
-    let elements = corners
-        .iter()
-        .zip(&tets)
-        .map(|(corners, tet)| (corners.map(&renumbered), tet.number as u64, tet.region))
-        .collect();
-    let nodes =
-        here.iter().map(|&[_, x, y, z, marker]| ([x, y, z].map(f64::from_bits), marker as i64)).collect();
-    Ok(Part { homes: new_homes, nodes, elements, dropped: format.count - total })
+    let before: usize = team.all(tets.len())[..team.rank()].iter().sum();
+    let elements = corners.iter().zip(&tets).enumerate().map(|(place, (&[a, b, c, d], tet))| {
+        let group = tet.region.unwrap_or(NO_GROUP) as u64;
+        [a, b, c, d, (before + place) as u64, tet.number as u64, group]
+    });
+    let rows = Rows { nodes: here, elements: elements.collect(), members, repeats: false };
+    Ok(Part { is_oriented: false, ..Part::new(team, homes, rows, &BTreeMap::new())? })
 }
 
 /// Reads the first line of a file, and the other lines that begin in this rank's part of the bytes.
