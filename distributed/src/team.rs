@@ -99,30 +99,35 @@ impl Team {
     /// Sends a list to each rank, and returns the list received from each rank.
     #[must_use]
     pub fn exchange<T: Equivalence + Copy + Default>(&self, outgoing: &[Vec<T>]) -> Vec<Vec<T>> {
-        let lengths: Vec<Count> = outgoing.iter().map(|list| list.len() as Count).collect();
-        let mut incoming = vec![0 as Count; self.size];
-        self.world().all_to_all_into(&lengths[..], &mut incoming[..]);
-        let (sent, mut received) = (outgoing.concat(), vec![T::default(); total(&incoming)]);
-        {
-            let from = Partition::new(&sent[..], lengths.clone(), starts(&lengths));
-            let mut to = PartitionMut::new(&mut received[..], incoming.clone(), starts(&incoming));
-            self.world().all_to_all_varcount_into(&from, &mut to);
-        }
-        let mut rest = received.as_slice();
-        let mut lists = Vec::with_capacity(self.size);
-        for &length in &incoming {
-            let (list, after) = rest.split_at(length as usize);
-            lists.push(list.to_vec());
-            rest = after;
-        }
-        lists
+        let lengths = outgoing.iter().map(|list| list.len() as Count).collect();
+        let (received, lengths) = self.exchange_entries(&outgoing.concat(), lengths);
+        lists(&received, lengths.into_iter())
     }
 
     /// Sends rows of integers to each rank, and returns the rows received from each rank.
     #[must_use]
     pub fn exchange_rows<const N: usize>(&self, outgoing: &[Vec<[u64; N]>]) -> Vec<Vec<[u64; N]>> {
-        let flat: Vec<Vec<u64>> = outgoing.iter().map(|rows| rows.as_flattened().to_vec()).collect();
-        self.exchange(&flat).iter().map(|numbers| numbers.as_chunks().0.to_vec()).collect()
+        let lengths = outgoing.iter().map(|rows| (N * rows.len()) as Count).collect();
+        let (received, lengths) = self.exchange_entries(&outgoing.concat().into_flattened(), lengths);
+        lists(received.as_chunks().0, lengths.into_iter().map(|length| length / N as Count))
+    }
+
+    /// Sends consecutive entries to each rank; returns the entries from all ranks, and the number from each.
+    fn exchange_entries<T: Equivalence + Default + Clone>(
+        &self,
+        sent: &[T],
+        lengths: Vec<Count>,
+    ) -> (Vec<T>, Vec<Count>) {
+        let mut incoming = vec![0 as Count; self.size];
+        self.world().all_to_all_into(&lengths[..], &mut incoming[..]);
+        let mut received = vec![T::default(); total(&incoming)];
+        {
+            let starts_of_sent = starts(&lengths);
+            let from = Partition::new(sent, lengths, starts_of_sent);
+            let mut to = PartitionMut::new(&mut received[..], incoming.clone(), starts(&incoming));
+            self.world().all_to_all_varcount_into(&from, &mut to);
+        }
+        (received, incoming)
     }
 
     /// Bytes of rank 0, sent to all ranks.
@@ -166,6 +171,17 @@ impl Team {
     pub fn abort(&self) -> ! {
         self.world().abort(1)
     }
+}
+
+/// Lists of these lengths from consecutive entries.
+fn lists<T: Clone>(mut entries: &[T], lengths: impl Iterator<Item = Count>) -> Vec<Vec<T>> {
+    lengths
+        .map(|length| {
+            let (list, after) = entries.split_at(length as usize);
+            entries = after;
+            list.to_vec()
+        })
+        .collect()
 }
 
 fn total(lengths: &[Count]) -> usize {
