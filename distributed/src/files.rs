@@ -148,8 +148,11 @@ impl Part {
     }
 }
 
+/// Four nodes and tag of each element, and memberships of elements in groups.
+type Joined = (Vec<([u64; 4], u64)>, Vec<(Key, usize)>);
+
 /// Elements, and their memberships in groups of dimension 3, from rows of elements in ascending order.
-fn joined(rows: &[[u64; 11]], repeats: bool) -> Result<(Vec<([u64; 4], u64)>, Vec<(Key, usize)>), Error> {
+fn joined(rows: &[[u64; 11]], repeats: bool) -> Result<Joined, Error> {
     let (mut elements, mut members) = (Vec::<([u64; 4], u64)>::new(), Vec::new());
     for same in rows.chunk_by(|one, other| one[..4] == other[..4]) {
         let mut groups = BTreeSet::new();
