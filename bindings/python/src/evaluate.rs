@@ -17,6 +17,7 @@ use crate::columns::Columns;
 use crate::errors::{DomainError, type_error, value_error};
 use crate::material::Material;
 use crate::quantity::{Number, Quantity};
+use crate::results::Results;
 use crate::shape;
 use crate::threads::on_threads;
 
@@ -66,7 +67,8 @@ impl<'py> Call<'_, 'py> {
         Ok(outputs.into_iter().map(|output| output.finish().into_any()).collect())
     }
 
-    /// Computes a quantity, and writes the status of each point.
+    /// Computes a quantity, and writes the status of each point; if there are statuses, points without valid
+    /// results get NaN.
     fn survey<E: Number>(
         &self,
         material: &Material,
@@ -106,12 +108,20 @@ impl<'py> Call<'_, 'py> {
             (false, ..=8) => compute(),
             (false, _) => py.detach(compute),
         };
+        let survey = survey.map_err(|error| value_error(error.to_string()))?;
+        for (output, components) in outputs.iter_mut().zip(quantity.numbers()) {
+            let mut results = Results { entries: output.slice()?, axes, components, points: count };
+            let from_first = cells.iter().enumerate().skip(survey.first.unwrap_or(count));
+            for (point, _) in from_first.filter(|(_, cell)| !cell.get().is_clean()) {
+                results.invalidate(point);
+            }
+        }
         if let Some(status) = status {
             for (status, cell) in status.slice()?.iter_mut().zip(&cells) {
                 *status = flags(cell);
             }
         }
-        survey.map_err(|error| value_error(error.to_string()))
+        Ok(survey)
     }
 }
 
@@ -199,7 +209,7 @@ impl Material {
     /// threads: True to share the points among threads; None for True from 2048 points on.
     ///
     /// Raises DomainError if a point is outside the domain or not finite, unless `status` is given: then the
-    /// results of such points are invalid. Raises ValueError for a wrong shape, TypeError for a wrong type.
+    /// results of such points are NaN. Raises ValueError for a wrong shape, TypeError for a wrong type.
     #[pyo3(signature = (F, /, *, trailing = false, out = None, status = None, threads = None))]
     fn energy<'py>(
         &self,

@@ -11,6 +11,7 @@
 //! | `quantity` | which of these, in which precision |
 //! | `columns` | points along trailing axes |
 //! | `arrays` | arrays that are taken, and those that results go to |
+//! | `results` | results of points without valid ones |
 //! | `shape` | shapes, and how they are broadcast |
 //! | `laboratory` | curves, fits, stability, contract |
 //! | `body` | bodies of tetrahedra |
@@ -28,6 +29,7 @@ mod evaluate;
 mod laboratory;
 mod material;
 mod quantity;
+mod results;
 mod settings;
 mod shape;
 mod simulation;

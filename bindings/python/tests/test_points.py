@@ -163,6 +163,37 @@ def test_points_without_results_are_named(rubber, F):
     assert np.array_equal(status != 0, statuses != 0)
 
 
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("trailing, threads", [(False, False), (False, True), (True, False), (True, True)])
+def test_points_without_results_are_nan(rubber, F, dtype, trailing, threads):
+    F = F.astype(dtype)
+    bad = F.copy()
+    refused, broken, last = 3, 130, len(F) - 1
+    bad[[refused, last]] = np.diag([1, 1, -1])
+    bad[broken, 0, 0] = np.inf
+    valid = np.setdiff1d(np.arange(len(F)), [refused, broken, last])
+
+    def computed(F, call, **arguments):
+        F = np.ascontiguousarray(F.transpose(1, 2, 0)) if trailing else F
+        results = call(F, trailing=trailing, threads=threads, **arguments)
+        results = results if isinstance(results, tuple) else (results,)
+        return [np.moveaxis(result, -1, 0) if trailing else result for result in results]
+
+    for call in (
+        rubber.energy,
+        rubber.stress,
+        rubber.tangent,
+        rubber.evaluate,
+        lambda F, **arguments: rubber.measured(F, "cauchy", **arguments),
+    ):
+        status = np.zeros(len(F), np.uint8)
+        for found, expected in zip(computed(bad, call, status=status), computed(F, call)):
+            assert np.array_equal(found[valid], expected[valid]) and found.dtype == dtype
+            assert np.isnan(found[[refused, broken, last]]).all()
+        assert status[refused] & piola.Status.REFUSED and status[broken] & piola.Status.NONFINITE
+        assert not status[valid].any()
+
+
 def test_extended_materials_know_inverted_points(F):
     rubber = piola.Material("neo_hookean", mu=MU, lambda_=LAMBDA, extend=0.1)
     inverted = np.diag([1.0, 1.0, -0.5])

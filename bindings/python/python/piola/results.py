@@ -15,18 +15,18 @@ if TYPE_CHECKING:
 class Status(enum.IntFlag):
     """Flags of a point, in the arrays of uint8 that `status=` fills.
 
-    REFUSED (1): the deformation is outside the domain of the energy; the results are meaningless.
+    REFUSED (1): the deformation is outside the domain of the energy; the results are NaN.
     BOUNDED (2): the tangent is at a pole, and has a bounded value instead of an infinite one.
-    NONFINITE (4): the deformation or a result is infinite or NaN, or nearly so; the results are meaningless.
+    NONFINITE (4): the deformation or a result is infinite or NaN, or nearly so; the results are NaN.
     FILTERED (8): the filter changed the tangent.
     """
 
     REFUSED = 1
-    """The deformation is outside the domain of the energy, and the results are invalid."""
+    """The deformation is outside the domain of the energy, and the results are NaN."""
     BOUNDED = 2
     """The tangent is at a pole, and has a bounded value instead of an infinite one."""
     NONFINITE = 4
-    """The deformation or a result is infinite or NaN, or nearly so, and the results are invalid."""
+    """The deformation or a result is infinite or NaN, or nearly so, and the results are NaN."""
     FILTERED = 8
     """The filter changed the tangent."""
 
