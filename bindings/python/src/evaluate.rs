@@ -16,7 +16,7 @@ use crate::arrays::{Axes, Input, Numbers, Output, kind, statuses};
 use crate::columns::Columns;
 use crate::errors::{DomainError, type_error, value_error};
 use crate::material::Material;
-use crate::quantity::{Number, Quantity};
+use crate::quantity::{Number, Order, Quantity};
 use crate::results::Results;
 use crate::shape;
 use crate::threads::on_threads;
@@ -111,6 +111,7 @@ impl<'py> Call<'_, 'py> {
         let survey = survey.map_err(|error| value_error(error.to_string()))?;
         for (output, components) in outputs.iter_mut().zip(quantity.numbers()) {
             let mut results = Results { entries: output.slice()?, axes, components, points: count };
+            results.reorder(quantity.order());
             let from_first = cells.iter().enumerate().skip(survey.first.unwrap_or(count));
             for (point, _) in from_first.filter(|(_, cell)| !cell.get().is_clean()) {
                 results.invalidate(point);
@@ -181,6 +182,14 @@ fn measure(name: &str) -> PyResult<Measure> {
             )));
         }
     })
+}
+
+fn order(name: &str) -> PyResult<Order> {
+    match name {
+        "voigt" => Ok(Order::Voigt),
+        "abaqus" => Ok(Order::Abaqus),
+        other => Err(value_error(format!("order is {other:?}; it must be \"voigt\" or \"abaqus\""))),
+    }
 }
 
 /// The arrays that a caller gives for several results.
@@ -290,16 +299,20 @@ impl Material {
 
     /// Stresses in another measure with their tangents, Pa.
     ///
-    ///     measured(F, measure, /, *, tangent=True, trailing=False, out=None, status=None, threads=None)
+    ///     measured(F, measure, /, *, tangent=True, order="voigt", trailing=False, out=None, status=None,
+    ///              threads=None)
     ///
     /// measure: "second_piola" (S and dS/dE), "kirchhoff" (τ and J c), "cauchy" (σ and the spatial tangent
     ///     c), "jaumann" (σ and DDSDDE of Abaqus) or "green_naghdi" (σ and c★).
     /// tangent: False for the stress only.
+    /// order: order of the components, "voigt" for 11, 22, 33, 23, 13, 12 or "abaqus" for 11, 22, 33, 12, 13,
+    ///     23, which is that of Abaqus/Standard.
     ///
-    /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6), in the order 11, 22, 33, 23, 13, 12.
+    /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6).
     /// Other arguments and errors as for `energy`.
     #[pyo3(signature = (
-        F, measure, /, *, tangent = true, trailing = false, out = None, status = None, threads = None
+        F, measure, /, *, tangent = true, order = "voigt", trailing = false, out = None, status = None,
+        threads = None
     ))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn measured<'py>(
@@ -308,18 +321,20 @@ impl Material {
         F: &Bound<'py, PyAny>,
         measure: &str,
         tangent: bool,
+        order: &str,
         trailing: bool,
         out: Option<Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (measure, filter, axes) = (self::measure(measure)?, Filter::None, Axes::new(trailing));
+        let (measure, order) = (self::measure(measure)?, self::order(order)?);
+        let (filter, axes) = (Filter::None, Axes::new(trailing));
         if tangent {
             let call = Call { filter, axes, out: several(out.as_ref(), 2)?, status, threads };
-            tuple(py, call.run(self, F, Quantity::MeasuredTangent(measure))?)
+            tuple(py, call.run(self, F, Quantity::MeasuredTangent(measure, order))?)
         } else {
             let call = Call { filter, axes, out: vec![out], status, threads };
-            one(call.run(self, F, Quantity::MeasuredStress(measure))?)
+            one(call.run(self, F, Quantity::MeasuredStress(measure, order))?)
         }
     }
 }

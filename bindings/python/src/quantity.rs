@@ -36,6 +36,15 @@ impl Number for f32 {
     }
 }
 
+/// The order of the components of symmetric tensors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// 11, 22, 33, 23, 13, 12: the order of a batch.
+    Voigt,
+    /// 11, 22, 33, 12, 13, 23.
+    Abaqus,
+}
+
 /// A quantity that is computed of each point.
 #[derive(Clone, Copy)]
 pub(crate) enum Quantity {
@@ -45,8 +54,8 @@ pub(crate) enum Quantity {
     Tangent,
     /// ψ, P and dP/dF.
     All,
-    MeasuredStress(Measure),
-    MeasuredTangent(Measure),
+    MeasuredStress(Measure, Order),
+    MeasuredTangent(Measure, Order),
 }
 
 impl Quantity {
@@ -57,8 +66,8 @@ impl Quantity {
             Self::Stress => &[&[3, 3]],
             Self::Tangent => &[&[3, 3], &[3, 3, 3, 3]],
             Self::All => &[&[], &[3, 3], &[3, 3, 3, 3]],
-            Self::MeasuredStress(_) => &[&[6]],
-            Self::MeasuredTangent(_) => &[&[6], &[6, 6]],
+            Self::MeasuredStress(..) => &[&[6]],
+            Self::MeasuredTangent(..) => &[&[6], &[6, 6]],
         }
     }
 
@@ -67,6 +76,15 @@ impl Quantity {
         self.components().iter().map(|shape| shape.iter().product())
     }
 
+    /// The order of the components of its results.
+    pub(crate) fn order(self) -> Order {
+        match self {
+            Self::MeasuredStress(_, order) | Self::MeasuredTangent(_, order) => order,
+            _ => Order::Voigt,
+        }
+    }
+
+    /// Computes results in the order of a batch.
     pub(crate) fn compute<E: Kernels>(
         self,
         batch: &Batch<'_, E>,
@@ -80,8 +98,8 @@ impl Quantity {
             (Self::All, [energies, P, dP_dF]) => {
                 batch.energies_and_tangents(MatrixForm::Full, F, energies, P, dP_dF)
             }
-            (Self::MeasuredStress(measure), [stresses]) => batch.measured_stresses(measure, F, stresses),
-            (Self::MeasuredTangent(measure), [stresses, tangents]) => {
+            (Self::MeasuredStress(measure, _), [stresses]) => batch.measured_stresses(measure, F, stresses),
+            (Self::MeasuredTangent(measure, _), [stresses, tangents]) => {
                 batch.measured_tangents(measure, F, stresses, tangents)
             }
             _ => unreachable!("a result for each of the components"),

@@ -140,6 +140,7 @@ class Material:
         /,
         *,
         tangent: bool = True,
+        order: Literal["voigt", "abaqus"] = "voigt",
         trailing: bool = False,
         out: Any = None,
         status: _Flags = None,
