@@ -96,6 +96,12 @@ impl MaterialSpec {
         Self { material: name.into(), ..self }
     }
 
+    /// The name as given, or the name of the declared energy.
+    #[must_use]
+    pub fn material(&self) -> &str {
+        &self.material
+    }
+
     /// The energy, if it was declared at run time.
     #[must_use]
     pub fn energy(&self) -> Option<&Energy> {

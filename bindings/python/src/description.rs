@@ -2,10 +2,7 @@
 
 use piola::material::{self, Unit};
 use piola_materials::DECLARATIONS;
-use piola_scenes::material::MaterialSpec;
 use pyo3::prelude::*;
-
-use crate::errors::of_material;
 
 /// A parameter of an energy.
 #[pyclass(frozen, get_all, module = "piola")]
@@ -95,22 +92,19 @@ impl Description {
 
 /// A name before the parentheses of its parameters: in quotes if it is a formula, or has other signs in it.
 pub(crate) fn shown(name: &str) -> String {
-    match name.chars().all(|c| c.is_alphanumeric() || "_- ".contains(c)) {
+    match is_name(name) {
         true => name.to_owned(),
         false => format!("'{name}'"),
     }
+}
+
+/// True if a text can be a name of the catalogue: a formula has other signs in it.
+pub(crate) fn is_name(text: &str) -> bool {
+    text.chars().all(|c| c.is_alphanumeric() || "_- ".contains(c))
 }
 
 /// The names of all energies of the catalogue.
 #[pyfunction]
 pub(crate) fn catalogue() -> Vec<&'static str> {
     DECLARATIONS.iter().map(|declaration| declaration.name).collect()
-}
-
-/// Description of an energy of the catalogue. Raises MaterialError for an unknown name.
-#[pyfunction]
-#[pyo3(signature = (name, /))]
-pub(crate) fn describe(name: &str) -> PyResult<Description> {
-    let spec = MaterialSpec::new(name);
-    Ok(Description::new(name, spec.description().map_err(of_material)?))
 }

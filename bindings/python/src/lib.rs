@@ -41,11 +41,11 @@ mod _piola {
     #[pymodule_export]
     use crate::body::{Body, box_mesh};
     #[pymodule_export]
-    use crate::description::{Description, Parameter, catalogue, describe};
+    use crate::description::{Description, Parameter, catalogue};
     #[pymodule_export]
     use crate::laboratory::treloar;
     #[pymodule_export]
-    use crate::material::{Material, declare};
+    use crate::material::{Material, declare, describe};
     #[pymodule_export]
     use crate::simulation::Simulation;
     #[pymodule_export]

@@ -15,7 +15,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyTuple};
 
 use crate::arrays::{Numbers, kind, read_only};
-use crate::description::{Description, shown};
+use crate::description::{Description, is_name, shown};
 use crate::errors::{MaterialError, of_material, of_parameters, of_point, of_text, type_error, value_error};
 use crate::shape;
 
@@ -440,10 +440,47 @@ pub(crate) fn declare(
             "the name is empty; leave it out to call the material by its formula".to_owned(),
         ));
     }
+    Material::from_keywords(declared(py, text, name, free_rest, parameters)?, extend, parameters)
+}
+
+/// Description of an energy.
+///
+///     describe(energy, /, *, free_rest=False)
+///
+/// energy: a name in `catalogue()`, a `Material`, or a formula or function in Rust as for `declare`.
+/// free_rest: as for `declare`, if a formula is given.
+///
+/// Raises MaterialError for an unknown name, and DeclarationError for a text with mistakes.
+#[pyfunction]
+#[pyo3(signature = (energy, /, *, free_rest = false))]
+pub(crate) fn describe(py: Python<'_>, energy: &Bound<'_, PyAny>, free_rest: bool) -> PyResult<Description> {
+    if let Ok(material) = energy.cast::<Material>() {
+        return material.get().description();
+    }
+    let text: String = energy.extract().map_err(|_| {
+        type_error(format!("energy is {}; it must be a name, a Material or a formula", kind(energy)))
+    })?;
+    let of_catalogue = MaterialSpec::new(&text);
+    let spec = match of_catalogue.description() {
+        Err(unknown) if is_name(&text) => return Err(of_material(unknown)),
+        Err(_) => declared(py, &text, None, free_rest, None)?,
+        Ok(_) => of_catalogue,
+    };
+    Ok(Description::new(spec.material(), spec.description().map_err(of_material)?))
+}
+
+/// The specification of an energy that a text declares; keywords only tell which names are parameters.
+fn declared(
+    py: Python<'_>,
+    text: &str,
+    name: Option<&str>,
+    free_rest: bool,
+    keywords: Option<&Bound<'_, PyDict>>,
+) -> PyResult<MaterialSpec> {
     let is_rust = text.contains("#[");
     let energy = match is_rust {
         true => py.detach(|| Energy::from_rust(text)),
-        false => of_formula(py, text, free_rest, parameters)?,
+        false => of_formula(py, text, free_rest, keywords)?,
     };
     // Ctrl-C during the compilation ends here.
     py.check_signals()?;
@@ -452,11 +489,10 @@ pub(crate) fn declare(
         None => of_text(mistakes),
     };
     let spec = MaterialSpec::declared(energy.map_err(mistaken)?);
-    let spec = match name.or((!is_rust).then_some(text)) {
+    Ok(match name.or((!is_rust).then_some(text)) {
         Some(name) => spec.with_name(label(name)),
         None => spec,
-    };
-    Material::from_keywords(spec, extend, parameters)
+    })
 }
 
 /// The energy of a formula, in which the names of keywords are parameters.

@@ -138,6 +138,25 @@ def test_energies_are_called_by_their_formula_or_name():
             piola.declare(formula, mu=1.0, name=empty)
 
 
+def test_names_materials_and_formulas_are_described():
+    formula = "mu/2*(I1 - 3) - mu*ln(J)"
+    expected = f"'{formula}'(mu): 1/2 μ (I1 − 3) − μ ln J"
+    assert repr(piola.describe(formula)) == repr(piola.describe(piola.declare(formula, mu=1.0))) == expected
+    assert piola.describe("mu/2*(I1 - 3)", free_rest=True).domain == "J > 0"
+    named = piola.declare(formula, mu=np.ones(2), name="my gel")
+    assert repr(piola.describe(named)) == "my gel(mu): 1/2 μ (I1 − 3) − μ ln J"
+    yeoh = piola.describe("yeoh")
+    assert repr(piola.describe(piola.Material.typical("yeoh"))) == repr(yeoh) and yeoh.parameters[0].unit == "Pa"
+    springs = "#[material]\nfn Springs([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * sum(|l| (l - 1.0).powi(2)) }"
+    assert repr(piola.describe(springs)).startswith("Springs(mu): ")
+    assert "there is no material `neohooke`" in message(piola.MaterialError, lambda: piola.describe("neohooke"))
+    assert "free_rest=True" in message(piola.DeclarationError, lambda: piola.describe("mu/2*(I1 - 3)"))
+    assert "mu/2*(I1 - 3" in message(piola.DeclarationError, lambda: piola.describe("mu/2*(I1 - 3"))
+    assert message(TypeError, lambda: piola.describe(3)) == (
+        "energy is of type int; it must be a name, a Material or a formula"
+    )
+
+
 def test_keywords_that_are_missing_or_wrong_are_told_with_the_parameters_there_are():
     declare = piola.declare
     for keywords, expected in [
