@@ -42,6 +42,9 @@ mod text;
 pub use energy::Energy;
 pub use formula::FormulaOptions;
 pub use mistakes::{Mistake, Mistakes, Place};
+// For messages of sister crates.
+#[doc(hidden)]
+pub use piola_codegen::read::spelling::nearest;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -8,8 +8,8 @@ use piola::material::{MaterialError, Text, Unit};
 use piola::mesh::ReadError;
 use piola::step::{NewtonError, SetupError, StepError};
 use piola::system::{BodyError, PinError};
-use piola_declare::Mistakes;
 use piola_declare::emit::EmitError;
+use piola_declare::{Mistakes, nearest};
 
 use crate::region::RegionError;
 
@@ -77,7 +77,12 @@ pub enum Error {
         known: Vec<Text>,
     },
     /// The material has no parameter of that name.
-    #[error("{material} has no parameter `{}`; it has {}", quoted(parameter), list(known))]
+    #[error(
+        "{material} has no parameter `{}`; {} has {}",
+        quoted(parameter),
+        near_or_it(parameter, known),
+        list(known)
+    )]
     UnknownParameter {
         /// Name of the material.
         material: Text,
@@ -272,6 +277,14 @@ fn in_words(unit: Unit) -> &'static str {
         Unit::PerPascal => "in 1/Pa",
         _ => "without a unit",
     }
+}
+
+/// "it", after a question if a name is similar to a known one, with or without an index.
+fn near_or_it(name: &str, known: &[Text]) -> String {
+    let known = || known.iter().map(|known| &**known);
+    let without_index = name.trim_end_matches(|c: char| c == '_' || c.is_ascii_digit());
+    let near = nearest(name, known()).or_else(|| nearest(without_index, known()));
+    near.map_or_else(|| "it".to_owned(), |near| format!("did you mean `{}`? It", quoted(near)))
 }
 
 /// Names in backquotes with commas, or "none".

@@ -416,8 +416,16 @@ mod tests {
             |energy: MaterialSpec| energy.values("gent".into(), &gent()).err().map(|error| error.to_string());
         assert_eq!(
             message(MaterialSpec::new("gent").with_parameter("mue", [1.0])).as_deref(),
-            Some("gent has no parameter `mue`; it has `mu`, `jm`")
+            Some("gent has no parameter `mue`; did you mean `mu`? It has `mu`, `jm`")
         );
+        for (given, found) in
+            [("mu_1", "did you mean `mu`? It"), ("Jm", "did you mean `jm`? It"), ("kappa", "it")]
+        {
+            assert_eq!(
+                message(MaterialSpec::new("gent").with_parameter(given, [1.0])),
+                Some(format!("gent has no parameter `{given}`; {found} has `mu`, `jm`"))
+            );
+        }
         assert_eq!(
             message(MaterialSpec::new("gent").with_parameter("mu", [1.0])).as_deref(),
             Some("gent needs a value for `jm`")

@@ -30,9 +30,9 @@ pub(crate) fn of_point(index: &str, error: &Error) -> PyErr {
     MaterialError::new_err(in_python(&format!("at index {index}: {error}")))
 }
 
-/// A message with Rust's names of what Python's keywords choose.
+/// A message with the keywords of Python instead of the names in Rust.
 fn in_python(message: &str) -> String {
-    message.replace("Inversion::Refuse", "extend=None")
+    message.replace("Inversion::Refuse", "extend=None").replace("`lambda`", "`lambda_`")
 }
 
 /// A text that does not declare an energy: its mistakes, and for each its line, its column and its length.

@@ -29,7 +29,8 @@ use crate::shape;
 /// parameters: by the names of `describe(name)`, in its units: a number, or a sequence for a list. If they
 ///     differ from point to point they are arrays, which are broadcast with the shape of the points, by the
 ///     rules of numpy: of shape (...) for a number, (..., n) for a list of n. `lambda_` is the parameter
-///     `lambda`, whose name is a keyword of Python.
+///     `lambda`, whose name is a keyword of Python. `matching` takes Young's modulus and Poisson's ratio
+///     instead.
 ///
 /// Raises MaterialError for an unknown name, and for parameters that are missing, unknown or out of range.
 #[pyclass(frozen, module = "piola")]

@@ -65,16 +65,22 @@ def test_wrong_parameters_are_named_with_their_range():
     new = piola.Material
     assert "there is no material `neohooke`; choose one of" in message(piola.MaterialError, lambda: new("neohooke"))
     assert message(piola.MaterialError, lambda: new("neo_hookean", mu=1.0)) == (
-        "neo_hookean needs a value for `lambda`"
+        "neo_hookean needs a value for `lambda_`"
     )
     assert message(piola.MaterialError, lambda: new("neo_hookean", mu=1.0, lamda=1.0)) == (
-        "neo_hookean has no parameter `lamda`; it has `mu`, `lambda`"
+        "neo_hookean has no parameter `lamda`; did you mean `lambda_`? It has `mu`, `lambda_`"
+    )
+    assert message(piola.MaterialError, lambda: new("ogden", mu_1=1.0, alpha=[2.0], kappa=1.0)) == (
+        "ogden has no parameter `mu_1`; did you mean `mu`? It has `mu`, `alpha`, `kappa`"
+    )
+    assert message(piola.MaterialError, lambda: piola.Material.typical("yeoh").changed(c10=1.0)) == (
+        "yeoh has no parameter `c10`; did you mean `c1`? It has `c1`, `c2`, `c3`, `kappa`"
     )
     assert message(piola.MaterialError, lambda: new("neo_hookean", mu=-1.0, lambda_=1.0)) == (
         "neo_hookean: `mu > 0` must hold, but mu = -1"
     )
     assert "`mu` is NaN" in message(ValueError, lambda: new("neo_hookean", mu=np.nan, lambda_=1.0))
-    assert "`lambda` is inf; it must be a finite number" in message(
+    assert "`lambda_` is inf; it must be a finite number" in message(
         ValueError, lambda: new("neo_hookean", mu=1.0, lambda_=np.inf)
     )
     assert message(ValueError, lambda: new("ogden", mu=[1.0, 2.0], alpha=[1.0], kappa=1.0)) == (
@@ -161,10 +167,13 @@ def test_keywords_that_are_missing_or_wrong_are_told_with_the_parameters_there_a
     declare = piola.declare
     for keywords, expected in [
         ({"lambda_": 1.0}, "needs a value for `mu`"),
-        ({}, "needs a value for `mu`, `lambda`"),
-        ({"mu": 1.0, "lambda_": 1.0, "kappa": 1.0}, "has no parameter `kappa`; it has `mu`, `lambda`"),
-        ({"mu": 1.0, "lamda": 1.0}, "has no parameter `lamda`; it has `mu`, `lambda`"),
-        ({"mu": 1.0, "lambda_": 1.0, "J": 1.0}, "has no parameter `J`; it has `mu`, `lambda`"),
+        ({}, "needs a value for `mu`, `lambda_`"),
+        ({"mu": 1.0, "lambda_": 1.0, "kappa": 1.0}, "has no parameter `kappa`; it has `mu`, `lambda_`"),
+        (
+            {"mu": 1.0, "lamda": 1.0},
+            "has no parameter `lamda`; did you mean `lambda_`? It has `mu`, `lambda_`",
+        ),
+        ({"mu": 1.0, "lambda_": 1.0, "J": 1.0}, "has no parameter `J`; it has `mu`, `lambda_`"),
     ]:
         assert message(piola.MaterialError, lambda: declare(FORMULA, **keywords)) == f"{FORMULA} {expected}"
 
