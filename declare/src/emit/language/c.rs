@@ -62,10 +62,7 @@ impl C {
 
     /// Qualifiers and type of a function, and the prefix of its name.
     fn function(&self, result: &str) -> String {
-        match self.dialect {
-            Dialect::C | Dialect::OpenCl => format!("static inline {result} {}", self.prefix),
-            Dialect::Cuda => format!("{}_FUNCTION {result} {}", self.upper, self.prefix),
-        }
+        format!("{}_FUNCTION {result} {}", self.upper, self.prefix)
     }
 
     /// True if conditions on parameters are in `double`, as in the constructor.
@@ -285,9 +282,9 @@ impl Language for C {
 #error \"compile without -ffast-math and --use_fast_math\"
 #endif
 #if defined(__CUDACC__) || defined(__HIPCC__)
-#define {upper}_FUNCTION static inline __host__ __device__
+#define {upper}_DEVICE __host__ __device__
 #else
-#define {upper}_FUNCTION static inline
+#define {upper}_DEVICE
 #endif
 "
             ),
@@ -307,10 +304,21 @@ impl Language for C {
                 }
             ),
         };
+        // CUDA's compiler at run time defines no `__GNUC__`, but has its attributes.
+        let (has_attributes, device) = match self.dialect {
+            Dialect::C | Dialect::OpenCl => ("defined(__GNUC__)", String::new()),
+            Dialect::Cuda => ("defined(__GNUC__) || defined(__CUDACC_RTC__)", format!(" {upper}_DEVICE")),
+        };
+        // The attribute is for clang and nvcc, which warn of functions that are not called, `inline` or not.
         format!(
             "#ifndef {upper}_H
 #define {upper}_H {sum:#x}
-{head}
+{head}#if {has_attributes}
+#define {upper}_FUNCTION static inline __attribute__((unused)){device}
+#else
+#define {upper}_FUNCTION static inline{device}
+#endif
+
 {text}#elif {upper}_H != {sum:#x}
 #error \"two files have the prefix of this one: give one of them another name\"
 #endif
