@@ -15,6 +15,9 @@ pub struct Status<M = bool> {
     /// The deformation lies outside the domain of the energy, and the results are meaningless.
     pub refused: M,
     /// λ2 + λ3 is at a pole of the twist, and the tangent has a bounded value instead of an infinite one.
+    ///
+    /// The computed sum is below [`pole_floor`](crate::quotient::pole_floor), which is of the size of the
+    /// roundings of F and of its decomposition: if the stretches are opposite, these decide.
     pub bounded: M,
     /// The deformation gradient or a result is infinite or NaN, or a stretch or the tangent comes within a
     /// factor 16 of it.

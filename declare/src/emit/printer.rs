@@ -94,9 +94,9 @@ impl<'a> Printer<'a> {
  * Stretches are signed: F = U diag(l) V^T with rotations U and V, l1 >= l2 >= |l3|. Outputs may not overlap
  * inputs.
  *
- * Functions return bits: 1 refused (outside of the domain), 2 bounded (at a pole), 4 not finite, 8 filtered.
- * With 1 or 4 the results are invalid. Call {prefix}_check once for each set of parameters. Those that the
- * file was made with: {}.
+ * Functions return bits: 1 refused (outside of the domain), 2 bounded (at a pole: l2 + l3 is zero to within
+ * roundings), 4 not finite, 8 filtered. With 1 or 4 the results are invalid. Call {prefix}_check once for each
+ * set of parameters. Those that the file was made with: {}.
  *
  * {}
  * Nothing is allocated, and there is no global state. Licence: MIT or Apache-2.0, as you choose. */

@@ -179,6 +179,27 @@ fn rotating_space_or_rest_shape_rotates_stress_and_tangent() {
     }
 }
 
+/// The claim of `docs/emit.md` on the bounds between which roundings decide whether a point is `bounded`.
+#[test]
+fn roundings_decide_at_a_pole() {
+    let mut random = Random::new(19);
+    let u = f32::EPSILON / 2.0;
+    let mut at = |sum: f64| {
+        let (l1, l2) = (random.uniform(1.0, 2.0), random.uniform(0.1, 1.0));
+        let F = with_stretches(&mut random, [l1, l2, sum * l1 - l2]);
+        let point = evaluate(&RotatedLinear, &F.map(|row| row.map(|x| x as f32)), Filter::None);
+        let [l1, l2, l3] = point.stretches;
+        assert_eq!(point.status.bounded, l2 + l3 < 2.0 * u * l1);
+        ((l2 + l3) / (u * l1), point.status.bounded)
+    };
+    let opposite: Vec<_> = (0..10_000).map(|_| at(0.0)).collect();
+    // The largest is about 8 among a million.
+    assert!(opposite.iter().all(|&(sum, _)| sum < 10.0));
+    let share = opposite.iter().filter(|(_, bounded)| *bounded).count();
+    assert!((8_000..9_900).contains(&share), "{share}");
+    assert!((0..10_000).all(|_| !at(12.0 * f64::from(u)).1));
+}
+
 #[test]
 fn the_status_says_what_the_numbers_cannot() {
     let at = |d: [f64; 3]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }));
