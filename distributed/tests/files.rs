@@ -20,9 +20,12 @@ fn tag(node: usize) -> usize {
     7 * (node * 5 % 4913) + 3
 }
 
+/// Body, and the triangles of a group.
+type Meshed = (TetMesh, Vec<[usize; 3]>);
+
 /// Box with a group of triangles and two groups of tetrahedra that overlap; as many runs of lines as three
 /// ranks need.
-fn body() -> Result<(TetMesh, Vec<[usize; 3]>), Box<dyn std::error::Error>> {
+fn body() -> Result<Meshed, Box<dyn std::error::Error>> {
     let mut mesh = tetrahedral_box([16; 3], [1.0, 2.0, 1.0])?;
     let on_foot = |node: &usize| mesh.positions[*node][1] == 0.0;
     let faces = mesh.tets.iter().filter_map(|tet| {
@@ -54,7 +57,7 @@ fn line(mut line: String, nodes: &[usize]) -> String {
 }
 
 /// The body in MSH 2.2; a tetrahedron of two groups is repeated under another tag.
-fn version_2((mesh, foot): &(TetMesh, Vec<[usize; 3]>)) -> String {
+fn version_2((mesh, foot): &Meshed) -> String {
     let mut text =
         format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n{NAMES}$Nodes\n{}\n", mesh.positions.len() + 1);
     text += "1 9 9 9\n";
@@ -75,7 +78,7 @@ fn version_2((mesh, foot): &(TetMesh, Vec<[usize; 3]>)) -> String {
 }
 
 /// The body in MSH 4.1; each set of groups has its entity.
-fn version_4((mesh, foot): &(TetMesh, Vec<[usize; 3]>)) -> String {
+fn version_4((mesh, foot): &Meshed) -> String {
     let count = mesh.positions.len();
     let mut text =
         format!("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n{NAMES}$Entities\n0 0 1 4\n1 0 0 0 1 0 1 1 4 0\n");
@@ -203,6 +206,7 @@ fn check_pieces(team: &Team, file: &Path) -> TestResult {
 }
 
 /// Compares the part of this rank with the whole mesh.
+#[expect(clippy::print_stdout, reason = "counted by the test that starts the ranks")]
 fn check_part(team: &Team, file: &Path) -> TestResult {
     let whole = read_msh(file)?;
     let part = files::read(team, file)?.ok_or("not read in parts")?;
