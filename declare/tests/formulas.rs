@@ -245,6 +245,27 @@ fn a_name_with_a_value_is_a_parameter() {
 }
 
 #[test]
+fn greek_letters_are_their_names() {
+    let names = |formula: &str, values: &[&str]| -> Vec<String> {
+        let energy = Energy::from_formula_with(formula, &given(values).with_bulk("kappa"))
+            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        energy.description().parameters.iter().map(|parameter| parameter.name.to_string()).collect()
+    };
+    for (formula, values) in [
+        ("μ*(I1b - 3) + Λ_1*(J - 1)^2 + κ*(J - 1)^4", ["mu", "Lambda_1"]),
+        ("mu*(I1b - 3) + Lambda_1*(J - 1)^2", ["μ", "Λ_1"]),
+        // The sign of micrometres, the small letter of TeX's `\\epsilon`.
+        ("µ*(I1b - 3) + ϵ*(J - 1)^2", ["μ", "epsilon"]),
+    ] {
+        assert_eq!(names(formula, &values), [values[0], values[1], "kappa"], "{formula}");
+    }
+    // Two values make two parameters, and a name with another meaning keeps it.
+    assert_eq!(names("mu*(I1b - 3) + μ*(J - 1)^2", &["mu", "μ"]), ["mu", "μ", "kappa"]);
+    let unused = Energy::from_formula_with("mu*(λ1 + λ2 + λ3 - 3 - ln(J))", &given(&["mu", "lambda1"]));
+    assert!(unused.is_err_and(|mistakes| mistakes.to_string().contains("`lambda1`")));
+}
+
+#[test]
 fn a_name_without_a_value_is_told_before_all_else() {
     let options = given(&["mu", "lamda"]);
     check_mistake("mu/2*(I1 - 3) + lambda*(J - 1)^2", &options, "lambda", "no value: did you mean `lamda`?");

@@ -16,7 +16,7 @@
 use std::collections::{HashMap, HashSet};
 
 use piola_codegen::read::parse::{WORDS, is_reserved};
-use piola_codegen::read::spelling::nearest;
+use piola_codegen::read::spelling::{nearest, spelled_out};
 use proc_macro2::{Delimiter, Group, Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 
@@ -70,10 +70,24 @@ impl Parameter {
 /// The first mistake of its form, or all names that have no value and need one; the compiler resolves the
 /// other names.
 pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Result<Parsed> {
-    let given = options.parameters.iter().flatten().map(|(name, _)| name.clone());
+    let bulk = options.bulk.as_ref().map(|bulk| {
+        syn::parse_str::<Ident>(bulk).map_err(|_| {
+            syn::Error::new(Span::call_site(), format!("`{bulk}` is not a name for a bulk modulus"))
+        })
+    });
+    let bulk = bulk.transpose()?;
+    let given: HashSet<String> = options
+        .parameters
+        .iter()
+        .flatten()
+        .map(|(name, _)| name.clone())
+        .chain(options.bulk.clone())
+        .collect();
+    let spelled_out = given.iter().filter_map(|name| Some((spelled_out(name), syn::parse_str(name).ok()?)));
     let mut parser = Parser {
         tokens: Tokens::new(tokens),
-        given: given.collect(),
+        spelled_out: spelled_out.collect(),
+        given,
         names: Vec::new(),
         places: HashMap::new(),
         indices: Vec::new(),
@@ -93,12 +107,8 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
         }
     }
     parser.tokens.end()?;
-    if let Some(bulk) = &options.bulk {
-        let mut bulk = syn::parse_str::<Ident>(bulk).map_err(|_| {
-            syn::Error::new(Span::call_site(), format!("`{bulk}` is not a name for a bulk modulus"))
-        })?;
+    if let Some(mut bulk) = bulk {
         bulk.set_span(Span::call_site());
-        parser.given.insert(bulk.to_string());
         let bulk = parser.parameter(&bulk, false)?;
         body = quote!(#body + #bulk / 2.0 * (J - 1.0).powi(2));
     }
@@ -134,6 +144,8 @@ struct Parser {
     tokens: Tokens,
     /// Names that are parameters, regardless of any other meaning.
     given: HashSet<String>,
+    /// These names by their spelling without Greek letters.
+    spelled_out: HashMap<String, Ident>,
     /// Names that may be parameters, in the order of their first use: in the declaration, whether they are
     /// lists, and as they are written.
     names: Vec<(Ident, bool, String)>,
@@ -244,6 +256,7 @@ impl Parser {
         {
             name = function;
         }
+        let name = self.as_given(name);
         let text = name.to_string();
         let is_given = self.given.contains(&text) || self.indices.contains(&name);
         match self.tokens.peek().cloned() {
@@ -275,6 +288,22 @@ impl Parser {
             return self.open_call(&name);
         }
         Ok(self.parameter(&name, false)?.to_token_stream())
+    }
+
+    /// A name without a value or another meaning as the one that has a value and differs in the spelling of
+    /// Greek letters alone: `kappa` for `κ`.
+    fn as_given(&self, name: Ident) -> Ident {
+        let text = name.to_string();
+        let has_meaning =
+            self.given.contains(&text) || self.indices.contains(&name) || spellings::name(&text).is_some();
+        match self.spelled_out.get(&spelled_out(&text)) {
+            Some(given) if !has_meaning => {
+                let mut given = given.clone();
+                given.set_span(name.span());
+                given
+            }
+            _ => name,
+        }
     }
 
     /// `ln J`, with one name for its argument.

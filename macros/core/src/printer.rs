@@ -7,6 +7,7 @@ use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::notation::plain_name;
 use crate::read::parse::Declaration;
+use crate::read::spelling::greek;
 
 mod shared;
 
@@ -450,26 +451,10 @@ fn subscript(n: usize) -> char {
 
 /// Greek letters by their names, alone or before an underscore or digits.
 fn symbol(name: &str) -> String {
-    const GREEK: [(&str, &str); 14] = [
-        ("alpha", "α"),
-        ("beta", "β"),
-        ("gamma", "γ"),
-        ("delta", "δ"),
-        ("epsilon", "ε"),
-        ("eta", "η"),
-        ("theta", "θ"),
-        ("kappa", "κ"),
-        ("lambda", "λ"),
-        ("mu", "μ"),
-        ("nu", "ν"),
-        ("rho", "ρ"),
-        ("tau", "τ"),
-        ("omega", "ω"),
-    ];
     let (head, tail) =
         name.split_at(name.find(|c: char| c == '_' || c.is_ascii_digit()).unwrap_or(name.len()));
-    match GREEK.iter().find(|(word, _)| *word == head) {
-        Some((_, letter)) => format!("{letter}{tail}"),
+    match greek(head) {
+        Some(letter) => format!("{letter}{tail}"),
         None => name.to_owned(),
     }
 }

@@ -1,4 +1,4 @@
-//! Names in messages: the likely correction of a misspelt one, lists of names, names given twice.
+//! Names: the likely correction of a misspelt one, lists of names, names given twice, Greek letters.
 
 use std::fmt::Display;
 
@@ -12,6 +12,58 @@ pub fn nearest<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) -> Opti
         .filter(|&(distance, candidate)| distance < candidate.len())
         .min()
         .map(|(_, candidate)| candidate)
+}
+
+/// Greek letters by their names; other forms of a letter follow the one that is printed.
+const GREEK: [(&str, &str); 24] = [
+    ("alpha", "α"),
+    ("beta", "β"),
+    ("gamma", "γ"),
+    ("delta", "δ"),
+    ("epsilon", "εϵ"),
+    ("zeta", "ζ"),
+    ("eta", "η"),
+    ("theta", "θϑ"),
+    ("iota", "ι"),
+    ("kappa", "κϰ"),
+    ("lambda", "λ"),
+    // The second one is the sign of micrometres.
+    ("mu", "μµ"),
+    ("nu", "ν"),
+    ("xi", "ξ"),
+    ("omicron", "ο"),
+    ("pi", "πϖ"),
+    ("rho", "ρϱ"),
+    ("sigma", "σς"),
+    ("tau", "τ"),
+    ("upsilon", "υ"),
+    ("phi", "φϕ"),
+    ("chi", "χ"),
+    ("psi", "ψ"),
+    ("omega", "ω"),
+];
+
+/// A name with the names of its Greek letters: `mu_1` for `μ_1`, `Lambda` for `Λ`.
+#[must_use]
+pub fn spelled_out(name: &str) -> String {
+    let mut text = String::new();
+    for letter in name.chars() {
+        let small = letter.to_lowercase().next().unwrap_or(letter);
+        match GREEK.iter().find(|(_, letters)| letters.contains(small)) {
+            Some((word, _)) if small == letter => text += word,
+            Some((word, _)) => {
+                text += &word[..1].to_uppercase();
+                text += &word[1..];
+            }
+            None => text.push(letter),
+        }
+    }
+    text
+}
+
+/// The small Greek letter of a name.
+pub(crate) fn greek(name: &str) -> Option<char> {
+    GREEK.iter().find(|(word, _)| *word == name).and_then(|(_, letters)| letters.chars().next())
 }
 
 /// A list of names for a message: each in backticks, commas between them.
