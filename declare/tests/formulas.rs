@@ -150,6 +150,7 @@ fn mistakes_are_told_at_their_places() {
     check_mistake("mu/2*(I1b - 3)\n  + K*(J - 1)^2\n  + l1", &any, "l1", "are exchanged");
     check_mistake("mu/2*(I1b - 3)\r\n  + K*(J - 1)^2\r\n  + l1", &any, "l1", "are exchanged");
     check_mistake("mu/2*(I1 - 3) + lambd\r\na*ln(J) + lambd\r\n[]/2", &any, "]", "expected an expression");
+    check_mistake("\\mu*(\\bar{I}_4 - 3)", &given(&["mu"]), "\\bar{I}_4", "no value");
     check_mistake("mu*(J - 1)^2 where J", &any, "J", "a condition is a comparison");
     check_mistake("mu*abs(I1b - 3)", &any, "abs", "has a kink");
     let known = any.with_parameters(Some(vec![("mu".to_owned(), "Modulus, Pa.".to_owned())]));
@@ -198,6 +199,21 @@ fn formulas_are_read_as_people_paste_them() {
         "mu*(l1^2 + l2^2 + l3^2 - 3)/2 + k*(J - 1)^2",
     );
     check_same("mu*(I1_bar - 3) + c*(Ibar_2 - 3) + k*(J - 1)^2", "mu*(I1b - 3) + c*(I2b - 3) + k*(J - 1)^2");
+    for pasted in [
+        "\\mu*(\\bar{I}_1 - 3) + 2\\beta\\ln(\\bar I_2/3) + k*(J - 1)^2",
+        "\\mu*(\\overline{I_1} - 3) + 2 \\beta \\ln(\\bar{I}_{2}/3) + k*(J - 1)^2",
+    ] {
+        check_same(pasted, "mu*(I1b - 3) + 2*beta*ln(I2b/3) + k*(J - 1)^2");
+    }
+    for stretches in
+        ["\\bar{\\lambda}_1^a + \\bar\\lambda_2^a + \\overline{λ}_3^a", "λ̄₁^a + λ̄_2^a + lambda3_bar^a"]
+    {
+        check_same(
+            &format!("mu/a*({stretches} - 3) + k*(J - 1)^2"),
+            "mu/a*((l1/cbrt(J))^a + (l2/cbrt(J))^a + (l3/cbrt(J))^a - 3) + k*(J - 1)^2",
+        );
+    }
+    check_same("\\bar{m}*(I1b - 3) + k*(J - 1)^2", "mbar*(I1b - 3) + k*(J - 1)^2");
     check_same("mu*(tr(C^2) - 3) + k*(det(C) - 1)^2", "mu*(l1^4 + l2^4 + l3^4 - 3) + k*(J^2 - 1)^2");
     check_same("mu*(tr(inv(C)) - 3) + k*(J - 1)^2", "mu*(I2/J^2 - 3) + k*(J - 1)^2");
     check_same(

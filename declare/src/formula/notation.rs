@@ -1,5 +1,7 @@
 //! Characters of papers that Rust does not have: `μ/2 (I₁ − 3)` is read as `μ/2 (I1 - 3)`.
 
+use std::ops::Range;
+
 use proc_macro2::TokenStream;
 
 use crate::mistakes::{Mistake, Mistakes, Place};
@@ -23,7 +25,7 @@ impl Notation {
         check_size(formula)?;
         let (mut text, mut origins) = (String::new(), Vec::new());
         let (mut is_raised, mut is_index) = (false, false);
-        let mut characters = formula.chars().enumerate().peekable();
+        let mut characters = with_bars(formula).into_iter().peekable();
         while let Some((place, character)) = characters.next() {
             let raised = raised(character);
             let is_name = characters.peek().is_some_and(|(_, next)| next.is_alphabetic());
@@ -31,8 +33,10 @@ impl Notation {
                 (Some(digit), _) if is_raised => digit.to_string(),
                 (Some(digit), _) => format!("^{digit}"),
                 (None, Some(letter)) => letter.to_string(),
-                // `\lambda_{1}` of TeX is `lambda_1`.
-                (None, None) if character == '\\' && is_name => String::new(),
+                // `\lambda_{1}` of TeX is `lambda_1`, and `2\mu` a product.
+                (None, None) if character == '\\' && is_name => {
+                    if text.ends_with(char::is_alphanumeric) { " " } else { "" }.to_owned()
+                }
                 (None, None) if character == '{' && text.ends_with('_') => {
                     is_index = true;
                     String::new()
@@ -73,6 +77,51 @@ impl Notation {
         let rest = formula.split('\n').nth(place.line - 1)?.chars().count() + 1 - place.column;
         Some(Place { length: (last - first + 1).clamp(1, rest.max(1)), ..place })
     }
+}
+
+/// The characters of a formula with their positions. A bar of TeX becomes part of the name below it:
+/// `\bar{I}_1` is `\Ibar_1`.
+fn with_bars(formula: &str) -> Vec<(usize, char)> {
+    let characters: Vec<char> = formula.chars().collect();
+    let mut written = Vec::with_capacity(characters.len());
+    let mut next = 0;
+    while next < characters.len() {
+        match bar(&characters, next) {
+            Some((name, end)) => {
+                written.push((next, '\\'));
+                written.extend(characters[name].iter().map(|&letter| (next, letter)));
+                written.extend("bar".chars().map(|letter| (end - 1, letter)));
+                next = end;
+            }
+            None => {
+                written.push((next, characters[next]));
+                next += 1;
+            }
+        }
+    }
+    written
+}
+
+/// The name below a bar of TeX that begins here, and the end of the bar.
+fn bar(text: &[char], start: usize) -> Option<(Range<usize>, usize)> {
+    const BARS: [&str; 2] = ["\\bar", "\\overline"];
+    let begins = |bar: &&&str| bar.chars().eq(text[start..].iter().copied().take(bar.len()));
+    let behind = |from: usize, is_part: fn(char) -> bool| {
+        from + text[from..].iter().take_while(|&&character| is_part(character)).count()
+    };
+    let command = start + BARS.iter().find(begins)?.len();
+    let argument = behind(command, char::is_whitespace);
+    let is_braced = *text.get(argument)? == '{';
+    let backslash = argument + usize::from(is_braced);
+    let first = backslash + usize::from(*text.get(backslash)? == '\\');
+    let last = behind(first, |character| character.is_alphanumeric() || character == '_');
+    // Without braces or a backslash, the bar is above one letter, which is apart from the command.
+    let is_letter = first == argument;
+    let last = if is_letter { last.min(first + 1) } else { last };
+    let end = last + usize::from(is_braced);
+    let is_name =
+        last > first && (!is_letter || argument > command) && (!is_braced || text.get(last) == Some(&'}'));
+    is_name.then_some((first..last, end))
 }
 
 /// Error for characters that do not form tokens: an unmatched parenthesis, or characters without a meaning in

@@ -13,7 +13,7 @@ struct Spelling {
 }
 
 /// Names, which may have underscores anywhere: `I_1` is `I1`.
-const NAMES: [Spelling; 10] = [
+const NAMES: [Spelling; 13] = [
     Spelling {
         rust: "l1",
         meaning: "principal stretch λ1",
@@ -41,6 +41,21 @@ const NAMES: [Spelling; 10] = [
         rust: "I2b",
         meaning: "J^(−4/3) I2",
         spellings: &["I2b", "I2bar", "Ibar2", "barI2", "Ib2", "I2iso", "Ī2", "I\u{304}2", "I\u{305}2"],
+    },
+    Spelling {
+        rust: "(l1 / J.cbrt())",
+        meaning: "J^(−1/3) λ1",
+        spellings: &["l1bar", "lambdabar1", "lambda1bar", "λbar1", "λ\u{304}1", "λ\u{305}1"],
+    },
+    Spelling {
+        rust: "(l2 / J.cbrt())",
+        meaning: "J^(−1/3) λ2",
+        spellings: &["l2bar", "lambdabar2", "lambda2bar", "λbar2", "λ\u{304}2", "λ\u{305}2"],
+    },
+    Spelling {
+        rust: "(l3 / J.cbrt())",
+        meaning: "J^(−1/3) λ3",
+        spellings: &["l3bar", "lambdabar3", "lambda3bar", "λbar3", "λ\u{304}3", "λ\u{305}3"],
     },
     Spelling { rust: "(J.ln())", meaning: "ln(J)", spellings: &["lnJ", "logJ"] },
     Spelling { rust: "PI", meaning: "π", spellings: &["pi", "π", "PI", "Pi"] },
@@ -261,8 +276,11 @@ mod tests {
 
     /// A spelling as code. Barred letters look alike, so that a combining mark is named.
     fn quoted(name: &&str) -> String {
-        match name.chars().find(|letter| ('\u{300}'..='\u{36f}').contains(letter)) {
-            Some(mark) => format!("`{name}` (I followed by U+{:04X})", u32::from(mark)),
+        match name.split_once(|letter| ('\u{300}'..='\u{36f}').contains(&letter)) {
+            Some((letter, _)) => {
+                let mark = name[letter.len()..].chars().next().map_or(0, u32::from);
+                format!("`{name}` ({letter} followed by U+{mark:04X})")
+            }
             None => format!("`{name}`"),
         }
     }
