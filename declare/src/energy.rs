@@ -323,13 +323,11 @@ fn calls_of(declaration: &Declaration, model: &mut Model, energy: Id) -> Option<
 fn description(declaration: &Declaration, texts: Texts) -> Description {
     let options = &declaration.options;
     let parameters = declaration.parameters.iter().map(|parameter| {
-        let unit = match parameter.unit() {
-            _ if parameter.is_whole => Some(Unit::Dimensionless),
-            Some(read::unit::Unit::Pascal) => Some(Unit::Pascal),
-            Some(read::unit::Unit::PerPascal) => Some(Unit::PerPascal),
-            Some(read::unit::Unit::Dimensionless) => Some(Unit::Dimensionless),
-            None => None,
-        };
+        let unit = parameter.unit().map(|unit| match unit {
+            read::unit::Unit::Pascal => Unit::Pascal,
+            read::unit::Unit::PerPascal => Unit::PerPascal,
+            read::unit::Unit::Dimensionless => Unit::Dimensionless,
+        });
         let form = match parameter.kind {
             Kind::Number if parameter.is_whole => Form::Exponent,
             Kind::List(_) if parameter.is_whole => Form::Exponents,

@@ -43,7 +43,8 @@ use proc_macro::TokenStream;
 ///
 /// The documentation of a parameter may end with its unit, as in `/// Shear modulus, Pa.` or `/// Exponent,
 /// dimensionless.`: the energy must then be in Pa. Units are `Pa`, `1/Pa` and `dimensionless`; for a
-/// function, the unit of its values. Without units nothing is checked.
+/// function, the unit of its values. Another unit of stress, such as `MPa`, is an error. Without units
+/// nothing is checked.
 ///
 /// Arguments of the attribute, all optional:
 ///

@@ -7,7 +7,6 @@ use syn::{Ident, Type};
 
 use super::{Texts, condition_text, generics, naming};
 use crate::read::parse::{Declaration, Kind, Typical};
-use crate::read::unit::Unit;
 
 /// `impl Declared`.
 pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream {
@@ -21,9 +20,7 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let moduli = moduli.each_ref().map(text);
     let parameters = declaration.parameters.iter().map(|parameter| {
         let (name, doc) = (parameter.name.to_string(), &parameter.doc);
-        // An exponent has no unit, even if its documentation leaves that out.
-        let unit = if parameter.is_whole { Some(Unit::Dimensionless) } else { parameter.unit() };
-        let unit = option(unit.map(|unit| format_ident!("{unit:?}")).map(|unit| quote!(__p::Unit::#unit)));
+        let unit = option(parameter.unit().map(|unit| format_ident!("{unit:?}")).map(|unit| quote!(__p::Unit::#unit)));
         let form = match &parameter.kind {
             Kind::Number if parameter.is_whole => quote!(__p::Form::Exponent),
             Kind::List(_) if parameter.is_whole => quote!(__p::Form::Exponents),

@@ -9,10 +9,10 @@ use crate::algebra::rational::Rational;
 /// Checks that ψ is in Pa, where the units of its parameters are known. A declaration without units is not
 /// checked.
 pub(crate) fn units(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
-    let units = source.declaration.pascals();
-    if units.iter().all(Option::is_none) {
+    if !source.declaration.has_units() {
         return None;
     }
+    let units = source.declaration.pascals();
     let mut dimensions = Dimensions::new(&units);
     match dimensions.of(graph, source.energy) {
         Ok(None | Some(Rational::ONE)) => None,

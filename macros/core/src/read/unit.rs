@@ -13,15 +13,26 @@ pub enum Unit {
     Dimensionless,
 }
 
+/// Other units of stress. Values of parameters are not converted from them.
+const OTHERS: [&str; 18] = [
+    "kPa", "MPa", "GPa", "hPa", "psi", "ksi", "bar", "atm", "N/mm²", "N/mm^2", "N/mm2", "kN/m²", "kN/m^2",
+    "kN/mm²", "kN/mm^2", "kgf/cm²", "kgf/cm^2", "dyn/cm²",
+];
+
 impl Unit {
+    /// All units.
+    pub const ALL: [Self; 3] = [Self::Pascal, Self::PerPascal, Self::Dimensionless];
+
     /// The unit that ends a sentence, or the part of one before `:` or `;`; the first such end counts.
     ///
     /// The text is that of [`documentation`](crate::read::parse::documentation).
-    #[must_use]
-    pub fn read(documentation: &str) -> Option<Self> {
+    ///
+    /// # Errors
+    /// The word at this place if it is another unit of stress, or one divided by it.
+    pub fn read(documentation: &str) -> Result<Option<Self>, String> {
         let parts = documentation.lines().flat_map(|line| line.split_inclusive(['.', ':', ';']));
         let mut sentence = String::new();
-        parts.chain(["."]).find_map(|part| {
+        let found = parts.chain(["."]).find_map(|part| {
             // The point in `0.5` ends nothing.
             let is_end = part.ends_with(['.', ':', ';']);
             sentence.push_str(part);
@@ -31,18 +42,26 @@ impl Unit {
             let found = Self::at_end(sentence.trim_end_matches(['.', ':', ';', ' ']));
             sentence.clear();
             found
-        })
+        });
+        found.transpose()
     }
 
-    fn at_end(sentence: &str) -> Option<Self> {
+    fn at_end(sentence: &str) -> Option<Result<Self, String>> {
         let (before, word) = sentence.rsplit_once(' ')?;
         let bracketed = word.strip_prefix(['[', '(']).and_then(|word| word.strip_suffix([']', ')']));
         let is_set_apart = bracketed.is_some() || before.ends_with(',');
-        match bracketed.unwrap_or(word) {
-            "dimensionless" => Some(Self::Dimensionless),
-            "Pa" | "J/m³" | "J/m^3" | "N/m²" | "N/m^2" => Some(Self::Pascal),
-            "1/Pa" | "Pa⁻¹" | "Pa^-1" => Some(Self::PerPascal),
-            "1" | "-" | "–" if is_set_apart => Some(Self::Dimensionless),
+        let word = bracketed.unwrap_or(word);
+        let stress = ["⁻¹", "^-1"].iter().find_map(|power| word.strip_suffix(power));
+        let stress = stress.or_else(|| word.strip_prefix("1/")).unwrap_or(word);
+        match word {
+            "dimensionless" => Some(Ok(Self::Dimensionless)),
+            "Pa" | "J/m³" | "J/m^3" | "N/m²" | "N/m^2" => Some(Ok(Self::Pascal)),
+            "1/Pa" | "Pa⁻¹" | "Pa^-1" => Some(Ok(Self::PerPascal)),
+            "1" | "-" | "–" if is_set_apart => Some(Ok(Self::Dimensionless)),
+            // Not the unit of a value, as in `about 0.4 MPa`.
+            _ if OTHERS.contains(&stress) && (is_set_apart || before.ends_with(" in")) => {
+                Some(Err(word.to_owned()))
+            }
             _ => None,
         }
     }
@@ -59,14 +78,20 @@ impl Unit {
 }
 
 impl Parameter {
-    /// The unit that its documentation states: of a function that of its values.
+    /// The unit that its documentation states, for a function that of its values. A whole exponent has none,
+    /// and its documentation need not state that.
     #[must_use]
     pub fn unit(&self) -> Option<Unit> {
-        Unit::read(&self.doc)
+        if self.is_whole { Some(Unit::Dimensionless) } else { Unit::read(&self.doc).ok().flatten() }
     }
 }
 
 impl Declaration {
+    /// True if the documentation of a parameter states a unit.
+    pub(crate) fn has_units(&self) -> bool {
+        self.parameters.iter().any(|parameter| matches!(Unit::read(&parameter.doc), Ok(Some(_))))
+    }
+
     /// The exponent of Pa in the unit of each parameter; `None` without one.
     pub(crate) fn pascals(&self) -> Vec<Option<i64>> {
         self.parameters.iter().map(|parameter| parameter.unit().map(Unit::pascals)).collect()
@@ -79,7 +104,7 @@ mod tests {
 
     #[track_caller]
     fn check(documentation: &str, expected: Option<Unit>) {
-        assert_eq!(Unit::read(documentation), expected, "{documentation}");
+        assert_eq!(Unit::read(documentation), Ok(expected), "{documentation}");
     }
 
     #[test]
@@ -101,10 +126,24 @@ mod tests {
             "Pa",
             "Exponent.",
             "Release β of the tubes, 1 for none.",
-            "Shear modulus, MPa.",
+            "Of soft rubber about 0.4 MPa.",
+            "Modulus of a bar.",
             "At most 1.",
         ] {
             check(text, None);
+        }
+    }
+
+    #[test]
+    fn other_units_of_stress_are_mistakes() {
+        for (text, unit) in [
+            ("Shear modulus, MPa.", "MPa"),
+            ("Shear modulus [kPa]", "kPa"),
+            ("Shear modulus in N/mm²: the initial one.", "N/mm²"),
+            ("Compressibility (1/MPa).", "1/MPa"),
+            ("Compressibility D1 in GPa⁻¹", "GPa⁻¹"),
+        ] {
+            assert_eq!(Unit::read(text), Err(unit.to_owned()), "{text}");
         }
     }
 }

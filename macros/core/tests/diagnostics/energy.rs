@@ -306,6 +306,16 @@ fn units_make_an_energy_density() {
 }
 
 #[test]
+fn units_are_those_of_the_values() {
+    let item =
+        "fn E([l1, l2, l3]: [f64; 3], /** Modulus, MPa. */ mu: f64, /** Bulk modulus, Pa. */ k: f64) -> f64 {
+        mu * (I1b - 3.0) + k * (J - 1.0).powi(2)
+    }";
+    let message = "values of parameters are in SI units, not in `MPa`: write `Pa`, `1/Pa` or";
+    check("domain(J > 0.0)", item, &[("/** Modulus, MPa. */", message)]);
+}
+
+#[test]
 fn typical_parameters_are_those_of_the_declaration() {
     let of = |typical: &str, expected: &[(&str, &str)]| {
         let item = "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, a: [f64; N]) -> f64 {

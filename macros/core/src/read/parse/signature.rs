@@ -1,7 +1,7 @@
 //! The signature of an energy: its generics, stretches and parameters.
 
 use proc_macro2::TokenStream;
-use quote::ToTokens;
+use quote::{ToTokens, quote};
 use syn::{
     Expr, FnArg, GenericArgument, GenericParam, Ident, Lit, Pat, PathArguments, ReturnType, Safety,
     Signature, Type,
@@ -11,6 +11,7 @@ use super::{Entries, Kind, Parameter, WORDS, documentation, identifiers};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::notation::Notation;
 use crate::read::spelling::taken;
+use crate::read::unit::Unit;
 
 /// Members of every material, which a method for a parameter of the same name would hide.
 const MEMBERS: [&str; 37] = [
@@ -262,6 +263,13 @@ impl Lists {
             Ok(kind) => {
                 let (doc, attributes) = (documentation(&argument.attrs), argument.attrs.clone());
                 let is_whole = is_whole(&argument.ty);
+                if let Err(unit) = Unit::read(&doc) {
+                    let message = format!(
+                        "values of parameters are in SI units, not in `{unit}`: write `Pa`, `1/Pa` or `dimensionless` there, and give \
+                         the values in that unit"
+                    );
+                    diagnostics.error(quote!(#(#attributes)*), message);
+                }
                 self.parameters.push(Parameter { name, doc, attributes, kind, is_whole });
             }
             Err(mistake) => {
