@@ -293,6 +293,16 @@ fn data_that_may_mean_two_things() {
     check(&[], &["curve", "gent", "--param", "jm=105MPa"], &["`jm`", "without a unit", "in Pa"]);
     check(&[], &["curve", "gent", "--param", "mu=1/MPa"], &["`mu`", "in Pa", "in 1/Pa"]);
     check(&[], &["run", "horse", "--param", "mu=1/MPa"], &["`mu`", "in Pa", "in 1/Pa"]);
+    let energy = "c1*(I1b - 3) + c2*ln(I2b/3)*(1 + b) + (J - 1)^2/D1";
+    let without = |missing: [&str; 4], guilty: &[&str]| {
+        let values = missing.map(|value| ["--param", value]);
+        check(&[], &[&["curve", "--energy", energy][..], values.as_flattened()].concat(), guilty);
+    };
+    without(["c1=0.29MPa", "c2=0.22", "b=2", "D1=1/MPa"], &["`c2` is in Pa", "`c2=0.22MPa`", "`c2=0.22Pa`"]);
+    without(
+        ["c1=0.29MPa", "c2=1kPa", "b=2", "D1=1e-7"],
+        &["`D1` is in 1/Pa", "`D1=1e-7/MPa`", "`D1=1e-7/Pa`"],
+    );
 }
 
 #[test]

@@ -82,7 +82,7 @@ impl Energy {
         let documentation = page(declaration, &mut model, &texts);
         let programs = Arc::new(programs(declaration, &mut model)?);
         Some(Self(Arc::new(Compiled {
-            description: description(declaration, texts),
+            description: description(declaration, &model.units, texts),
             documentation,
             text,
             source,
@@ -320,10 +320,10 @@ fn calls_of(declaration: &Declaration, model: &mut Model, energy: Id) -> Option<
 }
 
 /// Names, texts and forms of a declaration as data.
-fn description(declaration: &Declaration, texts: Texts) -> Description {
+fn description(declaration: &Declaration, units: &[Option<read::unit::Unit>], texts: Texts) -> Description {
     let options = &declaration.options;
-    let parameters = declaration.parameters.iter().map(|parameter| {
-        let unit = parameter.unit().map(|unit| match unit {
+    let parameters = declaration.parameters.iter().zip(units).map(|(parameter, unit)| {
+        let unit = unit.map(|unit| match unit {
             read::unit::Unit::Pascal => Unit::Pascal,
             read::unit::Unit::PerPascal => Unit::PerPascal,
             read::unit::Unit::Dimensionless => Unit::Dimensionless,

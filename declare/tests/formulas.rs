@@ -1,5 +1,6 @@
 //! Formulas in the notation of papers, and the mistakes in them.
 
+use piola::material::Unit;
 use piola::{Inversion, Material};
 use piola_declare::{Energy, FormulaOptions, Mistake};
 
@@ -258,6 +259,23 @@ fn a_name_with_a_value_is_a_parameter() {
     let energy = Energy::from_formula_with("mu*(I1b - 3) + C*(J - 1)^2", &more).expect("two parameters");
     assert_eq!(energy.description().parameters.len(), 2);
     assert_eq!(Energy::from_text_with("mu*(I1b - 3) + C*(J - 1)^2", &more), Ok(energy));
+}
+
+/// Units that some parameters state imply those of others.
+#[test]
+fn units_of_parameters_are_inferred() {
+    let units = |documented: &[(&str, &str)]| {
+        let named = documented.iter().map(|&(name, doc)| (name.to_owned(), doc.to_owned()));
+        let options = FormulaOptions::default().with_parameters(Some(named.collect()));
+        let formula = "a/b*(exp(b*(I1b - 3)) - 1) + c*d*(I2b - 3) + (J - 1)^2/D";
+        let energy = Energy::from_formula_with(formula, &options).unwrap_or_else(|error| panic!("{error}"));
+        energy.description().parameters.iter().map(|parameter| parameter.unit).collect::<Vec<_>>()
+    };
+    let (pascal, number, inverse) = (Some(Unit::Pascal), Some(Unit::Dimensionless), Some(Unit::PerPascal));
+    let stated = |a, d| units(&[("a", a), ("b", ""), ("c", ""), ("d", d), ("D", "")]);
+    assert_eq!(stated("", ""), [None; 5]);
+    assert_eq!(stated("Modulus, Pa.", ""), [pascal, number, None, None, inverse]);
+    assert_eq!(stated("", "Modulus, Pa."), [pascal, number, number, pascal, inverse]);
 }
 
 #[test]

@@ -57,6 +57,18 @@ pub enum Error {
         /// The kind of unit that the parameter has.
         declared: Unit,
     },
+    /// A value of a parameter of a formula has no unit, while the units of other values imply one.
+    #[error("the parameter `{}` is {}, because other values have units, but its own value has none; write it with its unit, \
+        such as `{given}{}MPa`, or `{given}{}Pa`",
+        quoted(parameter), in_words(*unit), division(*unit), division(*unit))]
+    WithoutUnit {
+        /// The parameter.
+        parameter: String,
+        /// Its name and value as given, such as `mu=0.4`.
+        given: String,
+        /// The kind of unit that the formula implies.
+        unit: Unit,
+    },
     /// An energy cannot be printed in another language.
     #[error(transparent)]
     Emit(#[from] EmitError),
@@ -285,6 +297,11 @@ fn near_or_it(name: &str, known: &[Text]) -> String {
     let without_index = name.trim_end_matches(|c: char| c == '_' || c.is_ascii_digit());
     let near = nearest(name, known()).or_else(|| nearest(without_index, known()));
     near.map_or_else(|| "it".to_owned(), |near| format!("did you mean `{}`? It", quoted(near)))
+}
+
+/// The sign between a value and the stress that its unit is made of.
+fn division(unit: Unit) -> &'static str {
+    if unit == Unit::PerPascal { "/" } else { "" }
 }
 
 /// Names in backquotes with commas, or "none".

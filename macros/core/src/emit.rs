@@ -34,7 +34,7 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let structure = structure(declaration, &documentation);
     let constructor = constructor(declaration, &mut model);
     let material = material(declaration, &mut model);
-    let declared = declared(declaration, &texts);
+    let declared = declared(declaration, &model.units, &texts);
     let fittable = fittable(declaration, &mut model);
     let serde = serde(declaration);
     quote! {

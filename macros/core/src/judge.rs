@@ -16,6 +16,7 @@ use finding::{Finding, Findings, Violation};
 use samples::{is_zero, samples};
 pub(crate) use source::Source;
 use units::units;
+pub(crate) use units::units_of_parameters;
 
 mod argument;
 mod blame;

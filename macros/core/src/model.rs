@@ -23,6 +23,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
 use crate::read::parse::{Declaration, Parameter};
 use crate::read::resolve::{self, Invariantly, Resolver};
+use crate::read::unit::Unit;
 use crate::schedule::count::Count;
 use crate::schedule::{Collector, Program, schedule};
 use forms::{Evaluated, Prepared};
@@ -55,6 +56,8 @@ pub struct Model {
     pub bounds_at_rest: Vec<(usize, Id)>,
     /// The volumes J for which the energy is defined.
     pub volume: Volume,
+    /// The unit of each parameter, stated or inferred.
+    pub units: Vec<Option<Unit>>,
     /// Small-strain μ and λ.
     pub moduli: [Id; 2],
     /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p inside the domain for each parameter p, if requested.
@@ -313,6 +316,7 @@ fn derive(
         domain_constraints.extend(domain.map(&mut constraint));
     }
     // Those with functions are known to the constructor alone.
+    let units = judge::units_of_parameters(&graph, source);
     let are_known = !options.prestressed && !declaration.has_functions();
     let from_young_poisson = are_known.then(|| young_poisson(&graph, moduli)).flatten();
     let model = Model {
@@ -325,6 +329,7 @@ fn derive(
         bounds,
         bounds_at_rest,
         volume,
+        units,
         moduli,
         by_parameters,
         constraints,

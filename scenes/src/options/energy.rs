@@ -4,6 +4,8 @@
 use std::path::Path;
 
 use clap::Args;
+use piola::__private::message::{number, quoted};
+use piola::material::Unit;
 use piola_declare::{Energy, FormulaOptions};
 
 use crate::error::Error;
@@ -47,7 +49,7 @@ impl Formula {
     /// The material of the formula with these parameters, if a formula is given.
     ///
     /// # Errors
-    /// [`Error::Declaration`]; a name without a value is a mistake at its place.
+    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::WithoutUnit`].
     pub fn spec(&self, parameters: &[Given]) -> Result<Option<MaterialSpec>, Error> {
         let Some(formula) = &self.energy else { return Ok(None) };
         let names = parameters.iter().map(|given| (given.name.clone(), given.documentation()));
@@ -57,12 +59,30 @@ impl Formula {
             .with_forms("--param NAME=VALUE", "--free-rest");
         let options = if self.kappa.is_some() { options.with_bulk(BULK) } else { options };
         let energy = Energy::from_formula_with(formula, &options).map_err(Error::Declaration)?;
+        check_units(&energy, parameters)?;
         let spec = MaterialSpec::declared(energy);
         Ok(Some(match self.kappa {
             Some(kappa) => spec.with_parameter(BULK, [kappa]),
             None => spec,
         }))
     }
+}
+
+/// Checks that all values have units that need one, if some do.
+fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
+    for given in parameters.iter().filter(|given| given.unit.is_none()) {
+        let known = energy.description().parameters.iter().find(|known| known.name == given.name);
+        if let Some(unit @ (Unit::Pascal | Unit::PerPascal)) = known.and_then(|known| known.unit) {
+            let values = given.values.iter().map(|&value| number(value)).collect::<Vec<_>>().join(",");
+            let parameter = given.name.clone();
+            return Err(Error::WithoutUnit {
+                given: quoted(&format!("{parameter}={values}")),
+                parameter,
+                unit,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// The material of a declaration in Rust, if a name is that of a file.

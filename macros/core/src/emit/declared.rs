@@ -7,9 +7,10 @@ use syn::{Ident, Type};
 
 use super::{Texts, condition_text, generics, naming};
 use crate::read::parse::{Declaration, Kind, Typical};
+use crate::read::unit::Unit;
 
 /// `impl Declared`.
-pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream {
+pub(super) fn declared(declaration: &Declaration, units: &[Option<Unit>], texts: &Texts) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
     let naming = naming(declaration);
@@ -18,9 +19,9 @@ pub(super) fn declared(declaration: &Declaration, texts: &Texts) -> TokenStream 
     let domain = domain.trim_end();
     let [type_name, summary, formula, domain] = [&name.to_string(), summary, formula, domain].map(text);
     let moduli = moduli.each_ref().map(text);
-    let parameters = declaration.parameters.iter().map(|parameter| {
+    let parameters = declaration.parameters.iter().zip(units).map(|(parameter, unit)| {
         let (name, doc) = (parameter.name.to_string(), &parameter.doc);
-        let unit = option(parameter.unit().map(|unit| format_ident!("{unit:?}")).map(|unit| quote!(__p::Unit::#unit)));
+        let unit = option(unit.map(|unit| format_ident!("{unit:?}")).map(|unit| quote!(__p::Unit::#unit)));
         let form = match &parameter.kind {
             Kind::Number if parameter.is_whole => quote!(__p::Form::Exponent),
             Kind::List(_) if parameter.is_whole => quote!(__p::Form::Exponents),
