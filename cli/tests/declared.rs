@@ -132,7 +132,7 @@ fn the_contract_is_checked_without_a_crate() {
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(
-        message.contains("does not keep the contract") && message.contains("f32 against f64"),
+        message.contains("does not keep the contract") && message.contains("single_precision"),
         "{message}"
     );
     assert!(answer(folder.path(), &["contract", "gent"]).contains("gent keeps the contract"));

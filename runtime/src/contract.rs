@@ -17,7 +17,8 @@
 //! # fn main() {}
 //! ```
 //!
-//! Each [`contract!`](crate::contract!) is a module of tests, one for each rule, such as `rubber::quotients`.
+//! Each [`contract!`](crate::contract!) is a module of tests, one for each rule and with its name, such as
+//! `rubber::quotients`.
 //! [`check`] judges all rules in one call, and [`check_rule`] a single one:
 //!
 //! | rule | what must hold |

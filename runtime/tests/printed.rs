@@ -262,6 +262,6 @@ fn digits_that_a_formula_loses_break_the_contract() -> Result<(), Box<dyn std::e
     let violations =
         check(&Lossy::new(1e5, 1.0)?, &Settings::default()).expect_err("lost digits went unnoticed");
     let text = violations.to_string();
-    assert!(text.contains("f32 against f64") && text.contains("**Digits**"), "{text}");
+    assert!(text.contains("single_precision") && text.contains("**Digits**"), "{text}");
     Ok(())
 }

@@ -143,6 +143,7 @@ impl Rule {
     }
 }
 
+/// The name of the rule, which is also that of its test in [`contract!`](crate::contract!).
 impl fmt::Display for Rule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -150,17 +151,17 @@ impl fmt::Display for Rule {
             Self::Domain => "domain",
             Self::Objectivity => "objectivity",
             Self::Isotropy => "isotropy",
-            Self::SymmetricTangent => "symmetric tangent",
-            Self::StressSlope => "slope of the energy",
-            Self::TangentSlope => "slope of the stress",
-            Self::DualNumbers => "dual numbers",
+            Self::SymmetricTangent => "symmetric_tangent",
+            Self::StressSlope => "stress_slope",
+            Self::TangentSlope => "tangent_slope",
+            Self::DualNumbers => "dual_numbers",
             Self::Quotients => "quotients",
             Self::Strains => "strains",
             Self::Invariants => "invariants",
             Self::Extension => "extension",
             Self::Moduli => "moduli",
-            Self::SinglePrecision => "f32 against f64",
-            Self::Lanes => "lanes against scalar",
+            Self::SinglePrecision => "single_precision",
+            Self::Lanes => "lanes",
         })
     }
 }

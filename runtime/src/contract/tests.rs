@@ -433,6 +433,10 @@ mod one_line {
     #[test]
     fn every_rule_is_a_test() {
         assert_eq!(neo_hookean::TESTS.map(|(rule, _)| rule), Rule::ALL);
+        for rule in Rule::ALL {
+            let test = format!(" {rule}: {rule:?},\n");
+            assert!(include_str!("one_line.rs").contains(&test), "there is no test `{test}`");
+        }
     }
 
     // Inside a function, what the macro writes is not a test of this crate, and may fail.
