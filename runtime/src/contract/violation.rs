@@ -160,18 +160,30 @@ impl fmt::Display for Violation {
 impl Error for Violation {}
 
 /// All broken rules, each with the first violation that was found.
+///
+/// Hardly any rule holds for an energy that is infinite or NaN inside its domain. The text describes this
+/// cause alone, and names the rules that break with it in a line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violations(pub Vec<Violation>);
 
 impl fmt::Display for Violations {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, violation) in self.0.iter().enumerate() {
-            if k > 0 {
-                writeln!(f)?;
-            }
-            write!(f, "{violation}")?;
+        let is_cause = |violation: &Violation| {
+            matches!(violation, Violation::WrongKind { rule: Rule::Domain, expected: FINITE, .. })
+        };
+        let is_finite = !self.0.iter().any(is_cause);
+        // The rest state is judged on its own.
+        let is_told = |violation: &&Violation| {
+            is_finite || matches!(violation.rule(), Rule::Rest | Rule::Domain | Rule::Moduli)
+        };
+        let (told, others): (Vec<_>, Vec<_>) = self.0.iter().partition(is_told);
+        let told = told.iter().map(ToString::to_string).collect::<Vec<_>>();
+        f.write_str(&told.join("\n"))?;
+        if others.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        let others = others.iter().map(|violation| violation.rule().to_string()).collect::<Vec<_>>();
+        write!(f, "\nnot judged, because the energy is not finite: {}", others.join(", "))
     }
 }
 

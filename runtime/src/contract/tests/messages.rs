@@ -59,6 +59,32 @@ fn lost_digits_are_not_told_as_a_mistake() {
 }
 
 #[test]
+fn an_overflow_is_told_once() {
+    let violations = check(&Exponential { size: 1.0, rate: 200.0 }, &Settings::default());
+    let violations = violations.expect_err("an overflow");
+    let text = violations.to_string();
+    assert!(violations.0.len() > 8 && text.lines().count() == 7, "{text}");
+    assert!(text.starts_with("domain: ") && text.contains("the number overflows there"), "{text}");
+    let last = text.lines().last().expect("a line");
+    assert!(
+        last.starts_with("not judged, because the energy is not finite: objectivity, isotropy, "),
+        "{last}"
+    );
+    // Mistakes of the rest state are not its consequences.
+    let stressed = Violation::Differs {
+        rule: Rule::Rest,
+        component: gradient_name(0),
+        stretches: [1.0; 3],
+        found: 1.0,
+        expected: 0.0,
+        tolerance: 1e-14,
+        remedy: None,
+    };
+    let both = Violations([vec![stressed], violations.0].concat()).to_string();
+    assert!(both.starts_with("rest: ") && both.ends_with(&text), "{both}");
+}
+
+#[test]
 fn why_nothing_was_compared_is_told() {
     let settings = Settings { points: 16, ..Settings::default() };
     let check = |verdict: Result<Finding, Violation>, rule: Rule, expected: &str| {
