@@ -2,7 +2,8 @@
 
 use clap::Args;
 use piola::Inversion;
-use piola::contract::{Settings, check};
+use piola::contract::{Notation, Settings, check};
+use piola_declare::Energy;
 use piola_laboratory::curve::Volume;
 
 use crate::bench::{Material, at_rest};
@@ -24,12 +25,14 @@ impl Contract {
     pub(crate) fn run(self) -> Result<String, Error> {
         let spec = self.material.spec()?;
         let inversions = self.extend.map(|epsilon| Inversion::Extend { epsilon });
+        let notation = spec.energy().map_or_else(Notation::default, Energy::notation);
+        let settings = Settings { notation, ..Settings::default() };
         let mut text = String::new();
         let rest = at_rest(spec.clone().with_inversion(Inversion::Refuse).build()?.moduli, Volume::Free);
         for inversion in std::iter::once(Inversion::Refuse).chain(inversions) {
             let spec = spec.clone().with_inversion(inversion);
             let material = spec.build()?.name;
-            let report = check(&spec.interpreted()?, &Settings::default())
+            let report = check(&spec.interpreted()?, &settings)
                 .map_err(|violations| Error::Contract { material: material.to_string(), violations })?;
             text += &match inversion {
                 Inversion::Refuse => format!("{material} keeps the contract\n{rest}"),

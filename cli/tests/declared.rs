@@ -136,6 +136,13 @@ fn the_contract_is_checked_without_a_crate() {
         "{message}"
     );
     assert!(answer(folder.path(), &["contract", "gent"]).contains("gent keeps the contract"));
+    // A cause is told once, with what the author of a formula can change.
+    let stiff = ["contract", "--energy", "mu/2*exp(200*(I1b - 3)) + k/2*(J - 1)^2", "--free-rest"];
+    let output = piola(folder.path(), &[&stiff[..], &["--param", "mu=1MPa", "--param", "k=5MPa"]].concat());
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), message.lines().count()), (Some(1), 8), "{message}");
+    assert!(message.contains("such as `where J > 0, I1 < 9`") && !message.contains("domain("), "{message}");
+    assert!(message.contains("not judged, because the energy is not finite: objectivity"), "{message}");
 }
 
 /// What is printed for a formula is Rust that declares the same energy.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use piola::__private::interpreter::{ByInvariants, Calls, ParameterValues, Programs, Value, Variant, Volume};
 use piola::__private::record;
+use piola::contract::Notation;
 use piola::interpreter::Interpreted;
 #[cfg(doc)]
 use piola::material::Fittable;
@@ -58,6 +59,7 @@ struct Compiled {
     documentation: String,
     text: String,
     source: String,
+    notation: Notation,
     programs: Arc<Programs>,
     constructor: Constructor,
     fit: Option<Fit>,
@@ -77,6 +79,7 @@ impl Energy {
         mut model: Model,
         text: String,
         source: String,
+        notation: Notation,
     ) -> Option<Self> {
         let texts = Texts::of(declaration, &mut model);
         let documentation = page(declaration, &mut model, &texts);
@@ -86,6 +89,7 @@ impl Energy {
             documentation,
             text,
             source,
+            notation,
             programs,
             constructor: Constructor::new(declaration, &mut model)?,
             fit: if model.by_parameters.is_some() { Some(Fit::new(declaration, &mut model)?) } else { None },
@@ -115,6 +119,13 @@ impl Energy {
     #[must_use]
     pub fn source(&self) -> &str {
         &self.0.source
+    }
+
+    /// Notation in which the energy was declared, for
+    /// [`Settings::notation`](piola::contract::Settings::notation).
+    #[must_use]
+    pub fn notation(&self) -> Notation {
+        self.0.notation
     }
 
     /// Typical parameters as declared, one list for each; empty if there are none.

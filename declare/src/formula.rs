@@ -12,6 +12,7 @@ mod notation;
 mod parse;
 mod spellings;
 
+use piola::contract;
 use piola_codegen::algebra::increment::substitute_rest;
 use piola_codegen::emit::spaced;
 use piola_codegen::model::{MOST_PARAMETERS, Model};
@@ -156,7 +157,7 @@ impl Energy {
         };
         let is_alone = alone.is_ok_and(|alone| all(&alone) == all(&parsed));
         let text = if is_alone { formula.to_owned() } else { source.clone() };
-        Self::new(&declaration, model, text, source)
+        Self::new(&declaration, model, text, source, contract::Notation::Formula)
             .ok_or_else(|| Mistakes::of_all(formula, TOO_LARGE.to_owned()))
     }
 }

@@ -1,5 +1,6 @@
 //! Declarations in Rust: the same function that `#[piola::material]` takes.
 
+use piola::contract;
 use piola_codegen::analyse_in;
 use piola_codegen::read::notation::Notation;
 use piola_codegen::read::parse::{Declaration, Kind};
@@ -58,7 +59,7 @@ fn compile(text: &str, arguments: TokenStream, item: TokenStream) -> Result<Ener
     let (declaration, model) = analyse_in(Notation::Rust, arguments, item, LARGEST)
         .map_err(|error| Mistakes::from_syn(text, error))?;
     only_splines(&declaration).map_err(|error| Mistakes::from_syn(text, error))?;
-    Energy::new(&declaration, model, text.to_owned(), text.to_owned())
+    Energy::new(&declaration, model, text.to_owned(), text.to_owned(), contract::Notation::Rust)
         .ok_or_else(|| Mistakes::of_all(text, TOO_LARGE.to_owned()))
 }
 

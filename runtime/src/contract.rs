@@ -63,6 +63,7 @@ mod invariants;
 mod inverted;
 mod judge;
 mod lanes;
+mod notation;
 mod one_line;
 mod pairs;
 mod precisions;
@@ -82,6 +83,7 @@ use frames::{isotropy, objectivity, symmetric_tangent};
 use invariants::invariants;
 use inverted::extension;
 use lanes::lanes;
+pub use notation::Notation;
 use pairs::quotients;
 use precisions::single_precision;
 use rest::{moduli, rest};
@@ -126,11 +128,13 @@ pub struct Settings {
     /// # }
     /// ```
     pub stress_free_at_rest: bool,
+    /// Notation of the remedies.
+    pub notation: Notation,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { points: 64, seed: 1, range: (0.4, 2.5), stress_free_at_rest: true }
+        Self { points: 64, seed: 1, range: (0.4, 2.5), stress_free_at_rest: true, notation: Notation::Rust }
     }
 }
 
@@ -238,7 +242,7 @@ fn judge_rule(
         Rule::Strains => strains(material, settings),
         Rule::Invariants => invariants(material, settings),
         Rule::Extension => extension(material, settings),
-        Rule::Moduli => moduli(material),
+        Rule::Moduli => moduli(material, settings),
         Rule::SinglePrecision => single_precision(material, settings),
         Rule::Lanes => lanes(material, on_lanes?, settings),
     })

@@ -3,8 +3,9 @@
 #![expect(non_snake_case, reason = "F as in the literature")]
 
 use numpy::{IntoPyArray, PyArrayMethods};
-use piola::contract::{Settings, check};
+use piola::contract::{Notation, Settings, check};
 use piola::point::{stress, svd};
+use piola_declare::Energy;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
@@ -156,9 +157,10 @@ impl Material {
     /// Returns a list of (rule, number of comparisons, worst difference as a share of its tolerance). Raises
     /// ContractError with the broken rules.
     fn contract(&self, py: Python<'_>) -> PyResult<Vec<(String, usize, f64)>> {
-        self.uniform()?;
+        let notation = self.uniform()?.energy().map_or_else(Notation::default, Energy::notation);
+        let settings = Settings { notation, ..Settings::default() };
         let material = self.interpreted()?;
-        let report = py.detach(|| check(&material, &Settings::default()));
+        let report = py.detach(|| check(&material, &settings));
         let report = report.map_err(|violations| ContractError::new_err(violations.to_string()))?;
         let finding = |finding: &piola::contract::Finding| {
             (finding.rule.to_string(), finding.comparisons, finding.worst)

@@ -10,7 +10,7 @@ use crate::material::Inversion;
 pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Domain, material, settings, |judge, stretches, _| {
         for (k, number) in results(material, stretches).into_iter().enumerate() {
-            judge.finite(|| name(k), stretches, number, &remedy(material, stretches, number))?;
+            judge.finite(|| name(k), stretches, number, || remedy(material, settings, stretches, number))?;
         }
         let [l1, l2, _] = stretches;
         let flat = [-10, -20, -30].map(|k| l1 * 2f64.powi(k));
@@ -23,7 +23,7 @@ pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Find
                         || "energy".into(),
                         stretches,
                         energy,
-                        &remedy(material, stretches, energy),
+                        || remedy(material, settings, stretches, energy),
                     )?;
                 }
                 let overflows = energy > 2f64.powi(512);
@@ -33,7 +33,7 @@ pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Find
                             || gradient_name(k),
                             stretches,
                             slope,
-                            &remedy(material, stretches, slope),
+                            || remedy(material, settings, stretches, slope),
                         )?;
                     }
                 }
@@ -49,21 +49,40 @@ pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Find
 }
 
 /// Advice for an energy or derivative that is infinite or NaN.
-fn remedy(material: &dyn Subject, [_, _, l3]: [f64; 3], found: f64) -> String {
-    const NONE: &str = "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of \
-                        something negative?): add a condition to `domain(…)`, or to `admissible(…)` if a parameter divides by zero; \
-                        let `admits` of a function that is a parameter tell where it is defined; or, where I1 − 3 may not be \
-                        negative, write `I1b` for `I1`, which is 3 or more wherever J > 0";
-    const BEYOND: &str = "the domain admits these stretches, but the number overflows there: where a denominator or the argument of \
-                          a logarithm vanishes, add a condition to `domain(…)`, or to `admissible(…)` if it is one of parameters \
-                          alone; else choose smaller parameters, or narrow the stretches of the test, as in `range: (0.7, 1.4)`";
+fn remedy(
+    material: &dyn Subject,
+    Settings { notation, .. }: &Settings,
+    [_, _, l3]: [f64; 3],
+    found: f64,
+) -> String {
+    let narrower = notation.narrower();
     match material.inversion() {
-        _ if found.is_nan() => NONE.into(),
+        _ if found.is_nan() => {
+            let condition = notation.either(
+                "add a condition to `domain(…)`, or to `admissible(…)` if a parameter divides by zero; let `admits` of a function \
+                 that is a parameter tell where it is defined",
+                "add a condition after the formula, such as `where J > 0, I1 < 9`, or `where b > 0` if a parameter divides by zero",
+            );
+            format!(
+                "the domain admits these stretches, but the energy has no value there (a root, real power or logarithm of \
+                 something negative?): {condition}; or, where I1 − 3 may not be negative, write `I1b` for `I1`, which is 3 or \
+                 more wherever J > 0"
+            )
+        }
         Inversion::Extend { epsilon } if l3 < epsilon => format!(
             "the energy overflows where its extension begun at epsilon = {epsilon} has come to these stretches, as exponentials and \
-             high powers do: choose a greater `epsilon` or smaller parameters, or narrow the stretches of the test, as in \
-             `range: (0.7, 1.4)`"
+             high powers do: choose a greater `epsilon` or smaller parameters, or {narrower}"
         ),
-        _ => BEYOND.into(),
+        _ => {
+            let vanishing = notation.either(
+                "; where a denominator or the argument of a logarithm vanishes, add a condition to `domain(…)`, or to \
+                 `admissible(…)` if it is one of parameters alone",
+                "",
+            );
+            format!(
+                "the domain admits these stretches, but the number overflows there: choose smaller parameters, or \
+                 {narrower}{vanishing}"
+            )
+        }
     }
 }

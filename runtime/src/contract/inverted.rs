@@ -15,7 +15,7 @@ pub(super) fn extension(material: &dyn Subject, settings: &Settings) -> Result<F
     let Inversion::Extend { epsilon } = material.inversion() else {
         return Err(Violation::DoesNotApply { rule, lacks: "extension beyond its domain" });
     };
-    let mut judge = Judge::new(rule);
+    let mut judge = Judge::new(rule, settings.notation);
     let mut random = Random::new(settings.seed);
     let (_, high) = settings.range;
     for point in 0..settings.points {
@@ -83,24 +83,35 @@ fn restoring(
     }
     let [l1, l2, _] = stretches;
     let found = material.gradient(stretches)[2];
+    let notation = judge.notation();
     let remedy = || {
-        const LOGARITHM: &str = "add `+ kappa * (J - 1.0 - J.ln())` with a parameter of its own (or a greater one, if it has such a \
-                                 term), and state which parameters restore, as in `extend(kappa > 0.0)`";
+        let logarithm = notation.either(
+            "add `+ kappa * (J - 1.0 - J.ln())` with a parameter of its own (or a greater one, if it has such a term), and state \
+             which parameters restore, as in `extend(kappa > 0.0)`",
+            "add `+ kappa*(J - 1 - ln(J))` with a parameter of its own (or a greater one, if it has such a term)",
+        );
+        let refused = notation.either("by `admissible(…)`", "by a condition such as `where kappa > 0`");
+        let alone = notation.either(
+            "refuse inversion, by `refuse(\"why\")` in place of `extend`",
+            "leave the energy without an extension",
+        );
         // At the threshold the derivatives are those of the energy as declared.
         let Blocks { gradient, hessian, .. } = material.blocks([l1, l2, epsilon]);
         let (declared, first) = if gradient[2] < 0.0 {
-            ("does push λ3 up at epsilon", LOGARITHM.to_owned())
+            ("does push λ3 up at epsilon", logarithm.to_owned())
         } else if hessian[2] > 0.0 {
-            ("falls there, too", format!("choose a smaller `epsilon`, or {LOGARITHM}"))
+            ("falls there, too", format!("choose a smaller `epsilon`, or {logarithm}"))
         } else {
-            let steeper = "if it is that of an incompressible solid, write `I1b` and `I2b` for `I1` and `I2`; or refuse such \
-                           parameters, by `admissible(…)`; or add what outweighs it as the volume vanishes";
-            ("falls there, too, and the steeper the flatter", steeper.to_owned())
+            let steeper = format!(
+                "if it is that of an incompressible solid, write `I1b` and `I2b` for `I1` and `I2`; or refuse such parameters, \
+                 {refused}; or add what outweighs it as the volume vanishes"
+            );
+            ("falls there, too, and the steeper the flatter", steeper)
         };
+        let narrower = notation.narrower();
         format!(
             "below epsilon = {epsilon} the extended energy falls as λ3 falls, so that nothing brings a flattened element back; the \
-             energy as declared {declared}: {first}; or narrow the stretches of the test, as in `range: (0.7, 1.4)`; or refuse \
-             inversion, by `refuse(\"why\")` in place of `extend`"
+             energy as declared {declared}: {first}; or {narrower}; or {alone}"
         )
     };
     judge.negative(|| gradient_name(2), stretches, found, remedy)

@@ -1,18 +1,38 @@
 //! Compares numbers, counts, and stops at the first that is wrong.
 
 use super::violation::{FINITE, Violation};
-use super::{Finding, Rule};
+use super::{Finding, Notation, Rule};
+
+/// Ratio of a difference to its tolerance above which a formula is wrong; wrong ones mostly exceed 1e10.
+const MISTAKE: f64 = 1e6;
+
+/// Advice for a difference below [`MISTAKE`].
+fn lost_digits(notation: Notation) -> String {
+    let narrower = notation.narrower();
+    let names = notation.either("the documentation of a declared type names", "`piola declare` names");
+    format!(
+        "a difference as small as this is more likely a loss of digits than a mistake in the formula: where terms nearly \
+         cancel, such as I1b - 3 next to a small constant, rewrite them so that they do not, or choose other parameters \
+         ({names} sums that cancel far from rest under **Digits**); where an exponent is large, {narrower}"
+    )
+}
 
 /// Progress of one rule: its comparisons so far and the worst of them.
 pub(super) struct Judge {
     rule: Rule,
+    notation: Notation,
     comparisons: usize,
     worst: f64,
 }
 
 impl Judge {
-    pub(super) fn new(rule: Rule) -> Self {
-        Self { rule, comparisons: 0, worst: 0.0 }
+    pub(super) fn new(rule: Rule, notation: Notation) -> Self {
+        Self { rule, notation, comparisons: 0, worst: 0.0 }
+    }
+
+    /// The notation of remedies.
+    pub(super) fn notation(&self) -> Notation {
+        self.notation
     }
 
     /// Demands |found − expected| ≤ tolerance.
@@ -58,7 +78,9 @@ impl Judge {
             }
             return Ok(());
         }
-        let (rule, component, remedy) = (self.rule, component(), remedy.map(Into::into));
+        let is_small = difference < MISTAKE * tolerance;
+        let remedy = if is_small { Some(lost_digits(self.notation)) } else { remedy.map(Into::into) };
+        let (rule, component) = (self.rule, component());
         Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
     }
 
@@ -119,9 +141,9 @@ impl Judge {
         component: impl FnOnce() -> String,
         stretches: [f64; 3],
         found: f64,
-        remedy: &str,
+        remedy: impl FnOnce() -> String,
     ) -> Result<(), Violation> {
-        let words = || (component(), Some(remedy.into()));
+        let words = || (component(), Some(remedy()));
         self.demand(found.is_finite(), FINITE, words, stretches, found)
     }
 
@@ -143,7 +165,7 @@ impl Judge {
     }
 
     pub(super) fn finding(self) -> Result<Finding, Violation> {
-        let Self { rule, comparisons, worst } = self;
+        let Self { rule, comparisons, worst, .. } = self;
         if comparisons == 0 {
             return Err(Violation::NothingToCheck { rule });
         }

@@ -14,7 +14,7 @@ pub(super) fn lanes(
     on_lanes: &dyn OnLanes,
     settings: &Settings,
 ) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Lanes);
+    let mut judge = Judge::new(Rule::Lanes, settings.notation);
     let mut random = Random::new(settings.seed);
     let mut points = Vec::new();
     for stretches in samples(material, settings, &mut random) {

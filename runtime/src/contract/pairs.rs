@@ -114,10 +114,11 @@ fn opposite(
         let stored = at(half);
         let Blocks { gradient, twist, .. } = material.blocks(stored);
         let name = || format!("{} at a pole", pair_name("twist", 2));
-        let remedy = if gradient.iter().all(|slope| slope.is_finite()) {
-            "bound its denominator from below by `quotient::pole_floor`"
-        } else {
-            "the derivatives of the energy are not finite here, either: see the rule `domain`"
+        let remedy = || match gradient.iter().all(|slope| slope.is_finite()) {
+            true => "bound its denominator from below by `quotient::pole_floor`".to_owned(),
+            false => {
+                "the derivatives of the energy are not finite here, either: see the rule `domain`".to_owned()
+            }
         };
         return judge.finite(name, stored, twist[2], remedy);
     }

@@ -5,7 +5,7 @@ use super::results::name;
 use super::samples::{at_samples, together};
 use super::subject::Subject;
 use super::tolerances::known;
-use super::{Finding, Judge, Rule, Settings, Violation};
+use super::{Finding, Judge, Notation, Rule, Settings, Violation};
 use crate::lanes::Real;
 
 /// [`Rule::SinglePrecision`].
@@ -61,10 +61,11 @@ fn compare(
     if overflow == Overflow::Expected && !found.iter().all(|found| found.is_finite()) {
         return Ok(());
     }
+    let notation = judge.notation();
     for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
         let name = || format!("{} in `f32`", name(k));
         if expected.is_finite() {
-            judge.finite(name, stretches, found.into(), OUT_OF_RANGE)?;
+            judge.finite(name, stretches, found.into(), || out_of_range(notation))?;
         }
         let tolerance = <f32 as Real>::UNIT_ROUNDOFF * tolerances[k];
         judge.compare(name, stretches, found.into(), expected, tolerance)?;
@@ -73,6 +74,10 @@ fn compare(
 }
 
 /// Advice for a result that is finite in `f64` only.
-const OUT_OF_RANGE: &str = "in `f64` this is a number, but `f32` ends at 3.4e38, which it or something on the way to it exceeds, or a \
-                            denominator of parameters vanishes in `f32`: choose parameters farther from there, narrow the \
-                            stretches of the test, as in `range: (0.7, 1.4)`, or extend from a greater `epsilon`";
+fn out_of_range(notation: Notation) -> String {
+    let narrower = notation.narrower();
+    format!(
+        "in `f64` this is a number, but `f32` ends at 3.4e38, which it or something on the way to it exceeds, or a denominator of \
+         parameters vanishes in `f32`: choose parameters farther from there, {narrower}, or extend from a greater `epsilon`"
+    )
+}

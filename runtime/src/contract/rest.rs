@@ -6,7 +6,7 @@ use crate::material::Moduli;
 
 /// [`Rule::Rest`].
 pub(super) fn rest(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Rest);
+    let mut judge = Judge::new(Rule::Rest, settings.notation);
     let stretches = [1.0; 3];
     let blocks = material.blocks(stretches);
     let tolerance = 64.0 * UNIT * stiffness(&blocks);
@@ -28,12 +28,12 @@ const STRESSED: &str = "append to the energy a term that cancels this stress, su
                         `piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`";
 
 /// [`Rule::Moduli`].
-pub(super) fn moduli(material: &dyn Subject) -> Result<Finding, Violation> {
+pub(super) fn moduli(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     let rule = Rule::Moduli;
     let Some(stated) = material.stated_moduli() else {
         return Err(Violation::DoesNotApply { rule, lacks: "stated moduli" });
     };
-    let mut judge = Judge::new(rule);
+    let mut judge = Judge::new(rule, settings.notation);
     let stretches = [1.0; 3];
     let tolerance = 64.0 * UNIT * stiffness(&material.blocks(stretches));
     let found = Moduli::at_rest(material);

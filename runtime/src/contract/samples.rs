@@ -12,7 +12,7 @@ pub(super) fn at_samples(
     settings: &Settings,
     mut look: impl FnMut(&mut Judge, [f64; 3], &mut Random) -> Result<(), Violation>,
 ) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(rule);
+    let mut judge = Judge::new(rule, settings.notation);
     let mut random = Random::new(settings.seed);
     for stretches in samples(material, settings, &mut random) {
         look(&mut judge, stretches, &mut random)?;

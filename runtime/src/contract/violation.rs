@@ -7,13 +7,6 @@ use super::Rule;
 
 /// Expectation of a violation where a value is infinite or NaN.
 pub(super) const FINITE: &str = "a finite number";
-/// Ratio of a difference to its tolerance above which a formula is wrong; wrong ones mostly exceed 1e10.
-const MISTAKE: f64 = 1e6;
-/// Advice for a difference below [`MISTAKE`], which is more likely a loss of digits.
-const DIGITS: &str = "a difference as small as this is more likely a loss of digits than a mistake in the formula: where terms nearly cancel, such \
-                      as I1b - 3 next to a small constant, rewrite them so that they do not, or choose other parameters (the \
-                      documentation of a declared type names sums that cancel far from rest under **Digits**); where an \
-                      exponent is large, narrow the stretches of the test, as in `range: (0.7, 1.4)`";
 
 /// A broken rule of the contract, with the values that break it.
 ///
@@ -57,7 +50,7 @@ pub enum Violation {
         expected: f64,
         /// The difference that rounding explains; zero where both must have the same bits.
         tolerance: f64,
-        /// Advice on what to write instead, if any; shown if the difference is too large to be lost digits.
+        /// Advice on what to write instead, if any.
         remedy: Option<String>,
     },
     /// A value that must be positive, negative or finite is not.
@@ -133,8 +126,7 @@ impl fmt::Display for Violation {
                         f,
                         "    difference  {difference:.1e}, of which rounding explains {tolerance:.1e}"
                     )?;
-                    let lost = (difference < MISTAKE * tolerance).then_some(DIGITS);
-                    told(f, lost.or(remedy.as_deref()))
+                    told(f, remedy.as_deref())
                 }
             }
             Self::WrongKind { component, stretches, found, expected, remedy, .. } => {
@@ -148,8 +140,8 @@ impl fmt::Display for Violation {
             Self::NothingToCheck { .. } => {
                 write!(
                     f,
-                    "    the material admits none of the points at which this is judged: choose another `range`, or more \
-                     `points`"
+                    "    the material admits none of the points at which this is judged: choose other parameters or a wider \
+                     domain, or another `range` or more `points` of the settings"
                 )
             }
             Self::DoesNotApply { lacks, .. } => write!(f, "    does not apply: the material has no {lacks}"),

@@ -40,22 +40,40 @@ fn violations_have_a_line_for_each_fact() {
 
 #[test]
 fn lost_digits_are_not_told_as_a_mistake() {
-    let text = |found: f64| {
-        Violation::Differs {
-            rule: Rule::Moduli,
-            component: "shear modulus".into(),
-            stretches: [1.0; 3],
-            found,
-            expected: 1.0,
-            tolerance: 1e-13,
-            remedy: Some("state another".into()),
-        }
-        .to_string()
+    let text = |found: f64, notation: Notation| {
+        let mut judge = Judge::new(Rule::Rest, notation);
+        let verdict = judge.vanishes(|| "stress".into(), [1.0; 3], found, 1e-13, "subtract it");
+        verdict.expect_err("a difference").to_string()
     };
-    let (lost, mistaken) = (text(1.0 + 1e-11), text(1.0 + 1e-3));
+    let (lost, mistaken) = (text(1e-11, Notation::Rust), text(1e-3, Notation::Rust));
     assert!(lost.contains("more likely a loss of digits than a mistake in the formula"), "{lost}");
-    assert!(!lost.contains("state another"), "{lost}");
-    assert!(mistaken.ends_with("1.0e-13\n    remedy      state another"), "{mistaken}");
+    assert!(lost.contains("the documentation of a declared type") && !lost.contains("subtract it"), "{lost}");
+    assert!(mistaken.ends_with("1.0e-13\n    remedy      subtract it"), "{mistaken}");
+    let lost = text(1e-11, Notation::Formula);
+    assert!(lost.contains("`piola declare` names") && !lost.contains("range"), "{lost}");
+}
+
+/// Remedies for a formula quote no Rust.
+#[test]
+fn remedies_are_in_the_notation_of_the_energy() {
+    let settings = Settings { notation: Notation::Formula, ..Settings::default() };
+    let stiff = Exponential { size: 1.0, rate: 200.0 };
+    let steep = Exponential { size: 1.0, rate: 40.0 };
+    let extended = |defect| Defective(ExtendedNeoHookean { epsilon: 0.3 }, defect);
+    for (verdict, expected) in [
+        (domain(&stiff, &settings), "choose smaller parameters, or exclude large stretches by a condition"),
+        (domain(&Undefined(f64::NAN), &settings), "or `where b > 0` if a parameter divides by zero"),
+        (domain(&extended(Defect::OverflowsInExtension), &settings), "choose a greater `epsilon`"),
+        (single_precision(&steep, &settings), "`where J > 0, I1 < 9`"),
+        (extension(&extended(Defect::AttractsCollapse), &settings), "`+ kappa*(J - 1 - ln(J))`"),
+        (extension(&Pulling { curvature: -0.1 }, &settings), "by a condition such as `where kappa > 0`"),
+    ] {
+        let text = verdict.expect_err("a broken rule").to_string();
+        assert!(text.contains(expected), "{text}");
+        for rust in ["range:", "domain(", "admissible", "admits`", "extend(", "refuse(", ".ln()", "1.0 -"] {
+            assert!(!text.contains(rust), "{rust}: {text}");
+        }
+    }
 }
 
 #[test]
@@ -92,7 +110,7 @@ fn why_nothing_was_compared_is_told() {
         assert_eq!(violation.rule(), rule);
         assert_eq!(violation.to_string(), format!("{rule}: {}\n    {expected}", rule.promise()));
     };
-    check(moduli(&NeoHookean), Rule::Moduli, "does not apply: the material has no stated moduli");
+    check(moduli(&NeoHookean, &settings), Rule::Moduli, "does not apply: the material has no stated moduli");
     check(
         extension(&NeoHookean, &settings),
         Rule::Extension,
@@ -103,7 +121,8 @@ fn why_nothing_was_compared_is_told() {
         Rule::Invariants,
         "does not apply: the material has no energy by invariants",
     );
-    let none = "the material admits none of the points at which this is judged: choose another `range`, or more `points`";
+    let none = "the material admits none of the points at which this is judged: choose other parameters or a wider \
+                domain, or another `range` or more `points` of the settings";
     let without_points = Settings { points: 0, ..settings };
     check(objectivity(&NeoHookean, &without_points), Rule::Objectivity, none);
     check(extension(&ExtendedNeoHookean { epsilon: 0.3 }, &without_points), Rule::Extension, none);
