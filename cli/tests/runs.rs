@@ -6,10 +6,12 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-const KEYS: [&str; 25] = [
+const KEYS: [&str; 27] = [
     "scene",
     "material",
     "parameters",
+    "shear_modulus",
+    "bulk_modulus",
     "poisson",
     "tets",
     "nodes",

@@ -7,7 +7,10 @@ use std::ops::AddAssign;
 use serde::{Deserialize, Serialize};
 
 use piola::__private::message::number;
+use piola::material::Moduli;
 use piola::step::Integrator;
+use piola_laboratory::AtRest;
+use piola_laboratory::curve::Volume;
 
 use crate::material::Parameters;
 
@@ -178,6 +181,10 @@ pub struct Summary {
     pub material: String,
     /// Parameters of the material by name, in SI units.
     pub parameters: Parameters,
+    /// Shear modulus of the material at rest, Pa.
+    pub shear_modulus: f64,
+    /// Bulk modulus of the material at rest, Pa.
+    pub bulk_modulus: f64,
     /// Poisson's ratio of the material at rest; `None` if it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson: Option<f64>,
@@ -266,10 +273,9 @@ impl fmt::Display for Summary {
         for (name, values) in &self.parameters {
             write!(f, " {name}={}", values.iter().map(|value| short(*value)).collect::<Vec<_>>().join(","))?;
         }
-        match self.poisson {
-            Some(poisson) => writeln!(f, ", ν = {}", short(poisson))?,
-            None => writeln!(f)?,
-        }
+        let lambda = self.bulk_modulus - 2.0 / 3.0 * self.shear_modulus;
+        let moduli = Moduli { mu: self.shear_modulus, lambda };
+        writeln!(f, "\n  at rest  {}", AtRest { moduli, volume: Volume::Free })?;
         if self.inverted_at_start > 0 {
             writeln!(f, "  {} of {tets} tetrahedra start inside out", self.inverted_at_start)?;
         }

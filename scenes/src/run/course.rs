@@ -248,6 +248,8 @@ impl<'a> Course<'a> {
             scene: settings.scene.name.into(),
             material: play.material().to_string(),
             parameters: play.parameters().clone(),
+            shear_modulus: play.moduli().mu,
+            bulk_modulus: play.moduli().bulk(),
             poisson: Some(play.moduli().poisson()).filter(|poisson| poisson.is_finite()),
             tets: geometry.mesh.tets.len(),
             nodes: geometry.mesh.positions.len(),
