@@ -4,6 +4,7 @@
 //! where the material has no stress.
 //! [`rows`] draws a [ranking](mod@crate::ranking).
 
+mod fine;
 mod panel;
 mod rows;
 
@@ -11,6 +12,7 @@ use plotters::prelude::{IntoDrawingArea, SVGBackend};
 
 use crate::curve::{Mode, Response, ResponseError};
 use crate::data::{Agreement, Measurements};
+use fine::Fine;
 use panel::Panel;
 
 pub use panel::ChartError;
@@ -46,17 +48,17 @@ pub fn draw(
     if panels.is_empty() {
         return Err(ChartError::Empty);
     }
-    let mut svg = String::new();
+    let (mut svg, mut fine) = (String::new(), Fine::default());
     {
         let size = (WIDTH * panels.len() as u32, HEAD + HEIGHT);
         let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
         let below = panel::head(&root, title, note, HEAD)?;
         for (panel, area) in panels.iter().zip(below.split_evenly((1, panels.len()))) {
-            panel.draw(&area)?;
+            panel.draw(&area, &mut fine)?;
         }
         root.present().map_err(panel::failed)?;
     }
-    Ok(svg)
+    Ok(fine.above(svg))
 }
 
 /// Modes with axes in common.

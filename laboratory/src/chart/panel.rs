@@ -7,6 +7,7 @@ use piola::__private::message::number;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use super::fine::Fine;
 use super::{Curve, Group};
 use crate::curve::Mode;
 use crate::data::{Agreement, Measurements, short as determined};
@@ -108,7 +109,7 @@ impl<'a> Panel<'a> {
         (!series.is_empty()).then_some(Self { group, series })
     }
 
-    pub(super) fn draw(&self, area: &Area<'_>) -> Result<(), ChartError> {
+    pub(super) fn draw(&self, area: &Area<'_>, fine: &mut Fine) -> Result<(), ChartError> {
         let (legend, plot) = area.split_vertically(LINE * self.series.len() as i32 + 4);
         for (row, series) in self.series.iter().enumerate() {
             series.explain(&legend, LINE * row as i32 + LINE / 2)?;
@@ -146,6 +147,13 @@ impl<'a> Panel<'a> {
             .y_label_formatter(&|y| short(*y, up.end - up.start))
             .draw()
             .map_err(failed)?;
+        let ends = [(across.start, up.start), (across.end, up.end)].map(|end| chart.backend_coord(&end));
+        let [(left, bottom), (right, top)] = ends.map(|(x, y)| (f64::from(x), f64::from(y)));
+        let in_pixels = |&(x, y): &(f64, f64)| {
+            let (x, y) =
+                ((x - across.start) / (across.end - across.start), (y - up.start) / (up.end - up.start));
+            (left + x * (right - left), bottom + y * (top - bottom))
+        };
         for series in &self.series {
             let colour = colour(series.mode);
             for stroke in &series.strokes {
@@ -156,13 +164,11 @@ impl<'a> Panel<'a> {
                     .split(|(_, y)| !up.contains(y))
                 {
                     if part.len() > 1 {
-                        let line = PathElement::new(part.to_vec(), colour.stroke_width(2));
-                        chart.draw_series([line]).map_err(failed)?;
+                        fine.curve(&part.iter().map(in_pixels).collect::<Vec<_>>(), colour, 2);
                     }
                 }
             }
-            let marks = series.marks.iter().map(|&(x, y)| Circle::new((x, y / scale), 3, colour.filled()));
-            chart.draw_series(marks).map_err(failed)?;
+            series.marks.iter().for_each(|&(x, y)| fine.dot(in_pixels(&(x, y / scale)), 3, colour));
         }
         Ok(())
     }

@@ -4,6 +4,7 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::fine::Fine;
 use super::panel::{Area, ChartError, FONT, GREY, colour, failed, head};
 use crate::ranking::{Place, Ranking};
 
@@ -33,7 +34,7 @@ const TICKS: [f64; 13] = [0.0, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995, 0.998, 0.
 pub fn rows(title: &str, note: &str, ranking: &Ranking) -> Result<String, ChartError> {
     let axis = Axis::of(ranking).ok_or(ChartError::Empty)?;
     let below = LEGEND + ROW * ranking.places.len() as i32;
-    let mut svg = String::new();
+    let (mut svg, mut fine) = (String::new(), Fine::default());
     {
         let size = (WIDTH as u32, HEAD + (below + FOOT) as u32);
         let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
@@ -45,7 +46,7 @@ pub fn rows(title: &str, note: &str, ranking: &Ranking) -> Result<String, ChartE
             area.draw(&Rectangle::new([(16, top), (WIDTH - 16, top + ROW)], shade)).map_err(failed)?;
         }
         for tick in TICKS.into_iter().filter(|tick| axis.holds(*tick)) {
-            let x = axis.x(tick);
+            let x = axis.x(tick).round() as i32;
             let line = PathElement::new([(x, LEGEND), (x, below)], RGBColor(216, 216, 216).stroke_width(1));
             area.draw(&line).map_err(failed)?;
             write(&area, &tick.to_string(), (x, below + 12), HPos::Center, 13, &BLACK)?;
@@ -53,11 +54,11 @@ pub fn rows(title: &str, note: &str, ranking: &Ranking) -> Result<String, ChartE
         let middle = (MARKS.0 + MARKS.1) / 2;
         write(&area, "R², in equal steps of ln (1 − R²)", (middle, below + 34), HPos::Center, 15, &BLACK)?;
         for (row, place) in ranking.places.iter().enumerate() {
-            draw(&area, place, LEGEND + ROW * row as i32 + ROW / 2, &axis)?;
+            draw(&area, place, LEGEND + ROW * row as i32 + ROW / 2, &axis, &mut fine)?;
         }
         root.present().map_err(failed)?;
     }
-    Ok(svg)
+    Ok(fine.above(svg))
 }
 
 /// Explains the marks and the columns.
@@ -79,7 +80,7 @@ fn explain(area: &Area<'_>, ranking: &Ranking) -> Result<(), ChartError> {
     write(area, "stability", (STABILITY, y), HPos::Left, 14, &BLACK)
 }
 
-fn draw(area: &Area<'_>, place: &Place, y: i32, axis: &Axis) -> Result<(), ChartError> {
+fn draw(area: &Area<'_>, place: &Place, y: i32, axis: &Axis, fine: &mut Fine) -> Result<(), ChartError> {
     let number = |determination: Option<f64>| match determination {
         Some(determination) => format!("{determination:.4}"),
         None => "–".into(),
@@ -93,11 +94,10 @@ fn draw(area: &Area<'_>, place: &Place, y: i32, axis: &Axis) -> Result<(), Chart
     write(area, &place.stability(), (STABILITY, y), HPos::Left, 13, style)?;
     for (mode, determination) in &agreement.modes {
         if let Some(determination) = determination {
-            let dot = Circle::new((axis.x(*determination), y), 4, colour(*mode).filled());
-            area.draw(&dot).map_err(failed)?;
+            fine.dot((axis.x(*determination), f64::from(HEAD as i32 + y)), 4, colour(*mode));
         }
     }
-    agreement.total.map_or(Ok(()), |total| mark(area, (axis.x(total), y)))
+    agreement.total.map_or(Ok(()), |total| mark(area, (axis.x(total).round() as i32, y)))
 }
 
 /// The mark of all points together: a bar across the row.
@@ -138,9 +138,9 @@ impl Axis {
         (self.from..=self.to).contains(&decades(determination))
     }
 
-    fn x(&self, determination: f64) -> i32 {
+    fn x(&self, determination: f64) -> f64 {
         let share = (decades(determination) - self.from) / (self.to - self.from);
-        MARKS.0 + (share.clamp(0.0, 1.0) * f64::from(MARKS.1 - MARKS.0)).round() as i32
+        f64::from(MARKS.0) + share.clamp(0.0, 1.0) * f64::from(MARKS.1 - MARKS.0)
     }
 }
 
