@@ -72,7 +72,7 @@ pub(crate) fn at_rest(moduli: Moduli, volume: Volume) -> String {
 }
 
 /// The values of all parameters as options of the command line, with seven digits.
-fn as_options<'a>(parameters: impl Iterator<Item = (&'a str, &'a [f64])>) -> String {
+pub(crate) fn as_options<'a>(parameters: impl Iterator<Item = (&'a str, &'a [f64])>) -> String {
     let options = parameters.map(|(name, values)| {
         let values: Vec<_> = values.iter().map(|&value| number(rounded(value))).collect();
         format!("--param {name}={}", values.join(","))

@@ -7,7 +7,7 @@ use piola::Inversion;
 use piola_declare::emit::{Emission, PointFunction, Precision, Target};
 use piola_scenes::output::write_whole;
 
-use crate::bench::Material;
+use crate::bench::{Material, as_options};
 use crate::error::Error;
 
 /// One file without a dependency: a structure of the parameters, a check of them, and the functions of a
@@ -44,7 +44,7 @@ pub(crate) struct Emit {
 }
 
 impl Emit {
-    /// The text, or a line about the file that was written.
+    /// The text, or a line about the file that was written and its parameters.
     pub(crate) fn run(self) -> Result<String, Error> {
         let inversion = self.extend.map_or(Inversion::Refuse, |epsilon| Inversion::Extend { epsilon });
         let mut emission = Emission::new(self.target);
@@ -55,9 +55,12 @@ impl Emit {
         if !self.functions.is_empty() {
             emission = emission.with_functions(self.functions);
         }
-        let text = self.material.spec()?.with_inversion(inversion).emit(&emission)?;
+        let spec = self.material.spec()?.with_inversion(inversion);
+        let text = spec.emit(&emission)?;
         let Some(file) = self.output else { return Ok(text) };
         write_whole(&file, text.as_bytes())?;
-        Ok(format!("wrote {}\n", file.display()))
+        let parameters = &spec.description()?.parameters;
+        let values = parameters.iter().map(|parameter| (&*parameter.name, spec.values_of(&parameter.name)));
+        Ok(format!("wrote {}, whose example is {}\n", file.display(), as_options(values)))
     }
 }

@@ -145,6 +145,19 @@ fn the_contract_is_checked_without_a_crate() {
     assert!(message.contains("not judged, because the energy is not finite: objectivity"), "{message}");
 }
 
+/// The parameters of the example are those that were given, or typical ones.
+#[test]
+fn a_file_of_source_text_says_its_parameters() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let emit = |more: &[&str]| {
+        let arguments = [&["emit", "ogden", "--target", "c", "--functions", "energy", "-o", "ogden.h"], more];
+        answer(folder.path(), &arguments.concat())
+    };
+    let typical = "--param mu=630000,1200,-10000 --param alpha=1.3,5,-2 --param kappa=2e7";
+    assert_eq!(emit(&[]), format!("wrote ogden.h, whose example is {typical}\n"));
+    assert!(emit(&["--param", "kappa=3MPa"]).ends_with("--param kappa=3000000\n"));
+}
+
 /// What is printed for a formula is Rust that declares the same energy.
 #[test]
 fn a_formula_is_printed_as_a_declaration() {
