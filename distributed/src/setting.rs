@@ -88,8 +88,8 @@ fn in_parts(settings: &Settings) -> Option<&Path> {
 
 impl Setting {
     /// Reads the body and divides it. The elements of `groups` have the materials with the numbers 1, 2, …;
-    /// all other elements have the material with the number 0. All ranks read a file at once if the body starts at
-    /// rest and consists of linear tetrahedra only. Rank 0 reads all other files as a whole.
+    /// all other elements have the material with the number 0. All ranks read a file at once if the body
+    /// starts at rest and consists of linear tetrahedra only. Rank 0 reads all other files as a whole.
     ///
     /// # Errors
     /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Options`],

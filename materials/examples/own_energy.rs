@@ -14,7 +14,7 @@ pub fn Rubber([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rubber = Rubber::new(1e6, 5e6)?;
 
-    // Simple shear by 0.2: the first Piola stress P (3×3), and dP/dF (9×9, entry 3i+j for F[i][j]) with its
+    // Simple shear by 0.2: the first Piola stress P (3×3), and dP/dF (9×9, index 3i+j for F[i][j]) with its
     // negative eigenvalues set to zero.
     let shear: [[f64; 3]; 3] = [[1.0, 0.2, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let point = evaluate_dense(&rubber, &shear, Filter::Clamp);

@@ -1,5 +1,5 @@
-//! Parallel reader of Gmsh's files, by their outline: rank 0 finds the lines of nodes and elements, and each rank
-//! reads a part of them.
+//! Parallel reader of Gmsh's files, by their outline: rank 0 finds the lines of nodes and elements, and each
+//! rank reads a part of them.
 
 use std::collections::BTreeMap;
 use std::path::Path;

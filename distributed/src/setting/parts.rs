@@ -26,8 +26,8 @@ enum Nodes<'a> {
     OfGroup(&'a str),
 }
 
-/// Reads a file in parts, divides the mesh, and marks the nodes. The result is `None` if one rank must read the
-/// file as a whole.
+/// Reads a file in parts, divides the mesh, and marks the nodes. The result is `None` if one rank must read
+/// the file as a whole.
 ///
 /// # Errors
 /// The errors of [`super::Setting::new`].

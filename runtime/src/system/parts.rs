@@ -1,7 +1,7 @@
 //! Loops over the parts of a slice on the threads of rayon's pool.
 //!
-//! rayon's code is compiled once for each type of entry, not once for each loop: what a loop does stands behind a
-//! pointer.
+//! rayon's code is compiled once for each type of entry, not once for each loop: what a loop does stands
+//! behind a pointer.
 
 /// Calls `change` for parts of at most `length` entries, with the index of the first entry of the part.
 pub(crate) fn for_each_part<T: Send>(

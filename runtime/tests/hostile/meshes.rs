@@ -1,8 +1,8 @@
 //! Meshes, their embeddings, and files of them.
 
 use piola::mesh::{
-    Bounds, Embedding, NodeLines, ReadError, Surface, TetLines, parse_msh, parse_surface_obj, read_msh,
-    read_surface_obj, read_tetgen, tetrahedral_box,
+    Bounds, Embedding, MshOutline, NodeLines, ReadError, Surface, TetLines, parse_msh, parse_surface_obj,
+    read_msh, read_surface_obj, read_tetgen, tetrahedral_box,
 };
 use piola::system::Pins;
 
@@ -35,6 +35,7 @@ fn files() {
                $Elements\n2\n1 4 2 1 1 1 2 3 4\n2 7 2 1 1 1 2 3 4 1\n$EndElements\n";
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let lines = ["4 3 1 1", "1 0.5 0 1e3 7 -1 # a node", "2 4 1", "1 1 2 3 4 5"];
+    let file = std::env::temp_dir().join(format!("piola-hostile-{}.msh", std::process::id()));
     check(|hostile| {
         for text in [msh, obj].into_iter().chain(lines) {
             let mut bytes = text.as_bytes().to_vec();
@@ -46,6 +47,12 @@ fn files() {
             }
             let text = String::from_utf8_lossy(&bytes);
             let mesh = parse_msh(&text, "some.msh").or_else(ReadError::only_tetrahedra);
+            if text.starts_with('$') {
+                std::fs::write(&file, &*text).expect("a scratch file");
+                let runs = MshOutline::read(&file)
+                    .and_then(|outline| outline.runs.iter().try_for_each(|run| run.read(&file, |_, _| {})));
+                assert!(runs.is_ok() || mesh.is_err(), "only the whole is read: {runs:?}");
+            }
             let _ = mesh.map(|mesh| mesh.rest_shapes());
             let _ = parse_surface_obj(&text, "some.obj");
             let [nodes, tets] =
@@ -54,7 +61,9 @@ fn files() {
             let _ = TetLines::of_first_line(tets).and_then(|lines| lines.tet(&text));
         }
     });
+    std::fs::remove_file(file).expect("a scratch file");
     for path in ["", "/", "no/such/file", "\0"] {
+        assert!(MshOutline::read(path).is_err());
         assert!(read_msh(path).is_err() && read_tetgen(path).is_err() && read_surface_obj(path).is_err());
     }
 }

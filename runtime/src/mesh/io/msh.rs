@@ -70,7 +70,8 @@ type Names = BTreeMap<(usize, i64), String>;
 /// Tags of the physical groups of each entity, by its dimension and tag.
 type Entities = HashMap<(usize, i64), Vec<i64>>;
 
-/// What becomes of the lists of nodes and elements, which are nearly all of a file.
+/// Receiver of the lists of nodes and elements, which are nearly all of a file: it reads them or records
+/// their places.
 trait Lists {
     /// Lines `tag x y z` of MSH 2.2.
     fn nodes_2<R: BufRead>(&mut self, count: usize, cursor: &mut Cursor<R>) -> Result<(), Problem>;

@@ -33,7 +33,8 @@ pub(super) fn entities<R: BufRead>(cursor: &mut Cursor<R>, entities: &mut Entiti
     Ok(())
 }
 
-/// `blocks nodes min max`, then for each block `dimension entity parametric count`, its tags, its coordinates.
+/// `blocks nodes min max`, then for each block `dimension entity parametric count`, its tags, its
+/// coordinates.
 pub(super) fn nodes<R: BufRead>(cursor: &mut Cursor<R>, lists: &mut impl Lists) -> Result<(), Problem> {
     let blocks: usize = cursor.next("the number of node blocks")?.number("the number of node blocks")?;
     for _ in 0..blocks {
