@@ -63,7 +63,8 @@ impl BlockJacobi {
 
     /// Computes z: the inverse of each block times its part of r.
     pub(crate) fn solve(&self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
-        for_each_part(z, BLOCKS, |first, z| {
+        let blocks = z.len().min(r.len()).min(self.factors.len());
+        for_each_part(&mut z[..blocks], BLOCKS, |first, z| {
             for ((z, r), factor) in z.iter_mut().zip(&r[first..]).zip(&self.factors[first..]) {
                 *z = factor.solve(*r);
             }

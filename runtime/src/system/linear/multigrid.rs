@@ -168,7 +168,8 @@ impl<D: Division> Multigrid<D> {
             r.par_iter().with_min_len(ROWS).flatten_iter().map(|r| r.abs()).reduce(|| 0.0, f64::max);
         let largest = division.largest(largest);
         let unit = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        for_each_part(&mut b[..r.len()], ROWS, |first, b| {
+        let rows = b.len().min(r.len());
+        for_each_part(&mut b[..rows], ROWS, |first, b| {
             b.iter_mut().zip(&r[first..]).for_each(|(b, r)| *b = r.map(|r| (unit * r) as f32));
         });
         finest.down(b, &mut coarse_b[0], division);
@@ -189,7 +190,8 @@ impl<D: Division> Multigrid<D> {
         finest.up(&coarse_b[0], division);
         let unit = *scale / unit;
         let x = finest.x();
-        for_each_part(z, ROWS, |first, z| {
+        let rows = z.len().min(x.len());
+        for_each_part(&mut z[..rows], ROWS, |first, z| {
             z.iter_mut().zip(&x[first..]).for_each(|(z, x)| *z = x.map(|x| unit * f64::from(x)));
         });
     }

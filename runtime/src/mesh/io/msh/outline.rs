@@ -27,7 +27,7 @@ const MOST: usize = 4096;
 /// std::fs::write(&file, text)?;
 /// let outline = MshOutline::read(&file)?;
 /// let (nodes, elements) = (&outline.runs[0], &outline.runs[1]);
-/// assert_eq!((nodes.count, elements.count, elements.line), (4, 1, 13));
+/// assert_eq!((nodes.count, elements.count, elements.line), (4, 1, 12));
 /// elements.read(&file, |_, item| {
 ///     assert_eq!(item, MshItem::Tetrahedron { tag: 7, corners: [1, 2, 3, 4], group: None });
 /// })?;
