@@ -3,13 +3,15 @@
 //! rayon's code is compiled once for each type of entry, not once for each loop: what a loop does stands
 //! behind a pointer.
 
-/// Calls `change` for parts of at most `length` entries, with the index of the first entry of the part.
+/// Calls `change` for parts of 1 to `length` entries, with the index of the first entry of the part.
 pub(crate) fn for_each_part<T: Send>(
     entries: &mut [T],
     length: usize,
     change: impl Fn(usize, &mut [T]) + Sync,
 ) {
-    halve(0, entries, length, &change);
+    if !entries.is_empty() {
+        halve(0, entries, length, &change);
+    }
 }
 
 fn halve<T: Send>(first: usize, entries: &mut [T], length: usize, change: &(dyn Fn(usize, &mut [T]) + Sync)) {
@@ -30,7 +32,7 @@ mod tests {
         for count in [0, 1, 7, 8, 9, 15, 16, 17, 100] {
             let mut entries = vec![0; count];
             for_each_part(&mut entries, 8, |first, part| {
-                assert!(part.len() <= 8 && first % 8 == 0);
+                assert!((1..=8).contains(&part.len()) && first % 8 == 0);
                 part.iter_mut().enumerate().for_each(|(index, entry)| *entry += first + index + 1);
             });
             assert_eq!(entries, (1..=count).collect::<Vec<_>>());

@@ -2,7 +2,7 @@
 
 use crate::system::parts::for_each_part;
 
-/// Minimum number of blocks per thread.
+/// Number of blocks that a thread takes at a time.
 const BLOCKS: usize = 1024;
 
 /// Factors of a block, L D Lᵀ with D > 0: 1/D on the diagonal, L below it. Positive definite for any rounding
