@@ -17,11 +17,14 @@ use std::collections::{HashMap, HashSet};
 
 use piola_codegen::read::parse::{WORDS, is_reserved};
 use piola_codegen::read::spelling::{nearest, spelled_out};
-use proc_macro2::{Delimiter, Group, Ident, Literal, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 
 use super::spellings::{self, Invariant};
 use super::{FormulaOptions, advice};
+use tokens::{Tokens, parenthesised, parenthesised_as, real, span, whole};
+
+mod tokens;
 
 /// The names of the stretches in a declaration.
 pub(super) const STRETCHES: [&str; 3] = ["l1", "l2", "l3"];
@@ -165,7 +168,7 @@ impl Parser {
         let has_arguments = matches!(self.tokens.ahead(1), Some(TokenTree::Group(_)));
         let equal = 1 + usize::from(has_arguments);
         if is_name && self.tokens.is_sign(equal, '=') && !self.tokens.is_sign(equal + 1, '=') {
-            self.tokens.next += equal + 1;
+            self.tokens.skip(equal + 1);
         }
     }
 
@@ -261,7 +264,7 @@ impl Parser {
         let is_given = self.given.contains(&text) || self.indices.contains(&name);
         match self.tokens.peek().cloned() {
             Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
-                self.tokens.next += 1;
+                self.tokens.advance();
                 return match text.as_str() {
                     _ if is_given => Err(no_function(&name)),
                     "sum" => self.summation(&name, &group),
@@ -269,7 +272,7 @@ impl Parser {
                 };
             }
             Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {
-                self.tokens.next += 1;
+                self.tokens.advance();
                 let list = self.parameter(&name, true)?;
                 return Ok(quote!(#list #group));
             }
@@ -312,7 +315,7 @@ impl Parser {
         let Some(TokenTree::Ident(argument)) = self.tokens.peek().cloned() else {
             return write(format!("`{name}` is a function: write `{name}( … )`"));
         };
-        self.tokens.next += 1;
+        self.tokens.advance();
         if self.tokens.begins_exponent() {
             return write(format!(
                 "write `{name}({argument})^n` or `{name}({argument}^n)`, whichever is meant"
@@ -390,8 +393,7 @@ impl Parser {
     /// Reads all tokens of a group.
     fn inside<T>(&mut self, group: &Group, read: impl FnOnce(&mut Self) -> syn::Result<T>) -> syn::Result<T> {
         self.deeper(group.span())?;
-        let outer = std::mem::replace(&mut self.tokens, Tokens::new(group.stream()));
-        self.tokens.end = group.span_close();
+        let outer = std::mem::replace(&mut self.tokens, Tokens::inside(group));
         let result = read(self).and_then(|result| self.tokens.end().map(|()| result));
         self.tokens = outer;
         self.depth -= 1;
@@ -511,172 +513,4 @@ fn with_path_of_pi(condition: TokenStream) -> TokenStream {
         token => token.into(),
     };
     condition.into_iter().map(path).collect()
-}
-
-/// Tokens, those that are left, and the place of their end.
-struct Tokens {
-    all: Vec<TokenTree>,
-    next: usize,
-    end: Span,
-}
-
-impl Tokens {
-    fn new(tokens: TokenStream) -> Self {
-        let all: Vec<_> = tokens.into_iter().collect();
-        let end = all.last().map_or_else(Span::call_site, TokenTree::span);
-        Self { all, next: 0, end }
-    }
-
-    /// The token `by` positions after the next one.
-    fn ahead(&self, by: usize) -> Option<&TokenTree> {
-        self.all.get(self.next + by)
-    }
-
-    fn peek(&self) -> Option<&TokenTree> {
-        self.ahead(0)
-    }
-
-    /// Takes the next token.
-    fn advance(&mut self) -> Option<TokenTree> {
-        let token = self.peek().cloned();
-        self.next += usize::from(token.is_some());
-        token
-    }
-
-    fn is_sign(&self, by: usize, character: char) -> bool {
-        matches!(self.ahead(by), Some(TokenTree::Punct(found)) if found.as_char() == character)
-    }
-
-    /// Takes a sign of one or two characters if it comes next.
-    fn take_sign(&mut self, sign: &str) -> Option<TokenStream> {
-        let comes = sign.chars().enumerate().all(|(k, character)| self.is_sign(k, character));
-        // `*` is not the beginning of `**`.
-        if !comes || sign == "*" && self.is_sign(1, '*') {
-            return None;
-        }
-        let taken = self.all[self.next..][..sign.len()].iter().cloned().collect();
-        self.next += sign.len();
-        Some(taken)
-    }
-
-    /// Takes one of two signs if it comes next, also with the point before it of operations on each entry.
-    fn take_either(&mut self, signs: [&str; 2]) -> Option<TokenStream> {
-        let point = usize::from(self.is_sign(0, '.'));
-        self.next += point;
-        let taken = signs.into_iter().find_map(|sign| self.take_sign(sign));
-        if taken.is_none() {
-            self.next -= point;
-        }
-        taken
-    }
-
-    /// Takes the name behind `.` or `::`.
-    fn take_member(&mut self) -> Option<Ident> {
-        let behind = match (self.is_sign(0, '.'), self.is_sign(0, ':') && self.is_sign(1, ':')) {
-            (true, _) => 1,
-            (_, true) => 2,
-            _ => return None,
-        };
-        let Some(TokenTree::Ident(member)) = self.ahead(behind).cloned() else { return None };
-        self.next += behind + 1;
-        Some(member)
-    }
-
-    fn take_word(&mut self, word: &str) -> bool {
-        let comes = matches!(self.peek(), Some(TokenTree::Ident(found)) if found == word);
-        self.next += usize::from(comes);
-        comes
-    }
-
-    /// True if a factor comes next, without `*` before it.
-    fn begins_factor(&self) -> bool {
-        match self.peek() {
-            Some(TokenTree::Ident(word)) => word != "where",
-            Some(TokenTree::Literal(_)) => true,
-            Some(TokenTree::Group(group)) => group.delimiter() == Delimiter::Parenthesis,
-            _ => false,
-        }
-    }
-
-    /// True if an exponent comes next.
-    fn begins_exponent(&self) -> bool {
-        self.is_sign(0, '^') || self.is_sign(0, '*') && self.is_sign(1, '*')
-    }
-
-    /// A mistake at the next token, or at the end.
-    fn mistake(&self, message: &str) -> syn::Error {
-        syn::Error::new(self.peek().map_or(self.end, TokenTree::span), message)
-    }
-
-    fn end(&self) -> syn::Result<()> {
-        match self.peek() {
-            None => Ok(()),
-            Some(token) => {
-                let message = match token.to_string().as_str() {
-                    "." => "functions are written before their arguments, as in `ln(J)`".to_owned(),
-                    "=" => "an equation is not expected here: write the energy alone".to_owned(),
-                    "," => "parts of a formula are joined by `+ - * / ^`; a decimal point is `.`".to_owned(),
-                    other => format!(
-                        "`{other}` is not expected here: parts of a formula are joined by `+ - * / ^`"
-                    ),
-                };
-                Err(syn::Error::new(token.span(), message))
-            }
-        }
-    }
-}
-
-fn parenthesised(tokens: TokenStream, span: Span) -> Group {
-    parenthesised_as(Delimiter::Parenthesis, tokens, span)
-}
-
-fn parenthesised_as(delimiter: Delimiter, tokens: TokenStream, span: Span) -> Group {
-    let mut group = Group::new(delimiter, tokens);
-    group.set_span(span);
-    group
-}
-
-fn span(tokens: &TokenStream) -> Span {
-    tokens.clone().into_iter().next().map_or_else(Span::call_site, |token| token.span())
-}
-
-/// A number with a decimal point, as Rust requires.
-fn real(literal: Literal) -> syn::Result<Literal> {
-    /// More characters than any number needs, for numbers are read digit by digit.
-    const LONGEST: usize = 100;
-    let refuse = || syn::Error::new(literal.span(), format!("`{literal}` is not a number of a formula"));
-    if literal.to_string().len() > LONGEST {
-        let message = format!("a number has at most {LONGEST} digits here");
-        return Err(syn::Error::new(literal.span(), message));
-    }
-    let digits = match syn::Lit::new(literal.clone()) {
-        syn::Lit::Int(number) if number.suffix().is_empty() => number.base10_digits().to_owned() + ".0",
-        syn::Lit::Float(number) if number.suffix().is_empty() => number.base10_digits().to_owned(),
-        _ => return Err(refuse()),
-    };
-    let mut number: Literal = digits.parse().map_err(|_| refuse())?;
-    number.set_span(literal.span());
-    Ok(number)
-}
-
-/// An exponent that is a whole number of at most two digits, with or without a sign and parentheses.
-fn whole(exponent: &TokenStream) -> Option<TokenStream> {
-    let mut tokens: Vec<TokenTree> = exponent.clone().into_iter().collect();
-    if let [TokenTree::Group(group)] = &tokens[..] {
-        tokens = group.stream().into_iter().collect();
-    }
-    let (minus, literal) = match &tokens[..] {
-        [TokenTree::Literal(literal)] => (None, literal),
-        [TokenTree::Punct(minus), TokenTree::Literal(literal)] if minus.as_char() == '-' => {
-            (Some(minus), literal)
-        }
-        _ => return None,
-    };
-    let value: f64 = literal.to_string().parse().ok()?;
-    if value.fract() != 0.0 || value > 64.0 {
-        return None;
-    }
-    let mut whole = Literal::i64_unsuffixed(value as i64);
-    whole.set_span(literal.span());
-    Some(quote!(#minus #whole))
 }
