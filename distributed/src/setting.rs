@@ -222,20 +222,17 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
     let places = (0..mesh.positions.len())
         .map(|node| Place { rest: mesh.positions[node], start: start[node], marks: marks[node] })
         .collect();
-    let mut part = vec![0; mesh.tets.len()];
-    for (number, name) in groups.iter().enumerate() {
-        let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
-        let group =
-            group.ok_or_else(|| Error::Options(format!("the mesh has no group `{name}` of tetrahedra")))?;
-        for &tet in &group.tets {
-            if std::mem::replace(&mut part[tet], number as u64 + 1) != 0 {
-                return Err(Error::Options(format!("element {} has two materials", mesh.tag(tet))));
-            }
-        }
-    }
-    let elements = mesh.tets.iter().enumerate().map(|(tet, &[a, b, c, d])| {
-        [a as u64, b as u64, c as u64, d as u64, mesh.tag(tet) as u64, part[tet]]
-    });
+    let members = |name: &str| {
+        let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == name);
+        group.map(|group| group.tets.as_slice())
+    };
+    let tags: Vec<u64> = (0..mesh.tets.len()).map(|tet| mesh.tag(tet) as u64).collect();
+    let materials = materials(groups, &tags, members)?;
+    let elements = mesh
+        .tets
+        .iter()
+        .enumerate()
+        .map(|(tet, &[a, b, c, d])| [a as u64, b as u64, c as u64, d as u64, tags[tet], materials[tet]]);
     let facts = BodyFacts {
         bounds: mesh.bounds(),
         checksum: geometry.checksum(),
@@ -244,4 +241,24 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
     };
     let facts = serde_json::to_vec(&facts).map_err(|error| Error::Options(error.to_string()))?;
     Ok((places, elements.collect(), facts))
+}
+
+/// Number of the material of each element with these tags: 1, 2, … for the members of the groups with these
+/// names, otherwise 0.
+fn materials<'a>(
+    groups: &[String],
+    tags: &[u64],
+    members: impl Fn(&str) -> Option<&'a [usize]>,
+) -> Result<Vec<u64>, Error> {
+    let mut materials = vec![0; tags.len()];
+    for (number, name) in groups.iter().enumerate() {
+        let members = members(name)
+            .ok_or_else(|| Error::Options(format!("the mesh has no group `{name}` of tetrahedra")))?;
+        for &element in members {
+            if std::mem::replace(&mut materials[element], number as u64 + 1) != 0 {
+                return Err(Error::Options(format!("element {} has two materials", tags[element])));
+            }
+        }
+    }
+    Ok(materials)
 }

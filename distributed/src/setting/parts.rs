@@ -11,7 +11,7 @@ use piola_scenes::play::DragSprings;
 use piola_scenes::region;
 use piola_scenes::settings::Settings;
 
-use super::{BodyFacts, Move, PINNED, move_mark, pull_mark};
+use super::{BodyFacts, Move, PINNED, materials, move_mark, pull_mark};
 use crate::error::Error;
 use crate::files::{self, Part};
 use crate::portion::{Place, Portion};
@@ -71,7 +71,12 @@ pub(super) fn read(
     let Marks { marks, .. } = marks;
     let places = part.nodes.iter().zip(marks);
     let places = places.map(|(&rest, marks)| Place { rest, start: rest, marks }).collect();
-    let materials = team.agree(materials(&part, groups))?;
+    let members = |name: &str| {
+        let group = part.groups.iter().find(|group| group.dimension == 3 && group.name == name);
+        group.map(|group| group.members.as_slice())
+    };
+    let tags: Vec<u64> = part.elements.iter().map(|&(_, tag)| tag).collect();
+    let materials = team.agree(materials(groups, &tags, members))?;
     let elements = part.elements.iter().zip(materials);
     let elements = elements.map(|(&([a, b, c, d], tag), material)| [a, b, c, d, tag, material]).collect();
     let mut share = Share::of(team, Portion { homes: part.homes, places, elements })?;
@@ -88,23 +93,6 @@ pub(super) fn read(
         stiffnesses,
     };
     Ok(Some((share, facts)))
-}
-
-/// Number of the material of each element of this rank: 0, or 1, 2, … for the elements of groups.
-fn materials(part: &Part, groups: &[String]) -> Result<Vec<u64>, Error> {
-    let mut materials = vec![0; part.elements.len()];
-    for (number, name) in groups.iter().enumerate() {
-        let group = part.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
-        let group =
-            group.ok_or_else(|| Error::Options(format!("the mesh has no group `{name}` of tetrahedra")))?;
-        for &element in &group.members {
-            if std::mem::replace(&mut materials[element], number as u64 + 1) != 0 {
-                let (_, tag) = part.elements[element];
-                return Err(Error::Options(format!("element {tag} has two materials")));
-            }
-        }
-    }
-    Ok(materials)
 }
 
 /// Warns of a body that is not connected.
