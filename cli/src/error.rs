@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use piola::contract::Violations;
 use piola::material::MaterialError;
-use piola::mesh::ReadError;
+use piola_bodies::mesh::ReadError;
 use piola_laboratory::data::DataError;
 use piola_laboratory::fit::FitError;
 use piola_scenes::error::Error as SceneError;

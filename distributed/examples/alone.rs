@@ -9,9 +9,9 @@ use std::error::Error;
 use std::time::Instant;
 
 use piola::material::Moduli;
-use piola::mesh::{Bounds, tetrahedral_box};
-use piola::step::{LinearSolver, NewtonSettings, Simulation, SimulationSettings};
-use piola::system::{Body, Part, Pins};
+use piola_bodies::mesh::{Bounds, tetrahedral_box};
+use piola_bodies::step::{LinearSolver, NewtonSettings, Simulation, SimulationSettings};
+use piola_bodies::system::{Body, Part, Pins};
 use piola_scenes::material::MaterialSpec;
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -5,7 +5,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use piola::step::divided::{LastLevel, LastSolver};
+use piola_bodies::step::divided::{LastLevel, LastSolver};
 
 use crate::division::{Copies, Failure};
 use crate::petsc::{Krylov, Library, Matrix, PetscError, Vector};

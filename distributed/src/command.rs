@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use piola::point::Filter;
-use piola::step::{Filtering, LinearSolver, NewtonSettings};
+use piola_bodies::step::{Filtering, LinearSolver, NewtonSettings};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::options::{SceneOptions, StepOptions, in_file, parameter, scenes, with_values};
 use piola_scenes::output::Newton;

@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::ops::Range;
 use std::rc::Rc;
 
-use piola::step::divided::{Division, LastLevel};
+use piola_bodies::step::divided::{Division, LastLevel};
 
 use crate::coarse::Coarse;
 use crate::error::Error;

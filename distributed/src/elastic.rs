@@ -5,10 +5,10 @@
 
 use std::sync::Arc;
 
-use piola::mesh::{Group, TetMesh};
+use piola_bodies::mesh::{Group, TetMesh};
 use piola::point::Filter;
-use piola::step::EnergyChange;
-use piola::system::{Body, ElasticResponse, NodalStiffness, Part};
+use piola_bodies::step::EnergyChange;
+use piola_bodies::system::{Body, ElasticResponse, NodalStiffness, Part};
 use piola_scenes::material::MaterialSpec;
 
 use crate::error::Error;

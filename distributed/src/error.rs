@@ -3,8 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
-use piola::step::{NewtonError, SetupError};
-use piola::system::{BodyError, LinearError};
+use piola_bodies::step::{NewtonError, SetupError};
+use piola_bodies::system::{BodyError, LinearError};
 
 use crate::petsc::PetscError;
 

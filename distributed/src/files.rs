@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use piola::mesh::MeshError;
+use piola_bodies::mesh::MeshError;
 
 use crate::error::Error;
 use crate::portion::Homes;

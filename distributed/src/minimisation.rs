@@ -1,12 +1,12 @@
 //! Newton's method for a body that is divided among ranks.
 //!
-//! The method is piola's ([`piola::step::divided::minimize`]). This body is a [`Minimisation`] whose results
+//! The method is piola's ([`piola_bodies::step::divided::minimize`]). This body is a [`Minimisation`] whose results
 //! are sums and extrema over the ranks, so that all ranks make the same decisions. If an element of any rank
 //! refuses a point, the step is too long on every rank. PETSc's SNES is not used, because it does not support
 //! pins that move into the first system, a filter on demand, or an end below the rounding error of the
 //! energy.
 //!
-//! The objective is the one of a stage (see [`piola::step::divided::StagedSteps`]),
+//! The objective is the one of a stage (see [`piola_bodies::step::divided::StagedSteps`]),
 //!
 //! ```text
 //! E(x) = ½‖x − s − τ w‖²_M / (τσ) + α/(2τ) ‖x − s‖²_M + Ψ(x) − Σ m g·x + Σ springs
@@ -16,8 +16,8 @@
 //! directions that are sent once in an iteration.
 
 use piola::point::Filter;
-use piola::step::divided::{Definiteness, End, Line, Linearised, Minimisation, Solution, Stage};
-use piola::step::{EnergyChange, NewtonError, Spring, Term};
+use piola_bodies::step::divided::{Definiteness, End, Line, Linearised, Minimisation, Solution, Stage};
+use piola_bodies::step::{EnergyChange, NewtonError, Spring, Term};
 
 use crate::elastic::Elastic;
 use crate::error::Error;

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use piola::step::Integrator;
+use piola_bodies::step::Integrator;
 use piola_scenes::material::Parameters;
 use piola_scenes::output::{Ended, Field, StepCounts, write_pvd, write_vtu, write_whole};
 use serde::Serialize;

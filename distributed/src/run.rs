@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use piola::material::Moduli;
-use piola::step::divided::Pace;
-use piola::step::{Convergence, NewtonReport, NewtonSettings, SimulationSettings};
+use piola_bodies::step::divided::Pace;
+use piola_bodies::step::{Convergence, NewtonReport, NewtonSettings, SimulationSettings};
 use piola_scenes::clock::Clock;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use piola::mesh::Bounds;
-use piola::step::Spring;
-use piola::system::Pins;
+use piola_bodies::mesh::Bounds;
+use piola_bodies::step::Spring;
+use piola_bodies::system::Pins;
 use piola_scenes::clock::Clock;
 use piola_scenes::geometry::{Geometry, GeometryWarning};
 use piola_scenes::play::{self, DragSprings, Stretch};

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use piola::mesh::turned;
+use piola_bodies::mesh::turned;
 
 use crate::error::Error;
 use crate::petsc::Matrix;

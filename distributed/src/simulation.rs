@@ -1,7 +1,7 @@
 //! Time steps of a body that is divided among ranks.
 
-use piola::step::divided::{InStage, Pace, Repeatable, StagedSteps, advance_within, minimize};
-use piola::step::{Damping, LinearSolver, NewtonReport, SimulationSettings, Spring};
+use piola_bodies::step::divided::{InStage, Pace, Repeatable, StagedSteps, advance_within, minimize};
+use piola_bodies::step::{Damping, LinearSolver, NewtonReport, SimulationSettings, Spring};
 
 use crate::elastic::{Elastic, MaterialPart};
 use crate::error::Error;
@@ -23,7 +23,7 @@ pub struct StageReport {
     pub systems: Vec<usize>,
 }
 
-/// Energies of the body, J, with the definitions of [`piola::step::Energies`].
+/// Energies of the body, J, with the definitions of [`piola_bodies::step::Energies`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energies {
     /// Energy of deformation.
@@ -194,7 +194,7 @@ impl Simulation {
     }
 
     /// Advances the state over a time interval, s, with adaptive steps. The error of positions stays within
-    /// `tolerance`, m/s, times the interval, as in [`piola::step::Simulation::advance_within`]. Returns the
+    /// `tolerance`, m/s, times the interval, as in [`piola_bodies::step::Simulation::advance_within`]. Returns the
     /// steps, with the reports of all of their stages, including refused steps.
     ///
     /// # Errors

@@ -9,8 +9,8 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use piola::step::divided::{End, Iteration, Preconditioner};
-use piola::system::NodalStiffness;
+use piola_bodies::step::divided::{End, Iteration, Preconditioner};
+use piola_bodies::system::NodalStiffness;
 
 use crate::division::{Copies, Failure};
 use crate::error::Error;

@@ -9,12 +9,12 @@ use std::path::Path;
 
 use common::{TestResult, checkpoint_in, command, finish, msh, state_after};
 use piola::material::{Moduli, PerPoint};
-use piola::mesh::{Bounds, tetrahedral_box};
+use piola_bodies::mesh::{Bounds, tetrahedral_box};
 use piola::point::Filter;
-use piola::step::{
+use piola_bodies::step::{
     Convergence, Damping, Filtering, Integrator, LinearSolver, NewtonSettings, Simulation, SimulationSettings,
 };
-use piola::system::{Body, Part, Pins};
+use piola_bodies::system::{Body, Part, Pins};
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::Newton;
@@ -305,7 +305,7 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
     let file = scratch.path().join("bar.msh");
     let upper: Vec<usize> = (0..mesh.tets.len()).filter(|&tet| tet >= mesh.tets.len() / 2).collect();
     std::fs::write(&file, msh(&mesh, &upper))?;
-    mesh.groups.push(piola::mesh::Group {
+    mesh.groups.push(piola_bodies::mesh::Group {
         name: "upper".to_owned(),
         dimension: 3,
         nodes: Vec::new(),
@@ -385,7 +385,7 @@ fn parameters_of_each_element_are_those_of_one_machine() -> TestResult {
     let lower = mesh.tets.len() / 2;
     let materials = (0..lower).map(|tet| soft.clone().with_parameter("mu", [mu(tet)]).interpreted());
     let lower = Box::new(PerPoint::new(materials.collect::<Result<Vec<_>, _>>()?)?);
-    mesh.groups.push(piola::mesh::Group {
+    mesh.groups.push(piola_bodies::mesh::Group {
         name: "upper".to_owned(),
         dimension: 3,
         nodes: Vec::new(),
@@ -459,7 +459,7 @@ fn files_read_in_parts_are_those_read_whole() -> TestResult {
     std::fs::write(&file, nodes)?;
     std::fs::write(file.with_extension("ele"), tets)?;
 
-    let mesh = piola::mesh::read_tetgen(&file)?;
+    let mesh = piola_bodies::mesh::read_tetgen(&file)?;
     let soft = (HORSE.material)().build()?.moduli;
     let part = |group: Option<&str>, name: &str, density: f64| -> Result<Part, Box<dyn std::error::Error>> {
         let material = MaterialSpec::matching(name, soft).build()?.elements;

@@ -244,7 +244,7 @@ fn tables_of_parameters_are_judged() -> TestResult {
         fs::write(&table, "element,mu\n".to_owned() + &rows.collect::<String>())
     };
     let mesh = scratch.path().join("cube.msh");
-    fs::write(&mesh, common::msh(&piola::mesh::tetrahedral_box([2; 3], [1.0; 3])?, &[]))?;
+    fs::write(&mesh, common::msh(&piola_bodies::mesh::tetrahedral_box([2; 3], [1.0; 3])?, &[]))?;
     let run = |options: &str| {
         let options = format!(
             "run scramble --amplitude 0.1 --mesh {} --material neo-Hookean --vary {} --out {} {options}",

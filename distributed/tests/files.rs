@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use piola::mesh::{Group, TetMesh, read_msh, tetrahedral_box};
+use piola_bodies::mesh::{Group, TetMesh, read_msh, tetrahedral_box};
 use piola_distributed::error::Error;
 use piola_distributed::files;
 use piola_distributed::petsc::Library;

@@ -5,11 +5,11 @@
 
 use std::sync::Arc;
 
-use piola::mesh::tetrahedral_box;
-use piola::step::{
+use piola_bodies::mesh::tetrahedral_box;
+use piola_bodies::step::{
     Integrator, LinearSolver, NewtonSettings, NodeBlocks, Simulation, SimulationSettings, Term,
 };
-use piola::system::{Body, LinearError, LowerTriangle, Pins};
+use piola_bodies::system::{Body, LinearError, LowerTriangle, Pins};
 use piola_materials::NeoHookean;
 
 /// A plane y = 0 that pushes with ½ k y² at every node below it; k in N/m.

@@ -6,10 +6,10 @@
 use piola::batch::{Batch, Layout, MatrixForm, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::{Graded, PerPoint, PerPointError};
-use piola::mesh::{Group, TetMesh, tetrahedral_box};
 use piola::point::Filter;
-use piola::system::{Body, BodyError, ElasticResponse, NodalStiffness, Part};
 use piola::{Inversion, Spline, Survey};
+use piola_bodies::mesh::{Group, TetMesh, tetrahedral_box};
+use piola_bodies::system::{Body, BodyError, ElasticResponse, NodalStiffness, Part};
 use piola_materials::{Gent, NeoHookean, Ogden, StretchSpline};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;

@@ -76,8 +76,9 @@ use crate::lanes::Backend;
 use crate::point::Filter;
 use crate::status::{Status, StatusCell, Survey};
 
-#[cfg(feature = "bodies")]
-pub(crate) mod element;
+mod csr;
+#[doc(hidden)]
+pub mod element;
 mod jobs;
 pub(crate) mod material;
 mod measured;
@@ -88,12 +89,11 @@ mod tile;
 pub use crate::kernels::Kernels;
 pub use crate::kernels::form::MatrixForm;
 pub use crate::kernels::sink::Layout;
+pub use csr::{CsrError, CsrPlaces};
 pub use material::TileMaterial;
 pub use quadrature::Quadrature;
 pub use tetrahedra::Tetrahedra;
 
-#[cfg(all(test, feature = "bodies"))]
-pub(crate) use crate::kernels::form::MAX_STIFFNESS_RATIO;
 use jobs::{Job, Work};
 use tile::{Call, Tile};
 

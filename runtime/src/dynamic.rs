@@ -26,21 +26,6 @@ use crate::material::{Material, Response};
 ///     Ok(())
 /// }
 ///
-/// # #[cfg(feature = "bodies")]
-/// # mod bodies {
-/// # use piola::DynMaterial;
-/// use piola::mesh::TetMesh;
-/// use piola::system::{Body, BodyError, Part};
-///
-/// fn body(mesh: &TetMesh, material: impl DynMaterial<f64> + 'static) -> Result<Body, BodyError> {
-///     Body::new(mesh, material, 1000.0)
-/// }
-///
-/// fn boxed(mesh: &TetMesh, material: Box<dyn DynMaterial<f64>>) -> Result<Body, BodyError> {
-///     Body::from_parts(mesh, vec![Part { group: None, material, density: 1000.0 }])
-/// }
-/// # }
-///
 /// /// μ Σ(λ − 1)².
 /// #[piola::material]
 /// fn Springs([l1, l2, l3]: [f64; 3], /** Stiffness, Pa. */ mu: f64) -> f64 {

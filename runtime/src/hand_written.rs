@@ -107,10 +107,8 @@ impl Material for NeoHookean {
 }
 
 /// [`NeoHookean`] as μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
-#[cfg(feature = "bodies")]
 pub(crate) struct NeoHookeanByInvariants;
 
-#[cfg(feature = "bodies")]
 impl Material for NeoHookeanByInvariants {
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
         NeoHookean.energy(stretches)

@@ -23,7 +23,6 @@ use std::cell::Cell;
 use crate::lanes::{Backend, Scalar};
 use crate::status::Status;
 use deformation::{Decompose, Deform, Invariants};
-#[cfg(feature = "bodies")]
 use form::BlockStiffness;
 use form::{FullStiffness, FullTangent, MatrixForm, PackedStiffness, PackedTangent, StiffnessForm};
 use measure::{MeasuredStress, MeasuredTangent};
@@ -128,7 +127,6 @@ macro_rules! formats {
                 match form {
                     StiffnessForm::Matrix(MatrixForm::Full) => backend.run(Shaped(kernel, FullStiffness)),
                     StiffnessForm::Matrix(MatrixForm::Packed) => backend.run(Shaped(kernel, PackedStiffness)),
-                    #[cfg(feature = "bodies")]
                     StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
                 }
             }
@@ -145,7 +143,6 @@ macro_rules! formats {
                     StiffnessForm::Matrix(MatrixForm::Packed) => {
                         shape_by_invariants(backend, kernel, PackedStiffness)
                     }
-                    #[cfg(feature = "bodies")]
                     StiffnessForm::Blocks => shape_by_invariants(backend, kernel, BlockStiffness),
                 }
             }

@@ -1,8 +1,9 @@
-//! Invertible isotropic hyperelasticity: stress, consistent tangent and implicit time steps from an energy.
+//! Invertible isotropic hyperelasticity: stress, consistent tangent and element stiffness from an energy.
 //!
 //! A hyperelastic material, or constitutive model, is declared by its energy density ψ(λ1, λ2, λ3) with
 //! [`#[piola::material]`](macro@material). piola computes ψ, the first Piola stress P, the consistent tangent
-//! dP/dF, its positive-semidefinite (PSD) projection, element forces and stiffness, and implicit time steps.
+//! dP/dF, its positive-semidefinite (PSD) projection, and element forces and stiffness. The crate
+//! `piola-bodies` computes implicit time steps of whole bodies.
 //! No derivative is written by hand. Accuracy does not depend on the spacing of the stretches, and inverted
 //! elements need no special treatment (invertible FEM).
 //!
@@ -35,11 +36,10 @@
 //! | your code has | use | feature |
 //! |---|---|---|
 //! | many points at once: material points, arrays | [`batch`]: [program](#points-in-batches) | `batch` |
-//! | tetrahedra and a sparse solver | [`batch`], [`system`]: [program](#tetrahedra) | `bodies` |
+//! | tetrahedra and a sparse solver | [`batch`]: [program](#tetrahedra) | `batch` |
 //! | other elements | [`batch`]: [program](#other-elements) | `batch` |
-//! | a mesh that has to move | [`mesh`], [`system`], [`step`]: [program](#a-simulation) | `bodies` |
+//! | a mesh that has to move; its own minimiser, integrator, linear solver or contact | the crate `piola-bodies` | – |
 //! | one point a call: a UMAT, Cauchy stress | [`point`]: [program](#a-umat) | – |
-//! | its own minimiser, integrator, linear solver or contact | [`system`], [`step`] | `bodies` |
 //!
 //! ## Points in batches
 //!
@@ -77,13 +77,12 @@
 //!
 //! Forces and stiffness of tetrahedra for another solver, whose sparse matrix is given by slices of any
 //! integer type. The rest shape of a tetrahedron is Dm⁻¹ by rows and the volume, as computed by
-//! `TetMesh::rest_shapes`.
+//! `TetMesh::rest_shapes` of `piola-bodies`.
 //!
-#![cfg_attr(feature = "bodies", doc = "```")]
-#![cfg_attr(not(feature = "bodies"), doc = "```ignore")]
-//! use piola::batch::{Batch, Layout, MatrixForm, Tetrahedra};
+#![cfg_attr(feature = "batch", doc = "```")]
+#![cfg_attr(not(feature = "batch"), doc = "```ignore")]
+//! use piola::batch::{Batch, CsrPlaces, Layout, MatrixForm, Tetrahedra};
 //! use piola::point::Filter;
-//! use piola::system::CsrPlaces;
 //!
 //! /// Compressible neo-Hookean rubber; mu and lambda in Pa.
 //! #[piola::material(domain(J > 0.0), extend)]
@@ -153,42 +152,6 @@
 //! }
 #![doc = "```"]
 //!
-//! ## A simulation
-//!
-//! A bar of tetrahedra, held at one end, sags by implicit Euler steps of 1/30 s and comes to rest. `Body`
-//! takes any mesh; integrators of higher order, contact and linear solvers are settings of `Simulation`.
-//!
-#![cfg_attr(feature = "bodies", doc = "```")]
-#![cfg_attr(not(feature = "bodies"), doc = "```ignore")]
-//! use piola::mesh::tetrahedral_box;
-//! use piola::step::{Simulation, SimulationSettings};
-//! use piola::system::{Body, Pins};
-//!
-//! /// Compressible neo-Hookean rubber; mu and lambda in Pa.
-//! #[piola::material(domain(J > 0.0), extend)]
-//! fn Rubber([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
-//!     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-//! }
-//!
-//! fn main() -> Result<(), Box<dyn std::error::Error>> {
-//!     let mesh = tetrahedral_box([4, 1, 1], [0.4, 0.1, 0.1])?;
-//!     let pins = Pins::at((0..mesh.positions.len()).filter(|&node| mesh.positions[node][0] == 0.0));
-//!     let body = Body::new(&mesh, Rubber::new(1e5, 4e5)?, 1000.0)?;
-//!     let gravity = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
-//!     let mut bar = Simulation::new(body, &pins, gravity)?;
-//!     for _ in 0..150 {
-//!         bar.step(1.0 / 30.0)?;
-//!     }
-//!     let tip = mesh.positions.len() - 1;
-//!     assert!(bar.positions()[tip][1] < 0.1 - 0.01);
-//!     // The pins carry 4 kg.
-//!     bar.equilibrate()?;
-//!     let weight: f64 = bar.reactions()?.iter().map(|force| force[1]).sum();
-//!     assert!((weight - 39.24).abs() < 1e-3);
-//!     Ok(())
-//! }
-#![doc = "```"]
-//!
 //! ## A UMAT
 //!
 //! The call of a finite-element solver with user materials: F in, Cauchy stress and consistent tangent out.
@@ -243,16 +206,12 @@
 //! * [`batch`]: slices of many points, on vector lanes and threads (feature `batch`);
 //! * `convert`: matrices from and to nalgebra and glam (features `nalgebra` and `glam`);
 //! * [`contract`](mod@contract): requirements on every material, as tests in one line or functions;
-//! * [`mesh`]: tetrahedra, boxes of them, their files, embedded surfaces (feature `bodies`);
-//! * [`system`]: forces, stiffness, its sparse assembly, pins, linear solvers (feature `bodies`);
-//! * [`step`]: time steps by Newton's method, implicit Euler and integrators of higher order (feature
-//!   `bodies`);
 //! * `interpreter`: materials whose energy is known only at run time, made by `piola-declare` (feature
 //!   `interpreter`).
 //!
 //! Without features, which is the default, piola depends only on its macro and builds in seconds: enough to
 //! declare materials, test them and evaluate them at points. `batch` adds rayon; `f32` adds batches in single
-//! precision; `bodies` adds `batch`, faer, and a minute or two.
+//! precision.
 //!
 //! `serde` writes and reads settings, reports, splines and materials declared with the word `serde`. A value
 //! that is not finite becomes `null` in JSON and cannot be read back.
@@ -262,13 +221,6 @@
 
 // Links to modules whose feature is off.
 #![cfg_attr(not(feature = "batch"), doc = "", doc = "[`batch`]: https://docs.rs/piola/latest/piola/batch/")]
-#![cfg_attr(
-    not(feature = "bodies"),
-    doc = "",
-    doc = "[`mesh`]: https://docs.rs/piola/latest/piola/mesh/",
-    doc = "[`step`]: https://docs.rs/piola/latest/piola/step/",
-    doc = "[`system`]: https://docs.rs/piola/latest/piola/system/"
-)]
 
 extern crate self as piola;
 
@@ -276,8 +228,6 @@ extern crate self as piola;
 pub mod __private;
 #[cfg(feature = "batch")]
 pub mod batch;
-#[cfg(feature = "bodies")]
-mod chained;
 pub mod contract;
 #[cfg(any(feature = "glam", feature = "nalgebra", test))]
 pub mod convert;
@@ -291,8 +241,6 @@ pub mod interpreter;
 mod kernels;
 pub mod lanes;
 pub mod material;
-#[cfg(feature = "bodies")]
-pub mod mesh;
 mod message;
 #[cfg(feature = "batch")]
 mod no_such_node;
@@ -300,10 +248,6 @@ pub mod point;
 mod quotient;
 mod random;
 mod status;
-#[cfg(feature = "bodies")]
-pub mod step;
-#[cfg(feature = "bodies")]
-pub mod system;
 pub mod univariate;
 
 pub use dynamic::DynMaterial;

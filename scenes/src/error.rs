@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use piola::__private::message::{number, quoted};
 use piola::material::{MaterialError, Text, Unit};
-use piola::mesh::ReadError;
-use piola::step::{NewtonError, SetupError, StepError};
-use piola::system::{BodyError, PinError};
+use piola_bodies::mesh::ReadError;
+use piola_bodies::step::{NewtonError, SetupError, StepError};
+use piola_bodies::system::{BodyError, PinError};
 use piola_declare::emit::EmitError;
 use piola_declare::{Mistakes, nearest};
 

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use piola::batch::{Batch, TileMaterial};
 use piola::point::svd;
-use piola::step::Simulation;
+use piola_bodies::step::Simulation;
 
 use crate::output::{Field, write_vtu};
 

@@ -6,7 +6,7 @@ use std::ffi::OsStr;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use piola::mesh::{
+use piola_bodies::mesh::{
     Anchor, Bounds, ElementCounts, Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj,
     read_msh, read_surface_obj, read_tetgen, tetrahedral_box,
 };

@@ -1,6 +1,6 @@
 //! A moment of a scene in motion, to continue from.
 
-use piola::step::Integrator;
+use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
 
 use crate::clock::Clock;

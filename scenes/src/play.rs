@@ -2,10 +2,10 @@
 
 use piola::batch::TileMaterial;
 use piola::material::{Moduli, Text};
-use piola::mesh::Anchor;
-use piola::mesh::{Bounds, TetMesh};
-use piola::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
-use piola::system::{Body, Part, Pins};
+use piola_bodies::mesh::Anchor;
+use piola_bodies::mesh::{Bounds, TetMesh};
+use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
+use piola_bodies::system::{Body, Part, Pins};
 
 use crate::clock::Clock;
 use crate::error::Error;

@@ -1,6 +1,6 @@
 //! Boxes that select a part of a body, in metres or as shares of its bounding box.
 
-use piola::mesh::Bounds;
+use piola_bodies::mesh::Bounds;
 
 /// All of space, in metres or shares.
 pub const EVERYWHERE: Bounds = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY; 3] };

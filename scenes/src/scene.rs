@@ -23,8 +23,8 @@ pub use start::{Amplitude, Start};
 pub use stretch::STRETCH;
 pub use twist::TWIST;
 
-use piola::mesh::Bounds;
-use piola::step::Damping;
+use piola_bodies::mesh::Bounds;
+use piola_bodies::step::Damping;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serializer};
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use piola::step::Integrator;
+use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;

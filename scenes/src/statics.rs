@@ -1,7 +1,7 @@
 //! The equilibrium in which a body that has not recovered comes to rest.
 
-use piola::mesh::TetMesh;
-use piola::step::{Convergence, Equilibrium, NewtonSettings, Stability};
+use piola_bodies::mesh::TetMesh;
+use piola_bodies::step::{Convergence, Equilibrium, NewtonSettings, Stability};
 
 use crate::error::Error;
 use crate::measure;
@@ -42,7 +42,7 @@ pub fn find_equilibrium(play: &mut Play, mesh: &TetMesh, watch: &mut dyn Watch) 
     let found = Equilibrium::of(simulation)?;
     let pinned = simulation.pinned().len();
     let max_distance_from_rest = measure::distance_from_rest(mesh, simulation.positions(), pinned);
-    let place = match found.stability() {
+    let place = match found.stability {
         _ if max_distance_from_rest <= Summary::RECOVERED => FinalPlace::Rest,
         Stability::Unbalanced => FinalPlace::NotAtRest,
         Stability::Stable => FinalPlace::StableElsewhere,
@@ -55,8 +55,6 @@ pub fn find_equilibrium(play: &mut Play, mesh: &TetMesh, watch: &mut dyn Watch) 
         residual: found.residual,
         relative_residual: found.residual / found.largest_force.max(f64::MIN_POSITIVE),
         stress_free: found.is_stress_free(),
-        smallest_eigenvalue: found.smallest_eigenvalue.map(|eigenvalue| eigenvalue.value),
-        eigenvalue_error: found.smallest_eigenvalue.map(|eigenvalue| eigenvalue.error),
         inverted: found.inverted,
         smallest_sum: found.smallest_sum,
         newton_iterations,

@@ -1,7 +1,7 @@
 //! Stretch and stress of a specimen in a tensile test.
 
-use piola::mesh::TetMesh;
-use piola::step::Simulation;
+use piola_bodies::mesh::TetMesh;
+use piola_bodies::step::Simulation;
 use piola_laboratory::Specimen;
 use piola_laboratory::curve::{Mode, Volume, respond};
 

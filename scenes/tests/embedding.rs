@@ -1,7 +1,7 @@
 //! The committed meshes carry their surfaces: positions at rest come back, all of them from inside or near
 //! the mesh.
 
-use piola::mesh::{Embedding, read_msh, read_surface_obj};
+use piola_bodies::mesh::{Embedding, read_msh, read_surface_obj};
 
 #[test]
 fn the_meshes_of_the_scenes_carry_their_surfaces() {

@@ -8,7 +8,7 @@
 //! One frame of each scene, or frames all along, which take minutes:
 //! `PIOLA_LONG=1 cargo test --release -p piola-scenes --test tolerance -- --nocapture`.
 
-use piola::step::Integrator;
+use piola_bodies::step::Integrator;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::output::{Newton, StepCounts};
 use piola_scenes::play::Play;

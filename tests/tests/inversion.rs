@@ -4,10 +4,10 @@
 use piola::__private::random::Random;
 use piola::Inversion;
 use piola::batch::TileMaterial;
-use piola::mesh::TetMesh;
 use piola::point::svd;
-use piola::step::{Damping, Simulation, SimulationSettings, StepError};
-use piola::system::{Body, Part, Pins};
+use piola_bodies::mesh::TetMesh;
+use piola_bodies::step::{Damping, Simulation, SimulationSettings, StepError};
+use piola_bodies::system::{Body, Part, Pins};
 use piola_tests::energies::{ENERGIES, Judged};
 
 /// How many random deformation gradients each element starts from.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::Duration;
 
-use piola::step::StepReport;
+use piola_bodies::step::StepReport;
 use piola_declare::Energy;
 use piola_scenes::error::Error as SceneError;
 

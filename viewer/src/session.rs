@@ -5,8 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use piola::mesh::Anchor;
-use piola::step::StepReport;
+use piola_bodies::mesh::Anchor;
+use piola_bodies::step::StepReport;
 use piola_declare::Energy;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::geometry::Geometry;

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use piola::material::Parameter;
-use piola::step::Energies;
+use piola_bodies::step::Energies;
 use piola_declare::{Energy, Mistake};
 use piola_materials::DECLARATIONS;
 use piola_scenes::geometry::Geometry;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use piola::mesh::{Group, TetMesh};
+use piola_bodies::mesh::{Group, TetMesh};
 
 use crate::error::{Code, Failure, guard};
 use crate::lent::{Arrays, plain};
@@ -11,7 +11,7 @@ use crate::options::Survey;
 use crate::{handle, lent};
 
 /// An elastic body at rest. Immutable: threads may share it.
-pub struct Body(pub(crate) Arc<piola::system::Body>);
+pub struct Body(pub(crate) Arc<piola_bodies::system::Body>);
 
 /// The material and the density of a part of a body.
 #[repr(C)]
@@ -59,10 +59,10 @@ pub unsafe extern "C" fn piola_body_new(
                 let part = |(k, part): (usize, &Part)| {
                     let material = lent::value("parts[].material", part.material)?.for_body()?;
                     let group = mesh.groups.get(k).map(|group| group.name.clone());
-                    Ok(piola::system::Part { group, material, density: part.density })
+                    Ok(piola_bodies::system::Part { group, material, density: part.density })
                 };
                 let parts: Result<Vec<_>, Failure> = parts.iter().enumerate().map(part).collect();
-                Ok(Body(Arc::new(piola::system::Body::from_parts(&mesh, parts?)?)))
+                Ok(Body(Arc::new(piola_bodies::system::Body::from_parts(&mesh, parts?)?)))
             })
         }
     })
@@ -111,7 +111,7 @@ fn groups(part_of: &[usize], tetrahedra: usize, parts: usize) -> Result<Vec<Grou
 }
 
 /// A survey of elements, which are sorted by part, as one of tetrahedra in the order of the caller.
-pub(crate) fn of_tetrahedra(survey: piola::Survey, body: &piola::system::Body) -> Survey {
+pub(crate) fn of_tetrahedra(survey: piola::Survey, body: &piola_bodies::system::Body) -> Survey {
     let first = survey.first.and_then(|element| body.elements().get(element)).map(|element| element.tag - 1);
     piola::Survey { first, ..survey }.into()
 }

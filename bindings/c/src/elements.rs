@@ -1,7 +1,7 @@
 //! Linear tetrahedra: shapes at rest, gradients of their energies and stiffnesses.
 
 use piola::batch::{Batch, REST, Tetrahedra};
-use piola::mesh::TetMesh;
+use piola_bodies::mesh::TetMesh;
 
 use crate::batch::{call, call_with, matrix_form};
 use crate::error::{Code, Failure, guard};

@@ -9,9 +9,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use piola::NoSuchNode;
 use piola::batch::LengthError;
 use piola::material::{MaterialError, PerPointError};
-use piola::mesh::MeshError;
-use piola::step::{NewtonError, SetupError, StepError};
-use piola::system::{BodyError, CsrError};
+use piola_bodies::mesh::MeshError;
+use piola_bodies::step::{NewtonError, SetupError, StepError};
+use piola::batch::CsrError;
+use piola_bodies::system::BodyError;
 use piola_declare::Mistakes;
 
 /// Result of a function: 0, or the kind of the error. `piola_error_message` returns its text.

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use piola::system::ElasticResponse;
+use piola_bodies::system::ElasticResponse;
 
 use crate::body::{Body, of_tetrahedra};
 use crate::error::{Code, guard};
@@ -12,7 +12,7 @@ use crate::{handle, lent};
 
 /// Memory to evaluate the energy of a body. Threads may share it: calls wait for each other.
 pub struct Response {
-    body: Arc<piola::system::Body>,
+    body: Arc<piola_bodies::system::Body>,
     response: Mutex<ElasticResponse>,
 }
 

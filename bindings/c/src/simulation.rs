@@ -3,9 +3,9 @@
 use std::ffi::c_char;
 use std::sync::{Arc, Mutex};
 
-use piola::mesh::Anchor;
-use piola::step::{Convergence as Reason, Simulation as Stepped, SimulationSettings, StepError};
-use piola::system::Pins;
+use piola_bodies::mesh::Anchor;
+use piola_bodies::step::{Convergence as Reason, Simulation as Stepped, SimulationSettings, StepError};
+use piola_bodies::system::Pins;
 
 use crate::body::Body;
 use crate::error::{Code, Failure, guard};
@@ -98,9 +98,9 @@ pub struct StepReport {
     pub terms: f64,
 }
 
-impl From<piola::step::StepReport> for StepReport {
-    fn from(report: piola::step::StepReport) -> Self {
-        let piola::step::StepReport { newton, min_det, energies, .. } = report;
+impl From<piola_bodies::step::StepReport> for StepReport {
+    fn from(report: piola_bodies::step::StepReport) -> Self {
+        let piola_bodies::step::StepReport { newton, min_det, energies, .. } = report;
         let convergence = match newton.convergence {
             Reason::Tolerance => Convergence::Tolerance,
             Reason::Rounding => Convergence::Rounding,
@@ -288,7 +288,7 @@ pub unsafe extern "C" fn piola_simulation_set_springs(
     unsafe {
         change(simulation, |State { simulation, .. }| {
             let springs = Arrays::new().input("springs", springs, springs_length)?;
-            let spring = |&Spring { nodes, weights, target, stiffness }: &Spring| piola::step::Spring {
+            let spring = |&Spring { nodes, weights, target, stiffness }: &Spring| piola_bodies::step::Spring {
                 anchor: Anchor { nodes, weights },
                 target,
                 stiffness,
@@ -314,7 +314,7 @@ pub unsafe extern "C" fn piola_simulation_set_terms(
                 .map(|&term| Callbacks::new(term).map(Arc::new))
                 .collect::<Result<Vec<_>, _>>()?;
             simulation
-                .set_terms(terms.iter().map(|term| term.clone() as Arc<dyn piola::step::Term>).collect());
+                .set_terms(terms.iter().map(|term| term.clone() as Arc<dyn piola_bodies::step::Term>).collect());
             *kept = terms;
             Ok(())
         })
@@ -375,7 +375,7 @@ unsafe fn change(
 unsafe fn advance(
     simulation: *const Simulation,
     report: *mut StepReport,
-    advance: impl FnOnce(&mut Stepped) -> Result<piola::step::StepReport, StepError>,
+    advance: impl FnOnce(&mut Stepped) -> Result<piola_bodies::step::StepReport, StepError>,
 ) -> Code {
     // SAFETY: that of this function.
     unsafe {

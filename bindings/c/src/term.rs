@@ -3,7 +3,7 @@
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicI32, Ordering};
 
-use piola::step::NodeBlocks;
+use piola_bodies::step::NodeBlocks;
 
 use crate::error::{Code, Failure, guard};
 use crate::lent::{self, Arrays, plain};
@@ -140,7 +140,7 @@ impl Callbacks {
     }
 }
 
-impl piola::step::Term for Callbacks {
+impl piola_bodies::step::Term for Callbacks {
     fn energy(&self, positions: &[[f64; 3]]) -> Option<f64> {
         let mut energy = f64::NAN;
         let (x, nodes) = (positions.as_flattened().as_ptr(), positions.len());

@@ -2,8 +2,8 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use piola::step::{self, SimulationSettings, StepError as Failed, StepReport};
-use piola::system::Pins;
+use piola_bodies::step::{self, SimulationSettings, StepError as Failed, StepReport};
+use piola_bodies::system::Pins;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

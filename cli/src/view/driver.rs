@@ -3,7 +3,7 @@
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use piola::step::StepReport;
+use piola_bodies::step::StepReport;
 use piola_scenes::error::Error as SceneError;
 use piola_viewer::driver::{Driver, Host, Order, TURN};
 use piola_viewer::session::Session;

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use piola::mesh::{MshItem, MshOutline, ReadError};
+use piola_bodies::mesh::{MshItem, MshOutline, ReadError};
 use piola_scenes::error::Error as SceneError;
 
 use super::{NO_GROUP, Part, Rows};

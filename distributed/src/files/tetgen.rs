@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom};
 use std::path::Path;
 
-use piola::mesh::{NodeLines, TetLines};
+use piola_bodies::mesh::{NodeLines, TetLines};
 
 use super::{NO_GROUP, Part, Rows};
 use crate::error::Error;

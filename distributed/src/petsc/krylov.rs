@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::ptr::null_mut;
 use std::rc::Rc;
 
-use piola::step::divided::{End, Iteration};
+use piola_bodies::step::divided::{End, Iteration};
 
 use super::operators::{Shared, precondition, view};
 use super::{Library, Matrix, PetscError, Vector, check, ffi, int, string};

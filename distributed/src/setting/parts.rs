@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use piola::mesh::Bounds;
-use piola::system::PinError;
+use piola_bodies::mesh::Bounds;
+use piola_bodies::system::PinError;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::geometry::{GeometryWarning, check_bounds, size_warning};
 use piola_scenes::play::DragSprings;

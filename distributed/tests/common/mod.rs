@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use piola::mesh::TetMesh;
+use piola_bodies::mesh::TetMesh;
 use piola_distributed::checkpoint::{self, State};
 use piola_distributed::run::About;
 

@@ -4,9 +4,9 @@ use std::fs::File;
 
 use biderman::Biderman;
 use piola::Inversion;
-use piola::mesh::Bounds;
-use piola::step::{Damping, NewtonSettings, Simulation, SimulationSettings};
-use piola::system::{Body, Pins};
+use piola_bodies::mesh::Bounds;
+use piola_bodies::step::{Damping, NewtonSettings, Simulation, SimulationSettings};
+use piola_bodies::system::{Body, Pins};
 use piola_cli::render::{Frame, contact_sheet};
 use piola_scenes::geometry::Geometry;
 use piola_scenes::scene;

@@ -1,11 +1,15 @@
 //! A tile of linear tetrahedra whose memory is kept between calls, for solvers that come back.
 //!
+//! This is the interface between `piola` and `piola-bodies`: it may change with every version. Other codes
+//! evaluate elements by [`Batch::stiffnesses_at`](super::Batch::stiffnesses_at).
+//!
 //! One decomposition of each element is used for the energy, the gradient and the stiffness. For an energy of
 //! I1, I2 and J alone there is none, unless a filter requires one or an element is outside of the range of
 //! the invariants: then all elements of the tile are decomposed.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
+use super::REST;
 use super::material::TileMaterial;
 use super::tetrahedra::set_edges;
 use super::tile::{Call, Tile};
@@ -16,16 +20,22 @@ use crate::kernels::sink::{Layout, Lines};
 use crate::kernels::svd_tile::SvdTile;
 use crate::kernels::workspace::Workspace;
 use crate::lanes::Backend;
-use crate::mesh::RestShape;
 use crate::point::matrix::to_matrix;
-use crate::point::{Filter, Matrix3};
-use crate::status::Status;
+use crate::point::{Filter, Matrix3, stretches_in_range, svd};
+use crate::status::{Status, Survey};
 
-pub(crate) use crate::kernels::rows::TILE;
+pub use crate::kernels::form::MAX_STIFFNESS_RATIO;
+pub use crate::kernels::rows::TILE;
+
+/// Counts of the elements of a tile, of which the first has the index `start`.
+#[must_use]
+pub fn survey(status: Status<u64>, start: usize) -> Survey {
+    Survey::of(status, start)
+}
 
 /// Up to [`TILE`] elements of one material.
 #[derive(Clone, Debug)]
-pub(crate) struct Elements {
+pub struct Elements {
     backend: Backend,
     /// Index of the first element among those of the material.
     start: usize,
@@ -38,26 +48,38 @@ pub(crate) struct Elements {
 }
 
 impl Elements {
-    /// Elements of which the first is number `start` of the material's.
-    pub(crate) fn new(backend: Backend, start: usize, shapes: impl Iterator<Item = RestShape>) -> Self {
+    /// Elements of which the first is number `start` of the material's, with the rest shape of each: Dm⁻¹ row
+    /// by row, 1/m, and the volume, m³.
+    ///
+    /// # Panics
+    /// For more than [`TILE`] elements.
+    pub fn new(start: usize, shapes: impl Iterator<Item = [f64; REST]>) -> Self {
         let (mut rest, mut count) = (Lines::zero(), 0);
         for shape in shapes {
-            let numbers = shape.inverse.as_flattened().iter().chain([&shape.volume]);
-            for (k, &number) in numbers.enumerate() {
+            for (k, number) in shape.into_iter().enumerate() {
                 rest.set(count, k, number);
             }
             count += 1;
         }
+        let backend = Backend::best();
         Self { backend, start, count, rest, F: Lines::zero(), svd: None }
     }
 
     /// F of an element, as evaluated last.
-    pub(crate) fn deformation_gradient(&self, lane: usize) -> Matrix3<f64> {
+    #[must_use]
+    pub fn deformation_gradient(&self, lane: usize) -> Matrix3<f64> {
         to_matrix(self.F.get(lane))
     }
 
+    /// True if the stretches of an element, as evaluated last, are finite and far enough from the ends of the
+    /// range.
+    #[must_use]
+    pub fn is_in_range(&self, lane: usize) -> bool {
+        stretches_in_range(svd(&self.deformation_gradient(lane)).stretches)
+    }
+
     /// Evaluates energies, J; `corners` are the positions of each element's nodes.
-    pub(crate) fn evaluate(
+    pub fn evaluate(
         &mut self,
         material: &dyn TileMaterial<f64>,
         corners: impl Iterator<Item = [[f64; 3]; 4]>,
@@ -81,16 +103,12 @@ impl Elements {
     }
 
     /// Gradients of the energies evaluated last, N, 12 components each.
-    pub(crate) fn gradients(
-        &mut self,
-        material: &dyn TileMaterial<f64>,
-        gradients: &mut [f64],
-    ) -> Status<u64> {
+    pub fn gradients(&mut self, material: &dyn TileMaterial<f64>, gradients: &mut [f64]) -> Status<u64> {
         self.run(material, Filter::None, |tile| tile.stresses(gradients))
     }
 
     /// Gradients, N, and filtered stiffnesses as the blocks of node pairs, N/m, 90 entries each.
-    pub(crate) fn stiffnesses(
+    pub fn stiffnesses(
         &mut self,
         material: &dyn TileMaterial<f64>,
         filter: Filter,

@@ -2,7 +2,6 @@
 
 use crate::kernels::rows::{ROW, Rows, first_bits, for_each_group, to_rows};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
-#[cfg(feature = "bodies")]
 use crate::material::properties::largest_rest_stiffness;
 use crate::material::{Graded, Material, PerPoint, RawTile, ResponseKind};
 use crate::point::energy_is_finite;
@@ -28,7 +27,6 @@ trait Points: Send + Sync {
         Properties::of(self.materials(), self.count())
     }
 
-    #[cfg(feature = "bodies")]
     fn rest_stiffness(&self) -> f64 {
         largest_rest_stiffness(self.materials())
     }
@@ -110,7 +108,6 @@ macro_rules! tile_responses {
 
             /// Largest ψ11 at rest, Pa: a measure of the stiffness, and so of the rounding error of an
             /// energy.
-            #[cfg(feature = "bodies")]
             #[doc(hidden)]
             fn rest_stiffness(&self) -> f64;
         }
@@ -168,7 +165,6 @@ macro_rules! tile_responses {
                 }
             )*
 
-            #[cfg(feature = "bodies")]
             fn rest_stiffness(&self) -> f64 {
                 Points::rest_stiffness(self)
             }

@@ -40,7 +40,6 @@ impl MatrixForm {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StiffnessForm {
     Matrix(MatrixForm),
-    #[cfg(feature = "bodies")]
     Blocks,
 }
 
@@ -245,7 +244,7 @@ fn largest<R: Real, const N: usize>(numbers: [R; N]) -> R {
 
 /// The largest twist in an element's stiffness, relative to the rest of its tangent: far above ordinary
 /// values, far below 1/u. The collapsed horse recovers to the same digits with anything from 1e2 to 1e8.
-pub(crate) const MAX_STIFFNESS_RATIO: f64 = 1e6;
+pub const MAX_STIFFNESS_RATIO: f64 = 1e6;
 
 /// Bounds twists that a factorisation could not resolve; true if one was bounded.
 ///
@@ -422,7 +421,6 @@ stiffness_form! {
     }
 }
 
-#[cfg(feature = "bodies")]
 stiffness_form! {
     /// The blocks of the node pairs i ≥ j in the order (0,0), (1,0), (1,1), (2,0), …, nine entries each.
     BlockStiffness of 90, |i, a, j, c| {

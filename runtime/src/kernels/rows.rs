@@ -7,7 +7,7 @@ use crate::lanes::{Lanes, Scalar};
 use crate::material::Blocks;
 
 /// Points of a tile. As many as an integer has bits, so that a truth value of each is one integer.
-pub(crate) const TILE: usize = 64;
+pub const TILE: usize = 64;
 
 /// Places of a row, more than points: rows as far apart as a power of two would compete for the same places
 /// of the innermost cache, and loads would wait for stores to addresses that only look the same.

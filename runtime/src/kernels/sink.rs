@@ -80,7 +80,6 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
     }
 
     /// The components of a point.
-    #[cfg(feature = "bodies")]
     pub(crate) fn get(&self, point: usize) -> [E; N] {
         std::array::from_fn(|k| self.0.as_flattened()[Layout::Lines.index::<E>(point, N, k)])
     }

@@ -93,13 +93,11 @@ graded_by_pointee!(&M, Box<M>, Arc<M>);
 /// the same material, the list may hold references, `&M` or `Arc<M>`.
 ///
 /// ```
-/// # #[cfg(feature = "bodies")]
+/// # #[cfg(feature = "batch")]
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// use piola::batch::Batch;
 /// use piola::material;
 /// use piola::material::PerPoint;
-/// use piola::mesh::tetrahedral_box;
-/// use piola::system::Body;
 ///
 /// /// μ/2 Σ(λ − 1)².
 /// #[material]
@@ -112,16 +110,9 @@ graded_by_pointee!(&M, Box<M>, Arc<M>);
 /// let mut energies = [0.0; 2];
 /// Batch::new(&PerPoint::new(&springs)?).energies(&[stretch, stretch].concat(), &mut energies)?;
 /// assert_eq!(energies, [0.5, 1.0]);
-///
-/// // A body that is the stiffer, the further along x.
-/// let mesh = tetrahedral_box([4, 1, 1], [0.4, 0.1, 0.1])?;
-/// let middle = |tet: &[usize; 4]| tet.iter().map(|&node| mesh.positions[node][0]).sum::<f64>() / 4.0;
-/// let materials: Result<Vec<_>, _> = mesh.tets.iter().map(|tet| Springs::new(1e5 * (1.0 + middle(tet)))).collect();
-/// let body = Body::new(&mesh, PerPoint::new(materials?)?, 1000.0)?;
-/// # assert_eq!(body.elements().len(), 24);
 /// # Ok(())
 /// # }
-/// # #[cfg(not(feature = "bodies"))]
+/// # #[cfg(not(feature = "batch"))]
 /// # fn main() {}
 /// ```
 #[derive(Clone, Copy, Debug)]

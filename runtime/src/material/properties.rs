@@ -19,7 +19,7 @@ pub struct Properties {
     pub(crate) ends_at_zero_volume: bool,
     /// Number of points with a material of their own; `None` if one material is used for any number of
     /// points.
-    pub(crate) points: Option<usize>,
+    pub points: Option<usize>,
 }
 
 impl Properties {
@@ -40,7 +40,7 @@ impl Properties {
 }
 
 /// The largest ψ11 at rest of these materials, Pa.
-#[cfg(feature = "bodies")]
+#[cfg(feature = "batch")]
 pub(crate) fn largest_rest_stiffness<M: Material>(materials: &[M]) -> f64 {
     let stiffness = |material: &M| material.blocks([1.0f64; 3]).hessian[0];
     materials.iter().map(stiffness).fold(0.0, f64::max)

@@ -7,7 +7,6 @@ use piola::lanes::{Backend, Real, Scalar};
 use piola::point::Filter;
 
 use crate::Logarithmic;
-#[cfg(feature = "bodies")]
 use crate::hand_written::NeoHookeanByInvariants;
 use crate::hand_written::{NeoHookean, SaintVenantKirchhoff};
 
@@ -151,7 +150,6 @@ fn stiffnesses_at_positions_are_those_of_their_gradients() {
     check::<f64>(&NeoHookean, Filter::Clamp);
     let logarithmic = Logarithmic::new(1.0, 1.5).expect("admissible");
     check::<f64>(&logarithmic, Filter::None);
-    #[cfg(feature = "bodies")]
     check::<f64>(&NeoHookeanByInvariants, Filter::None);
     #[cfg(feature = "f32")]
     check::<f32>(&logarithmic, Filter::None);

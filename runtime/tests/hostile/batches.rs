@@ -1,10 +1,9 @@
 //! Batches of points and of elements.
 
 use piola::StatusCell;
-use piola::batch::{Batch, Layout, MatrixForm, Quadrature, REST, Tetrahedra};
+use piola::batch::{Batch, CsrPlaces, Layout, MatrixForm, Quadrature, REST, Tetrahedra};
 use piola::point::Filter;
 use piola::point::measures::Measure;
-use piola::system::CsrPlaces;
 
 use crate::arguments::{SEEDS, check};
 

@@ -1,14 +1,11 @@
-//! Functions of bodies and batches that return a `Result` do so for any arguments: wrong lengths, NaN,
-//! infinities, the ends of the range, nodes that are missing, repeated, or more than any memory holds.
+//! Functions of batches that return a `Result` do so for any arguments: wrong lengths, NaN, infinities, the
+//! ends of the range, nodes that are missing, repeated, or more than any memory holds.
 //!
-//! A module for each floor of the crate. `tests/tidy` sees to it that none of these functions is left out.
-#![cfg(feature = "bodies")]
+//! `tests/tidy` checks that none of these functions is left out.
+#![cfg(feature = "batch")]
 
 mod arguments;
 mod batches;
-mod bodies;
-mod meshes;
-mod steps;
 
 use piola::material;
 

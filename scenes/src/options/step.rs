@@ -2,7 +2,7 @@
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use piola::step::Integrator;
+use piola_bodies::step::Integrator;
 
 use crate::output::Newton;
 use crate::settings::Settings;

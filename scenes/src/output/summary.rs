@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use piola::__private::message::number;
 use piola::material::Moduli;
-use piola::step::Integrator;
+use piola_bodies::step::Integrator;
 use piola_laboratory::AtRest;
 use piola_laboratory::curve::Volume;
 
@@ -110,7 +110,7 @@ pub enum FinalPlace {
     StableElsewhere,
     /// Saddle: some small motion would reduce the energy, though the forces vanish.
     Saddle,
-    /// Equilibrium elsewhere, with a smallest eigenvalue of zero within its error.
+    /// Equilibrium elsewhere, in which some motion needs no energy within rounding errors.
     UndecidedElsewhere,
     /// No equilibrium yet: forces are not in balance.
     NotAtRest,
@@ -141,11 +141,6 @@ pub struct FinalState {
     pub relative_residual: f64,
     /// True if no element bears stress beyond rounding.
     pub stress_free: bool,
-    /// The smallest eigenvalue ω² of the stiffness beyond rigid motions, 1/s²; negative at a saddle. `None`
-    /// if nothing is free.
-    pub smallest_eigenvalue: Option<f64>,
-    /// Bound of the distance of an exact eigenvalue, 1/s².
-    pub eigenvalue_error: Option<f64>,
     /// Number of elements that are inside out.
     pub inverted: usize,
     /// The smallest λ2 + λ3 of an element.
@@ -164,9 +159,6 @@ impl fmt::Display for FinalState {
                 "    residual {:.1e} N, {:.1e} of the largest force; ",
                 self.residual, self.relative_residual
             )?,
-        }
-        if let (Some(value), Some(error)) = (self.smallest_eigenvalue, self.eigenvalue_error) {
-            write!(f, "smallest ω² beyond rigid motions {value:.4e} ± {error:.0e} 1/s²; ")?;
         }
         write!(f, "{} elements inside out, smallest λ2 + λ3 {:.2e}", self.inverted, self.smallest_sum)
     }

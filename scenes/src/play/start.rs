@@ -1,7 +1,7 @@
 //! The nodes in frame 0.
 
 use piola::__private::random::Random;
-use piola::system::Pins;
+use piola_bodies::system::Pins;
 
 use crate::geometry::Geometry;
 use crate::measure;
@@ -46,7 +46,7 @@ pub(super) fn positions(start: Start, geometry: &Geometry, pins: &Pins) -> Vec<[
 
 #[cfg(test)]
 mod tests {
-    use piola::mesh::TetMesh;
+    use piola_bodies::mesh::TetMesh;
 
     use super::*;
     use crate::scene::{Body, SCRAMBLE};

@@ -5,7 +5,7 @@ use std::io::{Read, Write};
 use std::time::{Duration, Instant};
 
 use piola::batch::TileMaterial;
-use piola::step::StepReport;
+use piola_bodies::step::StepReport;
 use piola_laboratory::AtRest;
 use piola_laboratory::curve::Volume;
 use rayon::ThreadPool;

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use piola::step::StepReport;
+use piola_bodies::step::StepReport;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

@@ -38,7 +38,7 @@ pub enum Shape {
         /// The surface embedded in them, as an OBJ file.
         surface: Asset,
     },
-    /// A box, [generated](piola::mesh::tetrahedral_box); the surface is its boundary.
+    /// A box, [generated](piola_bodies::mesh::tetrahedral_box); the surface is its boundary.
     Box {
         /// Number of cells, of six tetrahedra each, along each axis.
         cells: [usize; 3],

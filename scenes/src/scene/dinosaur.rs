@@ -1,6 +1,6 @@
 //! A dinosaur pulled by its head.
 
-use piola::mesh::Bounds;
+use piola_bodies::mesh::Bounds;
 
 use super::{Body, COMMON, Motion, Pull, Scene};
 use crate::material::{ogden, soft_moduli};

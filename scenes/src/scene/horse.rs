@@ -1,6 +1,6 @@
 //! A horse that stands up again.
 
-use piola::mesh::Bounds;
+use piola_bodies::mesh::Bounds;
 
 use super::{COMMON, Scene, Start};
 use crate::material::{MaterialSpec, soft_moduli};

@@ -1,6 +1,6 @@
 //! Motions of the ends of a body.
 
-use piola::mesh::Bounds;
+use piola_bodies::mesh::Bounds;
 
 /// Springs from some of the nodes to points that move away from them, until they are let go.
 #[derive(Clone, Copy, Debug, PartialEq)]

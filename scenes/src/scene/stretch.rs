@@ -4,8 +4,8 @@
 //! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment
 //! for incompressible rubberlike solids*, 1972.
 
-use piola::mesh::Bounds;
-use piola::step::Damping;
+use piola_bodies::mesh::Bounds;
+use piola_bodies::step::Damping;
 
 use super::{Body, COMMON, Motion, Pull, Scene, Shape};
 use crate::material::MaterialSpec;

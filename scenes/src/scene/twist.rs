@@ -1,6 +1,6 @@
 //! A bar that is wound up.
 
-use piola::mesh::Bounds;
+use piola_bodies::mesh::Bounds;
 
 use super::{Body, COMMON, Motion, Pull, Scene};
 use crate::material::{MaterialSpec, soft_moduli};

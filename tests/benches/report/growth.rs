@@ -10,9 +10,9 @@ use std::time::Instant;
 use indicatif::ProgressBar;
 use peak_alloc::PeakAlloc;
 use piola::material::Moduli;
-use piola::mesh::{Bounds, tetrahedral_box};
-use piola::step::{Convergence, LinearSolver, NewtonSettings, Simulation, SimulationSettings};
-use piola::system::{Body, Pins};
+use piola_bodies::mesh::{Bounds, tetrahedral_box};
+use piola_bodies::step::{Convergence, LinearSolver, NewtonSettings, Simulation, SimulationSettings};
+use piola_bodies::system::{Body, Pins};
 use piola_materials::StableNeoHookean;
 
 use crate::data::GrowthRow;

@@ -9,12 +9,12 @@ use std::time::Instant;
 
 use indicatif::ProgressBar;
 use piola::Inversion;
-use piola::mesh::Bounds;
 use piola::point::Filter;
-use piola::step::{
+use piola_bodies::mesh::Bounds;
+use piola_bodies::step::{
     Filtering, Integrator, LinearSolver, NewtonSettings, Simulation, SimulationSettings, Spring,
 };
-use piola::system::{Body, Pins};
+use piola_bodies::system::{Body, Pins};
 use piola_materials::NeoHookean;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::scene::DINOSAUR;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use piola_tidy::{crates, files, forbid};
+use piola_tidy::{Module, crates, files, forbid};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::visit::{self, Visit};
@@ -16,7 +16,7 @@ const METHODS: [&str; 4] = ["unwrap", "unwrap_err", "expect", "expect_err"];
 
 /// A function that panics on purpose says so under `# Panics`, and does not return a `Result` as well. So
 /// nothing that a function with a `Result` calls panics unannounced, except for an index, a division by zero
-/// or an overflow: hostile arguments are tried on each of these functions in `runtime/tests/hostile/`.
+/// or an overflow: hostile arguments are tried on each of these functions in `tests/hostile/` of its crate.
 #[test]
 fn what_panics_says_so_and_returns_no_result() {
     let mut found = Vec::new();
@@ -45,22 +45,18 @@ fn what_panics_says_so_and_returns_no_result() {
 /// Every public function of bodies and batches that returns a `Result` is called with hostile arguments.
 #[test]
 fn what_returns_a_result_is_tried_with_hostile_arguments() {
-    let tried: BTreeSet<String> = files(Path::new("runtime/tests/hostile"))
+    let tried: BTreeSet<String> = ["runtime/tests/hostile", "bodies/tests/hostile"]
         .into_iter()
+        .flat_map(|folder| files(Path::new(folder)))
         .flat_map(|(_, text)| words(text.parse().expect("tokens")))
         .collect();
     let crates = crates();
-    let runtime = crates.iter().find(|one| one.name == "piola").expect("the runtime");
     let mut found = Vec::new();
     let mut judged = 0;
-    for module in &runtime.modules {
-        if !module
-            .path
-            .first()
-            .is_some_and(|floor| ["mesh", "system", "step", "batch"].contains(&floor.as_str()))
-        {
-            continue;
-        }
+    let of =
+        |name: &'static str| crates.iter().filter(move |one| one.name == name).flat_map(|one| &one.modules);
+    let is_batch = |module: &&Module| module.path.first().is_some_and(|floor| floor == "batch");
+    for module in of("piola").filter(is_batch).chain(of("piola_bodies")) {
         for item in &module.items {
             let mut functions = Functions::default();
             functions.visit_item(item);
@@ -77,7 +73,7 @@ fn what_returns_a_result_is_tried_with_hostile_arguments() {
             }
         }
     }
-    forbid("functions that `runtime/tests/hostile/` does not try", &found);
+    forbid("functions that `tests/hostile/` of their crate does not try", &found);
     assert!(judged > 30, "{judged} functions");
 }
 

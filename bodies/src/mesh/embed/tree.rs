@@ -1,0 +1,209 @@
+//! Tree of boxes, which finds the nearest of many bodies without visiting most of them.
+//!
+//! The bodies of a branch are halved at the median of the middles of their boxes, along the axis on which
+//! these lie farthest apart, until a leaf holds a few. Both halves hold as many bodies however these are
+//! spread: one that lies far away enlarges the boxes above its leaf, and no others.
+//!
+//! This module is independent of tetrahedra.
+
+use std::ops::Range;
+
+use crate::mesh::Bounds;
+use crate::mesh::tet::norm;
+
+/// Largest number of bodies of a leaf: visiting one costs about as much as visiting a few boxes.
+const LEAF: usize = 4;
+
+/// Growth of a body's box by its longest side: points that are in the body only by rounding are in its box,
+/// too.
+const GROWTH: f64 = 1e-6;
+
+/// Boxes around bodies, and boxes around these.
+pub(super) struct Tree {
+    /// Each branch, with its first half behind it and the second half behind that.
+    branches: Vec<Branch>,
+    /// The bodies in the order of the leaves.
+    bodies: Vec<usize>,
+}
+
+struct Branch {
+    bounds: Bounds,
+    /// Its part of the bodies.
+    bodies: Range<usize>,
+    /// Index of the second half; `None` for a leaf.
+    second: Option<usize>,
+}
+
+/// The body nearest to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Nearest {
+    /// Its index.
+    pub(super) body: usize,
+    /// Its distance, 0 if it holds the point.
+    pub(super) distance: f64,
+    pub(super) holds_point: bool,
+}
+
+impl Nearest {
+    /// True if this one is nearer than another: a tetrahedron that holds the point is nearer than one that
+    /// touches it, and the first of equal ones is nearer.
+    fn is_before(&self, other: &Self) -> bool {
+        match (self.holds_point, other.holds_point) {
+            (true, false) => true,
+            (false, true) => false,
+            _ if self.distance == other.distance => self.body < other.body,
+            _ => self.distance < other.distance,
+        }
+    }
+}
+
+impl Tree {
+    /// The tree of bodies in these boxes.
+    pub(super) fn new(mut boxes: Vec<Bounds>) -> Self {
+        for bounds in &mut boxes {
+            let growth = GROWTH * bounds.size().into_iter().fold(0.0, f64::max);
+            bounds.min = bounds.min.map(|x| x - growth);
+            bounds.max = bounds.max.map(|x| x + growth);
+        }
+        let mut tree = Self { branches: Vec::new(), bodies: (0..boxes.len()).collect() };
+        tree.grow(&boxes, 0..boxes.len());
+        tree
+    }
+
+    fn grow(&mut self, boxes: &[Bounds], range: Range<usize>) {
+        let bodies = &mut self.bodies[range.clone()];
+        let corners: Vec<_> = bodies.iter().flat_map(|&body| [boxes[body].min, boxes[body].max]).collect();
+        let middle = |body: usize, c: usize| 0.5 * boxes[body].min[c] + 0.5 * boxes[body].max[c];
+        let middles: Vec<_> = bodies.iter().map(|&body| [0, 1, 2].map(|c| middle(body, c))).collect();
+        let here = self.branches.len();
+        let bounds = Bounds::around(&corners);
+        self.branches.push(Branch { bounds, bodies: range.clone(), second: None });
+        if bodies.len() <= LEAF {
+            return;
+        }
+        let spread = Bounds::around(&middles).size();
+        let axis = (1..3).fold(0, |longest, c| if spread[c] > spread[longest] { c } else { longest });
+        let half = bodies.len() / 2;
+        bodies.select_nth_unstable_by(half, |&one, &other| {
+            middle(one, axis).total_cmp(&middle(other, axis)).then(one.cmp(&other))
+        });
+        self.grow(boxes, range.start..range.start + half);
+        self.branches[here].second = Some(self.branches.len());
+        self.grow(boxes, range.start + half..range.end);
+    }
+
+    /// The body nearest to a point, the first one of several that contain it. `distance` is the distance to a
+    /// body, `None` if the body contains the point.
+    pub(super) fn nearest(&self, x: [f64; 3], distance: impl Fn(usize) -> Option<f64>) -> Option<Nearest> {
+        let mut best = None;
+        self.search(0, x, &distance, &mut best);
+        best
+    }
+
+    fn search(
+        &self,
+        branch: usize,
+        x: [f64; 3],
+        distance: &impl Fn(usize) -> Option<f64>,
+        best: &mut Option<Nearest>,
+    ) {
+        let Branch { bodies, second, .. } = &self.branches[branch];
+        let Some(second) = *second else {
+            for &body in &self.bodies[bodies.clone()] {
+                let distance = distance(body);
+                let found =
+                    Nearest { body, distance: distance.unwrap_or(0.0), holds_point: distance.is_none() };
+                if best.is_none_or(|best| found.is_before(&best)) {
+                    *best = Some(found);
+                }
+            }
+            return;
+        };
+        let mut halves = [branch + 1, second].map(|half| (self.distance(half, x), half));
+        if halves[1].0 < halves[0].0 {
+            halves.swap(0, 1);
+        }
+        for (least, half) in halves {
+            if !best.is_some_and(|best| least > best.distance) {
+                self.search(half, x, distance, best);
+            }
+        }
+    }
+
+    /// Distance of a point from the box of a branch: no body in it is nearer.
+    fn distance(&self, branch: usize, x: [f64; 3]) -> f64 {
+        let Bounds { min, max } = self.branches[branch].bounds;
+        norm(std::array::from_fn(|c| (min[c] - x[c]).max(x[c] - max[c]).max(0.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use piola::__private::random::Random;
+
+    use super::*;
+
+    /// Distance of a point from a box; `None` inside.
+    fn distance(bounds: &Bounds, x: [f64; 3]) -> Option<f64> {
+        let gap = std::array::from_fn(|c| (bounds.min[c] - x[c]).max(x[c] - bounds.max[c]).max(0.0));
+        (!bounds.contains(x)).then(|| norm(gap))
+    }
+
+    /// The nearest of boxes, and the number of boxes that were visited.
+    fn found(tree: &Tree, boxes: &[Bounds], x: [f64; 3]) -> (Option<Nearest>, usize) {
+        let looks = Cell::new(0);
+        let nearest = tree.nearest(x, |body| {
+            looks.set(looks.get() + 1);
+            distance(&boxes[body], x)
+        });
+        (nearest, looks.get())
+    }
+
+    fn some(random: &mut Random, count: usize, spread: f64) -> Vec<Bounds> {
+        let mut point = |reach: f64| [(); 3].map(|()| random.uniform(-reach, reach));
+        let bounds = |_| {
+            let (middle, half) = (point(spread), point(0.5));
+            Bounds::around(&[1.0, -1.0].map(|sign| [0, 1, 2].map(|c| middle[c] + sign * half[c])))
+        };
+        (0..count).map(bounds).collect()
+    }
+
+    #[test]
+    fn it_finds_the_first_of_the_nearest() {
+        let mut random = Random::new(5);
+        for count in [0, 1, LEAF, LEAF + 1, 13, 300] {
+            let mut boxes = some(&mut random, count, 3.0);
+            // Equal ones, of which the first counts, and one of no size.
+            boxes.extend(boxes.clone());
+            boxes.extend(boxes.first().map(|first| Bounds { max: first.min, ..*first }));
+            let tree = Tree::new(boxes.clone());
+            for _ in 0..300 {
+                let x = [(); 3].map(|()| random.uniform(-5.0, 5.0));
+                let all = (0..boxes.len()).map(|body| (distance(&boxes[body], x), body));
+                let first = all.min_by(|one, other| one.partial_cmp(other).expect("no NaN"));
+                let (nearest, _) = found(&tree, &boxes, x);
+                assert_eq!(nearest.map(|nearest| nearest.body), first.map(|(_, body)| body), "{count}");
+            }
+        }
+    }
+
+    /// In a grid all boxes would fall into one cell.
+    #[test]
+    fn one_far_away_makes_no_more_to_look_at() {
+        let mut random = Random::new(7);
+        let mut boxes = some(&mut random, 4000, 10.0);
+        let points: Vec<_> = (0..100).map(|_| [(); 3].map(|()| random.uniform(-10.0, 10.0))).collect();
+        let looks = |boxes: &[Bounds]| -> usize {
+            let tree = Tree::new(boxes.to_vec());
+            points.iter().map(|&x| found(&tree, boxes, x).1).sum()
+        };
+        let near = looks(&boxes);
+        boxes.push(Bounds { min: [1e7; 3], max: [1.1e7; 3] });
+        let far = looks(&boxes);
+        // Its leaf is at most one more for each point.
+        assert!(far <= near + LEAF * points.len(), "{far} looks instead of {near}");
+        assert!(near <= 50 * points.len(), "{near} looks at {} points", points.len());
+    }
+}

@@ -1,0 +1,306 @@
+//! Text files read line by line and word by word, with errors that name the line.
+
+use std::fmt;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use piola::__private::message::{printable, quoted};
+
+use crate::mesh::TetMesh;
+use crate::mesh::elements::TETRAHEDRON;
+
+/// Remedy for a file of Gmsh with elements other than linear tetrahedra.
+pub(super) const IN_GMSH: &str =
+    "mesh it with these alone (in Gmsh, without `Recombine` and with `-order 1`)";
+
+/// Reason why a file cannot be read as a mesh or a surface.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file cannot be read.
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: std::io::Error,
+    },
+    /// The contents do not follow the format.
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1; one past the last if the file ends too early.
+        line: usize,
+        /// Description of the problem.
+        problem: String,
+    },
+    /// The volume is not made of linear tetrahedra only.
+    OtherElements {
+        /// The file.
+        path: PathBuf,
+        /// The linear tetrahedra, with the other elements in [`TetMesh::left_out`].
+        mesh: Box<TetMesh>,
+    },
+}
+
+impl ReadError {
+    /// Linear tetrahedra of a mesh that is refused for its other volume elements: a body that lacks their
+    /// volume. [`TetMesh::left_out`] counts them.
+    ///
+    /// ```
+    /// use piola_bodies::mesh::{ReadError, parse_msh};
+    ///
+    /// let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
+    ///     $Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 0\n$EndNodes\n\
+    ///     $Elements\n2\n1 4 0 1 2 3 4\n2 7 0 1 2 5 3 4\n$EndElements\n";
+    /// let mesh = parse_msh(text, "mixed.msh").or_else(ReadError::only_tetrahedra)?;
+    /// assert_eq!((mesh.tets.len(), mesh.left_out.to_string().as_str()), (1, "1 pyramid"));
+    /// # Ok::<(), ReadError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Any other error, unchanged.
+    pub fn only_tetrahedra(self) -> Result<TetMesh, Self> {
+        match self {
+            Self::OtherElements { mesh, .. } => Ok(*mesh),
+            other => Err(other),
+        }
+    }
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreadable { path, source } => write!(f, "{}: cannot be read: {source}", shown(path)),
+            Self::Malformed { path, line, problem } => write!(f, "{}:{line}: {problem}", shown(path)),
+            Self::OtherElements { path, mesh } => {
+                let elements = mesh.left_out.clone().and(TETRAHEDRON, mesh.tets.len());
+                write!(f, "{}: {}", shown(path), elements.refusal(IN_GMSH))
+            }
+        }
+    }
+}
+
+impl std::error::Error for ReadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Unreadable { source, .. } => Some(source),
+            Self::Malformed { .. } | Self::OtherElements { .. } => None,
+        }
+    }
+}
+
+/// A path as it may be shown.
+fn shown(path: &Path) -> String {
+    printable(&path.to_string_lossy())
+}
+
+/// Reads a file and parses its text; errors name the file.
+pub(super) fn read<T>(path: &Path, parse: impl FnOnce(&str) -> Result<T, Problem>) -> Result<T, ReadError> {
+    let bytes =
+        std::fs::read(path).map_err(|source| ReadError::Unreadable { path: path.to_owned(), source })?;
+    check_encoding(path, &bytes)?;
+    // Names in other encodings must not make a mesh invalid.
+    read_text(path, &String::from_utf8_lossy(&bytes), parse)
+}
+
+/// Parses text from a file without the byte order mark before it; errors name the file.
+pub(super) fn read_text<T>(
+    path: &Path,
+    text: &str,
+    parse: impl FnOnce(&str) -> Result<T, Problem>,
+) -> Result<T, ReadError> {
+    parse(text.strip_prefix(MARK).unwrap_or(text)).map_err(|problem| problem.in_file(path))
+}
+
+/// The byte order mark of UTF-8.
+const MARK: &str = "\u{feff}";
+
+/// Refuses a file that begins like one in UTF-16.
+fn check_encoding(path: &Path, start: &[u8]) -> Result<(), ReadError> {
+    let problem = || Problem { line: 1, text: "the file is in UTF-16; save it as UTF-8".to_owned() };
+    if is_utf_16(start) { Err(problem().in_file(path)) } else { Ok(()) }
+}
+
+/// True if bytes begin with the byte order mark of UTF-16, or with a character of two bytes, one of them
+/// zero.
+fn is_utf_16(bytes: &[u8]) -> bool {
+    match *bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
+        [first, second, ..] => (first == 0) != (second == 0),
+        _ => false,
+    }
+}
+
+/// A problem and its line, from 1.
+#[derive(Debug, PartialEq)]
+pub(super) struct Problem {
+    pub(super) line: usize,
+    pub(super) text: String,
+}
+
+impl Problem {
+    /// Error that names the file.
+    pub(super) fn in_file(self, path: &Path) -> ReadError {
+        ReadError::Malformed { path: path.to_owned(), line: self.line, problem: self.text }
+    }
+}
+
+/// A line with its number, read word by word.
+pub(super) struct Line<'a> {
+    pub(super) number: usize,
+    pub(super) text: &'a str,
+    pub(super) words: std::str::SplitAsciiWhitespace<'a>,
+}
+
+impl<'a> Line<'a> {
+    pub(super) fn new(number: usize, text: &'a str) -> Self {
+        Self { number, text, words: text.split_ascii_whitespace() }
+    }
+
+    pub(super) fn problem(&self, text: impl Into<String>) -> Problem {
+        Problem { line: self.number, text: text.into() }
+    }
+
+    /// Parses the next word as a number, which errors call `what`.
+    pub(super) fn number<N: FromStr>(&mut self, what: &str) -> Result<N, Problem> {
+        match self.words.next() {
+            None => Err(self.problem(format!("{what} is missing"))),
+            Some(word) => {
+                word.parse().map_err(|_| self.problem(format!("expected {what}, found `{}`", quoted(word))))
+            }
+        }
+    }
+
+    /// Parses the next word as a number; `None` at the end of the line.
+    pub(super) fn number_if_any<N: FromStr>(&mut self, what: &str) -> Result<Option<N>, Problem> {
+        if self.words.clone().next().is_none() { Ok(None) } else { self.number(what).map(Some) }
+    }
+
+    /// Parses the next word as a finite number.
+    pub(super) fn coordinate(&mut self, what: &str) -> Result<f64, Problem> {
+        let x: f64 = self.number(what)?;
+        if x.is_finite() { Ok(x) } else { Err(self.problem(format!("{what} is {x}; it must be finite"))) }
+    }
+
+    /// Parses the next three words as a point.
+    pub(super) fn point(&mut self) -> Result<[f64; 3], Problem> {
+        Ok([
+            self.coordinate("the x coordinate")?,
+            self.coordinate("the y coordinate")?,
+            self.coordinate("the z coordinate")?,
+        ])
+    }
+}
+
+/// The lines of a file, in order.
+pub(super) struct Cursor<R> {
+    input: R,
+    /// Number of the line last read, from 1.
+    pub(super) number: usize,
+    /// Number of bytes before the next line.
+    pub(super) offset: u64,
+    /// The start of a comment, which is skipped.
+    comment: Option<u8>,
+    /// The line last read, without its comment, in bytes and as text.
+    bytes: Vec<u8>,
+    text: String,
+}
+
+impl<'a> Cursor<&'a [u8]> {
+    pub(super) fn new(text: &'a str) -> Self {
+        Self::of(text.as_bytes())
+    }
+
+    pub(super) fn with_comments(text: &'a str, comment: u8) -> Self {
+        Self { comment: Some(comment), ..Self::new(text) }
+    }
+}
+
+impl Cursor<BufReader<File>> {
+    /// The lines of a file, which is not held in memory.
+    pub(super) fn open(path: &Path) -> Result<Self, ReadError> {
+        let unreadable = |source| ReadError::Unreadable { path: path.to_owned(), source };
+        let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
+        let start = file.fill_buf().map_err(unreadable)?;
+        check_encoding(path, start)?;
+        let mark = if start.starts_with(MARK.as_bytes()) { MARK.len() } else { 0 };
+        file.consume(mark);
+        Ok(Self { offset: mark as u64, ..Self::of(file) })
+    }
+
+    /// The lines of a file from a place on: the number of bytes and of lines before it.
+    pub(super) fn open_at(path: &Path, offset: u64, number: usize) -> Result<Self, ReadError> {
+        let unreadable = |source| ReadError::Unreadable { path: path.to_owned(), source };
+        let mut file = File::open(path).map_err(unreadable)?;
+        file.seek(SeekFrom::Start(offset)).map_err(unreadable)?;
+        Ok(Self { number, offset, ..Self::of(BufReader::new(file)) })
+    }
+}
+
+impl<R: BufRead> Cursor<R> {
+    fn of(input: R) -> Self {
+        Self { input, number: 0, offset: 0, comment: None, bytes: Vec::new(), text: String::new() }
+    }
+
+    /// Goes to the next line that is not blank; returns false at the end of the file.
+    fn advance(&mut self) -> Result<bool, Problem> {
+        loop {
+            self.bytes.clear();
+            let problem = |error| Problem {
+                line: self.number + 1,
+                text: format!("the file cannot be read from here on: {error}"),
+            };
+            match self.input.read_until(b'\n', &mut self.bytes).map_err(problem)? {
+                0 => return Ok(false),
+                length => self.offset += length as u64,
+            }
+            self.number += 1;
+            if let Some(start) = self.comment
+                && let Some(at) = self.bytes.iter().position(|&byte| byte == start)
+            {
+                self.bytes.truncate(at);
+            }
+            if !self.bytes.trim_ascii().is_empty() {
+                return Ok(true);
+            }
+        }
+    }
+
+    /// The line last read.
+    fn line(&mut self) -> Line<'_> {
+        self.text.clear();
+        // Names in other encodings must not make a mesh invalid.
+        self.text.push_str(&String::from_utf8_lossy(&self.bytes));
+        Line::new(self.number, self.text.lines().next().unwrap_or_default())
+    }
+
+    /// Reads the next line that is not blank.
+    pub(super) fn next_filled(&mut self) -> Result<Option<Line<'_>>, Problem> {
+        Ok(if self.advance()? { Some(self.line()) } else { None })
+    }
+
+    /// Reads the next line that is not blank; at the end of the file an error that `what` is expected.
+    pub(super) fn next(&mut self, what: &str) -> Result<Line<'_>, Problem> {
+        if self.advance()? { Ok(self.line()) } else { Err(self.ends(what)) }
+    }
+
+    /// Skips lines that are not blank, each of which is `what`; the end of a section comes after them.
+    pub(super) fn skip(&mut self, count: usize, what: &str) -> Result<(), Problem> {
+        for _ in 0..count {
+            if !self.advance()? {
+                return Err(self.ends(what));
+            }
+            if self.bytes.trim_ascii_start().starts_with(b"$") {
+                let line = self.line();
+                return Err(line.problem(format!("expected {what}, found `{}`", quoted(line.text.trim()))));
+            }
+        }
+        Ok(())
+    }
+
+    fn ends(&self, what: &str) -> Problem {
+        Problem { line: self.number + 1, text: format!("the file ends where {what} is expected") }
+    }
+}

@@ -1,0 +1,514 @@
+//! Mesh of linear tetrahedra and its shape at rest.
+//!
+//! Orientation: det [x1−x0, x2−x0, x3−x0] > 0. Lengths in metres, indices from 0.
+
+use std::fmt;
+
+use piola::NoSuchNode;
+use piola::batch::REST;
+
+use super::elements::ElementCounts;
+
+/// Tetrahedral mesh at rest, in f64.
+///
+/// ```
+/// use piola_bodies::mesh::TetMesh;
+///
+/// let corner = vec![[0.0; 3], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 5.0]];
+/// let mesh = TetMesh::new(corner, vec![[0, 1, 2, 3]]);
+/// assert_eq!(mesh.rest_shapes()?[0].volume, 5.0);
+/// # Ok::<(), piola_bodies::mesh::MeshError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TetMesh {
+    /// Rest position of each node, m.
+    pub positions: Vec<[f64; 3]>,
+    /// The four nodes of each tetrahedron, positively oriented.
+    pub tets: Vec<[usize; 4]>,
+    /// Tag of each tetrahedron in its file. If empty, tetrahedra are numbered from 1.
+    pub tags: Vec<usize>,
+    /// Named parts.
+    pub groups: Vec<Group>,
+    /// Number of nodes that a reader has dropped because no tetrahedron uses them; 0 for a mesh that no
+    /// reader has made.
+    pub dropped_nodes: usize,
+    /// Volume elements of the file that are not in the mesh because they are not linear tetrahedra; empty
+    /// unless [`ReadError::only_tetrahedra`](super::ReadError::only_tetrahedra) has left some out.
+    pub left_out: ElementCounts,
+}
+
+/// Named part of a mesh, such as a physical group of Gmsh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Group {
+    /// Name; the number of a physical group without a name.
+    pub name: String,
+    /// 0 for points, 1 for curves, 2 for surfaces, 3 for volumes.
+    pub dimension: usize,
+    /// Nodes of all elements of the group, ascending.
+    pub nodes: Vec<usize>,
+    /// Tetrahedra of the group, ascending; empty unless the dimension is 3.
+    pub tets: Vec<usize>,
+}
+
+/// Shape of a tetrahedron at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestShape {
+    /// Inverse edge matrix Dm⁻¹, 1/m, where the columns of Dm are x1−x0, x2−x0, x3−x0: its row i is the
+    /// gradient of the barycentric coordinate of node i+1.
+    pub inverse: [[f64; 3]; 3],
+    /// Volume, m³.
+    pub volume: f64,
+}
+
+impl RestShape {
+    /// Dm⁻¹ row by row and the volume, as in the argument `rest` of
+    /// [`Batch::stiffnesses`](piola::batch::Batch::stiffnesses).
+    #[must_use]
+    pub fn components(&self) -> [f64; REST] {
+        let [a, b, c] = self.inverse;
+        [a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2], self.volume]
+    }
+}
+
+/// Box with sides along the axes, its boundary included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+pub struct Bounds {
+    /// Lowest coordinates, m.
+    pub min: [f64; 3],
+    /// Highest coordinates, m.
+    pub max: [f64; 3],
+}
+
+impl TetMesh {
+    /// A mesh without groups, its tetrahedra numbered from 1.
+    #[must_use]
+    pub fn new(positions: Vec<[f64; 3]>, tets: Vec<[usize; 4]>) -> Self {
+        Self { positions, tets, ..Self::default() }
+    }
+
+    /// Tag of a tetrahedron: from `tags`, or its index plus 1.
+    #[must_use]
+    pub fn tag(&self, tet: usize) -> usize {
+        self.tags.get(tet).copied().unwrap_or(tet.saturating_add(1))
+    }
+
+    /// Finds a group by its name.
+    #[must_use]
+    pub fn group(&self, name: &str) -> Option<&Group> {
+        self.groups.iter().find(|group| group.name == name)
+    }
+
+    /// The smallest box around all nodes; an empty box around none.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        Bounds::around(&self.positions)
+    }
+
+    /// Computes the shape at rest of each tetrahedron.
+    ///
+    /// # Errors
+    /// [`MeshError`] if there is no tetrahedron, one is there twice, a node is missing, unused or not finite,
+    /// or a volume is not positive. A volume below the rounding error of its own determinant counts as zero:
+    /// its sign would be noise.
+    pub fn rest_shapes(&self) -> Result<Vec<RestShape>, MeshError> {
+        if self.tets.is_empty() {
+            return Err(MeshError::Empty);
+        }
+        if let Some(node) = self.positions.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
+            return Err(MeshError::NotFinite { node });
+        }
+        let mut shapes = Vec::with_capacity(self.tets.len());
+        for (tet, nodes) in self.tets.iter().enumerate() {
+            let (element, count) = (self.tag(tet), self.positions.len());
+            if let Some(&node) = nodes.iter().find(|&&node| node >= count) {
+                return Err(NoSuchNode { element: Some(element), node, nodes: count }.into());
+            }
+            let shape = rest_shape(nodes.map(|node| self.positions[node]));
+            shapes.push(shape.map_err(|fault| match fault {
+                Fault::Volume(volume) => MeshError::NonPositiveVolume { element, volume },
+                Fault::Scale(length) => MeshError::VolumeOutOfRange { element, length },
+            })?);
+        }
+        match (self.unused_nodes().first(), self.repeated()) {
+            (Some(&node), _) => Err(MeshError::UnusedNode { node }),
+            (None, Some(tets)) => Err(MeshError::SameTwice { elements: tets.map(|tet| self.tag(tet)) }),
+            (None, None) => Ok(shapes),
+        }
+    }
+
+    /// First two tetrahedra that join the same four nodes, in any order.
+    fn repeated(&self) -> Option<[usize; 2]> {
+        let sorted = |(tet, nodes): (usize, &[usize; 4])| {
+            let mut nodes = *nodes;
+            nodes.sort_unstable();
+            (nodes, tet)
+        };
+        let mut sorted: Vec<_> = self.tets.iter().enumerate().map(sorted).collect();
+        sorted.sort_unstable();
+        let twice = sorted.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+        twice.map(|pair| [pair[0].1, pair[1].1]).min()
+    }
+
+    /// Nodes that belong to no tetrahedron, ascending: they have neither mass nor stiffness, and a mesh that
+    /// has one is not a body. [`TetMesh::without_unused_nodes`] removes them.
+    #[must_use]
+    pub fn unused_nodes(&self) -> Vec<usize> {
+        let mut is_used = vec![false; self.positions.len()];
+        for &node in self.tets.as_flattened() {
+            if let Some(is_used) = is_used.get_mut(node) {
+                *is_used = true;
+            }
+        }
+        (0..is_used.len()).filter(|&node| !is_used[node]).collect()
+    }
+
+    /// Number of tetrahedra of each connected component, the largest first: a body in one piece has one.
+    ///
+    /// Components share no node and move independently, even where their surfaces coincide: such nodes have
+    /// to be merged in the mesh generator.
+    ///
+    /// ```
+    /// use piola_bodies::mesh::TetMesh;
+    ///
+    /// let corner = |at: f64| [[at; 3], [at + 1.0, at, at], [at, at + 1.0, at], [at, at, at + 1.0]];
+    /// let apart = TetMesh::new([corner(0.0), corner(8.0)].concat(), vec![[0, 1, 2, 3], [4, 5, 6, 7]]);
+    /// assert_eq!(apart.connected_components(), [1, 1]);
+    /// ```
+    #[must_use]
+    pub fn connected_components(&self) -> Vec<usize> {
+        let nodes = self.tets.as_flattened().iter().max().map_or(0, |node| node.saturating_add(1));
+        // Each node points to another of its component, the first one to itself.
+        let mut first: Vec<usize> = (0..nodes.min(self.positions.len())).collect();
+        let root = |first: &mut [usize], mut node: usize| {
+            while first[node] != node {
+                first[node] = first[first[node]];
+                node = first[node];
+            }
+            node
+        };
+        let is_whole = |tet: &&[usize; 4]| tet.iter().all(|&node| node < self.positions.len());
+        for tet in self.tets.iter().filter(is_whole) {
+            for pair in tet.windows(2) {
+                let (one, other) = (root(&mut first, pair[0]), root(&mut first, pair[1]));
+                first[one.max(other)] = one.min(other);
+            }
+        }
+        let mut tets = vec![0; first.len()];
+        for tet in self.tets.iter().filter(is_whole) {
+            tets[root(&mut first, tet[0])] += 1;
+        }
+        tets.retain(|&tets| tets > 0);
+        tets.sort_unstable_by(|one, other| other.cmp(one));
+        tets
+    }
+
+    /// Removes the nodes of no tetrahedron, from groups too, and sorts the nodes of groups. Nodes behind
+    /// them get smaller numbers.
+    #[must_use]
+    pub fn without_unused_nodes(self) -> Self {
+        let unused = self.unused_nodes();
+        let mut renumbered = vec![None; self.positions.len()];
+        let mut positions = Vec::with_capacity(self.positions.len() - unused.len());
+        let mut next_unused = unused.iter().peekable();
+        for (node, position) in self.positions.into_iter().enumerate() {
+            if next_unused.next_if_eq(&&node).is_none() {
+                renumbered[node] = Some(positions.len());
+                positions.push(position);
+            }
+        }
+        let number = |node: usize| renumbered.get(node).copied().flatten();
+        let groups = self.groups.into_iter().map(|group| {
+            let mut nodes: Vec<usize> = group.nodes.into_iter().filter_map(number).collect();
+            nodes.sort_unstable();
+            nodes.dedup();
+            Group { nodes, ..group }
+        });
+        let groups = groups.collect();
+        // A node that does not exist remains one, for the error to come.
+        let tets = self.tets.iter().map(|tet| tet.map(|node| number(node).unwrap_or(node))).collect();
+        let dropped_nodes = self.dropped_nodes + unused.len();
+        Self { positions, tets, groups, dropped_nodes, ..self }
+    }
+}
+
+/// Lumped mass of each node, kg: a quarter of the mass of each tetrahedron around it.
+///
+/// `densities`, kg/m³, and `shapes`, those of [`TetMesh::rest_shapes`], hold one entry per tetrahedron.
+///
+/// # Panics
+/// If a tetrahedron names a node that does not exist.
+pub(crate) fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f64]) -> Vec<f64> {
+    let mut masses = vec![0.0; mesh.positions.len()];
+    for ((nodes, shape), density) in mesh.tets.iter().zip(shapes).zip(densities) {
+        for &node in nodes {
+            masses[node] += density * shape.volume / 4.0;
+        }
+    }
+    masses
+}
+
+/// Reason why a tetrahedron has no shape.
+enum Fault {
+    /// Its volume, m³, is not positive.
+    Volume(f64),
+    /// Its volume is out of the range of f64; the value is the length of its longest edge, m.
+    Scale(f64),
+}
+
+/// Inverse edge matrix and volume of a tetrahedron.
+fn rest_shape([x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestShape, Fault> {
+    let edges = [subtract(x1, x0), subtract(x2, x0), subtract(x3, x0)];
+    let (rows, determinant, noise) = inverse(edges);
+    let volume = determinant / 6.0;
+    if determinant > noise && volume.is_normal() && determinant.is_finite() {
+        return Ok(RestShape { inverse: rows.map(|row| row.map(|x| x / determinant)), volume });
+    }
+    // At the size of one nothing overflows, and what is flat is flat.
+    let size = edges.as_flattened().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+    let (_, unit_determinant, unit_noise) = inverse(edges.map(|edge| edge.map(|x| x / size)));
+    let is_out_of_range = size.is_infinite() || unit_determinant > unit_noise;
+    Err(if is_out_of_range { Fault::Scale(size) } else { Fault::Volume(volume) })
+}
+
+/// Rows of the inverse of a matrix of these columns times the determinant, the determinant, and a bound for
+/// its rounding error.
+fn inverse([a, b, c]: [[f64; 3]; 3]) -> ([[f64; 3]; 3], f64, f64) {
+    let rows = [cross(b, c), cross(c, a), cross(a, b)];
+    // A 3×3 determinant of rounded edges errs by at most 8u times the product of their lengths.
+    (rows, dot(a, rows[0]), 4.0 * f64::EPSILON * norm(a) * norm(b) * norm(c))
+}
+
+impl Bounds {
+    /// The smallest box around these points; for none, an empty one with min = +∞, max = −∞.
+    #[must_use]
+    pub fn around(points: &[[f64; 3]]) -> Self {
+        points.iter().fold(Self { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] }, |bounds, x| Self {
+            min: std::array::from_fn(|c| bounds.min[c].min(x[c])),
+            max: std::array::from_fn(|c| bounds.max[c].max(x[c])),
+        })
+    }
+
+    /// True if a point lies inside or on the boundary.
+    #[must_use]
+    pub fn contains(&self, x: [f64; 3]) -> bool {
+        (0..3).all(|c| self.min[c] <= x[c] && x[c] <= self.max[c])
+    }
+
+    /// Lengths of the sides, m.
+    #[must_use]
+    pub fn size(&self) -> [f64; 3] {
+        subtract(self.max, self.min)
+    }
+}
+
+/// Reason why a mesh is not a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// Mesh without tetrahedra.
+    Empty,
+    /// A coordinate is infinite or NaN.
+    NotFinite {
+        /// The node, from 0.
+        node: usize,
+    },
+    /// A tetrahedron uses a node that does not exist.
+    NoSuchNode(NoSuchNode),
+    /// A node belongs to no tetrahedron; it would have no mass.
+    UnusedNode {
+        /// The node, from 0.
+        node: usize,
+    },
+    /// Two tetrahedra join the same four nodes.
+    SameTwice {
+        /// Tags of the two.
+        elements: [usize; 2],
+    },
+    /// A tetrahedron is flat or inverted at rest.
+    NonPositiveVolume {
+        /// Tag of the tetrahedron.
+        element: usize,
+        /// Its signed volume, m³.
+        volume: f64,
+    },
+    /// A tetrahedron is so large or so small that its volume overflows or underflows.
+    VolumeOutOfRange {
+        /// Tag of the tetrahedron.
+        element: usize,
+        /// The largest difference between the coordinates of its nodes, m.
+        length: f64,
+    },
+}
+
+impl fmt::Display for MeshError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => write!(f, "the mesh has no tetrahedra"),
+            Self::NotFinite { node } => write!(f, "the position of node {node} (from 0) is not finite"),
+            Self::NoSuchNode(error) => error.fmt(f),
+            Self::UnusedNode { node } => write!(
+                f,
+                "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
+                 `TetMesh::without_unused_nodes` removes such nodes"
+            ),
+            Self::SameTwice { elements: [one, other] } => write!(
+                f,
+                "elements {one} and {other} join the same four nodes, which would count their volume twice; \
+                 remove one of them"
+            ),
+            Self::VolumeOutOfRange { element, length } => write!(
+                f,
+                "element {element} is {length:.0e} m large, and its volume {}; are the units right?",
+                if *length > 1.0 { "overflows" } else { "underflows" }
+            ),
+            Self::NonPositiveVolume { element, volume } => write!(
+                f,
+                "element {element} has the rest volume {volume:e} m³, which is not positive beyond rounding; \
+                 is it flat, or are two of its nodes swapped?"
+            ),
+        }
+    }
+}
+
+crate::chained::wraps!(MeshError { NoSuchNode(NoSuchNode) });
+
+pub(crate) fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub(crate) fn norm(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn corner() -> TetMesh {
+        TetMesh::new(vec![[0.0; 3], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 5.0]], vec![[0, 1, 2, 3]])
+    }
+
+    #[test]
+    fn a_corner_has_the_reciprocal_edges_as_inverse() {
+        let shapes = corner().rest_shapes().expect("a positive tetrahedron");
+        assert_eq!(shapes[0].volume, 5.0);
+        assert_eq!(shapes[0].inverse, [[0.5, 0.0, 0.0], [0.0, 1.0 / 3.0, 0.0], [0.0, 0.0, 0.2]]);
+    }
+
+    #[test]
+    fn masses_add_up_to_density_times_volume() {
+        let mesh = corner();
+        let shapes = mesh.rest_shapes().expect("a positive tetrahedron");
+        let masses = lumped_masses(&mesh, &shapes, &[8.0]);
+        assert_eq!(masses, vec![10.0; 4]);
+    }
+
+    #[track_caller]
+    fn check(change: impl Fn(&mut TetMesh), message: &str) {
+        let mut mesh = corner();
+        change(&mut mesh);
+        assert_eq!(mesh.rest_shapes().expect_err(message).to_string(), message);
+    }
+
+    #[test]
+    fn errors_name_the_culprit() {
+        check(|mesh| mesh.tets.clear(), "the mesh has no tetrahedra");
+        check(|mesh| mesh.positions[2][1] = f64::NAN, "the position of node 2 (from 0) is not finite");
+        check(|mesh| mesh.tets[0][3] = 9, "element 1 names node 9: the 4 nodes are numbered from 0");
+        check(
+            |mesh| mesh.positions.push([1.0; 3]),
+            "node 4 (from 0) belongs to no tetrahedron and would have no mass; \
+             `TetMesh::without_unused_nodes` removes such nodes",
+        );
+        check(
+            |mesh| {
+                mesh.tags = vec![17];
+                mesh.tets[0] = [0, 2, 1, 3];
+            },
+            "element 17 has the rest volume -5e0 m³, which is not positive beyond rounding; \
+             is it flat, or are two of its nodes swapped?",
+        );
+    }
+
+    #[test]
+    fn a_volume_below_its_rounding_error_counts_as_zero() {
+        let mut mesh = corner();
+        mesh.positions[3] = [0.1, 0.2, 1e-17];
+        assert!(matches!(mesh.rest_shapes(), Err(MeshError::NonPositiveVolume { element: 1, .. })));
+    }
+
+    /// A row of tetrahedra, two of which become the same.
+    #[test]
+    fn the_same_tetrahedron_twice_is_named_in_every_order_of_its_nodes() {
+        let mut mesh = crate::mesh::tetrahedral_box([4, 1, 1], [4.0, 1.0, 1.0]).expect("a box");
+        mesh.tags = (100..124).collect();
+        for even in [[0, 1, 2, 3], [1, 2, 0, 3], [3, 2, 1, 0], [2, 3, 0, 1]] {
+            let mut twice = mesh.clone();
+            twice.tets.push(even.map(|k| mesh.tets[7][k]));
+            twice.tags.push(3);
+            let error = twice.rest_shapes().expect_err("a tetrahedron twice");
+            assert_eq!(error, MeshError::SameTwice { elements: [107, 3] });
+        }
+        assert!(mesh.rest_shapes().is_ok());
+    }
+
+    /// A regular and a flat tetrahedron of all sizes: the message names the actual mistake.
+    #[test]
+    fn sizes_whose_volume_leaves_the_range_are_no_flat_tetrahedra() {
+        let scaled = |scale: f64, height: f64| {
+            let mut mesh = corner();
+            mesh.positions[3][2] *= height;
+            mesh.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= scale);
+            mesh.rest_shapes()
+        };
+        for exponent in -102..=102 {
+            let shapes = scaled(10f64.powi(exponent), 1.0).expect("within the range");
+            assert!(shapes[0].inverse.as_flattened().iter().all(|x| x.is_finite()), "1e{exponent}");
+        }
+        for (scale, word) in
+            [(1e-103, "underflows"), (1e-300, "underflows"), (1e103, "overflows"), (1e307, "overflows")]
+        {
+            let error = scaled(scale, 1.0).expect_err("out of range");
+            assert!(
+                matches!(error, MeshError::VolumeOutOfRange { element: 1, length } if length == 5.0 * scale)
+            );
+            let message = error.to_string();
+            assert!(message.contains(word) && message.ends_with("; are the units right?"), "{message}");
+            let error = scaled(scale, 0.0).expect_err("flat");
+            assert!(matches!(error, MeshError::NonPositiveVolume { .. }), "{scale:e}: {error}");
+        }
+        let mut widest = corner();
+        widest.positions[0] = [f64::MIN; 3];
+        widest.positions[1] = [f64::MAX; 3];
+        let error = widest.rest_shapes().expect_err("an edge overflows");
+        assert!(matches!(error, MeshError::VolumeOutOfRange { .. }), "{error}");
+    }
+
+    #[test]
+    fn components_and_unused_nodes_are_counted() {
+        let whole = crate::mesh::tetrahedral_box([3, 1, 1], [3.0, 1.0, 1.0]).expect("a box");
+        assert_eq!((whole.connected_components(), whole.unused_nodes()), (vec![18], vec![]));
+        // The middle cell is missing, and a corner stands far away by itself.
+        let mut broken = whole.clone();
+        broken.tets.drain(6..12);
+        broken.positions.splice(0..0, [[1e7, 0.0, 0.0]]);
+        broken.tets.as_flattened_mut().iter_mut().for_each(|node| *node += 1);
+        broken.groups = vec![Group { nodes: vec![0, 5], ..Group::default() }];
+        assert_eq!((broken.connected_components(), broken.unused_nodes()), (vec![6, 6], vec![0]));
+        assert!(matches!(broken.rest_shapes(), Err(MeshError::UnusedNode { node: 0 })));
+        let cleaned = broken.without_unused_nodes();
+        assert_eq!((cleaned.bounds(), cleaned.dropped_nodes), (whole.bounds(), 1));
+        assert_eq!(cleaned.groups[0].nodes, [4]);
+        assert!(cleaned.rest_shapes().is_ok());
+        assert!(TetMesh::default().connected_components().is_empty());
+    }
+}

@@ -1,0 +1,65 @@
+//! Time integration: implicit steps as minimisations, by Newton's method with a line search; and statics.
+//!
+//! From the public entry down: `simulation` keeps the state of a body and steps it, `integrator` divides a
+//! step into minimisations, `newton` minimises, `solver` solves its linear systems, `line_search` shortens
+//! steps, `objective` is the function that decreases, to which a `term` adds further energies, such as
+//! contact; `minimisation` passes it to `newton`. `staged` keeps the state between steps. `equilibrium`
+//! classifies a body that has come to rest. Reports are values; nothing prints.
+//!
+//! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
+//!
+//! ```
+//! use piola_bodies::step::{LinearSolver, NewtonSettings, SimulationSettings};
+//!
+//! let newton = NewtonSettings::default().with_tolerance(1e-9).with_linear(LinearSolver::Cholesky);
+//! let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
+//! assert_eq!(settings.newton.tolerance, 1e-9);
+//! ```
+
+mod damping;
+#[cfg(feature = "faer")]
+mod equilibrium;
+mod filtering;
+mod halving;
+mod integrator;
+mod line_search;
+mod minimisation;
+mod newton;
+mod objective;
+mod simulation;
+mod solver;
+mod spring;
+mod staged;
+mod term;
+
+pub use damping::Damping;
+#[cfg(feature = "faer")]
+pub use equilibrium::{Equilibrium, Stability};
+pub use filtering::Filtering;
+pub use integrator::Integrator;
+pub use line_search::LineSearchSettings;
+pub use newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
+pub use simulation::{
+    AdaptiveReport, Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport,
+};
+pub use solver::{LinearSolver, SparseSolver};
+pub use spring::Spring;
+pub use term::{EnergyChange, NodeBlocks, Term};
+
+/// Interfaces for codes that divide a body among machines: Newton's method and time steps of a [`Simulation`]
+/// for their own elements, linear systems and sums.
+///
+/// [`StagedSteps`](divided::StagedSteps) holds the state of the nodes of one machine;
+/// [`minimize`](divided::minimize) minimises its stages, and [`advance_within`](divided::advance_within)
+/// chooses the lengths of steps. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a
+/// stiffness whose nodes a [`Division`](divided::Division) divides. The crate in `distributed/` uses them.
+pub mod divided {
+    pub use super::halving::{Pace, Repeatable, advance_within};
+    pub use super::integrator::Stage;
+    pub use super::line_search::Line;
+    pub use super::newton::{Definiteness, Linearised, Minimisation, Solution, minimize};
+    pub use super::solver::Preconditioner;
+    pub use super::staged::{InStage, StagedSteps};
+    pub use crate::system::linear::conjugate_gradients::{End, Iteration};
+    pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Whole};
+}

@@ -1,0 +1,55 @@
+use super::*;
+use crate::mesh::Bounds;
+use crate::step::{Convergence, NewtonReport, NewtonSettings, Simulation, SimulationSettings};
+use crate::system::testing::{beam, neo_hookean};
+use crate::system::{Body, Pins};
+
+/// A beam of which one end is held and the rest is scaled along x and thrown aside: its report and positions
+/// after a step.
+fn stepped(filtering: Filtering, scale: f64, max_iterations: usize) -> (NewtonReport, Vec<[f64; 3]>) {
+    let mesh = beam(6);
+    let pins = Pins::in_box(&mesh, Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] }).expect("the left end");
+    let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
+    let newton = NewtonSettings { filtering, max_iterations, tolerance: 1e-9, ..NewtonSettings::default() };
+    let settings = SimulationSettings { newton, ..SimulationSettings::default() };
+    let mut simulation = Simulation::new(body, &pins, settings).expect("a simulation");
+    let bent: Vec<_> =
+        mesh.positions.iter().map(|&[x, y, z]| [scale * x, y + 0.3 * scale * x * x, z]).collect();
+    simulation.set_positions(&bent).expect("finite");
+    let report = simulation.step(0.05).expect("a step").newton;
+    (report, simulation.positions().to_vec())
+}
+
+#[test]
+fn where_the_matrix_is_definite_no_filter_is_asked_for() {
+    let (report, positions) = stepped(Filtering::OnDemand, 1.02, 50);
+    assert_eq!((report, positions), stepped(Filtering::Always(Filter::None), 1.02, 50));
+}
+
+#[test]
+fn where_it_is_not_the_clamp_is_taken_and_not_a_shift() {
+    let (none, _) = stepped(Filtering::Always(Filter::None), 0.3, 1);
+    assert!(none.shift > 0.0, "the case is indefinite: {none:?}");
+    let (report, positions) = stepped(Filtering::OnDemand, 0.3, 1);
+    let (clamped, expected) = stepped(Filtering::Always(Filter::Clamp), 0.3, 1);
+    assert_eq!((report.shift, report.filtered), (0.0, clamped.filtered));
+    assert_eq!(positions, expected);
+}
+
+#[test]
+fn every_way_ends_in_the_same_minimum() {
+    let ways = [Filtering::Always(Filter::Clamp), Filtering::Always(Filter::Absolute), Filtering::OnDemand];
+    let ends = ways.map(|filtering| stepped(filtering, 0.6, 100));
+    for (report, positions) in &ends {
+        assert_eq!(report.convergence, Convergence::Tolerance, "{report:?}");
+        assert!(report.change < 0.0);
+        for (x, expected) in positions.iter().zip(&ends[0].1) {
+            for c in 0..3 {
+                // The minimum is found to 10⁻⁹ of forces that moved the beam by its length.
+                assert!((x[c] - expected[c]).abs() <= 1e-8);
+            }
+        }
+    }
+    let [clamp, _, on_demand] = ends.map(|(report, _)| report.iterations);
+    assert!(on_demand < clamp, "{on_demand} iterations, {clamp} clamped");
+}

@@ -1,0 +1,159 @@
+use super::*;
+use crate::mesh::{Bounds, TetMesh};
+use crate::step::{Damping, NewtonSettings, Simulation, SimulationSettings};
+use crate::system::testing::{beam, neo_hookean};
+use crate::system::{Body, Pins};
+
+/// The order conditions: Σ bj = 1, Σ bj cj = 1/2, Σ bj cj² = 1/3, Σ bi aij cj = 1/6, up to the order.
+#[test]
+fn coefficients_have_their_order() {
+    let methods = [(Integrator::ImplicitEuler, 1), (Integrator::Sdirk2, 2), (Integrator::Sdirk3, 3)];
+    for (integrator, order) in methods {
+        let Method { diagonal, rows } = integrator.method();
+        let rows: Vec<Vec<f64>> = rows.iter().map(|row| [row, &[diagonal][..]].concat()).collect();
+        let c: Vec<f64> = rows.iter().map(|row| row.iter().sum()).collect();
+        let b = &rows[rows.len() - 1];
+        let sum = |f: &dyn Fn(usize) -> f64| -> f64 { (0..b.len()).map(|j| b[j] * f(j)).sum() };
+        let inner = |i: usize| -> f64 { rows[i].iter().zip(&c).map(|(a, c)| a * c).sum() };
+        let conditions =
+            [(1, sum(&|_| 1.0) - 1.0), (2, sum(&|j| c[j]) - 0.5), (3, sum(&|j| c[j] * c[j]) - 1.0 / 3.0)];
+        for (of_order, error) in conditions.into_iter().chain([(3, sum(&inner) - 1.0 / 6.0)]) {
+            // The rounding of γ, times the slopes of polynomials up to the third degree.
+            assert_eq!(error.abs() <= 1e-14, of_order <= order, "{integrator:?}, {of_order}: {error:e}");
+        }
+    }
+}
+
+/// A bar, how it is held and driven, and how it is damped.
+struct Motion {
+    is_held: bool,
+    is_driven: bool,
+    damping: Damping,
+}
+
+const DURATION: f64 = 0.08;
+
+impl Motion {
+    /// Positions after [`DURATION`]. The bar is stretched and sheared by its velocities at the start.
+    fn end(&self, integrator: Integrator, steps: usize) -> Vec<[f64; 3]> {
+        let mesh = beam(3);
+        let settings = SimulationSettings::default()
+            .with_damping(self.damping)
+            .with_integrator(integrator)
+            .with_newton(NewtonSettings::default().with_tolerance(1e-12));
+        let mut simulation = bar(&mesh, self.is_held, settings);
+        let velocities: Vec<[f64; 3]> =
+            mesh.positions.iter().map(|&[x, y, _]| [2.0 * x, 1.0 * x * x - 0.3 * y * x, 0.5 * x]).collect();
+        simulation.set_velocities(&velocities).expect("finite");
+        let dt = DURATION / steps as f64;
+        for step in 1..=steps {
+            if self.is_driven {
+                let t = step as f64 * dt;
+                for node in simulation.pinned().to_vec() {
+                    let [x, y, z] = mesh.positions[node];
+                    simulation.prescribe(node, [x + 2.0 * t * t, y + 5.0 * t.powi(3), z]).expect("pinned");
+                }
+            }
+            simulation.step(dt).expect("a smooth motion");
+        }
+        simulation.positions().to_vec()
+    }
+
+    /// The exponents of the error of halved steps.
+    fn orders(&self, integrator: Integrator, steps: [usize; 3], exact: &[[f64; 3]]) -> [f64; 2] {
+        let errors = steps.map(|steps| distance(&self.end(integrator, steps), exact));
+        [(errors[0] / errors[1]).log2(), (errors[1] / errors[2]).log2()]
+    }
+}
+
+fn bar(mesh: &TetMesh, is_held: bool, settings: SimulationSettings) -> Simulation {
+    let end = Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] };
+    let pins = if is_held { Pins::in_box(mesh, end).expect("an end") } else { Pins::none() };
+    let body = Body::new(mesh, neo_hookean(), 1000.0).expect("a body");
+    Simulation::new(body, &pins, settings).expect("a simulation")
+}
+
+#[test]
+fn errors_of_smooth_motions_fall_with_the_order() {
+    for (is_held, damping) in
+        [(false, Damping::None), (true, Damping::None), (true, Damping::Mass { rate: 3.0 })]
+    {
+        let motion = Motion { is_held, is_driven: false, damping };
+        let exact = motion.end(Integrator::Sdirk3, 640);
+        for (integrator, steps, order, slack) in [
+            (Integrator::ImplicitEuler, [40, 80, 160], 1.0, 0.1),
+            (Integrator::Sdirk2, [20, 40, 80], 2.0, 0.1),
+            (Integrator::Sdirk3, [20, 40, 80], 3.0, 0.15),
+        ] {
+            let [_, last] = motion.orders(integrator, steps, &exact);
+            assert!((last - order).abs() <= slack, "{integrator:?}, {is_held}, {damping:?}: {last}");
+        }
+    }
+}
+
+/// Pinned nodes move evenly through each step, which is of second order.
+#[test]
+fn driven_pins_leave_second_order() {
+    let motion = Motion { is_held: true, is_driven: true, damping: Damping::None };
+    let exact = motion.end(Integrator::Sdirk3, 1280);
+    for integrator in [Integrator::Sdirk2, Integrator::Sdirk3] {
+        let [_, last] = motion.orders(integrator, [20, 40, 80], &exact);
+        assert!(last > 1.9, "{integrator:?}: {last}");
+    }
+}
+
+/// A target that is moved between steps moves evenly through the next one, so that pulls are of second order
+/// too.
+#[test]
+fn moving_targets_of_springs_leave_second_order() {
+    let mesh = beam(3);
+    let tip = mesh.positions.len() - 1;
+    let end = |integrator, steps: usize| {
+        let newton = NewtonSettings::default().with_tolerance(1e-12);
+        let settings = SimulationSettings::default().with_integrator(integrator).with_newton(newton);
+        let mut simulation = bar(&mesh, true, settings);
+        let at = |t: f64| {
+            let [x, y, z] = mesh.positions[tip];
+            [Spring::on_node(tip, [x + t, y + 8.0 * t * t, z], 2000.0)]
+        };
+        simulation.set_springs(&at(0.0)).expect("a node");
+        for step in 1..=steps {
+            let dt = DURATION / steps as f64;
+            simulation.set_springs(&at(step as f64 * dt)).expect("a node");
+            simulation.step(dt).expect("a pull");
+        }
+        simulation.positions().to_vec()
+    };
+    let exact = end(Integrator::Sdirk3, 1280);
+    for integrator in [Integrator::Sdirk2, Integrator::Sdirk3] {
+        let [coarse, fine] = [40, 80].map(|steps| distance(&end(integrator, steps), &exact));
+        assert!((coarse / fine).log2() > 1.9, "{integrator:?}: {coarse:e}, {fine:e}");
+    }
+}
+
+/// Pinned ends are pushed through each other: the first stage can follow, the last one cannot.
+#[test]
+fn a_failed_stage_changes_nothing() {
+    let mesh = beam(1);
+    let settings = SimulationSettings::default().with_integrator(Integrator::Sdirk2);
+    let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
+    let mut simulation =
+        Simulation::new(body, &Pins::at(0..mesh.positions.len()), settings).expect("a simulation");
+    let push = |simulation: &mut Simulation, by: f64| {
+        for (node, &[x, y, z]) in mesh.positions.iter().enumerate() {
+            simulation.prescribe(node, [x * (1.0 - by), y, z]).expect("pinned");
+        }
+        simulation.step(0.01)
+    };
+    push(&mut simulation, 0.1).expect("a smaller bar");
+    let before = (simulation.positions().to_vec(), simulation.velocities().to_vec());
+    push(&mut simulation, 1.5).expect_err("a bar inside out");
+    assert_eq!(before, (simulation.positions().to_vec(), simulation.velocities().to_vec()));
+    push(&mut simulation, 0.2).expect("a smaller bar");
+    assert!(distance(simulation.positions(), &before.0) > 0.009);
+}
+
+/// Largest difference of a coordinate.
+fn distance(x: &[[f64; 3]], y: &[[f64; 3]]) -> f64 {
+    x.as_flattened().iter().zip(y.as_flattened()).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+}

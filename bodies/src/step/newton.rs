@@ -1,0 +1,282 @@
+//! Newton's method with filtered second derivatives and a line search.
+//!
+//! This module is independent of nodes, masses and terms: it uses a [`Minimisation`].
+
+use piola::point::Filter;
+
+use super::filtering::Filtering;
+use super::line_search::{Line, LineSearchSettings, Outcome, backtrack};
+
+mod error;
+mod report;
+mod settings;
+
+pub use error::NewtonError;
+pub use report::{Convergence, NewtonReport};
+pub use settings::NewtonSettings;
+
+/// Objective with the memory to minimise it: its variables x, the gradient g at x, a direction d, and the
+/// trial x + step d of a line search.
+///
+/// [`Simulation`](crate::step::Simulation) has an implementation for one body. Codes whose variables are
+/// divided among machines implement it themselves: each number that a method returns must then be the same on
+/// all machines.
+pub trait Minimisation: Line {
+    /// Evaluates g after the energies; returns its norm over the free variables, N.
+    fn gradient(&mut self) -> Result<f64, Self::Error>;
+
+    /// Evaluates g and the filtered second derivatives K; with `pins_move`, adds K times the displacement of
+    /// the pins to g.
+    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, Self::Error>;
+
+    /// Solves K d = −g. The relative tolerance takes effect if it is tighter than the solver's own.
+    /// Returns `None` if K is indefinite and [`Definiteness::Required`].
+    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, Self::Error>;
+
+    /// Moves the pins in x, and evaluates the energies there.
+    fn move_pins(&mut self) -> Result<(), Self::Error>;
+
+    /// g·d over the free variables, J.
+    fn descent(&self) -> f64;
+
+    /// Share of the direction that a line search tries first, at most 1.
+    fn longest_step(&self) -> f64 {
+        1.0
+    }
+
+    /// Prepares [`Line::change`]: differences of energies are relative to x.
+    fn set_base(&mut self);
+
+    /// Replaces x by the trial evaluated last.
+    fn accept(&mut self);
+
+    /// Evaluates the energies at x again; returns the rounding error of their differences there, J.
+    fn reject(&mut self) -> f64;
+
+    /// Largest displacement of a node along d, m.
+    fn displacement(&self) -> f64;
+
+    /// Scale of the error in time of the step with the nodes at x, m.
+    fn error_scale(&self) -> f64;
+}
+
+/// Outcome of a linearisation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linearised {
+    /// Norm of the gradient over the free variables, N.
+    pub residual: f64,
+    /// Number of elements whose tangent the filter changed.
+    pub filtered: usize,
+    /// Number of elements whose tangent is at a pole.
+    pub bounded: usize,
+}
+
+/// Requirement on the matrix of a linear system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Definiteness {
+    /// An indefinite matrix is left unsolved.
+    Required,
+    /// An indefinite matrix is made definite, or used until the indefiniteness shows.
+    Optional,
+}
+
+/// Outcome of a linear solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Solution {
+    /// Multiple of inertia that was added.
+    pub shift: f64,
+    /// Number of iterations of the linear solver.
+    pub iterations: usize,
+    /// True if the iteration stopped before the tolerance.
+    pub truncated: bool,
+}
+
+/// Moves x towards a minimum, and the pins with the first direction if `pins_move`.
+///
+/// The energies must have been evaluated at x, and on success they have been again.
+///
+/// # Errors
+/// [`NewtonError::NotFinite`], [`NewtonError::LineSearch`], or an error of the objective.
+pub fn minimize<M: Minimisation>(
+    minimisation: &mut M,
+    pins_move: bool,
+    settings: &NewtonSettings,
+    line_search: &LineSearchSettings,
+) -> Result<NewtonReport, M::Error>
+where
+    M::Error: From<NewtonError>,
+{
+    let report = NewtonReport::before(settings);
+    Newton { minimisation, settings, line_search, report, moved: None }.run(pins_move)
+}
+
+/// State of a running minimisation.
+struct Newton<'a, M> {
+    minimisation: &'a mut M,
+    settings: &'a NewtonSettings,
+    line_search: &'a LineSearchSettings,
+    report: NewtonReport,
+    /// The largest displacement of a node in the iteration before, m.
+    moved: Option<f64>,
+}
+
+/// Outcome of a line search.
+#[derive(PartialEq, Eq)]
+enum Progress {
+    Decrease,
+    /// The objective changed by no more than rounding noise; the slope was decisive.
+    BelowNoise,
+    /// Any further gain is below rounding noise.
+    Nothing,
+}
+
+impl<M: Minimisation> Newton<'_, M>
+where
+    M::Error: From<NewtonError>,
+{
+    fn run(mut self, mut pins_move: bool) -> Result<NewtonReport, M::Error> {
+        // Iterations in a row that have gained nothing beyond noise, neither in the objective nor in the
+        // gradient.
+        let mut idle = 0;
+        let mut progress = Progress::Decrease;
+        // Tolerance of the second linear system and later ones.
+        let mut forcing = 1.0;
+        while self.report.iterations < self.settings.max_iterations {
+            // After the first iteration the gradient alone, far cheaper than the stiffness, may end the loop.
+            if self.report.iterations > 0 {
+                let before = self.report.residual;
+                if self.note_gradient()? {
+                    break;
+                }
+                let is_idle = progress == Progress::BelowNoise && self.report.residual > 0.9 * before;
+                idle = if is_idle { idle + 1 } else { 0 };
+                // Twice, since the gradient of a filtered iteration need not fall each time.
+                if idle == 2 {
+                    self.report.convergence = Convergence::Rounding;
+                    break;
+                }
+                forcing = self.forcing(before);
+            }
+            if !self.find_direction(pins_move, forcing)? {
+                break;
+            }
+            if std::mem::take(&mut pins_move) && !self.move_pins()? {
+                // The tangent before the move is not that of the state after it; the next iteration takes its
+                // own.
+                self.report.step_lengths.push(0.0);
+                continue;
+            }
+            progress = self.search()?;
+            if progress == Progress::Nothing {
+                self.report.convergence = Convergence::Rounding;
+                break;
+            }
+            if self.is_close() {
+                self.report.convergence = Convergence::Tolerance;
+                break;
+            }
+        }
+        Ok(self.report)
+    }
+
+    /// True if the remaining distance is small compared with the error of the step, after the last
+    /// displacement.
+    fn is_close(&mut self) -> bool {
+        if self.settings.error_share == 0.0 {
+            return false;
+        }
+        let step = self.report.step_lengths.last().copied().unwrap_or(0.0);
+        let moved = step * self.minimisation.displacement();
+        let ratio = self.moved.map_or(0.5, |before| moved / before);
+        self.moved = Some(moved);
+        let left = ratio / (1.0 - ratio) * moved;
+        let enough = self.settings.error_share * self.minimisation.error_scale();
+        step == 1.0 && ratio < 1.0 && left <= enough && enough.is_finite()
+    }
+
+    /// Evaluates the gradient; returns true if it is small enough.
+    fn note_gradient(&mut self) -> Result<bool, M::Error> {
+        let residual = self.minimisation.gradient()?;
+        Ok(self.report.note_residual(residual, self.settings)?)
+    }
+
+    /// Relative tolerance for the next system [EW96, choice 2], not tighter than the last system requires.
+    fn forcing(&self, before: f64) -> f64 {
+        let NewtonReport { residual, first_residual, .. } = self.report;
+        let enough = 0.5 * self.settings.tolerance * first_residual / residual;
+        (0.9 * (residual / before).powi(2)).max(enough).max(f64::EPSILON)
+    }
+
+    /// Linearises and solves for a direction; returns false if the gradient is small enough already.
+    ///
+    /// Moving pins enter the first linear system with their displacement d: K p = −g − K d. Its tangent is
+    /// that of the state before they move, when elements next to them are not yet distorted; the line search
+    /// starts after the move.
+    fn find_direction(&mut self, pins_move: bool, tolerance: f64) -> Result<bool, M::Error> {
+        let filtering = self.settings.filtering;
+        let residual = self.linearise(filtering.choice(), pins_move)?;
+        if !pins_move && self.report.iterations == 0 && self.report.note_residual(residual, self.settings)? {
+            return Ok(false);
+        }
+        let on_demand = filtering == Filtering::OnDemand;
+        let definiteness = if on_demand { Definiteness::Required } else { Definiteness::Optional };
+        if !self.solve(tolerance, definiteness)? {
+            self.linearise(Filter::Clamp, pins_move)?;
+            self.solve(tolerance, Definiteness::Optional)?;
+        }
+        self.report.iterations += 1;
+        Ok(true)
+    }
+
+    /// Evaluates the gradient and the filtered second derivatives; returns the norm of the gradient.
+    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<f64, M::Error> {
+        let Linearised { residual, filtered, bounded } = self.minimisation.linearise(filter, pins_move)?;
+        self.report.filtered = self.report.filtered.max(filtered);
+        self.report.bounded = self.report.bounded.max(bounded);
+        Ok(residual)
+    }
+
+    /// Solves for the direction; returns false if the matrix is indefinite and definiteness is required.
+    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<bool, M::Error> {
+        let Some(solution) = self.minimisation.solve(tolerance, definiteness)? else { return Ok(false) };
+        self.report.shift = self.report.shift.max(solution.shift);
+        self.report.linear_iterations += solution.iterations;
+        self.report.truncated += usize::from(solution.truncated);
+        Ok(true)
+    }
+
+    /// Moves the pins; returns false if the direction, found before the move, is not a descent direction
+    /// after it.
+    fn move_pins(&mut self) -> Result<bool, M::Error> {
+        self.minimisation.move_pins()?;
+        self.note_gradient()?;
+        Ok(self.minimisation.descent() < 0.0)
+    }
+
+    /// Moves x along the direction by a step that the line search accepts.
+    fn search(&mut self) -> Result<Progress, M::Error> {
+        let slope = self.minimisation.descent();
+        if !slope.is_finite() {
+            return Err(NewtonError::NotFinite.into());
+        }
+        let first = self.minimisation.longest_step();
+        self.minimisation.set_base();
+        match backtrack(self.minimisation, first, slope, self.line_search)? {
+            Outcome::Accepted { step, difference, refused, by_slope, .. } => {
+                self.minimisation.accept();
+                self.report.step_lengths.push(step);
+                self.report.refused_trials += refused;
+                self.report.change += difference;
+                Ok(if by_slope { Progress::BelowNoise } else { Progress::Decrease })
+            }
+            Outcome::Failed { step, refused } => {
+                self.report.refused_trials += refused;
+                if -slope > self.minimisation.reject() {
+                    let residual = self.report.residual;
+                    return Err(NewtonError::LineSearch { step, refused, residual }.into());
+                }
+                Ok(Progress::Nothing)
+            }
+        }
+    }
+}

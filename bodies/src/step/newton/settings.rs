@@ -1,0 +1,65 @@
+//! Settings of Newton's method.
+
+use piola::point::Filter;
+
+use crate::step::filtering::Filtering;
+use crate::step::solver::LinearSolver;
+
+/// Settings of Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
+#[non_exhaustive]
+pub struct NewtonSettings {
+    /// Treatment of negative eigenvalues of dP/dF.
+    pub filtering: Filtering,
+    /// Maximum number of iterations; 1 is the mode of the paper.
+    pub max_iterations: usize,
+    /// Relative tolerance of the gradient: the share of its first norm at which the minimum counts as found.
+    pub tolerance: f64,
+    /// Tolerance relative to the time error of the step: the share of it at which the minimum counts as found
+    /// as well; 0 for the tolerance alone. Has no effect in statics.
+    ///
+    /// The error is judged by accelerations: by τ² |a|, or by τ² times the change of a for methods of higher
+    /// order, for the length τ of a stage. The error of the minimum is judged by the displacements d of two
+    /// iterations, as q/(1 − q) |d| with their ratio q \[HW96, IV.8\].
+    ///
+    /// \[HW96\] Hairer, Wanner, *Solving Ordinary Differential Equations II*, 1996.
+    pub error_share: f64,
+    /// Solver of the linear systems.
+    pub linear: LinearSolver,
+}
+
+impl Default for NewtonSettings {
+    /// Full Newton to a relative 10⁻⁶ from the positions before, with eigenvalues clamped if the matrix
+    /// requires it and a linear solver chosen by the size of the body.
+    fn default() -> Self {
+        Self {
+            filtering: Filtering::OnDemand,
+            max_iterations: 50,
+            tolerance: 1e-6,
+            error_share: 0.0,
+            linear: LinearSolver::Automatic,
+        }
+    }
+}
+
+impl NewtonSettings {
+    /// One iteration per step, as in the paper, with clamped eigenvalues: the gradient after it is not
+    /// evaluated.
+    #[must_use]
+    pub fn single() -> Self {
+        Self { filtering: Filtering::Always(Filter::Clamp), max_iterations: 1, ..Self::default() }
+    }
+}
+
+crate::chained::chained!(NewtonSettings {
+    with_filtering(filtering: Filtering),
+    with_max_iterations(max_iterations: usize),
+    with_tolerance(tolerance: f64),
+    with_error_share(error_share: f64),
+    with_linear(linear: LinearSolver),
+});

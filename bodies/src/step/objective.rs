@@ -1,0 +1,217 @@
+//! The function that a step of implicit Euler minimises, or a stage of another integrator.
+//!
+//! With M the lumped masses, D the quadratic form of the [damping](super::damping), α M or β K, and with s, w
+//! and the lengths τ, σ of the stage, for which v = (x − s)/τ and a = (v − w)/σ:
+//!
+//! ```text
+//! E(x) = ½‖x − s − τ w‖²_M / (τσ) + 1/(2τ) ‖x − s‖²_D + Ψ(x) − Σ (m g + f)·x + Σ terms
+//! ```
+//!
+//! Where its gradient vanishes, M a = −∇Ψ(x) − D v + M g + f − ∇ terms. For implicit Euler s and w are the
+//! state before the step, and τ = σ is its length. Inertia, damping and given forces are quadratic, so that
+//! along a line they need one slope and one curvature and no subtraction of close energies. Positions enter
+//! as displacements from s.
+//!
+//! With τ = σ = ∞ inertia and damping are zero by the arithmetic of infinity, and what is left is statics.
+
+use std::iter;
+use std::sync::Arc;
+
+use piola::point::Filter;
+
+use crate::system::assemble::Elastic;
+use crate::system::element::Evaluated;
+use crate::system::linear::symmetric_blocks::SymmetricBlocks;
+use crate::system::{Body, NodalStiffness};
+
+use super::damping::Viscosity;
+use super::integrator::Stage;
+use super::spring::Spring;
+use super::term::{EnergyChange, NodeBlocks, Term};
+
+/// The quadratic part of the objective.
+#[derive(Clone, Copy)]
+pub(crate) struct Quadratic<'a> {
+    pub(crate) masses: &'a [f64],
+    pub(crate) stage: &'a Stage,
+    /// α of mass-proportional damping, 1/s.
+    pub(crate) damping: f64,
+    /// Diagonal that a unit of regularisation adds for each mass, 1/s².
+    pub(crate) regularisation: f64,
+    /// Diagonal that is always added for each mass to the second derivatives, not to the objective, 1/s².
+    pub(crate) guard: f64,
+    /// g, m/s².
+    pub(crate) gravity: [f64; 3],
+    /// f of each node, N; empty without any.
+    pub(crate) forces: &'a [[f64; 3]],
+}
+
+impl Quadratic<'_> {
+    /// Second derivative in each coordinate of a node: m (1/σ + α)/τ.
+    fn diagonal(&self, node: usize) -> f64 {
+        let [tau, sigma] = self.stage.lengths;
+        self.masses[node] * (1.0 / sigma + self.damping) / tau
+    }
+
+    /// Second derivative in each coordinate of a node, with the guard against drift.
+    pub(crate) fn guarded_diagonal(&self, node: usize) -> f64 {
+        self.diagonal(node) + self.masses[node] * self.guard
+    }
+
+    /// Diagonal shift of a node; multiples of it are added until the Hessian is positive definite.
+    pub(crate) fn regularisation(&self, node: usize) -> f64 {
+        self.masses[node] * self.regularisation
+    }
+
+    /// Adds the gradient at `x`.
+    fn add_gradient(&self, x: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        for node in 0..x.len() {
+            let [v, acceleration] = self.stage.motion(node, x[node]);
+            for c in 0..3 {
+                total[node][c] +=
+                    self.masses[node] * (acceleration[c] + self.damping * v[c] - self.gravity[c]);
+            }
+        }
+        for (total, force) in total.iter_mut().zip(self.forces) {
+            for c in 0..3 {
+                total[c] -= force[c];
+            }
+        }
+    }
+
+    /// Adds the product of the second derivatives with a displacement.
+    pub(crate) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        for node in 0..d.len() {
+            for c in 0..3 {
+                total[node][c] += self.guarded_diagonal(node) * d[node][c];
+            }
+        }
+    }
+
+    /// Adds the second derivatives to a matrix of a row and a column for each node.
+    pub(crate) fn add_to(&self, matrix: &mut SymmetricBlocks<f64, 3>) {
+        let pattern = matrix.pattern().clone();
+        for node in 0..self.masses.len() {
+            let block = &mut matrix.blocks_mut()[pattern.diagonal(node)];
+            for c in 0..3 {
+                block[c][c] += self.guarded_diagonal(node);
+            }
+        }
+    }
+
+    /// Curvature dᵀ H d.
+    fn curvature(&self, d: &[[f64; 3]]) -> f64 {
+        let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+        d.iter().enumerate().map(|(node, &d)| self.diagonal(node) * square(d)).sum()
+    }
+}
+
+/// Springs and other terms of the energy.
+#[derive(Clone, Copy)]
+pub(crate) struct Terms<'a> {
+    pub(crate) springs: &'a Vec<Spring>,
+    pub(crate) others: &'a [Arc<dyn Term>],
+}
+
+impl<'a> Terms<'a> {
+    fn each(self) -> impl Iterator<Item = &'a dyn Term> {
+        iter::once(self.springs as &dyn Term).chain(self.others.iter().map(Arc::as_ref))
+    }
+
+    /// Energy of the terms except for the springs; NaN if a term has none.
+    pub(super) fn energy_of_others(self, x: &[[f64; 3]]) -> f64 {
+        self.others.iter().map(|term| term.energy(x).unwrap_or(f64::NAN)).sum()
+    }
+
+    /// Index of the first term, springs aside, that refuses these positions.
+    pub(super) fn refusing(self, x: &[[f64; 3]]) -> Option<usize> {
+        self.others.iter().position(|term| term.energy(x).is_none_or(|energy| !energy.is_finite()))
+    }
+
+    pub(crate) fn add_gradient(self, x: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        self.each().for_each(|term| term.add_gradient(x, total));
+    }
+
+    /// Replaces the blocks by those at `x`.
+    pub(crate) fn linearise(self, x: &[[f64; 3]], blocks: &mut NodeBlocks) {
+        blocks.begin(x.len());
+        self.each().for_each(|term| term.add_second_derivatives(x, blocks));
+    }
+
+    /// Share of a displacement, at most 1, that a line search tries first.
+    pub(super) fn longest_step(self, x: &[[f64; 3]], d: &[[f64; 3]]) -> f64 {
+        self.others.iter().fold(1.0, |step: f64, term| step.min(term.longest_step(x, d)))
+    }
+
+    pub(super) fn change(self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {
+        self.each().try_fold(EnergyChange::default(), |sum, term| {
+            let EnergyChange { difference, noise } = term.change(from, to)?;
+            Some(EnergyChange { difference: sum.difference + difference, noise: sum.noise + noise })
+        })
+    }
+}
+
+/// The objective, with memory for its elastic part.
+pub(crate) struct Objective<'a> {
+    pub(crate) body: &'a Body,
+    pub(crate) elastic: &'a mut Elastic,
+    pub(crate) quadratic: Quadratic<'a>,
+    pub(crate) terms: Terms<'a>,
+    /// Second derivatives of the terms, where they were linearised last.
+    pub(crate) blocks: &'a mut NodeBlocks,
+    /// Stiffness-proportional damping, where there is any.
+    pub(crate) viscosity: Option<&'a Viscosity>,
+}
+
+impl Objective<'_> {
+    /// Evaluates the energies at `x`; gradients and second derivatives then refer to `x`.
+    pub(crate) fn evaluate(&mut self, x: &[[f64; 3]]) -> Evaluated {
+        self.elastic.evaluate(self.body, x)
+    }
+
+    /// Evaluates the elastic gradients and the filtered stiffness, that of damping included, where the
+    /// energies were evaluated last.
+    pub(super) fn linearise(&mut self, filter: Filter, stiffness: &mut NodalStiffness) -> Evaluated {
+        let viscosity = self.viscosity;
+        stiffness.linearise(self.body, self.elastic, filter, |tiles, stiffnesses| {
+            if let Some(viscosity) = viscosity {
+                viscosity.add_tiles_to(tiles, stiffnesses);
+            }
+        })
+    }
+
+    /// The gradient at `x`, after the elastic gradients or stiffnesses have been evaluated there.
+    pub(crate) fn gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+        self.quadratic_gradient(x, gradient);
+        self.terms.add_gradient(x, gradient);
+        self.elastic.add_gradient(self.body, gradient);
+    }
+
+    /// The gradient of inertia, damping and given forces.
+    pub(super) fn quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+        gradient.fill([0.0; 3]);
+        self.quadratic.add_gradient(x, gradient);
+        if let Some(viscosity) = self.viscosity {
+            let start = &self.quadratic.stage.start;
+            let displacement = |node: usize| std::array::from_fn(|c| x[node][c] - start[node][c]);
+            viscosity.add_product(self.body, displacement, gradient);
+        }
+    }
+
+    /// Rounding error of a difference of energies near `x`, the last point of evaluation, J.
+    pub(super) fn noise(&self, x: &[[f64; 3]]) -> f64 {
+        let of_terms = self.terms.change(x, x).map_or(0.0, |change| change.noise);
+        self.elastic.difference_noise(self.body) + of_terms
+    }
+
+    /// Curvature dᵀ H d of inertia and damping.
+    pub(crate) fn quadratic_curvature(&self, d: &[[f64; 3]]) -> f64 {
+        let viscosity = self.viscosity.map_or(0.0, |viscosity| viscosity.curvature(self.body, d));
+        self.quadratic.curvature(d) + viscosity
+    }
+}
+
+/// Inner product Σ a·b over the nodes.
+pub(crate) fn product(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).sum()
+}

@@ -1,0 +1,182 @@
+//! Changes between two steps: of the state, pins, forces, terms, materials and settings.
+
+use std::sync::Arc;
+
+use piola::NoSuchNode;
+use piola::batch::TileMaterial;
+
+use crate::step::minimisation::NewtonWorkspace;
+use crate::step::solver::{Choice, SparseSolver};
+use crate::step::spring::Spring;
+use crate::step::term::Term;
+use crate::system::{BodyError, Pins};
+
+use super::settings::check_settings;
+use super::{SetupError, Simulation, SimulationSettings, static_regularisation};
+
+impl Simulation {
+    /// Sets the position of each node, m, for any deformation, even collapsed. Pins hold their nodes there.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
+    pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.steps.set_positions(positions)?;
+        self.evaluated = None;
+        Ok(())
+    }
+
+    /// Sets the velocity of each node, m/s; of a pinned node it lasts until the next step.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite velocity for each node.
+    pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.steps.set_velocities(velocities)
+    }
+
+    /// Sets the acceleration of each node at the end of the step before, m/s²: with positions and velocities
+    /// the whole state of a motion that is resumed.
+    ///
+    /// [`NewtonSettings::error_share`](crate::step::NewtonSettings::error_share) judges the error of a step by
+    /// them, and [`Simulation::reactions`] takes them.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite acceleration for each
+    /// node.
+    pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.steps.set_accelerations(accelerations)
+    }
+
+    /// Replaces the set of pinned nodes. A node that was not pinned before is held where it is.
+    ///
+    /// Pinning nodes that were free when the linear solver was set up costs only the next factorisation;
+    /// releasing nodes that were pinned then costs a new symbolic analysis.
+    ///
+    /// # Errors
+    /// [`SetupError::NoSuchNode`], [`SetupError::Linear`]. The pins then stay as they were.
+    pub fn set_pins(&mut self, pins: &Pins) -> Result<(), SetupError> {
+        let nodes = self.body.rest().len();
+        if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
+            return Err(NoSuchNode { element: None, node, nodes }.into());
+        }
+        self.workspace.set_pins(&self.body, pins)?;
+        self.steps.set_pinned(pins.nodes());
+        Ok(())
+    }
+
+    /// Replaces the material of a part of the body, numbered as in
+    /// [`Body::from_parts`](crate::system::Body::from_parts), from the next step on.
+    ///
+    /// # Errors
+    /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
+    pub fn set_material(
+        &mut self,
+        part: usize,
+        material: impl TileMaterial<f64> + 'static,
+    ) -> Result<(), BodyError> {
+        self.body.set_material(part, material)?;
+        self.static_regularisation = static_regularisation(&self.body);
+        self.evaluated = None;
+        Ok(())
+    }
+
+    /// Sets a constant force on each node, N, from the next step on; an empty slice removes all forces.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite force for each node.
+    pub fn set_forces(&mut self, forces: &[[f64; 3]]) -> Result<(), SetupError> {
+        if !forces.is_empty() {
+            self.steps.check_nodal(forces)?;
+        }
+        self.forces.clear();
+        self.forces.extend_from_slice(forces);
+        Ok(())
+    }
+
+    /// Replaces all [terms](Term) of the energy except for deformation, gravity and springs, from the next
+    /// step on.
+    ///
+    /// ```
+    /// # use piola_bodies::step::{NodeBlocks, Term};
+    /// # struct Weight;
+    /// # impl Term for Weight {
+    /// #     fn energy(&self, x: &[[f64; 3]]) -> Option<f64> { Some(x.iter().map(|x| 10.0 * x[1]).sum()) }
+    /// #     fn add_gradient(&self, _: &[[f64; 3]], g: &mut [[f64; 3]]) { g.iter_mut().for_each(|g| g[1] += 10.0) }
+    /// #     fn add_second_derivatives(&self, _: &[[f64; 3]], _: &mut NodeBlocks) {}
+    /// # }
+    /// use std::sync::Arc;
+    /// use piola_bodies::mesh::tetrahedral_box;
+    /// use piola_bodies::step::{Simulation, SimulationSettings};
+    /// use piola_bodies::system::{Body, Pins};
+    ///
+    /// /// Rubber.
+    /// #[piola::material(domain(J > 0.0))]
+    /// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+    /// }
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
+    /// let mut simulation = Simulation::new(body, &Pins::none(), SimulationSettings::default())?;
+    /// simulation.set_terms(vec![Arc::new(Weight)]);
+    /// let report = simulation.step(0.01)?;
+    /// assert!(report.energies.terms < 10.0 * 8.0 * 0.1 && simulation.velocities()[0][1] < 0.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn set_terms(&mut self, terms: Vec<Arc<dyn Term>>) {
+        self.terms = terms;
+    }
+
+    /// Prescribes the position of a pinned node, m, after the next step and from then on.
+    ///
+    /// # Errors
+    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
+    pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
+        self.steps.prescribe(node, position)
+    }
+
+    /// Replaces all springs.
+    ///
+    /// If a spring has the same index and anchor as one before, its target moves evenly in the course of the
+    /// next step. Implicit Euler depends on the end of a step only, other integrators also on what is
+    /// between.
+    ///
+    /// # Errors
+    /// [`SetupError::Spring`] if its stiffness is negative or a number is not finite,
+    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
+    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
+        self.steps.set_springs(springs)
+    }
+
+    /// Replaces the settings from the next step on. Another linear solver, or another tolerance of it, is set
+    /// up as by [`Simulation::new`].
+    ///
+    /// # Errors
+    /// [`SetupError::Setting`], [`SetupError::Linear`]. The settings then stay as they were.
+    pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
+        check_settings(&settings)?;
+        let (new, old) = (&settings.newton, &self.settings.newton);
+        if new.linear != old.linear || self.workspace.has_own_solver() {
+            let choice = Choice::Setting(new.linear);
+            self.workspace =
+                NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;
+        }
+        self.steps.set_integrator(settings.integrator);
+        if settings.damping != self.settings.damping {
+            self.viscosity = settings.damping.viscosity(&self.body);
+        }
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Solves the linear systems of Newton's method by a user-defined solver, until the settings are
+    /// replaced.
+    ///
+    /// # Errors
+    /// [`SetupError::Linear`] with the error of the solver for the pattern. The solver before then stays.
+    pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
+        let choice = Choice::Own(Arc::new(solver));
+        self.workspace = NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;
+        Ok(())
+    }
+}

@@ -1,0 +1,73 @@
+//! Equilibria, and bodies that stay in them.
+
+use super::*;
+
+#[test]
+fn a_body_at_rest_stays_at_rest() {
+    let mesh = beam(3);
+    let mut body = simulation(&mesh, rotated(), &Pins::none(), settings(NewtonSettings::single()));
+    for _ in 0..3 {
+        body.step(0.1).expect("a step");
+    }
+    for (x, rest) in body.positions().iter().zip(&mesh.positions) {
+        for c in 0..3 {
+            assert!((x[c] - rest[c]).abs() <= 1e-14);
+        }
+    }
+}
+
+/// Forces balance to the last digits, under gravity and a spring.
+#[test]
+fn statics_finds_an_equilibrium() {
+    let mesh = beam(6);
+    let newton = NewtonSettings { tolerance: 1e-12, ..NewtonSettings::default() };
+    for linear in
+        [LinearSolver::Cholesky, LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 }]
+    {
+        let settings = SimulationSettings {
+            gravity: [0.0, -9.81, 0.0],
+            newton: NewtonSettings { linear, ..newton },
+            ..SimulationSettings::default()
+        };
+        let mut body = simulation(&mesh, kirchhoff(), &left_end(&mesh), settings);
+        body.set_velocities(&vec![[1.0, 0.0, 0.0]; mesh.positions.len()]).expect("finite");
+        let report = body.equilibrate().expect("an equilibrium").newton;
+        assert_eq!(report.convergence, Convergence::Tolerance, "{report:?}");
+        assert!(report.residual <= 1e-12 * report.first_residual);
+        assert!(body.velocities().iter().all(|v| *v == [0.0; 3]));
+        // Dynamics, started there, finds nothing to do: h² g would be 4 mm.
+        let hanging = body.positions().to_vec();
+        body.step(0.02).expect("a step");
+        for (x, before) in body.positions().iter().zip(&hanging) {
+            for c in 0..3 {
+                assert!((x[c] - before[c]).abs() <= 1e-11, "{} for {}", x[c], before[c]);
+            }
+        }
+    }
+}
+
+/// Without pins the matrix is singular; the body still neither drifts nor turns away.
+#[test]
+fn statics_of_a_free_body_leaves_it_where_it_is() {
+    let mesh = beam(4);
+    let newton = NewtonSettings { tolerance: 1e-10, ..NewtonSettings::default() };
+    let mut body = simulation(&mesh, rotated(), &Pins::none(), settings(newton));
+    let start = shake(&mut Random::new(8), &mesh.positions, 0.02);
+    body.set_positions(&start).expect("finite");
+    let before = total(body.body().masses(), &start);
+    let report = body.equilibrate().expect("an equilibrium");
+    assert!(report.newton.residual <= 1e-8 * report.newton.first_residual, "{report:?}");
+    assert!(report.energies.elastic <= 1e-14 * -report.newton.change, "{report:?}");
+    let after = total(body.body().masses(), body.positions());
+    let mass: f64 = body.body().masses().iter().sum();
+    for c in 0..3 {
+        // What rounding leaves of the sum of the forces, 10⁻¹³ N, meets the guard alone, 10⁻⁸ of a stiffness
+        // of 10⁴ N/m.
+        assert!((after[c] - before[c]).abs() <= 1e-8 * mass, "{before:?} became {after:?}");
+    }
+    for (x, rest) in body.positions().iter().zip(&mesh.positions) {
+        for c in 0..3 {
+            assert!((x[c] - rest[c]).abs() <= 0.02, "{x:?} for {rest:?}");
+        }
+    }
+}

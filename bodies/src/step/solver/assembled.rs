@@ -1,0 +1,145 @@
+//! Second derivatives as a sparse matrix, for a factorisation or a user-defined solver.
+
+use piola::point::Filter;
+
+use crate::step::newton::{Definiteness, Solution};
+use crate::step::objective::Objective;
+use crate::system::element::Evaluated;
+use crate::system::linear::LinearError;
+use crate::system::{Body, LowerTriangle, NodalStiffness, Pins};
+
+use super::interface::{SolveError, Solver};
+use super::own::SparseSolver;
+
+/// The largest tolerance that a solver receives.
+const TOLERANCE: f64 = 1e-3;
+
+/// [`LinearSolver::Cholesky`](super::LinearSolver::Cholesky), or a user-defined solver.
+///
+/// A filtered stiffness plus inertia is positive definite up to rounding. Without a filter, or if inertia is
+/// lost in the stiffness, it may not be. Mass is then added tenfold more each time, as if the time step were
+/// shorter.
+#[derive(Clone)]
+pub(super) struct Assembled<S> {
+    stiffness: NodalStiffness,
+    matrix: LowerTriangle,
+    /// Free nodes: nodes of the matrix without those in `held`.
+    free: Vec<usize>,
+    /// For each free node of the matrix, true if it has been pinned since the matrix was made; empty if no
+    /// node has.
+    held: Vec<bool>,
+    /// The right side, then the solution.
+    unknowns: Vec<f64>,
+    solver: S,
+}
+
+impl<S> Assembled<S> {
+    pub(super) fn new(
+        body: &Body,
+        pins: &Pins,
+        pairs: &[[usize; 2]],
+        solver: impl FnOnce(&LowerTriangle) -> Result<S, LinearError>,
+    ) -> Result<Self, LinearError> {
+        let stiffness = NodalStiffness::with_elements(body, pairs)?;
+        let matrix = LowerTriangle::new(&stiffness, pins)?;
+        Ok(Self {
+            solver: solver(&matrix)?,
+            stiffness,
+            free: matrix.free_nodes().to_vec(),
+            held: Vec::new(),
+            unknowns: vec![0.0; 3 * matrix.free_nodes().len()],
+            matrix,
+        })
+    }
+}
+
+impl<S: SparseSolver> Solver for Assembled<S> {
+    fn free_nodes(&self) -> &[usize] {
+        &self.free
+    }
+
+    fn set_pins(&mut self, pins: &Pins) -> bool {
+        let nodes = self.matrix.free_nodes();
+        let is_pinned = |node: &usize| pins.nodes().binary_search(node).is_ok();
+        let held: Vec<bool> = nodes.iter().map(is_pinned).collect();
+        let count = held.iter().filter(|is_held| **is_held).count();
+        // The matrix leaves out nodes that were pinned when it was made: a new one is needed to let them go.
+        if nodes.len() - count != self.stiffness.matrix().pattern().rows() - pins.nodes().len() {
+            return false;
+        }
+        self.free =
+            nodes.iter().zip(&held).filter(|(_, is_held)| !**is_held).map(|(&node, _)| node).collect();
+        self.held = if count == 0 { Vec::new() } else { held };
+        true
+    }
+
+    fn joins(&self, a: usize, b: usize) -> bool {
+        self.stiffness.matrix().pattern().block(a, b).is_some()
+    }
+
+    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated {
+        objective.linearise(filter, &mut self.stiffness)
+    }
+
+    fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        let elements = self.stiffness.elements();
+        elements.add_product(objective.body, 1.0, |node| displacement[node], total);
+        objective.quadratic.add_product(displacement, total);
+        objective.blocks.add_product(displacement, total);
+    }
+
+    fn solve(
+        &mut self,
+        objective: &Objective<'_>,
+        _: &[[f64; 3]],
+        gradient: &[[f64; 3]],
+        direction: &mut [[f64; 3]],
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, SolveError> {
+        let Self { stiffness, matrix, held, unknowns, solver, .. } = self;
+        for (unknown, &node) in unknowns.chunks_exact_mut(3).zip(matrix.free_nodes()) {
+            for c in 0..3 {
+                unknown[c] = -gradient[node][c];
+            }
+        }
+        for (unknown, _) in unknowns.chunks_exact_mut(3).zip(&*held).filter(|(_, is_held)| **is_held) {
+            unknown.fill(0.0);
+        }
+        let quadratic = &objective.quadratic;
+        let mut shift = 0.0;
+        let iterations = loop {
+            let diagonal =
+                |node: usize| quadratic.guarded_diagonal(node) + shift * quadratic.regularisation(node);
+            matrix.fill(stiffness, diagonal)?;
+            objective.blocks.add_to_triangle(matrix);
+            matrix.hold(held);
+            match solver.solve(matrix, unknowns, tolerance.min(TOLERANCE)) {
+                Ok(iterations) => break iterations,
+                Err(LinearError::NotPositive { .. }) if definiteness == Definiteness::Required => {
+                    return Ok(None);
+                }
+                Err(LinearError::NotPositive { .. }) if shift < 1e12 => {
+                    shift = if shift == 0.0 { 1.0 } else { 10.0 * shift }
+                }
+                Err(LinearError::NotPositive { column }) => {
+                    // A user-defined solver may name any column.
+                    let node = matrix.free_nodes().get(column / 3).copied().unwrap_or(0);
+                    return Err(SolveError::NotPositive { node, shift });
+                }
+                Err(error) => return Err(error.into()),
+            }
+        };
+        if unknowns.iter().any(|x| !x.is_finite()) {
+            return Err(SolveError::NotFinite);
+        }
+        for (unknown, &node) in unknowns.chunks_exact(3).zip(matrix.free_nodes()) {
+            direction[node] = [unknown[0], unknown[1], unknown[2]];
+        }
+        Ok(Some(Solution { shift, iterations, ..Solution::default() }))
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Solver> {
+        Box::new(self.clone())
+    }
+}

@@ -1,0 +1,170 @@
+//! Conjugate gradients on the assembled matrix.
+
+use piola::point::Filter;
+
+use crate::step::newton::{Definiteness, Solution};
+use crate::step::objective::Objective;
+use crate::system::element::Evaluated;
+use crate::system::linear::LinearError;
+use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
+use crate::system::linear::multigrid::Whole;
+use crate::system::linear::symmetric_blocks::SymmetricBlocks;
+use crate::system::nodal_stiffness::NodalStiffness;
+use crate::system::{Body, Pins};
+
+use super::interface::{SolveError, Solver};
+use super::preconditioner::Preconditioner;
+
+/// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).
+///
+/// Unknowns are the coordinates of all nodes, pinned ones too: right sides and products are set to zero
+/// there.
+#[derive(Clone)]
+pub(super) struct Conjugate {
+    stiffness: NodalStiffness,
+    nodes: Nodes,
+    preconditioner: Preconditioner<Whole>,
+    conjugate_gradients: ConjugateGradients,
+    tolerance: f64,
+    max_iterations: usize,
+}
+
+/// The nodes of a body by their freedom.
+#[derive(Clone)]
+struct Nodes {
+    pinned: Vec<usize>,
+    free: Vec<usize>,
+    is_free: Vec<bool>,
+}
+
+impl Nodes {
+    fn new(nodes: usize, pins: &Pins) -> Self {
+        let mut is_free = vec![true; nodes];
+        pins.nodes().iter().for_each(|&node| is_free[node] = false);
+        let free = (0..nodes).filter(|&node| is_free[node]).collect();
+        Self { pinned: pins.nodes().to_vec(), free, is_free }
+    }
+}
+
+impl Conjugate {
+    pub(super) fn new(
+        body: &Body,
+        pins: &Pins,
+        pairs: &[[usize; 2]],
+        tolerance: f64,
+        max_iterations: usize,
+    ) -> Result<Self, LinearError> {
+        let nodes = body.rest().len();
+        Ok(Self {
+            stiffness: NodalStiffness::new(body, pairs)?,
+            nodes: Nodes::new(nodes, pins),
+            preconditioner: Preconditioner::new(nodes, Whole),
+            conjugate_gradients: ConjugateGradients::new(3 * nodes),
+            tolerance,
+            max_iterations,
+        })
+    }
+}
+
+impl Solver for Conjugate {
+    fn free_nodes(&self) -> &[usize] {
+        &self.nodes.free
+    }
+
+    fn joins(&self, a: usize, b: usize) -> bool {
+        self.stiffness.matrix().pattern().block(a, b).is_some()
+    }
+
+    fn set_pins(&mut self, pins: &Pins) -> bool {
+        self.nodes = Nodes::new(self.nodes.is_free.len(), pins);
+        true
+    }
+
+    fn begin(&mut self) {
+        self.preconditioner.forget();
+    }
+
+    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated {
+        objective.linearise(filter, &mut self.stiffness)
+    }
+
+    fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        let mut product = vec![[0.0; 3]; total.len()];
+        self.stiffness.matrix_mut().multiply(displacement, &mut product);
+        for (total, product) in total.iter_mut().zip(product) {
+            for c in 0..3 {
+                total[c] += product[c];
+            }
+        }
+        objective.quadratic.add_product(displacement, total);
+        objective.blocks.add_product(displacement, total);
+    }
+
+    fn solve(
+        &mut self,
+        objective: &Objective<'_>,
+        x: &[[f64; 3]],
+        gradient: &[[f64; 3]],
+        direction: &mut [[f64; 3]],
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, SolveError> {
+        let Self { stiffness, nodes, preconditioner, conjugate_gradients, .. } = self;
+        objective.quadratic.add_to(stiffness.matrix_mut());
+        objective.blocks.add_to_blocks(stiffness.matrix_mut());
+        let tolerance = tolerance.min(self.tolerance);
+        let mut given_up = 0;
+        loop {
+            preconditioner
+                .take(stiffness, &nodes.is_free, x, |node| objective.quadratic.guarded_diagonal(node))?;
+            for (direction, gradient) in direction.iter_mut().zip(gradient) {
+                *direction = gradient.map(|g| -g);
+            }
+            nodes.pinned.iter().for_each(|&node| direction[node] = [0.0; 3]);
+            let limit = preconditioner.patience(tolerance).min(self.max_iterations - given_up);
+            let matrix = stiffness.matrix_mut();
+            let mut system = Linearised { matrix, pinned: &nodes.pinned, preconditioner };
+            let unknowns = direction.as_flattened_mut();
+            let mut iteration = conjugate_gradients.solve(&mut system, unknowns, tolerance, limit);
+            let again = preconditioner.judge(iteration, tolerance);
+            iteration.iterations += given_up;
+            if again && iteration.iterations < self.max_iterations {
+                given_up = iteration.iterations;
+                continue;
+            }
+            let solution = Solution::of(iteration, definiteness)?;
+            if solution.is_some() && unknowns.iter().any(|x| !x.is_finite()) {
+                return Err(SolveError::NotFinite);
+            }
+            return Ok(solution);
+        }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Solver> {
+        Box::new(self.clone())
+    }
+}
+
+/// The second derivatives as an operator on displacements that are zero at pinned nodes.
+struct Linearised<'a> {
+    matrix: &'a mut SymmetricBlocks<f64, 3>,
+    pinned: &'a [usize],
+    preconditioner: &'a mut Preconditioner<Whole>,
+}
+
+impl System for Linearised<'_> {
+    fn apply(&mut self, x: &[f64], product: &mut [f64]) {
+        let (x, product) = (vectors(x), product.as_chunks_mut().0);
+        self.matrix.multiply(x, product);
+        self.pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
+    }
+
+    fn precondition(&mut self, r: &[f64], z: &mut [f64]) {
+        self.preconditioner.apply(vectors(r), z.as_chunks_mut().0);
+    }
+}
+
+/// Entries as vectors, one for each node.
+fn vectors(entries: &[f64]) -> &[[f64; 3]] {
+    entries.as_chunks().0
+}

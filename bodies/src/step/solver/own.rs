@@ -1,0 +1,53 @@
+//! User-defined linear solvers, which factor or iterate on the assembled matrix.
+
+use crate::system::LowerTriangle;
+use crate::system::linear::LinearError;
+
+/// User-defined solver of the linear systems A x = b of Newton's method: see
+/// [`Simulation::set_linear_solver`](crate::step::Simulation::set_linear_solver).
+///
+/// Three rows and columns of A belong to each of [`LowerTriangle::free_nodes`]. A function of the form of
+/// [`SparseSolver::solve`] is such a solver, and `Cholesky` is another.
+pub trait SparseSolver: Clone + Send + Sync + 'static {
+    /// Analyses the pattern of the matrices to come, for a symbolic factorisation: before the first one, and
+    /// whenever terms of the energy join other nodes or pins change. Does nothing by default.
+    ///
+    /// # Errors
+    /// Any [`LinearError`]; usually [`LinearError::OutOfMemory`].
+    fn analyse(&mut self, column_starts: &[usize], row_indices: &[usize]) -> Result<(), LinearError> {
+        let _ = (column_starts, row_indices);
+        Ok(())
+    }
+
+    /// Replaces b by x with ‖b − A x‖ ≤ `tolerance` ‖b‖, or as close as possible. Returns the number of
+    /// iterations, 0 for a direct solver.
+    ///
+    /// # Errors
+    /// [`LinearError::NotPositive`], with b unchanged, if A is not positive definite: the solver is then
+    /// called again, with eigenvalues clamped or with inertia added. Other errors end the step.
+    fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError>;
+}
+
+impl<F> SparseSolver for F
+where
+    F: FnMut(&LowerTriangle, &mut [f64], f64) -> Result<usize, LinearError>,
+    F: Clone + Send + Sync + 'static,
+{
+    fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError> {
+        self(matrix, b, tolerance)
+    }
+}
+
+#[cfg(feature = "faer")]
+impl SparseSolver for crate::system::Cholesky {
+    fn analyse(&mut self, column_starts: &[usize], row_indices: &[usize]) -> Result<(), LinearError> {
+        *self = Self::new(column_starts, row_indices)?;
+        Ok(())
+    }
+
+    fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
+        self.factor(matrix.values())?;
+        Self::solve(self, b)?;
+        Ok(0)
+    }
+}

@@ -1,0 +1,318 @@
+use piola::__private::random::Random;
+use piola::batch::TileMaterial;
+use piola::point::Filter;
+
+use super::*;
+use crate::mesh::Anchor;
+use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
+use crate::step::{
+    Damping, Filtering, NewtonError, NewtonReport, NewtonSettings, Simulation, SimulationSettings, Spring,
+    StepError,
+};
+use crate::system::testing::{RotatedLinear, beam, kirchhoff, rotated, shake};
+use crate::system::{Cholesky, LowerTriangle};
+
+const GRADIENTS: LinearSolver = LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 2000 };
+const ALL: [LinearSolver; 2] = [LinearSolver::Cholesky, GRADIENTS];
+
+fn simulation(
+    mesh: &TetMesh,
+    material: impl TileMaterial<f64> + 'static,
+    settings: SimulationSettings,
+) -> Simulation {
+    let left = Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] };
+    let pins = Pins::in_box(mesh, left).expect("the left end");
+    let body = Body::new(mesh, material, 1000.0).expect("a body");
+    Simulation::new(body, &pins, settings).expect("a simulation")
+}
+
+/// A beam whose held end is moved and turned while a spring pulls at the other, under gravity: its reports.
+fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec<NewtonReport>) {
+    let newton = NewtonSettings { linear, tolerance: 1e-9, ..NewtonSettings::default() };
+    let mut body = simulation(
+        mesh,
+        rotated(),
+        SimulationSettings {
+            gravity: [0.0, -9.81, 0.0],
+            damping: Damping::Mass { rate: 0.5 },
+            newton,
+            ..SimulationSettings::default()
+        },
+    );
+    let last = body.body().elements().len() - 1;
+    let anchor = Anchor { nodes: body.body().elements()[last].nodes, weights: [0.1, 0.2, 0.3, 0.4] };
+    body.set_springs(&[Spring { anchor, target: [1.0, 0.5, 0.2], stiffness: 200.0 }]).expect("one element");
+    let mut reports = Vec::new();
+    for step in 1..=steps {
+        let angle = 0.05 * step as f64;
+        for node in body.pinned().to_vec() {
+            let [x, y, z] = mesh.positions[node];
+            let turned = [y * angle.cos() - z * angle.sin(), y * angle.sin() + z * angle.cos()];
+            body.prescribe(node, [x - 0.3 * angle, turned[0], turned[1]]).expect("pinned");
+        }
+        reports.push(body.step(0.02).expect("a step").newton);
+    }
+    (body, reports)
+}
+
+#[test]
+fn all_solvers_take_the_same_way() {
+    let mesh = tetrahedral_box([8, 2, 2], [0.8, 0.2, 0.2]).expect("a box");
+    let (exact, reports) = waved(LinearSolver::Cholesky, &mesh, 12);
+    assert!(reports.iter().all(|report| report.linear_iterations == 0 && report.truncated == 0));
+    let (body, reports) = waved(GRADIENTS, &mesh, 12);
+    for report in reports {
+        assert!(report.linear_iterations >= report.iterations, "{report:?}");
+        assert_eq!((report.truncated, report.shift), (0, 0.0));
+    }
+    for (x, expected) in body.positions().iter().zip(exact.positions()) {
+        for c in 0..3 {
+            // Each step is minimised to 10⁻⁹ of forces that would move the beam by its length.
+            assert!((x[c] - expected[c]).abs() <= 1e-8, "{} for {}", x[c], expected[c]);
+        }
+    }
+}
+
+#[test]
+fn a_loose_tolerance_costs_newton_iterations_and_no_accuracy() {
+    let mesh = tetrahedral_box([8, 2, 2], [0.8, 0.2, 0.2]).expect("a box");
+    let (exact, _) = waved(LinearSolver::Cholesky, &mesh, 6);
+    let loose = LinearSolver::ConjugateGradients { tolerance: 0.05, max_iterations: 1000 };
+    let (body, _) = waved(loose, &mesh, 6);
+    for (x, expected) in body.positions().iter().zip(exact.positions()) {
+        for c in 0..3 {
+            // As above: Newton's tolerance is the same.
+            assert!((x[c] - expected[c]).abs() <= 1e-8, "{} for {}", x[c], expected[c]);
+        }
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    // Enough nodes and elements for several chunks of every kind.
+    let mesh = tetrahedral_box([40, 6, 6], [4.0, 0.6, 0.6]).expect("a box");
+    for linear in
+        [LinearSolver::Cholesky, LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 50 }]
+    {
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| {
+                let (body, reports) = waved(linear, &mesh, 2);
+                (body.positions().to_vec(), reports)
+            })
+        };
+        let one = run(1);
+        // Equal floating-point numbers are equal bits except for the sign of zero, which cannot pass on.
+        assert!(one == run(2), "{linear:?}");
+    }
+}
+
+/// Information from one step has no effect on the next one: a run that is resumed continues as if it had not
+/// been interrupted.
+#[test]
+fn a_step_depends_on_the_state_before_it_alone() {
+    let mesh = tetrahedral_box([12, 4, 4], [1.2, 0.4, 0.4]).expect("a box");
+    for (linear, h) in [(LinearSolver::Cholesky, 0.02), (GRADIENTS, 0.02), (GRADIENTS, 1.0)] {
+        let newton = NewtonSettings { linear, ..NewtonSettings::default() };
+        let settings =
+            SimulationSettings { gravity: [0.0, -9.81, 0.0], newton, ..SimulationSettings::default() };
+        let mut whole = simulation(&mesh, rotated(), settings);
+        for _ in 0..2 {
+            whole.step(h).expect("a step");
+        }
+        let mut again = simulation(&mesh, rotated(), settings);
+        again.set_positions(whole.positions()).expect("finite");
+        again.set_velocities(whole.velocities()).expect("finite");
+        assert_eq!(whole.step(h).expect("a step").newton, again.step(h).expect("a step").newton);
+        assert_eq!(whole.positions(), again.positions(), "{linear:?}");
+    }
+}
+
+#[test]
+fn negative_curvature_is_left_aside_and_reported() {
+    let mesh = beam(6);
+    let newton = NewtonSettings {
+        filtering: Filtering::Always(Filter::None),
+        linear: GRADIENTS,
+        max_iterations: 200,
+        ..NewtonSettings::default()
+    };
+    let mut body =
+        simulation(&mesh, kirchhoff(), SimulationSettings { newton, ..SimulationSettings::default() });
+    let squeezed = |x: &[f64; 3]| [0.4 * x[0], x[1], x[2]];
+    let start: Vec<_> = mesh.positions.iter().map(squeezed).collect();
+    body.set_positions(&shake(&mut Random::new(6), &start, 1e-3)).expect("finite");
+    let before = body.energies().total();
+    let report = body.step(0.1).expect("a step");
+    assert!(report.newton.truncated > 0, "{report:?}");
+    assert!(report.energies.total() < before && body.positions().iter().flatten().all(|x| x.is_finite()));
+}
+
+#[test]
+fn a_limit_of_iterations_leaves_a_direction_of_descent() {
+    let mesh = beam(10);
+    let linear = LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 3 };
+    let newton = NewtonSettings { linear, ..NewtonSettings::single() };
+    let mut body = simulation(
+        &mesh,
+        rotated(),
+        SimulationSettings { gravity: [0.0, -9.81, 0.0], newton, ..SimulationSettings::default() },
+    );
+    for _ in 0..5 {
+        let report = body.step(0.02).expect("a step").newton;
+        assert_eq!((report.linear_iterations, report.truncated), (3, 1));
+        assert_eq!(report.step_lengths, [1.0]);
+    }
+}
+
+/// From rubber foam to solids stiffer than diamond: with time steps that scale along, the motion is the same.
+#[test]
+fn stiffness_of_any_unit_is_as_good() {
+    let mesh = beam(8);
+    let run = |linear: LinearSolver, factor: f64| {
+        let newton = NewtonSettings { linear, ..NewtonSettings::default() };
+        let material = RotatedLinear::new(factor, 1.5 * factor).expect("finite");
+        let mut body = simulation(
+            &mesh,
+            material,
+            SimulationSettings {
+                gravity: [0.0, -factor / 3e3, 0.0],
+                newton,
+                ..SimulationSettings::default()
+            },
+        );
+        let reports: Vec<_> =
+            (0..3).map(|_| body.step(3.0 / factor.sqrt()).expect("a step").newton).collect();
+        (body.positions().to_vec(), reports)
+    };
+    let (expected, _) = run(LinearSolver::Cholesky, 3e4);
+    for linear in ALL {
+        for factor in [3e-12, 3e6, 3e12, 3e30] {
+            let (positions, reports) = run(linear, factor);
+            assert!(reports.iter().all(|report| report.truncated == 0 && report.shift == 0.0));
+            for (x, expected) in positions.iter().zip(&expected) {
+                for c in 0..3 {
+                    // Newton's tolerance of 10⁻⁶, three times.
+                    assert!((x[c] - expected[c]).abs() <= 1e-5, "{linear:?}, {factor:e} Pa");
+                }
+            }
+        }
+    }
+}
+
+/// A rigid translation of the pins moves a body without inertia along in the first linear system already.
+#[test]
+fn moving_pins_enter_the_right_side() {
+    let mesh = beam(3);
+    for linear in ALL {
+        let newton = NewtonSettings { linear, ..NewtonSettings::single() };
+        let mut body =
+            simulation(&mesh, rotated(), SimulationSettings { newton, ..SimulationSettings::default() });
+        for node in body.pinned().to_vec() {
+            let [x, y, z] = mesh.positions[node];
+            body.prescribe(node, [x + 1.0, y, z]).expect("pinned");
+        }
+        // In 10⁵ s inertia is 10⁻¹⁴ of the stiffness.
+        body.step(1e5).expect("a step");
+        for (x, rest) in body.positions().iter().zip(&mesh.positions) {
+            // The tolerance of the linear system times its condition of about 10³.
+            assert!((x[0] - rest[0] - 1.0).abs() <= 1e-7, "{linear:?}");
+        }
+    }
+}
+
+#[test]
+fn solvers_are_exchanged_between_steps_and_know_the_same_springs() {
+    let mesh = beam(4);
+    let gravity = [0.0, -9.81, 0.0];
+    let settings = |linear| SimulationSettings {
+        gravity,
+        newton: NewtonSettings { linear, tolerance: 1e-9, ..NewtonSettings::default() },
+        ..SimulationSettings::default()
+    };
+    let mut exchanged = simulation(&mesh, rotated(), settings(ALL[0]));
+    let mut exact = simulation(&mesh, rotated(), settings(ALL[0]));
+    // Nodes 8 and 19 share no element; of nodes 0 and 19 the first is pinned.
+    let spring =
+        |nodes, weights| Spring { anchor: Anchor { nodes, weights }, target: [0.5; 3], stiffness: 10.0 };
+    let across = spring([8, 19, 0, 0], [0.5, 0.5, 0.0, 0.0]);
+    let to_a_pin = spring([0, 19, 0, 0], [0.5, 0.5, 0.0, 0.0]);
+    let springs = [across, to_a_pin];
+    exact.set_springs(&springs).expect("nodes");
+    for linear in ALL {
+        exchanged.set_settings(settings(linear)).expect("a solver");
+        exchanged.set_springs(&springs).expect("nodes");
+        exchanged.step(0.02).expect("a step");
+        exact.step(0.02).expect("a step");
+    }
+    for (x, expected) in exchanged.positions().iter().zip(exact.positions()) {
+        for c in 0..3 {
+            // Newton's tolerance, three times.
+            assert!((x[c] - expected[c]).abs() <= 1e-8);
+        }
+    }
+}
+
+#[test]
+fn a_body_with_every_node_pinned_has_nothing_to_solve() {
+    let mesh = beam(1);
+    for linear in ALL {
+        let settings = SimulationSettings {
+            newton: NewtonSettings { linear, ..Default::default() },
+            ..Default::default()
+        };
+        let body = Body::new(&mesh, rotated(), 1000.0).expect("a body");
+        let mut body = Simulation::new(body, &Pins::at(0..8), settings).expect("a simulation");
+        body.prescribe(3, [0.2, 0.2, 0.2]).expect("pinned");
+        body.step(0.1).expect("nothing to solve");
+        assert_eq!((body.positions()[3], body.positions()[4]), ([0.2; 3], mesh.positions[4]));
+    }
+}
+
+#[test]
+fn tolerances_and_limits_that_make_no_sense_are_refused() {
+    let mesh = beam(1);
+    let mut body = simulation(&mesh, rotated(), SimulationSettings::default());
+    let mut message = |linear| {
+        let settings = SimulationSettings {
+            newton: NewtonSettings { linear, ..Default::default() },
+            ..Default::default()
+        };
+        let error = body.set_settings(settings).expect_err("nonsense").to_string();
+        assert_eq!(body.settings(), &SimulationSettings::default(), "the settings before are still there");
+        error
+    };
+    for tolerance in [0.0, 1.0, -1e-3, f64::NAN] {
+        let rule = "the tolerance of the linear solver must be between 0 and 1";
+        assert_eq!(message(LinearSolver::ConjugateGradients { tolerance, max_iterations: 9 }), rule);
+    }
+    let rule = "conjugate gradients need at least one iteration";
+    assert_eq!(message(LinearSolver::ConjugateGradients { tolerance: 0.1, max_iterations: 0 }), rule);
+}
+
+/// A user-defined factorisation gives the bits of the built-in one, and the error of a solver ends the step.
+#[test]
+fn solvers_of_ones_own_serve_until_the_settings_are_replaced() {
+    let mesh = beam(4);
+    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
+    let settings = settings.with_newton(NewtonSettings::default().with_linear(LinearSolver::Cholesky));
+    let mut own = simulation(&mesh, rotated(), settings);
+    let mut built_in = own.clone();
+    own.set_linear_solver(Cholesky::new(&[0], &[]).expect("no unknowns")).expect("a pattern");
+    for _ in 0..3 {
+        own.step(0.02).expect("a step");
+        built_in.step(0.02).expect("a step");
+    }
+    assert_eq!(own.positions(), built_in.positions());
+
+    let before = own.positions().to_vec();
+    let error = LinearError::NotPositive { column: 0 };
+    own.set_linear_solver(move |_: &LowerTriangle, _: &mut [f64], _: f64| Err(error)).expect("a pattern");
+    let failed = own.step(0.02).expect_err("a solver that never solves");
+    assert!(matches!(failed, StepError::Newton(NewtonError::NotPositive { .. })), "{failed}");
+    assert_eq!(own.positions(), before);
+    own.set_settings(settings).expect("as before");
+    own.step(0.02).expect("a step");
+    built_in.step(0.02).expect("a step");
+    assert_eq!(own.positions(), built_in.positions());
+}

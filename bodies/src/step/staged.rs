@@ -1,0 +1,346 @@
+//! State of nodes between steps, their prescribed motion, and the stages of a step.
+//!
+//! This module is independent of forces: stages couple no two nodes, so that each part of a body may have its
+//! own.
+
+use piola::NoSuchNode;
+
+use super::integrator::{Integrator, Method, Stage, Stages, State, on_the_way};
+use super::simulation::SetupError;
+use super::spring::Spring;
+
+/// State of nodes, and the stages by which an [`Integrator`] advances it, for any minimiser: the one of
+/// [`Simulation`](super::Simulation), or of a body divided among machines.
+///
+/// A step is [begun](StagedSteps::begin), its stages are minimised one by one, and it is
+/// [finished](StagedSteps::finish); a step that is begun again instead leaves the state as it was. The
+/// minimum of a stage is where
+///
+/// ```text
+/// M a = −∇Ψ(x) + other forces at x and v, with v = (x − s)/τ and a = (v − w)/σ
+/// ```
+///
+/// for the s, w, τ and σ of its [`Stage`].
+///
+/// ```
+/// use piola_bodies::step::Integrator;
+/// use piola_bodies::step::divided::StagedSteps;
+///
+/// // Free fall: M a = M g, for any mass.
+/// let (g, dt) = (-9.81, 0.1);
+/// let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], &[])?;
+/// for stage in 0..steps.begin(dt) {
+///     steps.begin_stage(stage);
+///     let [tau, sigma] = steps.stage().lengths();
+///     // The acceleration is linear in the position, with the slope 1/(τ σ).
+///     let [_, a] = steps.stage().motion(0, [0.0; 3]);
+///     steps.in_stage().end[0][1] = tau * sigma * (g - a[1]);
+///     steps.end_stage(stage);
+/// }
+/// steps.finish();
+/// assert!((steps.positions()[0][1] - 0.5 * g * dt * dt).abs() < 1e-15);
+/// assert!((steps.velocities()[0][1] - g * dt).abs() < 1e-15);
+/// # Ok::<(), piola_bodies::step::SetupError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct StagedSteps {
+    integrator: Integrator,
+    method: Method,
+    dt: f64,
+    pub(super) state: State,
+    next: State,
+    stages: Stages,
+    /// Indices of the pinned nodes, ascending.
+    pinned: Vec<usize>,
+    /// Position of each pinned node, and only of those, after the next step, m.
+    targets: Vec<[f64; 3]>,
+    pins_move: Vec<[f64; 3]>,
+    springs: Vec<Spring>,
+    /// Targets of the springs where the next step starts, m.
+    targets_before: Vec<[f64; 3]>,
+}
+
+impl StagedSteps {
+    /// State of nodes at rest at these positions, m, some of them pinned.
+    ///
+    /// # Errors
+    /// [`SetupError::NoSuchNode`].
+    pub fn new(integrator: Integrator, positions: &[[f64; 3]], pinned: &[usize]) -> Result<Self, SetupError> {
+        let nodes = positions.len();
+        if let Some(&node) = pinned.iter().find(|&&node| node >= nodes) {
+            return Err(NoSuchNode { element: None, node, nodes }.into());
+        }
+        let mut pinned = pinned.to_vec();
+        pinned.sort_unstable();
+        pinned.dedup();
+        let state = State::at_rest(positions);
+        Ok(Self {
+            integrator,
+            method: integrator.method(),
+            dt: 0.0,
+            next: state.clone(),
+            stages: Stages::new(integrator, nodes),
+            pinned,
+            targets: positions.to_vec(),
+            pins_move: vec![[0.0; 3]; nodes],
+            springs: Vec::new(),
+            targets_before: Vec::new(),
+            state,
+        })
+    }
+
+    pub(super) fn integrator(&self) -> Integrator {
+        self.integrator
+    }
+
+    /// Replaces the integrator from the next step on.
+    pub(super) fn set_integrator(&mut self, integrator: Integrator) {
+        if integrator != self.integrator {
+            self.integrator = integrator;
+            self.stages = Stages::new(integrator, self.state.x.len());
+        }
+    }
+
+    /// Position of each node after the last step, m.
+    #[must_use]
+    pub fn positions(&self) -> &[[f64; 3]] {
+        &self.state.x
+    }
+
+    /// Velocity of each node after the last step, m/s.
+    #[must_use]
+    pub fn velocities(&self) -> &[[f64; 3]] {
+        &self.state.v
+    }
+
+    /// Acceleration of each node, m/s², as in
+    /// [`Simulation::accelerations`](super::Simulation::accelerations).
+    #[must_use]
+    pub fn accelerations(&self) -> &[[f64; 3]] {
+        &self.state.a
+    }
+
+    /// Replaces positions, m. Pins hold their nodes there.
+    ///
+    /// # Errors
+    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
+    pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(positions)?;
+        self.state.x.copy_from_slice(positions);
+        self.targets.copy_from_slice(positions);
+        Ok(())
+    }
+
+    /// Replaces velocities, m/s.
+    ///
+    /// # Errors
+    /// The errors of [`StagedSteps::set_positions`].
+    pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(velocities)?;
+        self.state.v.copy_from_slice(velocities);
+        Ok(())
+    }
+
+    /// Replaces the accelerations at the end of the step before, m/s².
+    ///
+    /// # Errors
+    /// The errors of [`StagedSteps::set_positions`].
+    pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
+        self.check_nodal(accelerations)?;
+        self.state.a.copy_from_slice(accelerations);
+        Ok(())
+    }
+
+    /// Indices of the pinned nodes, ascending.
+    #[must_use]
+    pub fn pinned(&self) -> &[usize] {
+        &self.pinned
+    }
+
+    /// Replaces the pinned nodes. A node that was not pinned before is held where it is.
+    pub(super) fn set_pinned(&mut self, pinned: &[usize]) {
+        for node in 0..self.state.x.len() {
+            let was_pinned = self.pinned.binary_search(&node).is_ok();
+            if !(was_pinned && pinned.binary_search(&node).is_ok()) {
+                self.targets[node] = self.state.x[node];
+                self.pins_move[node] = [0.0; 3];
+            }
+        }
+        self.pinned = pinned.to_vec();
+    }
+
+    /// Prescribes the position of a pinned node, m, after the next step and from then on.
+    ///
+    /// # Errors
+    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
+    pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
+        if self.pinned.binary_search(&node).is_err() {
+            return Err(SetupError::NotPinned { node });
+        }
+        if position.iter().any(|x| !x.is_finite()) {
+            return Err(SetupError::NotFinite { node });
+        }
+        self.targets[node] = position;
+        Ok(())
+    }
+
+    /// The springs.
+    #[must_use]
+    pub fn springs(&self) -> &Vec<Spring> {
+        &self.springs
+    }
+
+    /// Replaces the springs. If a spring has the same index and anchor as one before, its target moves evenly
+    /// in the course of the next step.
+    ///
+    /// # Errors
+    /// [`SetupError::Spring`] if its stiffness is negative or a component is not finite,
+    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
+    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
+        springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
+        let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
+            Some(old) if old.anchor == spring.anchor => self.targets_before[index],
+            _ => spring.target,
+        };
+        self.targets_before = springs.iter().enumerate().map(before).collect();
+        self.springs.clear();
+        self.springs.extend_from_slice(springs);
+        Ok(())
+    }
+
+    /// Begins a step of `dt`, s, infinite for statics. Returns the number of its stages.
+    pub fn begin(&mut self, dt: f64) -> usize {
+        let is_static = dt == f64::INFINITY;
+        let integrator = if is_static { Integrator::ImplicitEuler } else { self.integrator };
+        self.method = integrator.method();
+        self.dt = dt;
+        self.next.x.copy_from_slice(&self.state.x);
+        self.method.stages()
+    }
+
+    /// Begins a stage of the step, counted from 0: pinned nodes and targets of springs are at its share of
+    /// their motion through the step. Returns true if a pinned node moves.
+    ///
+    /// # Panics
+    /// If there is no such stage.
+    pub fn begin_stage(&mut self, stage: usize) -> bool {
+        self.stages.begin(&self.method, stage, self.dt, &self.state);
+        let share = self.method.share(stage);
+        self.stages.pull(&self.springs, &self.targets_before, share);
+        let mut is_moving = false;
+        for &node in &self.pinned {
+            let (target, before) = (self.targets[node], self.state.x[node]);
+            let way: [f64; 3] = std::array::from_fn(|c| target[c] - before[c]);
+            for c in 0..3 {
+                self.pins_move[node][c] = share * way[c] - (self.next.x[node][c] - before[c]);
+                is_moving |= self.pins_move[node][c] != 0.0;
+            }
+        }
+        is_moving
+    }
+
+    /// The stage begun last.
+    #[must_use]
+    pub fn stage(&self) -> &Stage {
+        &self.stages.current
+    }
+
+    /// The stage begun last, as the input of its minimisation.
+    pub fn in_stage(&mut self) -> InStage<'_> {
+        let Stages { current: stage, springs, .. } = &self.stages;
+        InStage { stage, springs, pins_move: &self.pins_move, end: &mut self.next.x }
+    }
+
+    /// Ends a stage, with [its positions](InStage::end) at the minimum.
+    ///
+    /// # Panics
+    /// If there is no such stage.
+    pub fn end_stage(&mut self, stage: usize) {
+        if stage + 1 < self.method.stages() {
+            self.stages.end(stage, &self.next.x);
+        }
+    }
+
+    /// Ends the step, at the end of its last stage.
+    pub fn finish(&mut self) {
+        self.stages.finish(&mut self.next);
+        std::mem::swap(&mut self.state, &mut self.next);
+        for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
+            *before = spring.target;
+        }
+    }
+
+    /// Moves pinned nodes and springs from one share of the motion that `whole` prescribes to another.
+    pub(super) fn drive(&mut self, whole: &Self, start: f64, end: f64) {
+        for &node in &whole.pinned {
+            self.targets[node] = on_the_way(whole.state.x[node], whole.targets[node], end);
+        }
+        for (index, (before, spring)) in whole.targets_before.iter().zip(&whole.springs).enumerate() {
+            self.targets_before[index] = on_the_way(*before, spring.target, start);
+            self.springs[index].target = on_the_way(*before, spring.target, end);
+        }
+    }
+
+    pub(super) fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
+        if vectors.len() != self.state.x.len() {
+            return Err(SetupError::Length { expected: self.state.x.len(), found: vectors.len() });
+        }
+        match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
+            Some(node) => Err(SetupError::NotFinite { node }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_spring(&self, index: usize, spring: &Spring) -> Result<(), SetupError> {
+        let nodes = self.state.x.len();
+        if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
+            return Err(NoSuchNode { element: None, node, nodes }.into());
+        }
+        let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
+        if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
+            return Err(SetupError::Spring { index });
+        }
+        Ok(())
+    }
+}
+
+/// Stage of a step as the input of its minimisation.
+#[derive(Debug)]
+pub struct InStage<'a> {
+    /// The stage.
+    pub stage: &'a Stage,
+    /// The springs, with their targets in the stage.
+    pub springs: &'a Vec<Spring>,
+    /// Displacement of each pinned node, m; zero for others.
+    pub pins_move: &'a [[f64; 3]],
+    /// Positions of the nodes, m: the start of the minimisation, to be replaced by the minimum.
+    pub end: &'a mut [[f64; 3]],
+}
+
+impl Stage {
+    /// τ and σ, s.
+    #[must_use]
+    pub fn lengths(&self) -> [f64; 2] {
+        self.lengths
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrong_input_is_refused() {
+        let build = |pinned: &[usize]| StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], pinned);
+        assert_eq!(
+            build(&[1]).unwrap_err(),
+            SetupError::NoSuchNode(NoSuchNode { element: None, node: 1, nodes: 1 })
+        );
+        let mut steps = build(&[]).expect("no pins");
+        let expected = Err(SetupError::Length { expected: 1, found: 2 });
+        assert_eq!(steps.set_positions(&[[0.0; 3]; 2]), expected);
+        assert_eq!(steps.set_accelerations(&[[0.0; 3]; 2]), expected);
+        assert_eq!(steps.set_velocities(&[[f64::NAN; 3]]), Err(SetupError::NotFinite { node: 0 }));
+        assert_eq!(steps.prescribe(0, [0.0; 3]), Err(SetupError::NotPinned { node: 0 }));
+    }
+}

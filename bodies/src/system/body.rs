@@ -1,0 +1,284 @@
+//! A body: a mesh with masses and a material for each of its elements.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use piola::__private::message::{names, number, quoted};
+use piola::batch::TileMaterial;
+use piola::batch::element::TILE;
+
+use super::element::Tetrahedron;
+use crate::mesh::{MeshError, TetMesh, lumped_masses};
+
+/// Material and density of a part of a mesh.
+pub struct Part {
+    /// Name of the group of tetrahedra; `None` for all tetrahedra that no other part names.
+    pub group: Option<String>,
+    /// Anything that implements [`Material`](crate::Material), or a
+    /// [`PerPoint`](piola::material::PerPoint) of them.
+    pub material: Box<dyn TileMaterial<f64>>,
+    /// Mass density at rest, kg/m³.
+    pub density: f64,
+}
+
+/// Elastic body: a mesh with a material and a density for each of its parts.
+///
+/// Everything is in f64. A clone shares the materials and copies the rest.
+#[derive(Clone)]
+pub struct Body {
+    rest: Vec<[f64; 3]>,
+    masses: Vec<f64>,
+    /// Elements of one material are contiguous; `runs` holds the end of each.
+    elements: Vec<Tetrahedron>,
+    runs: Vec<Run>,
+}
+
+/// Contiguous elements of one material.
+#[derive(Clone)]
+struct Run {
+    material: Arc<dyn TileMaterial<f64>>,
+    end: usize,
+}
+
+impl fmt::Debug for Body {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (nodes, elements, materials) = (self.rest.len(), self.elements.len(), self.runs.len());
+        write!(f, "Body {{ nodes: {nodes}, elements: {elements}, materials: {materials} }}")
+    }
+}
+
+impl Body {
+    /// A body of one material; `density` in kg/m³.
+    ///
+    /// # Errors
+    /// [`BodyError::Mesh`], [`BodyError::Density`], [`BodyError::MassOutOfRange`],
+    /// [`BodyError::MaterialsForPoints`].
+    pub fn new(
+        mesh: &TetMesh,
+        material: impl TileMaterial<f64> + 'static,
+        density: f64,
+    ) -> Result<Self, BodyError> {
+        Self::from_parts(mesh, vec![Part { group: None, material: Box::new(material), density }])
+    }
+
+    /// A body of several parts, which together hold each tetrahedron exactly once.
+    ///
+    /// # Errors
+    /// Any [`BodyError`]: of the mesh, a density, a material with parameters for each point, or a group; or
+    /// an error for a tetrahedron that belongs to no part or to two.
+    pub fn from_parts(mesh: &TetMesh, parts: Vec<Part>) -> Result<Self, BodyError> {
+        let shapes = mesh.rest_shapes()?;
+        let part_of_tet = assign(mesh, &parts)?;
+
+        let mut densities = vec![0.0; shapes.len()];
+        let mut elements = Vec::with_capacity(shapes.len());
+        let mut runs = Vec::with_capacity(parts.len());
+        for (index, Part { material, density, .. }) in parts.into_iter().enumerate() {
+            if !(density > 0.0 && density.is_finite()) {
+                return Err(BodyError::Density { density });
+            }
+            let start = elements.len();
+            for tet in (0..shapes.len()).filter(|&tet| part_of_tet[tet] == index) {
+                densities[tet] = density;
+                elements.push(Tetrahedron { nodes: mesh.tets[tet], shape: shapes[tet], tag: mesh.tag(tet) });
+            }
+            fits(&*material, elements.len() - start)?;
+            runs.push(Run { material: material.into(), end: elements.len() });
+        }
+        let masses = lumped_masses(mesh, &shapes, &densities);
+        if let Some(node) = masses.iter().position(|mass| !mass.is_normal()) {
+            return Err(BodyError::MassOutOfRange { node, mass: masses[node] });
+        }
+        Ok(Self { rest: mesh.positions.clone(), masses, elements, runs })
+    }
+
+    /// Replaces the material of a part, numbered as in [`Body::from_parts`]; [`Body::new`] makes a body of
+    /// one part.
+    ///
+    /// # Errors
+    /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
+    pub fn set_material(
+        &mut self,
+        part: usize,
+        material: impl TileMaterial<f64> + 'static,
+    ) -> Result<(), BodyError> {
+        let parts = self.runs.len();
+        let (_, elements) = self.materials().nth(part).ok_or(BodyError::NoSuchPart { part, parts })?;
+        fits(&material, elements.len())?;
+        self.runs[part].material = Arc::new(material);
+        Ok(())
+    }
+
+    /// Rest position of each node, m.
+    #[must_use]
+    pub fn rest(&self) -> &[[f64; 3]] {
+        &self.rest
+    }
+
+    /// Lumped mass of each node, kg.
+    #[must_use]
+    pub fn masses(&self) -> &[f64] {
+        &self.masses
+    }
+
+    /// The elements, sorted by part.
+    #[must_use]
+    pub fn elements(&self) -> &[Tetrahedron] {
+        &self.elements
+    }
+
+    /// The material of an element.
+    pub(crate) fn material(&self, element: usize) -> &dyn TileMaterial<f64> {
+        self.runs[self.runs.partition_point(|run| run.end <= element)].material.as_ref()
+    }
+
+    /// Index of an element among those of its part.
+    pub(crate) fn number_in_part(&self, element: usize) -> usize {
+        let run = self.runs.partition_point(|run| run.end <= element);
+        element - run.checked_sub(1).map_or(0, |before| self.runs[before].end)
+    }
+
+    /// The materials, each with the range of its elements.
+    pub(crate) fn materials(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
+        let starts = [0].into_iter().chain(self.runs.iter().map(|run| run.end));
+        self.runs.iter().zip(starts).map(|(run, start)| (run.material.as_ref(), start..run.end))
+    }
+
+    /// Elements in groups of one material that fill a tile, except for the last group of a material.
+    pub(crate) fn groups(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
+        self.materials().flat_map(|(material, run)| {
+            run.clone().step_by(TILE).map(move |start| (material, start..run.end.min(start + TILE)))
+        })
+    }
+}
+
+/// Checks that a material is one for all elements of a part, or has one for each.
+fn fits(material: &dyn TileMaterial<f64>, elements: usize) -> Result<(), BodyError> {
+    match material.properties().points {
+        Some(materials) if materials != elements => {
+            Err(BodyError::MaterialsForPoints { materials, elements })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The part of each tetrahedron.
+fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
+    let mut assigned = vec![None; mesh.tets.len()];
+    for (index, part) in parts.iter().enumerate() {
+        let Some(name) = &part.group else { continue };
+        let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
+        let group = group.ok_or_else(|| BodyError::NoSuchGroup {
+            name: name.clone(),
+            existing: mesh
+                .groups
+                .iter()
+                .filter(|group| group.dimension == 3)
+                .map(|group| group.name.clone())
+                .collect(),
+        })?;
+        for &tet in &group.tets {
+            match assigned.get_mut(tet) {
+                Some(slot @ None) => *slot = Some(index),
+                _ => return Err(BodyError::InTwoParts { element: mesh.tag(tet) }),
+            }
+        }
+    }
+    let rest = parts.iter().position(|part| part.group.is_none());
+    let each = assigned.into_iter().enumerate();
+    each.map(|(tet, part)| part.or(rest).ok_or(BodyError::InNoPart { element: mesh.tag(tet) })).collect()
+}
+
+/// Reason why a mesh and its parts are not a body.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum BodyError {
+    /// The mesh itself is invalid.
+    Mesh(MeshError),
+    /// A density is not positive and finite.
+    Density {
+        /// The density, kg/m³.
+        density: f64,
+    },
+    /// The mass of a node overflows or underflows.
+    MassOutOfRange {
+        /// The node, from 0.
+        node: usize,
+        /// Its mass, kg.
+        mass: f64,
+    },
+    /// Wrong number of materials: a part needs one for all its elements, or one for each.
+    MaterialsForPoints {
+        /// Number of materials.
+        materials: usize,
+        /// Number of elements of the part.
+        elements: usize,
+    },
+    /// A part names a group that the mesh does not have.
+    NoSuchGroup {
+        /// The missing group.
+        name: String,
+        /// The groups of tetrahedra that exist.
+        existing: Vec<String>,
+    },
+    /// No part has this index.
+    NoSuchPart {
+        /// The index, from 0.
+        part: usize,
+        /// Number of parts.
+        parts: usize,
+    },
+    /// An element belongs to no part.
+    InNoPart {
+        /// Tag of the element.
+        element: usize,
+    },
+    /// An element belongs to two parts.
+    InTwoParts {
+        /// Tag of the element.
+        element: usize,
+    },
+}
+
+impl fmt::Display for BodyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mesh(error) => error.fmt(f),
+            Self::Density { density } => {
+                write!(f, "the density is {} kg/m³; it must be positive and finite", number(*density))
+            }
+            Self::MassOutOfRange { node, mass } => write!(
+                f,
+                "the mass of node {node} (from 0) {}; are the units of the mesh and of the density right?",
+                if *mass > 1.0 { "overflows" } else { "underflows" }
+            ),
+            Self::MaterialsForPoints { materials, elements } => write!(
+                f,
+                "there are {materials} materials for a part of {elements} elements: give one for all, or one for each"
+            ),
+            Self::NoSuchGroup { name, existing } if existing.is_empty() => {
+                write!(f, "there is no group `{}`: the mesh has no groups of tetrahedra", quoted(name))
+            }
+            Self::NoSuchGroup { name, existing } => {
+                write!(
+                    f,
+                    "there is no group `{}` of tetrahedra; there are: {}",
+                    quoted(name),
+                    names(existing)
+                )
+            }
+            Self::NoSuchPart { part, parts } => {
+                write!(f, "there is no part {part} (from 0) of a body of {parts}")
+            }
+            Self::InNoPart { element } => {
+                write!(f, "element {element} has no material: it belongs to no part")
+            }
+            Self::InTwoParts { element } => {
+                write!(f, "element {element} has two materials: it belongs to two parts")
+            }
+        }
+    }
+}
+
+crate::chained::wraps!(BodyError { Mesh(MeshError) });

@@ -1,0 +1,217 @@
+//! Last level, which a direct solver solves.
+
+use crate::system::linear::LinearError;
+use crate::system::linear::symmetric_blocks::SymmetricBlocks;
+use crate::system::memory::filled;
+
+/// First increase of the diagonal of the last level, relative to its largest entry, if the factorisation
+/// fails. Each further increase is a hundred times larger.
+const FIRST_GROWTH: f64 = 1e-12;
+
+/// Solver of the last level of multigrid.
+pub trait LastSolver {
+    /// Replaces a right side by the solution, in the rows that this machine owns.
+    fn solve(&mut self, b: &mut [[f32; 6]]);
+}
+
+/// Matrix of the last level of multigrid, with six unknowns for each row.
+pub struct LastLevel<'a> {
+    pub(super) matrix: &'a SymmetricBlocks<f64, 6>,
+    /// Scale of the matrix.
+    pub(super) scale: f64,
+    pub(super) motions: &'a [[[f64; 6]; 6]],
+}
+
+impl LastLevel<'_> {
+    /// Row, column and entries of the blocks of this machine's part. There is one block for two different
+    /// rows; the block of `column` and `row` is its transpose.
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, [[f64; 6]; 6])> {
+        let pattern = self.matrix.pattern();
+        let row = move |row: usize| pattern.upper(row).map(move |(block, column)| (row, column, block));
+        let entries = |block: usize| self.matrix.blocks()[block].map(|row| row.map(|x| self.scale * x));
+        (0..pattern.rows()).flat_map(row).map(move |(row, column, block)| (row, column, entries(block)))
+    }
+
+    /// Six rigid motions of the body in the unknowns of each owned row, each motion in a column.
+    #[must_use]
+    pub fn motions(&self) -> &[[[f64; 6]; 6]] {
+        self.motions
+    }
+}
+
+/// Factor of the last level, on one machine: A = L Lᵀ, dense, in blocks of the six unknowns of a row.
+///
+/// The last level has a few hundred rows at most, and little of its factor is zero.
+#[derive(Clone)]
+pub struct Last {
+    factor: Factor,
+    b: Vec<[f64; 6]>,
+}
+
+impl Last {
+    /// Factors `scale` times a matrix, with a larger diagonal if necessary.
+    pub(super) fn new(level: &LastLevel<'_>) -> Result<Self, LinearError> {
+        let rows = level.matrix.pattern().rows();
+        let mut factor = Factor { blocks: filled(first(rows), [[0.0; 6]; 6])? };
+        let diagonal = (0..rows).map(|row| level.matrix.diagonal(row));
+        let entries = diagonal.flat_map(|block| (0..6).map(|c| (level.scale * block[c][c]).abs()));
+        let largest = entries.fold(0.0, f64::max);
+        let mut growth = 0.0;
+        loop {
+            factor.fill(level, growth * largest);
+            match factor.factor() {
+                Ok(()) => return Ok(Self { factor, b: filled(rows, [0.0; 6])? }),
+                Err(LinearError::NotPositive { .. }) if growth < 1.0 && largest > 0.0 => {
+                    growth = if growth == 0.0 { FIRST_GROWTH } else { 100.0 * growth };
+                }
+                Err(error) => return Err(error),
+            }
+        }
+    }
+}
+
+impl LastSolver for Last {
+    fn solve(&mut self, b: &mut [[f32; 6]]) {
+        for (double, single) in self.b.iter_mut().zip(&*b) {
+            *double = single.map(f64::from);
+        }
+        self.factor.solve(&mut self.b);
+        for (single, double) in b.iter_mut().zip(&self.b) {
+            *single = double.map(|x| x as f32);
+        }
+    }
+}
+
+type Block = [[f64; 6]; 6];
+
+/// Lower triangle of a matrix of blocks, or of its factor L.
+#[derive(Clone)]
+struct Factor {
+    /// The blocks of a row up to the diagonal, row after row, transposed: entry (c, r) of the block (i, j)
+    /// belongs to row r of i and column c of j. In a factor the blocks on the diagonal are L⁻ᵀ.
+    blocks: Vec<Block>,
+}
+
+/// Index of the first block of a row.
+fn first(row: usize) -> usize {
+    row * (row + 1) / 2
+}
+
+impl Factor {
+    /// Takes the entries of a matrix, with a larger diagonal.
+    fn fill(&mut self, level: &LastLevel<'_>, added: f64) {
+        self.blocks.fill([[0.0; 6]; 6]);
+        // The blocks of the upper triangle are the transposed ones of the lower.
+        for (row, column, block) in level.blocks() {
+            self.blocks[first(column) + row] = block;
+        }
+        for row in 0..level.matrix.pattern().rows() {
+            let block = &mut self.blocks[first(row) + row];
+            (0..6).for_each(|c| block[c][c] += added);
+        }
+    }
+
+    /// Replaces the matrix by its factor, row by row: L_ij = (A_ij − Σ L_ik L_jkᵀ) L_jj⁻ᵀ for k < j.
+    fn factor(&mut self) -> Result<(), LinearError> {
+        let mut start = 0;
+        for i in 0.. {
+            let (before, row) = self.blocks.split_at_mut(start);
+            if row.is_empty() {
+                break;
+            }
+            for j in 0..i {
+                let other = &before[first(j)..=first(j) + j];
+                let mut block = row[j];
+                for (a, b) in other[..j].iter().zip(&*row) {
+                    subtract_product(a, b, &mut block);
+                }
+                row[j] = [[0.0; 6]; 6];
+                // Transposed: L_jj⁻¹ times the block.
+                for c in 0..6 {
+                    for k in 0..=c {
+                        for r in 0..6 {
+                            row[j][c][r] += other[j][k][c] * block[k][r];
+                        }
+                    }
+                }
+            }
+            let mut block = row[i];
+            for a in &row[..i] {
+                subtract_product(a, a, &mut block);
+            }
+            let column = |pivot: usize| LinearError::NotPositive { column: 6 * i + pivot };
+            row[i] = inverse_factor(&block).map_err(column)?;
+            start += i + 1;
+        }
+        Ok(())
+    }
+
+    /// Replaces a right side by the solution of L Lᵀ x = b.
+    fn solve(&self, b: &mut [[f64; 6]]) {
+        for i in 0..b.len() {
+            let row = &self.blocks[first(i)..=first(i) + i];
+            let (before, rest) = b.split_at_mut(i);
+            let mut sum = rest[0];
+            for (block, y) in row.iter().zip(&*before) {
+                for c in 0..6 {
+                    (0..6).for_each(|r| sum[r] -= block[c][r] * y[c]);
+                }
+            }
+            rest[0] = [0.0; 6];
+            for c in 0..6 {
+                (c..6).for_each(|r| rest[0][r] += row[i][c][r] * sum[c]);
+            }
+        }
+        for i in (0..b.len()).rev() {
+            let row = &self.blocks[first(i)..=first(i) + i];
+            let (before, rest) = b.split_at_mut(i);
+            let y = rest[0];
+            rest[0] = std::array::from_fn(|c| (c..6).map(|r| row[i][c][r] * y[r]).sum());
+            for (block, y) in row.iter().zip(before) {
+                for c in 0..6 {
+                    y[c] -= (0..6).map(|r| block[c][r] * rest[0][r]).sum::<f64>();
+                }
+            }
+        }
+    }
+}
+
+/// Subtracts aᵀ b.
+#[inline(always)]
+fn subtract_product(a: &Block, b: &Block, block: &mut Block) {
+    for (a, b) in a.iter().zip(b) {
+        for c in 0..6 {
+            for r in 0..6 {
+                block[c][r] -= a[c] * b[r];
+            }
+        }
+    }
+}
+
+/// L⁻ᵀ of a symmetric block L Lᵀ, of which the entries (c, r) with c ≤ r are read.
+///
+/// # Errors
+/// The pivot that is not positive.
+fn inverse_factor(block: &Block) -> Result<Block, usize> {
+    // Lᵀ, row by row.
+    let mut upper = [[0.0; 6]; 6];
+    for c in 0..6 {
+        for r in c..6 {
+            let sum = block[c][r] - (0..c).map(|k| upper[k][c] * upper[k][r]).sum::<f64>();
+            upper[c][r] = match r == c {
+                true if sum > 0.0 && sum.is_finite() => sum.sqrt(),
+                true => return Err(c),
+                false => sum / upper[c][c],
+            };
+        }
+    }
+    let mut inverse = [[0.0; 6]; 6];
+    for r in 0..6 {
+        inverse[r][r] = 1.0 / upper[r][r];
+        for c in (0..r).rev() {
+            let sum: f64 = (c + 1..=r).map(|k| upper[c][k] * inverse[k][r]).sum();
+            inverse[c][r] = -sum / upper[c][c];
+        }
+    }
+    Ok(inverse)
+}

@@ -1,0 +1,391 @@
+//! Symmetric matrix of N×N blocks, of which the upper half is stored, and its product with a vector.
+//!
+//! The memory traffic determines the time of a product with a large matrix, and half a matrix needs half of
+//! it. But a block above the diagonal then contributes to two rows, one of which may belong to another
+//! thread. Rows are therefore divided into chunks of fixed size. Each chunk gathers its part of the vector,
+//! and sums its products for its own rows and for rows of other chunks. A second pass adds the sums of each
+//! row in the order of the chunks. This needs no atomics, and gives the same bits for any number of threads.
+//!
+//! A chunk should touch few rows of other chunks. The order of the rows therefore keeps neighbours together.
+
+use std::sync::Arc;
+
+use piola::lanes::Real;
+
+use super::LinearError;
+use crate::system::graph::Graph;
+use crate::system::memory::{filled, reserved};
+use crate::system::parts::for_each_part;
+
+/// Number of rows in a chunk: its sums and its part of the vector stay in the cache next to the processor.
+const ROWS: usize = 256;
+
+/// Number of rows that a thread takes at a time in the second pass.
+const SUMS: usize = 1024;
+
+/// Upper half of a symmetric matrix.
+#[derive(Clone)]
+pub(crate) struct SymmetricBlocks<E, const N: usize> {
+    pattern: Arc<Pattern>,
+    /// Blocks, chunk by chunk and row by row, the block on the diagonal first. Blocks on the diagonal are
+    /// stored in full.
+    blocks: Vec<[[E; N]; N]>,
+    memory: Vec<Memory<E, N>>,
+}
+
+/// Places of the blocks of a matrix.
+pub(crate) struct Pattern {
+    chunks: Vec<Chunk>,
+    /// Chunk of each row, and place of the row in the chunk.
+    place_of_row: Vec<Place>,
+    /// Start of the sums of each row, followed by the end of the last row.
+    starts: Vec<u32>,
+    sums: Vec<Place>,
+}
+
+/// Chunk of rows, with the columns of their blocks.
+struct Chunk {
+    /// Rows of the chunk, then the other columns of their blocks.
+    rows: Vec<u32>,
+    /// Start of each row of the chunk among the blocks, followed by the end of the last row.
+    starts: Vec<usize>,
+    /// Place of the column of each block among `rows`.
+    columns: Vec<u32>,
+}
+
+/// Place of a row in a chunk.
+#[derive(Clone, Copy)]
+struct Place {
+    chunk: u32,
+    place: u32,
+}
+
+/// Part of a product in a chunk.
+#[derive(Clone)]
+struct Memory<E, const N: usize> {
+    x: Vec<[E; N]>,
+    sums: Vec<[E; N]>,
+}
+
+impl Chunk {
+    /// Number of rows of the chunk.
+    fn own(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Indices of all blocks of the chunk.
+    fn range(&self) -> std::ops::Range<usize> {
+        self.starts[0]..self.starts[self.own()]
+    }
+}
+
+impl Pattern {
+    /// Pattern of a graph, with rows divided into chunks in this order.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub(crate) fn new(graph: &Graph, order: &[u32]) -> Result<Self, LinearError> {
+        let rows = graph.rows();
+        let mut rank = filled(rows, 0_u32)?;
+        for (at, &row) in order.iter().enumerate() {
+            rank[row as usize] = at as u32;
+        }
+        let mut chunks: Vec<Chunk> = reserved(rows.div_ceil(ROWS))?;
+        let mut place_of_row = filled(rows, Place { chunk: 0, place: 0 })?;
+        let mut place_here = filled(rows, u32::MAX)?;
+        let mut blocks = 0;
+        let mut later: Vec<u32> = Vec::new();
+        for own in order.chunks(ROWS) {
+            let mut chunk = Chunk { rows: own.to_vec(), starts: vec![blocks], columns: Vec::new() };
+            for (place, &row) in own.iter().enumerate() {
+                place_here[row as usize] = place as u32;
+                place_of_row[row as usize] = Place { chunk: chunks.len() as u32, place: place as u32 };
+            }
+            for (place, &row) in own.iter().enumerate() {
+                chunk.columns.push(place as u32);
+                later.clear();
+                let is_later = |&other: &u32| rank[other as usize] > rank[row as usize];
+                later.extend(graph.neighbours(row as usize).iter().copied().filter(is_later));
+                later.sort_unstable_by_key(|&other| rank[other as usize]);
+                for &other in &later {
+                    let place = &mut place_here[other as usize];
+                    if *place == u32::MAX {
+                        *place = chunk.rows.len() as u32;
+                        chunk.rows.push(other);
+                    }
+                    chunk.columns.push(*place);
+                }
+                blocks += 1 + later.len();
+                chunk.starts.push(blocks);
+            }
+            chunk.rows.iter().for_each(|&row| place_here[row as usize] = u32::MAX);
+            chunks.push(chunk);
+        }
+        u32::try_from(blocks).map_err(|_| LinearError::OutOfMemory)?;
+
+        let mut starts = filled(rows + 1, 0_u32)?;
+        for &row in chunks.iter().flat_map(|chunk| &chunk.rows) {
+            starts[row as usize + 1] += 1;
+        }
+        for row in 0..rows {
+            starts[row + 1] += starts[row];
+        }
+        let mut next = starts.clone();
+        let mut sums = filled(starts[rows] as usize, Place { chunk: 0, place: 0 })?;
+        for (number, chunk) in chunks.iter().enumerate() {
+            for (place, &row) in chunk.rows.iter().enumerate() {
+                sums[next[row as usize] as usize] = Place { chunk: number as u32, place: place as u32 };
+                next[row as usize] += 1;
+            }
+        }
+        Ok(Self { chunks, place_of_row, starts, sums })
+    }
+
+    pub(crate) fn rows(&self) -> usize {
+        self.place_of_row.len()
+    }
+
+    /// Number of blocks.
+    pub(crate) fn len(&self) -> usize {
+        self.chunks.last().map_or(0, |chunk| chunk.range().end)
+    }
+
+    /// Number of chunks.
+    pub(crate) fn chunks(&self) -> usize {
+        self.chunks.len()
+    }
+
+    /// Index of the first block of a chunk.
+    pub(crate) fn first_block(&self, chunk: usize) -> usize {
+        self.chunks[chunk].starts[0]
+    }
+
+    /// Index of the block on the diagonal of a row.
+    pub(crate) fn diagonal(&self, row: usize) -> usize {
+        let Place { chunk, place } = self.place_of_row[row];
+        self.chunks[chunk as usize].starts[place as usize]
+    }
+
+    /// Index of the block of two rows, and true if it is stored as the block of `column` and `row`.
+    pub(crate) fn block(&self, row: usize, column: usize) -> Option<(usize, bool)> {
+        let find = |row: usize, column: usize| {
+            let mut stored = self.upper(row);
+            stored.find(|&(_, other)| other == column).map(|(block, _)| block)
+        };
+        find(row, column).map(|block| (block, false)).or_else(|| find(column, row).map(|block| (block, true)))
+    }
+
+    /// Chunk of a block.
+    pub(crate) fn chunk_of(&self, block: usize) -> usize {
+        self.chunks.partition_point(|chunk| chunk.range().end <= block)
+    }
+
+    /// Stored blocks of a row, each with its column: the block on the diagonal, then the later blocks.
+    pub(crate) fn upper(&self, row: usize) -> impl Iterator<Item = (usize, usize)> {
+        let Place { chunk, place } = self.place_of_row[row];
+        let chunk = &self.chunks[chunk as usize];
+        let range = chunk.starts[place as usize]..chunk.starts[place as usize + 1];
+        let first = chunk.starts[0];
+        range.map(move |block| (block, chunk.rows[chunk.columns[block - first] as usize] as usize))
+    }
+}
+
+impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
+    /// Matrix of zeros.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub(crate) fn new(pattern: Arc<Pattern>) -> Result<Self, LinearError> {
+        let zero = E::splat(0.0);
+        let memory = |chunk: &Chunk| {
+            let zeros = || filled(chunk.rows.len(), [zero; N]);
+            Ok(Memory { x: zeros()?, sums: zeros()? })
+        };
+        Ok(Self {
+            blocks: filled(pattern.len(), [[zero; N]; N])?,
+            memory: pattern.chunks.iter().map(memory).collect::<Result<_, LinearError>>()?,
+            pattern,
+        })
+    }
+
+    pub(crate) fn pattern(&self) -> &Arc<Pattern> {
+        &self.pattern
+    }
+
+    pub(crate) fn blocks(&self) -> &[[[E; N]; N]] {
+        &self.blocks
+    }
+
+    pub(crate) fn blocks_mut(&mut self) -> &mut [[[E; N]; N]] {
+        &mut self.blocks
+    }
+
+    /// Block on the diagonal of a row.
+    pub(crate) fn diagonal(&self, row: usize) -> &[[E; N]; N] {
+        &self.blocks[self.pattern.diagonal(row)]
+    }
+
+    /// Calls `change` for each chunk, in parallel, with its number, the index of its first block, and its
+    /// blocks.
+    pub(crate) fn for_each_chunk(&mut self, change: impl Fn(usize, usize, &mut [[[E; N]; N]]) + Sync) {
+        let mut rest = self.blocks.as_mut_slice();
+        let mut parts = Vec::with_capacity(self.pattern.chunks.len());
+        for chunk in &self.pattern.chunks {
+            let (part, after) = rest.split_at_mut(chunk.range().len());
+            parts.push((chunk.range().start, part));
+            rest = after;
+        }
+        for_each_part(&mut parts, 1, |chunk, parts| {
+            parts.iter_mut().for_each(|(first, part)| change(chunk, *first, part));
+        });
+    }
+
+    /// Computes the product with a vector.
+    pub(crate) fn multiply(&mut self, x: &[[E; N]], product: &mut [[E; N]]) {
+        let Self { pattern, blocks, memory } = self;
+        for_each_part(memory, 1, |first, part| {
+            for (memory, chunk) in part.iter_mut().zip(&pattern.chunks[first..]) {
+                for (here, &row) in memory.x.iter_mut().zip(&chunk.rows) {
+                    *here = x[row as usize];
+                }
+                chunk.multiply(&blocks[chunk.range()], memory);
+            }
+        });
+        let memory = &*memory;
+        for_each_part(product, SUMS, |first, part| {
+            for (total, row) in part.iter_mut().zip(first..) {
+                let mut sum = [E::splat(0.0); N];
+                let sums = pattern.starts[row] as usize..pattern.starts[row + 1] as usize;
+                for &Place { chunk, place } in &pattern.sums[sums] {
+                    let part = memory[chunk as usize].sums[place as usize];
+                    for a in 0..N {
+                        sum[a] = sum[a] + part[a];
+                    }
+                }
+                *total = sum;
+            }
+        });
+    }
+}
+
+impl Chunk {
+    /// Computes the products of the blocks of the chunk with the vector in memory.
+    fn multiply<E: Real, const N: usize>(&self, blocks: &[[[E; N]; N]], memory: &mut Memory<E, N>) {
+        let Memory { x, sums } = memory;
+        sums.fill([E::splat(0.0); N]);
+        let first = self.starts[0];
+        for place in 0..self.own() {
+            let range = self.starts[place] - first..self.starts[place + 1] - first;
+            let (blocks, columns) = (&blocks[range.clone()], &self.columns[range]);
+            let own = x[place];
+            let mut sum = [E::splat(0.0); N];
+            for r in 0..N {
+                for c in 0..N {
+                    sum[r] = sum[r] + blocks[0][r][c] * own[c];
+                }
+            }
+            for (block, &column) in blocks[1..].iter().zip(&columns[1..]) {
+                let other = x[column as usize];
+                let total = &mut sums[column as usize];
+                for r in 0..N {
+                    for c in 0..N {
+                        sum[r] = sum[r] + block[r][c] * other[c];
+                        total[c] = total[c] + block[r][c] * own[r];
+                    }
+                }
+            }
+            for r in 0..N {
+                sums[place][r] = sums[place][r] + sum[r];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use piola::__private::random::Random;
+
+    use super::*;
+
+    /// Random neighbours of each row, and a hub that is a neighbour of all rows.
+    fn random_graph(random: &mut Random, rows: usize) -> Graph {
+        let mut upper = vec![Vec::new(); rows];
+        for row in 0..rows - 1 {
+            let mut others: Vec<u32> = (0..4)
+                .map(|_| random.uniform(row as f64 + 1.0, rows as f64) as u32)
+                .chain([rows as u32 - 1])
+                .collect();
+            others.sort_unstable();
+            others.dedup();
+            upper[row] = others;
+        }
+        Graph::of_upper(&upper)
+    }
+
+    #[test]
+    fn the_product_is_that_of_the_whole_matrix() {
+        let mut random = Random::new(1);
+        // More rows than in two chunks, in an order different from their numbers.
+        let rows = 2 * ROWS + 17;
+        let graph = random_graph(&mut random, rows);
+        let order: Vec<u32> = (0..rows as u32).rev().collect();
+        let pattern = Arc::new(Pattern::new(&graph, &order).expect("small"));
+        let mut matrix = SymmetricBlocks::<f64, 3>::new(pattern.clone()).expect("small");
+        let mut dense = vec![0.0; 9 * rows * rows];
+        let mut set = |row: usize, column: usize, entry: f64| dense[3 * rows * row + column] = entry;
+        for row in 0..rows {
+            for (block, column) in pattern.upper(row) {
+                assert_eq!(pattern.block(row, column), Some((block, false)));
+                for r in 0..3 {
+                    for c in 0..3 {
+                        let entry = random.uniform(-1.0, 1.0);
+                        // Blocks on the diagonal are symmetric.
+                        let (r, c) = if row == column { (r.max(c), r.min(c)) } else { (r, c) };
+                        matrix.blocks_mut()[block][r][c] = entry;
+                        if row == column {
+                            matrix.blocks_mut()[block][c][r] = entry;
+                        }
+                        set(3 * row + r, 3 * column + c, entry);
+                        set(3 * column + c, 3 * row + r, entry);
+                    }
+                }
+            }
+        }
+        let x: Vec<[f64; 3]> = (0..rows).map(|_| [0; 3].map(|_| random.uniform(-1.0, 1.0))).collect();
+        let product = |threads: usize| {
+            let mut product = vec![[f64::NAN; 3]; rows];
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| matrix.clone().multiply(&x, &mut product));
+            product
+        };
+        let one = product(1);
+        assert!(one == product(2) && one == product(3), "bits depend on the number of threads");
+        for (row, found) in one.as_flattened().iter().enumerate() {
+            let terms = dense[3 * rows * row..3 * rows * (row + 1)].iter().zip(x.as_flattened());
+            let (mut expected, mut size) = (0.0, 0.0);
+            for (entry, x) in terms {
+                expected += entry * x;
+                size += (entry * x).abs();
+            }
+            // Two sums of equally many terms, in different orders.
+            let bound = 6.0 * rows as f64 * f64::EPSILON * size;
+            assert!((found - expected).abs() <= bound, "{found} for {expected} in row {row}");
+        }
+    }
+
+    #[test]
+    fn blocks_that_do_not_exist_are_not_found() {
+        let pattern = Pattern::new(&Graph::of_upper(&[vec![2], vec![], vec![]]), &[0, 1, 2]).expect("small");
+        assert_eq!((pattern.rows(), pattern.len(), pattern.chunks()), (3, 4, 1));
+        assert_eq!(pattern.block(0, 1), None);
+        let (block, transposed) = pattern.block(2, 0).expect("neighbours");
+        assert!(transposed && pattern.block(0, 2) == Some((block, false)));
+        assert_eq!((pattern.chunk_of(block), pattern.diagonal(1)), (0, 2));
+    }
+
+    #[test]
+    fn a_matrix_without_rows_has_a_product() {
+        let pattern = Pattern::new(&Graph::of_upper(&[]), &[]).expect("small");
+        SymmetricBlocks::<f32, 6>::new(Arc::new(pattern)).expect("small").multiply(&[], &mut []);
+    }
+}

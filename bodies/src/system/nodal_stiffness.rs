@@ -1,0 +1,324 @@
+//! Stiffness of a body as a matrix of one 3×3 block for each pair of nodes that share an element.
+//!
+//! Assembled in waves: the stiffnesses of some thousand elements, 720 bytes each, are evaluated into a
+//! buffer that stays in the cache, and each chunk of the matrix gathers its part of them in a fixed order
+//! (see [assembly](super::assemble)) before the next wave. So nothing but the matrix grows with the body,
+//! and the sums have the same bits for any number of threads. Factorisations, which take more memory anyway,
+//! keep the stiffnesses of all elements for products with a displacement of few nodes.
+//!
+//! Pinned nodes have rows too, so that their motion enters the right side; this module is independent of
+//! pins.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use piola::batch::element::TILE;
+use piola::point::Filter;
+
+use super::assemble::Elastic;
+use super::body::Body;
+use super::element::{Evaluated, StiffnessBlocks, pair};
+use super::graph::Graph;
+use super::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
+use super::linear::{LinearError, fits};
+use super::memory::{filled, reserved};
+use super::stiffnesses::ElementStiffnesses;
+
+/// Tiles of a wave: 2.9 MB of stiffnesses.
+const WAVE: usize = 64;
+
+/// Stiffness of a body as one 3×3 block for each node and each pair of nodes that share an element, N/m;
+/// pinned nodes have rows too. Zero at first, and filled by
+/// [`ElasticResponse::stiffness`](super::ElasticResponse::stiffness).
+///
+/// [`NodalStiffness::blocks`] are triplets for a sparse matrix in any format;
+/// [`LowerTriangle`](super::LowerTriangle) holds the entries for a factorisation. Takes some 250 bytes for each
+/// element, and a buffer of up to 3 MB.
+#[derive(Clone)]
+pub struct NodalStiffness {
+    shape: Arc<Shape>,
+    matrix: SymmetricBlocks<f64, 3>,
+    /// Stiffnesses of the elements of a wave, or of the whole body.
+    elements: ElementStiffnesses,
+}
+
+/// Graph, order and places, which depend on the mesh alone.
+struct Shape {
+    /// Number of elements.
+    elements: usize,
+    /// Number of tiles of these elements.
+    tiles: usize,
+    graph: Graph,
+    order: Vec<u32>,
+    /// The element blocks that each chunk of the matrix gathers.
+    gather: Vec<Gather>,
+}
+
+/// The element blocks that add up to a chunk of the matrix.
+struct Gather {
+    /// The wave and the index of its first contribution, for each wave that has one.
+    waves: Vec<(u32, u32)>,
+    contributions: Vec<Contribution>,
+}
+
+/// A block of an element, and the block of a chunk that it is added to.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Contribution {
+    block: u32,
+    /// Index of the element in its wave.
+    element: u16,
+    pair: u8,
+    transposed: bool,
+}
+
+impl fmt::Debug for NodalStiffness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let pattern = self.matrix.pattern();
+        write!(f, "NodalStiffness {{ nodes: {}, blocks: {} }}", pattern.rows(), pattern.len())
+    }
+}
+
+impl NodalStiffness {
+    /// A matrix of zeros for the elements of a body.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub fn of_body(body: &Body) -> Result<Self, LinearError> {
+        Self::new(body, &[])
+    }
+
+    /// A matrix without nodes, of a machine that has no elements of a body.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub fn empty() -> Result<Self, LinearError> {
+        let graph = Graph::of_upper(&[]);
+        let pattern = Arc::new(Pattern::new(&graph, &[])?);
+        let shape = Shape { elements: 0, tiles: 0, graph, order: Vec::new(), gather: Vec::new() };
+        let elements = ElementStiffnesses { tiles: Vec::new() };
+        Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, elements })
+    }
+
+    /// The block on the diagonal of a node; `None` if there is no such node.
+    #[must_use]
+    pub fn diagonal(&self, node: usize) -> Option<&[[f64; 3]; 3]> {
+        (node < self.matrix.pattern().rows()).then(|| self.matrix.diagonal(node))
+    }
+
+    /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
+    pub fn add_to_diagonal(&mut self, node: usize, stiffness: f64) {
+        if node < self.matrix.pattern().rows() {
+            let at = self.matrix.pattern().diagonal(node);
+            let block = &mut self.matrix.blocks_mut()[at];
+            (0..3).for_each(|c| block[c][c] += stiffness);
+        }
+    }
+
+    /// Replaces `product`, N, by the product with a displacement of each node, m.
+    ///
+    /// # Errors
+    /// [`LinearError::Length`] unless both have one vector for each node.
+    pub fn multiply(
+        &mut self,
+        displacement: &[[f64; 3]],
+        product: &mut [[f64; 3]],
+    ) -> Result<(), LinearError> {
+        let nodes = self.matrix.pattern().rows();
+        fits("displacement", displacement.len(), nodes)?;
+        fits("product", product.len(), nodes)?;
+        self.matrix.multiply(displacement, product);
+        Ok(())
+    }
+
+    /// Number of blocks that [`NodalStiffness::blocks`] returns.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.matrix.pattern().len()
+    }
+
+    /// True if there is no block, as for a body without elements.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The nodes of each block, row and column, and its entries ∂²E/∂x_row∂x_column, always in the same
+    /// order.
+    ///
+    /// Two different nodes have one block; the block of `column` and `row` is its transpose.
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, &[[f64; 3]; 3])> {
+        let pattern = self.matrix.pattern();
+        let row = move |row: usize| pattern.upper(row).map(move |(block, column)| (row, column, block));
+        (0..pattern.rows())
+            .flat_map(row)
+            .map(|(row, column, block)| (row, column, &self.matrix.blocks()[block]))
+    }
+
+    /// Finds the places of all blocks, also of pairs of nodes that share no element, and allocates all memory
+    /// that is needed.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub(crate) fn new(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
+        Self::of_tiles(body, pairs, WAVE)
+    }
+
+    /// Like [`NodalStiffness::new`], but keeps the stiffness of each element.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub(crate) fn with_elements(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
+        Self::of_tiles(body, pairs, usize::MAX)
+    }
+
+    fn of_tiles(body: &Body, pairs: &[[usize; 2]], most: usize) -> Result<Self, LinearError> {
+        let nodes = body.rest().len();
+        let graph = Graph::of_tets(nodes, body.elements().iter().map(|element| element.nodes), pairs)?;
+        let order = along_a_curve(body.rest());
+        let pattern = Arc::new(Pattern::new(&graph, &order)?);
+        let matrix = SymmetricBlocks::new(pattern.clone())?;
+        let gather = gather(body, &pattern)?;
+        let tiles = body.groups().count();
+        let elements = ElementStiffnesses { tiles: filled(tiles.min(most), [[[[0.0; 3]; 3]; 10]; TILE])? };
+        let shape = Shape { elements: body.elements().len(), tiles, graph, order, gather };
+        Ok(Self { shape: Arc::new(shape), matrix, elements })
+    }
+
+    /// Numbers of nodes, elements and tiles of the body.
+    pub(super) fn counts(&self) -> [usize; 3] {
+        [self.matrix.pattern().rows(), self.shape.elements, self.shape.tiles]
+    }
+
+    /// The stiffness of each element, if this was made by [`NodalStiffness::with_elements`].
+    pub(crate) fn elements(&self) -> &ElementStiffnesses {
+        &self.elements
+    }
+
+    pub(crate) fn matrix(&self) -> &SymmetricBlocks<f64, 3> {
+        &self.matrix
+    }
+
+    pub(crate) fn matrix_mut(&mut self) -> &mut SymmetricBlocks<f64, 3> {
+        &mut self.matrix
+    }
+
+    pub(crate) fn graph(&self) -> &Graph {
+        &self.shape.graph
+    }
+
+    /// The nodes in an order that keeps neighbours together.
+    pub(crate) fn order(&self) -> &[u32] {
+        &self.shape.order
+    }
+
+    /// Computes gradients and the filtered stiffness at the last point of evaluation, plus `more` for some of
+    /// the tiles.
+    pub(crate) fn linearise(
+        &mut self,
+        body: &Body,
+        elastic: &mut Elastic,
+        filter: Filter,
+        more: impl Fn(Range<usize>, &mut [[StiffnessBlocks; TILE]]),
+    ) -> Evaluated {
+        let Self { shape, matrix, elements } = self;
+        matrix.for_each_chunk(|_, _, blocks| blocks.fill([[0.0; 3]; 3]));
+        let keeps_all = elements.tiles.len() == shape.tiles;
+        for (number, first) in (0..shape.tiles).step_by(WAVE).enumerate() {
+            let range = first..shape.tiles.min(first + WAVE);
+            let start = if keeps_all { first } else { 0 };
+            let tiles = &mut elements.tiles[start..start + range.len()];
+            elastic.linearise(body, filter, first, tiles);
+            more(range, tiles);
+            let elements = tiles.as_flattened();
+            matrix.for_each_chunk(|chunk, _, blocks| {
+                for &Contribution { block, element, pair, transposed } in shape.gather[chunk].of_wave(number)
+                {
+                    let part = &elements[usize::from(element)][usize::from(pair)];
+                    let block = &mut blocks[block as usize];
+                    for r in 0..3 {
+                        for c in 0..3 {
+                            block[r][c] += if transposed { part[c][r] } else { part[r][c] };
+                        }
+                    }
+                }
+            });
+        }
+        elastic.survey()
+    }
+}
+
+impl Gather {
+    fn of_wave(&self, wave: usize) -> &[Contribution] {
+        let at = self.waves.partition_point(|&(other, _)| (other as usize) < wave);
+        let first =
+            |at: usize| self.waves.get(at).map_or(self.contributions.len(), |&(_, first)| first as usize);
+        match self.waves.get(at) {
+            Some(&(other, _)) if other as usize == wave => &self.contributions[first(at)..first(at + 1)],
+            _ => &[],
+        }
+    }
+}
+
+/// Sorts the blocks of all elements by chunk, wave, block and element.
+fn gather(body: &Body, pattern: &Pattern) -> Result<Vec<Gather>, LinearError> {
+    let mut all: Vec<Gather> = reserved(pattern.chunks())?;
+    all.resize_with(pattern.chunks(), || Gather { waves: Vec::new(), contributions: Vec::new() });
+    for (group, (_, elements)) in body.groups().enumerate() {
+        let (wave, tile) = ((group / WAVE) as u32, group % WAVE);
+        for (lane, element) in body.elements()[elements].iter().enumerate() {
+            for i in 0..4 {
+                for j in 0..=i {
+                    // The graph holds each pair of an element's nodes.
+                    let Some((block, transposed)) = pattern.block(element.nodes[i], element.nodes[j]) else {
+                        continue;
+                    };
+                    let chunk = pattern.chunk_of(block);
+                    let gather = &mut all[chunk];
+                    if gather.waves.last().is_none_or(|&(last, _)| last != wave) {
+                        gather.waves.push((wave, gather.contributions.len() as u32));
+                    }
+                    gather.contributions.push(Contribution {
+                        block: (block - pattern.first_block(chunk)) as u32,
+                        element: (tile * TILE + lane) as u16,
+                        pair: pair(i, j) as u8,
+                        transposed,
+                    });
+                }
+            }
+        }
+    }
+    for gather in &mut all {
+        for at in 0..gather.waves.len() {
+            let end =
+                gather.waves.get(at + 1).map_or(gather.contributions.len(), |&(_, first)| first as usize);
+            gather.contributions[gather.waves[at].1 as usize..end].sort_unstable();
+        }
+    }
+    Ok(all)
+}
+
+/// Nodes along a Z-order curve through the body at rest, which keeps neighbours together [Mor66].
+///
+/// [Mor66] Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, 1966.
+fn along_a_curve(positions: &[[f64; 3]]) -> Vec<u32> {
+    let bound =
+        |c: usize, of: fn(f64, f64) -> f64, start: f64| positions.iter().fold(start, |b, x| of(b, x[c]));
+    let min: [f64; 3] = std::array::from_fn(|c| bound(c, f64::min, f64::INFINITY));
+    let max: [f64; 3] = std::array::from_fn(|c| bound(c, f64::max, f64::NEG_INFINITY));
+    let size = (0..3).fold(0.0, |size: f64, c| size.max(max[c] - min[c]));
+    let unit = if size > 0.0 { f64::from((1_u32 << 20) - 1) / size } else { 0.0 };
+    let spread = |x: f64| {
+        // Two zeros after each bit.
+        let x = x as u64;
+        (0..20).fold(0, |code: u64, bit| code | (x >> bit & 1) << (3 * bit))
+    };
+    let code = |x: &[f64; 3]| (0..3).fold(0, |code, c| code | spread(unit * (x[c] - min[c])) << c);
+    let codes: Vec<u64> = positions.iter().map(code).collect();
+    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+    order.sort_unstable_by_key(|&node| (codes[node as usize], node));
+    order
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,96 @@
+use piola::__private::random::Random;
+
+use super::*;
+use crate::mesh::tetrahedral_box;
+use crate::system::testing::{kirchhoff, shake};
+
+/// A shaken box of more elements than a wave holds.
+fn shaken() -> (Body, Elastic) {
+    let mesh = tetrahedral_box([10, 9, 9], [1.0, 0.9, 0.9]).expect("a box");
+    let body = Body::new(&mesh, kirchhoff(), 1000.0).expect("a body");
+    assert!(body.elements().len() > WAVE * TILE);
+    let mut elastic = Elastic::new(&body);
+    elastic.evaluate(&body, &shake(&mut Random::new(3), &mesh.positions, 0.01));
+    (body, elastic)
+}
+
+#[test]
+fn the_product_is_the_sum_of_those_of_the_elements() {
+    let (body, mut elastic) = shaken();
+    let nodes = body.rest().len();
+    let mut random = Random::new(4);
+    let x: Vec<[f64; 3]> = (0..nodes).map(|_| [0; 3].map(|_| random.uniform(-1.0, 1.0))).collect();
+    let mut elements = ElementStiffnesses::new(&body);
+    elastic.linearise(&body, Filter::Clamp, 0, elements.tiles_mut());
+    let mut expected = vec![[0.0; 3]; nodes];
+    elements.add_product(&body, 1.5, |node| x[node], &mut expected);
+
+    let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
+    let mut found = vec![[f64::NAN; 3]; nodes];
+    // Twice, since nothing may be left from the first time.
+    for _ in 0..2 {
+        let more =
+            |tiles: Range<usize>, to: &mut [[StiffnessBlocks; TILE]]| elements.add_tiles_to(0.5, tiles, to);
+        let evaluated = stiffness.linearise(&body, &mut elastic, Filter::Clamp, more);
+        assert!(evaluated.survey.is_clean(), "{evaluated:?}");
+        stiffness.multiply(&x, &mut found).expect("lengths");
+    }
+    let largest = expected.as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+        // Sums of some 24 elements times 12 terms, in different orders, which cancel.
+        assert!((found - expected).abs() <= 600.0 * f64::EPSILON * largest, "{found} for {expected}");
+    }
+    for (row, _, block) in stiffness.blocks().filter(|(row, column, _)| row == column) {
+        assert_eq!(stiffness.diagonal(row), Some(block));
+    }
+    assert_eq!(stiffness.diagonal(nodes), None);
+    assert!(stiffness.multiply(&x[1..], &mut found).is_err());
+    assert!(stiffness.multiply(&x, &mut found[1..]).is_err());
+}
+
+/// A matrix that keeps the stiffnesses of all elements has the same blocks.
+#[test]
+fn elements_that_are_kept_change_no_bit() {
+    let (body, mut elastic) = shaken();
+    let [mut waves, mut kept] = [NodalStiffness::new(&body, &[]), NodalStiffness::with_elements(&body, &[])]
+        .map(|k| k.expect("small"));
+    waves.linearise(&body, &mut elastic, Filter::Clamp, |_, _| {});
+    kept.linearise(&body, &mut elastic, Filter::Clamp, |_, _| {});
+    assert!(waves.matrix().blocks() == kept.matrix().blocks());
+    let mut elements = ElementStiffnesses::new(&body);
+    elastic.linearise(&body, Filter::Clamp, 0, elements.tiles_mut());
+    assert!(kept.elements().tiles == elements.tiles && waves.elements().tiles.len() == WAVE);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            let (body, mut elastic) = shaken();
+            let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
+            stiffness.linearise(&body, &mut elastic, Filter::None, |_, _| {});
+            stiffness.matrix().blocks().to_vec()
+        })
+    };
+    let one = run(1);
+    assert!(one == run(2) && one == run(3));
+}
+
+#[test]
+fn the_curve_keeps_neighbours_together() {
+    let mesh = tetrahedral_box([7, 7, 7], [1.0; 3]).expect("a box");
+    let order = along_a_curve(&mesh.positions);
+    let mut sorted = order.clone();
+    sorted.sort_unstable();
+    assert!(sorted.iter().enumerate().all(|(at, &node)| at == node as usize), "each node once");
+    // The first 64 of 512 nodes of a cube fill one of its octants.
+    for &node in &order[..64] {
+        assert!(
+            mesh.positions[node as usize].iter().all(|&x| x < 0.5),
+            "{:?}",
+            mesh.positions[node as usize]
+        );
+    }
+    assert_eq!(along_a_curve(&[[2.0; 3]; 3]), [0, 1, 2]);
+}

@@ -1,0 +1,162 @@
+//! Sets of nodes with prescribed positions.
+//!
+//! Their positions and motions belong to the [simulation](crate::step::Simulation).
+
+use std::fmt;
+
+use piola::__private::message::{names, quoted};
+
+use crate::mesh::{Bounds, TetMesh};
+
+/// Nodes with prescribed positions.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Pins {
+    nodes: Vec<usize>,
+}
+
+impl Pins {
+    /// No pins: a free body.
+    #[must_use]
+    pub fn none() -> Self {
+        Self::default()
+    }
+
+    /// Pins at these nodes, in any order.
+    #[must_use]
+    pub fn at(nodes: impl IntoIterator<Item = usize>) -> Self {
+        let mut nodes: Vec<usize> = nodes.into_iter().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        Self { nodes }
+    }
+
+    /// Pins at the nodes that lie in a box at rest.
+    ///
+    /// # Errors
+    /// [`PinError::EmptyBox`].
+    pub fn in_box(mesh: &TetMesh, bounds: Bounds) -> Result<Self, PinError> {
+        let inside = mesh.positions.iter().enumerate().filter(|&(_, &x)| bounds.contains(x));
+        let pins = Self::at(inside.map(|(node, _)| node));
+        if pins.nodes.is_empty() { Err(PinError::EmptyBox { bounds, body: mesh.bounds() }) } else { Ok(pins) }
+    }
+
+    /// Pins at the nodes of a group of any dimension, such as a physical group of Gmsh.
+    ///
+    /// # Errors
+    /// [`PinError::NoSuchGroup`], or [`PinError::EmptyGroup`] if none of its nodes belongs to a tetrahedron.
+    pub fn of_group(mesh: &TetMesh, name: &str) -> Result<Self, PinError> {
+        // Gmsh allows one name in each dimension.
+        let nodes = mesh.groups.iter().filter(|group| group.name == name).flat_map(|group| &group.nodes);
+        let pins = Self::at(nodes.copied());
+        if !pins.nodes.is_empty() {
+            Ok(pins)
+        } else if mesh.group(name).is_some() {
+            Err(PinError::EmptyGroup { name: name.to_owned() })
+        } else {
+            let existing = mesh.groups.iter().map(|group| group.name.clone()).collect();
+            Err(PinError::NoSuchGroup { name: name.to_owned(), existing })
+        }
+    }
+
+    /// Union with other pins.
+    #[must_use]
+    pub fn and(self, others: &Self) -> Self {
+        Self::at(self.nodes.into_iter().chain(others.nodes.iter().copied()))
+    }
+
+    /// Indices of the pinned nodes, ascending.
+    #[must_use]
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+}
+
+/// Reason why there is nothing to pin.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PinError {
+    /// No node lies in the box.
+    EmptyBox {
+        /// The box.
+        bounds: Bounds,
+        /// The box around the body.
+        body: Bounds,
+    },
+    /// No group has this name.
+    NoSuchGroup {
+        /// The missing group.
+        name: String,
+        /// The groups that exist.
+        existing: Vec<String>,
+    },
+    /// A group without nodes.
+    EmptyGroup {
+        /// Name of the group.
+        name: String,
+    },
+}
+
+impl fmt::Display for PinError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::EmptyBox { bounds, body } => write!(
+                f,
+                "no node lies in the box {:?} to {:?}; the body extends from {:?} to {:?}",
+                bounds.min, bounds.max, body.min, body.max
+            ),
+            Self::NoSuchGroup { name, existing } if existing.is_empty() => {
+                write!(f, "there is no group `{}`: the mesh has no groups", quoted(name))
+            }
+            Self::NoSuchGroup { name, existing } => {
+                write!(f, "there is no group `{}`; there are: {}", quoted(name), names(existing))
+            }
+            Self::EmptyGroup { name } => {
+                write!(f, "the group `{}` holds no node of a tetrahedron", quoted(name))
+            }
+        }
+    }
+}
+
+impl std::error::Error for PinError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Group;
+
+    fn mesh() -> TetMesh {
+        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let mut mesh = TetMesh::new(positions, vec![[0, 1, 2, 3]]);
+        let group = |name: &str, dimension, nodes: &[usize]| Group {
+            name: name.to_owned(),
+            dimension,
+            nodes: nodes.to_vec(),
+            tets: Vec::new(),
+        };
+        mesh.groups = vec![group("feet", 1, &[2, 0]), group("feet", 0, &[3]), group("air", 2, &[])];
+        mesh
+    }
+
+    #[test]
+    fn boxes_and_groups_select_nodes() {
+        let low = Bounds { min: [0.0; 3], max: [1.0, 0.5, 0.0] };
+        assert_eq!(Pins::in_box(&mesh(), low), Ok(Pins::at([1, 0, 1])));
+        assert_eq!(Pins::of_group(&mesh(), "feet"), Ok(Pins::at([0, 2, 3])));
+        assert_eq!(Pins::at([3]).and(&Pins::at([1, 3])).nodes(), [1, 3]);
+    }
+
+    #[test]
+    fn nothing_to_pin_is_an_error_that_says_what_exists() {
+        let error = Pins::of_group(&mesh(), "hooves").expect_err("no such group");
+        assert_eq!(error.to_string(), "there is no group `hooves`; there are: feet, feet, air");
+        let error = Pins::of_group(&mesh(), "air").expect_err("an empty group");
+        assert_eq!(error.to_string(), "the group `air` holds no node of a tetrahedron");
+        let far = Bounds { min: [5.0; 3], max: [6.0; 3] };
+        let error = Pins::in_box(&mesh(), far).expect_err("an empty box");
+        assert_eq!(
+            error.to_string(),
+            "no node lies in the box [5.0, 5.0, 5.0] to [6.0, 6.0, 6.0]; \
+             the body extends from [0.0, 0.0, 0.0] to [1.0, 1.0, 1.0]"
+        );
+    }
+}

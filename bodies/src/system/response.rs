@@ -1,0 +1,321 @@
+//! Energy, forces and stiffness of a body at any positions, for a user-defined integrator or solver.
+//!
+//! This module is independent of time and pins: a caller adds inertia and leaves pinned nodes out.
+
+use piola::Survey;
+use piola::batch::LengthError;
+use piola::point::Filter;
+
+use super::assemble::Elastic;
+use super::body::Body;
+use super::element::Evaluated;
+use super::nodal_stiffness::NodalStiffness;
+
+/// Memory to evaluate the energy of deformation of a body with its first and second derivatives.
+///
+/// A survey counts elements in the order of [`Body::elements`]. The results of an evaluation are valid if the
+/// survey [is clean](Survey::is_clean): they are not for a trial that takes an element out of the domain of
+/// its material.
+///
+/// ```
+/// use piola_bodies::mesh::tetrahedral_box;
+/// use piola::point::Filter;
+/// use piola_bodies::system::{Body, Cholesky, ElasticResponse, LowerTriangle, NodalStiffness, Pins};
+///
+/// /// Rubber.
+/// #[piola::material(domain(J > 0.0))]
+/// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let body = Body::new(&tetrahedral_box([2, 1, 1], [0.2, 0.1, 0.1])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
+/// // A weight of 1 N hangs on the last node, and the four nodes of an end are held: Newton's method.
+/// let (mut x, last) = (body.rest().to_vec(), body.rest().len() - 1);
+/// let pins = Pins::at((0..=last).filter(|&node| x[node][0] == 0.0));
+/// let mut stiffness = NodalStiffness::of_body(&body)?;
+/// let mut matrix = LowerTriangle::new(&stiffness, &pins)?;
+/// let mut cholesky = Cholesky::new(matrix.column_starts(), matrix.row_indices())?;
+/// let mut response = ElasticResponse::new(&body);
+/// let mut gradient = vec![[0.0; 3]; x.len()];
+/// for _ in 0..8 {
+///     assert!(response.stiffness(&body, &x, Filter::None, &mut gradient, &mut stiffness)?.is_clean());
+///     gradient[last][1] += 1.0;
+///     let nodes = matrix.free_nodes();
+///     let mut step: Vec<f64> = nodes.iter().flat_map(|&node| gradient[node].map(|g| -g)).collect();
+///     matrix.fill(&stiffness, |_| 0.0)?;
+///     cholesky.factor(matrix.values())?;
+///     cholesky.solve(&mut step)?;
+///     for (&node, step) in matrix.free_nodes().iter().zip(step.chunks_exact(3)) {
+///         (0..3).for_each(|c| x[node][c] += step[c]);
+///     }
+/// }
+/// // The forces of the body on the last node balance the weight.
+/// response.gradient(&body, &x, &mut gradient)?;
+/// assert!((gradient[last][1] + 1.0).abs() < 1e-10);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone)]
+pub struct ElasticResponse {
+    elastic: Elastic,
+    nodes: usize,
+    elements: usize,
+}
+
+impl std::fmt::Debug for ElasticResponse {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "ElasticResponse {{ nodes: {}, elements: {} }}", self.nodes, self.elements)
+    }
+}
+
+impl ElasticResponse {
+    /// Allocates the memory for a body.
+    #[must_use]
+    pub fn new(body: &Body) -> Self {
+        let (nodes, elements) = (body.rest().len(), body.elements().len());
+        Self { elastic: Elastic::new(body), nodes, elements }
+    }
+
+    /// Energy of deformation, J, with the nodes at `positions`, of the body for which this memory was made.
+    ///
+    /// # Errors
+    /// [`LengthError`] if there are not as many positions or elements as the body had.
+    pub fn energy(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<(f64, Survey), LengthError> {
+        let Evaluated { survey, .. } = self.evaluate(body, positions)?;
+        Ok((self.elastic.energy(), survey))
+    }
+
+    /// Replaces `gradient` by the gradient of the energy in the position of each node, N: minus the forces.
+    ///
+    /// # Errors
+    /// [`LengthError`] if a slice or the body does not have the length of the body that this was made for.
+    pub fn gradient(
+        &mut self,
+        body: &Body,
+        positions: &[[f64; 3]],
+        gradient: &mut [[f64; 3]],
+    ) -> Result<Survey, LengthError> {
+        self.check("gradient", gradient.len())?;
+        let energies = self.evaluate(body, positions)?;
+        self.elastic.evaluate_gradients(body);
+        Ok(self.sum(energies, body, gradient))
+    }
+
+    /// Replaces `gradient` as [`ElasticResponse::gradient`] does, and `matrix` by the stiffness, N/m, with
+    /// the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
+    ///
+    /// # Errors
+    /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
+    /// made for.
+    pub fn stiffness(
+        &mut self,
+        body: &Body,
+        positions: &[[f64; 3]],
+        filter: Filter,
+        gradient: &mut [[f64; 3]],
+        matrix: &mut NodalStiffness,
+    ) -> Result<Survey, LengthError> {
+        self.evaluate(body, positions)?;
+        self.stiffness_here(body, filter, gradient, matrix)
+    }
+
+    /// Replaces `gradient` by the gradient of the energy, N, at the last evaluated positions: cheaper than
+    /// [`ElasticResponse::gradient`], for use after a line search.
+    ///
+    /// # Errors
+    /// [`LengthError`] if `gradient` or the body does not have the length of the body that this was made for.
+    pub fn gradient_here(&mut self, body: &Body, gradient: &mut [[f64; 3]]) -> Result<Survey, LengthError> {
+        self.check("gradient", gradient.len())?;
+        self.check_body(body)?;
+        let energies = self.elastic.survey();
+        self.elastic.evaluate_gradients(body);
+        Ok(self.sum(energies, body, gradient))
+    }
+
+    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` as
+    /// [`ElasticResponse::stiffness`] does.
+    ///
+    /// # Errors
+    /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
+    /// made for.
+    pub fn stiffness_here(
+        &mut self,
+        body: &Body,
+        filter: Filter,
+        gradient: &mut [[f64; 3]],
+        matrix: &mut NodalStiffness,
+    ) -> Result<Survey, LengthError> {
+        self.check("gradient", gradient.len())?;
+        self.check_body(body)?;
+        let [nodes, elements, tiles] = matrix.counts();
+        same("matrix", 3 * nodes, self.nodes, 3)?;
+        same("matrix", elements, self.elements, 1)?;
+        same("matrix", tiles, body.groups().count(), 1)?;
+        let energies = self.elastic.survey();
+        matrix.linearise(body, &mut self.elastic, filter, |_, _| {});
+        Ok(self.sum(energies, body, gradient))
+    }
+
+    /// Makes the energies evaluated last the base of [`ElasticResponse::difference`].
+    pub fn set_base(&mut self) {
+        self.elastic.set_base();
+    }
+
+    /// Energy evaluated last minus the energy of the base, J: a sum of differences of elements, which keeps
+    /// digits that a difference of sums loses.
+    #[must_use]
+    pub fn difference(&self) -> f64 {
+        self.elastic.difference()
+    }
+
+    /// Bound for the rounding error of [`ElasticResponse::difference`], J, of the body for which this memory
+    /// was made.
+    ///
+    /// # Errors
+    /// [`LengthError`] for another body.
+    pub fn difference_noise(&self, body: &Body) -> Result<f64, LengthError> {
+        self.check_body(body)?;
+        Ok(self.elastic.difference_noise(body))
+    }
+
+    fn check_body(&self, body: &Body) -> Result<(), LengthError> {
+        same("elements", body.elements().len(), self.elements, 1)?;
+        same("nodes", body.rest().len(), self.nodes, 1)
+    }
+
+    fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<Evaluated, LengthError> {
+        self.check("positions", positions.len())?;
+        self.check_body(body)?;
+        Ok(self.elastic.evaluate(body, positions))
+    }
+
+    /// Sums the gradients of all elements. Returns the survey of the energies or, if these are clean, of the
+    /// derivatives.
+    fn sum(&self, energies: Evaluated, body: &Body, gradient: &mut [[f64; 3]]) -> Survey {
+        gradient.fill([0.0; 3]);
+        self.elastic.add_gradient(body, gradient);
+        if energies.survey.is_clean() { self.elastic.survey().survey } else { energies.survey }
+    }
+
+    fn check(&self, slice: &'static str, found: usize) -> Result<(), LengthError> {
+        same(slice, 3 * found, self.nodes, 3)
+    }
+}
+
+/// Checks that a slice holds `components` for each of `points`.
+pub(super) fn same(
+    slice: &'static str,
+    found: usize,
+    points: usize,
+    components: usize,
+) -> Result<(), LengthError> {
+    if found == components * points {
+        return Ok(());
+    }
+    Err(LengthError { slice, found, components, points, group: 1 })
+}
+
+#[cfg(test)]
+mod tests {
+    use piola::__private::random::Random;
+
+    use super::*;
+    use crate::system::testing::{beam, neo_hookean, shake};
+
+    /// Central differences of the energy and of its gradient.
+    #[test]
+    fn derivatives_are_those_of_the_energy() {
+        let mesh = beam(2);
+        let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
+        let mut random = Random::new(3);
+        let mut x = shake(&mut random, body.rest(), 0.01);
+        let mut response = ElasticResponse::new(&body);
+        let mut matrix = NodalStiffness::of_body(&body).expect("small");
+        let (nodes, h) = (x.len(), 1e-6);
+        let (mut gradient, mut ahead, mut behind) =
+            (vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes]);
+        let survey = response.stiffness(&body, &x, Filter::None, &mut gradient, &mut matrix);
+        assert!(survey.expect("lengths").is_clean());
+        let mut dense = vec![vec![[[0.0; 3]; 3]; nodes]; nodes];
+        for (row, column, block) in matrix.blocks() {
+            dense[column][row] = std::array::from_fn(|r| std::array::from_fn(|c| block[c][r]));
+            dense[row][column] = *block;
+        }
+        for node in 0..nodes {
+            for c in 0..3 {
+                let at = x[node][c];
+                x[node][c] = at + h;
+                let (up, _) = response.energy(&body, &x).expect("lengths");
+                response.gradient(&body, &x, &mut ahead).expect("lengths");
+                x[node][c] = at - h;
+                let (down, _) = response.energy(&body, &x).expect("lengths");
+                response.gradient(&body, &x, &mut behind).expect("lengths");
+                x[node][c] = at;
+                let slope = (up - down) / (2.0 * h);
+                assert!((slope - gradient[node][c]).abs() <= 1e-3, "{slope} for {}", gradient[node][c]);
+                for other in 0..nodes {
+                    for r in 0..3 {
+                        let expected = (ahead[other][r] - behind[other][r]) / (2.0 * h);
+                        let entry = dense[other][node][r][c];
+                        assert!((entry - expected).abs() <= 1.0, "{entry} for {expected}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Blocks and differences of elements at the last evaluated positions agree with those of the plain
+    /// methods.
+    #[test]
+    fn what_is_taken_here_is_what_positions_give() {
+        let mesh = beam(3);
+        let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
+        let mut random = Random::new(5);
+        let [before, x] = [0.01, 0.012].map(|amplitude| shake(&mut random, body.rest(), amplitude));
+        let mut response = ElasticResponse::new(&body);
+        let mut matrix = NodalStiffness::of_body(&body).expect("small");
+        let mut here = matrix.clone();
+        let (mut expected, mut found) = (vec![[0.0; 3]; x.len()], vec![[f64::NAN; 3]; x.len()]);
+        let (at_start, _) = response.energy(&body, &before).expect("lengths");
+        response.set_base();
+        response.stiffness(&body, &x, Filter::Clamp, &mut expected, &mut matrix).expect("lengths");
+        let (at_end, _) = response.energy(&body, &x).expect("lengths");
+        let noise = response.difference_noise(&body).expect("the same body");
+        assert!((response.difference() - (at_end - at_start)).abs() <= noise && noise < 1e-9 * at_end);
+
+        assert!(response.gradient_here(&body, &mut found).expect("lengths").is_clean());
+        assert_eq!(found, expected);
+        found.fill([f64::NAN; 3]);
+        let survey = response.stiffness_here(&body, Filter::Clamp, &mut found, &mut here);
+        assert!(survey.expect("lengths").is_clean());
+        assert!(here.blocks().eq(matrix.blocks()));
+        assert_eq!((found, here.blocks().count()), (expected, here.len()));
+    }
+
+    #[test]
+    fn lengths_and_bodies_must_fit_and_refused_elements_are_counted() {
+        let body = Body::new(&beam(1), neo_hookean(), 1000.0).expect("a body");
+        let other = Body::new(&beam(2), neo_hookean(), 1000.0).expect("a body");
+        let mut response = ElasticResponse::new(&body);
+        let mut gradient = vec![[0.0; 3]; 8];
+        assert!(response.energy(&body, &body.rest()[1..]).is_err());
+        assert!(response.gradient(&body, body.rest(), &mut gradient[1..]).is_err());
+        assert!(response.energy(&other, body.rest()).is_err());
+        let mut matrix = NodalStiffness::of_body(&other).expect("small");
+        assert!(response.stiffness(&body, body.rest(), Filter::None, &mut gradient, &mut matrix).is_err());
+        // As many nodes, of which another number of elements is made.
+        let [five, six] = [false, true].map(|with_last| {
+            let mut mesh = beam(1);
+            mesh.tets.truncate(if with_last { 6 } else { 5 });
+            Body::new(&mesh.without_unused_nodes(), neo_hookean(), 1000.0).expect("a body")
+        });
+        assert_eq!((five.rest().len(), six.rest().len()), (8, 8));
+        let mut matrix = NodalStiffness::of_body(&five).expect("small");
+        let error = response.stiffness(&six, six.rest(), Filter::None, &mut gradient, &mut matrix);
+        assert_eq!(error.expect_err("of five elements").slice, "matrix");
+        let mirrored: Vec<[f64; 3]> = body.rest().iter().map(|&[x, y, z]| [-x, y, z]).collect();
+        let survey = response.gradient(&body, &mirrored, &mut gradient).expect("lengths");
+        assert_eq!((survey.refused, survey.first), (body.elements().len(), Some(0)));
+    }
+}

@@ -1,0 +1,98 @@
+//! Bodies, their responses, matrices and factors.
+
+use piola::point::Filter;
+use piola_bodies::step::Integrator;
+use piola_bodies::step::divided::{Preconditioner, StagedSteps, Whole};
+use piola_bodies::system::{Body, Cholesky, ElasticResponse, LowerTriangle, NodalStiffness, Part};
+
+use crate::arguments::{Hostile, check};
+
+/// A stiffness without some nodes, as a matrix that is multiplied and factored.
+fn triangle(hostile: &mut Hostile, stiffness: &NodalStiffness) {
+    let nodes = hostile.node(9);
+    let Ok(mut matrix) = LowerTriangle::new(stiffness, &hostile.pins(nodes)) else { return };
+    let inertia = hostile.about(1e3);
+    let _ = matrix.fill(stiffness, |node| inertia + node as f64);
+    let other = Body::new(&hostile.mesh(), hostile.rubber(), 1.0).map(|body| NodalStiffness::of_body(&body));
+    if let Ok(Ok(other)) = other {
+        let _ = matrix.fill(&other, |_| inertia);
+    }
+    let unknowns = 3 * matrix.free_nodes().len();
+    let (x, mut product) = (hostile.numbers(unknowns), hostile.numbers(unknowns));
+    let _ = matrix.multiply(&x, &mut product);
+    let mut cholesky = Cholesky::new(matrix.column_starts(), matrix.row_indices()).expect("a pattern");
+    let values = hostile.numbers(matrix.values().len());
+    let values = if hostile.0.once_in(2) { matrix.values() } else { &values };
+    let factored = cholesky.factor(values);
+    let mut b = hostile.numbers(unknowns);
+    let solved = cholesky.solve(&mut b);
+    assert!(factored.is_ok() || solved.is_err());
+}
+
+/// Blocks or levels for a stiffness, and what they make of a right side.
+fn preconditioner(hostile: &mut Hostile, stiffness: &NodalStiffness, positions: &[[f64; 3]]) {
+    let nodes = hostile.length(positions.len());
+    let mut preconditioner = Preconditioner::new(nodes, Whole);
+    let is_free: Vec<bool> = (0..hostile.length(nodes)).map(|_| !hostile.0.once_in(4)).collect();
+    let inertia = if hostile.0.once_in(2) { 0.0 } else { hostile.about(1e3) };
+    let empty = NodalStiffness::empty().expect("nothing");
+    let taken = if hostile.0.once_in(8) { &empty } else { stiffness };
+    let _ = preconditioner.take(taken, &is_free, positions, |_| inertia);
+    let (r, mut z) = (hostile.points(positions), hostile.points(positions));
+    preconditioner.apply(&r, &mut z);
+}
+
+#[test]
+fn patterns_of_ones_own() {
+    check(|hostile| {
+        let mut starts: Vec<usize> = (0..hostile.0.below(5)).map(|_| hostile.node(4)).collect();
+        if hostile.0.once_in(2) {
+            starts.sort_unstable();
+        }
+        let rows: Vec<usize> = (0..hostile.0.below(6)).map(|_| hostile.node(4)).collect();
+        if let Ok(mut cholesky) = Cholesky::new(&starts, &rows) {
+            let mut b = hostile.numbers(starts.len() - 1);
+            let _ = cholesky.factor(&vec![1.0; hostile.length(rows.len())]);
+            let _ = cholesky.solve(&mut b);
+        }
+    });
+}
+
+#[test]
+fn bodies() {
+    check(|hostile| {
+        let mesh = hostile.mesh();
+        let _ = Body::new(&mesh, hostile.rubber(), hostile.about(1e3));
+        let parts = (0..hostile.0.below(3)).map(|_| Part {
+            group: (!hostile.0.once_in(2)).then(|| hostile.one_of(&["half", "other"]).to_owned()),
+            material: Box::new(hostile.rubber()),
+            density: hostile.about(1e3),
+        });
+        let parts = parts.collect();
+        let Ok(mut body) = Body::from_parts(&mesh, parts) else { return };
+        let positions = hostile.points(body.rest());
+        let mut product = hostile.points(body.rest());
+        let mut response = ElasticResponse::new(&body);
+        let _ = response.energy(&body, &positions);
+        let _ = response.gradient(&body, &positions, &mut product);
+        let _ = response.gradient_here(&body, &mut product);
+        if let Ok(mut stiffness) = NodalStiffness::of_body(&body) {
+            let _ = response.stiffness(&body, &positions, Filter::Clamp, &mut product, &mut stiffness);
+            let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut stiffness);
+            let _ = stiffness.multiply(&positions, &mut product);
+            triangle(hostile, &stiffness);
+            preconditioner(hostile, &stiffness, &positions);
+        }
+        let _ = response.difference_noise(&body);
+        let pinned = [hostile.node(body.rest().len()), 1];
+        if let Ok(mut steps) = StagedSteps::new(Integrator::Sdirk2, body.rest(), &pinned) {
+            let _ = steps.set_positions(&positions);
+            let _ = steps.set_velocities(&product);
+            let _ = steps.set_accelerations(&positions);
+            let _ = steps.prescribe(1, hostile.point());
+            let _ = steps.begin(hostile.number());
+            let _ = steps.begin_stage(0);
+        }
+        let _ = body.set_material(hostile.node(2), hostile.rubber());
+    });
+}

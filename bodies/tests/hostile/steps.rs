@@ -1,0 +1,207 @@
+//! Steps and equilibria, with terms, solvers and objectives that answer nonsense.
+
+use std::cell::RefCell;
+
+use piola::point::Filter;
+use piola_bodies::mesh::{Anchor, tetrahedral_box};
+use piola_bodies::step::divided::{Definiteness, Line, Linearised, Minimisation, Solution, minimize};
+use piola_bodies::step::{
+    EnergyChange, Equilibrium, NewtonError, NodeBlocks, Simulation, SparseSolver, Spring, Term,
+};
+use piola_bodies::system::{Body, LinearError, LowerTriangle};
+
+use crate::arguments::{Hostile, SEEDS, check};
+
+/// A term of hostile numbers: it returns errors, infinities and NaN, and names nodes that are missing or
+/// share no element.
+struct Nonsense {
+    energy: Option<f64>,
+    force: [f64; 3],
+    nodes: [usize; 2],
+    block: [[f64; 3]; 3],
+    longest: f64,
+}
+
+impl Term for Nonsense {
+    fn energy(&self, _: &[[f64; 3]]) -> Option<f64> {
+        self.energy
+    }
+
+    fn add_gradient(&self, _: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
+        (0..3).for_each(|c| gradient[0][c] += self.force[c]);
+    }
+
+    fn add_second_derivatives(&self, _: &[[f64; 3]], blocks: &mut NodeBlocks) {
+        blocks.add(self.nodes[0], self.nodes[1], self.block);
+    }
+
+    fn longest_step(&self, _: &[[f64; 3]], _: &[[f64; 3]]) -> f64 {
+        self.longest
+    }
+}
+
+/// A solver that fails, or answers with hostile numbers.
+#[derive(Clone)]
+struct Wrong {
+    error: Option<LinearError>,
+    x: f64,
+}
+
+impl SparseSolver for Wrong {
+    fn solve(&mut self, _: &LowerTriangle, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
+        self.error.map_or(Ok(0), Err)?;
+        b.fill(self.x);
+        Ok(0)
+    }
+}
+
+/// A step that succeeds leaves numbers behind.
+#[test]
+fn simulations() {
+    let mut steps = 0;
+    check(|hostile| {
+        let mut mesh = tetrahedral_box([2, 1, 1], [2.0, 1.0, 1.0]).expect("a box");
+        let scale = if hostile.0.once_in(4) { hostile.one_of(&[1e-100, 1e-50, 1e50, 1e100]) } else { 1.0 };
+        mesh.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= scale);
+        let density = hostile.about(1e3);
+        let Ok(body) = Body::new(&mesh, hostile.rubber(), density) else { return };
+        let nodes = body.rest().len();
+        let (pins, settings) = (hostile.pins(nodes), hostile.settings());
+        let Ok(mut simulation) = Simulation::new(body, &pins, settings) else { return };
+        for _ in 0..4 {
+            let _ = match hostile.0.below(12) {
+                5 => simulation.set_accelerations(&hostile.points(&mesh.positions)),
+                6 => simulation.set_forces(&hostile.points(&vec![[0.0; 3]; nodes])),
+                7 => simulation.set_pins(&hostile.pins(nodes)),
+                8 => {
+                    let _ = simulation.set_material(hostile.node(1), hostile.rubber());
+                    Ok(())
+                }
+                9 => {
+                    simulation.set_terms(vec![std::sync::Arc::new(Nonsense {
+                        energy: (!hostile.0.once_in(8)).then(|| hostile.about(0.0)),
+                        force: [(); 3].map(|()| hostile.about(0.0)),
+                        nodes: [(); 2].map(|()| hostile.node(nodes)),
+                        block: [(); 3].map(|()| [(); 3].map(|()| hostile.about(0.0))),
+                        longest: hostile.about(1.0),
+                    })]);
+                    Ok(())
+                }
+                10 => {
+                    let error = hostile.one_of(&[
+                        None,
+                        Some(LinearError::NotPositive { column: usize::MAX }),
+                        Some(LinearError::NotFactored),
+                    ]);
+                    simulation.set_linear_solver(Wrong { error, x: hostile.about(0.0) })
+                }
+                0 => simulation.set_positions(&hostile.points(&mesh.positions)),
+                1 => simulation.set_velocities(&hostile.points(&mesh.positions)),
+                2 => simulation.prescribe(hostile.node(nodes), hostile.point()),
+                3 => simulation.set_settings(hostile.settings()),
+                _ => simulation.set_springs(&[Spring {
+                    anchor: Anchor {
+                        nodes: mesh.tets[0]
+                            .map(|node| if hostile.0.once_in(8) { hostile.node(nodes) } else { node }),
+                        weights: [(); 4].map(|()| hostile.about(0.25)),
+                    },
+                    target: hostile.point(),
+                    stiffness: hostile.about(1e3),
+                }]),
+            };
+        }
+        let dt = hostile.about(0.01);
+        let stepped = match hostile.0.below(6) {
+            0 | 1 => simulation.equilibrate(),
+            2 => simulation.advance_within(dt, hostile.about(0.1)).map(|report| report.step),
+            _ => simulation.step(dt),
+        };
+        if stepped.is_ok() {
+            steps += 1;
+            let state = [simulation.positions(), simulation.velocities(), simulation.accelerations()];
+            assert!(state.concat().as_flattened().iter().all(|x| x.is_finite()), "dt = {dt:e}: {state:?}");
+        }
+        let _ = simulation.reactions();
+        if let Ok(found) = Equilibrium::of(&simulation) {
+            assert!(found.residual.is_finite() && found.largest_force.is_finite(), "{found:?}");
+        }
+    });
+    assert!(steps > SEEDS / 20, "{steps} steps succeed");
+}
+
+/// An objective of hostile numbers, which fails in the end.
+struct Wild<'a>(RefCell<&'a mut Hostile>);
+
+impl Wild<'_> {
+    fn number(&self) -> f64 {
+        self.0.borrow_mut().number()
+    }
+
+    fn fails(&self) -> Result<f64, NewtonError> {
+        let fails = self.0.borrow_mut().0.once_in(16);
+        if fails { Err(NewtonError::NotFinite) } else { Ok(self.number()) }
+    }
+}
+
+impl Line for Wild<'_> {
+    type Error = NewtonError;
+
+    fn change(&mut self, _: f64) -> Result<Option<EnergyChange>, NewtonError> {
+        let difference = self.fails()?;
+        let is_inside = !self.0.borrow_mut().0.once_in(4);
+        Ok(is_inside.then(|| EnergyChange { difference, noise: self.number() }))
+    }
+
+    fn slope(&mut self) -> Result<f64, NewtonError> {
+        self.fails()
+    }
+}
+
+impl Minimisation for Wild<'_> {
+    fn gradient(&mut self) -> Result<f64, NewtonError> {
+        self.fails()
+    }
+
+    fn linearise(&mut self, _: Filter, _: bool) -> Result<Linearised, NewtonError> {
+        Ok(Linearised { residual: self.fails()?, filtered: 1, bounded: 1 })
+    }
+
+    fn solve(&mut self, _: f64, definiteness: Definiteness) -> Result<Option<Solution>, NewtonError> {
+        let shift = self.fails()?;
+        let is_indefinite = definiteness == Definiteness::Required && self.0.borrow_mut().0.once_in(2);
+        Ok((!is_indefinite).then(|| Solution { shift, ..Solution::default() }))
+    }
+
+    fn move_pins(&mut self) -> Result<(), NewtonError> {
+        self.fails().map(|_| ())
+    }
+
+    fn descent(&self) -> f64 {
+        self.number()
+    }
+
+    fn set_base(&mut self) {}
+
+    fn accept(&mut self) {}
+
+    fn reject(&mut self) -> f64 {
+        self.number()
+    }
+
+    fn displacement(&self) -> f64 {
+        self.number()
+    }
+
+    fn error_scale(&self) -> f64 {
+        self.number()
+    }
+}
+
+#[test]
+fn minimisations_of_nonsense_end() {
+    check(|hostile| {
+        let (settings, pins_move) = (hostile.settings(), hostile.0.once_in(2));
+        let _ =
+            minimize(&mut Wild(RefCell::new(hostile)), pins_move, &settings.newton, &settings.line_search);
+    });
+}

@@ -1,0 +1,281 @@
+//! Assembly into a sparse matrix of the caller: compressed rows given as slices of any kind of integer.
+
+use std::fmt;
+
+use super::{Layout, LengthError, Tetrahedra};
+use crate::lanes::Scalar;
+
+/// Mark of an entry of an element that the matrix does not store because it stores the one across the
+/// diagonal.
+const ACROSS: u32 = u32::MAX;
+
+/// Mark of a node that has no unknowns.
+const NONE: u32 = u32::MAX - 1;
+
+/// Places of the stiffnesses of tetrahedra in a sparse matrix of the caller, found once.
+///
+/// The matrix may be whole, or one of its triangles. Unknowns may have any numbers, and nodes may have none,
+/// such as pinned ones. Takes 576 bytes for each tetrahedron.
+///
+/// ```
+/// use piola::batch::{CsrPlaces, Layout, Tetrahedra};
+///
+/// // Nodes 0 and 1 of a tetrahedron are free, and have the unknowns 0 to 2 and 3 to 5: a matrix of six rows.
+/// let corners = [[0, 1, 2, 3]];
+/// let tetrahedra = Tetrahedra::new(4, &corners)?;
+/// let row_starts: Vec<i32> = (0..=6).map(|row| 6 * row).collect();
+/// let columns: Vec<i32> = [0, 1, 2, 3, 4, 5].repeat(6);
+/// let unknowns = |node: usize| (node < 2).then_some(3 * node);
+/// let places = CsrPlaces::new(tetrahedra, unknowns, &row_starts, &columns)?;
+///
+/// // For each deformation: the entries of all tetrahedra are added to the values.
+/// let stiffnesses = [1.0; 144];
+/// let mut values = vec![0.0; 36];
+/// places.add(&stiffnesses, Layout::Points, &mut values)?;
+/// assert_eq!(values, [1.0; 36]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct CsrPlaces {
+    places: Vec<[u32; 144]>,
+    entries: usize,
+}
+
+impl CsrPlaces {
+    /// Finds the places in a matrix whose row r holds the columns
+    /// `columns[row_starts[r]..row_starts[r + 1]]`, in any order.
+    ///
+    /// `unknowns` gives the first of the three successive unknowns of a node, or `None` for a node that has
+    /// none.
+    ///
+    /// # Errors
+    /// [`CsrError`] for slices that are not a matrix, an entry that neither the matrix nor its transpose
+    /// holds, or too little memory.
+    pub fn new<I: Copy + TryInto<usize>>(
+        tetrahedra: Tetrahedra<'_>,
+        unknowns: impl Fn(usize) -> Option<usize>,
+        row_starts: &[I],
+        columns: &[I],
+    ) -> Result<Self, CsrError> {
+        let rows = row_starts.len().checked_sub(1).ok_or(CsrError::Rows { row: 0 })?;
+        let start = |row: usize| row_starts[row].try_into().ok();
+        for row in 0..rows {
+            let is_row = |(start, end): (usize, usize)| start <= end && end <= columns.len();
+            if !start(row).zip(start(row + 1)).is_some_and(is_row) {
+                return Err(CsrError::Rows { row });
+            }
+        }
+        if columns.len() >= NONE as usize {
+            return Err(CsrError::OutOfMemory);
+        }
+        let find = |row: usize, column: usize| {
+            let (start, end) = (start(row)?, start(row + 1)?);
+            let at = columns[start..end].iter().position(|&other| other.try_into().ok() == Some(column))?;
+            Some((start + at) as u32)
+        };
+        let mut places = Vec::new();
+        places.try_reserve_exact(tetrahedra.corners().len()).map_err(|_| CsrError::OutOfMemory)?;
+        for corners in tetrahedra.corners() {
+            let unknown_of = corners.map(&unknowns);
+            let mut of_element = [NONE; 144];
+            for (k, place) in of_element.iter_mut().enumerate() {
+                let (row, column) = (k / 12, k % 12);
+                let of = |at: usize| unknown_of[at / 3].map(|unknown| unknown.saturating_add(at % 3));
+                let Some((row, column)) = of(row).zip(of(column)) else { continue };
+                if row.max(column) >= rows {
+                    return Err(CsrError::NoRow { row: row.max(column), rows });
+                }
+                *place = match find(row, column) {
+                    Some(place) => place,
+                    None if find(column, row).is_some() => ACROSS,
+                    None => return Err(CsrError::NoEntry { row, column }),
+                };
+            }
+            places.push(of_element);
+        }
+        Ok(Self { places, entries: columns.len() })
+    }
+
+    /// Adds the stiffnesses of all tetrahedra, 144 entries each in the layout of
+    /// [`Batch::stiffnesses`](super::Batch::stiffnesses), to the values of the matrix, in the order of
+    /// the tetrahedra.
+    ///
+    /// # Errors
+    /// [`LengthError`] if there are not as many stiffnesses as tetrahedra, or values as entries. The values
+    /// are then as they were.
+    pub fn add<E: Scalar>(
+        &self,
+        stiffnesses: &[E],
+        layout: Layout,
+        values: &mut [E],
+    ) -> Result<(), LengthError> {
+        let group = match layout {
+            Layout::Points => 1,
+            Layout::Lines => E::LINE,
+        };
+        let points = self.places.len().next_multiple_of(group);
+        let check = |slice, found, components, points, group| match found == components * points {
+            true => Ok(()),
+            false => Err(LengthError { slice, found, components, points, group }),
+        };
+        check("stiffnesses", stiffnesses.len(), 144, points, group)?;
+        check("values", values.len(), 1, self.entries, 1)?;
+        for (element, places) in self.places.iter().enumerate() {
+            for (k, &place) in places.iter().enumerate() {
+                if place < NONE {
+                    let value = &mut values[place as usize];
+                    *value = *value + stiffnesses[layout.index::<E>(element, 144, k)];
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reason why the stiffnesses of tetrahedra do not fit into a matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CsrError {
+    /// A row does not begin where the one before it ends, or ends beyond the columns.
+    Rows {
+        /// The row, from 0.
+        row: usize,
+    },
+    /// A node has an unknown without a row.
+    NoRow {
+        /// The missing row.
+        row: usize,
+        /// Number of rows.
+        rows: usize,
+    },
+    /// Two unknowns of one tetrahedron have no entry, on neither side of the diagonal.
+    NoEntry {
+        /// The row, from 0.
+        row: usize,
+        /// The column, from 0.
+        column: usize,
+    },
+    /// The places do not fit into memory, or there are more than four thousand million entries.
+    OutOfMemory,
+}
+
+impl fmt::Display for CsrError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rows { row } => write!(
+                f,
+                "row {row} (from 0) is not one of compressed rows: its start must not be beyond its end, nor its end beyond \
+                 the columns"
+            ),
+            Self::NoRow { row, rows } => {
+                write!(f, "there is no row {row}: the {rows} rows of the matrix are numbered from 0")
+            }
+            Self::NoEntry { row, column } => write!(
+                f,
+                "the matrix has no entry in row {row} and column {column} (from 0), nor across the diagonal, though a \
+                 tetrahedron joins these unknowns"
+            ),
+            Self::OutOfMemory => write!(f, "the places of the stiffnesses do not fit into memory"),
+        }
+    }
+}
+
+impl std::error::Error for CsrError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+
+    const CORNERS: [[usize; 4]; 2] = [[0, 1, 2, 3], [4, 3, 2, 1]];
+
+    /// Compressed rows of a matrix of 12 unknowns whose entries `has` keeps, columns descending.
+    fn compressed(has: impl Fn(usize, usize) -> bool) -> (Vec<u32>, Vec<u32>) {
+        let (mut starts, mut columns) = (vec![0], Vec::new());
+        for row in 0..12 {
+            columns.extend((0..12).rev().filter(|&column| has(row, column)).map(|column| column as u32));
+            starts.push(columns.len() as u32);
+        }
+        (starts, columns)
+    }
+
+    /// Node 2 is pinned; the others are numbered from the last.
+    fn unknowns(node: usize) -> Option<usize> {
+        [Some(9), Some(6), None, Some(3), Some(0)][node]
+    }
+
+    #[test]
+    fn whole_matrices_and_triangles_hold_the_sum() {
+        let tetrahedra = Tetrahedra::new(5, &CORNERS).expect("nodes that exist");
+        let mut random = Random::new(1);
+        // Symmetric stiffnesses, in both layouts.
+        let mut matrices = [[[0.0; 12]; 12]; 2];
+        for matrix in &mut matrices {
+            for r in 0..12 {
+                for c in 0..=r {
+                    matrix[r][c] = random.uniform(-1.0, 1.0);
+                    matrix[c][r] = matrix[r][c];
+                }
+            }
+        }
+        let mut dense = [[0.0; 12]; 12];
+        for (corners, matrix) in CORNERS.iter().zip(&matrices) {
+            for r in 0..12 {
+                for c in 0..12 {
+                    if let (Some(i), Some(j)) = (unknowns(corners[r / 3]), unknowns(corners[c / 3])) {
+                        dense[i + r % 3][j + c % 3] += matrix[r][c];
+                    }
+                }
+            }
+        }
+        // Nodes 0 and 4 share no tetrahedron.
+        let is_joined = |r: usize, c: usize| !matches!((r / 3, c / 3), (0, 3) | (3, 0));
+        for keep in [|_: usize, _: usize| true, |r, c| r >= c, |r, c| r <= c] {
+            let (starts, columns) = compressed(|r, c| is_joined(r, c) && keep(r, c));
+            let places = CsrPlaces::new(tetrahedra, unknowns, &starts, &columns).expect("all entries");
+            for layout in [Layout::Points, Layout::Lines] {
+                let count = if layout == Layout::Points { 2 } else { f64::LINE };
+                let mut stiffnesses = vec![f64::NAN; 144 * count];
+                for (element, matrix) in matrices.iter().enumerate() {
+                    for k in 0..144 {
+                        stiffnesses[layout.index::<f64>(element, 144, k)] = matrix[k / 12][k % 12];
+                    }
+                }
+                let mut values = vec![1.0; columns.len()];
+                places.add(&stiffnesses, layout, &mut values).expect("lengths fit");
+                for row in 0..12 {
+                    for at in starts[row] as usize..starts[row + 1] as usize {
+                        let expected = 1.0 + dense[row][columns[at] as usize];
+                        // The same three terms in another order.
+                        assert!((values[at] - expected).abs() <= 8.0 * f64::EPSILON);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_an_error() {
+        let tetrahedra = Tetrahedra::new(5, &CORNERS).expect("nodes that exist");
+        let new =
+            |starts: &[i64], columns: &[i64]| CsrPlaces::new(tetrahedra, unknowns, starts, columns).map(drop);
+        assert_eq!(new(&[], &[]), Err(CsrError::Rows { row: 0 }));
+        assert_eq!(new(&[0, 2], &[0]), Err(CsrError::Rows { row: 0 }));
+        assert_eq!(new(&[0, 1, 0], &[0]), Err(CsrError::Rows { row: 1 }));
+        assert_eq!(new(&[-1, 1], &[0]), Err(CsrError::Rows { row: 0 }));
+        assert_eq!(new(&[0, 1], &[0]), Err(CsrError::NoRow { row: 9, rows: 1 }));
+        let (starts, columns) = compressed(|r, c| (r, c) != (9, 6) && (r, c) != (6, 9));
+        let missing =
+            CsrPlaces::new(tetrahedra, unknowns, &starts, &columns).expect_err("an entry is missing");
+        assert_eq!(missing, CsrError::NoEntry { row: 9, column: 6 });
+        assert!(missing.to_string().contains("row 9 and column 6"), "{missing}");
+
+        let (starts, columns) = compressed(|_, _| true);
+        let places = CsrPlaces::new(tetrahedra, unknowns, &starts, &columns).expect("all entries");
+        let mut values = vec![0.0; columns.len()];
+        let error = places.add(&[0.0; 144], Layout::Points, &mut values).expect_err("one of two");
+        assert_eq!((error.slice, error.found, error.points), ("stiffnesses", 144, 2));
+        let error = places.add(&[0.0; 288], Layout::Points, &mut values[1..]).expect_err("one too few");
+        assert_eq!((error.slice, error.found, error.points), ("values", 143, 144));
+    }
+}
