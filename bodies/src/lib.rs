@@ -58,6 +58,9 @@
 //! [`Term`](step::Term) of the energy, as in the example `ground` of `piola-materials`.
 
 mod chained;
+#[cfg(test)]
+#[path = "../../runtime/src/hand_written.rs"]
+mod hand_written;
 pub mod mesh;
 pub mod step;
 pub mod system;

@@ -187,7 +187,7 @@ impl Definiteness {
         // A body without stiffness has no negative eigenvalue.
         let scale = if scale > 0.0 { scale } else { 1.0 };
         let shift = |node: usize| SHIFT * scale * masses[node];
-        if !stiffness.free_nodes().iter().all(|&node| shift(node).is_normal()) {
+        if !scale.is_finite() {
             return Err(NewtonError::NotFinite);
         }
         let held = held(rigid);

@@ -2,81 +2,32 @@
 
 use piola::__private::random::Random;
 use piola::batch::{Batch, MatrixForm};
-use piola::material;
+use piola::material::Scaled;
 use piola::point::Filter;
 
+use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff};
 use crate::mesh::{TetMesh, tetrahedral_box};
 use crate::system::Body;
 
-/// Saint Venant–Kirchhoff solid: even in every pair of stretches, so that its twist is smooth everywhere.
-#[material]
-pub(crate) fn SaintVenantKirchhoff(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Pa. */
-    lambda: f64,
-) -> f64 {
-    let squares = (l1 * l1 - 1.0).powi(2) + (l2 * l2 - 1.0).powi(2) + (l3 * l3 - 1.0).powi(2);
-    mu / 4.0 * squares + lambda / 8.0 * (I1 - 3.0).powi(2)
+// The hand-written energies have moduli of about 1 Pa; these are as stiff as rubber foam.
+pub(crate) fn kirchhoff() -> Scaled<SaintVenantKirchhoff> {
+    scaled(3.0e4, SaintVenantKirchhoff)
 }
 
-/// Rotated linear solid: not even, with a pole of the twist where two stretches are opposite.
-#[material]
-pub(crate) fn RotatedLinear(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Pa. */
-    lambda: f64,
-) -> f64 {
-    let squares = (l1 - 1.0).powi(2) + (l2 - 1.0).powi(2) + (l3 - 1.0).powi(2);
-    mu * squares + lambda / 2.0 * (l1 + l2 + l3 - 3.0).powi(2)
+pub(crate) fn rotated() -> Scaled<RotatedLinear> {
+    scaled(3.0e4, RotatedLinear)
 }
 
-/// Neo-Hookean solid, an energy of I1 and J.
-#[material(domain(J > 0.0))]
-pub(crate) fn NeoHookean(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Pa. */
-    lambda: f64,
-) -> f64 {
-    mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+pub(crate) fn neo_hookean() -> Scaled<NeoHookean> {
+    scaled(3.0e3, NeoHookean)
 }
 
-/// [`NeoHookean`] for alpha = 2, without the use of invariants, since the exponent is a parameter.
-#[material(domain(J > 0.0))]
-pub(crate) fn Powers(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Pa. */
-    lambda: f64,
-    /** Exponent. */
-    alpha: f64,
-) -> f64 {
-    2.0 * mu / alpha.powi(2) * (l1.powf(alpha) + l2.powf(alpha) + l3.powf(alpha) - 3.0)
-        - 2.0 * mu / alpha * J.ln()
-        + lambda / 2.0 * J.ln().powi(2)
+pub(crate) fn by_invariants() -> Scaled<NeoHookeanByInvariants> {
+    scaled(3.0e3, NeoHookeanByInvariants)
 }
 
-// As stiff as rubber foam.
-pub(crate) fn kirchhoff() -> SaintVenantKirchhoff {
-    SaintVenantKirchhoff::new(3.0e4, 4.5e4).expect("finite")
-}
-
-pub(crate) fn rotated() -> RotatedLinear {
-    RotatedLinear::new(3.0e4, 4.5e4).expect("finite")
-}
-
-pub(crate) fn by_invariants() -> NeoHookean {
-    NeoHookean::new(3.0e3, 4.5e3).expect("finite")
-}
-
-pub(crate) fn neo_hookean() -> Powers {
-    Powers::new(3.0e3, 4.5e3, 2.0).expect("finite")
+pub(crate) fn scaled<M>(factor: f64, material: M) -> Scaled<M> {
+    Scaled::new(factor, material).expect("a finite factor")
 }
 
 /// A beam of `cells` cubes along x with sides of 0.1 m, each cut into six tetrahedra around a diagonal.

@@ -5,9 +5,7 @@ use piola::batch::TileMaterial;
 use super::*;
 use crate::mesh::TetMesh;
 use crate::step::{SimulationSettings, Spring};
-use crate::system::testing::{
-    SaintVenantKirchhoff, beam, kirchhoff, neo_hookean, rotated, stiffness_product,
-};
+use crate::system::testing::{beam, kirchhoff, neo_hookean, rotated, stiffness_product};
 
 const DENSITY: f64 = 1000.0;
 
@@ -137,23 +135,23 @@ fn where_nothing_is_free_nothing_is_said() {
     assert_eq!((equilibrium.rigid_motions, equilibrium.stability), (0, Stability::Stable));
 }
 
-/// At a material's limit of stability K has an eigenvalue of zero: here a body without resistance to shear.
+/// The second piece of a body moves without energy, and its motions are not rigid ones of the whole body.
 #[test]
-fn a_body_that_moves_without_energy_is_undecided() {
-    let fluid = SaintVenantKirchhoff::new(0.0, 4.5e4).expect("finite");
-    check(&simulation(&beam(2), fluid, &Pins::at([0, 1, 2, 3])), 0, Stability::Undecided);
+fn a_body_in_two_pieces_is_undecided() {
+    let mut mesh = beam(2);
+    let (nodes, tets) = (mesh.positions.len(), mesh.tets.clone());
+    mesh.positions.extend(mesh.positions.clone().iter().map(|&[x, y, z]| [x, y + 1.0, z]));
+    mesh.tets.extend(tets.iter().map(|tet| tet.map(|node| node + nodes)));
+    mesh.tags.clear();
+    check(&simulation(&mesh, rotated(), &Pins::at([0, 1, 2, 3])), 0, Stability::Undecided);
 }
 
-/// If masses and stiffnesses are so different that a shift underflows, the result is an error.
 #[test]
-fn bodies_of_any_size_are_classified_or_refused() {
-    for (scale, is_fine) in [(1e-60, true), (1e-110, false), (1e60, true)] {
+fn bodies_of_any_size_are_classified() {
+    for scale in [1e-100, 1e-60, 1e60, 1e100] {
         let mut mesh = beam(2);
         mesh.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= scale);
-        let found = Equilibrium::of(&simulation(&mesh, rotated(), &Pins::none()));
-        match found {
-            Ok(found) => assert!(is_fine && found.stability == Stability::Stable, "{scale:e}: {found:?}"),
-            Err(error) => assert!(!is_fine && error == NewtonError::NotFinite, "{scale:e}: {error}"),
-        }
+        let found = Equilibrium::of(&simulation(&mesh, rotated(), &Pins::none())).expect("finite");
+        assert_eq!((found.stability, found.rigid_motions), (Stability::Stable, 6), "{scale:e}: {found:?}");
     }
 }
