@@ -1,6 +1,6 @@
 //! Fits whose answer is known.
 
-use nalgebra_34::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
 use piola::{Real, Spline, Univariate};
 use piola_laboratory::curve::{Mode, Volume, respond};
 use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};

@@ -32,7 +32,7 @@ fn modulus(blocks: &Blocks<f64>, m: [f64; 3], n: [f64; 3]) -> f64 {
 
 /// The least eigenvalue of the acoustic tensor Q(N), and its vector.
 fn least_of(blocks: &Blocks<f64>, n: [f64; 3]) -> (f64, [f64; 3]) {
-    let mut q = nalgebra_34::Matrix3::zeros();
+    let mut q = nalgebra::Matrix3::zeros();
     for i in 0..3 {
         let dyad: [[f64; 3]; 3] = std::array::from_fn(|k| if k == i { n } else { [0.0; 3] });
         let change = blocks.apply(&dyad);

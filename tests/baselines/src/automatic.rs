@@ -26,14 +26,17 @@ pub use potentials::{Hencky, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff
 /// An energy density that can be evaluated on dual numbers.
 pub trait Potential {
     /// ψ, J/m³ of rest volume, from signed stretches.
-    fn energy<D: DualNum + Copy>(&self, stretches: [D; 3]) -> D;
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D;
 }
 
 /// ψi and ψij by automatic differentiation, flips and twists as (ψi ∓ ψj)/(λi ∓ λj), NaN where stretches are
 /// equal.
 #[must_use]
-pub fn through_stretches<T: Real + DualNumFloat>(potential: &impl Potential, svd: &Svd<T>) -> Blocks<T> {
-    let energy = |l: SVector<Dual2SVec<T, 3>, 3>| potential.energy([l[0], l[1], l[2]]);
+pub fn through_stretches<T: Real + DualNumFloat + DualNum<T>>(
+    potential: &impl Potential,
+    svd: &Svd<T>,
+) -> Blocks<T> {
+    let energy = |l: SVector<Dual2SVec<T, T, 3>, 3>| potential.energy([l[0], l[1], l[2]]);
     let (_, gradient, h) = hessian(energy, &SVector::from(svd.stretches));
     let hessian = [h[(0, 0)], h[(1, 1)], h[(2, 2)], h[(0, 1)], h[(0, 2)], h[(1, 2)]];
     quotients::plain(svd.stretches, gradient.into(), hessian)
@@ -41,11 +44,11 @@ pub fn through_stretches<T: Real + DualNumFloat>(potential: &impl Potential, svd
 
 /// P and dP/dF, Pa, as derivatives of ψ by the nine entries of F; wrong where two stretches are equal.
 #[must_use]
-pub fn through_decomposition<T: Real + DualNumFloat>(
+pub fn through_decomposition<T: Real + DualNumFloat + DualNum<T>>(
     potential: &impl Potential,
     F: &Matrix3<T>,
 ) -> (Matrix3<T>, [[T; 9]; 9]) {
-    let energy = |F: SVector<Dual2SVec<T, 9>, 9>| potential.energy(signed_stretches(&F));
+    let energy = |F: SVector<Dual2SVec<T, T, 9>, 9>| potential.energy(signed_stretches(&F));
     let (_, P, dP_dF) = hessian(energy, &SVector::from_row_slice(F.as_flattened()));
     (
         std::array::from_fn(|i| std::array::from_fn(|j| P[3 * i + j])),
@@ -54,7 +57,7 @@ pub fn through_decomposition<T: Real + DualNumFloat>(
 }
 
 /// The square roots of the eigenvalues of FᵀF, the smallest one with the sign of det F.
-fn signed_stretches<D: DualNum + Copy>(F: &SVector<D, 9>) -> [D; 3] {
+fn signed_stretches<T: DualNumFloat, D: DualNum<T> + Copy>(F: &SVector<D, 9>) -> [D; 3] {
     const LONGEST_ITERATION: usize = 200;
     let F = nalgebra::Matrix3::from_fn(|i, j| F[3 * i + j]);
     let C = nalgebra::Matrix3::from_fn(|i, j| {
@@ -79,7 +82,7 @@ mod tests {
 
     /// The errors of both ways to dP/dF, in units of u.
     #[track_caller]
-    fn errors<T: Real + DualNumFloat + Into<f64>>(
+    fn errors<T: Real + DualNumFloat + DualNum<T> + Into<f64>>(
         potential: &impl Potential,
         material: &impl Material,
         F: &Matrix3<f64>,

@@ -40,38 +40,35 @@ pub struct Hencky {
 
 impl Potential for StVenantKirchhoff {
     #[inline(always)]
-    fn energy<D: DualNum + Copy>(&self, stretches: [D; 3]) -> D {
-        let [e1, e2, e3] = stretches.map(|l| l * l - real::<D::Primitive>(1.0));
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
+        let [e1, e2, e3] = stretches.map(|l| l * l - real::<T>(1.0));
         let squares = e1 * e1 + e2 * e2 + e3 * e3;
         let trace = e1 + e2 + e3;
-        squares * real::<D::Primitive>(self.mu / 4.0)
-            + trace * trace * real::<D::Primitive>(self.lambda / 8.0)
+        squares * real::<T>(self.mu / 4.0) + trace * trace * real::<T>(self.lambda / 8.0)
     }
 }
 
 impl Potential for NeoHookean {
     #[inline(always)]
-    fn energy<D: DualNum + Copy>(&self, [l1, l2, l3]: [D; 3]) -> D {
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, [l1, l2, l3]: [D; 3]) -> D {
         let I1 = l1 * l1 + l2 * l2 + l3 * l3;
         let log = (l1 * l2 * l3).ln();
-        (I1 - real::<D::Primitive>(3.0)) * real::<D::Primitive>(self.mu / 2.0)
-            - log * real::<D::Primitive>(self.mu)
-            + log * log * real::<D::Primitive>(self.lambda / 2.0)
+        (I1 - real::<T>(3.0)) * real::<T>(self.mu / 2.0) - log * real::<T>(self.mu)
+            + log * log * real::<T>(self.lambda / 2.0)
     }
 }
 
 impl<const N: usize> Potential for Ogden<N> {
     #[inline(always)]
-    fn energy<D: DualNum + Copy>(&self, [l1, l2, l3]: [D; 3]) -> D {
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, [l1, l2, l3]: [D; 3]) -> D {
         let J = l1 * l2 * l3;
-        let volume = J - real::<D::Primitive>(1.0);
+        let volume = J - real::<T>(1.0);
         let total: f64 = self.mu.iter().sum();
-        let mut energy =
-            volume * volume * real::<D::Primitive>(self.kappa / 2.0) - J.ln() * real::<D::Primitive>(total);
+        let mut energy = volume * volume * real::<T>(self.kappa / 2.0) - J.ln() * real::<T>(total);
         for (mu, alpha) in self.mu.into_iter().zip(self.alpha) {
-            let exponent = real::<D::Primitive>(alpha);
+            let exponent = real::<T>(alpha);
             let powers = l1.powf(exponent) + l2.powf(exponent) + l3.powf(exponent);
-            energy += (powers - real::<D::Primitive>(3.0)) * real::<D::Primitive>(mu / alpha);
+            energy += (powers - real::<T>(3.0)) * real::<T>(mu / alpha);
         }
         energy
     }
@@ -79,21 +76,19 @@ impl<const N: usize> Potential for Ogden<N> {
 
 impl Potential for RotatedLinear {
     #[inline(always)]
-    fn energy<D: DualNum + Copy>(&self, stretches: [D; 3]) -> D {
-        let [e1, e2, e3] = stretches.map(|l| l - real::<D::Primitive>(1.0));
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
+        let [e1, e2, e3] = stretches.map(|l| l - real::<T>(1.0));
         let trace = e1 + e2 + e3;
-        (e1 * e1 + e2 * e2 + e3 * e3) * real::<D::Primitive>(self.mu)
-            + trace * trace * real::<D::Primitive>(self.lambda / 2.0)
+        (e1 * e1 + e2 * e2 + e3 * e3) * real::<T>(self.mu) + trace * trace * real::<T>(self.lambda / 2.0)
     }
 }
 
 impl Potential for Hencky {
     #[inline(always)]
-    fn energy<D: DualNum + Copy>(&self, stretches: [D; 3]) -> D {
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
         let [e1, e2, e3] = stretches.map(|l| l.ln());
         let trace = e1 + e2 + e3;
-        (e1 * e1 + e2 * e2 + e3 * e3) * real::<D::Primitive>(self.mu)
-            + trace * trace * real::<D::Primitive>(self.lambda / 2.0)
+        (e1 * e1 + e2 * e2 + e3 * e3) * real::<T>(self.mu) + trace * trace * real::<T>(self.lambda / 2.0)
     }
 }
 
