@@ -19,10 +19,8 @@ use tungstenite::Message;
 
 use page::{Page, parts};
 
-/// Time of each of the two rounds: a second, or three with `PIOLA_FULL`.
-fn round() -> Duration {
-    Duration::from_secs(if std::env::var_os("PIOLA_FULL").is_some() { 3 } else { 1 })
-}
+/// For each of the two rounds.
+const ROUND: Duration = Duration::from_secs(3);
 /// The longest that a frame may take meanwhile. A step of the bar takes milliseconds; all share the cores.
 const FRAME: Duration = Duration::from_secs(3);
 /// What allocators may keep, MiB, for threads that come and go. If each of the tens of thousands of messages
@@ -166,12 +164,12 @@ fn refused_acts(url: &str, is_over: &AtomicBool) {
 /// Looks at frames for a while, each of which must come in time.
 fn watch(page: &mut Page) {
     let (start, first) = (Instant::now(), page.frame());
-    while start.elapsed() < round() {
+    while start.elapsed() < ROUND {
         let asked = Instant::now();
         page.look();
         assert!(asked.elapsed() < FRAME, "a frame took {:?}: {}", asked.elapsed(), page.figures["trouble"]);
     }
-    assert!(page.frame() > first + 10, "only {} steps in {:?}", page.frame() - first, round());
+    assert!(page.frame() > first + 10, "only {} steps in {ROUND:?}", page.frame() - first);
 }
 
 #[test]
@@ -193,7 +191,7 @@ fn hostile_clients_shut_nobody_out() {
         warm.zip(program.memory())
     });
     if let Some((warm, end)) = memory {
-        println!("{} steps, memory {warm:.1} MiB after a round, {end:.1} MiB at the end", page.frame());
+        println!("{} steps, memory {warm:.1} MiB after {ROUND:?}, {end:.1} MiB at the end", page.frame());
         assert!(end < warm + GROWTH, "memory grew from {warm} to {end} MiB");
     }
     // Whoever comes later is served, too, once the dead connections are gone.
