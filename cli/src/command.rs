@@ -55,7 +55,7 @@ pub(crate) enum Command {
     /// Check the rules that every material must keep, on a declaration in Rust or a formula.
     ///
     /// Finite differences of energy and stress, symmetry, equal stretches, inversion, accuracy in single
-    /// precision and on lanes: the tests of `piola::contract!` in a crate.
+    /// precision: the tests of `piola::contract!` in a crate.
     Contract(Box<Contract>),
     /// Show where a material is stable: Baker–Ericksen, Hill, strong ellipticity.
     ///

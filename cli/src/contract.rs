@@ -2,7 +2,7 @@
 
 use clap::Args;
 use piola::Inversion;
-use piola::contract::{Notation, Settings, check};
+use piola::contract::{Notation, Settings, check_without_lanes};
 use piola_declare::Energy;
 use piola_laboratory::curve::Volume;
 
@@ -32,7 +32,8 @@ impl Contract {
         for inversion in std::iter::once(Inversion::Refuse).chain(inversions) {
             let spec = spec.clone().with_inversion(inversion);
             let material = spec.build()?.name;
-            let report = check(&spec.interpreted()?, &settings)
+            // The lanes of the interpreter are the same for every energy; its tests check them.
+            let report = check_without_lanes(&spec.interpreted()?, &settings)
                 .map_err(|violations| Error::Contract { material: material.to_string(), violations })?;
             text += &match inversion {
                 Inversion::Refuse => format!("{material} keeps the contract\n{rest}"),

@@ -16,7 +16,7 @@ mod sheet;
 pub use image::Image;
 pub use sheet::{Frame, contact_sheet};
 
-type Vector = nalgebra_34::Vector3<f32>;
+type Vector = nalgebra::Vector3<f32>;
 
 /// A triangulated surface in space. Both sides of it are visible.
 #[derive(Clone, Copy, Debug)]

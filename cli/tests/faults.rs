@@ -11,6 +11,8 @@ use piola::__private::random::Random;
 
 /// Number of kills at random moments, unless the environment variable `PIOLA_KILLS` gives another.
 const KILLS: usize = 4;
+/// Number of kills without `PIOLA_FULL`: one in a new folder and one in the folder of an earlier run.
+const FEWER_KILLS: usize = 2;
 /// Number of kills for each run that then continues to its end and is replaced by another one.
 const SEQUELS: usize = 4;
 /// Steps of a run of a cube: together about as long as the picture at its end.
@@ -18,6 +20,11 @@ const FRAMES: usize = 1500;
 /// A cube of six tetrahedra around its diagonal.
 const NODES: &str = "8 3\n1 0 0 0\n2 0 0 1\n3 0 1 0\n4 0 1 1\n5 1 0 0\n6 1 0 1\n7 1 1 0\n8 1 1 1\n";
 const TETRAHEDRA: &str = "6 4\n1 1 5 7 8\n2 1 5 8 6\n3 1 3 8 7\n4 1 3 4 8\n5 1 2 6 8\n6 1 2 8 4\n";
+
+/// True if the environment asks for the long form of the tests.
+fn is_full() -> bool {
+    std::env::var_os("PIOLA_FULL").is_some()
+}
 
 type Files = BTreeMap<String, Vec<u8>>;
 
@@ -137,7 +144,8 @@ impl Runs {
 #[test]
 fn killed_at_any_moment() {
     let runs = Runs::new();
-    let kills = std::env::var("PIOLA_KILLS").map_or(KILLS, |text| text.parse().expect("a number"));
+    let kills = std::env::var("PIOLA_KILLS")
+        .map_or(if is_full() { KILLS } else { FEWER_KILLS }, |text| text.parse().expect("a number"));
     let mut random = Random::new(17);
     let begun = Instant::now();
     complete(&mut run(runs.folder(false).path(), "0.03", "out"));
@@ -161,11 +169,15 @@ fn killed_at_any_moment() {
 }
 
 /// A signal ends a run as a shorter one with a summary, whenever it comes: every 50 ms of a run if
-/// `PIOLA_KILLS` is set, otherwise every 500 ms.
+/// `PIOLA_KILLS` is set, otherwise every 500 ms with `PIOLA_FULL`, or every two seconds.
 #[test]
 fn interrupted_at_every_moment() {
     let runs = Runs::new();
-    let pause = if std::env::var_os("PIOLA_KILLS").is_some() { 50 } else { 500 };
+    let pause = match is_full() {
+        _ if std::env::var_os("PIOLA_KILLS").is_some() => 50,
+        true => 500,
+        false => 2000,
+    };
     for turn in 1.. {
         let scratch = runs.folder(false);
         let came = kill(start(scratch.path(), "0.03"), turn * Duration::from_millis(pause), "INT");

@@ -7,7 +7,13 @@ use piola_declare::Energy;
 use piola_laboratory::chart::{ChartError, Curve, draw};
 use piola_laboratory::curve::{Mode, Response, ResponseError, Volume, respond};
 use piola_laboratory::data::{DataError, Measurements, TRELOAR_1944};
-use piola_materials::{BlatzKo, DECLARATIONS, Gent, NeoHookean, Ogden, RotatedLinear};
+use piola_materials::{DECLARATIONS, Gent, NeoHookean, Ogden, RotatedLinear};
+
+// Energies that the catalogue does not compile by default, from their files.
+#[path = "../../materials/src/blatz_ko.rs"]
+mod blatz_ko;
+
+use blatz_ko::BlatzKo;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

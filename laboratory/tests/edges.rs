@@ -1,6 +1,6 @@
 //! Fits that an edge of what an energy accepts keeps from their minimum.
 
-use nalgebra_34::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
 use piola::material::MaterialError;
 use piola_laboratory::curve::{Mode, ResponseError, Volume, respond};
 use piola_laboratory::data::{Measured, Measurements, PointError, TRELOAR_1944};

@@ -2,9 +2,7 @@
 
 use piola::material;
 use piola::material::{Declared, MaterialError, Moduli};
-use piola_materials::{
-    Hencky, IsochoricNeoHookean, NeoHookean, RotatedLinear, StVenantKirchhoff, StableNeoHookean, Yeoh,
-};
+use piola_materials::{NeoHookean, RotatedLinear, StVenantKirchhoff};
 
 // Energies that the crate does not compile by default, from their files.
 #[path = "../src/ciarlet_neo_hookean.rs"]
@@ -13,19 +11,31 @@ mod ciarlet_neo_hookean;
 mod exponentiated_hencky;
 #[path = "../src/fixed_corotated.rs"]
 mod fixed_corotated;
+#[path = "../src/hencky.rs"]
+mod hencky;
+#[path = "../src/isochoric_neo_hookean.rs"]
+mod isochoric_neo_hookean;
 #[path = "../src/knowles.rs"]
 mod knowles;
+#[path = "../src/stable_neo_hookean.rs"]
+mod stable_neo_hookean;
 #[path = "../src/valanis_landel.rs"]
 mod valanis_landel;
 #[path = "../src/varga.rs"]
 mod varga;
+#[path = "../src/yeoh.rs"]
+mod yeoh;
 
 use ciarlet_neo_hookean::CiarletNeoHookean;
 use exponentiated_hencky::ExponentiatedHencky;
 use fixed_corotated::FixedCorotated;
+use hencky::Hencky;
+use isochoric_neo_hookean::IsochoricNeoHookean;
 use knowles::Knowles;
+use stable_neo_hookean::StableNeoHookean;
 use valanis_landel::ValanisLandel;
 use varga::Varga;
+use yeoh::Yeoh;
 
 /// Poisson's ratios from that of cork to that of rubber.
 const RATIOS: [f64; 5] = [0.0, 0.2, 0.3, 0.45, 0.499];

@@ -340,7 +340,7 @@ mod tests {
             .triangles
             .iter()
             .map(|triangle| {
-                let [a, b, c] = triangle.map(|vertex| nalgebra_34::Vector3::from(surface.positions[vertex]));
+                let [a, b, c] = triangle.map(|vertex| nalgebra::Vector3::from(surface.positions[vertex]));
                 a.dot(&b.cross(&c)) / 6.0
             })
             .sum();

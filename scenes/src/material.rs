@@ -218,8 +218,7 @@ impl MaterialSpec {
         self.resolve(|origin, values, inversion| origin.specimen(values, inversion))
     }
 
-    /// The material as a program, also in `f32`; the material that is [built](Self::build) may be compiled
-    /// and has the same bits.
+    /// The material as a program, also in `f32`.
     ///
     /// # Errors
     /// Like [`MaterialSpec::build`].

@@ -4,7 +4,7 @@
 
 use std::collections::HashSet;
 
-use nalgebra_34::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3};
 use piola_bodies::mesh::TetMesh;
 
 /// Bound of det F of a flat tetrahedron: coordinates of a few edge lengths give it an error of some thousand

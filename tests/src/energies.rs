@@ -1,7 +1,7 @@
 //! The catalogue as judges take it: every energy behind pointers, so that no judge is compiled again for each
 //! of them.
 //!
-//! An energy is the compiled one where this build has it, and else the interpreted one: `declare/tests`
+//! An energy is the compiled one where this build has it, and else the interpreted one: `tests/interpreted.rs`
 //! proves that both have the same bits. With the feature `all` every energy is a compiled one.
 
 use std::sync::LazyLock;
@@ -29,6 +29,14 @@ pub static ENERGIES: LazyLock<Vec<Judged>> = LazyLock::new(|| {
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Judged> {
     ENERGIES.iter().find(|energy| energy.name == name)
+}
+
+/// True if the arguments of the program have no name, or one that is part of `trial`: the filter of tests
+/// without a harness.
+#[must_use]
+pub fn is_asked_for(trial: &str) -> bool {
+    let mut names = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
+    names.peek().is_none() || names.any(|name| trial.contains(&name))
 }
 
 /// An energy of the catalogue.

@@ -8,18 +8,20 @@
 //! * [`emitted`]: energies as source text, executed by programs of `emitted/`;
 //! * [`bits`]: deformation gradients of arbitrary finite entries; [`soundness`]: what must hold at each of
 //!   them;
-//! * [`baselines`]: other ways to a tangent; [`stability`]: the table of their errors and ours in
-//!   `STABILITY.md`;
 //! * [`random`]: energies that nobody wrote, and what they must compute;
+//! * `baselines/`, a crate of its own: other ways to a tangent, and the table of their errors and ours in
+//!   `STABILITY.md`;
 //! * `speed/`, a crate of its own: what is timed and counted;
 //! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
 //! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
 //! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and what its constructors
 //!   refuse;
 //! * `tests/contract.rs`: the contract of every material;
+//! * `tests/oracles/`: the oracles themselves, against known values;
 //! * `tidy/`, a crate of its own: the rules that all sources follow.
+//!
+//! With `PIOLA_FULL` in the environment, as `.ci/run` has it, some tests judge more cases.
 
-pub mod baselines;
 pub mod bits;
 pub mod cases;
 pub mod compiled;
@@ -30,4 +32,3 @@ pub mod multiprecision;
 pub mod quotients;
 pub mod random;
 pub mod soundness;
-pub mod stability;

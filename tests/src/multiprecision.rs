@@ -19,8 +19,6 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use piola::Real;
 
 mod elementary;
-#[cfg(test)]
-mod tests;
 
 /// A number with 64·LIMBS bits: sign · 0.limbs · 2^exponent, the most significant limb last, its highest bit
 /// set.

@@ -10,7 +10,7 @@ use piola::point::{Filter, evaluate};
 use piola_tests::energies::ENERGIES;
 
 /// Runs a check on every material of the catalogue in every treatment of inversion, each read from its
-/// declaration: `declare/tests/catalogue.rs` sees that it has the bits of the compiled one, which takes long
+/// declaration: `interpreted.rs` sees that it has the bits of the compiled one, which takes long
 /// to build.
 fn everywhere(mut check: impl FnMut(&str, &Interpreted)) {
     for energy in ENERGIES.iter() {

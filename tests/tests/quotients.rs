@@ -1,27 +1,26 @@
-//! Every flip and twist of the catalogue at every gap, a trial for each energy and inversion, with a table:
-//! `cargo test -p piola-tests --test quotients`.
+//! Every flip and twist of the catalogue at every gap, with a table: `cargo test -p piola-tests --test
+//! quotients`, with `-- NAME` those of the energies whose names contain it.
 //!
 //! A quotient D may err by 10 u (1 + κ) relative to max(|D|, |ψii| + |ψij|), where κ is its condition with
 //! respect to relative changes of the stretches, and of the threshold of an extension. Where that fails,
 //! Σ|terms of D| enters the maximum: a sum whose terms cancel by the nature of the energy cannot do better.
 //! The table counts those. Parameters are rounded to `f32` first, so that both formats judge one material.
 
-#![expect(clippy::print_stdout, reason = "a table to show")]
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table to show")]
 
 use std::cell::LazyCell;
 use std::collections::HashSet;
 use std::fmt;
 use std::process::ExitCode;
-use std::sync::{Mutex, PoisonError};
 
-use libtest_mimic::{Arguments, Trial};
 use piola::__private::pole_floor;
 use piola::Inversion;
 use piola::interpreter::Interpreted;
 use piola::material::{MaterialError, PAIRS, Response};
 use piola_tests::declared::Declared;
-use piola_tests::energies::{ENERGIES, Format, Judged, Subject};
+use piola_tests::energies::{ENERGIES, Format, Judged, Subject, is_asked_for};
 use piola_tests::quotients::{expected, samples};
+use rayon::prelude::*;
 
 /// The constant of the judgement |D − D*| ≤ C u (scale + sensitivity).
 const C: f64 = 10.0;
@@ -32,16 +31,20 @@ const EXTEND: Inversion = Inversion::Extend { epsilon: 0.25 };
 /// A line of the table: energy, inversion, format.
 type Line = (&'static str, &'static str, &'static str, Tally);
 
-/// What every trial so far has judged.
-static TABLE: Mutex<Vec<Line>> = Mutex::new(Vec::new());
-
 fn main() -> ExitCode {
-    let arguments = Arguments::from_args();
-    let conclusion = libtest_mimic::run(&arguments, trials());
-    if !arguments.list {
-        print(&mut TABLE.lock().unwrap_or_else(PoisonError::into_inner));
-    }
-    conclusion.exit_code()
+    let judged: Result<Vec<_>, String> = trials().into_par_iter().map(Trial::lines).collect();
+    let failures = judged.map(|lines| {
+        let mut lines = lines.concat();
+        print(&mut lines);
+        lines.iter().flat_map(failures).collect::<Vec<_>>()
+    });
+    let complaint = match failures {
+        Ok(failures) if failures.is_empty() => return ExitCode::SUCCESS,
+        Ok(failures) => failures.join("\n"),
+        Err(error) => error,
+    };
+    eprintln!("{complaint}");
+    ExitCode::FAILURE
 }
 
 /// Parameters other than the typical ones: where those switch off a part of the energy, and splines whose
@@ -59,21 +62,27 @@ const OTHERS: [(&str, &[&[f64]]); 2] = [
     ),
 ];
 
+/// An energy with parameters.
+struct Trial {
+    energy: &'static Judged,
+    /// Name of the inversion in the table.
+    word: &'static str,
+    values: Vec<&'static [f64]>,
+    inversion: Inversion,
+}
+
 /// A trial for each energy with each choice of parameters, plain and, where it can be, extended.
 fn trials() -> Vec<Trial> {
     let mut trials = Vec::new();
-    for energy in ENERGIES.iter() {
+    for energy in ENERGIES.iter().filter(|energy| is_asked_for(energy.name)) {
         let others =
             OTHERS.iter().filter(|(name, _)| *name == energy.name).map(|(_, values)| values.to_vec());
-        for (choice, values) in std::iter::once(energy.typical()).chain(others).enumerate() {
+        for values in std::iter::once(energy.typical()).chain(others) {
             for (word, inversion) in [("refuse", Inversion::Refuse), ("extend", EXTEND)] {
                 if inversion == EXTEND && !can_be_extended(energy, &values) {
                     continue;
                 }
-                let choice = if choice == 0 { String::new() } else { format!("::{choice}") };
-                let name = format!("quotients::{}::{word}{choice}", energy.name);
-                let values = values.clone();
-                trials.push(Trial::test(name, move || Ok(add_to_table(energy, word, &values, inversion)?)));
+                trials.push(Trial { energy, word, values: values.clone(), inversion });
             }
         }
     }
@@ -86,25 +95,27 @@ fn can_be_extended(Judged { energy, .. }: &Judged, values: &[&[f64]]) -> bool {
     energy.description().extends && (values == energy.typical() || restores())
 }
 
-/// Judges a material and adds the result to the table.
-///
-/// # Errors
-/// The quotients that fail, one in each line, or why the material cannot be judged.
-fn add_to_table(
-    energy: &'static Judged,
-    word: &'static str,
-    values: &[&[f64]],
-    inversion: Inversion,
-) -> Result<(), String> {
-    let mut failures = Vec::new();
-    for (precision, tally) in judge(energy, values, inversion)? {
-        failures.extend(tally.failures.iter().map(|failure| format!("{precision} {failure}")));
-        if tally.failed > 0 || tally.judged == 0 {
-            failures.push(format!("{precision}: {} of {} quotients failed", tally.failed, tally.judged));
-        }
-        TABLE.lock().unwrap_or_else(PoisonError::into_inner).push((energy.name, word, precision, tally));
+impl Trial {
+    /// Judges the material in both formats.
+    ///
+    /// # Errors
+    /// Why it cannot be judged.
+    fn lines(self) -> Result<Vec<Line>, String> {
+        let Self { energy, word, values, inversion } = self;
+        let tallies = judge(energy, &values, inversion)?;
+        Ok(tallies.into_iter().map(|(precision, tally)| (energy.name, word, precision, tally)).collect())
     }
-    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
+}
+
+/// The quotients that fail, one in each line.
+fn failures((name, word, precision, tally): &Line) -> Vec<String> {
+    let mut all: Vec<_> =
+        tally.failures.iter().map(|failure| format!("{name} {word} {precision} {failure}")).collect();
+    if tally.failed > 0 || tally.judged == 0 {
+        let Tally { failed, judged, .. } = tally;
+        all.push(format!("{name} {word} {precision}: {failed} of {judged} quotients failed"));
+    }
+    all
 }
 
 fn print(table: &mut [Line]) {
@@ -246,7 +257,7 @@ impl Judge<'_, '_> {
 }
 
 /// What has been judged.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Tally {
     judged: usize,
     worst: f64,

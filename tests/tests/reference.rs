@@ -1,11 +1,11 @@
-//! The reference cases, a trial for each energy, with a table of the worst errors: `cargo test -p piola-tests
-//! --test reference`.
+//! The reference cases, with a table of the worst errors: `cargo test -p piola-tests --test reference`, with
+//! `-- NAME` those of the energies whose names contain it.
 //!
 //! Every case of all files is judged, in `f64` and, where its F is exact there, in `f32`, under
 //! [`Inversion::Refuse`], as a single point and in batches of every back end (in `f32` those of a few
-//! energies): by C u (‖X*‖ + sens), ψ by C u (|ψ*| + sens + Σ|terms|). What has no representation in a format
-//! cannot be returned there; its status must then say so, and say so only then. The variable `PIOLA_CASES`
-//! names one other file of the same schema. With `PIOLA_EMITTED` the results are those of emitted source text
+//! energies, with the feature `full`): by C u (‖X*‖ + sens), ψ by C u (|ψ*| + sens + Σ|terms|). What has no
+//! representation in a format cannot be returned there; its status must then say so, and say so only then.
+//! The variable `PIOLA_CASES` names one other file of the same schema. With `PIOLA_EMITTED` the results are those of emitted source text
 //! ([`piola_tests::emitted`]): `PIOLA_EMITTED="wgsl f32 PROGRAM"`.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table to show")]
@@ -13,21 +13,18 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::{Mutex, PoisonError};
 
-use libtest_mimic::{Arguments, Trial};
 use piola::batch::{Batch, Kernels, LengthError, MatrixForm, TileMaterial};
 use piola::lanes::Backend;
-use piola::material::{Declared, MaterialError};
 use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint};
 use piola::{Inversion, Real, Status, Survey};
 use piola_declare::emit::Precision;
-use piola_materials::{NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
 use piola_tests::cases::{Case, Quantity};
 use piola_tests::compiled::{evaluate, evaluate_dense, evaluate_energy, evaluate_stress};
 use piola_tests::declared;
 use piola_tests::emitted::{Answer, Runner};
-use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find};
+use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find, is_asked_for};
+use rayon::prelude::*;
 
 /// The constant of the judgement ‖X − X*‖ ≤ C u (‖X*‖ + sens).
 const C: f64 = 30.0;
@@ -43,27 +40,21 @@ const FILES: [&str; 4] = [
 /// Energies whose parameters are functions, which no file of cases can hold.
 const WITHOUT_CASES: [&str; 1] = ["stretch_spline"];
 
-/// All results so far, of every trial.
-static TABLE: Mutex<Table> = Mutex::new(Table::EMPTY);
-
 fn main() -> ExitCode {
-    let arguments = Arguments::from_args();
-    let trials = match trials() {
-        Ok(trials) => trials,
+    match judge_all() {
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
-            return ExitCode::FAILURE;
+            ExitCode::FAILURE
         }
-    };
-    let conclusion = libtest_mimic::run(&arguments, trials);
-    if !arguments.list {
-        TABLE.lock().unwrap_or_else(PoisonError::into_inner).print();
     }
-    conclusion.exit_code()
 }
 
-/// One trial for each energy that has cases.
-fn trials() -> Result<Vec<Trial>, String> {
+/// Judges the cases of each energy and prints the table.
+///
+/// # Errors
+/// The results that fail, one in each line, or why a case cannot be judged.
+fn judge_all() -> Result<(), String> {
     let runner = Runner::from_environment()?;
     let cases = match std::env::var_os("PIOLA_CASES") {
         Some(file) => Case::read(Path::new(&file))?,
@@ -73,11 +64,16 @@ fn trials() -> Result<Vec<Trial>, String> {
     for case in cases {
         by_energy.entry(case.material.clone()).or_default().push(case);
     }
-    let trial = |(name, cases): (String, Vec<Case>)| {
-        let runner = runner.clone();
-        Trial::test(format!("reference::{name}"), move || Ok(judge_all(&name, cases, runner.as_ref())?))
-    };
-    Ok(by_energy.into_iter().map(trial).collect())
+    by_energy.retain(|name, _| is_asked_for(name));
+    let judged: Result<Vec<_>, String> =
+        by_energy.into_par_iter().map(|(name, cases)| judge_energy(&name, cases, runner.as_ref())).collect();
+    let (mut table, mut failures) = (Table::default(), Vec::new());
+    for (of_energy, failed) in judged? {
+        table.extend(of_energy);
+        failures.extend(failed);
+    }
+    table.print();
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }
 
 /// The cases of all files, which leave no energy of the catalogue out.
@@ -94,11 +90,15 @@ fn own_cases() -> Result<Vec<Case>, String> {
     Ok(cases)
 }
 
-/// Judges all cases of one energy and adds them to the table.
+/// The table of all cases of one energy, and the results that fail.
 ///
 /// # Errors
-/// The results that fail, one in each line, or why a case cannot be judged.
-fn judge_all(name: &str, mut cases: Vec<Case>, runner: Option<&Runner>) -> Result<(), String> {
+/// Why a case cannot be judged.
+fn judge_energy(
+    name: &str,
+    mut cases: Vec<Case>,
+    runner: Option<&Runner>,
+) -> Result<(Table, Vec<String>), String> {
     let energy = find(name).ok_or_else(|| format!("{name} is not in the catalogue"))?;
     if runner.is_some_and(|runner| runner.precision == Precision::F32) {
         cases.retain(|case| case.f32_exact);
@@ -107,7 +107,7 @@ fn judge_all(name: &str, mut cases: Vec<Case>, runner: Option<&Runner>) -> Resul
     let values = first.values(energy.description())?;
     let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
     let declared = declared::Declared::read(energy.description(), &values, Inversion::Refuse)?;
-    let mut table = Table { cases: cases.len(), energies: 1, ..Table::EMPTY };
+    let mut table = Table { cases: cases.len(), energies: 1, ..Table::default() };
     let mut failures = Vec::new();
     let mut answers = runner.map(|runner| runner.answers(energy, &cases)).transpose()?.map(Vec::into_iter);
     for case in &cases {
@@ -126,11 +126,11 @@ fn judge_all(name: &str, mut cases: Vec<Case>, runner: Option<&Runner>) -> Resul
             }
         }
     }
-    TABLE.lock().unwrap_or_else(PoisonError::into_inner).extend(table);
-    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
+    Ok((table, failures))
 }
 
 /// Counts and worst errors of results.
+#[derive(Default)]
 struct Table {
     cases: usize,
     energies: usize,
@@ -141,9 +141,6 @@ struct Table {
 }
 
 impl Table {
-    const EMPTY: Self =
-        Self { cases: 0, energies: 0, passed: 0, flagged: 0, failed: 0, worst: BTreeMap::new() };
-
     /// Counts one result; returns what is wrong with it.
     fn add(&mut self, energy: &'static str, case: &Case, judgement: &Judgement) -> Option<String> {
         let complaint = match judgement.verdict {
@@ -216,10 +213,14 @@ enum Verdict {
 }
 
 /// A few energies for batches in single precision: polynomial, logarithmic, with real powers, with a pole.
+#[cfg(feature = "full")]
 fn in_single_precision(
     name: &str,
     values: &[&[f64]],
-) -> Result<Option<Box<dyn TileMaterial<f32>>>, MaterialError> {
+) -> Result<Option<Box<dyn TileMaterial<f32>>>, piola::material::MaterialError> {
+    use piola::material::{Declared, MaterialError};
+    use piola_materials::{NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
+
     fn boxed<M: Declared + 'static>(
         values: &[&[f64]],
     ) -> Result<Option<Box<dyn TileMaterial<f32>>>, MaterialError> {
@@ -251,6 +252,7 @@ impl Judge<'_> {
         judgements.extend(self.batches(&*subject.double, "f64 lanes", |value| value, |value| value));
         if self.case.f32_exact {
             judgements.extend(self.points::<f32>(&subject));
+            #[cfg(feature = "full")]
             if let Some(elements) = in_single_precision(energy.name, values).map_err(refused)? {
                 judgements.extend(self.batches(&*elements, "f32 lanes", |value| value as f32, f64::from));
             }

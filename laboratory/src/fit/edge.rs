@@ -11,7 +11,7 @@
 //! \[NW06\] Nocedal, Wright, *Numerical Optimization*, 2nd edition, 2006.
 
 use levenberg_marquardt::LeastSquaresProblem;
-use nalgebra_34::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
 
 use super::problem::Problem;
 use super::trial::TrialError;

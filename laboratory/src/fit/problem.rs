@@ -1,7 +1,7 @@
 //! Residuals and their derivatives, as functions of the parameters that are free.
 
 use levenberg_marquardt::LeastSquaresProblem;
-use nalgebra_34::{DMatrix, DVector, Dyn, Owned};
+use nalgebra::{DMatrix, DVector, Dyn, Owned};
 use piola::material::{Constraint, Limit, MaterialError, Moduli};
 
 use super::candidate::{Candidate, Numbers};

@@ -5,7 +5,7 @@
 //!
 //! \[BKW80\] Belsley, Kuh, Welsch, *Regression Diagnostics*, 1980, chapter 3.
 
-use nalgebra_34::DMatrix;
+use nalgebra::DMatrix;
 
 use super::candidate::Numbers;
 use super::outcome::Warning;

@@ -33,7 +33,7 @@
 
 use std::fmt;
 
-use nalgebra_34::Matrix3;
+use nalgebra::Matrix3;
 use piola::material::{Blocks, PAIRS};
 
 use super::wave::{Wave, slowest};

@@ -4,22 +4,35 @@
 //! By default Cargo builds procedural macros without optimisation, which then take longer:
 //! `cargo bench -p piola-codegen --bench expansion --profile dev --config profile.dev.opt-level=0`.
 
-use std::path::Path;
+#![expect(clippy::print_stdout, reason = "a table to show")]
 
-use divan::Bencher;
+use std::hint::black_box;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
 use piola_codegen::{declarations, expand};
 
-fn main() {
-    divan::main();
-}
+/// Number of expansions of each material, of which the shortest counts.
+const TURNS: usize = 50;
 
-#[divan::bench(args = files())]
-fn expansion(bencher: Bencher<'_, '_>, file: &str) {
-    let source = std::fs::read_to_string(catalogue().join(file)).expect("a file of the catalogue");
-    let found = declarations(&source).expect("Rust");
-    bencher.with_inputs(|| found.clone()).bench_local_values(|found| {
-        found.into_iter().map(|(arguments, item)| expand(arguments, item)).collect::<Vec<_>>()
-    });
+fn main() {
+    println!("milliseconds, the least and the median of {TURNS}");
+    for file in files() {
+        let source = std::fs::read_to_string(catalogue().join(&file)).expect("a file of the catalogue");
+        let found = declarations(&source).expect("Rust");
+        let mut times: Vec<Duration> = (0..TURNS)
+            .map(|_| {
+                let (found, start) = (found.clone(), Instant::now());
+                for (arguments, item) in found {
+                    black_box(expand(arguments, item));
+                }
+                start.elapsed()
+            })
+            .collect();
+        times.sort();
+        let [least, median] = [times[0], times[TURNS / 2]].map(|time| time.as_secs_f64() * 1e3);
+        println!("{file:30} {least:8.2} {median:8.2}");
+    }
 }
 
 /// The sources of the catalogue, which this crate reads as text.

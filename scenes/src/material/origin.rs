@@ -1,33 +1,30 @@
-//! Origin of a material's energy, compiler or text, and functions that treat both alike.
+//! Origin of a material's energy, the catalogue or a text, and functions that treat both alike.
+//!
+//! Energies are interpreted, except for elements of a body whose energy the program has compiled: the
+//! bindings compile those that most programs use, the command `piola` none.
 
 use std::sync::{LazyLock, OnceLock};
 
 use piola::batch::TileMaterial;
 use piola::interpreter::Interpreted;
-use piola::material::{Blocks, Constraint, Declared, Description, Fittable, MaterialError, Moduli, Text};
+use piola::material::{Blocks, Constraint, Description, MaterialError, Moduli, Text};
 use piola::{Inversion, Material};
 use piola_declare::Energy;
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
-use piola_materials::{DECLARATIONS, Declaration, Entry, FittableVisitor, Visitor};
+use piola_materials::{DECLARATIONS, Declaration};
 
 use super::same_name;
 
 /// An energy of the catalogue.
 pub(super) struct Known {
     declaration: &'static Declaration,
-    /// The compiled energy, if the program was built with it.
-    compiled: Option<&'static Entry>,
-    /// The energy declared at run time, made when it is first used.
+    /// The energy, made when it is first used.
     energy: OnceLock<Energy>,
 }
 
 static CATALOGUE: LazyLock<Vec<Known>> = LazyLock::new(|| {
-    let known = |declaration: &'static Declaration| Known {
-        declaration,
-        compiled: piola_materials::find(declaration.name),
-        energy: OnceLock::new(),
-    };
+    let known = |declaration| Known { declaration, energy: OnceLock::new() };
     DECLARATIONS.iter().map(known).collect()
 });
 
@@ -56,10 +53,7 @@ impl<'a> Origin<'a> {
     }
 
     pub(super) fn description(&self) -> &'a Description {
-        match self.compiled() {
-            Some(entry) => &entry.description,
-            None => self.energy().description(),
-        }
+        self.energy().description()
     }
 
     /// The material for the elements of a body.
@@ -68,17 +62,19 @@ impl<'a> Origin<'a> {
         values: &[&[f64]],
         inversion: Inversion,
     ) -> Result<Box<dyn TileMaterial<f64>>, MaterialError> {
-        match self.compiled() {
-            Some(entry) => Ok(entry.material(values, inversion)?),
-            None => Ok(self.energy().boxed(values, inversion)?),
+        let compiled = match self {
+            Self::Catalogue(known) => piola_materials::find(known.declaration.name),
+            Self::Declared(_) => None,
+        };
+        match compiled.map(|entry| entry.material(values, inversion)) {
+            // Lists have a few lengths there.
+            None | Some(Err(MaterialError::Shape { .. })) => Ok(self.energy().boxed(values, inversion)?),
+            Some(material) => Ok(material?),
         }
     }
 
     pub(super) fn moduli(&self, values: &[&[f64]], inversion: Inversion) -> Result<Moduli, MaterialError> {
-        match self.compiled() {
-            Some(entry) => entry.moduli(values, inversion),
-            None => Ok(Moduli::of(&self.interpreted(values, inversion)?)),
-        }
+        Ok(Moduli::of(&self.interpreted(values, inversion)?))
     }
 
     pub(super) fn specimen(
@@ -86,13 +82,10 @@ impl<'a> Origin<'a> {
         values: &[&[f64]],
         inversion: Inversion,
     ) -> Result<Box<dyn Specimen>, MaterialError> {
-        match self.compiled() {
-            Some(entry) => entry.visit(values, inversion, Boxed),
-            None => Ok(Box::new(self.interpreted(values, inversion)?)),
-        }
+        Ok(Box::new(self.interpreted(values, inversion)?))
     }
 
-    /// The material as a program, whether the compiler has made another of it or not.
+    /// The material as a program.
     pub(super) fn interpreted(
         &self,
         values: &[&[f64]],
@@ -106,9 +99,6 @@ impl<'a> Origin<'a> {
         values: &[&[f64]],
         inversion: Inversion,
     ) -> Result<Box<dyn Candidate>, MaterialError> {
-        if let Some(entry) = self.compiled() {
-            return entry.visit_fittable(values, inversion, Boxed);
-        }
         let energy = self.energy();
         if !energy.is_fittable() {
             return Err(MaterialError::NotFittable { material: energy.description().name.clone() });
@@ -116,14 +106,7 @@ impl<'a> Origin<'a> {
         Ok(Box::new(Fitted { energy: energy.clone(), material: energy.material(values, inversion)? }))
     }
 
-    fn compiled(&self) -> Option<&'static Entry> {
-        match self {
-            Self::Catalogue(known) => known.compiled,
-            Self::Declared(_) => None,
-        }
-    }
-
-    /// The energy, to be interpreted or printed.
+    /// The energy.
     ///
     /// # Panics
     /// If a declaration of the catalogue has a mistake; the tests of the catalogue compile them all.
@@ -138,26 +121,7 @@ impl<'a> Origin<'a> {
     }
 }
 
-/// A compiled material behind a pointer.
-struct Boxed;
-
-impl Visitor for Boxed {
-    type Output = Box<dyn Specimen>;
-
-    fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
-        Box::new(material)
-    }
-}
-
-impl FittableVisitor for Boxed {
-    type Output = Box<dyn Candidate>;
-
-    fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
-        Box::new(material)
-    }
-}
-
-/// A material of an energy that was declared at run time, to be fitted.
+/// A material to be fitted.
 struct Fitted {
     energy: Energy,
     material: Interpreted,
@@ -205,45 +169,5 @@ impl Candidate for Fitted {
 
     fn domain_constraints(&self, stretches: [f64; 3]) -> Vec<Constraint> {
         self.energy.domain_constraints(&self.material, stretches)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A program is built with all energies or with two; the others give the same results either way.
-    #[test]
-    fn energies_that_are_not_compiled_are_those_that_are() {
-        for known in CATALOGUE.iter() {
-            let Some(entry) = known.compiled else { continue };
-            let interpreted =
-                Known { declaration: known.declaration, compiled: None, energy: OnceLock::new() };
-            let origins = [known, Box::leak(Box::new(interpreted))].map(Origin::Catalogue);
-            let [one, other] = &origins;
-            assert_eq!(one.name(), other.name());
-            assert_eq!(one.description(), other.description());
-            let values = entry.typical();
-            // Generated code computes moduli with the logarithms and fused operations of the standard
-            // library: they differ by a few roundings of their terms.
-            let moduli = origins.each_ref().map(|origin| {
-                let Moduli { mu, lambda, .. } = origin.moduli(&values, Inversion::Refuse).expect("typical");
-                [mu, lambda]
-            });
-            for k in 0..2 {
-                let error = (moduli[0][k] - moduli[1][k]).abs();
-                assert!(error <= 1e-12 * moduli[0][0].max(moduli[0][1]), "{}: {moduli:?}", entry.name);
-            }
-            let at = [1.1, 1.0, 0.95];
-            let blocks = origins.each_ref().map(|origin| {
-                origin.specimen(&values, Inversion::Refuse).expect("typical parameters").blocks(at)
-            });
-            assert_eq!(blocks[0], blocks[1], "{}", entry.name);
-            let fitted = origins.each_ref().map(|origin| {
-                let candidate = origin.candidate(&values, Inversion::Refuse)?;
-                Ok::<_, MaterialError>((candidate.description(), candidate.values()))
-            });
-            assert_eq!(fitted[0], fitted[1], "{}", entry.name);
-        }
     }
 }

@@ -315,31 +315,3 @@ impl Evaluator<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::random::generator::Domain;
-
-    #[test]
-    fn values_are_those_of_a_formula_done_by_hand() {
-        // ψ = I1²: ψi = 4 I1 λi, ψij = 8 λi λj + 4 I1 δij, D∓ = 4 I1 for both.
-        let terms = vec![Expression::Whole(Box::new(Expression::Invariant(Invariant::I1)), 2)];
-        let declaration =
-            Declaration { parameters: Vec::new(), terms, domain: Domain::Whole, words: Vec::new() };
-        let Point { energy, gradient, hessian, flip, twist, .. } =
-            at_stretches(&declaration, [2.0, 1.0, 1.0]);
-        let check = |found: &[Expected], expected: &[f64]| {
-            for (found, expected) in found.iter().zip(expected) {
-                let error = (found.value - Number::splat(*expected)).to_f64().abs();
-                // What moving the stretches by 2⁻⁷⁰ changes, at slopes below 10⁴.
-                assert!(error <= 1e4 * NUDGE, "{found:?} for {expected}");
-            }
-        };
-        check(&[energy], &[36.0]);
-        check(&gradient, &[48.0, 24.0, 24.0]);
-        check(&hessian, &[56.0, 32.0, 32.0, 16.0, 16.0, 8.0]);
-        check(&flip, &[24.0; 3]);
-        check(&twist, &[24.0; 3]);
-    }
-}

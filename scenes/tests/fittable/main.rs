@@ -1,0 +1,217 @@
+//! The derivatives of the stress by the parameters, against the stress itself.
+
+mod own;
+
+use piola::Inversion;
+use piola::material::{Fittable, MaterialError, Parameter, Unit};
+use piola_laboratory::fit::Candidate;
+use piola_materials::{DECLARATIONS, FittableVisitor};
+use piola_scenes::error::Error;
+use piola_scenes::material::{EXTENSION, MaterialSpec};
+
+/// Within the domains of all: rest, equal stretches, tension, compression, a sheet.
+const STRETCHES: [[f64; 3]; 6] =
+    [[1.0, 1.0, 1.0], [1.3, 1.3, 0.8], [1.1, 0.9, 0.9], [2.0, 0.75, 0.7], [1.02, 1.01, 0.5], [1.6, 1.5, 0.4]];
+
+/// Coefficients of the central difference of order eight, for the steps h, 2h, 3h, 4h to either side.
+const STENCIL: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+
+/// Relative to the parameter. With a truncation error of h⁸/630 times the ninth derivative and a rounding
+/// error of u/h this is about the best step.
+const STEP: f64 = 1.0 / 128.0;
+
+/// A gradient has a few hundred roundings at most, each up to u times its largest term; of what is added the
+/// eight values of the difference have two units in all, divided by the step. What is left is truncation,
+/// which the parameters' exponents of up to six raise to (6 ln 2)⁹ h⁸/630: the same order.
+const TOLERANCE: f64 = 100.0 * f64::EPSILON / STEP;
+
+/// Typical parameters, but none zero, where steps relative to it would be none and conditions often end, and
+/// none for which steps show more than the slope: Levinson and Burgess's Poisson's ratio near its pole at ½,
+/// and the exponential of skin.
+fn values(name: &str) -> Vec<Vec<f64>> {
+    match name {
+        "levinson_burgess" => return vec![vec![3.74e5], vec![0.5], vec![0.3]],
+        "veronda_westmann" => return vec![vec![3.94e3], vec![1.0], vec![1e6]],
+        _ => {}
+    }
+    let nonzero = |&value: &f64| if value == 0.0 { 0.5 } else { value };
+    let spec = MaterialSpec::new(name);
+    let typical = &spec.description().expect("in the catalogue").typical;
+    let lists = typical.iter().flat_map(|typical| typical.values.iter());
+    lists.map(|list| list.iter().map(nonzero).collect()).collect()
+}
+
+/// The energy as a candidate of a fit.
+fn candidate(name: &str) -> Result<Box<dyn Candidate>, Error> {
+    let spec = MaterialSpec::new(name);
+    let parameters = spec.description()?.parameters.iter().zip(values(name));
+    let named = |spec: MaterialSpec, (parameter, values): (&Parameter, Vec<f64>)| {
+        spec.with_parameter(&parameter.name, values)
+    };
+    parameters.fold(spec.clone(), named).candidate()
+}
+
+/// The compiled energy, if this build has it.
+fn compiled(name: &str) -> Option<Box<dyn Candidate>> {
+    struct Boxed;
+    impl FittableVisitor for Boxed {
+        type Output = Box<dyn Candidate>;
+        fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
+            Box::new(material)
+        }
+    }
+    let entry = piola_materials::find(name)?;
+    let inversion = match entry.description.extends {
+        true => Inversion::Extend { epsilon: EXTENSION },
+        false => Inversion::Refuse,
+    };
+    let values = values(name);
+    let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+    Some(entry.visit_fittable(&values, inversion, Boxed).unwrap_or_else(|error| panic!("{name}: {error}")))
+}
+
+/// All energies but the one whose parameters are functions, and those of them that this build has compiled.
+fn candidates() -> impl Iterator<Item = (&'static str, Box<dyn Candidate>)> {
+    let names = DECLARATIONS.iter().map(|declaration| declaration.name);
+    names.filter(|&name| name != "stretch_spline").flat_map(|name| {
+        let declared = candidate(name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        std::iter::once(declared).chain(compiled(name)).map(move |material| (name, material))
+    })
+}
+
+/// The numbers among the parameters, as list and place in it.
+fn places(values: &[Vec<f64>]) -> Vec<(usize, usize)> {
+    let places = values.iter().enumerate();
+    places.flat_map(|(list, values)| (0..values.len()).map(move |place| (list, place))).collect()
+}
+
+/// p ∂ψk/∂p by central differences for the number at a place.
+fn difference(
+    material: &dyn Candidate,
+    values: &[Vec<f64>],
+    (list, place): (usize, usize),
+    stretches: [f64; 3],
+) -> Result<[f64; 3], MaterialError> {
+    let mut slope = [0.0; 3];
+    for (k, coefficient) in (1..).zip(STENCIL) {
+        for side in [1.0, -1.0] {
+            let mut changed = values.to_vec();
+            changed[list][place] *= 1.0 + side * f64::from(k) * STEP;
+            let gradient = material.with_values(&changed)?.blocks(stretches).gradient;
+            for (slope, gradient) in slope.iter_mut().zip(gradient) {
+                *slope += side * coefficient * gradient / STEP;
+            }
+        }
+    }
+    Ok(slope)
+}
+
+/// Σ |p ∂ψk/∂p| over all numbers and k, with the moduli for what cancels at rest: the size of what the
+/// gradient is a sum of.
+fn scale(material: &dyn Candidate, derivatives: &[[f64; 3]]) -> f64 {
+    let (values, [h11, _, _, h12, _, _]) = (material.values(), material.hessian([1.0; 3]));
+    let shares = places(&values).into_iter().zip(derivatives);
+    let size = |((list, place), d): ((usize, usize), &[f64; 3])| {
+        let p = values[list][place];
+        d.iter().map(|d| (p * d).abs()).sum::<f64>()
+    };
+    (h11 - h12).abs() + h12.abs() + shares.map(size).sum::<f64>()
+}
+
+fn check_slopes(name: &str, material: &dyn Candidate) -> Result<(), MaterialError> {
+    let (values, description) = (material.values(), material.description());
+    for stretches in STRETCHES {
+        let derivatives = material.gradient_by_parameters(stretches);
+        let places = places(&values);
+        assert_eq!(derivatives.len(), places.len(), "{name}");
+        let tolerance = TOLERANCE * scale(material, &derivatives);
+        for ((list, place), derivative) in places.into_iter().zip(&derivatives) {
+            let differences = difference(material, &values, (list, place), stretches)?;
+            for (k, (derivative, difference)) in derivative.iter().zip(differences).enumerate() {
+                let slope = values[list][place] * derivative;
+                assert!(
+                    (slope - difference).abs() <= tolerance,
+                    "{name} at {stretches:?}: p ∂ψ{}/∂p of `{}`, entry {place}, is {slope:e}, by differences {difference:e}",
+                    k + 1,
+                    description.parameters[list].name,
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn derivatives_are_slopes() -> Result<(), MaterialError> {
+    candidates().try_for_each(|(name, material)| check_slopes(name, &*material))
+}
+
+/// True if it is a stress: energies are proportional to all of these together.
+fn is_stress(parameter: &Parameter) -> bool {
+    parameter.unit == Some(Unit::Pascal)
+}
+
+/// Euler's theorem: Σ p ∂ψk/∂p = ψk over the parameters p to which ψ is proportional. Both sides have a few
+/// hundred roundings of terms of one size at most.
+#[test]
+fn stresses_are_proportional_to_moduli() {
+    for (name, material) in candidates() {
+        let (values, description) = (material.values(), material.description());
+        for stretches in STRETCHES {
+            let derivatives = material.gradient_by_parameters(stretches);
+            let tolerance = 200.0 * f64::EPSILON * scale(&*material, &derivatives);
+            for (k, expected) in material.blocks(stretches).gradient.into_iter().enumerate() {
+                let shares = places(&values).into_iter().zip(&derivatives);
+                let stresses = shares.filter(|((list, _), _)| is_stress(&description.parameters[*list]));
+                let sum: f64 = stresses.map(|((list, place), d)| values[list][place] * d[k]).sum();
+                assert!((sum - expected).abs() <= tolerance, "{name} at {stretches:?}: {sum:e} {expected:e}");
+            }
+        }
+    }
+}
+
+/// All hold, and central differences of each value have its gradient. Their truncation is h² by the third
+/// derivative, which powers of six raise to a hundred times the value.
+#[test]
+fn constraints_have_their_gradients() {
+    const STEP: f64 = 1e-5;
+    for (name, material) in candidates() {
+        let all = |values: &[Vec<f64>]| {
+            let moved = material.with_values(values).expect("near admissible parameters");
+            let domain = moved.domain_constraints([1.3, 1.1, 0.75]);
+            moved.constraints().into_iter().chain(domain).collect::<Vec<_>>()
+        };
+        let values = material.values();
+        let here = all(&values);
+        assert!(here.iter().all(|constraint| constraint.value >= 0.0), "{name}: {here:?}");
+        for (number, (list, place)) in places(&values).into_iter().enumerate() {
+            let value = values[list][place];
+            let [below, above] = [-STEP, STEP].map(|step| {
+                let mut values = values.clone();
+                values[list][place] += step * value;
+                all(&values)
+            });
+            for ((constraint, below), above) in here.iter().zip(&below).zip(&above) {
+                let (slope, change) = (constraint.gradient[number] * value, above.value - below.value);
+                let size = slope.abs().max(constraint.value.abs());
+                let error = (change / (2.0 * STEP) - slope).abs();
+                let tolerance = 100.0 * (STEP * STEP + f64::EPSILON / STEP);
+                assert!(error <= tolerance * size.max(1.0), "{name}: {constraint:?} by {number}: {change:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn values_are_those_of_the_constructor() {
+    for (name, material) in candidates() {
+        assert_eq!(material.values(), values(name), "{name}");
+    }
+}
+
+#[test]
+fn curves_cannot_be_fitted() {
+    let refused = candidate("stretch_spline").err().expect("cannot be fitted");
+    let expected = MaterialError::NotFittable { material: "StretchSpline".into() };
+    assert!(refused.to_string().contains(&expected.to_string()), "{refused}");
+}

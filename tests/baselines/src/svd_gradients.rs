@@ -1,0 +1,152 @@
+//! dP/dF by differentiating U, λ and V \[SZLSB11\], one entry of F after the other.
+//!
+//! The equations are the paper's with its misprints mended (`point/tangent.rs` of the runtime names them),
+//! otherwise literal: for each of the nine entries of F and each pair of stretches a 2×2 system gives the
+//! derivatives of U and V,
+//!
+//! ```text
+//! ⎡λl λk⎤ ⎡Ωkl⎤   ⎡ u_ik v_jl⎤
+//! ⎣λk λl⎦ ⎣Θkl⎦ = ⎣−u_il v_jk⎦                                              (eq. 6)
+//! ```
+//!
+//! with determinant λl² − λk². Where that is close to zero the paper regularises after Tikhonov: (AᵀA + εI) x
+//! = Aᵀb. It sets the threshold to 10⁻⁶ and is silent about ε; here ε is the square of the threshold, about
+//! the smallest that still does its work. The system is then solved for something else: at equal stretches
+//! the part of A that vanishes takes the shear stiffness with it.
+//!
+//! \[SZLSB11\] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*,
+//! 2011.
+
+#![expect(non_snake_case, reason = "U, V, P, dF as in the paper")]
+
+use piola::Real;
+use piola::material::{Blocks, PAIRS, Response};
+use piola::point::Svd;
+
+use crate::matrix::{dot, multiply, scale_columns, transpose};
+
+/// Regularisation of the 2×2 systems: condition and amount.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regularization {
+    /// Systems with |λl² − λk²| below it are regularised.
+    pub threshold: f64,
+    /// The ε of AᵀA + εI.
+    pub epsilon: f64,
+}
+
+impl Default for Regularization {
+    /// The paper's threshold and its square.
+    fn default() -> Self {
+        Self { threshold: 1e-6, epsilon: 1e-12 }
+    }
+}
+
+/// dP/dF, Pa: row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F. Symmetric up to rounding.
+#[inline(always)]
+#[must_use]
+pub fn tangent<R: Real<Mask = bool>>(
+    material: &(impl Response<R> + ?Sized),
+    svd: &Svd<R>,
+    regularization: Regularization,
+) -> [[R; 9]; 9] {
+    let Svd { U, stretches, V } = svd;
+    // The compiler drops the quotients of `blocks`, which nobody reads.
+    let Blocks { gradient, hessian: [h11, h22, h33, h12, h13, h23], .. } = material.blocks(*stretches);
+    let hessian = [[h11, h12, h13], [h12, h22, h23], [h13, h23, h33]];
+    let inverses = PAIRS.map(|(k, l)| Inverse::new(stretches[k], stretches[l], regularization));
+    let zero = R::splat(0.0);
+    let mut dP_dF = [[zero; 9]; 9];
+    for i in 0..3 {
+        for j in 0..3 {
+            // dF has a single 1 at (i, j).
+            let dstretches: [R; 3] = std::array::from_fn(|k| U[i][k] * V[j][k]);
+            let (mut omega, mut theta) = ([[zero; 3]; 3], [[zero; 3]; 3]);
+            for (pair, (k, l)) in PAIRS.into_iter().enumerate() {
+                let [u, v] = inverses[pair].solve([U[i][k] * V[j][l], -(U[i][l] * V[j][k])]);
+                (omega[k][l], omega[l][k]) = (u, -u);
+                (theta[k][l], theta[l][k]) = (v, -v);
+            }
+            let dU = multiply(U, &omega);
+            let Vt = transpose(V);
+            let dVt = multiply(&theta, &Vt);
+            // dP = dU P̂ Vᵀ + U dP̂ Vᵀ + U P̂ dVᵀ (eq. 3), with dP̂k = Σe ψke dλe (eq. 5).
+            let dprincipal = hessian.map(|row| dot(row, dstretches));
+            let mut left = scale_columns(&dU, gradient);
+            let turned = scale_columns(U, dprincipal);
+            for a in 0..3 {
+                for k in 0..3 {
+                    left[a][k] = left[a][k] + turned[a][k];
+                }
+            }
+            let (first, second) = (multiply(&left, &Vt), multiply(&scale_columns(U, gradient), &dVt));
+            for a in 0..3 {
+                for b in 0..3 {
+                    dP_dF[3 * a + b][3 * i + j] = first[a][b] + second[a][b];
+                }
+            }
+        }
+    }
+    dP_dF
+}
+
+/// The inverse of A = [[λl, λk], [λk, λl]], or (AᵀA + εI)⁻¹ Aᵀ: of the same form, as A is symmetric.
+#[derive(Clone, Copy)]
+struct Inverse<R> {
+    diagonal: R,
+    off_diagonal: R,
+}
+
+impl<R: Real<Mask = bool>> Inverse<R> {
+    #[inline(always)]
+    fn new(lk: R, ll: R, Regularization { threshold, epsilon }: Regularization) -> Self {
+        let (difference, sum) = (ll - lk, ll + lk);
+        let determinant = difference * sum;
+        if !determinant.abs().less(R::splat(threshold)) {
+            return Self { diagonal: ll / determinant, off_diagonal: -(lk / determinant) };
+        }
+        // AᵀA + εI has the eigenvalues (λl ∓ λk)² + ε.
+        let epsilon = R::splat(epsilon);
+        let regularized = (difference * difference + epsilon) * (sum * sum + epsilon);
+        Self {
+            diagonal: ll * (epsilon + determinant) / regularized,
+            off_diagonal: lk * (epsilon - determinant) / regularized,
+        }
+    }
+
+    #[inline(always)]
+    fn solve(self, [b1, b2]: [R; 2]) -> [R; 2] {
+        let Self { diagonal, off_diagonal } = self;
+        [diagonal * b1 + off_diagonal * b2, off_diagonal * b1 + diagonal * b2]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use piola::point::{Matrix3, svd};
+    use piola_materials::Ogden;
+
+    use super::*;
+    use crate::testing::{IDENTITY, SHEARED, error, exact};
+
+    #[track_caller]
+    fn compare(F: &Matrix3<f64>) -> f64 {
+        let rubber = Ogden::new([2.0, 1.0], [1.5, 4.0], 3.0).expect("admissible parameters");
+        let found = tangent(&rubber, &svd(F), Regularization::default());
+        error(&found, &exact(&rubber, F).1)
+    }
+
+    /// The equations are those of the paper: where nothing is regularised, they give dP/dF.
+    #[test]
+    fn distant_stretches_give_the_exact_tangent() {
+        let error = compare(&SHEARED);
+        // The smallest determinant is about a tenth of λ1²; a hundred operations.
+        assert!(error <= 1000.0 * f64::UNIT_ROUNDOFF, "{error:e}");
+    }
+
+    /// At rest the regularised systems lose the shear stiffness: three eigenvalues 2μ of nine.
+    #[test]
+    fn equal_stretches_lose_the_shear_stiffness() {
+        let error = compare(&IDENTITY);
+        assert!((0.1..1.0).contains(&error), "{error:e}");
+    }
+}

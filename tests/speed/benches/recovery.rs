@@ -1,0 +1,172 @@
+//! Share of bodies that recover their shape, by scene, body, energy and Newton's method, as Markdown on
+//! standard output.
+//!
+//! ```sh
+//! cargo bench -p piola-speed --features report --bench recovery -- --seeds 100 --amplitude 0.3 0.5 1 2 box
+//! ```
+//!
+//! A body is back from the frame on from which every node stays within a thousandth of the body's height. All
+//! energies have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests, and
+//! with which seeds.
+
+use std::error::Error;
+use std::fmt;
+use std::io::{self, Write};
+
+use clap::Parser;
+use rayon::prelude::*;
+
+use piola_scenes::geometry::Geometry;
+use piola_scenes::material::{MaterialSpec, soft_moduli};
+use piola_scenes::output::{FinalPlace, Newton};
+use piola_scenes::recovery_trial::{TrialOutcome, run_trial};
+use piola_scenes::scene::{Amplitude, Body, HORSE, INSIDE_OUT, POINT, SCRAMBLE, Scene, Start};
+use piola_scenes::settings::Settings;
+
+const MATERIALS: [&str; 5] =
+    ["rotated linear", "fixed corotated", "stable neo-Hookean", "Ogden", "st_venant_kirchhoff"];
+
+/// Differences of energies err by some roundings; slopes judge what is below them.
+const RISE: f64 = 1e-12;
+
+/// Maximum number of bodies that are not back for which the seeds are named.
+const NAMED: usize = 5;
+
+#[derive(Parser)]
+struct Options {
+    /// Number of random starts of each kind, from seed 1.
+    #[arg(long, default_value_t = 100)]
+    seeds: u64,
+
+    /// Largest displacements of nodes: mean edge lengths, or `box`.
+    #[arg(long, num_args = 1.., default_values = ["0.3", "0.5", "1", "2", "box"])]
+    amplitude: Vec<Amplitude>,
+
+    /// Accuracy of each step.
+    #[arg(long, value_enum, num_args = 1.., default_values = ["single", "full"])]
+    newton: Vec<Newton>,
+
+    /// Argument that `cargo bench` adds.
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
+    let options = Options::parse();
+    let mut page = io::stdout().lock();
+    for newton in options.newton {
+        let name = match newton {
+            Newton::Single => "one Newton iteration per step",
+            Newton::Full => "full Newton",
+        };
+        writeln!(page, "## Scrambled, {name}\n")?;
+        writeln!(
+            page,
+            "| A | body | energy | start inside out | recovered | frames, median (most) | elsewhere |"
+        )?;
+        writeln!(page, "|---|---|---|---:|---:|---:|---|")?;
+        for &amplitude in &options.amplitude {
+            for body in [Body::HORSE, Body::DINOSAUR] {
+                for material in &MATERIALS[..4] {
+                    let seeds = (1..=options.seeds).map(|seed| Start::Scrambled { seed, amplitude });
+                    let outcomes = play(&SCRAMBLE, body, material, newton, seeds.collect())?;
+                    let row = Row(&outcomes);
+                    writeln!(page, "| {amplitude} | {} | {material} | {row} |", body.name)?;
+                    page.flush()?;
+                }
+            }
+        }
+        writeln!(page, "\n## One start each, {name}\n")?;
+        writeln!(
+            page,
+            "| scene | body | energy | start inside out | recovered | frames, median (most) | elsewhere |"
+        )?;
+        writeln!(page, "|---|---|---|---:|---:|---:|---|")?;
+        for (scene, bodies) in [
+            (&INSIDE_OUT, &[Body::HORSE, Body::DINOSAUR][..]),
+            (&POINT, &[Body::HORSE, Body::DINOSAUR]),
+            (&HORSE, &[Body::HORSE]),
+        ] {
+            for &body in bodies {
+                for material in MATERIALS {
+                    let outcomes = play(scene, body, material, newton, vec![scene.start])?;
+                    let row = Row(&outcomes);
+                    writeln!(page, "| {} | {} | {material} | {row} |", scene.name, body.name)?;
+                    page.flush()?;
+                }
+            }
+        }
+        writeln!(page)?;
+    }
+    Ok(())
+}
+
+/// Plays a scene from each of these starts, as many at once as there are cores.
+fn play(
+    scene: &'static Scene,
+    body: Body,
+    material: &str,
+    newton: Newton,
+    starts: Vec<Start>,
+) -> Result<Vec<TrialOutcome>, Box<dyn Error + Send + Sync>> {
+    let material = MaterialSpec::matching(material, soft_moduli());
+    let described = Settings::new(scene).with_body(body).with_material(material).with_newton(newton);
+    let geometry = Geometry::load(&described)?;
+    let outcomes: Result<_, Box<dyn Error + Send + Sync>> = starts
+        .into_par_iter()
+        .map(|start| Ok(run_trial(&described.clone().with_start(start), &geometry)?))
+        .collect();
+    let outcomes: Vec<TrialOutcome> = outcomes?;
+    for outcome in &outcomes {
+        assert!(outcome.finite, "a position is not finite: {outcome:?}");
+        assert!(outcome.largest_rise <= RISE, "the objective of a step has risen: {outcome:?}");
+    }
+    Ok(outcomes)
+}
+
+/// Common figures of some outcomes.
+struct Row<'a>(&'a [TrialOutcome]);
+
+impl fmt::Display for Row<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(outcomes) = self;
+        let inverted: usize = outcomes.iter().map(|outcome| outcome.inverted_at_start).sum();
+        let mut frames: Vec<_> = outcomes.iter().filter_map(|outcome| outcome.recovered).collect();
+        frames.sort_unstable();
+        write!(
+            f,
+            "{:.1} | {} of {} | ",
+            inverted as f64 / outcomes.len() as f64,
+            frames.len(),
+            outcomes.len()
+        )?;
+        if let Some(last) = frames.last() {
+            write!(f, "{} ({last})", frames[frames.len() / 2])?;
+        }
+        f.write_str(" | ")?;
+        let places = [
+            FinalPlace::StableElsewhere,
+            FinalPlace::UndecidedElsewhere,
+            FinalPlace::Saddle,
+            FinalPlace::NotAtRest,
+            FinalPlace::Rest,
+        ];
+        let mut separator = "";
+        for place in places {
+            // By their numbers, which are the seeds.
+            let there = |outcome: &TrialOutcome| {
+                outcome.final_state.is_some_and(|final_state| final_state.place == place)
+            };
+            let numbers: Vec<_> = (1..).zip(*outcomes).filter(|(_, outcome)| there(outcome)).collect();
+            if !numbers.is_empty() {
+                let first: Vec<_> =
+                    numbers.iter().take(NAMED).map(|(number, _)| format!("{number}")).collect();
+                let more = if numbers.len() > NAMED { ", …" } else { "" };
+                let seeds = if numbers.len() == 1 { "seed" } else { "seeds" };
+                write!(f, "{separator}{} {place} ({seeds} {}{more})", numbers.len(), first.join(", "))?;
+                separator = "; ";
+            }
+        }
+        Ok(())
+    }
+}

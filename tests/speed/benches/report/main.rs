@@ -1,0 +1,156 @@
+//! Measures speed against error and writes what it found: `cargo speed-report`.
+//!
+//! Into `target/report/`: charts, a page with every table, and all numbers as `report.json`. With
+//! `--quick` in less than two minutes, from fewer repeats and smaller bodies. Nothing else should run on the
+//! machine.
+//!
+//! * [`point`]: P and dP/dF by many methods, nanoseconds against errors at reference cases of 25 digits;
+//! * [`steps`]: a motion by integrators and solvers, wall time against the distance from a much finer one;
+//! * [`growth`]: time and memory of a step against the number of elements;
+//! * [`table`]: with `--table`, nanoseconds of points and batches, printed and nothing else.
+
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::time::Duration;
+use std::{error, fs};
+
+use clap::{Parser, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use piola::lanes::Backend;
+use piola_speed::{Effort, processor};
+use piola_tests::cases::Case;
+
+mod charts;
+mod data;
+mod growth;
+mod page;
+mod point;
+mod steps;
+mod table;
+
+use data::Report;
+
+/// Every byte that is allocated, and the most at a time.
+#[global_allocator]
+static MEMORY: peak_alloc::PeakAlloc = peak_alloc::PeakAlloc;
+
+/// Measures speed against error and writes charts, a page and the numbers.
+#[derive(Parser)]
+#[command(name = "cargo speed-report")]
+struct Arguments {
+    /// Fewer repeats and smaller bodies: less than two minutes
+    #[arg(long)]
+    quick: bool,
+    /// Only these sections; the others are left out of the report
+    #[arg(long, value_enum, value_delimiter = ',')]
+    only: Vec<Section>,
+    /// Prints a table of nanoseconds for points and batches of five energies instead of a report
+    #[arg(long, conflicts_with = "only")]
+    table: bool,
+    /// What `cargo bench` adds
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Section {
+    Point,
+    Steps,
+    Growth,
+}
+
+/// Name of the page in its folder.
+const PAGE: &str = "report.md";
+
+/// Output folder of the report.
+fn folder() -> PathBuf {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    workspace.canonicalize().unwrap_or(workspace).join("target/report")
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let made = if arguments.table {
+        table::print(effort(arguments.quick), commit().as_deref())
+    } else {
+        make(&arguments)
+    };
+    match made {
+        Ok(()) if arguments.table => ExitCode::SUCCESS,
+        Ok(()) => {
+            println!("{}", folder().join(PAGE).display());
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Measures all that is asked for, then writes: a run that fails leaves the files of the one before.
+fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>> {
+    let asked = |section| arguments.only.is_empty() || arguments.only.contains(&section);
+    let folder = folder();
+    // Before anything is measured in vain.
+    fs::create_dir_all(&folder)?;
+    let mut report = Report {
+        machine: processor(),
+        back_end: Backend::best().to_string(),
+        commit: commit(),
+        rows: Vec::new(),
+        steps: Vec::new(),
+        growth: Vec::new(),
+    };
+    if asked(Section::Point) {
+        let cases = cases()?;
+        let progress = bar("point", point::count(&cases));
+        report.rows = point::rows(&cases, effort(arguments.quick), &progress)?;
+        progress.finish_and_clear();
+    }
+    if asked(Section::Steps) {
+        let progress = bar("steps", 0);
+        report.steps = steps::rows(arguments.quick, &progress)?;
+        progress.finish_and_clear();
+    }
+    if asked(Section::Growth) {
+        let progress = bar("growth", 0);
+        report.growth = growth::rows(arguments.quick, &MEMORY, &progress)?;
+        progress.finish_and_clear();
+    }
+    let charts = charts::draw(&report)?;
+    for chart in &charts {
+        fs::write(folder.join(&chart.file), &chart.svg)?;
+    }
+    fs::write(folder.join("report.json"), serde_json::to_string_pretty(&report)?)?;
+    Ok(fs::write(folder.join(PAGE), page::tell(&report, &charts))?)
+}
+
+/// The commit that is checked out, where there is Git and a checkout; with a mark where files differ from it.
+fn commit() -> Option<String> {
+    let describe = ["describe", "--always", "--dirty", "--abbrev=12"];
+    let output = Command::new("git").current_dir(env!("CARGO_MANIFEST_DIR")).args(describe).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
+}
+
+fn effort(is_quick: bool) -> Effort {
+    let (repeats, at_most) = if is_quick { (5, 2) } else { (41, 100) };
+    Effort { repeats, at_least: Duration::from_micros(30), at_most: Duration::from_millis(at_most) }
+}
+
+/// The cases of `tests/reference` whose energies take part.
+fn cases() -> Result<Vec<Case>, String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reference");
+    let mut cases = Case::read(&folder.join("cases.json"))?;
+    cases.extend(Case::read(&folder.join("cases-ordinary.json"))?);
+    Ok(cases)
+}
+
+fn bar(section: &'static str, length: u64) -> ProgressBar {
+    const TEMPLATE: &str = "{prefix:7} {bar:40} {pos}/{len} {elapsed} {msg}";
+    let style = ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(length).with_style(style).with_prefix(section)
+}

@@ -1,0 +1,290 @@
+//! The methods, in the order in which they are listed.
+
+#![expect(non_snake_case, reason = "F, P, K, U, V as in the literature")]
+
+use piola::material::Blocks;
+use piola::point::{Filter, Matrix3, Svd, Tangent, decompose, evaluate_dense, project, stress, svd};
+use piola::{Material, Real};
+use piola_baselines::automatic::Potential;
+use piola_baselines::clamped::Clamped;
+use piola_baselines::direct::{self, DirectEnergy};
+use piola_baselines::invariants::{self, InvariantEnergy};
+use piola_baselines::polar;
+use piola_baselines::quotients::{Naive, Switched};
+use piola_baselines::svd_gradients::{self, Regularization};
+use piola_baselines::{coincidences, decompositions, differences};
+
+use super::Work;
+use super::contestant::{AtPoint, Contestant, Label, Number, OnLanes};
+use super::subject::Subject;
+
+/// The product on lanes.
+pub(crate) const OURS: &str = "piola";
+
+/// The product without lanes.
+pub(crate) const OURS_AS_A_SCALAR: &str = "piola, point by point";
+
+pub(crate) const PAPER: &str = "[SZLSB11]";
+pub(crate) const INVARIANTS: &str = "[TSIF05]";
+pub(crate) const COINCIDENCES: &str = "[GKJD09]";
+pub(crate) const NAIVE: &str = "plain quotients";
+pub(crate) const SWITCHED: &str = "l'Hôpital switch";
+pub(crate) const CLAMPED: &str = "[ITF04]";
+pub(crate) const DUAL_STRETCHES: &str = "hyper-dual ψ(λ)";
+pub(crate) const DUAL_DECOMPOSITION: &str = "hyper-dual ψ(F)";
+pub(crate) const DIFFERENCES: &str = "finite differences";
+pub(crate) const DIRECT: &str = "invariants without SVD";
+pub(crate) const DIRECT_AS_A_SCALAR: &str = "invariants without SVD, point by point";
+pub(crate) const POLAR: &str = "polar decomposition";
+pub(crate) const JACOBI: &str = "Jacobi SVD";
+pub(crate) const NALGEBRA: &str = "nalgebra SVD";
+pub(crate) const FAER: &str = "faer SVD";
+
+/// All that take part for an energy.
+pub(crate) fn all<S: Subject, E: Number>(subject: &S, work: Work) -> Vec<Contestant<E>> {
+    let (material, potential) = (subject.material(), subject.potential());
+    let filter = match work {
+        Work::Tangent => Filter::None,
+        Work::Projected => Filter::Clamp,
+    };
+    let mut all = vec![
+        Contestant::batch(Label::new(OURS), material, filter),
+        Contestant::one_by_one(Label::new(OURS_AS_A_SCALAR), Ours { material, filter }),
+        Contestant::batch(Label::new(NAIVE), Naive(material), filter),
+    ];
+    for threshold in [1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+        let label = Label::set(SWITCHED, format_args!("{threshold:e}"));
+        all.push(Contestant::batch(label, Switched { material, threshold }, filter));
+    }
+    for limit in [0.01, 0.1, 0.5] {
+        let label = Label::set(CLAMPED, limit);
+        all.push(Contestant::batch(label, Clamped { material, limit }, filter));
+    }
+    for epsilon in [1e-6, 1e-8, 1e-10, 1e-12, 1e-14] {
+        let regularization = Regularization { epsilon, ..Regularization::default() };
+        let label = Label::set(PAPER, format_args!("{epsilon:e}"));
+        all.push(entries(label, SvdGradients { material, regularization }, work));
+    }
+    for threshold in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+        let label = Label::set(COINCIDENCES, format_args!("{threshold:e}"));
+        all.push(entries(label, Coincidences { material, threshold }, work));
+    }
+    for step in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
+        let label = Label::set(DIFFERENCES, format_args!("{step:e}"));
+        all.push(entries(label, Differences { material, step }, work));
+    }
+    all.push(Contestant::one_by_one(
+        Label::new(DUAL_STRETCHES),
+        DualStretches { material, potential, filter },
+    ));
+    all.push(entries(Label::new(DUAL_DECOMPOSITION), DualDecomposition(potential), work));
+    let by_nalgebra = Decomposed { material, filter, decompose: E::decompose_by_nalgebra };
+    all.push(Contestant::one_by_one(Label::new(NALGEBRA), by_nalgebra));
+    let by_faer = Decomposed { material, filter, decompose: E::decompose_by_faer };
+    all.push(Contestant::one_by_one(Label::new(FAER), by_faer));
+    for sweeps in 2..=7 {
+        let label = Label::set(JACOBI, sweeps);
+        all.push(Contestant::on_lanes(label, Jacobi { material, filter, sweeps }));
+    }
+    all.extend(subject.special(work));
+    all
+}
+
+/// The methods for energies that somebody has written in invariants.
+pub(crate) fn by_invariants<E: Number>(
+    energy: impl InvariantEnergy + DirectEnergy + Copy + Send + Sync + 'static,
+    work: Work,
+) -> Vec<Contestant<E>> {
+    let mut all = vec![entries(Label::special(INVARIANTS), Invariants(energy), work)];
+    match work {
+        Work::Tangent => {
+            all.push(Contestant::on_lanes(Label::special(DIRECT), Direct(energy)));
+            all.push(Contestant::one_by_one(Label::special(DIRECT_AS_A_SCALAR), Direct(energy)));
+        }
+        Work::Projected => all.push(entries(Label::special(DIRECT), Direct(energy), work)),
+    }
+    all
+}
+
+/// The method for the energy that somebody has written in the polar decomposition.
+pub(crate) fn by_polar_decomposition<E: Number>(energy: polar::RotatedLinear, work: Work) -> Contestant<E> {
+    match work {
+        Work::Tangent => Contestant::on_lanes(Label::special(POLAR), Polar(energy)),
+        Work::Projected => entries(Label::special(POLAR), Polar(energy), work),
+    }
+}
+
+/// A method that computes the tangent by its entries: its projection is that of a 9×9 matrix.
+fn entries<E: Number>(label: Label, method: impl AtPoint<E> + 'static, work: Work) -> Contestant<E> {
+    match work {
+        Work::Tangent => Contestant::one_by_one(label, method),
+        Work::Projected => Contestant::one_by_one(label, Projected(method)),
+    }
+}
+
+struct Projected<T>(T);
+
+impl<T: AtPoint<E>, E: Number> AtPoint<E> for Projected<T> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        let (P, K) = self.0.evaluate(F);
+        (P, E::clamp(&K))
+    }
+}
+
+struct Ours<M> {
+    material: M,
+    filter: Filter,
+}
+
+impl<M: Material, E: Number> AtPoint<E> for Ours<M> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        let point = evaluate_dense(&self.material, F, self.filter);
+        (point.stress, point.tangent)
+    }
+}
+
+struct SvdGradients<M> {
+    material: M,
+    regularization: Regularization,
+}
+
+impl<M: Material, E: Number> AtPoint<E> for SvdGradients<M> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        let svd = decompose(&self.material, F);
+        let K = svd_gradients::tangent(&self.material, &svd, self.regularization);
+        (stress(&svd, self.material.gradient(svd.stretches)), K)
+    }
+}
+
+struct Coincidences<M> {
+    material: M,
+    threshold: f64,
+}
+
+impl<M: Material, E: Number> AtPoint<E> for Coincidences<M> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        let svd = decompose(&self.material, F);
+        let K = coincidences::tangent(&self.material, &svd, self.threshold);
+        (stress(&svd, self.material.gradient(svd.stretches)), K)
+    }
+}
+
+struct Differences<M> {
+    material: M,
+    step: f64,
+}
+
+impl<M: Material, E: Number> AtPoint<E> for Differences<M> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        let P = piola::point::evaluate_stress(&self.material, F).stress;
+        (P, differences::tangent(&self.material, F, self.step))
+    }
+}
+
+struct DualStretches<M, T> {
+    material: M,
+    potential: T,
+    filter: Filter,
+}
+
+impl<M: Material, T: Potential, E: Number> AtPoint<E> for DualStretches<M, T> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        let svd = decompose(&self.material, F);
+        from_blocks(&svd, E::through_stretches(&self.potential, &svd), self.filter)
+    }
+}
+
+struct DualDecomposition<T>(T);
+
+impl<T: Potential, E: Number> AtPoint<E> for DualDecomposition<T> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        E::through_decomposition(&self.0, F)
+    }
+}
+
+/// Our derivatives after somebody else's decomposition.
+struct Decomposed<M, E> {
+    material: M,
+    filter: Filter,
+    decompose: fn(&Matrix3<E>) -> Option<Svd<E>>,
+}
+
+impl<M: Material, E: Number> AtPoint<E> for Decomposed<M, E> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        let Some(svd) = (self.decompose)(F) else {
+            let nan = E::splat(f64::NAN);
+            return ([[nan; 3]; 3], [[nan; 9]; 9]);
+        };
+        from_blocks(&svd, self.material.blocks(svd.stretches), self.filter)
+    }
+}
+
+struct Jacobi<M> {
+    material: M,
+    filter: Filter,
+    sweeps: usize,
+}
+
+impl<M: Material> OnLanes for Jacobi<M> {
+    #[inline(always)]
+    fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]) {
+        let svd = decompositions::jacobi(F, self.sweeps);
+        from_blocks(&svd, self.material.blocks(svd.stretches), self.filter)
+    }
+}
+
+struct Invariants<T>(T);
+
+impl<T: InvariantEnergy, E: Number> AtPoint<E> for Invariants<T> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        invariants::evaluate(&self.0, &svd(F))
+    }
+}
+
+struct Direct<T>(T);
+
+impl<T: DirectEnergy> OnLanes for Direct<T> {
+    #[inline(always)]
+    fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]) {
+        direct::evaluate(&self.0, F)
+    }
+}
+
+impl<T: DirectEnergy, E: Number> AtPoint<E> for Direct<T> {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        direct::evaluate(&self.0, F)
+    }
+}
+
+struct Polar(polar::RotatedLinear);
+
+impl OnLanes for Polar {
+    #[inline(always)]
+    fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]) {
+        self.0.evaluate(F)
+    }
+}
+
+impl<E: Number> AtPoint<E> for Polar {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        self.0.evaluate(F)
+    }
+}
+
+#[inline(always)]
+fn from_blocks<R: Real>(svd: &Svd<R>, blocks: Blocks<R>, filter: Filter) -> (Matrix3<R>, [[R; 9]; 9]) {
+    let P = stress(svd, blocks.gradient);
+    let (blocks, _) = project(&blocks, filter);
+    (P, Tangent { U: svd.U, V: svd.V, blocks }.to_matrix())
+}

@@ -1,0 +1,380 @@
+//! Energies declared at run time, compared with those that the compiler has made of the same declarations:
+//! equal results, bit by bit.
+//!
+//! Every energy that the build compiles is read from its own declaration. Batches are compared in `f64` on every
+//! back end, and with the feature `full` in `f32` those of energies with all kinds of operations; single
+//! points in `f64`, all responses of them. Deformation gradients are arbitrary patterns of bits, so that the
+//! ends of the formats take part.
+
+#![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
+
+use piola::__private::random::Random;
+use piola::batch::{Batch, Kernels, MatrixForm, TileMaterial};
+use piola::interpreter::Interpreted;
+use piola::lanes::Backend;
+use piola::material::{Constraint, Fittable, MaterialError, PerPoint, Response};
+use piola::point::Filter;
+use piola::{Inversion, Real, Status, StatusCell};
+use piola_declare::Energy;
+use piola_materials::{CATALOGUE, DECLARATIONS, Entry, FittableVisitor};
+
+const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
+
+/// Points of a batch: three tiles, the last of them not full.
+const POINTS: usize = 150;
+
+/// The energy of a declaration of the catalogue, compiled at run time.
+fn declared(name: &str) -> Energy {
+    let declaration = DECLARATIONS.iter().find(|known| known.name == name).expect("a name of the catalogue");
+    Energy::from_rust(declaration.source).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"))
+}
+
+/// The energies of the catalogue with their ways of inversion.
+fn entries() -> impl Iterator<Item = (&'static Entry, Energy, Inversion)> {
+    CATALOGUE.iter().flat_map(|entry| {
+        let energy = declared(entry.name);
+        let inversions = if entry.description.extends { &INVERSIONS[..] } else { &INVERSIONS[..1] };
+        inversions.iter().map(move |&inversion| (entry, energy.clone(), inversion))
+    })
+}
+
+/// `f64` or `f32`.
+trait Precision: Kernels + Real<Mask = bool> {
+    const NAME: &'static str;
+
+    /// Any finite number: one with these bits.
+    fn of_bits(bits: u64) -> Self;
+}
+
+impl Precision for f64 {
+    const NAME: &'static str = "f64";
+
+    fn of_bits(bits: u64) -> Self {
+        Some(Self::from_bits(bits)).filter(|value| value.is_finite()).unwrap_or(1.0)
+    }
+}
+
+#[cfg(feature = "full")]
+impl Precision for f32 {
+    const NAME: &'static str = "f32";
+
+    fn of_bits(bits: u64) -> Self {
+        Some(Self::from_bits(bits as u32)).filter(|value| value.is_finite()).unwrap_or(1.0)
+    }
+}
+
+/// Deformation gradients of all kinds: ordinary ones, some of them inverted, others near rest, diagonal with
+/// equal entries, flat, and of arbitrary bits.
+fn deformations<E: Precision>(seed: u64) -> Vec<E> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for k in 0..POINTS {
+        let spread = [0.3, 2.0, 1e-6, 1e-12, 100.0][random.below(5)];
+        let mut F: [[f64; 3]; 3] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| f64::from(u8::from(i == j)) + spread * random.uniform(-0.5, 0.5))
+        });
+        match k % 6 {
+            0 => F = [[F[0][0], 0.0, 0.0], [0.0, F[0][0], 0.0], [0.0, 0.0, F[2][2]]],
+            1 => F[2] = F[1],
+            _ => {}
+        }
+        let entry = |x: f64| if k % 6 == 5 { E::of_bits(random.bits()) } else { E::splat(x) };
+        all.extend(F.into_iter().flatten().map(entry));
+    }
+    all
+}
+
+/// True if two results are equal, or both NaN.
+fn same<E: Precision>(one: E, other: E) -> bool {
+    let [one, other]: [f64; 2] = [one.into(), other.into()];
+    one.to_bits() == other.to_bits() || one.is_nan() && other.is_nan()
+}
+
+#[track_caller]
+fn check<E: Precision>(what: &str, found: &[E], expected: &[E]) {
+    for (k, (&found, &expected)) in found.iter().zip(expected).enumerate() {
+        assert!(same(found, expected), "{what}, entry {k}: {found:?} interpreted, {expected:?} compiled");
+    }
+}
+
+/// All results of a batch, and the status of its points.
+fn results<E: Precision>(
+    material: &dyn TileMaterial<E>,
+    backend: Backend,
+    filter: Filter,
+    F: &[E],
+) -> (Vec<E>, Vec<Status>) {
+    let zero = E::splat(0.0);
+    let statuses: Vec<StatusCell> = (0..POINTS).map(|_| StatusCell::default()).collect();
+    let batch = Batch::new(material).with_backend(backend).with_filter(filter).with_statuses(&statuses);
+    let (mut energies, mut P) = (vec![zero; POINTS], vec![zero; 9 * POINTS]);
+    let (mut with_tangents, mut dP_dF) = (vec![zero; 9 * POINTS], vec![zero; 81 * POINTS]);
+    let mut all_statuses = Vec::new();
+    let mut keep = || all_statuses.extend(statuses.iter().map(StatusCell::get));
+    batch.energies(F, &mut energies).expect("lengths");
+    keep();
+    batch.stresses(F, &mut P).expect("lengths");
+    keep();
+    batch.tangents(MatrixForm::Full, F, &mut with_tangents, &mut dP_dF).expect("lengths");
+    keep();
+    ([energies, P, with_tangents, dP_dF].concat(), all_statuses)
+}
+
+fn check_batches<E: Precision>(
+    name: &str,
+    interpreted: &dyn TileMaterial<E>,
+    compiled: &dyn TileMaterial<E>,
+) {
+    let F = deformations::<E>(name.len() as u64);
+    for backend in Backend::available() {
+        for filter in [Filter::None, Filter::Clamp] {
+            let [(found, found_status), (expected, expected_status)] =
+                [interpreted, compiled].map(|material| results(material, backend, filter, &F));
+            let what = format!("{name} in {} on {backend}, {filter:?}", E::NAME);
+            assert_eq!(found_status, expected_status, "{what}");
+            check(&what, &found, &expected);
+        }
+    }
+}
+
+#[test]
+fn batches_have_the_bits_of_the_compiled_catalogue() {
+    for (entry, energy, inversion) in entries() {
+        let values = entry.typical();
+        let interpreted = energy.boxed(&values, inversion).expect("typical parameters");
+        let compiled = entry.material(&values, inversion).expect("typical parameters");
+        check_batches::<f64>(&format!("{} {inversion:?}", entry.name), &*interpreted, &*compiled);
+    }
+}
+
+#[cfg(feature = "full")]
+#[test]
+fn batches_in_single_precision_have_the_bits_of_compiled_ones() {
+    use piola::material::Declared;
+    use piola_materials::{ArrudaBoyce, Gent, NeoHookean, Ogden, RotatedLinear, StretchSpline};
+
+    fn of<M: Declared + 'static>(name: &str) {
+        let energy = declared(name);
+        let entry = piola_materials::find(name).expect("an energy of the catalogue");
+        for inversion in
+            INVERSIONS.into_iter().filter(|_| entry.description.extends).chain([Inversion::Refuse])
+        {
+            let values = entry.typical();
+            let interpreted = energy.material(&values, inversion).expect("typical parameters");
+            let compiled = M::from_values(&values, inversion).expect("typical parameters");
+            check_batches::<f32>(&format!("{name} {inversion:?}"), &interpreted, &compiled);
+        }
+    }
+    of::<NeoHookean>("neo_hookean");
+    of::<Ogden<3>>("ogden");
+    of::<Gent>("gent");
+    of::<ArrudaBoyce>("arruda_boyce");
+    of::<RotatedLinear>("rotated_linear");
+    of::<StretchSpline>("stretch_spline");
+}
+
+/// All responses at one triple of stretches, as one row.
+fn responses(material: &dyn Response<f64>, at: [f64; 3]) -> Vec<f64> {
+    let blocks = material.blocks(at);
+    let mut all = vec![material.energy(at), f64::from(u8::from(material.admits(at)))];
+    all.extend(material.gradient(at));
+    all.extend(material.gradient_at_strains(at.map(|stretch| stretch - 1.0)));
+    all.extend(blocks.gradient.into_iter().chain(blocks.hessian).chain(blocks.flip).chain(blocks.twist));
+    all.push(f64::from(u8::from(material.has_invariants())));
+    all.push(f64::from(u8::from(material.has_pole())));
+    all.push(f64::from(u8::from(material.ends_at_zero_volume())));
+    if material.has_invariants() {
+        all.push(f64::from(u8::from(material.has_second_invariant())));
+        all.push(f64::from(u8::from(material.admits_invariants(at))));
+        all.extend(material.gradient_by_invariants(at));
+        all.extend(material.derivatives_by_invariants(at));
+        if material.has_energy_by_invariants() {
+            all.push(material.energy_by_invariants(at));
+        }
+    }
+    all
+}
+
+/// Ordered stretches of every size, some of them equal or of opposite sign.
+fn stretches(random: &mut Random) -> [f64; 3] {
+    let spread = [0.0, 1e-9, 0.3, 3.0, 300.0][random.below(5)];
+    let mut stretches: [f64; 3] = std::array::from_fn(|_| (spread * random.uniform(-0.5, 0.5)).exp());
+    if random.below(4) == 0 {
+        stretches[1] = stretches[0];
+    }
+    stretches.sort_by(|a, b| b.total_cmp(a));
+    if random.below(4) == 0 {
+        stretches[2] = [-stretches[2], 0.0, -0.0][random.below(3)];
+    }
+    stretches
+}
+
+#[test]
+fn single_points_have_the_bits_of_the_compiled_catalogue() {
+    let mut random = Random::new(1);
+    for (entry, energy, inversion) in entries() {
+        let values = entry.typical();
+        let interpreted = energy.boxed(&values, inversion).expect("typical parameters");
+        let compiled = entry.material(&values, inversion).expect("typical parameters");
+        assert_eq!(energy.description(), &entry.description, "{}", entry.name);
+        for _ in 0..200 {
+            let at = stretches(&mut random);
+            let what = format!("{} {inversion:?} at {at:?}", entry.name);
+            check(&what, &responses(&*interpreted, at), &responses(&*compiled, at));
+        }
+    }
+}
+
+/// Numbers that generated code computes once, with the logarithms and fused operations of the standard
+/// library: they differ by a few roundings of their largest terms.
+#[track_caller]
+fn check_close(what: &str, found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    let scale = expected.iter().fold(0.0f64, |scale, value| scale.max(value.abs()));
+    for (k, (&found, &expected)) in found.iter().zip(expected).enumerate() {
+        let is_close = (found - expected).abs() <= 1e-12 * scale || found.is_nan() && expected.is_nan();
+        assert!(is_close, "{what}, entry {k}: {found:?} interpreted, {expected:?} compiled");
+    }
+}
+
+/// Slopes by the parameters, conditions on them, and materials with other values.
+#[test]
+fn fits_have_the_numbers_of_the_compiled_catalogue() {
+    struct Slopes<'a>(&'a Energy, &'a Interpreted, [f64; 3]);
+    impl FittableVisitor for Slopes<'_> {
+        type Output = ();
+        fn visit<M: Fittable + 'static>(self, material: M) {
+            let Self(energy, interpreted, at) = self;
+            let name = &energy.description().name;
+            assert_eq!(energy.values(interpreted), material.values(), "{name}");
+            check_close(
+                name,
+                &energy.gradient_by_parameters(interpreted, at).concat(),
+                &material.gradient_by_parameters(at).concat(),
+            );
+            let pairs = [
+                (energy.constraints(interpreted), material.constraints()),
+                (energy.domain_constraints(interpreted, at), material.domain_constraints(at)),
+            ];
+            for (found, expected) in pairs {
+                let limits = |all: &[Constraint]| all.iter().map(|one| one.limit.clone()).collect::<Vec<_>>();
+                assert_eq!(limits(&found), limits(&expected), "{name}");
+                let numbers = |all: &[Constraint]| {
+                    all.iter()
+                        .flat_map(|one| one.gradient.iter().copied().chain([one.value]))
+                        .collect::<Vec<_>>()
+                };
+                check_close(name, &numbers(&found), &numbers(&expected));
+            }
+        }
+    }
+    for entry in CATALOGUE {
+        let (energy, values) = (declared(entry.name), entry.typical());
+        let interpreted = energy.material(&values, Inversion::Refuse).expect("typical parameters");
+        let slopes = Slopes(&energy, &interpreted, [1.2, 1.0, 0.9]);
+        match entry.visit_fittable(&values, Inversion::Refuse, slopes) {
+            Ok(()) => assert!(energy.is_fittable(), "{}", entry.name),
+            Err(error) => {
+                assert!(
+                    matches!(error, MaterialError::NotFittable { .. }) && !energy.is_fittable(),
+                    "{error}"
+                );
+            }
+        }
+    }
+}
+
+/// Constants stay in a thread's registers from one tile to the next: each material finds its own.
+#[test]
+fn materials_of_one_energy_do_not_mix_their_constants() {
+    let energy = declared("arruda_boyce");
+    let typical: Vec<Vec<f64>> = energy.typical().iter().map(|list| list.to_vec()).collect();
+    let scaled = |factor: f64| {
+        let values: Vec<Vec<f64>> = typical.iter().map(|list| vec![factor * list[0]]).collect();
+        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        energy.material(&values, Inversion::Refuse).expect("admissible")
+    };
+    let materials = [scaled(1.0), scaled(1.5)];
+    let F = deformations::<f64>(3);
+    let alone = materials.each_ref().map(|material| {
+        std::thread::scope(|scope| {
+            let stresses = scope.spawn(|| results::<f64>(material, Backend::best(), Filter::None, &F));
+            stresses.join().expect("no panic")
+        })
+    });
+    for k in [0, 1, 1, 0, 1] {
+        let found = results::<f64>(&materials[k], Backend::best(), Filter::None, &F);
+        check(&format!("material {k}"), &found.0, &alone[k].0);
+    }
+    assert!(alone[0].0.iter().zip(&alone[1].0).any(|(one, other)| one < other), "they differ");
+}
+
+/// The error for values that a constructor rejects is that of the compiled constructor.
+#[test]
+fn values_are_refused_as_by_the_compiled_catalogue() {
+    let mut refused = 0;
+    for entry in CATALOGUE {
+        let energy = declared(entry.name);
+        let typical: Vec<Vec<f64>> = entry.typical().iter().map(|list| list.to_vec()).collect();
+        let mut all = vec![Vec::new(), typical[..typical.len() - 1].to_vec()];
+        for (k, list) in typical.iter().enumerate() {
+            for place in 0..list.len() {
+                for value in [0.0, -list[place], f64::NAN, f64::INFINITY, 0.5, 3.0] {
+                    let mut values = typical.clone();
+                    values[k][place] = value;
+                    all.push(values);
+                }
+            }
+            let mut values = typical.clone();
+            values[k] = Vec::new();
+            all.push(values);
+        }
+        for values in all {
+            let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+            for inversion in
+                [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }, Inversion::Extend { epsilon: 2.0 }]
+            {
+                // Of moduli that are told, the first digits: see `check_close`.
+                let told = |error: MaterialError| match error {
+                    MaterialError::UnstableRest { moduli } => format!("unstable: {:.6e}", moduli.mu),
+                    error => error.to_string(),
+                };
+                let found = energy.material(&values, inversion).map(|_| ()).map_err(told);
+                let expected = entry.moduli(&values, inversion).map(|_| ()).map_err(told);
+                // By name, lists have the lengths that the catalogue provides for.
+                if expected.as_ref().is_err_and(|error| error.contains("by name, not")) {
+                    continue;
+                }
+                assert_eq!(found, expected, "{} with {values:?}", entry.name);
+                refused += usize::from(found.is_err());
+            }
+        }
+    }
+    assert!(refused > 1000);
+}
+
+/// Points of a batch with materials that differ in numbers, in the lengths of lists, or altogether.
+#[test]
+fn each_point_may_have_a_material_of_its_own() {
+    let F = deformations::<f64>(7);
+    let ogden = declared("ogden");
+    let term = |k: usize| [1e5 * (1.0 + k as f64 / 50.0)];
+    let terms = |k: usize| vec![1e5; 1 + k % 2];
+    let alike = |k: usize| ogden.material(&[&term(k), &[2.0], &[1e6]], Inversion::Refuse);
+    let mixed = |k: usize| ogden.material(&[&terms(k), &terms(k), &[1e6]], Inversion::Refuse);
+    for materials in [(0..POINTS).map(alike).collect(), (0..POINTS).map(mixed).collect::<Result<Vec<_>, _>>()]
+    {
+        let materials = materials.expect("admissible");
+        let each = PerPoint::new(&materials).expect("alike");
+        for backend in Backend::available() {
+            let mut together = vec![0.0; 9 * POINTS];
+            Batch::new(&each).with_backend(backend).stresses(&F, &mut together).expect("lengths");
+            for (k, material) in materials.iter().enumerate() {
+                let mut alone = [0.0; 9];
+                let own = &F[9 * k..][..9];
+                Batch::new(material).with_backend(backend).stresses(own, &mut alone).expect("lengths");
+                check(&format!("point {k} on {backend}"), &together[9 * k..][..9], &alone);
+            }
+        }
+    }
+}
