@@ -16,7 +16,7 @@ use std::process::ExitCode;
 use std::sync::{Mutex, PoisonError};
 
 use libtest_mimic::{Arguments, Trial};
-use piola::batch::{Batch, Kernels, LengthError, MatrixForm, TileMaterial};
+use piola::batch::{Batch, Kernels, LengthError, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::{Declared, MaterialError};
 use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint};
@@ -324,9 +324,8 @@ impl Judge<'_> {
             let (mut stress_beside, mut tangent, mut projected) = ([zero; 9], [zero; 81], [zero; 81]);
             let of_energy = status(plain.energies(&f, &mut psi));
             let of_stress = status(plain.stresses(&f, &mut stress));
-            let of_clamped =
-                status(clamped.tangents(MatrixForm::Full, &f, &mut stress_beside, &mut projected));
-            let of_plain = status(plain.tangents(MatrixForm::Full, &f, &mut stress_beside, &mut tangent));
+            let of_clamped = status(clamped.tangents(&f, &mut stress_beside, &mut projected));
+            let of_plain = status(plain.tangents(&f, &mut stress_beside, &mut tangent));
             let results = [
                 (Quantity::Energy, of_energy, wide(&psi)),
                 (Quantity::Stress, of_stress, wide(&stress)),

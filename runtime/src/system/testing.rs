@@ -1,6 +1,6 @@
 //! Materials and meshes for the tests of bodies, since the runtime contains no particular material.
 
-use crate::batch::{Batch, MatrixForm};
+use crate::batch::Batch;
 use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff};
 pub(crate) use crate::material::Scaled;
 use crate::mesh::{TetMesh, tetrahedral_box};
@@ -43,7 +43,7 @@ pub(crate) fn stiffness_product(
         let (mut gradient, mut stiffness) = ([0.0; 12], [0.0; 144]);
         Batch::new(body.material(number))
             .with_filter(filter)
-            .stiffnesses(MatrixForm::Full, deformation.as_flattened(), &rest, &mut gradient, &mut stiffness)
+            .stiffnesses(deformation.as_flattened(), &rest, &mut gradient, &mut stiffness)
             .expect("one element");
         for row in 0..12 {
             let sum = (0..12).map(|k| stiffness[12 * row + k] * x[element.nodes[k / 3]][k % 3]).sum::<f64>();
