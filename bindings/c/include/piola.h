@@ -466,8 +466,8 @@ enum piola_code piola_stresses_f32(const struct piola_material *material,
                                    size_t P_length,
                                    struct piola_survey *survey);
 
-// Stresses P, Pa, and filtered tangents dP/dF, Pa: 81 numbers for each point, row 3i+j for entry (i, j) of P,
-// column 3k+l for entry (k, l) of F.
+// Stresses P, Pa, and filtered tangents dP/dF, Pa: 81 numbers for each point, row 3i+j for entry (i, j) of
+// P, column 3k+l for entry (k, l) of F.
 enum piola_code piola_tangents(const struct piola_material *material,
                                const struct piola_options *options,
                                const double *F,
@@ -489,8 +489,8 @@ enum piola_code piola_tangents_f32(const struct piola_material *material,
                                    size_t dP_dF_length,
                                    struct piola_survey *survey);
 
-// Energy densities, stresses and all 81 entries of the tangents: `piola_energies` and `piola_tangents` with
-// one decomposition of each F.
+// Energy densities, stresses and tangents: `piola_energies` and `piola_tangents` with one decomposition of
+// each F.
 enum piola_code piola_energies_and_tangents(const struct piola_material *material,
                                             const struct piola_options *options,
                                             const double *F,

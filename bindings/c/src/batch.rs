@@ -101,8 +101,8 @@ pub unsafe extern "C" fn piola_stresses_f32(
     unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
 }
 
-/// Stresses P, Pa, and filtered tangents dP/dF, Pa: 81 numbers for each point, row 3i+j for entry (i, j) of P,
-/// column 3k+l for entry (k, l) of F.
+/// Stresses P, Pa, and filtered tangents dP/dF, Pa: 81 numbers for each point, row 3i+j for entry (i, j) of
+/// P, column 3k+l for entry (k, l) of F.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_tangents(
     material: *const Material,
@@ -146,7 +146,8 @@ pub unsafe extern "C" fn piola_tangents_f32(
     }
 }
 
-/// Energy densities, stresses and tangents: `piola_energies` and `piola_tangents` with one decomposition of each F.
+/// Energy densities, stresses and tangents: `piola_energies` and `piola_tangents` with one decomposition of
+/// each F.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_energies_and_tangents(
     material: *const Material,

@@ -51,8 +51,8 @@ pub(crate) struct At<const REST: usize>;
 
 /// The output that is made from P: P itself at points, the gradient at elements.
 pub(crate) trait FirstOutput<const REST: usize> {
-    /// Puts the output into its place; [`FirstOutput::finish`] must follow. Returns where it stays finite if P
-    /// is.
+    /// Puts the output into its place; [`FirstOutput::finish`] must follow. Returns where it stays finite if
+    /// P is.
     fn put<R: Lanes>(
         stress: &Matrix3<R>,
         rest: &[R; REST],
