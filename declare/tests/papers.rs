@@ -7,7 +7,7 @@
 #![expect(non_snake_case, reason = "parameters as in the papers")]
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, MatrixForm, TileMaterial};
+use piola::batch::{Batch, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::Declared;
 use piola::point::Filter;
@@ -71,7 +71,7 @@ fn results(material: &dyn TileMaterial<f64>, backend: Backend) -> (Vec<u64>, Vec
         Batch::new(material).with_backend(backend).with_filter(Filter::Clamp).with_statuses(&statuses);
     let (mut energies, mut P, mut dP_dF) = (vec![0.0; POINTS], vec![0.0; 9 * POINTS], vec![0.0; 81 * POINTS]);
     batch.energies(&F, &mut energies).expect("lengths");
-    batch.tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF).expect("lengths");
+    batch.tangents(&F, &mut P, &mut dP_dF).expect("lengths");
     let bits = [energies, P, dP_dF].concat();
     assert!(bits.iter().filter(|value| value.is_finite()).count() > bits.len() / 4);
     (

@@ -10,7 +10,7 @@
 #![expect(clippy::print_stdout, reason = "a result to show")]
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use piola::batch::{Batch, MatrixForm, Quadrature, TileMaterial};
+use piola::batch::{Batch, Quadrature, TileMaterial};
 use piola::point::Filter;
 use piola_materials::NeoHookean;
 
@@ -157,7 +157,7 @@ impl<'a> Bar<'a> {
         self.deform(x)?;
         let Slices { F, P, dP_dF, gradients, stiffnesses, .. } = &mut self.slices;
         let batch = Batch::new(self.material).with_filter(filter);
-        let survey = batch.tangents(MatrixForm::Full, F, P, dP_dF)?;
+        let survey = batch.tangents(F, P, dP_dF)?;
         if let Some(point) = survey.first {
             return Err(format!("point {point} is outside the domain of the material").into());
         }

@@ -3,7 +3,7 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
-use piola::batch::{Batch, Layout, MatrixForm, TileMaterial};
+use piola::batch::{Batch, Layout, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::{Graded, PerPoint, PerPointError};
 use piola::point::Filter;
@@ -54,7 +54,7 @@ fn answers(
     let (mut energies, mut stresses) = (vec![0.0; n], vec![0.0; 9 * n]);
     let (mut beside, mut tangents) = (vec![0.0; 9 * n], vec![0.0; 81 * n]);
     let surveys = [batch.energies(F, &mut energies)?, batch.stresses(F, &mut stresses)?];
-    batch.tangents(MatrixForm::Full, F, &mut beside, &mut tangents)?;
+    batch.tangents(F, &mut beside, &mut tangents)?;
     Ok(Answers { energies, stresses, tangents, surveys })
 }
 
@@ -228,7 +228,7 @@ fn stress_is_the_same_with_and_without_a_decomposition() -> Outcome {
         let (mut stresses, mut beside) = (vec![0.0; 9 * COUNT], vec![0.0; 9 * COUNT]);
         let mut tangents = vec![0.0; 81 * COUNT];
         batch.stresses(all.as_flattened(), &mut stresses)?;
-        batch.tangents(MatrixForm::Full, all.as_flattened(), &mut beside, &mut tangents)?;
+        batch.tangents(all.as_flattened(), &mut beside, &mut tangents)?;
         for p in (0..COUNT).filter(|&p| p != 41) {
             let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
             let (found, expected) = (&stresses[9 * p..][..9], &beside[9 * p..][..9]);

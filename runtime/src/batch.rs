@@ -8,7 +8,7 @@
 //! registers hold, and intermediate results stay in the inner caches.
 //!
 //! ```
-//! use piola::batch::{Batch, MatrixForm};
+//! use piola::batch::Batch;
 //! use piola::material;
 //! use piola::point::Filter;
 //!
@@ -24,7 +24,7 @@
 //! // Nine numbers for each of a thousand points, row by row: a simple shear.
 //! let F: Vec<f64> = [1.0, 0.2, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(1000);
 //! let (mut P, mut dP_dF) = (vec![0.0; 9 * 1000], vec![0.0; 81 * 1000]);
-//! let survey = batch.tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF)?;
+//! let survey = batch.tangents(&F, &mut P, &mut dP_dF)?;
 //! assert!(survey.is_clean());
 //! assert!((P[9 * 999 + 1] - 0.2e6).abs() < 1e-3);
 //! # Ok(())
@@ -87,7 +87,6 @@ pub(crate) mod tetrahedra;
 mod tile;
 
 pub use crate::kernels::Kernels;
-pub use crate::kernels::form::MatrixForm;
 pub use crate::kernels::sink::Layout;
 pub use csr::{CsrError, CsrPlaces};
 pub use material::TileMaterial;
@@ -201,21 +200,15 @@ impl<'a, E: Kernels> Batch<'a, E> {
         self.run([("F", F, 9)], [("P", P, 9)], |call, job, [F], [P]| call.points(job, F).stresses(P))
     }
 
-    /// Stresses P and the entries of the filtered dP/dF of each F, Pa: row 3i+j for entry (i, j) of P, column
-    /// 3k+l for entry (k, l) of F.
+    /// Stresses P and the 81 entries of the filtered dP/dF of each F, Pa: row 3i+j for entry (i, j) of P,
+    /// column 3k+l for entry (k, l) of F.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not match.
-    pub fn tangents(
-        &self,
-        form: MatrixForm,
-        F: &[E],
-        P: &mut [E],
-        dP_dF: &mut [E],
-    ) -> Result<Survey, LengthError> {
-        let outputs = [("P", P, 9), ("dP_dF", dP_dF, form.tangent_entries())];
+    pub fn tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
+        let outputs = [("P", P, 9), ("dP_dF", dP_dF, 81)];
         self.run([("F", F, 9)], outputs, |call, job, [F], [P, dP_dF]| {
-            call.points(job, F).tangents(form, P, dP_dF, None)
+            call.points(job, F).tangents((), P, dP_dF, None)
         })
     }
 
@@ -226,15 +219,14 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// [`LengthError`] if the lengths of the slices do not match.
     pub fn energies_and_tangents(
         &self,
-        form: MatrixForm,
         F: &[E],
         energies: &mut [E],
         P: &mut [E],
         dP_dF: &mut [E],
     ) -> Result<Survey, LengthError> {
-        let outputs = [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, form.tangent_entries())];
+        let outputs = [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, 81)];
         self.run([("F", F, 9)], outputs, |call, job, [F], [energies, P, dP_dF]| {
-            call.points(job, F).tangents(form, P, dP_dF, Some(energies))
+            call.points(job, F).tangents((), P, dP_dF, Some(energies))
         })
     }
 
@@ -242,8 +234,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
     ///
     /// `rest` holds [`REST`] components of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in `RestShape`;
     /// F = Ds Dm⁻¹. Gradients have 12 components, coordinate a of node n at 3n+a; **forces are minus these**.
-    /// Unknown 3n+a of a stiffness is in row and column 3n+a. With feature `bodies`, `CsrPlaces` sums them
-    /// into a sparse matrix.
+    /// Stiffnesses have 144 entries, unknown 3n+a in row and column 3n+a. With feature `bodies`, `CsrPlaces` sums
+    /// them into a sparse matrix.
     ///
     /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of
     /// the tangent, it is cut there, because a factorisation could not resolve more.
@@ -252,21 +244,20 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// [`LengthError`] if the lengths of the slices do not match.
     pub fn stiffnesses(
         &self,
-        form: MatrixForm,
         F: &[E],
         rest: &[E],
         gradients: &mut [E],
         stiffnesses: &mut [E],
     ) -> Result<Survey, LengthError> {
         let inputs = [("F", F, 9), ("rest", rest, REST)];
-        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, form.stiffness_entries())];
+        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, 144)];
         self.run(inputs, outputs, |call, job, [F, rest], [gradients, stiffnesses]| {
             let Job { workspace, start, count } = job;
             let Workspace { F: lines, rest: shapes, svd, scratch } = workspace;
             let F = Source::new(call.backend, call.layout, F, lines);
             let rest = Source::new(call.backend, call.layout, rest, shapes);
             let mut tile = Tile { call, start, count, F, rest, svd, is_decomposed: false, scratch };
-            tile.tangents(StiffnessForm::Matrix(form), gradients, stiffnesses, None)
+            tile.tangents(StiffnessForm::Full, gradients, stiffnesses, None)
         })
     }
 
@@ -277,7 +268,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// fill it up with shapes of tetrahedra with edges of length 1 along the axes.
     ///
     /// ```
-    /// use piola::batch::{Batch, MatrixForm, Tetrahedra};
+    /// use piola::batch::{Batch, Tetrahedra};
     /// use piola::material;
     ///
     /// /// Rubber.
@@ -294,8 +285,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// let rest = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
     /// let positions = [[0.0, 0.0, 0.0], [1.1, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     /// let (mut gradients, mut stiffnesses) = ([0.0; 12], [0.0; 144]);
-    /// let (rubber, full) = (Batch::new(&rubber), MatrixForm::Full);
-    /// rubber.stiffnesses_at(full, tetrahedra, &positions, &rest, &mut gradients, &mut stiffnesses)?;
+    /// let batch = Batch::new(&rubber);
+    /// batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut stiffnesses)?;
     /// let P11 = 1e6 * (1.1 - 1.0 / 1.1) + 4e6 * f64::ln(1.1) / 1.1;
     /// assert!((gradients[3] - P11 / 6.0).abs() < 1e-9);
     /// # Ok(())
@@ -306,7 +297,6 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// [`LengthError`] if the lengths of the slices do not match.
     pub fn stiffnesses_at(
         &self,
-        form: MatrixForm,
         tetrahedra: Tetrahedra<'_>,
         positions: &[[E; 3]],
         rest: &[E],
@@ -323,7 +313,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
             let found = rest.len();
             return Err(LengthError { slice: "rest", found, components: REST, points, group });
         }
-        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, form.stiffness_entries())];
+        let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, 144)];
         self.run([("rest", rest, REST)], outputs, |call, job, [rest], [gradients, stiffnesses]| {
             let Job { workspace, start, count } = job;
             let Workspace { F: edges, rest: shapes, svd, scratch } = workspace;
@@ -332,7 +322,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
             E::deform(call.backend, Deform { edges, rest, count });
             let F = edges.source();
             let mut tile = Tile { call, start, count, F, rest, svd, is_decomposed: false, scratch };
-            tile.tangents(StiffnessForm::Matrix(form), gradients, stiffnesses, None)
+            tile.tangents(StiffnessForm::Full, gradients, stiffnesses, None)
         })
     }
 

@@ -24,7 +24,7 @@ use crate::lanes::{Backend, Scalar};
 use crate::status::Status;
 use deformation::{Decompose, Deform, Invariants};
 use form::BlockStiffness;
-use form::{FullStiffness, FullTangent, MatrixForm, PackedStiffness, PackedTangent, StiffnessForm};
+use form::{FullStiffness, FullTangent, StiffnessForm};
 use measure::{MeasuredStress, MeasuredTangent};
 use stress::{Stress, StressByInvariants, stress_of};
 use tangents::{FilterBlocks, Shaped, Tangents, TangentsByInvariants, shape_by_invariants};
@@ -60,7 +60,7 @@ pub trait Outputs<const REST: usize>: Scalar {
     note = "those of `f32` come with the feature `f32` of the crate `piola`; those of `f64` with `batch`"
 )]
 #[expect(private_interfaces, reason = "sealed: only this crate can name what the functions take")]
-pub trait Kernels: Outputs<0, Form = MatrixForm> + Outputs<10, Form = StiffnessForm> {
+pub trait Kernels: Outputs<0, Form = ()> + Outputs<10, Form = StiffnessForm> {
     #[doc(hidden)]
     fn decompose(backend: Backend, kernel: Decompose<'_, Self>);
     #[doc(hidden)]
@@ -82,7 +82,7 @@ macro_rules! formats {
     ($($Number:ident)*) => {$(
         #[expect(private_interfaces, reason = "as in the trait")]
         impl Outputs<0> for $Number {
-            type Form = MatrixForm;
+            type Form = ();
 
             fn stress(backend: Backend, kernel: Stress<'_, Self, 0>) -> Status<u64> {
                 backend.run(kernel)
@@ -92,22 +92,16 @@ macro_rules! formats {
                 stress_of(backend, kernel)
             }
 
-            fn tangents(backend: Backend, form: MatrixForm, kernel: Tangents<'_, Self, 0>) -> Status<u64> {
-                match form {
-                    MatrixForm::Full => backend.run(Shaped(kernel, FullTangent)),
-                    MatrixForm::Packed => backend.run(Shaped(kernel, PackedTangent)),
-                }
+            fn tangents(backend: Backend, (): (), kernel: Tangents<'_, Self, 0>) -> Status<u64> {
+                backend.run(Shaped(kernel, FullTangent))
             }
 
             fn tangents_by_invariants(
                 backend: Backend,
-                form: MatrixForm,
+                (): (),
                 kernel: TangentsByInvariants<'_, Self, 0>,
             ) -> u64 {
-                match form {
-                    MatrixForm::Full => shape_by_invariants(backend, kernel, FullTangent),
-                    MatrixForm::Packed => shape_by_invariants(backend, kernel, PackedTangent),
-                }
+                shape_by_invariants(backend, kernel, FullTangent)
             }
         }
 
@@ -125,8 +119,7 @@ macro_rules! formats {
 
             fn tangents(backend: Backend, form: StiffnessForm, kernel: Tangents<'_, Self, 10>) -> Status<u64> {
                 match form {
-                    StiffnessForm::Matrix(MatrixForm::Full) => backend.run(Shaped(kernel, FullStiffness)),
-                    StiffnessForm::Matrix(MatrixForm::Packed) => backend.run(Shaped(kernel, PackedStiffness)),
+                    StiffnessForm::Full => backend.run(Shaped(kernel, FullStiffness)),
                     StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
                 }
             }
@@ -137,12 +130,7 @@ macro_rules! formats {
                 kernel: TangentsByInvariants<'_, Self, 10>,
             ) -> u64 {
                 match form {
-                    StiffnessForm::Matrix(MatrixForm::Full) => {
-                        shape_by_invariants(backend, kernel, FullStiffness)
-                    }
-                    StiffnessForm::Matrix(MatrixForm::Packed) => {
-                        shape_by_invariants(backend, kernel, PackedStiffness)
-                    }
+                    StiffnessForm::Full => shape_by_invariants(backend, kernel, FullStiffness),
                     StiffnessForm::Blocks => shape_by_invariants(backend, kernel, BlockStiffness),
                 }
             }

@@ -81,7 +81,7 @@
 //!
 #![cfg_attr(feature = "batch", doc = "```")]
 #![cfg_attr(not(feature = "batch"), doc = "```ignore")]
-//! use piola::batch::{Batch, CsrPlaces, Layout, MatrixForm, Tetrahedra};
+//! use piola::batch::{Batch, CsrPlaces, Layout, Tetrahedra};
 //! use piola::point::Filter;
 //!
 //! /// Compressible neo-Hookean rubber; mu and lambda in Pa.
@@ -103,7 +103,7 @@
 //!     let pull = (1e5 * (1.5 - 1.0 / 1.5) + 4e5 * f64::ln(1.5) / 1.5) / 6.0;
 //!     for _ in 0..10 {
 //!         let (mut f, mut K, mut values) = ([0.0; 12], [0.0; 144], [0.0; 9]);
-//!         batch.stiffnesses_at(MatrixForm::Full, tetrahedra, &x, &rest, &mut f, &mut K)?;
+//!         batch.stiffnesses_at(tetrahedra, &x, &rest, &mut f, &mut K)?;
 //!         places.add(&K, Layout::Points, &mut values)?;
 //!         x[3][2] += (pull - f[11]) / values[8];
 //!     }
@@ -120,7 +120,7 @@
 //!
 #![cfg_attr(feature = "batch", doc = "```")]
 #![cfg_attr(not(feature = "batch"), doc = "```ignore")]
-//! use piola::batch::{Batch, MatrixForm, Quadrature};
+//! use piola::batch::{Batch, Quadrature};
 //!
 //! /// Compressible neo-Hookean rubber; mu and lambda in Pa.
 //! #[piola::material(domain(J > 0.0), extend)]
@@ -143,7 +143,7 @@
 //!     let (mut F, mut P, mut dP_dF) = ([0.0; 72], [0.0; 72], [0.0; 648]);
 //!     let (mut hexahedra, mut gradients, mut K) = (Quadrature::new(8, 8), [0.0; 24], [0.0; 24 * 24]);
 //!     hexahedra.deform(&x, &slopes, &mut F)?;
-//!     Batch::new(&Rubber::new(1e5, 4e5)?).tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF)?;
+//!     Batch::new(&Rubber::new(1e5, 4e5)?).tangents(&F, &mut P, &mut dP_dF)?;
 //!     hexahedra.gradients(&slopes, &[0.125; 8], &P, &mut gradients)?;
 //!     hexahedra.stiffnesses(&slopes, &[0.125; 8], &dP_dF, &mut K)?;
 //!     let force: f64 = [1, 3, 5, 7].map(|n| gradients[3 * n]).iter().sum();

@@ -3,7 +3,7 @@
 #![cfg(feature = "batch")]
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, MatrixForm};
+use piola::batch::Batch;
 use piola::lanes::Backend;
 use piola::material::{Argument, Blocks, Declared, Fittable, Form, Limit, MaterialError};
 use piola::{Inversion, Material, material};
@@ -96,8 +96,7 @@ fn same_bits<const N: usize>(inversion: Inversion) -> Result<(), MaterialError> 
         let tangents = |batch: Batch<'_, f64>| {
             let count = points.len() / 9;
             let (mut stresses, mut tangents) = (vec![0.0; 9 * count], vec![0.0; 81 * count]);
-            let survey =
-                batch.with_backend(backend).tangents(MatrixForm::Full, &points, &mut stresses, &mut tangents);
+            let survey = batch.with_backend(backend).tangents(&points, &mut stresses, &mut tangents);
             let numbers = stresses.into_iter().chain(tangents).map(f64::to_bits).collect::<Vec<_>>();
             (survey.expect("slices of one number of points"), numbers)
         };

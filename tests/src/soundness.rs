@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use piola::StatusCell;
-use piola::batch::{Batch, MatrixForm, TileMaterial};
+use piola::batch::{Batch, TileMaterial};
 use piola::material::{Blocks, Response};
 use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint, decompose};
 
@@ -203,10 +203,10 @@ pub fn check_elements(material: &dyn TileMaterial<f64>, F: &[Matrix3<f64>]) -> V
     check(Quantity::Energy, &energies);
     batch.stresses(F, &mut stresses).expect(FITS);
     check(Quantity::StressAlone, &stresses);
-    let (mut gradients, mut stiffnesses) = (vec![0.0; 12 * points], vec![0.0; 78 * points]);
+    let (mut gradients, mut stiffnesses) = (vec![0.0; 12 * points], vec![0.0; 144 * points]);
     for filter in FILTERS {
         let batch = Batch::new(material).with_statuses(&statuses).with_filter(filter);
-        batch.stiffnesses(MatrixForm::Packed, F, &rest, &mut gradients, &mut stiffnesses).expect(FITS);
+        batch.stiffnesses(F, &rest, &mut gradients, &mut stiffnesses).expect(FITS);
         check(Quantity::Forces, &gradients);
         check(Quantity::Stiffness, &stiffnesses);
     }

@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
 
-use piola::batch::{Batch, Kernels, MatrixForm, Tetrahedra};
+use piola::batch::{Batch, Kernels, Tetrahedra};
 use piola::lanes::Backend;
 use piola::point::{Filter, Matrix3};
 use piola::{Inversion, Material, Status};
@@ -122,8 +122,7 @@ fn results<R: Number>(energy: &Judged, inversion: Inversion, F: &Matrix3<R>) -> 
     for filter in [Filter::None, Filter::Clamp] {
         let batch = Batch::new(&subject.exact).with_backend(Backend::portable()).with_filter(filter);
         let (mut gradient, mut stiffness) = (vec![zero; 12], [zero; 144]);
-        let (form, positions) = (MatrixForm::Full, &positions);
-        let survey = batch.stiffnesses_at(form, tetrahedra, positions, &rest, &mut gradient, &mut stiffness);
+        let survey = batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut gradient, &mut stiffness);
         let survey = survey.expect("one tetrahedron");
         let counts = [survey.refused, survey.bounded, survey.nonfinite, survey.filtered];
         gradient.extend(stiffness);

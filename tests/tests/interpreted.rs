@@ -9,7 +9,7 @@
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, Kernels, MatrixForm, TileMaterial};
+use piola::batch::{Batch, Kernels, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::lanes::Backend;
 use piola::material::{Constraint, Fittable, MaterialError, PerPoint, Response};
@@ -115,7 +115,7 @@ fn results<E: Precision>(
     keep();
     batch.stresses(F, &mut P).expect("lengths");
     keep();
-    batch.tangents(MatrixForm::Full, F, &mut with_tangents, &mut dP_dF).expect("lengths");
+    batch.tangents(F, &mut with_tangents, &mut dP_dF).expect("lengths");
     keep();
     ([energies, P, with_tangents, dP_dF].concat(), all_statuses)
 }

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
 
-use piola::batch::{Batch, Kernels, LengthError, MatrixForm, TileMaterial};
+use piola::batch::{Batch, Kernels, LengthError, TileMaterial};
 use piola::lanes::Backend;
 use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint};
 use piola::{Inversion, Real, Status, Survey};
@@ -326,9 +326,8 @@ impl Judge<'_> {
             let (mut stress_beside, mut tangent, mut projected) = ([zero; 9], [zero; 81], [zero; 81]);
             let of_energy = status(plain.energies(&f, &mut psi));
             let of_stress = status(plain.stresses(&f, &mut stress));
-            let of_clamped =
-                status(clamped.tangents(MatrixForm::Full, &f, &mut stress_beside, &mut projected));
-            let of_plain = status(plain.tangents(MatrixForm::Full, &f, &mut stress_beside, &mut tangent));
+            let of_clamped = status(clamped.tangents(&f, &mut stress_beside, &mut projected));
+            let of_plain = status(plain.tangents(&f, &mut stress_beside, &mut tangent));
             let results = [
                 (Quantity::Energy, of_energy, wide(&psi)),
                 (Quantity::Stress, of_stress, wide(&stress)),

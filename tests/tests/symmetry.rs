@@ -7,7 +7,7 @@
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, MatrixForm};
+use piola::batch::Batch;
 use piola::lanes::Backend;
 use piola::point::Filter;
 use piola::{Inversion, StatusCell};
@@ -52,7 +52,7 @@ fn entries_that_a_plane_of_symmetry_makes_zero_are_zero() {
                     .with_filter(filter)
                     .with_statuses(&statuses);
                 let (mut P, mut dP_dF) = (vec![0.0; 9 * COUNT], vec![0.0; 81 * COUNT]);
-                batch.tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF).expect("lengths fit");
+                batch.tangents(&F, &mut P, &mut dP_dF).expect("lengths fit");
                 for (p, F) in samples.iter().enumerate().filter(|(p, _)| !statuses[*p].get().refused) {
                     let (P, dP_dF) = (&P[9 * p..][..9], &dP_dF[81 * p..][..81]);
                     let axes = if p % 2 == 0 { 0..3 } else { 0..1 };

@@ -15,7 +15,7 @@ int main(void) {
     piola_code code = piola_energy_named("neo-Hookean", &energy);
     if (code == PIOLA_CODE_OK) code = piola_material_new(energy, parameters, 2, 0.0, 0, &material);
     if (code == PIOLA_CODE_OK) {
-        code = piola_tangents(material, NULL, PIOLA_FORM_FULL, F, 9, P, 9, dP_dF, 81, &survey);
+        code = piola_tangents(material, NULL, F, 9, P, 9, dP_dF, 81, &survey);
     }
     if (code == PIOLA_CODE_OK) {
         printf("P12 = %g Pa\n", P[1]);

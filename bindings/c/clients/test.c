@@ -175,11 +175,11 @@ static void parameters_may_vary(void) {
 }
 
 /* Energies, stresses and tangents of batches in both layouts: differences of the energy are the stress, those of
-   the stress the tangent; the forms of the tangent are one. */
+   the stress the tangent, which is symmetric. */
 static void batches_are_derivatives(void) {
     enum { POINTS = 16 };
     piola_material *material = rubber();
-    double F[9 * POINTS], energies[POINTS], P[9 * POINTS], T[81 * POINTS], packed[45 * POINTS];
+    double F[9 * POINTS], energies[POINTS], P[9 * POINTS], T[81 * POINTS], T2[81 * POINTS];
     for (int k = 0; k < 9 * POINTS; k++) F[k] = SHEAR[k % 9] + 0.05 * sin(3.0 * k);
     piola_survey survey;
     CHECK(
@@ -195,11 +195,14 @@ static void batches_are_derivatives(void) {
 
     CHECK(
         piola_tangents(
-            material, NULL, PIOLA_FORM_PACKED, F, LENGTH(F), P2, LENGTH(P2), packed, LENGTH(packed), NULL) ==
+            material, NULL, F, LENGTH(F), P2, LENGTH(P2), T2, LENGTH(T2), NULL) ==
         PIOLA_CODE_OK);
     for (int p = 0; p < POINTS; p++) {
-        for (int r = 0, k = 0; r < 9; r++) {
-            for (int c = r; c < 9; c++, k++) CHECK(T[81 * p + 9 * r + c] == packed[45 * p + k]);
+        for (int r = 0; r < 9; r++) {
+            for (int c = 0; c < 9; c++) {
+                CHECK(T[81 * p + 9 * r + c] == T2[81 * p + 9 * r + c]);
+                CHECK(T[81 * p + 9 * r + c] == T[81 * p + 9 * c + r]);
+            }
         }
     }
     /* Central differences in direction k, whose error is of the order of h^2. */
@@ -243,7 +246,7 @@ static void batches_are_derivatives(void) {
         piola_energies_f32(material, NULL, single, LENGTH(single), e_single, POINTS, NULL) == PIOLA_CODE_OK);
     CHECK(
         piola_tangents_f32(
-            material, NULL, 0, single, LENGTH(single), P_single, LENGTH(P_single), T_single, LENGTH(T_single),
+            material, NULL, single, LENGTH(single), P_single, LENGTH(P_single), T_single, LENGTH(T_single),
             NULL) == PIOLA_CODE_OK);
     for (int p = 0; p < POINTS; p++) {
         CHECK(fabs(e_single[p] - energies[p]) <= 1e-5 * LAMBDA);
@@ -328,7 +331,7 @@ static void calls_are_checked(void) {
     FAILS(
         piola_stresses(material, NULL, (double *)((char *)F + 1), 9, P, 9, NULL), PIOLA_CODE_POINTER,
         "not aligned");
-    FAILS(piola_tangents(material, NULL, 9, F, 9, P, 9, P + 9, 9, NULL), PIOLA_CODE_VALUE, "`form` is 9");
+    FAILS(piola_tangents(material, NULL, F, 9, P, 9, P + 9, 9, NULL), PIOLA_CODE_LENGTH, "`dP_dF` has 9 entries");
     CHECK(piola_stresses(material, NULL, NULL, 0, NULL, 0, NULL) == PIOLA_CODE_OK);
     piola_options options = {sizeof options, 3, 0, 0, 0, 0, NULL, 0};
     FAILS(piola_stresses(material, &options, F, 9, P, 9, NULL), PIOLA_CODE_VALUE, "`options->filter` is 3");
@@ -356,13 +359,13 @@ static void dense(int32_t *starts, int32_t *columns) {
 /* The gradient of a body is the sum of those of its elements, and differences of the energy. */
 static void elements_and_bodies_agree(void) {
     piola_material *material = rubber();
-    double rest[20], x[15], gradients[24], stiffnesses[288], F[18], other[24], packed[156];
+    double rest[20], x[15], gradients[24], stiffnesses[288], F[18], other[24], entries[288];
     CHECK(piola_rest_shapes(REST, 15, CORNERS, 8, rest, 20) == PIOLA_CODE_OK);
     CHECK(close_to(rest[9], 1.0 / 6.0, 1e-14) && close_to(rest[19], 1.0 / 3.0, 1e-14));
     for (int k = 0; k < 15; k++) x[k] = REST[k] + 0.03 * sin(2.0 * k);
     CHECK(
         piola_stiffnesses_at(
-            material, NULL, 0, x, 15, CORNERS, 8, rest, 20, gradients, 24, stiffnesses, 288, NULL) ==
+            material, NULL, x, 15, CORNERS, 8, rest, 20, gradients, 24, stiffnesses, 288, NULL) ==
         PIOLA_CODE_OK);
     for (int t = 0; t < 2; t++) {
         for (int a = 0; a < 3; a++) {
@@ -376,10 +379,10 @@ static void elements_and_bodies_agree(void) {
         }
     }
     CHECK(
-        piola_stiffnesses(material, NULL, PIOLA_FORM_PACKED, F, 18, rest, 20, other, 24, packed, 156, NULL) ==
+        piola_stiffnesses(material, NULL, F, 18, rest, 20, other, 24, entries, 288, NULL) ==
         PIOLA_CODE_OK);
     for (int k = 0; k < 24; k++) CHECK(fabs(gradients[k] - other[k]) <= 1e-10 * MU);
-    CHECK(fabs(packed[1] - stiffnesses[1]) <= 1e-10 * MU);
+    for (int k = 0; k < 288; k++) CHECK(fabs(entries[k] - stiffnesses[k]) <= 1e-10 * MU);
 
     int32_t starts[16], columns[225];
     int64_t starts_64[16], columns_64[225];

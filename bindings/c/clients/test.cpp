@@ -75,7 +75,7 @@ void batches(T tolerance) {
     for (std::size_t p = 0; p < points; p++) {
         F[p] << T(1.1), T(0.2), 0, T(-0.1), T(0.9), T(0.05), 0, T(0.3), T(1.0) + T(0.01) * T(p);
     }
-    std::vector<T> energies(points), P(9 * points), full(81 * points), packed(45 * points);
+    std::vector<T> energies(points), P(9 * points), full(81 * points), plain(81 * points);
     std::vector<std::uint8_t> statuses(points, 255);
     piola::batch<T> batch(rubber());
     batch.filter(PIOLA_FILTER_NONE).threads(true).statuses(statuses);
@@ -90,11 +90,11 @@ void batches(T tolerance) {
     }
     std::vector<T> alone(9 * points);
     CHECK(batch.stresses(piola::numbers(F), alone).is_clean());
-    CHECK(batch.tangents(piola::numbers(F), P, packed).is_clean());
+    CHECK(batch.tangents(piola::numbers(F), P, plain).is_clean());
     for (std::size_t p = 0; p < points; p++) {
         CHECK(
-            packed[45 * p + 44] == full[81 * p + 80] ||
-            std::fabs(packed[45 * p + 44] - full[81 * p + 80]) < tolerance * T(1e7));
+            plain[81 * p + 80] == full[81 * p + 80] ||
+            std::fabs(plain[81 * p + 80] - full[81 * p + 80]) < tolerance * T(1e7));
     }
     std::vector<T> sigma(6 * points), rate(36 * points);
     CHECK(batch.stresses_in(PIOLA_MEASURE_CAUCHY, piola::numbers(F), sigma, rate).is_clean());
@@ -226,11 +226,9 @@ void bodies() {
     const std::vector<double> x = {0, 0, 0, 1.2, 0.1, 0, 0, 0.9, 0.2, 0.1, 0, 1.1};
     const piola::body body(corners_at, corners, {}, {piola::part{rubber(), 1000.0}});
     const std::vector<double> rest = piola::rest_shapes(corners_at, corners);
-    std::vector<double> gradients(12), stiffnesses(144), packed(78), from_body(12);
+    std::vector<double> gradients(12), stiffnesses(144), from_body(12);
     const piola::batch<> batch(rubber());
     CHECK(batch.stiffnesses_at(x, corners, rest, gradients, stiffnesses).is_clean());
-    CHECK(batch.stiffnesses_at(x, corners, rest, gradients, packed).is_clean());
-    CHECK(std::fabs(packed[77] - stiffnesses[143]) < 1e-6);
     std::vector<double> F(9);
     piola::matrix(F, 0) << 1.2, 0, 0.1, 0.1, 0.9, 0, 0, 0.2, 1.1;
     std::vector<double> again(12);

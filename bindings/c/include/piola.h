@@ -120,15 +120,6 @@ typedef enum piola_status {
     PIOLA_STATUS_FILTERED = 8,
 } piola_status;
 
-// The form of a tangent or a stiffness.
-typedef enum piola_form {
-    // All entries, row by row: 81 of dP/dF, row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of
-    // F; 144 of the stiffness of a tetrahedron, row and column 3n+a for coordinate a of node n.
-    PIOLA_FORM_FULL = 0,
-    // The entries on and above the diagonal, row by row: 45, or 78.
-    PIOLA_FORM_PACKED = 1,
-} piola_form;
-
 // A measure of stress with the tangent that belongs to it.
 //
 // Symmetric tensors are six numbers, 11, 22, 33, 23, 13, 12; tangents 36, row by row, which act on strains
@@ -475,11 +466,10 @@ enum piola_code piola_stresses_f32(const struct piola_material *material,
                                    size_t P_length,
                                    struct piola_survey *survey);
 
-// Stresses P, Pa, and filtered tangents dP/dF, Pa, in one of the forms of `piola_form`: 81 or 45 numbers for
-// each point.
+// Stresses P, Pa, and filtered tangents dP/dF, Pa: 81 numbers for each point, row 3i+j for entry (i, j) of
+// P, column 3k+l for entry (k, l) of F.
 enum piola_code piola_tangents(const struct piola_material *material,
                                const struct piola_options *options,
-                               int32_t form,
                                const double *F,
                                size_t F_length,
                                double *P,
@@ -491,7 +481,6 @@ enum piola_code piola_tangents(const struct piola_material *material,
 // `piola_tangents` in single precision.
 enum piola_code piola_tangents_f32(const struct piola_material *material,
                                    const struct piola_options *options,
-                                   int32_t form,
                                    const float *F,
                                    size_t F_length,
                                    float *P,
@@ -500,8 +489,8 @@ enum piola_code piola_tangents_f32(const struct piola_material *material,
                                    size_t dP_dF_length,
                                    struct piola_survey *survey);
 
-// Energy densities, stresses and all 81 entries of the tangents: `piola_energies` and `piola_tangents` with
-// one decomposition of each F.
+// Energy densities, stresses and tangents: `piola_energies` and `piola_tangents` with one decomposition of
+// each F.
 enum piola_code piola_energies_and_tangents(const struct piola_material *material,
                                             const struct piola_options *options,
                                             const double *F,
@@ -574,13 +563,12 @@ enum piola_code piola_rest_shapes(const double *positions,
 // stiffnesses, N/m, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
 // numbers each as from `piola_rest_shapes`.
 //
-// Gradients have 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Stiffnesses have 144 or
-// 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
+// Gradients have 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Stiffnesses have 144
+// numbers, row by row: row and column 3n+a for coordinate a of node n.
 //
 // The filter acts on dP/dF and is pulled back to the nodes.
 enum piola_code piola_stiffnesses(const struct piola_material *material,
                                   const struct piola_options *options,
-                                  int32_t form,
                                   const double *F,
                                   size_t F_length,
                                   const double *rest,
@@ -594,7 +582,6 @@ enum piola_code piola_stiffnesses(const struct piola_material *material,
 // `piola_stiffnesses` in single precision.
 enum piola_code piola_stiffnesses_f32(const struct piola_material *material,
                                       const struct piola_options *options,
-                                      int32_t form,
                                       const float *F,
                                       size_t F_length,
                                       const float *rest,
@@ -614,7 +601,6 @@ enum piola_code piola_stiffnesses_f32(const struct piola_material *material,
 // Errors: PIOLA_CODE_VALUE for nodes that do not exist.
 enum piola_code piola_stiffnesses_at(const struct piola_material *material,
                                      const struct piola_options *options,
-                                     int32_t form,
                                      const double *positions,
                                      size_t positions_length,
                                      const size_t *corners,
@@ -630,7 +616,6 @@ enum piola_code piola_stiffnesses_at(const struct piola_material *material,
 // `piola_stiffnesses_at` in single precision.
 enum piola_code piola_stiffnesses_at_f32(const struct piola_material *material,
                                          const struct piola_options *options,
-                                         int32_t form,
                                          const float *positions,
                                          size_t positions_length,
                                          const size_t *corners,

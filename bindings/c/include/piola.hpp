@@ -265,47 +265,37 @@ public:
         return call(functions::energies, F, energies);
     }
     survey stresses(span<const T> F, span<T> P) const { return call(functions::stresses, F, P); }
-    /// In the form that the size of dP_dF tells: 81 or 45 numbers for each point.
     survey tangents(span<const T> F, span<T> P, span<T> dP_dF) const {
-        const piola_form form = dP_dF.size() == F.size() / 9 * 45 ? PIOLA_FORM_PACKED : PIOLA_FORM_FULL;
-        return call_with(functions::tangents, form, F, P, dP_dF);
+        return call(functions::tangents, F, P, dP_dF);
     }
     survey energies_and_tangents(span<const T> F, span<T> energies, span<T> P, span<T> dP_dF) const {
         return call(functions::energies_and_tangents, F, energies, P, dP_dF);
     }
     survey
     stresses_in(piola_measure measure, span<const T> F, span<T> stresses, span<T> tangents = {}) const {
-        return call_with(functions::stresses_in, measure, F, stresses, tangents);
+        return apply(
+            [&](auto... arguments) {
+                return functions::stresses_in(material_.get(), &options_, measure, arguments...);
+            },
+            F, stresses, tangents);
     }
-    /// In the form that the size of the stiffnesses tells: 144 or 78 numbers for each tetrahedron.
     survey stiffnesses(span<const T> F, span<const T> rest, span<T> gradients, span<T> stiffnesses) const {
-        return call_with(functions::stiffnesses, form_of(rest, stiffnesses), F, rest, gradients, stiffnesses);
+        return call(functions::stiffnesses, F, rest, gradients, stiffnesses);
     }
     survey stiffnesses_at(
         span<const T> positions, span<const std::size_t> corners, span<const T> rest, span<T> gradients,
         span<T> stiffnesses) const {
-        const piola_form form = form_of(rest, stiffnesses);
-        return call_with(functions::stiffnesses_at, form, positions, corners, rest, gradients, stiffnesses);
+        return call(functions::stiffnesses_at, positions, corners, rest, gradients, stiffnesses);
     }
 
 private:
     using functions = detail::functions<T>;
-
-    static piola_form form_of(span<const T> rest, span<T> stiffnesses) {
-        return stiffnesses.size() == rest.size() / 10 * 78 ? PIOLA_FORM_PACKED : PIOLA_FORM_FULL;
-    }
 
     /// Calls with pointer and size of each span, folded from the last on.
     template <class Function, class... Spans>
     survey call(Function function, Spans... spans) const {
         return apply(
             [&](auto... arguments) { return function(material_.get(), &options_, arguments...); }, spans...);
-    }
-    template <class Function, class... Spans>
-    survey call_with(Function function, int choice, Spans... spans) const {
-        return apply(
-            [&](auto... arguments) { return function(material_.get(), &options_, choice, arguments...); },
-            spans...);
     }
     template <class Function, class... Spans>
     static survey apply(Function function, Spans... spans) {

@@ -1,23 +1,12 @@
 //! Batches: many points at once, on the memory of the caller.
 
-use piola::batch::{Batch, MatrixForm};
+use piola::batch::Batch;
 use piola::point::measures;
 
 use crate::error::{Code, Failure, guard};
 use crate::lent::{self, Arrays};
 use crate::material::{Material, Precision};
 use crate::options::{self, Options, Survey};
-
-/// The form of a tangent or a stiffness.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub enum Form {
-    /// All entries, row by row: 81 of dP/dF, row 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of
-    /// F; 144 of the stiffness of a tetrahedron, row and column 3n+a for coordinate a of node n.
-    Full = 0,
-    /// The entries on and above the diagonal, row by row: 45, or 78.
-    Packed = 1,
-}
 
 /// A measure of stress with the tangent that belongs to it.
 ///
@@ -112,13 +101,12 @@ pub unsafe extern "C" fn piola_stresses_f32(
     unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
 }
 
-/// Stresses P, Pa, and filtered tangents dP/dF, Pa, in one of the forms of `piola_form`: 81 or 45 numbers for
-/// each point.
+/// Stresses P, Pa, and filtered tangents dP/dF, Pa: 81 numbers for each point, row 3i+j for entry (i, j) of
+/// P, column 3k+l for entry (k, l) of F.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_tangents(
     material: *const Material,
     options: *const Options,
-    form: i32,
     F: *const f64,
     F_length: usize,
     P: *mut f64,
@@ -131,7 +119,7 @@ pub unsafe extern "C" fn piola_tangents(
     // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [P, dP_dF]| {
-            Ok(batch.tangents(matrix_form(form)?, F, P, dP_dF)?)
+            Ok(batch.tangents(F, P, dP_dF)?)
         })
     }
 }
@@ -141,7 +129,6 @@ pub unsafe extern "C" fn piola_tangents(
 pub unsafe extern "C" fn piola_tangents_f32(
     material: *const Material,
     options: *const Options,
-    form: i32,
     F: *const f32,
     F_length: usize,
     P: *mut f32,
@@ -154,13 +141,13 @@ pub unsafe extern "C" fn piola_tangents_f32(
     // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [P, dP_dF]| {
-            Ok(batch.tangents(matrix_form(form)?, F, P, dP_dF)?)
+            Ok(batch.tangents(F, P, dP_dF)?)
         })
     }
 }
 
-/// Energy densities, stresses and all 81 entries of the tangents: `piola_energies` and `piola_tangents` with
-/// one decomposition of each F.
+/// Energy densities, stresses and tangents: `piola_energies` and `piola_tangents` with one decomposition of
+/// each F.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_energies_and_tangents(
     material: *const Material,
@@ -182,7 +169,7 @@ pub unsafe extern "C" fn piola_energies_and_tangents(
     // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [energies, P, dP_dF]| {
-            Ok(batch.energies_and_tangents(MatrixForm::Full, F, energies, P, dP_dF)?)
+            Ok(batch.energies_and_tangents(F, energies, P, dP_dF)?)
         })
     }
 }
@@ -209,7 +196,7 @@ pub unsafe extern "C" fn piola_energies_and_tangents_f32(
     // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [energies, P, dP_dF]| {
-            Ok(batch.energies_and_tangents(MatrixForm::Full, F, energies, P, dP_dF)?)
+            Ok(batch.energies_and_tangents(F, energies, P, dP_dF)?)
         })
     }
 }
@@ -315,11 +302,6 @@ pub(crate) unsafe fn call_with<E: Precision, const I: usize, const O: usize>(
         }
         lent::report("survey", survey, compute(batch, read, written)?.into())
     }
-}
-
-/// The form that a number of C stands for.
-pub(crate) fn matrix_form(form: i32) -> Result<MatrixForm, Failure> {
-    lent::choice("form", form, [MatrixForm::Full, MatrixForm::Packed])
 }
 
 /// Stresses in a measure, and tangents if there is an array for them.

@@ -3,7 +3,7 @@
 use piola::batch::{Batch, REST, Tetrahedra};
 use piola_bodies::mesh::TetMesh;
 
-use crate::batch::{call, call_with, matrix_form};
+use crate::batch::{call, call_with};
 use crate::error::{Code, Failure, guard};
 use crate::lent::{self, Arrays};
 use crate::material::{Material, Precision};
@@ -52,15 +52,14 @@ pub unsafe extern "C" fn piola_rest_shapes(
 /// stiffnesses, N/m, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
 /// numbers each as from `piola_rest_shapes`.
 ///
-/// Gradients have 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Stiffnesses have 144 or
-/// 78 numbers, in the form PIOLA_FORM_FULL or PIOLA_FORM_PACKED.
+/// Gradients have 12 numbers, coordinate a of node n at 3n+a: forces are minus these. Stiffnesses have 144
+/// numbers, row by row: row and column 3n+a for coordinate a of node n.
 ///
 /// The filter acts on dP/dF and is pulled back to the nodes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn piola_stiffnesses(
     material: *const Material,
     options: *const Options,
-    form: i32,
     F: *const f64,
     F_length: usize,
     rest: *const f64,
@@ -78,7 +77,7 @@ pub unsafe extern "C" fn piola_stiffnesses(
     // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
-            Ok(batch.stiffnesses(matrix_form(form)?, F, rest, gradients, stiffnesses)?)
+            Ok(batch.stiffnesses(F, rest, gradients, stiffnesses)?)
         })
     }
 }
@@ -88,7 +87,6 @@ pub unsafe extern "C" fn piola_stiffnesses(
 pub unsafe extern "C" fn piola_stiffnesses_f32(
     material: *const Material,
     options: *const Options,
-    form: i32,
     F: *const f32,
     F_length: usize,
     rest: *const f32,
@@ -106,7 +104,7 @@ pub unsafe extern "C" fn piola_stiffnesses_f32(
     // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
-            Ok(batch.stiffnesses(matrix_form(form)?, F, rest, gradients, stiffnesses)?)
+            Ok(batch.stiffnesses(F, rest, gradients, stiffnesses)?)
         })
     }
 }
@@ -122,7 +120,6 @@ pub unsafe extern "C" fn piola_stiffnesses_f32(
 pub unsafe extern "C" fn piola_stiffnesses_at(
     material: *const Material,
     options: *const Options,
-    form: i32,
     positions: *const f64,
     positions_length: usize,
     corners: *const usize,
@@ -152,7 +149,7 @@ pub unsafe extern "C" fn piola_stiffnesses_at(
                 outputs,
                 survey,
                 |batch, [positions, rest], [gradients, stiffnesses]| {
-                    stiffnesses_at(&batch, form, corners, positions, rest, gradients, stiffnesses)
+                    stiffnesses_at(&batch, corners, positions, rest, gradients, stiffnesses)
                 },
             )
         }
@@ -164,7 +161,6 @@ pub unsafe extern "C" fn piola_stiffnesses_at(
 pub unsafe extern "C" fn piola_stiffnesses_at_f32(
     material: *const Material,
     options: *const Options,
-    form: i32,
     positions: *const f32,
     positions_length: usize,
     corners: *const usize,
@@ -194,17 +190,16 @@ pub unsafe extern "C" fn piola_stiffnesses_at_f32(
                 outputs,
                 survey,
                 |batch, [positions, rest], [gradients, stiffnesses]| {
-                    stiffnesses_at(&batch, form, corners, positions, rest, gradients, stiffnesses)
+                    stiffnesses_at(&batch, corners, positions, rest, gradients, stiffnesses)
                 },
             )
         }
     })
 }
 
-/// Gradients and stiffnesses in a form, with the nodes at positions.
+/// Gradients and stiffnesses, with the nodes at positions.
 fn stiffnesses_at<E: Precision>(
     batch: &Batch<'_, E>,
-    form: i32,
     corners: &[[usize; 4]],
     positions: &[E],
     rest: &[E],
@@ -213,6 +208,5 @@ fn stiffnesses_at<E: Precision>(
 ) -> Result<piola::Survey, Failure> {
     let positions = lent::vectors("positions", positions)?;
     let tetrahedra = Tetrahedra::new(positions.len(), corners)?;
-    let form = matrix_form(form)?;
-    Ok(batch.stiffnesses_at(form, tetrahedra, positions, rest, gradients, stiffnesses)?)
+    Ok(batch.stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses)?)
 }

@@ -7,7 +7,7 @@ use std::io::Write;
 use std::time::Instant;
 
 use piola::Inversion;
-use piola::batch::{Batch, MatrixForm};
+use piola::batch::Batch;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut stresses, mut tangents) = (vec![0.0; 9 * points], vec![0.0; 81 * points]);
     let stress = best(points, || batch.stresses(&deformations, &mut stresses).map(drop))?;
     let tangent = best(points, || {
-        batch.tangents(MatrixForm::Full, &deformations, &mut stresses, &mut tangents).map(drop)
+        batch.tangents(&deformations, &mut stresses, &mut tangents).map(drop)
     })?;
     black_box((&stresses, &tangents));
     writeln!(std::io::stdout(), "{stress} {tangent}")?;

@@ -4,7 +4,7 @@
 
 use numpy::Element;
 use piola::Survey;
-use piola::batch::{Batch, Kernels, LengthError, MatrixForm, TileMaterial};
+use piola::batch::{Batch, Kernels, LengthError, TileMaterial};
 use piola::point::measures::Measure;
 use pyo3::PyResult;
 
@@ -94,9 +94,9 @@ impl Quantity {
         match (self, results) {
             (Self::Energy, [energies]) => batch.energies(F, energies),
             (Self::Stress, [P]) => batch.stresses(F, P),
-            (Self::Tangent, [P, dP_dF]) => batch.tangents(MatrixForm::Full, F, P, dP_dF),
+            (Self::Tangent, [P, dP_dF]) => batch.tangents(F, P, dP_dF),
             (Self::All, [energies, P, dP_dF]) => {
-                batch.energies_and_tangents(MatrixForm::Full, F, energies, P, dP_dF)
+                batch.energies_and_tangents(F, energies, P, dP_dF)
             }
             (Self::MeasuredStress(measure, _), [stresses]) => batch.measured_stresses(measure, F, stresses),
             (Self::MeasuredTangent(measure, _), [stresses, tangents]) => {

@@ -1,7 +1,7 @@
 //! Materials and meshes for the tests of bodies, since this crate contains no particular material.
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, MatrixForm};
+use piola::batch::Batch;
 use piola::material::Scaled;
 use piola::point::Filter;
 
@@ -56,7 +56,7 @@ pub(crate) fn stiffness_product(
         let (mut gradient, mut stiffness) = ([0.0; 12], [0.0; 144]);
         Batch::new(body.material(number))
             .with_filter(filter)
-            .stiffnesses(MatrixForm::Full, deformation.as_flattened(), &rest, &mut gradient, &mut stiffness)
+            .stiffnesses(deformation.as_flattened(), &rest, &mut gradient, &mut stiffness)
             .expect("one element");
         for row in 0..12 {
             let sum = (0..12).map(|k| stiffness[12 * row + k] * x[element.nodes[k / 3]][k % 3]).sum::<f64>();

@@ -10,6 +10,11 @@ use piola_bodies::system::Pins;
 use crate::arguments::Hostile;
 
 impl Hostile {
+    /// Mostly a good number.
+    pub(crate) fn about(&mut self, good: f64) -> f64 {
+        if self.0.once_in(8) { self.number() } else { good }
+    }
+
     pub(crate) fn pins(&mut self, nodes: usize) -> Pins {
         let count = self.0.below(6);
         let mut of =

@@ -4,7 +4,7 @@
 #![expect(clippy::print_stdout, reason = "figures to show")]
 
 use piola::Inversion;
-use piola::batch::{Batch, Kernels, MatrixForm, Tetrahedra, TileMaterial};
+use piola::batch::{Batch, Kernels, Tetrahedra, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::point::Filter;
 use piola_declare::Energy;
@@ -47,7 +47,7 @@ where
         (vec![number(0.0); 12 * corners.len()], vec![number(0.0); 144 * corners.len()]);
     let batch = Batch::<E>::new(material).with_filter(filter);
     let survey = batch
-        .stiffnesses_at(MatrixForm::Full, tetrahedra, &positions, &rest, &mut gradients, &mut K)
+        .stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut K)
         .expect("lengths that fit");
     assert_eq!((survey.refused, survey.nonfinite), (0, 0));
     (gradients, K)

@@ -9,37 +9,12 @@ use crate::point::matrix::{dot, three, thrice, to_row_major};
 use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks};
 use crate::status::Status;
 
-/// Form of a symmetric matrix in the output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MatrixForm {
-    /// All entries, row by row: 81 of dP/dF, 144 of a stiffness.
-    Full,
-    /// The entries on and above the diagonal, row by row: 45 of dP/dF, 78 of a stiffness.
-    Packed,
-}
-
-impl MatrixForm {
-    /// Number of entries of dP/dF.
-    pub(crate) fn tangent_entries(self) -> usize {
-        match self {
-            Self::Full => 81,
-            Self::Packed => 45,
-        }
-    }
-
-    /// Number of entries of an element's stiffness.
-    pub(crate) fn stiffness_entries(self) -> usize {
-        match self {
-            Self::Full => 144,
-            Self::Packed => 78,
-        }
-    }
-}
-
 /// The second output of an element's response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StiffnessForm {
-    Matrix(MatrixForm),
+    /// All 144 entries, row by row.
+    Full,
+    /// The 90 entries of the blocks of node pairs.
     Blocks,
 }
 
@@ -140,59 +115,6 @@ impl OutputByInvariants<0, 81> for FullTangent {
         terms.assemble(&Entries, &mut Blocks3(Self, to))
     }
 }
-
-/// The 45 entries of dP/dF on and above the diagonal, row by row.
-pub(crate) struct PackedTangent;
-
-impl<R: Real, C: Components<R> + ?Sized> Assemble<R> for Blocks3<'_, PackedTangent, C> {
-    #[inline(always)]
-    fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
-        thrice!(x => {
-            thrice!(y => {
-                if a != c || x <= y {
-                    self.1.put(PACKED_9[3 * a + x][3 * c + y], block[x][y]);
-                }
-            });
-        });
-    }
-}
-
-impl Output<0, 45> for PackedTangent {
-    #[inline(always)]
-    fn put_all<R: Real>(tangent: &Tangent<R>, _: &[R; 0], to: &mut (impl Components<R> + ?Sized)) {
-        let Tangent { U, V, blocks } = tangent;
-        assemble_blocks(U, V, blocks, &mut Blocks3(Self, to));
-    }
-}
-
-impl OutputByInvariants<0, 45> for PackedTangent {
-    #[inline(always)]
-    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
-        terms: &Terms<R, HAS_SECOND, HAS_ALL>,
-        _: &[R; 0],
-        to: &mut (impl Components<R> + ?Sized),
-    ) -> R {
-        terms.assemble(&Entries, &mut Blocks3(Self, to))
-    }
-}
-
-/// Positions of the entries of a symmetric matrix whose upper triangle is stored row by row.
-const fn packed<const SIZE: usize>() -> [[usize; SIZE]; SIZE] {
-    let mut places = [[0; SIZE]; SIZE];
-    let (mut place, mut row) = (0, 0);
-    while row < SIZE {
-        let mut column = row;
-        while column < SIZE {
-            (places[row][column], places[column][row]) = (place, place);
-            (place, column) = (place + 1, column + 1);
-        }
-        row += 1;
-    }
-    places
-}
-
-pub(crate) static PACKED_9: [[usize; 9]; 9] = packed();
-pub(crate) static PACKED_12: [[usize; 12]; 12] = packed();
 
 /// Rest shape of an element: Dm⁻¹ row by row, then its volume.
 struct Rest<R> {
@@ -410,14 +332,6 @@ stiffness_form! {
     FullStiffness of 144, |i, a, j, c| {
         let (row, column) = (3 * i + a, 3 * j + c);
         (12 * row + column, Some(12 * column + row))
-    }
-}
-
-stiffness_form! {
-    /// The 78 entries on and above the diagonal, row by row.
-    PackedStiffness of 78, |i, a, j, c| {
-        let (row, column) = (3 * i + a, 3 * j + c);
-        (PACKED_12[row][column], None)
     }
 }
 

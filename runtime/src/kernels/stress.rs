@@ -23,7 +23,10 @@ pub(crate) struct Stress<'a, E, const REST: usize> {
     pub(crate) to: Sink<'a, E>,
 }
 
-impl<E: Scalar> Kernel<E> for Stress<'_, E, 10> {
+impl<E: Scalar, const REST: usize> Kernel<E> for Stress<'_, E, REST>
+where
+    At<REST>: FirstOutput<REST>,
+{
     type Output = Status<u64>;
 
     #[inline(always)]
@@ -34,30 +37,69 @@ impl<E: Scalar> Kernel<E> for Stress<'_, E, 10> {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             let rest = rest.get_all(at);
-            let is_finite = stress_is_finite(svd.stretches, &stress) & gradient_is_finite(&stress, &rest);
-            status.nonfinite |= R::bits(!is_finite) << at;
-            put_gradient(&stress, &rest, to.place::<R, 12>(line, at));
-            to.finish::<R, 12>(line, at, count);
+            let is_finite = stress_is_finite(svd.stretches, &stress);
+            let stays_finite = At::<REST>::put(&stress, &rest, &mut to, line, at);
+            status.nonfinite |= R::bits(!(is_finite & stays_finite)) << at;
+            At::<REST>::finish::<R>(&mut to, line, at, count);
         });
         status & first_bits(count)
     }
 }
 
-impl<E: Scalar> Kernel<E> for Stress<'_, E, 0> {
-    type Output = Status<u64>;
+/// Points, or elements with REST components of a shape at rest.
+pub(crate) struct At<const REST: usize>;
+
+/// The output that is made from P: P itself at points, the gradient at elements.
+pub(crate) trait FirstOutput<const REST: usize> {
+    /// Puts the output into its place; [`FirstOutput::finish`] must follow. Returns where it stays finite if
+    /// P is.
+    fn put<R: Lanes>(
+        stress: &Matrix3<R>,
+        rest: &[R; REST],
+        to: &mut Sink<'_, R::Scalar>,
+        line: &mut LineBuffer<R::Scalar>,
+        at: usize,
+    ) -> R::Mask;
+
+    /// Copies the output to the slice.
+    fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize);
+}
+
+impl FirstOutput<0> for At<0> {
+    #[inline(always)]
+    fn put<R: Lanes>(
+        stress: &Matrix3<R>,
+        _: &[R; 0],
+        to: &mut Sink<'_, R::Scalar>,
+        line: &mut LineBuffer<R::Scalar>,
+        at: usize,
+    ) -> R::Mask {
+        to.place::<R, 9>(line, at).put_all(to_row_major(*stress));
+        R::Mask::splat(true)
+    }
 
     #[inline(always)]
-    fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
-        let Self { points, gradients, count, line, mut to, .. } = self;
-        let (served, mut status) = (to.served, Status::default());
-        for_each_group!(R, count, but served, |at| {
-            let svd = points.get::<R>(at);
-            let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
-            status.nonfinite |= R::bits(!stress_is_finite(svd.stretches, &stress)) << at;
-            to.place::<R, 9>(line, at).put_all(to_row_major(stress));
-            to.finish::<R, 9>(line, at, count);
-        });
-        status & first_bits(count)
+    fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize) {
+        to.finish::<R, 9>(line, at, count);
+    }
+}
+
+impl FirstOutput<10> for At<10> {
+    #[inline(always)]
+    fn put<R: Lanes>(
+        stress: &Matrix3<R>,
+        rest: &[R; 10],
+        to: &mut Sink<'_, R::Scalar>,
+        line: &mut LineBuffer<R::Scalar>,
+        at: usize,
+    ) -> R::Mask {
+        put_gradient(stress, rest, to.place::<R, 12>(line, at));
+        gradient_is_finite(stress, rest)
+    }
+
+    #[inline(always)]
+    fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize) {
+        to.finish::<R, 12>(line, at, count);
     }
 }
 
@@ -75,7 +117,10 @@ pub(crate) struct StressByInvariants<'a, E, const REST: usize> {
 /// [`StressByInvariants`] with or without terms in I2.
 struct StressOf<'a, E, const HAS_SECOND: bool, const REST: usize>(StressByInvariants<'a, E, REST>);
 
-impl<E: Scalar, const HAS_SECOND: bool, const REST: usize> Kernel<E> for StressOf<'_, E, HAS_SECOND, REST> {
+impl<E: Scalar, const HAS_SECOND: bool, const REST: usize> Kernel<E> for StressOf<'_, E, HAS_SECOND, REST>
+where
+    At<REST>: FirstOutput<REST>,
+{
     /// The points whose result is finite.
     type Output = u64;
 
@@ -87,8 +132,8 @@ impl<E: Scalar, const HAS_SECOND: bool, const REST: usize> Kernel<E> for StressO
             let F = to_matrix(F.get_all::<R>(at));
             let gradient = gradients.get_all(at);
             let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradient);
-            let stays_finite = put_stress(&stress, &rest.get_all(at), &mut to, line, at);
-            finish_stress::<R, REST>(&mut to, line, at, count);
+            let stays_finite = At::<REST>::put(&stress, &rest.get_all(at), &mut to, line, at);
+            At::<REST>::finish::<R>(&mut to, line, at, count);
             finite |= R::bits(gradient_is_in_range(gradient) & stays_finite) << at;
         });
         finite & first_bits(count)
@@ -99,45 +144,13 @@ impl<E: Scalar, const HAS_SECOND: bool, const REST: usize> Kernel<E> for StressO
 pub(crate) fn stress_of<E: Scalar, const REST: usize>(
     backend: Backend,
     kernel: StressByInvariants<'_, E, REST>,
-) -> u64 {
+) -> u64
+where
+    At<REST>: FirstOutput<REST>,
+{
     if kernel.has_second_invariant {
         backend.run(StressOf::<_, true, REST>(kernel))
     } else {
         backend.run(StressOf::<_, false, REST>(kernel))
-    }
-}
-
-/// Puts P, or the gradient if there is a shape at rest, into its place; [`finish_stress`] must follow.
-/// Returns where the latter cannot overflow.
-#[inline(always)]
-pub(crate) fn put_stress<R: Lanes, const REST: usize>(
-    stress: &Matrix3<R>,
-    rest: &[R; REST],
-    to: &mut Sink<'_, R::Scalar>,
-    line: &mut LineBuffer<R::Scalar>,
-    at: usize,
-) -> R::Mask {
-    if REST == 0 {
-        to.place::<R, 9>(line, at).put_all(to_row_major(*stress));
-        return R::Mask::splat(true);
-    }
-    let mut shape = [R::splat(0.0); 10];
-    shape[..REST].copy_from_slice(rest);
-    put_gradient(stress, &shape, to.place::<R, 12>(line, at));
-    gradient_is_finite(stress, &shape)
-}
-
-/// Copies the output of [`put_stress`] to the slice.
-#[inline(always)]
-pub(crate) fn finish_stress<R: Lanes, const REST: usize>(
-    to: &mut Sink<'_, R::Scalar>,
-    line: &LineBuffer<R::Scalar>,
-    at: usize,
-    count: usize,
-) {
-    if REST == 0 {
-        to.finish::<R, 9>(line, at, count);
-    } else {
-        to.finish::<R, 12>(line, at, count);
     }
 }

@@ -5,7 +5,7 @@
 use super::form::{Output, OutputByInvariants};
 use super::rows::{Rows, first_bits, for_each_group, from_rows, to_rows};
 use super::sink::{LineBuffer, Sink, Source};
-use super::stress::{finish_stress, put_stress};
+use super::stress::{At, FirstOutput};
 use super::svd_tile::SvdTile;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::material::Curvature;
@@ -118,6 +118,7 @@ impl<E, M, const HAS_SECOND: bool, const HAS_ALL: bool, const REST: usize, const
 where
     E: Scalar,
     M: OutputByInvariants<REST, N>,
+    At<REST>: FirstOutput<REST>,
 {
     /// The points that keep their digits and stay in range.
     type Output = u64;
@@ -145,11 +146,11 @@ where
             let largest = M::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
             let stress = terms.stress();
             let keeps_digits = terms.keeps_digits(largest) & M::stays_finite(terms.bound(), &rest);
-            let stays_finite = put_stress(&stress, &rest, &mut first, short_line, at);
+            let stays_finite = At::<REST>::put(&stress, &rest, &mut first, short_line, at);
             served |= R::bits(keeps_digits & stays_finite) << at;
             // Where no register holds anything any more: the transposes need them all.
             second.finish::<R, N>(line, at, count);
-            finish_stress::<R, REST>(&mut first, short_line, at, count);
+            At::<REST>::finish::<R>(&mut first, short_line, at, count);
         });
         served & first_bits(count)
     }
@@ -167,6 +168,7 @@ pub(crate) fn shape_by_invariants<E, F, const REST: usize, const N: usize>(
 where
     E: Scalar,
     F: OutputByInvariants<REST, N>,
+    At<REST>: FirstOutput<REST>,
 {
     let has_second = kernel.has_second_invariant;
     match (has_second, kernel.curvature.has_all(has_second)) {

@@ -20,12 +20,46 @@ use super::x86::{F32x8, F32x16, F64x4, F64x8};
 ///
 /// `run` must be `#[inline(always)]`, and so must all arithmetic that it calls: only code that is inlined
 /// into the function of the back end is compiled for its instructions.
-pub trait Kernel<E: Scalar> {
+pub trait Kernel<E: Scalar>: Sized {
     /// The result of the computation.
     type Output;
 
     /// Computes with lanes of type `R`.
     fn run<R: Lanes<Scalar = E>>(self) -> Self::Output;
+
+    // The functions of the back ends, for `Backend::run` alone. They are methods of the kernel because the
+    // compiler places a method with the module of its type: kernels of several modules are then compiled at
+    // the same time.
+
+    /// [`run`](Self::run) with the instructions of AVX-512.
+    ///
+    /// # Safety
+    /// The processor has AVX-512F, AVX-512DQ, AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    #[doc(hidden)]
+    #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
+    unsafe fn with_avx512(self) -> Self::Output {
+        align_stack();
+        self.run::<E::In<Avx512>>()
+    }
+
+    /// [`run`](Self::run) with the instructions of AVX2.
+    ///
+    /// # Safety
+    /// The processor has AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    #[doc(hidden)]
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn with_avx2(self) -> Self::Output {
+        align_stack();
+        self.run::<E::In<Avx2>>()
+    }
+
+    /// [`run`](Self::run) with the instructions of every processor.
+    #[doc(hidden)]
+    fn portable(self) -> Self::Output {
+        self.run::<E::In<Portable>>()
+    }
 }
 
 /// Instruction set of this processor, which kernels run with.
@@ -91,31 +125,15 @@ impl Backend {
     /// Runs a kernel with the lanes of this back end.
     #[inline]
     pub fn run<E: Scalar, K: Kernel<E>>(self, kernel: K) -> K::Output {
-        #[cfg(target_arch = "x86_64")]
-        {
-            #[target_feature(enable = "avx512f,avx512dq,avx2,fma")]
-            fn with_avx512<E: Scalar, K: Kernel<E>>(kernel: K) -> K::Output {
-                align_stack();
-                kernel.run::<E::In<Avx512>>()
-            }
-
-            #[target_feature(enable = "avx2,fma")]
-            fn with_avx2<E: Scalar, K: Kernel<E>>(kernel: K) -> K::Output {
-                align_stack();
-                kernel.run::<E::In<Avx2>>()
-            }
-
-            match self.0 {
-                // SAFETY: `available` alone makes a `Backend` of these instructions, having found them.
-                Instructions::Avx512 => return unsafe { with_avx512(kernel) },
-                // SAFETY: as above.
-                Instructions::Avx2 => return unsafe { with_avx2(kernel) },
-                Instructions::Portable => {}
-            }
+        match self.0 {
+            // SAFETY: `available` alone makes a `Backend` of these instructions, having found them.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => unsafe { kernel.with_avx512() },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => unsafe { kernel.with_avx2() },
+            Instructions::Portable => kernel.portable(),
         }
-        #[cfg(not(target_arch = "x86_64"))]
-        let Instructions::Portable = self.0;
-        kernel.run::<E::In<Portable>>()
     }
 
     /// Copies a slice by [`Lanes::store_non_temporal`], for tests of the memory that it writes.

@@ -4,7 +4,7 @@
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, Kernels, Layout, MatrixForm, REST, TileMaterial};
+use piola::batch::{Batch, Kernels, Layout, REST, TileMaterial};
 use piola::lanes::{Backend, Real, Scalar};
 use piola::point::{Filter, Matrix3, Point, evaluate, evaluate_energy};
 use piola::{Inversion, Material, StatusCell, Survey, material};
@@ -123,23 +123,16 @@ fn number<E: Number>(layout: Layout, slice: &[E], numbers: usize, p: usize, k: u
     slice[layout.index::<E>(p, numbers, k)]
 }
 
-/// Index of an entry among those on and above the diagonal of a matrix, row by row.
-fn packed(size: usize, row: usize, column: usize) -> usize {
-    size * row - row * (row + 1) / 2 + column
-}
-
 /// Everything that a batch gives.
 #[derive(Debug, PartialEq)]
 struct All<E> {
-    surveys: [Survey; 6],
+    surveys: [Survey; 4],
     energies: Vec<E>,
     P: Vec<E>,
     P_with_tangent: Vec<E>,
     full: Vec<E>,
-    packed: Vec<E>,
     gradients: Vec<E>,
     stiffnesses: Vec<E>,
-    packed_stiffnesses: Vec<E>,
 }
 
 fn all<E: Number>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> All<E> {
@@ -149,23 +142,19 @@ fn all<E: Number>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> A
     let rest = lay(layout, &sample.rest);
     let zero = |numbers: usize| vec![E::of(0.0); numbers * count];
     let mut all = All {
-        surveys: [Survey::default(); 6],
+        surveys: [Survey::default(); 4],
         energies: zero(1),
         P: zero(9),
         P_with_tangent: zero(9),
         full: zero(81),
-        packed: zero(45),
         gradients: zero(12),
         stiffnesses: zero(144),
-        packed_stiffnesses: zero(78),
     };
     let surveys = [
         batch.energies(&F, &mut all.energies),
         batch.stresses(&F, &mut all.P),
-        batch.tangents(MatrixForm::Full, &F, &mut all.P_with_tangent, &mut all.full),
-        batch.tangents(MatrixForm::Packed, &F, &mut all.P_with_tangent, &mut all.packed),
-        batch.stiffnesses(MatrixForm::Full, &F, &rest, &mut all.gradients, &mut all.stiffnesses),
-        batch.stiffnesses(MatrixForm::Packed, &F, &rest, &mut all.gradients, &mut all.packed_stiffnesses),
+        batch.tangents(&F, &mut all.P_with_tangent, &mut all.full),
+        batch.stiffnesses(&F, &rest, &mut all.gradients, &mut all.stiffnesses),
     ];
     all.surveys = surveys.map(|survey| survey.expect("lengths fit"));
     all
@@ -212,7 +201,7 @@ fn check_against_points<E: Number, M: Material>(material: &M, skip: impl Fn(usiz
                 }
                 check_point(&mut worst, &found, &sample, p, material, &F, &point);
             }
-            assert_eq!(found.surveys.map(|survey| survey.refused), [refused; 6], "{backend}");
+            assert_eq!(found.surveys.map(|survey| survey.refused), [refused; 4], "{backend}");
             // Twice the 20 u of a decomposition, times what a material makes of it.
             assert!(worst.0 <= 400.0, "{backend}, {filter:?}: {} u", worst.0);
         }
@@ -228,7 +217,6 @@ fn check_point<E: Number>(
     F: &Matrix3<E>,
     point: &Point<E>,
 ) {
-    let layout = Layout::Points;
     let dP_dF = point.tangent.to_matrix();
     let size = norm(F.iter().flatten().copied()).max(1.0);
     let unfiltered = evaluate(material, F, Filter::None).tangent.to_matrix();
@@ -240,10 +228,7 @@ fn check_point<E: Number>(
         worst.see(found.P_with_tangent[9 * p + k], point.stress[k / 3][k % 3], stress);
         for l in 0..9 {
             worst.see(found.full[81 * p + 9 * k + l], dP_dF[k][l], stiff * size * size);
-            if l >= k {
-                let entry = number(layout, &found.packed, 45, p, packed(9, k, l));
-                assert!(entry == found.full[81 * p + 9 * k + l]);
-            }
+            assert!(found.full[81 * p + 9 * k + l] == found.full[81 * p + 9 * l + k]);
         }
     }
     // Column 3n+a of G is ∂F/∂x_na: Dm⁻¹ in row a, with minus the sum for node 0.
@@ -270,9 +255,7 @@ fn check_point<E: Number>(
             }
             let mine = found.stiffnesses[144 * p + 12 * row + column];
             worst.see(mine, entry, shape * shape * stiff * size * size);
-            if column >= row {
-                assert!(mine == found.packed_stiffnesses[78 * p + packed(12, row, column)]);
-            }
+            assert!(mine == found.stiffnesses[144 * p + 12 * column + row]);
         }
     }
 }
@@ -310,10 +293,8 @@ fn bits<E: Number>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
         (&all.P, 9),
         (&all.P_with_tangent, 9),
         (&all.full, 81),
-        (&all.packed, 45),
         (&all.gradients, 12),
         (&all.stiffnesses, 144),
-        (&all.packed_stiffnesses, 78),
     ];
     for p in 0..count {
         for (output, numbers) in outputs {
@@ -379,7 +360,7 @@ fn matrices_by_columns_give_matrices_by_columns() {
         let F: Vec<f64> = F.iter().flat_map(|F| (0..9).map(|k| F[place(k)]).collect::<Vec<_>>()).collect();
         let (mut energies, mut P, mut dP_dF) = (vec![0.0; 100], vec![0.0; 900], vec![0.0; 8100]);
         let batch = Batch::new(&SaintVenantKirchhoff).with_filter(Filter::Clamp);
-        let survey = batch.energies_and_tangents(MatrixForm::Full, &F, &mut energies, &mut P, &mut dP_dF);
+        let survey = batch.energies_and_tangents(&F, &mut energies, &mut P, &mut dP_dF);
         assert!(survey.expect("lengths fit").is_clean());
         let entries = |k: usize, n: usize| 81 * k + 9 * place(n / 9) + place(n % 9);
         let mut all = energies;
@@ -403,9 +384,7 @@ fn a_survey_counts_and_names_the_first() {
     for backend in Backend::available() {
         let batch = Batch::new(&NeoHookean).with_backend(backend);
         let (mut P, mut dP_dF, mut energies) = (vec![0.0; 9 * 130], vec![0.0; 81 * 130], vec![0.0; 130]);
-        for survey in
-            [batch.energies(&F, &mut energies), batch.tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF)]
-        {
+        for survey in [batch.energies(&F, &mut energies), batch.tangents(&F, &mut P, &mut dP_dF)] {
             let survey = survey.expect("lengths fit");
             // The logarithm of a negative number is not finite, and what is not a number is in no domain.
             assert_eq!((survey.refused, survey.nonfinite, survey.first), (3, 3, Some(100)), "{backend}");

@@ -1,7 +1,7 @@
 //! Sums over the quadrature points of elements with any number of nodes.
 
 use piola::__private::random::Random;
-use piola::batch::{Batch, Kernels, LengthError, MatrixForm, Quadrature};
+use piola::batch::{Batch, Kernels, LengthError, Quadrature};
 use piola::lanes::Backend;
 
 use crate::hand_written::SaintVenantKirchhoff;
@@ -22,9 +22,7 @@ fn check<E: Kernels>(nodes: usize, points: usize) {
     for backend in Backend::available() {
         let mut elements = Quadrature::new(nodes, points).with_backend(backend);
         elements.deform(&positions, &slopes, &mut F).expect("lengths fit");
-        Batch::new(&SaintVenantKirchhoff)
-            .tangents(MatrixForm::Full, &F, &mut P, &mut dP_dF)
-            .expect("lengths fit");
+        Batch::new(&SaintVenantKirchhoff).tangents(&F, &mut P, &mut dP_dF).expect("lengths fit");
         let mut gradients = zeros(3 * nodes * ELEMENTS);
         let mut stiffnesses = zeros(9 * nodes * nodes * ELEMENTS);
         elements.gradients(&slopes, &volumes, &P, &mut gradients).expect("lengths fit");

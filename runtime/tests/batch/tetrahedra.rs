@@ -2,7 +2,7 @@
 
 use piola::__private::random::Random;
 use piola::NoSuchNode;
-use piola::batch::{Batch, Kernels, Layout, LengthError, MatrixForm, REST, Tetrahedra, TileMaterial};
+use piola::batch::{Batch, Kernels, Layout, LengthError, REST, Tetrahedra, TileMaterial};
 use piola::lanes::{Backend, Real, Scalar};
 use piola::point::Filter;
 
@@ -94,36 +94,14 @@ where
             let (F, rest) = (lay(layout, &F, unit_F), lay(layout, &rest, unit));
             let count = rest.len() / REST;
             let zeros = |numbers: usize| vec![E::splat(0.0); numbers * count];
-            let (mut gradients, mut full, mut packed) = (zeros(12), zeros(144), zeros(78));
-            let (mut expected_gradients, mut expected, mut expected_packed) =
-                (zeros(12), zeros(144), zeros(78));
-            let at = batch.stiffnesses_at(
-                MatrixForm::Full,
-                tetrahedra,
-                &positions,
-                &rest,
-                &mut gradients,
-                &mut full,
-            );
-            let from = batch.stiffnesses(MatrixForm::Full, &F, &rest, &mut expected_gradients, &mut expected);
+            let (mut gradients, mut full) = (zeros(12), zeros(144));
+            let (mut expected_gradients, mut expected) = (zeros(12), zeros(144));
+            let at = batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut full);
+            let from = batch.stiffnesses(&F, &rest, &mut expected_gradients, &mut expected);
             assert_eq!(at, from);
             assert!(at.expect("lengths fit").is_clean());
             close(&gradients, &expected_gradients);
             close(&full, &expected);
-            batch
-                .stiffnesses_at(
-                    MatrixForm::Packed,
-                    tetrahedra,
-                    &positions,
-                    &rest,
-                    &mut gradients,
-                    &mut packed,
-                )
-                .expect("lengths fit");
-            batch
-                .stiffnesses(MatrixForm::Packed, &F, &rest, &mut expected_gradients, &mut expected_packed)
-                .expect("lengths fit");
-            close(&packed, &expected_packed);
         }
     }
 }
@@ -168,7 +146,6 @@ fn elements_of_negative_volume_are_not_finite() {
         for backend in Backend::available() {
             for filter in [Filter::None, Filter::Clamp] {
                 let survey = Batch::new(energy).with_backend(backend).with_filter(filter).stiffnesses_at(
-                    MatrixForm::Full,
                     tetrahedra,
                     &positions,
                     rest.as_flattened(),
@@ -191,7 +168,7 @@ fn nodes_that_do_not_exist_and_lengths_that_do_not_fit_are_errors() {
     let batch = Batch::<f64>::new(&SaintVenantKirchhoff);
     let call = |positions: usize, rest: usize| {
         let (positions, rest) = (vec![[0.0; 3]; positions], vec![0.0; rest]);
-        batch.stiffnesses_at(MatrixForm::Full, tetrahedra, &positions, &rest, &mut [0.0; 24], &mut [0.0; 288])
+        batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut [0.0; 24], &mut [0.0; 288])
     };
     let wrong =
         |slice, found, components, points| Err(LengthError { slice, found, components, points, group: 1 });

@@ -54,11 +54,6 @@ impl Hostile {
         if self.0.once_in(4) { self.one_of(&ENDS) } else { self.0.uniform(-2.0, 2.0) }
     }
 
-    /// Mostly a good number.
-    pub(crate) fn about(&mut self, good: f64) -> f64 {
-        if self.0.once_in(8) { self.number() } else { good }
-    }
-
     pub(crate) fn point(&mut self) -> [f64; 3] {
         [(); 3].map(|()| self.number())
     }

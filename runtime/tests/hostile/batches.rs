@@ -1,7 +1,7 @@
 //! Batches of points and of elements.
 
 use piola::StatusCell;
-use piola::batch::{Batch, CsrPlaces, Layout, MatrixForm, Quadrature, REST, Tetrahedra};
+use piola::batch::{Batch, CsrPlaces, Layout, Quadrature, REST, Tetrahedra};
 use piola::point::Filter;
 use piola::point::measures::Measure;
 
@@ -24,16 +24,11 @@ fn batches() {
         let [mut one, mut nine, mut many] = [1, 9, 81].map(|size| hostile.numbers(size * points));
         let _ = batch.energies(&deformations, &mut one);
         let _ = batch.stresses(&deformations, &mut nine);
-        let _ = batch.tangents(MatrixForm::Full, &deformations, &mut nine, &mut many);
-        let _ = batch.energies_and_tangents(MatrixForm::Full, &deformations, &mut one, &mut nine, &mut many);
-        let mut packed = hostile.numbers(45 * points);
-        let _ = batch.tangents(MatrixForm::Packed, &deformations, &mut nine, &mut packed);
-        let _ =
-            batch.energies_and_tangents(MatrixForm::Packed, &deformations, &mut one, &mut nine, &mut packed);
+        let _ = batch.tangents(&deformations, &mut nine, &mut many);
+        let _ = batch.energies_and_tangents(&deformations, &mut one, &mut nine, &mut many);
         let (rest, mut gradients) = (hostile.numbers(REST * points), hostile.numbers(12 * points));
-        let [mut full, mut packed] = [144, 78].map(|size| hostile.numbers(size * points));
-        let _ = batch.stiffnesses(MatrixForm::Full, &deformations, &rest, &mut gradients, &mut full);
-        let _ = batch.stiffnesses(MatrixForm::Packed, &deformations, &rest, &mut gradients, &mut packed);
+        let mut full = hostile.numbers(144 * points);
+        let _ = batch.stiffnesses(&deformations, &rest, &mut gradients, &mut full);
         let [mut six, mut tangents] = [6, 36].map(|size| hostile.numbers(size * points));
         let measure = hostile.one_of(&Measure::ALL);
         let _ = batch.measured_stresses(measure, &deformations, &mut six);
@@ -54,17 +49,8 @@ fn tetrahedra_of_ones_own() {
         let points = if layout == Layout::Lines { count.next_multiple_of(8) } else { count };
         let positions = hostile.points(&vec![[0.5; 3]; nodes.min(20)]);
         let (rest, mut gradients) = (hostile.numbers(REST * points), hostile.numbers(12 * points));
-        let [mut full, mut packed] = [144, 78].map(|size| hostile.numbers(size * points));
-        let _ =
-            batch.stiffnesses_at(MatrixForm::Full, tetrahedra, &positions, &rest, &mut gradients, &mut full);
-        let _ = batch.stiffnesses_at(
-            MatrixForm::Packed,
-            tetrahedra,
-            &positions,
-            &rest,
-            &mut gradients,
-            &mut packed,
-        );
+        let mut full = hostile.numbers(144 * points);
+        let _ = batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut full);
 
         let rows = hostile.length(3 * 9).min(100);
         let mut starts: Vec<i64> = (0..=rows as i64).map(|row| row * rows as i64).collect();

@@ -5,7 +5,7 @@
 use std::hint::black_box;
 use std::ops::{Deref, DerefMut};
 
-use piola::batch::{Batch, Kernels, Layout, LengthError, MatrixForm, Tetrahedra};
+use piola::batch::{Batch, Kernels, Layout, LengthError, Tetrahedra};
 use piola::lanes::Scalar;
 
 use super::task::{CORNERS, Task};
@@ -56,18 +56,12 @@ impl<E: Kernels> Arrays<E> {
         match self.task {
             Task::Energies => batch.energies(F, first).map(drop),
             Task::Stresses => batch.stresses(F, first).map(drop),
-            Task::Tangents => batch.tangents(MatrixForm::Full, F, first, large).map(drop),
-            Task::PackedTangents => batch.tangents(MatrixForm::Packed, F, first, large).map(drop),
-            Task::Stiffnesses => batch.stiffnesses(MatrixForm::Full, F, second, first, large).map(drop),
-            Task::PackedStiffnesses => {
-                batch.stiffnesses(MatrixForm::Packed, F, second, first, large).map(drop)
-            }
+            Task::Tangents => batch.tangents(F, first, large).map(drop),
+            Task::Stiffnesses => batch.stiffnesses(F, second, first, large).map(drop),
             Task::StiffnessesAt => {
                 let tetrahedra = Tetrahedra::new(self.positions.len(), &self.tetrahedra);
                 let tetrahedra = tetrahedra.expect("nodes that exist");
-                batch
-                    .stiffnesses_at(MatrixForm::Full, tetrahedra, &self.positions, second, first, large)
-                    .map(drop)
+                batch.stiffnesses_at(tetrahedra, &self.positions, second, first, large).map(drop)
             }
         }
     }

@@ -16,38 +16,25 @@ pub enum Task {
     Stresses,
     /// P and 81 entries of dP/dF.
     Tangents,
-    /// P and 45 entries of dP/dF.
-    PackedTangents,
     /// Gradients and stiffnesses of elements, 144 entries.
     Stiffnesses,
-    /// Gradients and packed symmetric stiffnesses of elements, 78 entries.
-    PackedStiffnesses,
     /// Gradients and stiffnesses of elements, 144 entries, from the positions of their nodes.
     StiffnessesAt,
 }
 
 impl Task {
     /// All of them.
-    pub const ALL: [Self; 7] = [
-        Self::Energies,
-        Self::Stresses,
-        Self::Tangents,
-        Self::PackedTangents,
-        Self::Stiffnesses,
-        Self::PackedStiffnesses,
-        Self::StiffnessesAt,
-    ];
+    pub const ALL: [Self; 5] =
+        [Self::Energies, Self::Stresses, Self::Tangents, Self::Stiffnesses, Self::StiffnessesAt];
 
-    /// The name of the method, with the form.
+    /// The name of the method.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Energies => "energies",
             Self::Stresses => "stresses",
             Self::Tangents => "tangents",
-            Self::PackedTangents => "packed_tangents",
             Self::Stiffnesses => "stiffnesses",
-            Self::PackedStiffnesses => "packed_stiffnesses",
             Self::StiffnessesAt => "stiffnesses_at",
         }
     }
@@ -75,7 +62,7 @@ impl Task {
     /// The quantities that the task reads at each point.
     pub(super) fn inputs(self) -> [Input; 2] {
         match self {
-            Self::Stiffnesses | Self::PackedStiffnesses => [Input::Deformation, Input::RestShape],
+            Self::Stiffnesses => [Input::Deformation, Input::RestShape],
             Self::StiffnessesAt => [Input::Nothing, Input::RestShapeAtNodes],
             _ => [Input::Deformation, Input::Nothing],
         }
@@ -87,9 +74,7 @@ impl Task {
             Self::Energies => [1, 0],
             Self::Stresses => [9, 0],
             Self::Tangents => [9, 81],
-            Self::PackedTangents => [9, 45],
             Self::Stiffnesses | Self::StiffnessesAt => [12, 144],
-            Self::PackedStiffnesses => [12, 78],
         }
     }
 }

@@ -13,7 +13,7 @@ use std::error::Error;
 use std::io::{Write, stdin, stdout};
 
 use piola::Inversion;
-use piola::batch::{Batch, Kernels, MatrixForm, TileMaterial};
+use piola::batch::{Batch, Kernels, TileMaterial};
 use piola::lanes::Backend;
 use piola::point::Filter;
 use piola_declare::Energy;
@@ -113,13 +113,11 @@ impl Request {
         let statuses: Vec<_> = (0..count).map(|_| Default::default()).collect();
         plain.energies(&deformations, &mut psi)?;
         plain.with_filter(Filter::Clamp).tangents(
-            MatrixForm::Full,
             &deformations,
             &mut stress,
             &mut projected,
         )?;
         plain.with_statuses(&statuses).tangents(
-            MatrixForm::Full,
             &deformations,
             &mut stress,
             &mut tangent,

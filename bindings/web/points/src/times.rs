@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::io::Write;
 use std::time::Instant;
 
-use piola::batch::{Batch, MatrixForm, TileMaterial};
+use piola::batch::{Batch, TileMaterial};
 use piola::lanes::Backend;
 use piola::material::Response;
 use piola::point::{self, Filter};
@@ -50,7 +50,7 @@ fn write_of<M: TileMaterial<f64> + Response<f64>>(
         let batch = Batch::new(material).with_filter(filter).with_backend(backend);
         // The lengths fit together.
         let time = least(|| {
-            let _ = batch.tangents(MatrixForm::Full, black_box(&deformations), &mut stress, &mut tangent);
+            let _ = batch.tangents(black_box(&deformations), &mut stress, &mut tangent);
         });
         write!(to, "  {backend} {time:6.0}")?;
     }

@@ -22,16 +22,12 @@ use piola_speed::{
 mod typed;
 
 /// Results: the title of a column, the task, and the filter.
-const COLUMNS: [(&str, Task, Filter); 9] = [
+const COLUMNS: [(&str, Task, Filter); 5] = [
     ("P", Task::Stresses, Filter::None),
     ("P + dP/dF 81", Task::Tangents, Filter::None),
     ("+ PSD", Task::Tangents, Filter::Clamp),
     ("f + K 144", Task::Stiffnesses, Filter::None),
     ("+ PSD", Task::Stiffnesses, Filter::Clamp),
-    ("P + 45", Task::PackedTangents, Filter::None),
-    ("+ PSD", Task::PackedTangents, Filter::Clamp),
-    ("f + K 78", Task::PackedStiffnesses, Filter::None),
-    ("+ PSD", Task::PackedStiffnesses, Filter::Clamp),
 ];
 
 /// Prints all tables in Markdown, each as soon as it is measured.

@@ -3,7 +3,7 @@
 #![expect(non_snake_case, reason = "F, P, K as in the literature")]
 
 use piola::Real;
-use piola::batch::{Batch, Kernels, Layout, MatrixForm, TileMaterial};
+use piola::batch::{Batch, Kernels, Layout, TileMaterial};
 use piola::lanes::{Backend, Kernel, Lanes, Scalar};
 use piola::material::Blocks;
 use piola::point::{Filter, Matrix3, Svd};
@@ -172,7 +172,7 @@ impl<E: Number> Contestant<E> {
         let run = move |points: &Points<E>, output: &mut Output<E>| {
             let layout = Layout::Lines;
             let batch = Batch::new(&material).with_filter(filter).with_layout(layout);
-            let survey = batch.tangents(MatrixForm::Full, &points.lines, &mut output.P, &mut output.K);
+            let survey = batch.tangents(&points.lines, &mut output.P, &mut output.K);
             // What a survey complains of, the reference judges too.
             survey.expect("the slices fit the points");
         };
