@@ -59,6 +59,7 @@
 
 mod chained;
 #[cfg(test)]
+#[allow(dead_code, reason = "each crate that includes this file needs some of it")]
 #[path = "../../runtime/src/hand_written.rs"]
 mod hand_written;
 pub mod mesh;

@@ -107,7 +107,6 @@ impl Material for NeoHookean {
 }
 
 /// [`NeoHookean`] as μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
-#[allow(dead_code, reason = "not every test that includes this file needs it")]
 pub(crate) struct NeoHookeanByInvariants;
 
 impl Material for NeoHookeanByInvariants {

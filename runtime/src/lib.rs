@@ -233,6 +233,7 @@ pub mod contract;
 pub mod convert;
 mod dynamic;
 #[cfg(test)]
+#[allow(dead_code, reason = "each crate that includes this file needs some of it")]
 mod hand_written;
 // Its kernels are not compiled a second time for the unit tests, none of which needs them.
 #[cfg(all(feature = "interpreter", not(test)))]
