@@ -12,7 +12,7 @@ mod steps;
 use std::str::FromStr;
 
 use piola::__private::record::{
-    Recordable, Recorded, RecordedMask, Recording, UnrecordedParameter, evaluate_tetrahedron, record,
+    self, Recorded, RecordedMask, Recording, UnrecordedParameter, evaluate_tetrahedron,
 };
 use piola::interpreter::Interpreted;
 use piola::lanes::{Mask, Real};
@@ -295,31 +295,30 @@ impl Energy {
         let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
         let values = &values[..];
         let material = self.with_marked_parameters(&self.material(values, inversion)?);
-        match emission.precision {
-            Precision::F64 => self.file::<f64>(prefix, values, material, emission),
-            Precision::F32 => self.file::<f32>(prefix, values, material, emission),
-        }
-        .map(|file| printer::print(&file))
-        .map_err(EmitError::from)
+        Ok(printer::print(&self.file(prefix, values, material, emission)?))
     }
 
-    fn file<'a, E: Recordable>(
+    fn file<'a>(
         &'a self,
         prefix: String,
         values: &'a [&'a [f64]],
         material: Interpreted,
         emission: &Emission,
     ) -> Result<File<'a>, UnrecordedParameter> {
+        let format = match emission.precision {
+            Precision::F64 => record::Format::F64,
+            Precision::F32 => record::Format::F32,
+        };
         let mut wanted = emission.functions.clone();
         wanted.sort_unstable();
         wanted.dedup();
         // A material keeps what it has computed of its parameters, which belongs to one recording.
         let fresh = || material.clone_with(material.values().clone());
         let recorded =
-            |function| Ok(PointProgram { function, recording: recorded::<E>(function, &fresh())? });
+            |function| Ok(PointProgram { function, recording: recorded(format, function, &fresh())? });
         let functions = wanted.into_iter().map(recorded).collect::<Result<_, UnrecordedParameter>>()?;
         let is_prestressed = self.is_prestressed();
-        let rest = at_rest::<E>(&self.without_extension(&fresh()))?;
+        let rest = at_rest(format, &self.without_extension(&fresh()))?;
         let Emission { target, precision, .. } = *emission;
         let inversion = material.inversion();
         Ok(File {
@@ -337,7 +336,8 @@ impl Energy {
 }
 
 /// Runs a function of a point once.
-fn recorded<E: Recordable>(
+fn recorded(
+    format: record::Format,
     function: PointFunction,
     material: &Interpreted,
 ) -> Result<Recording, UnrecordedParameter> {
@@ -346,7 +346,7 @@ fn recorded<E: Recordable>(
         PointFunction::Tetrahedron | PointFunction::ProjectedTetrahedron => 22,
         _ => 9,
     };
-    record(count, |arguments: &[Recorded<E>]| {
+    record::record(format, count, |arguments| {
         let bits = |status: Status<RecordedMask>| {
             vec![status.refused, status.bounded, status.nonfinite, status.filtered]
         };
@@ -393,8 +393,8 @@ fn recorded<E: Recordable>(
 }
 
 /// Twice the shear modulus and three times the bulk modulus at rest, and true if rest is inside the domain.
-fn at_rest<E: Recordable>(material: &Interpreted) -> Result<Recording, UnrecordedParameter> {
-    record(0, |_: &[Recorded<E>]| {
+fn at_rest(format: record::Format, material: &Interpreted) -> Result<Recording, UnrecordedParameter> {
+    record::record(format, 0, |_| {
         let one = Recorded::splat(1.0);
         let blocks = material.blocks([one; 3]);
         let [h11, _, _, h12, ..] = blocks.hessian;

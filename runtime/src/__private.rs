@@ -45,7 +45,7 @@ pub mod random {
 pub mod record {
     pub use crate::kernels::tetrahedron::{DenseTetrahedron, evaluate_tetrahedron};
     pub use crate::lanes::recorded::program::{
-        Binary, Function, Id, Recordable, RecordedOperation, RecordedProgram, Recording, Unary,
+        Binary, Format, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary,
         UnrecordedParameter,
     };
     pub use crate::lanes::recorded::{Recorded, RecordedMask, parameter, record};

@@ -147,8 +147,8 @@ fn tanhc<R: Real>(v2: R) -> R {
 }
 
 /// True if a series needs more than the 24 bits of `f32`.
-const fn is_double<R: Real>() -> bool {
-    R::UNIT_ROUNDOFF < 1e-10
+fn is_double<R: Real>() -> bool {
+    R::unit_roundoff() < 1e-10
 }
 
 /// ln(λ1 λ2 λ3) for λ1 ≥ λ2 ≥ λ3 > 0, even if the product is out of range.
@@ -160,7 +160,7 @@ const fn is_double<R: Real>() -> bool {
 pub fn ln_product<R: Real>([l1, l2, l3]: [R; 3]) -> R {
     let extremes = l1 * l3;
     let product = extremes * l2;
-    let smallest = R::splat(R::MIN_POSITIVE);
+    let smallest = R::splat(R::min_positive());
     let in_range = smallest.less(extremes) & smallest.less(product) & product.is_finite();
     let ln = product.ln();
     // The sum is computed only if a lane needs it, and only that lane takes it.
@@ -180,7 +180,7 @@ pub fn above_zero<R: Real>(base: R) -> R {
     R::select(
         base.less(R::splat(0.0)),
         R::splat(f64::NAN),
-        base.max(R::splat(R::MIN_POSITIVE / (R::UNIT_ROUNDOFF * R::UNIT_ROUNDOFF))),
+        base.max(R::splat(R::min_positive() / (R::unit_roundoff() * R::unit_roundoff()))),
     )
 }
 
@@ -208,7 +208,7 @@ pub fn share_below<R: Real>(a: R, b: R, epsilon: R) -> R {
 /// absolute part keeps a quotient by λi + λj finite if all stretches vanish.
 #[inline(always)]
 pub fn pole_floor<R: Real>(stretches: [R; 3]) -> R {
-    (R::splat(2.0 * R::UNIT_ROUNDOFF) * stretches[0].abs()).max(R::splat(R::MIN_POSITIVE.sqrt()))
+    (R::splat(2.0 * R::unit_roundoff()) * stretches[0].abs()).max(R::splat(R::min_positive().sqrt()))
 }
 
 #[cfg(test)]

@@ -273,7 +273,7 @@ impl<F: Univariate, const N: u8> Derivative<'_, F, N> {
         let half = R::splat(0.5);
         let [at_a, at_b, middle] = [a, b, a.mul_add(half, b * half)].map(slope);
         let (first, second) = (at_a - at_b, (at_a - middle) - (middle - at_b));
-        let noise = R::splat(16384.0 * R::UNIT_ROUNDOFF) * at_a.abs().max(at_b.abs()).max(middle.abs());
+        let noise = R::splat(16384.0 * R::unit_roundoff()) * at_a.abs().max(at_b.abs()).max(middle.abs());
         (R::splat(0.25) * first.abs() + noise).less(second.abs())
     }
 }

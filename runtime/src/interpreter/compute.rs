@@ -100,7 +100,7 @@ pub(super) fn compute<R: Real, const G: usize>(
         ($to:expr, [$($x:ident: $register:expr),+] $value:expr) => {{
             let to = file.number($to);
             $(let $x = file.number($register);)+
-            if to.is_constant() {
+            if const { G == 1 } || to.is_constant() {
                 to.set(0, { $(let $x = $x.get(0);)+ $value });
             } else {
                 arithmetic!(to, [] [$($x)+] $value);

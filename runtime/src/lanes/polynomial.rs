@@ -2,8 +2,8 @@
 
 use super::real::Real;
 
-pub(super) const fn is_single<R: Real>() -> bool {
-    R::UNIT_ROUNDOFF > 1e-10
+pub(super) fn is_single<R: Real>() -> bool {
+    R::unit_roundoff() > 1e-10
 }
 
 /// Σ cₖ xᵏ by Horner's rule, with the coefficients that were fitted for the number format.

@@ -7,11 +7,20 @@ pub trait Primitive: Real {
     /// True if [`Real::mul_add`] rounds once.
     const IS_FUSED: bool;
 
-    /// Binary digits of the significand: u is 2 to the power of −DIGITS.
-    const DIGITS: u32 = 1023 - (Self::UNIT_ROUNDOFF.to_bits() >> 52) as u32;
-
     /// ¾/u. Adding and subtracting it rounds |x| ≤ 2⁵⁰ (`f32`: 2²¹) to the nearest integer.
     const ROUNDING: f64 = 0.75 / Self::UNIT_ROUNDOFF;
+
+    /// Binary digits of the significand: u is 2 to the power of minus their number.
+    #[inline(always)]
+    fn digits() -> u32 {
+        1023 - (Self::unit_roundoff().to_bits() >> 52) as u32
+    }
+
+    /// [`ROUNDING`](Self::ROUNDING) of the numbers that are computed with.
+    #[inline(always)]
+    fn rounding() -> f64 {
+        0.75 / Self::unit_roundoff()
+    }
 
     /// self = ±0.
     fn is_zero(self) -> Self::Mask;
@@ -35,8 +44,8 @@ pub trait Primitive: Real {
 #[inline(always)]
 pub(super) fn lift<P: Primitive>(x: P) -> (P, P) {
     // 1/u is 2 to the number of digits.
-    let (power, exponent) = (1.0 / P::UNIT_ROUNDOFF, f64::from(P::DIGITS));
-    let is_tiny = x.less(P::splat(P::MIN_POSITIVE));
+    let (power, exponent) = (1.0 / P::unit_roundoff(), f64::from(P::digits()));
+    let is_tiny = x.less(P::splat(P::min_positive()));
     (P::select(is_tiny, x * P::splat(power), x), P::select(is_tiny, P::splat(exponent), P::splat(0.0)))
 }
 

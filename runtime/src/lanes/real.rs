@@ -31,6 +31,21 @@ pub trait Real:
     /// The smallest positive normal number.
     const MIN_POSITIVE: f64;
 
+    /// [`UNIT_ROUNDOFF`](Self::UNIT_ROUNDOFF) of the numbers that are computed with: a type may have its format
+    /// at run time.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn unit_roundoff() -> f64 {
+        Self::UNIT_ROUNDOFF
+    }
+
+    /// [`MIN_POSITIVE`](Self::MIN_POSITIVE), likewise.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn min_positive() -> f64 {
+        Self::MIN_POSITIVE
+    }
+
     /// `value` in every lane, rounded to the number format.
     fn splat(value: f64) -> Self;
 

@@ -15,20 +15,20 @@ mod tape;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::marker::PhantomData;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::elementary::{self, Logarithm};
 use super::primitive::Primitive;
 use super::real::{Mask, Real};
 use program::{
-    Binary, Function, Id, Recordable, RecordedOperation, RecordedProgram, Recording, Unary,
-    UnrecordedParameter, calls,
+    Binary, Format, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary, UnrecordedParameter,
+    calls,
 };
 use tape::Tape;
 
 #[derive(Default)]
 struct Recorder {
+    format: Format,
     /// The program, and above it the functions that are being recorded.
     tapes: Vec<Tape>,
     functions: BTreeMap<Function, RecordedProgram>,
@@ -37,23 +37,14 @@ struct Recorder {
 
 thread_local!(static RECORDER: RefCell<Recorder> = RefCell::default());
 
-/// A number of a program in the format E.
-pub struct Recorded<E> {
-    id: Id,
-    format: PhantomData<E>,
-}
+/// A number of a program, in the format that [`record`] was given: the code that records is compiled once for
+/// all formats.
+#[derive(Clone, Copy)]
+pub struct Recorded(Id);
 
-impl<E> Clone for Recorded<E> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<E> Copy for Recorded<E> {}
-
-impl<E> fmt::Debug for Recorded<E> {
+impl fmt::Debug for Recorded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "operation {}", self.id)
+        write!(f, "operation {}", self.0)
     }
 }
 
@@ -71,28 +62,26 @@ pub fn parameter(k: u32) -> f64 {
 const PARAMETERS: u64 = 0x7ff4_9101_0000_0000;
 const QUIET: u64 = 0x7ffc_9101_0000_0000;
 
-/// Records a computation from arguments to numbers and truth values.
+/// Records a computation from arguments to numbers and truth values in a format.
 ///
 /// # Errors
 /// [`UnrecordedParameter`] if the computation has used a [`parameter`] other than as a number of the program.
-pub fn record<E: Recordable>(
+pub fn record(
+    format: Format,
     arguments: usize,
-    computation: impl FnOnce(&[Recorded<E>]) -> (Vec<Recorded<E>>, Vec<RecordedMask>),
+    computation: impl FnOnce(&[Recorded]) -> (Vec<Recorded>, Vec<RecordedMask>),
 ) -> Result<Recording, UnrecordedParameter> {
-    let before = RECORDER.take();
+    let before = RECORDER.replace(Recorder { format, ..Recorder::default() });
     let program = recorded(arguments, |arguments| {
         let (numbers, masks) = computation(arguments);
-        numbers.iter().map(|number| number.id).chain(masks.iter().map(|mask| mask.0)).collect()
+        numbers.iter().map(|number| number.0).chain(masks.iter().map(|mask| mask.0)).collect()
     });
     let Recorder { functions, has_lost_parameter, .. } = RECORDER.replace(before);
     if has_lost_parameter { Err(UnrecordedParameter) } else { Ok(Recording { program, functions }) }
 }
 
 /// The program of a computation on a tape of its own.
-fn recorded<E: Recordable>(
-    count: usize,
-    computation: impl FnOnce(&[Recorded<E>]) -> Vec<Id>,
-) -> RecordedProgram {
+fn recorded(count: usize, computation: impl FnOnce(&[Recorded]) -> Vec<Id>) -> RecordedProgram {
     RECORDER.with_borrow_mut(|recorder| recorder.tapes.push(Tape::default()));
     let arguments: Vec<_> = (0..count as u32).map(|k| Recorded::of(RecordedOperation::Argument(k))).collect();
     let results = computation(&arguments);
@@ -102,47 +91,53 @@ fn recorded<E: Recordable>(
 
 /// Results of a function, which is recorded when it is first called. The second is valid only if the function
 /// [is a pair](Function::is_pair).
-fn call<E: Recordable>(
+fn call(
     function: Function,
-    arguments: &[Recorded<E>],
-    body: impl FnOnce(&[Recorded<E>]) -> [Recorded<E>; 2],
-) -> [Recorded<E>; 2] {
+    arguments: &[Recorded],
+    body: impl FnOnce(&[Recorded]) -> [Recorded; 2],
+) -> [Recorded; 2] {
     if !RECORDER.with_borrow(|recorder| recorder.functions.contains_key(&function)) {
-        let program = recorded(arguments.len(), |arguments: &[Recorded<E>]| {
-            let results = body(arguments).map(|result| result.id);
+        let program = recorded(arguments.len(), |arguments: &[Recorded]| {
+            let results = body(arguments).map(|result| result.0);
             results[..if function.is_pair() { 2 } else { 1 }].to_vec()
         });
         RECORDER.with_borrow_mut(|recorder| recorder.functions.insert(function, program));
     }
     let called = Recorded::of(RecordedOperation::Call(
         function,
-        std::array::from_fn(|k| arguments.get(k).map(|argument| argument.id)),
+        std::array::from_fn(|k| arguments.get(k).map(|argument| argument.0)),
     ));
-    [called, if function.is_pair() { Recorded::of(RecordedOperation::Second(called.id)) } else { called }]
+    [called, if function.is_pair() { Recorded::of(RecordedOperation::Second(called.0)) } else { called }]
 }
 
-impl<E: Recordable> Recorded<E> {
+impl Format {
+    /// The format of the program that is being recorded.
+    fn current() -> Self {
+        RECORDER.with_borrow(|recorder| recorder.format)
+    }
+}
+
+impl Recorded {
     fn of(operation: RecordedOperation) -> Self {
         let id = RECORDER.with_borrow_mut(|recorder| match recorder.tapes.last_mut() {
-            Some(tape) => tape.simplified::<E>(operation),
+            Some(tape) => tape.simplified(recorder.format, operation),
             None => 0,
         });
-        Self { id, format: PhantomData }
+        Self(id)
     }
 
     fn unary(self, operator: Unary) -> Self {
-        Self::of(RecordedOperation::Unary(operator, self.id))
+        Self::of(RecordedOperation::Unary(operator, self.0))
     }
 
     fn binary(self, operator: Binary, other: Self) -> Self {
-        Self::of(RecordedOperation::Binary(operator, self.id, other.id))
+        Self::of(RecordedOperation::Binary(operator, self.0, other.0))
     }
 }
 
 impl RecordedMask {
     fn of(operation: RecordedOperation) -> Self {
-        // No operation on truth values depends on the format.
-        Self(Recorded::<f64>::of(operation).id)
+        Self(Recorded::of(operation).0)
     }
 }
 
@@ -191,7 +186,7 @@ impl Mask for RecordedMask {
 
 macro_rules! operators {
     ($($Trait:ident $method:ident),*) => {$(
-        impl<E: Recordable> $Trait for Recorded<E> {
+        impl $Trait for Recorded {
             type Output = Self;
 
             fn $method(self, other: Self) -> Self {
@@ -206,7 +201,7 @@ macro_rules! operators {
 }
 operators!(Add add, Sub sub, Mul mul, Div div);
 
-impl<E: Recordable> Neg for Recorded<E> {
+impl Neg for Recorded {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -214,11 +209,20 @@ impl<E: Recordable> Neg for Recorded<E> {
     }
 }
 
-impl<E: Recordable> Real for Recorded<E> {
+impl Real for Recorded {
     type Mask = RecordedMask;
     type Logarithm = Logarithm<Self>;
-    const UNIT_ROUNDOFF: f64 = E::UNIT_ROUNDOFF;
-    const MIN_POSITIVE: f64 = E::MIN_POSITIVE;
+    // Known at run time only: whoever reads these instead of the functions gets NaN.
+    const UNIT_ROUNDOFF: f64 = f64::NAN;
+    const MIN_POSITIVE: f64 = f64::NAN;
+
+    fn unit_roundoff() -> f64 {
+        Format::current().unit_roundoff()
+    }
+
+    fn min_positive() -> f64 {
+        Format::current().min_positive()
+    }
 
     fn splat(value: f64) -> Self {
         const SIGN: u64 = 1 << 63;
@@ -230,8 +234,7 @@ impl<E: Recordable> Real for Recorded<E> {
             }
             _ => {}
         }
-        let rounded: f64 = E::splat(value).into();
-        Self::of(RecordedOperation::Literal(rounded.to_bits()))
+        Self::of(RecordedOperation::Literal(Format::current().rounded(value).to_bits()))
     }
 
     fn from_fn(value: impl Fn(usize) -> f64) -> Self {
@@ -239,7 +242,7 @@ impl<E: Recordable> Real for Recorded<E> {
     }
 
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        Self::of(RecordedOperation::MulAdd(self.id, factor.id, addend.id))
+        Self::of(RecordedOperation::MulAdd(self.0, factor.0, addend.0))
     }
 
     fn sqrt(self) -> Self {
@@ -290,7 +293,7 @@ impl<E: Recordable> Real for Recorded<E> {
     }
 
     fn less(self, other: Self) -> RecordedMask {
-        RecordedMask::of(RecordedOperation::Less(self.id, other.id))
+        RecordedMask::of(RecordedOperation::Less(self.0, other.0))
     }
 
     fn is_finite(self) -> RecordedMask {
@@ -298,12 +301,12 @@ impl<E: Recordable> Real for Recorded<E> {
     }
 
     fn select(mask: RecordedMask, yes: Self, no: Self) -> Self {
-        Self::of(RecordedOperation::Select(mask.0, yes.id, no.id))
+        Self::of(RecordedOperation::Select(mask.0, yes.0, no.0))
     }
 
     fn two_product(self, other: Self) -> (Self, Self) {
         let operation =
-            RecordedOperation::Call(Function::ProductError, [Some(self.id), Some(other.id), None, None]);
+            RecordedOperation::Call(Function::ProductError, [Some(self.0), Some(other.0), None, None]);
         (self * other, Self::of(operation))
     }
 
@@ -312,17 +315,17 @@ impl<E: Recordable> Real for Recorded<E> {
     }
 }
 
-impl<E: Recordable> Primitive for Recorded<E> {
+impl Primitive for Recorded {
     // `two_product`, the only one that depends on it, is a function of the program.
     const IS_FUSED: bool = false;
 
     fn is_zero(self) -> RecordedMask {
-        RecordedMask::of(RecordedOperation::IsZero(self.id))
+        RecordedMask::of(RecordedOperation::IsZero(self.0))
     }
 
     fn split(self) -> (Self, Self) {
-        let called = Self::of(RecordedOperation::Call(Function::Split, [Some(self.id), None, None, None]));
-        (called, Self::of(RecordedOperation::Second(called.id)))
+        let called = Self::of(RecordedOperation::Call(Function::Split, [Some(self.0), None, None, None]));
+        (called, Self::of(RecordedOperation::Second(called.0)))
     }
 
     fn scale(self, exponent: Self) -> Self {

@@ -57,7 +57,7 @@ pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
     // is as good.
     let off_diagonal = a12.mul_add(a12, a13.mul_add(a13, a23 * a23));
     let squared = d11.mul_add(d11, d22.mul_add(d22, d33.mul_add(d33, two * off_diagonal)));
-    let floor = R::splat(R::MIN_POSITIVE);
+    let floor = R::splat(R::min_positive());
     let reciprocal = squared.mul_add(one / R::splat(6.0), floor).reciprocal_sqrt();
     let [b11, b22, b33] = [d11 * reciprocal, d22 * reciprocal, d33 * reciprocal];
     let [b12, b13, b23] = [a12 * reciprocal, a13 * reciprocal, a23 * reciprocal];
@@ -107,7 +107,7 @@ pub(super) fn deflate<R: Real>(A: [R; 6]) -> Deflation<R> {
 pub(super) fn rotation<R: Real>(d: R, g: R) -> (R, R) {
     // What is this small may keep its direction, but c = 1 where d = g = 0: the root is then twice that of
     // the smallest normal number, its square normal, and c² + s² = 1 to rounding down here too.
-    let floor = R::splat(4.0 * R::MIN_POSITIVE);
+    let floor = R::splat(4.0 * R::min_positive());
     let squared = d.mul_add(d, g.mul_add(g, floor));
     let x = d.abs() + squared.sqrt();
     let swap = d.less(R::splat(0.0));
@@ -145,7 +145,7 @@ fn cosine_of_third<R: Real>(x: R) -> R {
     for k in (0..POLYNOMIAL.len() - 1).rev() {
         y = y.mul_add(x, R::splat(POLYNOMIAL[k]));
     }
-    for _ in 0..newton_steps(R::UNIT_ROUNDOFF) {
+    for _ in 0..newton_steps(R::unit_roundoff()) {
         let four_y2 = R::splat(4.0) * y * y;
         let residual = y.mul_add(four_y2 - R::splat(3.0), -x);
         y = y - residual / four_y2.mul_add(R::splat(3.0), R::splat(-3.0));

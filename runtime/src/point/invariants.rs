@@ -44,13 +44,13 @@ pub(crate) fn invariants<R: Real>(F: &Matrix3<R>, has_second: bool) -> ([R; 3], 
     };
 
     // The eighth root of the range of entries: I2 and N below are of degree 4 and 6.
-    let (low, high) = (R::splat(R::MIN_POSITIVE.powf(0.25)), R::splat(R::MIN_POSITIVE.powf(-0.25)));
+    let (low, high) = (R::splat(R::min_positive().powf(0.25)), R::splat(R::min_positive().powf(-0.25)));
     // Nearer to zero, products of entries underflow, here or relative to the largest one, or J is less than
     // 2¹⁰ times what rounding does to its terms, so that neither its digits nor its sign are sure. There a
     // point is decomposed, and it is the decomposition that refuses.
-    let threshold = R::splat(R::MIN_POSITIVE / R::UNIT_ROUNDOFF);
+    let threshold = R::splat(R::min_positive() / R::unit_roundoff());
     let size = terms[0].abs() + terms[1].abs() + terms[2].abs();
-    let smallest = R::splat(1024.0 * R::UNIT_ROUNDOFF).mul_add(size, threshold.mul_add(I1 * I1, threshold));
+    let smallest = R::splat(1024.0 * R::unit_roundoff()).mul_add(size, threshold.mul_add(I1 * I1, threshold));
     let room = (I1 - low).min(high - I1).min(J.abs() - smallest);
     ([I1, I2, J], R::splat(0.0).less(room))
 }
@@ -88,7 +88,7 @@ pub(crate) fn stress_by_invariants<R: Real, const HAS_SECOND: bool>(
 /// derivatives below its root.
 #[inline(always)]
 pub(crate) fn gradient_is_in_range<R: Real>([W1, W2, WJ]: [R; 3]) -> R::Mask {
-    (W1.abs() + W2.abs() + WJ.abs()).less(R::splat(R::MIN_POSITIVE.powf(-0.5)))
+    (W1.abs() + W2.abs() + WJ.abs()).less(R::splat(R::min_positive().powf(-0.5)))
 }
 
 /// The sum of F, D and C times a factor each.

@@ -100,7 +100,7 @@ pub fn project<R: Real>(blocks: &Blocks<R>, filter: Filter) -> (Blocks<R>, R::Ma
         largest = flip[k].abs().max(twist[k].abs().max(largest));
         (flip[k], twist[k]) = (filtered(flip[k], slope), filtered(twist[k], slope));
     }
-    let is_filtered = smallest.less(R::splat(-16.0 * R::UNIT_ROUNDOFF) * largest);
+    let is_filtered = smallest.less(R::splat(-16.0 * R::unit_roundoff()) * largest);
     (Blocks { gradient, hessian, flip, twist }, is_filtered)
 }
 
@@ -153,7 +153,7 @@ fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
     let (f_larger, f_smaller) = (filtered(larger, slope), filtered(smaller, slope));
     let h = half * (f_larger + f_smaller);
     // The difference is zero where r is.
-    let k = (f_larger - f_smaller) / (r + r).max(R::splat(R::MIN_POSITIVE));
+    let k = (f_larger - f_smaller) / (r + r).max(R::splat(R::min_positive()));
     let (f11, f12, f22) = (k.mul_add(d, h), k * m12, h - k * d);
 
     let f_nu = filtered(nu, slope);
@@ -187,7 +187,7 @@ fn filtered_indefinite<R: Real>(A: [R; 6], slope: R) -> ([R; 6], R) {
 #[inline(always)]
 fn surely_definite<R: Real>(A: [R; 6]) -> R::Mask {
     let zero = R::splat(0.0);
-    let shift = R::splat(64.0 * R::UNIT_ROUNDOFF);
+    let shift = R::splat(64.0 * R::unit_roundoff());
     let [a11, a22, a33, a12, a13, a23] = A;
     let d1 = a11 - shift;
     let (l21, l31) = (a12 / d1, a13 / d1);

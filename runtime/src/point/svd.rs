@@ -84,7 +84,7 @@ pub(crate) fn unaligned_signed_by_determinant<R: Real>(F: &Matrix3<R>) -> Svd<R>
     let (F, back) = scaled(F);
     let (U, [s1, s2, s3], V) = decompose(&F);
     let area = s1 * s2;
-    let s3 = R::select(R::splat(R::MIN_POSITIVE).less(area), determinant(&F) / area, s3);
+    let s3 = R::select(R::splat(R::min_positive()).less(area), determinant(&F) / area, s3);
     // λ2 and the quotient are rounded independently, which must not disturb their order.
     let s3 = s3.abs().min(s2).copysign(s3);
     Svd { U, stretches: [s1 * back, s2 * back, s3 * back], V }
@@ -119,7 +119,7 @@ fn vanishes<R: Real>(x: R) -> R::Mask {
 #[inline(always)]
 pub(crate) fn along_axes<R: Real>(F: &Matrix3<R>, svd: Svd<R>) -> Svd<R> {
     let Svd { mut U, mut stretches, mut V } = svd;
-    let (zero, one, rounding) = (R::splat(0.0), R::splat(1.0), R::splat(64.0 * R::UNIT_ROUNDOFF));
+    let (zero, one, rounding) = (R::splat(0.0), R::splat(1.0), R::splat(64.0 * R::unit_roundoff()));
     for k in 0..3 {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         let others = F[k][i].abs().max(F[i][k].abs()).max(F[k][j].abs()).max(F[j][k].abs());
@@ -195,7 +195,7 @@ fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
     let [b1, b2, b3] = *columns;
 
     let squared = dot(b1, b1);
-    let vanishes = squared.less(R::splat(R::MIN_POSITIVE));
+    let vanishes = squared.less(R::splat(R::min_positive()));
     let (s1, inverse) = length(squared);
     let u1 = [
         R::select(vanishes, one, b1[0] * inverse),
@@ -206,7 +206,7 @@ fn left<R: Real>(columns: &[[R; 3]; 3]) -> (Matrix3<R>, [R; 3]) {
     let (p, q) = completed(u1);
     let (yp, yq) = (dot(b2, p), dot(b2, q));
     let squared = yp.mul_add(yp, yq * yq);
-    let vanishes = squared.less(R::splat(R::MIN_POSITIVE));
+    let vanishes = squared.less(R::splat(R::min_positive()));
     let (s2, inverse) = length(squared);
     // Where b2 vanishes, q completes u1 = e1 to the identity.
     let cp = R::select(vanishes, zero, yp * inverse);
@@ -232,7 +232,7 @@ fn completed<R: Real>([x, y, z]: [R; 3]) -> ([R; 3], [R; 3]) {
 /// number.
 #[inline(always)]
 fn length<R: Real>(squared: R) -> (R, R) {
-    let smallest = R::splat(R::MIN_POSITIVE);
+    let smallest = R::splat(R::min_positive());
     let vanishes = squared.less(smallest);
     let inverse = R::select(vanishes, smallest, squared).reciprocal_sqrt();
     (R::select(vanishes, R::splat(0.0), squared.sqrt()), inverse)

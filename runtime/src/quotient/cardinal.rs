@@ -8,7 +8,7 @@ use crate::lanes::Real;
 #[inline(always)]
 pub(super) fn cardinal<R: Real>(value: R, x: R) -> R {
     // A comparison that NaN fails, so that it stays NaN.
-    R::select(x.abs().less(R::splat(R::MIN_POSITIVE)), R::splat(1.0), value / x)
+    R::select(x.abs().less(R::splat(R::min_positive())), R::splat(1.0), value / x)
 }
 
 /// atan x/x.

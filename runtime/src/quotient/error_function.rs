@@ -39,7 +39,7 @@ pub fn erf_quotient<R: Real>(a: R, b: R) -> R {
 /// ½ the terms fall fast: what is left out is below u/16.
 #[inline(always)]
 fn mean_around_middle<R: Real>(m: R, h: R) -> R {
-    let order = if R::UNIT_ROUNDOFF < 1e-10 { 22 } else { 12 };
+    let order = if R::unit_roundoff() < 1e-10 { 22 } else { 12 };
     let two_h = h + h;
     let (slope, curvature) = (m * two_h, -(h * two_h));
     let (mut before, mut term) = (R::splat(1.0), slope);

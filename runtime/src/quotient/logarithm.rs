@@ -8,7 +8,7 @@ use crate::lanes::{Mask, Real};
 /// least, and their difference loses nothing.
 #[inline(always)]
 fn largest_ratio<R: Real>() -> R {
-    R::splat(0.001 / R::MIN_POSITIVE)
+    R::splat(0.001 / R::min_positive())
 }
 
 /// (ln(1 + a) − ln(1 + b))/(a − b) = ln(1 + y)/y / (1 + b) for y = (a − b)/(1 + b) and a ≥ b.
@@ -43,7 +43,7 @@ pub fn asinh_quotient<R: Real>(a: R, b: R) -> R {
     let (larger, smaller) = (a.abs().max(b.abs()), a.abs().min(b.abs()));
     let root = |x: R| {
         // 1 is below the last bit of the large ones, whose squares may overflow.
-        let is_large = R::splat(1.0 / R::UNIT_ROUNDOFF).less(x);
+        let is_large = R::splat(1.0 / R::unit_roundoff()).less(x);
         R::select(is_large, x, x.mul_add(x, one).sqrt())
     };
     let (larger_root, smaller_root) = (root(larger), root(smaller));

@@ -28,7 +28,7 @@ pub(super) fn ln_2<P: Primitive>() -> (P, P) {
 /// The integer nearest to a b, for |a b| ≤ 2⁵⁰ (`f32`: 2²¹).
 #[inline(always)]
 pub(super) fn nearest_integer_to_product<P: Primitive>(a: P, b: P) -> P {
-    let rounding = P::splat(P::ROUNDING);
+    let rounding = P::splat(P::rounding());
     a.mul_add(b, rounding) - rounding
 }
 
@@ -80,7 +80,7 @@ pub(in super::super) fn two_product<P: Primitive>(a: P, b: P) -> (P, P) {
     }
     // Veltkamp's splitting and Dekker's product: each half has few enough bits for exact products.
     let split = |x: P| {
-        let big = P::splat(power_of_two(P::DIGITS.div_ceil(2)) + 1.0) * x;
+        let big = P::splat(power_of_two(P::digits().div_ceil(2)) + 1.0) * x;
         let high = big - (big - x);
         (high, x - high)
     };
@@ -107,9 +107,9 @@ pub(in super::super) fn is_finite<P: Primitive>(x: P) -> P::Mask {
 /// See [`Real::power_of_two_scale`](crate::lanes::Real::power_of_two_scale).
 #[inline(always)]
 pub(in super::super) fn power_of_two_scale<P: Primitive>(x: P) -> (P, P) {
-    let smallest = P::splat(P::MIN_POSITIVE);
+    let smallest = P::splat(P::min_positive());
     // Both 2⁻ᵉ and 2ᵉ are normal numbers for |e| ≤ bias − 1.
-    let largest = P::splat(1.0 / P::MIN_POSITIVE);
+    let largest = P::splat(1.0 / P::min_positive());
     let power = x.leading_power();
     let zero = P::splat(0.0);
     let is_ordinary = zero.less(x.abs()) & power.less(P::splat(f64::INFINITY));

@@ -21,12 +21,12 @@ pub(in super::super) fn asinh<P: Primitive>(x: P) -> P {
     let (sum, sum_low) = quick_two_sum(root, a);
     let sum_low = (half * rest).mul_add(one / root, sum_low);
 
-    let is_large = P::splat(power_of_two(P::DIGITS / 2 + 3)).less(a);
+    let is_large = P::splat(power_of_two(P::digits() / 2 + 3)).less(a);
     let high = P::select(is_large, a, sum);
     let low = P::select(is_large, zero, sum_low);
     let logarithm = ln_of_sum(high, low, P::select(is_large, one, zero));
 
-    let is_small = a.less(P::splat(1.0 / power_of_two(P::DIGITS * 2 / 5 - 1)));
+    let is_small = a.less(P::splat(1.0 / power_of_two(P::digits() * 2 / 5 - 1)));
     let cubic = (a * square).mul_add(P::splat(-1.0 / 6.0), a);
     P::select(is_small, cubic, logarithm).copysign(x)
 }

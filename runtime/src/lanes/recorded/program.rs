@@ -3,9 +3,7 @@
 use std::collections::{BTreeMap, HashSet};
 use std::fmt;
 
-#[cfg(doc)]
 use crate::lanes::real::Real;
-use crate::lanes::vector::Scalar;
 
 /// The place of an operation in its program.
 pub type Id = u32;
@@ -206,21 +204,54 @@ impl RecordedOperation {
     }
 }
 
-/// Formats in which programs are recorded: `f64` and `f32`.
-pub trait Recordable: Scalar + Into<f64> {
-    /// The result of an operation on literals, if it is one of arithmetic.
-    fn compute(operator: Binary, a: f64, b: f64) -> Option<f64> {
-        let (a, b) = (Self::splat(a), Self::splat(b));
-        let result = match operator {
-            Binary::Add => a + b,
-            Binary::Subtract => a - b,
-            Binary::Multiply => a * b,
-            Binary::Divide => a / b,
-            Binary::CopySign | Binary::Scale => return None,
-        };
-        Some(result.into())
-    }
+/// Formats of the numbers of a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Format {
+    /// 32 bits.
+    F32,
+    /// 64 bits.
+    #[default]
+    F64,
 }
 
-impl Recordable for f64 {}
-impl Recordable for f32 {}
+impl Format {
+    pub(super) fn unit_roundoff(self) -> f64 {
+        match self {
+            Self::F32 => <f32 as Real>::UNIT_ROUNDOFF,
+            Self::F64 => <f64 as Real>::UNIT_ROUNDOFF,
+        }
+    }
+
+    pub(super) fn min_positive(self) -> f64 {
+        match self {
+            Self::F32 => <f32 as Real>::MIN_POSITIVE,
+            Self::F64 => <f64 as Real>::MIN_POSITIVE,
+        }
+    }
+
+    /// The nearest number of the format.
+    pub(super) fn rounded(self, value: f64) -> f64 {
+        match self {
+            Self::F32 => f64::from(value as f32),
+            Self::F64 => value,
+        }
+    }
+
+    /// The result of an operation on literals, if it is one of arithmetic.
+    pub(super) fn compute(self, operator: Binary, a: f64, b: f64) -> Option<f64> {
+        fn result<R: Real>(operator: Binary, a: f64, b: f64) -> Option<R> {
+            let (a, b) = (R::splat(a), R::splat(b));
+            match operator {
+                Binary::Add => Some(a + b),
+                Binary::Subtract => Some(a - b),
+                Binary::Multiply => Some(a * b),
+                Binary::Divide => Some(a / b),
+                Binary::CopySign | Binary::Scale => None,
+            }
+        }
+        match self {
+            Self::F32 => result::<f32>(operator, a, b).map(f64::from),
+            Self::F64 => result::<f64>(operator, a, b),
+        }
+    }
+}

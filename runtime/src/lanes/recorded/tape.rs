@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::program::{Id, Recordable, RecordedOperation, RecordedProgram};
+use super::program::{Format, Id, RecordedOperation, RecordedProgram};
 
 /// Operations under construction.
 #[derive(Default)]
@@ -50,12 +50,12 @@ impl Tape {
     }
 
     /// The operation, or a simpler one with the same bits.
-    pub(super) fn simplified<E: Recordable>(&mut self, operation: RecordedOperation) -> Id {
+    pub(super) fn simplified(&mut self, format: Format, operation: RecordedOperation) -> Id {
         use RecordedOperation::{And, Binary, Less, Literal, Not, Or, Select, Truth, Unary};
         let computed = match operation {
             Unary(super::program::Unary::Negate, a) => self.literal(a).map(|a| -a),
             Binary(operator, a, b) => match (self.literal(a), self.literal(b)) {
-                (Some(a), Some(b)) => E::compute(operator, a, b),
+                (Some(a), Some(b)) => format.compute(operator, a, b),
                 // Exact for any other operand.
                 (_, Some(1.0))
                     if matches!(
@@ -97,7 +97,7 @@ impl Tape {
                 Truth(truth) => return if truth { yes } else { no },
                 Not(mask) => return self.push(Select(mask, no, yes)),
                 Select(guard, never, inner) if self.truth(never) == Some(false) => {
-                    let selected = self.simplified::<E>(Select(inner, yes, no));
+                    let selected = self.simplified(format, Select(inner, yes, no));
                     return self.push(Select(guard, no, selected));
                 }
                 _ => None,

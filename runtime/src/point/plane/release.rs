@@ -48,7 +48,7 @@ pub(super) struct Side<R> {
 impl<R: Real<Mask = bool>> Side<R> {
     /// True if the stress is zero up to rounding, at a stable stretch.
     fn is_free(&self) -> bool {
-        let rounding = R::splat(64.0 * R::UNIT_ROUNDOFF) * self.magnitude;
+        let rounding = R::splat(64.0 * R::unit_roundoff()) * self.magnitude;
         R::splat(0.0).less(self.slope) && !rounding.less(self.stress.abs())
     }
 }
@@ -68,7 +68,7 @@ pub(super) fn release<R: Real<Mask = bool>>(
     isochoric: R,
 ) -> Result<R, Unreleased> {
     // Below the range too little is left of a stretch.
-    let smallest = R::splat(R::MIN_POSITIVE);
+    let smallest = R::splat(R::min_positive());
     let side = |stretch: R| if smallest.less(stretch) { side(stretch) } else { None };
     let interval = enclose(|stretch| side(stretch).map(|side| side.stress), isochoric)?;
     solve(side, interval).ok_or(Unreleased::NoEquilibrium)
@@ -106,7 +106,7 @@ fn enclose<R: Real<Mask = bool>>(
     let end = |stretch: R| (stretch, stress(stretch));
     let one = R::splat(1.0);
     // Collapsed in the plane, the body would have to be infinitely thick.
-    let range = R::splat(R::MIN_POSITIVE.powf(0.2));
+    let range = R::splat(R::min_positive().powf(0.2));
     let isochoric = isochoric.max(range).min(one / range);
     let (mut low, mut high) = (end(isochoric.min(one)), end(isochoric.max(one)));
     if let Some(interval) = Interval::between(low, high) {
@@ -147,7 +147,7 @@ fn solve<R: Real<Mask = bool>>(side: impl Fn(R) -> Option<Side<R>>, interval: In
             continue;
         };
         let step = -(found.stress / found.slope);
-        if found.is_free() && !(R::splat(2.0 * R::UNIT_ROUNDOFF) * stretch).less(step.abs()) {
+        if found.is_free() && !(R::splat(2.0 * R::unit_roundoff()) * stretch).less(step.abs()) {
             return Some(stretch);
         }
         if zero.less(found.stress) {

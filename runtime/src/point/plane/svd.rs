@@ -48,7 +48,7 @@ pub(crate) fn plane_svd<R: Real>(F: &Matrix2<R>) -> PlaneSvd<R> {
     let (ps, ps_error) = p.two_product(s);
     let (qr, qr_error) = q.two_product(r);
     let determinant = (ps - qr) + (ps_error - qr_error);
-    let smallest = R::select(R::splat(R::MIN_POSITIVE).less(largest), determinant / largest, R::splat(0.0));
+    let smallest = R::select(R::splat(R::min_positive()).less(largest), determinant / largest, R::splat(0.0));
     let smallest = smallest.abs().min(largest).copysign(smallest);
     // What is not finite must not become a plausible number by the order of a comparison.
     let smallest = R::select(largest.is_finite(), smallest, largest);
@@ -61,7 +61,7 @@ fn direction<R: Real>([x, y]: [R; 2]) -> ([R; 2], R) {
     let (scale, back) = x.abs().max(y.abs()).power_of_two_scale();
     let (x, y) = (x * scale, y * scale);
     let length = x.mul_add(x, y * y).sqrt();
-    let vanishes = length.less(R::splat(R::MIN_POSITIVE));
+    let vanishes = length.less(R::splat(R::min_positive()));
     let divisor = R::select(vanishes, one, length);
     ([R::select(vanishes, one, x / divisor), R::select(vanishes, zero, y / divisor)], length * back)
 }

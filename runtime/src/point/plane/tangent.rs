@@ -76,11 +76,11 @@ impl<R: Real<Mask = bool>> PlaneTangent<R> {
             let (f_larger, f_smaller) = (filtered(larger, slope), filtered(smaller, slope));
             let h = half * (f_larger + f_smaller);
             // The difference is zero where r is.
-            let k = (f_larger - f_smaller) / (r + r).max(R::splat(R::MIN_POSITIVE));
+            let k = (f_larger - f_smaller) / (r + r).max(R::splat(R::min_positive()));
             hessian = [k.mul_add(d, h), h - k * d, k * h12];
         }
         let (flip, twist) = (filtered(flip, slope), filtered(twist, slope));
-        let is_filtered = smallest.less(R::splat(-16.0 * R::UNIT_ROUNDOFF) * largest);
+        let is_filtered = smallest.less(R::splat(-16.0 * R::unit_roundoff()) * largest);
         (Self { hessian, flip, twist, ..self }, is_filtered)
     }
 
