@@ -37,9 +37,10 @@ where
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
             let rest = rest.get_all(at);
-            let is_finite = stress_is_finite(svd.stretches, &stress);
-            let stays_finite = At::<REST>::put(&stress, &rest, &mut to, line, at);
-            status.nonfinite |= R::bits(!(is_finite & stays_finite)) << at;
+            let is_finite =
+                stress_is_finite(svd.stretches, &stress) & At::<REST>::stays_finite(&stress, &rest);
+            status.nonfinite |= R::bits(!is_finite) << at;
+            At::<REST>::put(&stress, &rest, &mut to, line, at);
             At::<REST>::finish::<R>(&mut to, line, at, count);
         });
         status & first_bits(count)
@@ -51,15 +52,17 @@ pub(crate) struct At<const REST: usize>;
 
 /// The output that is made from P: P itself at points, the gradient at elements.
 pub(crate) trait FirstOutput<const REST: usize> {
-    /// Puts the output into its place; [`FirstOutput::finish`] must follow. Returns where it stays finite if
-    /// P is.
+    /// True if the output is finite, given that P is.
+    fn stays_finite<R: Lanes>(stress: &Matrix3<R>, rest: &[R; REST]) -> R::Mask;
+
+    /// Puts the output into its place; [`FirstOutput::finish`] must follow.
     fn put<R: Lanes>(
         stress: &Matrix3<R>,
         rest: &[R; REST],
         to: &mut Sink<'_, R::Scalar>,
         line: &mut LineBuffer<R::Scalar>,
         at: usize,
-    ) -> R::Mask;
+    );
 
     /// Copies the output to the slice.
     fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize);
@@ -67,15 +70,19 @@ pub(crate) trait FirstOutput<const REST: usize> {
 
 impl FirstOutput<0> for At<0> {
     #[inline(always)]
+    fn stays_finite<R: Lanes>(_: &Matrix3<R>, _: &[R; 0]) -> R::Mask {
+        R::Mask::splat(true)
+    }
+
+    #[inline(always)]
     fn put<R: Lanes>(
         stress: &Matrix3<R>,
         _: &[R; 0],
         to: &mut Sink<'_, R::Scalar>,
         line: &mut LineBuffer<R::Scalar>,
         at: usize,
-    ) -> R::Mask {
+    ) {
         to.place::<R, 9>(line, at).put_all(to_row_major(*stress));
-        R::Mask::splat(true)
     }
 
     #[inline(always)]
@@ -86,15 +93,19 @@ impl FirstOutput<0> for At<0> {
 
 impl FirstOutput<10> for At<10> {
     #[inline(always)]
+    fn stays_finite<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
+        gradient_is_finite(stress, rest)
+    }
+
+    #[inline(always)]
     fn put<R: Lanes>(
         stress: &Matrix3<R>,
         rest: &[R; 10],
         to: &mut Sink<'_, R::Scalar>,
         line: &mut LineBuffer<R::Scalar>,
         at: usize,
-    ) -> R::Mask {
+    ) {
         put_gradient(stress, rest, to.place::<R, 12>(line, at));
-        gradient_is_finite(stress, rest)
     }
 
     #[inline(always)]
@@ -132,7 +143,9 @@ where
             let F = to_matrix(F.get_all::<R>(at));
             let gradient = gradients.get_all(at);
             let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradient);
-            let stays_finite = At::<REST>::put(&stress, &rest.get_all(at), &mut to, line, at);
+            let rest = rest.get_all(at);
+            At::<REST>::put(&stress, &rest, &mut to, line, at);
+            let stays_finite = At::<REST>::stays_finite(&stress, &rest);
             At::<REST>::finish::<R>(&mut to, line, at, count);
             finite |= R::bits(gradient_is_in_range(gradient) & stays_finite) << at;
         });

@@ -146,7 +146,8 @@ where
             let largest = M::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
             let stress = terms.stress();
             let keeps_digits = terms.keeps_digits(largest) & M::stays_finite(terms.bound(), &rest);
-            let stays_finite = At::<REST>::put(&stress, &rest, &mut first, short_line, at);
+            At::<REST>::put(&stress, &rest, &mut first, short_line, at);
+            let stays_finite = At::<REST>::stays_finite(&stress, &rest);
             served |= R::bits(keeps_digits & stays_finite) << at;
             // Where no register holds anything any more: the transposes need them all.
             second.finish::<R, N>(line, at, count);
