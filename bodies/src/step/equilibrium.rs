@@ -135,6 +135,9 @@ impl Equilibrium {
         let residual = free.map(|node| square(&gradient[node])).sum::<f64>().sqrt();
         let largest_force = forces.fold(0.0, f64::max).sqrt();
         let unit_force = unit_force(body);
+        if !(residual.is_finite() && largest_force.is_finite() && unit_force.is_finite()) {
+            return Err(NewtonError::NotFinite);
+        }
         let is_stress_free = largest_force <= NO_STRESS * unit_force;
         Ok(Self {
             residual,
