@@ -1,8 +1,9 @@
 //! The catalogue as judges take it: every energy behind pointers, so that no judge is compiled again for each
 //! of them.
 //!
-//! An energy is the compiled one where this build has it, and else the interpreted one: `tests/interpreted.rs`
-//! proves that both have the same bits. With the feature `all` every energy is a compiled one.
+//! An energy is the compiled one where this build has it, and else the interpreted one:
+//! `tests/interpreted.rs` proves that both have the same bits. With the feature `all` every energy is a
+//! compiled one.
 
 use std::sync::LazyLock;
 

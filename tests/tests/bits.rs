@@ -2,8 +2,8 @@
 //! under a clean status, no clean result flagged.
 //!
 //! 30 000 patterns for each energy and precision, shared by its ways of inversion, 10⁵ with `PIOLA_FULL`.
-//! `PIOLA_BITS` asks for another number, and with `PIOLA_BITS_ALONE` each precision is only judged by itself, without the slower
-//! comparison of the two:
+//! `PIOLA_BITS` asks for another number, and with `PIOLA_BITS_ALONE` each precision is only judged by itself,
+//! without the slower comparison of the two:
 //!
 //! ```text
 //! PIOLA_BITS=3125000 PIOLA_BITS_ALONE=1 cargo test -p piola-tests --test bits -- --nocapture

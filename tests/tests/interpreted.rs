@@ -1,10 +1,10 @@
 //! Energies declared at run time, compared with those that the compiler has made of the same declarations:
 //! equal results, bit by bit.
 //!
-//! Every energy that the build compiles is read from its own declaration. Batches are compared in `f64` on every
-//! back end, and with the feature `full` in `f32` those of energies with all kinds of operations; single
-//! points in `f64`, all responses of them. Deformation gradients are arbitrary patterns of bits, so that the
-//! ends of the formats take part.
+//! Every energy that the build compiles is read from its own declaration. Batches are compared in `f64` on
+//! every back end, and with the feature `full` in `f32` those of energies with all kinds of operations;
+//! single points in `f64`, all responses of them. Deformation gradients are arbitrary patterns of bits, so
+//! that the ends of the formats take part.
 
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
@@ -350,7 +350,8 @@ fn values_are_refused_as_by_the_compiled_catalogue() {
             }
         }
     }
-    assert!(refused > 1000);
+    // More than a thousand of the eighteen energies that `.ci/run` compiles.
+    assert!(18 * refused > 1000 * CATALOGUE.len(), "{refused} of {} energies", CATALOGUE.len());
 }
 
 /// Points of a batch with materials that differ in numbers, in the lengths of lists, or altogether.

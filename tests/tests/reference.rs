@@ -5,8 +5,8 @@
 //! [`Inversion::Refuse`], as a single point and in batches of every back end (in `f32` those of a few
 //! energies, with the feature `full`): by C u (‖X*‖ + sens), ψ by C u (|ψ*| + sens + Σ|terms|). What has no
 //! representation in a format cannot be returned there; its status must then say so, and say so only then.
-//! The variable `PIOLA_CASES` names one other file of the same schema. With `PIOLA_EMITTED` the results are those of emitted source text
-//! ([`piola_tests::emitted`]): `PIOLA_EMITTED="wgsl f32 PROGRAM"`.
+//! The variable `PIOLA_CASES` names one other file of the same schema. With `PIOLA_EMITTED` the results are
+//! those of emitted source text ([`piola_tests::emitted`]): `PIOLA_EMITTED="wgsl f32 PROGRAM"`.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table to show")]
 

@@ -1,8 +1,10 @@
 //! One point a call: printed C compared with [`evaluate_dense`] of the same energies, in nanoseconds.
 //!
-//! `cargo bench -p piola-speed --features report --bench emitted`; CC and CFLAGS choose the compiler of C. Both sides evaluate
-//! the same deformation gradients in the same order, in turns, of which the least and the median are shown.
+//! `cargo bench -p piola-speed --features report --bench emitted`; CC and CFLAGS choose the compiler of C.
+//! Both sides evaluate the same deformation gradients in the same order, in turns, of which the least and the
+//! median are shown.
 
+#![expect(non_snake_case, reason = "F as in the literature")]
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
 use std::error::Error;

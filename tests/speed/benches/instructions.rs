@@ -1,9 +1,9 @@
 //! Counts the instructions of every kernel with callgrind, which no other program on the machine disturbs.
 //!
-//! `cargo bench -p piola-speed --features f32 --bench instructions` prints them; with `-- --check` it compares them with the
-//! committed ones of this compiler's version, `tests/speed/instructions/rustc-*.txt`, and fails where a
-//! kernel has grown by more than 2 %; with `-- --bless` it writes those. Where valgrind or AVX2 is missing it
-//! says so and checks nothing.
+//! `cargo bench -p piola-speed --features f32 --bench instructions` prints them; with `-- --check` it
+//! compares them with the committed ones of this compiler's version, `tests/speed/instructions/rustc-*.txt`,
+//! and fails where a kernel has grown by more than 2 %; with `-- --bless` it writes those. Where valgrind or
+//! AVX2 is missing it says so and checks nothing.
 //!
 //! Instructions are not time. But where nothing but the code has changed, more of them are a reason to
 //! measure.
