@@ -1,13 +1,16 @@
-//! Batches of declared materials: parameters for each point, and energies of invariants with and without
-//! them.
+//! Parameters that differ from point to point: each point gets what it would get alone, on lanes, in batches
+//! and in bodies.
+//!
+//! Two compiled types stand for all: one of numbers and lists, which lanes hold side by side, and one of
+//! functions. Other energies are judged by `tests/tests/declarations`.
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
-use piola::batch::{Batch, Layout, TileMaterial};
-use piola::lanes::Backend;
-use piola::material::{Graded, PerPoint, PerPointError};
+use piola::batch::{Batch, TileMaterial};
+use piola::lanes::{Backend, Lanes, Lanes2};
+use piola::material::{Blocks, Graded, MaterialError, PerPoint, PerPointError, Scaled, Sum};
 use piola::point::Filter;
-use piola::{Inversion, Spline, Survey};
+use piola::{Inversion, Material, Spline};
 use piola_bodies::mesh::{Group, TetMesh, tetrahedral_box};
 use piola_bodies::system::{Body, BodyError, ElasticResponse, NodalStiffness, Part};
 use piola_materials::{Gent, NeoHookean, Ogden, StretchSpline};
@@ -35,13 +38,12 @@ fn deformations() -> Vec<[f64; 9]> {
     all
 }
 
-/// Results of a batch at points: energies, stresses, tangents, and the outcome of the first two calls.
+/// Results of a batch at points: energies, stresses, tangents.
 #[derive(Debug, PartialEq)]
 struct Answers {
     energies: Vec<f64>,
     stresses: Vec<f64>,
     tangents: Vec<f64>,
-    surveys: [Survey; 2],
 }
 
 fn answers(
@@ -53,9 +55,10 @@ fn answers(
     let n = all.len();
     let (mut energies, mut stresses) = (vec![0.0; n], vec![0.0; 9 * n]);
     let (mut beside, mut tangents) = (vec![0.0; 9 * n], vec![0.0; 81 * n]);
-    let surveys = [batch.energies(F, &mut energies)?, batch.stresses(F, &mut stresses)?];
+    batch.energies(F, &mut energies)?;
+    batch.stresses(F, &mut stresses)?;
     batch.tangents(F, &mut beside, &mut tangents)?;
-    Ok(Answers { energies, stresses, tangents, surveys })
+    Ok(Answers { energies, stresses, tangents })
 }
 
 /// As bits, so that NaN equals itself.
@@ -82,18 +85,18 @@ fn check_each<M: Graded>(materials: &[M]) -> Outcome {
     Ok(())
 }
 
+/// Rubber with a number and lists of its own.
+fn ogden(scale: f64, inversion: Inversion) -> Result<Ogden<2>, MaterialError> {
+    Ogden::new([scale, 0.2], [1.3 * scale, 3.0 + scale], 5.0 / scale)?.with_inversion(inversion)
+}
+
 #[test]
 fn each_point_of_a_batch_gets_what_it_would_get_alone() -> Outcome {
-    let stiffness = |p: usize| 1.0 + 0.1 * p as f64;
-    let rubbers: Result<Vec<_>, _> =
-        (0..COUNT).map(|p| NeoHookean::new(stiffness(p), 3.0)?.with_inversion(EXTEND)).collect();
-    check_each(&rubbers?)?;
-    let refusing: Result<Vec<_>, _> = (0..COUNT).map(|p| Gent::new(stiffness(p), 30.0, 10.0)).collect();
-    check_each(&refusing?)?;
-    let ogdens: Result<Vec<_>, _> = (0..COUNT)
-        .map(|p| Ogden::new([stiffness(p), 0.2], [1.3, 3.0], 5.0)?.with_inversion(EXTEND))
-        .collect();
-    check_each(&ogdens?)
+    for inversion in [Inversion::Refuse, EXTEND] {
+        let ogdens: Result<Vec<_>, _> = (0..COUNT).map(|p| ogden(1.0 + 0.01 * p as f64, inversion)).collect();
+        check_each(&ogdens?)?;
+    }
+    Ok(())
 }
 
 #[test]
@@ -108,17 +111,17 @@ fn each_point_of_a_batch_may_have_functions_of_its_own() -> Outcome {
     // Runs of points with one material, and points with different ones side by side.
     let three = [drawn(0)?, drawn(1)?, drawn(2)?];
     check_each(&(0..COUNT).map(|p| three[p / 40 % 3].clone()).collect::<Vec<_>>())?;
-    check_each(&(0..COUNT).map(|p| &three[p * p % 3]).collect::<Vec<_>>())
+    check_each(&(0..COUNT).map(|p| three[p * p % 3].clone()).collect::<Vec<_>>())
 }
 
 #[test]
 fn materials_must_fit_the_points_and_each_other() -> Outcome {
-    let rubber = NeoHookean::new(1.0, 3.0)?;
+    let rubber = ogden(1.0, Inversion::Refuse)?;
     let three = [rubber; 3];
     let each = PerPoint::new(&three)?;
     let error = Batch::<f64>::new(&each).energies(&[1.0; 18], &mut [0.0; 2]).expect_err("two points");
     assert!(error.to_string().contains("materials"), "{error}");
-    assert_eq!(PerPoint::<NeoHookean, _>::new(&[]).err(), Some(PerPointError::NoMaterial));
+    assert_eq!(PerPoint::<Ogden<2>, _>::new(&[]).err(), Some(PerPointError::NoMaterial));
     let mixed = [rubber, rubber.with_inversion(EXTEND)?];
     assert_eq!(PerPoint::new(&mixed).err(), Some(PerPointError::DifferentInversion { material: 1 }));
     Ok(())
@@ -152,13 +155,13 @@ fn energy_and_product(body: &Body, x: &[[f64; 3]]) -> Result<EnergyAndProduct, B
 fn each_element_of_a_part_has_its_material() -> Outcome {
     let mut mesh = tetrahedral_box([3, 3, 3], [0.3; 3])?;
     let all = mesh.tets.len();
-    let materials: Vec<NeoHookean> =
-        (0..all).map(|k| NeoHookean::new(1e5 + 1e3 * k as f64, 4e5)).collect::<Result<_, _>>()?;
+    let rubber = |k: usize| Ogden::new([1e5 + 1e3 * k as f64, 2e4], [2.0, 3.0], 4e5);
+    let materials: Vec<Ogden<2>> = (0..all).map(rubber).collect::<Result<_, _>>()?;
     // In two parts, the first of which is shorter than two tiles.
     let (first, second) = materials.split_at(all - 70);
     let name = "first".to_owned();
     mesh.groups = vec![Group { name, dimension: 3, nodes: Vec::new(), tets: (0..first.len()).collect() }];
-    let part = |group: Option<&str>, materials: &[NeoHookean]| -> Result<Part, PerPointError> {
+    let part = |group: Option<&str>, materials: &[Ogden<2>]| -> Result<Part, PerPointError> {
         let material = Box::new(PerPoint::new(materials.to_vec())?);
         Ok(Part { group: group.map(str::to_owned), material, density: 1000.0 })
     };
@@ -186,69 +189,89 @@ fn each_element_of_a_part_has_its_material() -> Outcome {
 #[test]
 fn a_part_has_a_material_for_all_elements_or_for_each() -> Outcome {
     let mesh = tetrahedral_box([1, 1, 1], [0.1; 3])?;
-    let five = || PerPoint::new(vec![NeoHookean::new(1.0, 3.0).expect("moduli"); 5]);
+    let five = || PerPoint::new(vec![ogden(1.0, EXTEND).expect("moduli"); 5]);
     let refused = BodyError::MaterialsForPoints { materials: 5, elements: 6 };
     assert_eq!(Body::new(&mesh, five()?, 1.0).err(), Some(refused.clone()));
-    let mut body = Body::new(&mesh, NeoHookean::new(1.0, 3.0)?, 1.0)?;
+    let mut body = Body::new(&mesh, ogden(1.0, EXTEND)?, 1.0)?;
     assert_eq!(body.set_material(0, five()?).err(), Some(refused));
-    assert_eq!(PerPoint::<NeoHookean>::new(Vec::new()).err(), Some(PerPointError::NoMaterial));
+    assert_eq!(PerPoint::<Ogden<2>>::new(Vec::new()).err(), Some(PerPointError::NoMaterial));
     Ok(())
 }
 
-/// A point that needs a decomposition leaves the bits of its neighbours as they are, and gets its own.
-#[test]
-fn points_with_and_without_invariants_share_a_tile() -> Outcome {
-    let all = deformations();
-    for energy in [NeoHookean::new(1.0, 3.0)?, NeoHookean::new(1.0, 3.0)?.with_inversion(EXTEND)?] {
-        for backend in Backend::available() {
-            let together = answers(&energy, backend, &all)?;
-            let mut refused = 0;
-            for (p, F) in all.iter().enumerate() {
-                let alone = answers(&energy, backend, &[*F])?;
-                refused += alone.surveys[0].refused;
-                assert_eq!(bits(&together.energies[p..=p]), bits(&alone.energies), "point {p}, {backend}");
-                assert_eq!(
-                    bits(&together.stresses[9 * p..][..9]),
-                    bits(&alone.stresses),
-                    "point {p}, {backend}"
-                );
-            }
-            assert_eq!(together.surveys.map(|survey| survey.refused), [refused; 2], "{backend}");
+type Four = Lanes2<Lanes2<f64>>;
+
+/// Stretches of four points, one of them inverted.
+const STRETCHES: [[f64; 4]; 3] = [[1.5, 1.2, 1.0, 1.1], [1.1, 1.2, 1.0, 0.9], [0.8, 0.7, 1.0, -0.3]];
+
+/// Energy, gradient, gradient at strains and blocks, as bits: what is NaN for one must be so for the other.
+fn bits_of_lanes<R>(
+    energy: R,
+    gradients: [[R; 3]; 2],
+    blocks: Blocks<R>,
+    split: impl Fn(R) -> [f64; 4],
+) -> Vec<[u64; 4]> {
+    let Blocks { gradient, hessian, flip, twist } = blocks;
+    let all = [energy].into_iter().chain(gradients.into_iter().flatten()).chain(gradient).chain(hessian);
+    all.chain(flip).chain(twist).map(|number| split(number).map(f64::to_bits)).collect()
+}
+
+fn split(numbers: Four) -> [f64; 4] {
+    let mut lanes = [0.0; 4];
+    numbers.store(&mut lanes);
+    lanes
+}
+
+#[track_caller]
+fn check_lanes<M: Graded>(materials: [M; 4]) {
+    let [stretches, strains] = [0.0, 1.0].map(|shift| STRETCHES.map(|l| Four::load(&l.map(|x| x - shift))));
+    let each = |materials: &[M]| {
+        let material = M::on_lanes(|lane| &materials[lane.min(3)]);
+        let gradients = [material.gradient(stretches), material.gradient_at_strains(strains)];
+        let results = bits_of_lanes(material.energy(stretches), gradients, material.blocks(stretches), split);
+        (results, Four::bits(material.admits(stretches)))
+    };
+    let uniform = |material: &M| {
+        let gradients = [material.gradient(stretches), material.gradient_at_strains(strains)];
+        let results = bits_of_lanes(material.energy(stretches), gradients, material.blocks(stretches), split);
+        (results, Four::bits(material.admits(stretches)))
+    };
+    let (found, admitted) = each(&materials);
+    for (lane, material) in materials.iter().enumerate() {
+        let (alone, alone_admitted) = uniform(material);
+        for (k, (found, alone)) in found.iter().zip(&alone).enumerate() {
+            assert_eq!(found[lane], alone[lane], "number {k} of material {lane}");
         }
+        assert_eq!(admitted >> lane & 1, alone_admitted >> lane & 1, "material {lane}");
     }
+}
+
+#[test]
+fn each_lane_gets_what_it_would_get_alone() -> Result<(), MaterialError> {
+    // The bound of the domain is a parameter.
+    let gent = |limit: f64| Gent::new(1.0, limit, 10.0);
+    let sum = |size: f64| {
+        Ok::<_, MaterialError>(Sum::new(gent(size)?, Scaled::new(size, ogden(size, Inversion::Refuse)?)?))
+    };
+    check_lanes([sum(0.5)?, sum(30.0)?, sum(1.0)?, sum(2.0)?]);
+    check_lanes([ogden(1.0, EXTEND)?, ogden(0.7, EXTEND)?, ogden(2.0, EXTEND)?, ogden(1.5, EXTEND)?]);
+    // Functions, some of them the same.
+    let drawn = |scale: f64| {
+        let curve = |force: f64| Spline::through(&[[0.5, -force], [1.0, 0.0], [2.0 * scale, force]]);
+        Scaled::new(2.0, StretchSpline::new(curve(scale)?, curve(0.1)?, curve(3.0 * scale)?)?)
+    };
+    check_lanes([drawn(1.0)?, drawn(0.7)?, drawn(1.0)?, drawn(1.5)?]);
+    check_lanes([drawn(1.0)?, drawn(1.0)?, drawn(1.0)?, drawn(1.0)?]);
+    let (one, other) = (drawn(1.0)?, drawn(0.7)?);
+    check_lanes([&one, &other, &other, &one]);
     Ok(())
 }
 
-/// By invariants and by stretches P is the same up to rounding, in either layout.
 #[test]
-fn stress_is_the_same_with_and_without_a_decomposition() -> Outcome {
-    let (all, energy) = (deformations(), NeoHookean::new(1.0, 3.0)?.with_inversion(EXTEND)?);
-    for backend in Backend::available() {
-        let batch = Batch::<f64>::new(&energy).with_backend(backend);
-        let (mut stresses, mut beside) = (vec![0.0; 9 * COUNT], vec![0.0; 9 * COUNT]);
-        let mut tangents = vec![0.0; 81 * COUNT];
-        batch.stresses(all.as_flattened(), &mut stresses)?;
-        batch.tangents(all.as_flattened(), &mut beside, &mut tangents)?;
-        for p in (0..COUNT).filter(|&p| p != 41) {
-            let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let (found, expected) = (&stresses[9 * p..][..9], &beside[9 * p..][..9]);
-            let difference: Vec<f64> = found.iter().zip(expected).map(|(a, b)| a - b).collect();
-            // Each of the two is good to 30 u (‖P‖ + sens), as the reference cases judge.
-            let sensitivity = norm(&tangents[81 * p..][..81]) * norm(&all[p]);
-            let bound = 60.0 * f64::EPSILON / 2.0 * (norm(expected) + sensitivity);
-            assert!(norm(&difference) <= bound, "point {p}, {backend}: {} > {bound}", norm(&difference));
-        }
-        let lines = batch.with_layout(Layout::Lines);
-        let whole = COUNT / 8 * 8;
-        let (mut F, mut P) = (vec![0.0; 9 * whole], vec![0.0; 9 * whole]);
-        for (p, k) in (0..whole).flat_map(|p| (0..9).map(move |k| (p, k))) {
-            F[Layout::Lines.index::<f64>(p, 9, k)] = all[p][k];
-        }
-        lines.stresses(&F, &mut P)?;
-        for (p, k) in (0..whole).flat_map(|p| (0..9).map(move |k| (p, k))) {
-            let found = P[Layout::Lines.index::<f64>(p, 9, k)];
-            assert_eq!(found.to_bits(), stresses[9 * p + k].to_bits(), "entry {k} of point {p}, {backend}");
-        }
-    }
+fn a_parameter_can_be_replaced_and_is_checked() -> Result<(), MaterialError> {
+    let extend = Inversion::Extend { epsilon: 0.25 };
+    let rubber = NeoHookean::new(1.0, 3.0)?.with_inversion(extend)?;
+    assert_eq!(rubber.with_lambda(5.0)?, NeoHookean::new(1.0, 5.0)?.with_inversion(extend)?);
+    assert!(matches!(rubber.with_mu(-1.0), Err(MaterialError::Violated { .. })));
+    assert!(matches!(rubber.with_lambda(f64::NAN), Err(MaterialError::NotFinite { .. })));
     Ok(())
 }

@@ -1,41 +1,9 @@
-//! Constructors from Young's modulus and Poisson's ratio: what they build is as stiff as asked.
+//! Constructors from Young's modulus and Poisson's ratio: what they build is as stiff as asked. Which
+//! parameters these moduli determine is judged for the whole catalogue by `tests/tests/declarations`.
 
 use piola::material;
 use piola::material::{Declared, MaterialError, Moduli};
 use piola_materials::{NeoHookean, RotatedLinear, StVenantKirchhoff};
-
-// Energies that the crate does not compile by default, from their files.
-#[path = "../src/ciarlet_neo_hookean.rs"]
-mod ciarlet_neo_hookean;
-#[path = "../src/exponentiated_hencky.rs"]
-mod exponentiated_hencky;
-#[path = "../src/fixed_corotated.rs"]
-mod fixed_corotated;
-#[path = "../src/hencky.rs"]
-mod hencky;
-#[path = "../src/isochoric_neo_hookean.rs"]
-mod isochoric_neo_hookean;
-#[path = "../src/knowles.rs"]
-mod knowles;
-#[path = "../src/stable_neo_hookean.rs"]
-mod stable_neo_hookean;
-#[path = "../src/valanis_landel.rs"]
-mod valanis_landel;
-#[path = "../src/varga.rs"]
-mod varga;
-#[path = "../src/yeoh.rs"]
-mod yeoh;
-
-use ciarlet_neo_hookean::CiarletNeoHookean;
-use exponentiated_hencky::ExponentiatedHencky;
-use fixed_corotated::FixedCorotated;
-use hencky::Hencky;
-use isochoric_neo_hookean::IsochoricNeoHookean;
-use knowles::Knowles;
-use stable_neo_hookean::StableNeoHookean;
-use valanis_landel::ValanisLandel;
-use varga::Varga;
-use yeoh::Yeoh;
 
 /// Poisson's ratios from that of cork to that of rubber.
 const RATIOS: [f64; 5] = [0.0, 0.2, 0.3, 0.45, 0.499];
@@ -80,18 +48,12 @@ fn check<M: Declared>(build: impl Fn(f64, f64) -> Result<M, MaterialError>) -> R
 
 #[test]
 fn materials_are_as_stiff_as_asked() -> Result<(), MaterialError> {
-    check(CiarletNeoHookean::from_young_poisson)?;
-    check(|young, poisson| ExponentiatedHencky::from_young_poisson(young, poisson, 0.25, 0.125))?;
-    check(FixedCorotated::from_young_poisson)?;
     check(Hencky::from_young_poisson)?;
     check(IsochoricNeoHookean::from_young_poisson)?;
-    check(|young, poisson| Knowles::from_young_poisson(young, poisson, 0.024, 2.0))?;
     check(NeoHookean::from_young_poisson)?;
     check(RotatedLinear::from_young_poisson)?;
     check(StVenantKirchhoff::from_young_poisson)?;
     check(StableNeoHookean::from_young_poisson)?;
-    check(ValanisLandel::from_young_poisson)?;
-    check(Varga::from_young_poisson)?;
     check(|young, poisson| Yeoh::from_young_poisson(young, poisson, -1.46e3, 40.4))
 }
 

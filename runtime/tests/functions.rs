@@ -1,4 +1,5 @@
-//! Functions as parameters: they may end, and a material ends with them.
+//! Functions as parameters: they may end, and a material ends with them. Energies with splines are judged as
+//! text, by `tests/tests/declarations`.
 
 use piola::material::{Declared, Fittable, Limit, MaterialError};
 use piola::{Inversion, Material, Real, Univariate, material};
@@ -116,12 +117,6 @@ fn in_sums() -> InSums<2> {
 
 piola::contract!(by_invariants: locking(), range: (0.5, 2.2));
 piola::contract!(of_excess: OfExcess::new(2.0, 50.0, Root)?);
-piola::contract!(of_stretches: OfStretches::new(1.0, SquaredLogarithm)?);
-piola::contract!(of_logarithm: OfLogarithm::new(1.0, Locking { limit: 1.5 })?, range: (0.4, 2.0));
-piola::contract!(
-    extended: OfLogarithm::new(1.0, Locking { limit: 1e4 })?.with_inversion(Inversion::Extend { epsilon: 0.3 })?,
-    range: (0.4, 2.0)
-);
 
 /// I1b − 3 in tension at constant volume.
 fn excess(l: f64) -> f64 {

@@ -1,6 +1,7 @@
 //! The judge: what piola must satisfy, by oracles that share no code with it.
 //!
 //! * [`cases`]: reference values to 25 digits and how a result is judged against them;
+//! * [`declarations`]: energies as text, with remarks for their judges;
 //! * [`declared`]: an energy's expressions, for what its compiled form cannot say;
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
@@ -14,9 +15,8 @@
 //! * `speed/`, a crate of its own: what is timed and counted;
 //! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
 //! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
-//! * `tests/suite.rs`: the catalogue against an interpreter of its declarations, and what its constructors
-//!   refuse;
-//! * `tests/contract.rs`: the contract of every material;
+//! * `tests/declarations/`: contract, expressions, batches, constructors and printed C of the catalogue and
+//!   of the folder `declarations/`, and the messages about mistaken declarations;
 //! * `tests/oracles/`: the oracles themselves, against known values;
 //! * `tidy/`, a crate of its own: the rules that all sources follow.
 //!
@@ -25,6 +25,7 @@
 pub mod bits;
 pub mod cases;
 pub mod compiled;
+pub mod declarations;
 pub mod declared;
 pub mod emitted;
 pub mod energies;

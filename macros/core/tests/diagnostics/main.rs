@@ -299,7 +299,8 @@ fn half_a_body_is_one_mistake() {
     check("", "fn E([a, b, c]: [f64; 3], mu) -> f64 { mu }", &[(")", "a declaration is `fn Name(")]);
 }
 
-/// The messages of the cases of `piola-macros`, regardless of how the compiler underlines tokens.
+/// The messages of the cases of `piola-macros`, regardless of how the compiler underlines tokens. Those of
+/// `tests/declarations/mistakes.rs` are judged, word by word, by the test `declarations` of `piola-tests`.
 #[test]
 fn the_compiler_shows_these_messages() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui");
@@ -331,5 +332,5 @@ fn the_compiler_shows_these_messages() {
         assert_eq!(shown, said, "{}", path.display());
         compared += 1;
     }
-    assert!(compared > 35, "{compared} cases");
+    assert!(compared > 6, "{compared} cases");
 }

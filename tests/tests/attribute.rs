@@ -1,0 +1,285 @@
+//! The declarations of `declarations/compiled.rs`, compiled by the attribute and at run time: equal results,
+//! bit by bit, equal descriptions and equal refusals; and the typed constructors, which only a compiled type
+//! has.
+//!
+//! The catalogue is compared in the same way by `declare/tests/catalogue.rs`.
+
+use piola::__private::random::Random;
+use piola::interpreter::Interpreted;
+use piola::lanes::{Lanes, Lanes2};
+use piola::material::{Argument, Blocks, Constraint, Declared, Fittable, MaterialError};
+use piola::{Inversion, Material, Real};
+use piola_declare::Energy;
+use piola_tests::declarations::{Sample, find, slices, values};
+
+#[path = "../declarations/compiled.rs"]
+mod declarations;
+
+use declarations::{
+    Elementary, Fixed, Functions, FunctionsOfInvariants, Groups, Implied, Invariant, Literal, Locking,
+    LockingAtSum, Products, Roots, Series, Springs, Terms, Unit, Unlucky,
+};
+
+const EXTEND: Inversion = Inversion::Extend { epsilon: 0.2 };
+
+/// All responses as text, which tells every bit, and NaN from NaN only by its name.
+fn responses<R: Real>(material: &impl Material, at: [R; 3]) -> String {
+    let invariants = material.has_invariants().then(|| {
+        let energy = material.has_energy_by_invariants().then(|| material.energy_by_invariants(at));
+        (energy, material.derivatives_by_invariants(at), material.admits_invariants(at))
+    });
+    let strains = at.map(|stretch| stretch - R::splat(1.0));
+    let Blocks { gradient, hessian, flip, twist } = material.blocks(at);
+    let alone = (material.energy(at), material.gradient(at), material.gradient_at_strains(strains));
+    format!("{alone:?} {gradient:?} {hessian:?} {flip:?} {twist:?} {:?} {invariants:?}", material.admits(at))
+}
+
+/// Ordered stretches of every size, some of them equal or of opposite sign.
+fn stretches() -> impl Iterator<Item = [f64; 3]> {
+    let mut random = Random::new(7);
+    let fixed = [[1.0, 1.0, 1.0], [1.3, 1.1, 0.7], [2.5, 2.5, 0.16], [1.2, 0.8, -0.3], [0.0; 3]];
+    let drawn = (0..200).map(move |k| {
+        let spread = [1e-9, 0.3, 0.3, 3.0][k % 4];
+        let mut all: [f64; 3] = std::array::from_fn(|_| (spread * random.uniform(-0.5, 0.5)).exp());
+        all.sort_by(|a, b| b.total_cmp(a));
+        [all[0], if k % 5 == 0 { all[0] } else { all[1] }, if k % 7 == 0 { -all[2] } else { all[2] }]
+    });
+    fixed.into_iter().chain(drawn)
+}
+
+/// Compares a compiled type with the energy of the same text, at all values of its remarks.
+#[track_caller]
+fn check<M: Declared>() -> (Sample, Vec<(M, Interpreted)>) {
+    let sample = find("compiled", &M::DESCRIPTION.name);
+    let energy = &sample.judged.energy;
+    assert_eq!(*energy.description(), M::DESCRIPTION);
+    let mut judged = Vec::new();
+    for values in sample.values() {
+        for inversion in sample.judged.inversions(0.2) {
+            let compiled = match M::from_values(&slices(&values), inversion) {
+                // A list of another length.
+                Err(MaterialError::Shape { .. }) => continue,
+                compiled => compiled.map_err(|error| error.to_string()),
+            };
+            let interpreted = energy.material(&slices(&values), inversion).map_err(|error| error.to_string());
+            let (compiled, interpreted) = match (compiled, interpreted) {
+                (Ok(compiled), Ok(interpreted)) => (compiled, interpreted),
+                (compiled, interpreted) => {
+                    assert_eq!(compiled.err(), interpreted.err());
+                    continue;
+                }
+            };
+            for at in stretches() {
+                let [found, expected] = [responses(&interpreted, at), responses(&compiled, at)];
+                assert_eq!(found, expected, "{} {values:?} {inversion:?} at {at:?}", M::DESCRIPTION.name);
+            }
+            judged.push((compiled, interpreted));
+        }
+    }
+    assert!(!judged.is_empty(), "{}", M::DESCRIPTION.name);
+    for (word, inversion) in [("refuses", Inversion::Refuse), ("refuses-extension", EXTEND)] {
+        for remark in sample.text.remarks(word) {
+            let (given, expected) = remark.split_once(": ").expect("values and a message");
+            let values = values(given);
+            let refused = M::from_values(&slices(&values), inversion).map(|_| ());
+            let by_text = energy.material(&slices(&values), inversion).map(|_| ());
+            // As text, so that NaN equals itself.
+            assert_eq!(format!("{refused:?}"), format!("{by_text:?}"), "{given}");
+            let message = refused.expect_err(given).to_string();
+            assert!(message.contains(expected), "{given}: {message}");
+        }
+    }
+    (sample, judged)
+}
+
+/// Compares derivatives by the parameters, and conditions on them, as well: within a few roundings of the
+/// largest terms, since generated code computes them with the logarithms of the standard library.
+#[track_caller]
+fn check_fittable<M: Fittable>() {
+    let close = |found: &[f64], expected: &[f64]| {
+        assert_eq!(found.len(), expected.len());
+        let scale = expected.iter().fold(0.0f64, |scale, value| scale.max(value.abs()));
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() <= 1e-12 * scale, "{found} interpreted, {expected} compiled");
+        }
+    };
+    let (sample, judged) = check::<M>();
+    let energy = &sample.judged.energy;
+    for (compiled, interpreted) in judged {
+        let values = compiled.values();
+        assert_eq!(energy.values(&interpreted), values);
+        let again = M::from_values(&slices(&values), Inversion::Refuse).expect("admissible");
+        assert_eq!(compiled.with_values(&slices(&values)).expect("admissible").values(), again.values());
+        for at in [[1.2, 1.0, 0.9], [1.3, 1.3, 0.7], [1.01, 1.0, 0.99]] {
+            let found = energy.gradient_by_parameters(&interpreted, at).concat();
+            close(&found, &compiled.gradient_by_parameters(at).concat());
+            let pairs = [
+                (energy.constraints(&interpreted), compiled.constraints()),
+                (energy.domain_constraints(&interpreted, at), compiled.domain_constraints(at)),
+            ];
+            for (found, expected) in pairs {
+                let limits = |all: &[Constraint]| all.iter().map(|one| one.limit.clone()).collect::<Vec<_>>();
+                assert_eq!(limits(&found), limits(&expected));
+                for (found, expected) in found.iter().zip(&expected) {
+                    close(&[found.value], &[expected.value]);
+                    close(&found.gradient, &expected.gradient);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn types_and_texts_give_the_same_bits() {
+    check_fittable::<Terms>();
+    check_fittable::<Fixed<1>>();
+    check_fittable::<Fixed<3>>();
+    check_fittable::<Groups>();
+    check_fittable::<Series>();
+    check_fittable::<Locking>();
+    check::<Springs>();
+    check::<Products>();
+    check::<LockingAtSum>();
+    check::<Implied>();
+    check::<Unlucky<2>>();
+    check::<Unit>();
+    check::<Invariant>();
+    check::<Literal>();
+    check::<Elementary>();
+    check::<Roots>();
+    check::<Functions>();
+    check::<FunctionsOfInvariants>();
+}
+
+type Two = Lanes2<f64>;
+
+/// Each lane gets the bits that it would get alone.
+#[track_caller]
+fn check_lanes<M: Declared>() {
+    let points: [[f64; 2]; 3] = [[1.5, 1.1], [1.1, 0.9], [0.8, -0.3]];
+    let split = |numbers: Vec<Two>| -> Vec<[f64; 2]> {
+        let store = |number: Two| {
+            let mut lanes = [0.0; 2];
+            number.store(&mut lanes);
+            lanes
+        };
+        numbers.into_iter().map(store).collect()
+    };
+    fn all<R: Real>(material: &impl Material, at: [R; 3]) -> Vec<R> {
+        let Blocks { gradient, hessian, flip, twist } = material.blocks(at);
+        let blocks = gradient.into_iter().chain(hessian).chain(flip).chain(twist);
+        blocks.chain([material.energy(at)]).collect()
+    }
+    for (compiled, _) in check::<M>().1 {
+        let together = split(all(&compiled, points.map(|stretch| Two::load(&stretch))));
+        let admitted = Two::bits(compiled.admits(points.map(|stretch| Two::load(&stretch))));
+        for lane in 0..2 {
+            let at = points.map(|stretch| stretch[lane]);
+            let alone: Vec<_> = all(&compiled, at).into_iter().map(f64::to_bits).collect();
+            let found: Vec<_> = together.iter().map(|lanes| lanes[lane].to_bits()).collect();
+            assert_eq!(found, alone, "{} lane {lane}", M::DESCRIPTION.name);
+            assert_eq!(admitted >> lane & 1 == 1, compiled.admits(at));
+        }
+    }
+}
+
+#[test]
+fn lanes_get_what_they_would_get_alone() {
+    check_lanes::<Terms>();
+}
+
+#[test]
+fn lists_of_any_length_give_the_bits_of_arrays() -> Result<(), MaterialError> {
+    let [mu, alpha] = [[6.3e5, 1.2e3, 1e4], [1.3, 5.0, 2.0]];
+    for inversion in [Inversion::Refuse, EXTEND] {
+        let array = Fixed::new(mu, alpha, 2e6)?.with_inversion(inversion)?;
+        let vector = Terms::new(mu.to_vec(), alpha.to_vec(), 2e6)?.with_inversion(inversion)?;
+        for at in stretches() {
+            assert_eq!(responses(&array, at), responses(&vector, at), "{inversion:?} at {at:?}");
+            let [found, expected] = [vector.gradient_by_parameters(at), array.gradient_by_parameters(at)];
+            assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+        }
+        assert_eq!(array.constraints(), vector.constraints());
+    }
+    Ok(())
+}
+
+#[test]
+fn materials_lend_their_lists_and_replace_them() -> Result<(), MaterialError> {
+    let terms = Terms::new(vec![3.0, 1.0], vec![2.0, 1.0], 4.0)?;
+    let (mu, alpha): (&[f64], &[f64]) = (terms.mu(), terms.alpha());
+    assert_eq!((mu, alpha, terms.kappa()), (&[3.0, 1.0][..], &[2.0, 1.0][..], 4.0));
+    let values = terms.values();
+    assert_eq!(values, [&[3.0, 1.0][..], &[2.0, 1.0], &[4.0]]);
+    assert_eq!(Terms::from_values(&slices(&values), Inversion::Refuse)?, terms);
+    let replaced = terms.clone().with_mu(vec![3.0, 2.0])?;
+    assert_eq!(replaced.mu(), [3.0, 2.0]);
+    assert!(terms.with_mu(vec![3.0; 3]).is_err());
+    Groups::new(vec![1.0; 3], vec![2.0], [0.0, 1.0], [0.0])?;
+    let springs = Springs::from_values(&[&[1.0, 2.0], &[2.0, 4.0], &[2.0]], Inversion::Refuse)?;
+    assert_eq!(springs, Springs::new([1.0, 2.0], [2, 4], 2)?);
+    assert_eq!((springs.n(), springs.m()), ([2, 4], 2));
+    let series = Series::from_values(&[&[1.0, 2.0], &[1.0, 2.0], &[0.0; 2], &[1.0]], Inversion::Refuse)?;
+    assert_eq!(series, Series::new(vec![1.0, 2.0], vec![1, 2], vec![0; 2], 1.0)?);
+    let unlucky = Unlucky::new([1.0, 0.5], [2.5, 1.5], 2.0, 7.0)?;
+    assert_eq!((unlucky.t0(), unlucky.epsilon(), unlucky.material()), ([1.0, 0.5], 2.0, 7.0));
+    assert_eq!(Unit::from_values(&[], Inversion::Refuse).map(|unit| unit.moduli().mu), Ok(1.0));
+    Ok(())
+}
+
+#[test]
+fn typed_constructors_refuse_what_is_inadmissible() -> Result<(), MaterialError> {
+    let shape = |expected: &str| Some(MaterialError::Shape { expected: expected.to_owned() });
+    let message = "`alpha` must have as many entries as `mu`, 3, not 2";
+    assert_eq!(Terms::new(vec![1.0; 3], vec![2.0; 2], 1.0).err(), shape(message));
+    let nothing = Terms::new(vec![], vec![], 1.0);
+    assert!(matches!(nothing, Err(MaterialError::UnstableRest { .. })), "{nothing:?}");
+    let not_whole = |given| Some(MaterialError::NotWhole { given });
+    let large = Series::new(vec![1.0; 2], vec![1, 65], vec![0; 2], 1.0).err();
+    assert_eq!(large, not_whole(Argument::entry("i", 1, 65.0)));
+    assert_eq!(Springs::new([1.0; 2], [1, 2], 70).err(), not_whole(Argument::scalar("m", 70.0)));
+    let outside = |condition: &'static str, given: &[Argument]| MaterialError::RestOutside {
+        condition: condition.into(),
+        given: given.to_vec(),
+    };
+    let given = |lm, n| [Argument::scalar("lm", lm), Argument::scalar("n", n)];
+    assert_eq!(Locking::new(1.0, 1.5, 2, 1.0).err(), Some(outside("I1b < lm.powi(n)", &given(1.5, 2.0))));
+    let solid = Locking::new(1.0, 1.5, 3, 1.0)?;
+    assert!(solid.admits([1.0f64; 3]));
+    assert_eq!(solid.with_lm(1.25).err(), Some(outside("I1b < lm.powi(n)", &given(1.25, 3.0))));
+    assert!(LockingAtSum::new(1.0, vec![1.0, 2.5])?.admits([1.0f64; 3]));
+    let error = LockingAtSum::new(1.0, vec![1.0, 2.0]).expect_err("3 is not above 3");
+    assert_eq!(error, outside("I1b < sum(|p| m[p])", &[]));
+    let error = LockingAtSum::new(10.0, vec![4.0]).expect_err("1 is not above 1");
+    assert_eq!(error, outside("l1 > 0.1 * k", &[Argument::scalar("k", 10.0)]));
+    assert!(matches!(Implied::new(0.0), Err(MaterialError::Violated { .. })));
+    assert!(Implied::new(1e-9).is_ok_and(|solid| solid.admits([1.0f64; 3])));
+    assert!(Unlucky::new([1.0, 0.5], [2.5, -1.5], 2.0, 7.0).is_ok());
+    Ok(())
+}
+
+/// What a batch computes with arrays and with lists, on every back end.
+#[test]
+fn batches_of_lists_have_the_bits_of_arrays() {
+    use piola::batch::Batch;
+    use piola::lanes::Backend;
+    let mut random = Random::new(7);
+    let points: Vec<f64> =
+        (0..9 * 70).map(|k| if k % 9 % 4 == 0 { 1.0 } else { 0.0 } + random.uniform(-0.3, 0.3)).collect();
+    let [mu, alpha] = [[6.3e5, 1.2e3, 1e4, 7.7e2, 3.1e4, 1e3, 5.5e4], [1.3, 5.0, 2.0, 3.7, 1.1, 8.2, 0.4]];
+    let [array, vector] = ["Fixed", "Terms"].map(|name| find("compiled", name).judged.energy.clone());
+    for (length, inversion) in [1, 2, 3, 7].into_iter().flat_map(|n| [(n, Inversion::Refuse), (n, EXTEND)]) {
+        let values = [&mu[..length], &alpha[..length], &[2e6]];
+        for backend in Backend::available() {
+            let tangents = |energy: &Energy| {
+                let material = energy.boxed(&values, inversion).expect("admissible");
+                let (mut stresses, mut tangents) = (vec![0.0; 9 * 70], vec![0.0; 81 * 70]);
+                let batch = Batch::new(&*material).with_backend(backend);
+                let survey = batch.tangents(&points, &mut stresses, &mut tangents);
+                let numbers = stresses.into_iter().chain(tangents).map(f64::to_bits).collect::<Vec<_>>();
+                (survey.expect("slices of one number of points"), numbers)
+            };
+            assert!(tangents(&array) == tangents(&vector), "{backend:?}, {length} terms");
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Each point of a batch gets the bits that it would get alone, on every back end; stresses by invariants and
+//! by stretches agree, and so do the layouts.
+
+#![expect(non_snake_case, reason = "F, P as in the literature")]
+
+use piola::batch::{Batch, Layout, TileMaterial};
+use piola::lanes::Backend;
+use piola::{Status, StatusCell, Survey};
+use piola_tests::declarations::{Sample, slices};
+
+/// More than two tiles, and not a whole number of lines.
+const COUNT: usize = 150;
+
+/// A deformation gradient out of the range of the invariants.
+const HUGE: usize = 41;
+
+/// Deformation gradients from gentle to inside out, a rank-deficient one and a huge one.
+fn deformations() -> Vec<[f64; 9]> {
+    let mut all: Vec<[f64; 9]> = (0..COUNT)
+        .map(|p| {
+            let turn = 0.7 * p as f64;
+            let shear = 0.4 * turn.sin();
+            let last = if p % 7 == 3 { -0.5 } else { 0.5 + (0.3 * turn.cos()).abs() };
+            [1.0 + 0.3 * turn.cos(), shear, 0.1, -0.2 * shear, 1.1, shear, 0.05, 0.2, last]
+        })
+        .collect();
+    all[40] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+    all[HUGE] = [1e60, 0.0, 0.0, 0.0, 1e60, 0.0, 0.0, 0.0, 1e60];
+    all
+}
+
+/// Results of a batch: energies, stresses, stresses with tangents, the status of each point after each call,
+/// and the outcome of each call.
+struct Answers {
+    energies: Vec<f64>,
+    stresses: Vec<f64>,
+    beside: Vec<f64>,
+    tangents: Vec<f64>,
+    statuses: Vec<[Status; 3]>,
+    surveys: [Survey; 3],
+}
+
+fn answers(energy: &dyn TileMaterial<f64>, backend: Backend, all: &[[f64; 9]]) -> Answers {
+    let (n, F) = (all.len(), all.as_flattened());
+    let statuses: [Vec<StatusCell>; 3] =
+        [(); 3].map(|()| all.iter().map(|_| StatusCell::default()).collect());
+    let batch = |call: usize| Batch::new(energy).with_backend(backend).with_statuses(&statuses[call]);
+    let (mut energies, mut stresses) = (vec![0.0; n], vec![0.0; 9 * n]);
+    let (mut beside, mut tangents) = (vec![0.0; 9 * n], vec![0.0; 81 * n]);
+    let surveys = [
+        batch(0).energies(F, &mut energies),
+        batch(1).stresses(F, &mut stresses),
+        batch(2).tangents(F, &mut beside, &mut tangents),
+    ]
+    .map(|survey| survey.expect("lengths"));
+    let statuses = (0..n).map(|p| [0, 1, 2].map(|call| statuses[call][p].get())).collect();
+    Answers { energies, stresses, beside, tangents, statuses, surveys }
+}
+
+/// As bits, so that NaN equals itself.
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|x| x.to_bits()).collect()
+}
+
+pub(crate) fn judge(sample: &Sample) {
+    let all = deformations();
+    for values in sample.values() {
+        for inversion in sample.judged.inversions(0.25) {
+            let Ok(material) = sample.judged.subject(&slices(&values), inversion) else { continue };
+            for backend in Backend::available() {
+                let what = format!("{values:?} {inversion:?} on {backend}");
+                let together = answers(&*material.double, backend, &all);
+                points_get_what_they_would_get_alone(&what, &*material.double, backend, &together, &all);
+                stresses_are_the_same_by_another_way(&what, &together, &all);
+                lines_are_points(&what, &*material.double, backend, &together, &all);
+            }
+        }
+    }
+}
+
+fn points_get_what_they_would_get_alone(
+    what: &str,
+    material: &dyn TileMaterial<f64>,
+    backend: Backend,
+    together: &Answers,
+    all: &[[f64; 9]],
+) {
+    let mut refused = [0; 3];
+    for p in 0..COUNT {
+        let alone = answers(material, backend, &all[p..=p]);
+        for (refused, survey) in refused.iter_mut().zip(&alone.surveys) {
+            *refused += survey.refused;
+        }
+        assert_eq!(together.statuses[p..=p], alone.statuses, "{what}, point {p}");
+        for (together, alone) in [
+            (&together.energies[p..=p], &alone.energies),
+            (&together.stresses[9 * p..][..9], &alone.stresses),
+            (&together.beside[9 * p..][..9], &alone.beside),
+            (&together.tangents[81 * p..][..81], &alone.tangents),
+        ] {
+            assert_eq!(bits(together), bits(alone), "{what}, point {p}");
+        }
+    }
+    assert_eq!(together.surveys.each_ref().map(|survey| survey.refused), refused, "{what}");
+}
+
+/// Tangents need a decomposition, and stresses may come from invariants.
+fn stresses_are_the_same_by_another_way(what: &str, together: &Answers, all: &[[f64; 9]]) {
+    let is_judged = |p: &usize| *p != HUGE && together.statuses[*p].iter().all(|status| status.is_clean());
+    for p in (0..COUNT).filter(is_judged) {
+        let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let (found, expected) = (&together.stresses[9 * p..][..9], &together.beside[9 * p..][..9]);
+        let difference: Vec<f64> = found.iter().zip(expected).map(|(a, b)| a - b).collect();
+        // Each of the two is good to 30 u (‖P‖ + sens), as the reference cases judge.
+        let sensitivity = norm(&together.tangents[81 * p..][..81]) * norm(&all[p]);
+        let bound = 60.0 * f64::EPSILON / 2.0 * (norm(expected) + sensitivity);
+        assert!(norm(&difference) <= bound, "{what}, point {p}: {} > {bound}", norm(&difference));
+    }
+}
+
+fn lines_are_points(
+    what: &str,
+    material: &dyn TileMaterial<f64>,
+    backend: Backend,
+    together: &Answers,
+    all: &[[f64; 9]],
+) {
+    let whole = COUNT / 8 * 8;
+    let entries =
+        || (0..whole).flat_map(|p| (0..9).map(move |k| (p, k, Layout::Lines.index::<f64>(p, 9, k))));
+    let (mut F, mut P) = (vec![0.0; 9 * whole], vec![0.0; 9 * whole]);
+    for (p, k, place) in entries() {
+        F[place] = all[p][k];
+    }
+    let batch = Batch::<f64>::new(material).with_backend(backend).with_layout(Layout::Lines);
+    batch.stresses(&F, &mut P).expect("whole lines");
+    for (p, k, place) in entries() {
+        let (found, expected) = (P[place], together.stresses[9 * p + k]);
+        assert_eq!(found.to_bits(), expected.to_bits(), "{what}, entry {k} of point {p}");
+    }
+}
