@@ -5,6 +5,21 @@ use piola::material;
 use piola::material::{Declared, MaterialError, Moduli};
 use piola_materials::{NeoHookean, RotatedLinear, StVenantKirchhoff};
 
+// Energies that the crate does not compile by default, from their files.
+#[path = "../src/hencky.rs"]
+mod hencky;
+#[path = "../src/isochoric_neo_hookean.rs"]
+mod isochoric_neo_hookean;
+#[path = "../src/stable_neo_hookean.rs"]
+mod stable_neo_hookean;
+#[path = "../src/yeoh.rs"]
+mod yeoh;
+
+use hencky::Hencky;
+use isochoric_neo_hookean::IsochoricNeoHookean;
+use stable_neo_hookean::StableNeoHookean;
+use yeoh::Yeoh;
+
 /// Poisson's ratios from that of cork to that of rubber.
 const RATIOS: [f64; 5] = [0.0, 0.2, 0.3, 0.45, 0.499];
 
