@@ -33,6 +33,7 @@ pub fn Terms(
 //@ values [6.3e5, 1.2e3, 1e4], [1.3, 5.0, 2.0], 2e6
 //@ values [6.3e5], [1.3], 2e6
 //@ epsilon 0.2
+//@ points 16
 #[piola::material(domain(J > 0.0), admissible(mu[p] != 0.0), extend(mu[p] * alpha[p] * kappa > 0.0), fit)]
 pub fn Fixed<const N: usize>(
     [l1, l2, l3]: [f64; 3],
@@ -115,6 +116,7 @@ pub fn Springs(
 
 /// Powers alone, which may be small at rest without being zero by their form.
 //@ values [1], [2], [0]
+//@ points 16
 #[piola::material(prestressed)]
 pub fn Products([l1, l2, l3]: [f64; 3], c: Vec<f64>, n: Vec<u32>, m: Vec<u32>) -> f64 {
     sum(|p| c[p] * sum(|l| (l - 1.0).powi(n[p]) * (l * l - 1.0).powi(m[p])))
@@ -125,6 +127,7 @@ pub fn Products([l1, l2, l3]: [f64; 3], c: Vec<f64>, n: Vec<u32>, m: Vec<u32>) -
 //@ refuses 1, 1.5, 2, 1: `I1b < lm.powi(n)` must hold there too, but lm = 1.5, n = 2; change
 //@ refuses 1, 1.25, 3, 1: `I1b < lm.powi(n)` must hold there too, but lm = 1.25, n = 3; change
 //@ refuses 1, 1, 1, 1: `I1b < lm.powi(n)`
+//@ points 16
 #[piola::material(domain(J > 0.0, I1b < lm.powi(n)), fit)]
 pub fn Locking([l1, l2, l3]: [f64; 3], mu: f64, lm: f64, n: u32, kappa: f64) -> f64 {
     -mu * (lm.powi(n) - I1b).ln() + kappa / 2.0 * (J - 1.0).powi(2)
@@ -134,6 +137,7 @@ pub fn Locking([l1, l2, l3]: [f64; 3], mu: f64, lm: f64, n: u32, kappa: f64) -> 
 //@ values 1, [5, 4]
 //@ refuses 1, [1, 2]: `I1b < sum(|p| m[p])`
 //@ refuses 10, [4]: `l1 > 0.1 * k` must hold there too, but k = 10; change
+//@ points 16
 #[piola::material(domain(J > 0.0, l1 > 0.1 * k, I1b < sum(|p| m[p])))]
 pub fn LockingAtSum([l1, l2, l3]: [f64; 3], k: f64, m: Vec<f64>) -> f64 {
     -(sum(|p| m[p]) - I1b).ln() + k * (J - 1.0).powi(2)
@@ -142,6 +146,7 @@ pub fn LockingAtSum([l1, l2, l3]: [f64; 3], k: f64, m: Vec<f64>) -> f64 {
 /// A bound that a condition on a parameter implies, one without parameters, and one of stretches alone.
 //@ values 20
 //@ refuses 0: `jm > 0` must hold, but jm = 0
+//@ points 16
 #[piola::material(domain(J > 0.0, I1b - 3.0 < jm, I1b < 1e3, J < 1e3), admissible(jm > 0.0))]
 pub fn Implied([l1, l2, l3]: [f64; 3], jm: f64) -> f64 {
     -jm * (1.0 - (I1b - 3.0) / jm).ln() + jm * (J - 1.0).powi(2)
@@ -191,6 +196,7 @@ pub fn Literal([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
 
 /// All elementary functions of an invariant, within sums over a list, over stretches and over pairs.
 //@ values 1e5, [0.2, 0.3], [0.7, 0.1], 1e6
+//@ points 16
 #[piola::material(domain(J > 0.0), extend)]
 pub fn Elementary(
     [l1, l2, l3]: [f64; 3],
@@ -215,6 +221,7 @@ pub fn Elementary(
 
 /// Roots of expressions that vanish at rest, and fractions of stretches that cancel on flat elements.
 //@ values 1e5, 10, 2.59, 1e6
+//@ points 16
 #[piola::material(domain(J > 0.0, (I1b - 3.0).sqrt() < lm), admissible(lm > 1.0, k > 0.0))]
 pub fn Roots(
     [l1, l2, l3]: [f64; 3],
@@ -240,6 +247,7 @@ pub fn Roots(
 /// Functions of the volume, of its logarithm and of each stretch, within a sum over a list and within another
 /// function too.
 //@ values 1e5, [0.5, 1.5], [0.1, -5e5, 1, 0, 2, 3e5, 9, 4e6]
+//@ points 16
 #[piola::material(domain(J > 0.0), prestressed, extend)]
 pub fn Functions(
     [l1, l2, l3]: [f64; 3],
@@ -258,6 +266,7 @@ pub fn Functions(
 
 /// Functions of the invariants, one of which begins where I1b − 3 does.
 //@ values [0, 1e5, 3, 1.2e5, 10, 2e5], [0, 1e4, 3, 2e4, 10, 2e4], 1e6
+//@ points 16
 #[piola::material(domain(J > 0.0))]
 pub fn FunctionsOfInvariants(
     [l1, l2, l3]: [f64; 3],

@@ -4,6 +4,7 @@
 //@ values 1, 2, 0.1
 //@ determined a: 1/2 μ + 0 λ + 0
 //@ determined b: 2/3 μ + 1 λ + 0
+//@ points 16
 #[material(domain(J > 0.0))]
 fn Differences([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
     a * (I1b - 3.0) + b / 2.0 * (J - 1.0).powi(2) + (I1b - 3.0).powi(2) * n * n
@@ -12,6 +13,7 @@ fn Differences([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
 //@ values 1, 2, 0.1
 //@ determined a: 1 μ + 0 λ + -6
 //@ determined b: 0 μ + 1 λ + 0
+//@ points 16
 #[material(domain(J > 0.0))]
 fn Constants([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
     (a / 2.0 + 3.0) * (I1 - 3.0 - 2.0 * J.ln()) + b / 2.0 * J.ln().powi(2) + (I1b - 3.0).powi(2) * n * n
@@ -20,6 +22,7 @@ fn Constants([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
 /// Three parameters.
 //@ values 1, 2, 0.1
 //@ undetermined
+//@ points 16
 #[material(domain(J > 0.0))]
 fn Three([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
     (a + n) / 2.0 * (I1 - 3.0 - 2.0 * J.ln()) + b * (J - 1.0).powi(2)
@@ -28,6 +31,7 @@ fn Three([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
 /// One parameter.
 //@ values 1, 2, 0.1
 //@ undetermined
+//@ points 16
 #[material(domain(J > 0.0))]
 fn One([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
     a * (I1 - 3.0 - 2.0 * J.ln()) + (b + n) * (J - 1.0).powi(4)
@@ -36,6 +40,7 @@ fn One([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
 /// Both in the same proportion.
 //@ values 1, 2, 0.1
 //@ undetermined
+//@ points 16
 #[material(domain(J > 0.0))]
 fn Proportional([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
     (a + b) * (I1 - 3.0 - 2.0 * J.ln()) + n * (J - 1.0).powi(4)
@@ -44,6 +49,7 @@ fn Proportional([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
 /// Moduli that are not affine in the parameters.
 //@ values 1, 2, 0.1
 //@ undetermined
+//@ points 16
 #[material(domain(J > 0.0))]
 fn Product([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
     a * b * (I1 - 3.0 - 2.0 * J.ln()) + b * (J - 1.0).powi(2) + n * (J - 1.0).powi(4)
@@ -52,6 +58,7 @@ fn Product([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
 /// A stressed rest state, which has another response.
 //@ values 3, 1, 0.1
 //@ undetermined
+//@ points 16
 #[material(prestressed)]
 fn Stressed([l1, l2, l3]: [f64; 3], a: f64, b: f64, n: f64) -> f64 {
     a * I1 + b * J * J + n * (J - 1.0).powi(4)
