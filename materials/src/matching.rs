@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-12;
 /// use piola::material::Moduli;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let entry = piola_materials::find("stable_neo_hookean").ok_or("not in the catalogue")?;
+/// let entry = piola_materials::find("neo_hookean").ok_or("not in the catalogue")?;
 /// let wanted = Moduli::from_young_poisson(1e6, 0.45)?;
 /// let values = piola_materials::matching(&entry.description, |values| entry.moduli(values, Refuse), wanted)?;
 /// let moduli = entry.moduli(&[&values[0], &values[1]], Refuse)?;
