@@ -47,9 +47,9 @@
 //!
 //! # Features
 //!
-//! * `faer`, on by default: sparse Cholesky factorisation, the fastest solver for bodies of up to some thousand
-//!   elements, and the stability of equilibria. Without it this crate builds in a third of the time, and
-//!   linear systems are solved by conjugate gradients with multigrid, or by a [solver of your
+//! * `faer`, on by default: sparse Cholesky factorisation, the fastest solver for bodies of up to some
+//!   thousand elements, and the stability of equilibria. Without it this crate builds in less than half of the
+//!   time, and linear systems are solved by conjugate gradients with multigrid, or by a [solver of your
 //!   own](step::SparseSolver).
 //! * `serde`: settings and reports are written to files and read back. A value that is not finite becomes
 //!   `null` in JSON and cannot be read back.

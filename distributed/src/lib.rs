@@ -2,7 +2,8 @@
 //! of MPI, with the solvers of PETSc.
 //!
 //! The mathematics of materials and elements is piola's: each rank evaluates its elements by piola's kernels,
-//! and the steps are those of [`piola_bodies::step`]. This crate contains the division of a mesh ([`portion`],
+//! and the steps are those of [`piola_bodies::step`]. This crate contains the division of a mesh
+//! ([`portion`],
 //! [`share`]), the messages between ranks ([`team`], [`petsc`]), and the objective of a step as sums over
 //! ranks ([`minimisation`]).
 //!

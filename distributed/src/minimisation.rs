@@ -1,10 +1,10 @@
 //! Newton's method for a body that is divided among ranks.
 //!
-//! The method is piola's ([`piola_bodies::step::divided::minimize`]). This body is a [`Minimisation`] whose results
-//! are sums and extrema over the ranks, so that all ranks make the same decisions. If an element of any rank
-//! refuses a point, the step is too long on every rank. PETSc's SNES is not used, because it does not support
-//! pins that move into the first system, a filter on demand, or an end below the rounding error of the
-//! energy.
+//! The method is piola's ([`piola_bodies::step::divided::minimize`]). This body is a [`Minimisation`] whose
+//! results are sums and extrema over the ranks, so that all ranks make the same decisions. If an element of
+//! any rank refuses a point, the step is too long on every rank. PETSc's SNES is not used, because it does
+//! not support pins that move into the first system, a filter on demand, or an end below the rounding error
+//! of the energy.
 //!
 //! The objective is the one of a stage (see [`piola_bodies::step::divided::StagedSteps`]),
 //!

@@ -143,7 +143,8 @@ impl Portion {
     }
 
     /// Part, on this rank, of a cube with six tetrahedra in each of `cells`³ cells, equal to the mesh of
-    /// [`piola_bodies::mesh::tetrahedral_box`]. The rest of the mesh is not generated. Nodes with x = 0 are pinned.
+    /// [`piola_bodies::mesh::tetrahedral_box`]. The rest of the mesh is not generated. Nodes with x = 0 are
+    /// pinned.
     #[must_use]
     pub fn of_cube(team: &Team, cells: u64, length: f64) -> Self {
         let side = cells + 1;

@@ -194,8 +194,8 @@ impl Simulation {
     }
 
     /// Advances the state over a time interval, s, with adaptive steps. The error of positions stays within
-    /// `tolerance`, m/s, times the interval, as in [`piola_bodies::step::Simulation::advance_within`]. Returns the
-    /// steps, with the reports of all of their stages, including refused steps.
+    /// `tolerance`, m/s, times the interval, as in [`piola_bodies::step::Simulation::advance_within`].
+    /// Returns the steps, with the reports of all of their stages, including refused steps.
     ///
     /// # Errors
     /// An [`Error`] of the shortest step, or of PETSc.

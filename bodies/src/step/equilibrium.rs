@@ -9,13 +9,13 @@
 //! K v = ω² M v,   M the lumped masses,
 //! ```
 //!
-//! among the motions of free nodes that are not rigid ones. In equilibrium a rigid motion r needs no force, K r =
-//! 0, and vᵀK v does not depend on the rigid part of v. Its sign can therefore be judged on any motions of
-//! which no rigid one is left: springs hold as many unknowns as there are rigid motions, each where one of them
-//! moves it most. The stiffness with these springs is positive definite exactly if all ω² of other motions are
-//! positive, and a Cholesky factorisation exists exactly for such a matrix (Sylvester's law of inertia).
-//! Factorisations of K ± σM, with a σ above all rounding errors, then separate stable from unstable and from
-//! undecided.
+//! among the motions of free nodes that are not rigid ones. In equilibrium a rigid motion r needs no force, K
+//! r = 0, and vᵀK v does not depend on the rigid part of v. Its sign can therefore be judged on any motions
+//! of which no rigid one is left: springs hold as many unknowns as there are rigid motions, each where one of
+//! them moves it most. The stiffness with these springs is positive definite exactly if all ω² of other
+//! motions are positive, and a Cholesky factorisation exists exactly for such a matrix (Sylvester's law of
+//! inertia). Factorisations of K ± σM, with a σ above all rounding errors, then separate stable from unstable
+//! and from undecided.
 
 use piola::NoSuchNode;
 use piola::point::Filter;
@@ -212,8 +212,8 @@ impl Definiteness {
     }
 }
 
-/// As many unknowns as there are motions, such that no combination of the motions leaves all of them in place:
-/// by elimination with the largest component of each motion as the pivot.
+/// As many unknowns as there are motions, such that no combination of the motions leaves all of them in
+/// place: by elimination with the largest component of each motion as the pivot.
 fn held(motions: &[Vec<f64>]) -> Vec<usize> {
     let mut motions = motions.to_vec();
     let mut held = Vec::new();

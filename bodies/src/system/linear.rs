@@ -1,8 +1,8 @@
 //! Linear systems of bodies: their errors, and the solvers that a simulation can choose.
 //!
 //! `cholesky` is a sparse factorisation, for bodies of up to some thousand elements, and `ordering` numbers
-//! its unknowns; both exist with the feature `faer`. `conjugate_gradients` has two preconditioners: the blocks
-//! on the diagonal (`block_jacobi`) and `multigrid`.
+//! its unknowns; both exist with the feature `faer`. `conjugate_gradients` has two preconditioners: the
+//! blocks on the diagonal (`block_jacobi`) and `multigrid`.
 
 use std::fmt;
 

@@ -33,8 +33,8 @@ const WAVE: usize = 64;
 /// [`ElasticResponse::stiffness`](super::ElasticResponse::stiffness).
 ///
 /// [`NodalStiffness::blocks`] are triplets for a sparse matrix in any format;
-/// [`LowerTriangle`](super::LowerTriangle) holds the entries for a factorisation. Takes some 250 bytes for each
-/// element, and a buffer of up to 3 MB.
+/// [`LowerTriangle`](super::LowerTriangle) holds the entries for a factorisation. Takes some 250 bytes for
+/// each element, and a buffer of up to 3 MB.
 #[derive(Clone)]
 pub struct NodalStiffness {
     shape: Arc<Shape>,

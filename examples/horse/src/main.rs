@@ -1,4 +1,4 @@
-//! An energy in one line moves a body: a horse of 2646 tetrahedra is flattened onto a plane and stands up again.
+//! An energy in one line moves a body: a horse of 2646 tetrahedra, flattened onto a plane, stands up again.
 
 mod picture;
 

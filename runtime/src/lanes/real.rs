@@ -31,8 +31,8 @@ pub trait Real:
     /// The smallest positive normal number.
     const MIN_POSITIVE: f64;
 
-    /// [`UNIT_ROUNDOFF`](Self::UNIT_ROUNDOFF) of the numbers that are computed with: a type may have its format
-    /// at run time.
+    /// [`UNIT_ROUNDOFF`](Self::UNIT_ROUNDOFF) of the numbers that are computed with: a type may have its
+    /// format at run time.
     #[doc(hidden)]
     #[inline(always)]
     fn unit_roundoff() -> f64 {

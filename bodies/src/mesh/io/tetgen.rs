@@ -19,8 +19,8 @@ use crate::mesh::{Group, TetMesh};
 /// that belong to no tetrahedron are dropped and counted in [`TetMesh::dropped_nodes`].
 ///
 /// # Errors
-/// [`ReadError`], which names the line if it is malformed, if there is no tetrahedron, or if tetrahedra are of
-/// second order.
+/// [`ReadError`], which names the line if it is malformed, if there is no tetrahedron, or if tetrahedra are
+/// of second order.
 pub fn read_tetgen(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
     let nodes = read(&path.as_ref().with_extension("node"), parse_nodes)?;
     read(&path.as_ref().with_extension("ele"), |text| parse_tets(text, nodes))

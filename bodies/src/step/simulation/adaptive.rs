@@ -62,8 +62,8 @@ impl Simulation {
     /// ```
     ///
     /// # Errors
-    /// [`StepError`] if a step of the shortest length fails, or neither the time nor the tolerance is positive
-    /// and finite. The state before is then untouched.
+    /// [`StepError`] if a step of the shortest length fails, or neither the time nor the tolerance is
+    /// positive and finite. The state before is then untouched.
     pub fn advance_within(&mut self, duration: f64, tolerance: f64) -> Result<AdaptiveReport, StepError> {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             return Err(StepError::Tolerance { tolerance });

@@ -34,8 +34,8 @@ impl Simulation {
     /// In statics their sum balances gravity, given forces and springs.
     ///
     /// # Errors
-    /// [`NewtonError::Inadmissible`] or [`NewtonError::ElementNotFinite`] for an element that has no forces at
-    /// the current positions.
+    /// [`NewtonError::Inadmissible`] or [`NewtonError::ElementNotFinite`] for an element that has no forces
+    /// at the current positions.
     pub fn reactions(&mut self) -> Result<Vec<[f64; 3]>, NewtonError> {
         let survey = self.survey();
         demand_admissible(&survey, &self.body, &self.elastic)?;

@@ -36,8 +36,8 @@ impl Simulation {
     /// Sets the acceleration of each node at the end of the step before, m/s²: with positions and velocities
     /// the whole state of a motion that is resumed.
     ///
-    /// [`NewtonSettings::error_share`](crate::step::NewtonSettings::error_share) judges the error of a step by
-    /// them, and [`Simulation::reactions`] takes them.
+    /// [`NewtonSettings::error_share`](crate::step::NewtonSettings::error_share) judges the error of a step
+    /// by them, and [`Simulation::reactions`] takes them.
     ///
     /// # Errors
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite acceleration for each

@@ -90,8 +90,8 @@ impl<D: Division> Preconditioner<D> {
     /// `inertia(node)` to each entry on the diagonal.
     ///
     /// # Errors
-    /// [`Division::Error`], also for [`LinearError::Length`](crate::system::LinearError::Length) where a slice or the division does not have the
-    /// length of the stiffness.
+    /// [`Division::Error`], also for [`LinearError::Length`](crate::system::LinearError::Length) where a
+    /// slice or the division does not have the length of the stiffness.
     pub fn take(
         &mut self,
         stiffness: &NodalStiffness,
