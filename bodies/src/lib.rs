@@ -48,7 +48,7 @@
 //! # Features
 //!
 //! * `faer`, on by default: sparse Cholesky factorisation, the fastest solver for bodies of up to some
-//!   thousand elements, and the stability of equilibria. Without it this crate builds in less than half of the
+//!   thousand elements, and the stability of equilibria. Without it this crate builds in less than half the
 //!   time, and linear systems are solved by conjugate gradients with multigrid, or by a [solver of your
 //!   own](step::SparseSolver).
 //! * `serde`: settings and reports are written to files and read back. A value that is not finite becomes

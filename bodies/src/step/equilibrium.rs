@@ -212,8 +212,8 @@ impl Definiteness {
     }
 }
 
-/// As many unknowns as there are motions, such that no combination of the motions leaves all of them in
-/// place: by elimination with the largest component of each motion as the pivot.
+/// Unknowns, one for each motion, such that no combination of the motions leaves all of them in place: by
+/// elimination with the largest component of each motion as the pivot.
 fn held(motions: &[Vec<f64>]) -> Vec<usize> {
     let mut motions = motions.to_vec();
     let mut held = Vec::new();

@@ -15,7 +15,7 @@ use crate::mesh::{MeshError, TetMesh, lumped_masses};
 pub struct Part {
     /// Name of the group of tetrahedra; `None` for all tetrahedra that no other part names.
     pub group: Option<String>,
-    /// Anything that implements [`Material`](crate::Material), or a
+    /// Anything that implements [`Material`](piola::Material), or a
     /// [`PerPoint`](piola::material::PerPoint) of them.
     pub material: Box<dyn TileMaterial<f64>>,
     /// Mass density at rest, kg/m³.

@@ -1,12 +1,15 @@
 //! Materials and meshes for the tests of bodies, since this crate contains no particular material.
 
 use piola::__private::random::Random;
+#[cfg(feature = "faer")]
 use piola::batch::Batch;
 use piola::material::Scaled;
+#[cfg(feature = "faer")]
 use piola::point::Filter;
 
 use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff};
 use crate::mesh::{TetMesh, tetrahedral_box};
+#[cfg(feature = "faer")]
 use crate::system::Body;
 
 // The hand-written energies have moduli of about 1 Pa; these are as stiff as rubber foam.
@@ -42,6 +45,7 @@ pub(crate) fn shake(random: &mut Random, positions: &[[f64; 3]], amplitude: f64)
 
 /// Product of the filtered stiffness at these positions with a displacement of each node, summed element by
 /// element: no sum is shared with an assembled matrix.
+#[cfg(feature = "faer")]
 pub(crate) fn stiffness_product(
     body: &Body,
     positions: &[[f64; 3]],
