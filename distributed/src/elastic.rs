@@ -5,8 +5,8 @@
 
 use std::sync::Arc;
 
-use piola_bodies::mesh::{Group, TetMesh};
 use piola::point::Filter;
+use piola_bodies::mesh::{Group, TetMesh};
 use piola_bodies::step::EnergyChange;
 use piola_bodies::system::{Body, ElasticResponse, NodalStiffness, Part};
 use piola_scenes::material::MaterialSpec;

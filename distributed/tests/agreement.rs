@@ -9,8 +9,8 @@ use std::path::Path;
 
 use common::{TestResult, checkpoint_in, command, finish, msh, state_after};
 use piola::material::{Moduli, PerPoint};
-use piola_bodies::mesh::{Bounds, tetrahedral_box};
 use piola::point::Filter;
+use piola_bodies::mesh::{Bounds, tetrahedral_box};
 use piola_bodies::step::{
     Convergence, Damping, Filtering, Integrator, LinearSolver, NewtonSettings, Simulation, SimulationSettings,
 };

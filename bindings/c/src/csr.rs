@@ -1,7 +1,7 @@
 //! Assembly into a sparse matrix of the caller.
 
-use piola::batch::{Layout, Tetrahedra};
 use piola::batch::CsrPlaces;
+use piola::batch::{Layout, Tetrahedra};
 
 use crate::error::{Code, Failure, guard};
 use crate::lent::{Arrays, Plain};

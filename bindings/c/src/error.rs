@@ -7,11 +7,11 @@ use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use piola::NoSuchNode;
+use piola::batch::CsrError;
 use piola::batch::LengthError;
 use piola::material::{MaterialError, PerPointError};
 use piola_bodies::mesh::MeshError;
 use piola_bodies::step::{NewtonError, SetupError, StepError};
-use piola::batch::CsrError;
 use piola_bodies::system::BodyError;
 use piola_declare::Mistakes;
 

@@ -288,10 +288,8 @@ pub unsafe extern "C" fn piola_simulation_set_springs(
     unsafe {
         change(simulation, |State { simulation, .. }| {
             let springs = Arrays::new().input("springs", springs, springs_length)?;
-            let spring = |&Spring { nodes, weights, target, stiffness }: &Spring| piola_bodies::step::Spring {
-                anchor: Anchor { nodes, weights },
-                target,
-                stiffness,
+            let spring = |&Spring { nodes, weights, target, stiffness }: &Spring| {
+                piola_bodies::step::Spring { anchor: Anchor { nodes, weights }, target, stiffness }
             };
             Ok(simulation.set_springs(&springs.iter().map(spring).collect::<Vec<_>>())?)
         })
@@ -313,8 +311,9 @@ pub unsafe extern "C" fn piola_simulation_set_terms(
                 .iter()
                 .map(|&term| Callbacks::new(term).map(Arc::new))
                 .collect::<Result<Vec<_>, _>>()?;
-            simulation
-                .set_terms(terms.iter().map(|term| term.clone() as Arc<dyn piola_bodies::step::Term>).collect());
+            simulation.set_terms(
+                terms.iter().map(|term| term.clone() as Arc<dyn piola_bodies::step::Term>).collect(),
+            );
             *kept = terms;
             Ok(())
         })

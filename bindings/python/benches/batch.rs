@@ -24,9 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let deformations: Vec<f64> = (0..9 * points).map(entry).collect();
     let (mut stresses, mut tangents) = (vec![0.0; 9 * points], vec![0.0; 81 * points]);
     let stress = best(points, || batch.stresses(&deformations, &mut stresses).map(drop))?;
-    let tangent = best(points, || {
-        batch.tangents(&deformations, &mut stresses, &mut tangents).map(drop)
-    })?;
+    let tangent = best(points, || batch.tangents(&deformations, &mut stresses, &mut tangents).map(drop))?;
     black_box((&stresses, &tangents));
     writeln!(std::io::stdout(), "{stress} {tangent}")?;
     Ok(())

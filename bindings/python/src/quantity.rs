@@ -95,9 +95,7 @@ impl Quantity {
             (Self::Energy, [energies]) => batch.energies(F, energies),
             (Self::Stress, [P]) => batch.stresses(F, P),
             (Self::Tangent, [P, dP_dF]) => batch.tangents(F, P, dP_dF),
-            (Self::All, [energies, P, dP_dF]) => {
-                batch.energies_and_tangents(F, energies, P, dP_dF)
-            }
+            (Self::All, [energies, P, dP_dF]) => batch.energies_and_tangents(F, energies, P, dP_dF),
             (Self::MeasuredStress(measure, _), [stresses]) => batch.measured_stresses(measure, F, stresses),
             (Self::MeasuredTangent(measure, _), [stresses, tangents]) => {
                 batch.measured_tangents(measure, F, stresses, tangents)

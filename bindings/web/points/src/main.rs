@@ -112,16 +112,8 @@ impl Request {
         let (mut psi, mut stress, mut tangent, mut projected) = (room(1), room(9), room(81), room(81));
         let statuses: Vec<_> = (0..count).map(|_| Default::default()).collect();
         plain.energies(&deformations, &mut psi)?;
-        plain.with_filter(Filter::Clamp).tangents(
-            &deformations,
-            &mut stress,
-            &mut projected,
-        )?;
-        plain.with_statuses(&statuses).tangents(
-            &deformations,
-            &mut stress,
-            &mut tangent,
-        )?;
+        plain.with_filter(Filter::Clamp).tangents(&deformations, &mut stress, &mut projected)?;
+        plain.with_statuses(&statuses).tangents(&deformations, &mut stress, &mut tangent)?;
         let wide = |values: Vec<E>| values.into_iter().map(Into::into).collect();
         Ok(Answer {
             backend: backend.name(),
