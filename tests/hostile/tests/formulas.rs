@@ -11,8 +11,8 @@ use piola_declare::Energy;
 /// The longest text of an energy.
 const LENGTH: usize = 1 << 16;
 
-/// The longest time of a call: two seconds on an EPYC (Zen 4), and twice that for slower processors.
-const LONGEST: Duration = Duration::from_secs(4);
+/// The longest time of a call.
+const LONGEST: Duration = Duration::from_secs(2);
 
 /// A sum of as many terms as fit into a length, free of stress at rest.
 fn sum(length: usize, term: impl Fn(usize) -> String) -> String {
