@@ -81,9 +81,9 @@ impl Energy {
         source: String,
         notation: Notation,
     ) -> Option<Self> {
+        let programs = Arc::new(programs(declaration, &mut model)?);
         let texts = Texts::of(declaration, &mut model);
         let documentation = page(declaration, &mut model, &texts);
-        let programs = Arc::new(programs(declaration, &mut model)?);
         Some(Self(Arc::new(Compiled {
             description: description(declaration, &model.units, texts),
             documentation,

@@ -248,25 +248,29 @@ fn read_into(
         return None;
     }
     let prepared = forms::prepare(&mut graph, &source, &samples);
-    let (mut model, derived) = derive(graph, &source, &constrained, &prepared, samples);
+    let (mut model, derived) = derive(graph, &source, &constrained, &prepared, samples)?;
     let findings = judge::derived(&mut model.graph, &source, &derived, &model.samples);
     judge::report(&mut model.graph, &source, findings, diagnostics);
     Some(model)
 }
 
-/// All derivatives of an energy in its prepared form, and the subset that is judged.
+/// All derivatives of an energy in its prepared form, and the subset that is judged; `None` if those by the
+/// stretches leave no room for others.
 fn derive(
     mut graph: Graph,
     source: &Source<'_>,
     constrained: &[Option<Id>],
     prepared: &Prepared,
     samples: Vec<Point>,
-) -> (Model, Derived) {
+) -> Option<(Model, Derived)> {
     let Source { declaration, energy, volume, .. } = *source;
     let options = &declaration.options;
     let bounds = prepared.bounds.clone();
     let bounds_at_rest = bounds_at_rest(&mut graph, declaration, &bounds, constrained);
     let plain = variant(&mut graph, prepared.energy, &samples, volume == Volume::Positive);
+    if graph.is_full() {
+        return None;
+    }
     let is_exact = !graph.overflowed();
     let lossy = lossy(&graph, prepared.energy, [&plain.gradient, &plain.blocks()[3..]], &prepared.ways);
     let mut increments = Increments::default();
@@ -340,7 +344,7 @@ fn derive(
         programs: FxHashMap::default(),
         collector: Collector::default(),
     };
-    (model, derived)
+    Some((model, derived))
 }
 
 /// A parameter, or the entry of a list, as a variable of derivatives.

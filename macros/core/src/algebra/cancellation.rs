@@ -180,7 +180,7 @@ pub fn lossy(graph: &Graph, energy: Id, derivatives: [&[Id]; 2], ways: &Ways) ->
         let mut memo = Memo::default();
         let mut estimate = evaluate_with(graph, sum, point, &mut memo);
         estimate.value += CHANGE * ratio(graph, sum, point, &mut memo) * estimate.value.abs();
-        let changed = values(derivatives, point, Memo::from_iter([(sum, estimate)]));
+        let changed = values(derivatives, point, Memo::of(sum, estimate));
         let by_stretches: f64 = (0..3)
             .map(|k| {
                 let mut moved = point.clone();

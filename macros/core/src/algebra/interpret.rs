@@ -41,7 +41,19 @@ pub fn evaluate(graph: &Graph, id: Id, point: &Point) -> Estimate {
 }
 
 /// Values of nodes at one point.
-pub type Memo = FxHashMap<Id, Estimate>;
+#[derive(Debug, Default)]
+pub struct Memo {
+    values: FxHashMap<Id, Estimate>,
+    /// Values in the bodies of sums over lists, for each entry.
+    entries: Vec<Memo>,
+}
+
+impl Memo {
+    /// The value of one node, taken for given.
+    pub fn of(id: Id, value: Estimate) -> Self {
+        Self { values: FxHashMap::from_iter([(id, value)]), entries: Vec::new() }
+    }
+}
 
 /// Evaluates one of several nodes at a point: `memo` keeps the values of all nodes evaluated there.
 pub fn evaluate_with(graph: &Graph, id: Id, point: &Point, memo: &mut Memo) -> Estimate {
@@ -57,11 +69,11 @@ struct Interpreter<'a> {
 
 impl Interpreter<'_> {
     fn value(&mut self, id: Id) -> Estimate {
-        if let Some(&done) = self.memo.get(&id) {
+        if let Some(&done) = self.memo.values.get(&id) {
             return done;
         }
         let result = self.rule(id);
-        self.memo.insert(id, result);
+        self.memo.values.insert(id, result);
         result
     }
 
@@ -140,8 +152,10 @@ impl Interpreter<'_> {
             }
             Node::Sum(length, body) => {
                 let mut sum = exact(0.0);
-                for entry in 0..self.point.lengths[*length] {
-                    let (graph, point, memo) = (self.graph, self.point, &mut Memo::default());
+                let (graph, point, entries) = (self.graph, self.point, &mut self.memo.entries);
+                let length = point.lengths[*length];
+                entries.resize_with(entries.len().max(length), Memo::default);
+                for (entry, memo) in entries[..length].iter_mut().enumerate() {
                     let Estimate { value, magnitude } =
                         Interpreter { graph, point, entry, memo }.value(*body);
                     sum.value += value;

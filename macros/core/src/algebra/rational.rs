@@ -69,7 +69,11 @@ impl Rational {
     /// The nearest `f64` if both parts fit 53 bits, else one within two units in the last place.
     #[must_use]
     pub fn to_f64(self) -> f64 {
-        self.numerator as f64 / self.denominator as f64
+        // Conversions from 128 bits take several times as long.
+        match (i64::try_from(self.numerator), i64::try_from(self.denominator)) {
+            (Ok(numerator), Ok(denominator)) => numerator as f64 / denominator as f64,
+            _ => self.numerator as f64 / self.denominator as f64,
+        }
     }
 
     /// The sum, unless it leaves 128 bits.

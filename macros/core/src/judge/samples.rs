@@ -8,7 +8,7 @@ use super::finding::{Finding, Violation};
 use super::source::{Source, at_rest};
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id};
-use crate::algebra::interpret::{Estimate, Point, evaluate};
+use crate::algebra::interpret::{Estimate, Memo, Point, evaluate, evaluate_with};
 use crate::read::domain::Volume;
 use crate::read::parse::Entries;
 
@@ -45,10 +45,11 @@ const NOISE: f64 = 1e-12;
 pub(crate) fn samples(graph: &mut Graph, source: &Source<'_>) -> Result<Vec<Point>, Finding> {
     let &Source { declaration, energy, .. } = source;
     let gradient = Differentiator::default().by_stretch(graph, energy, 0);
+    let attempts = if graph.is_full() { 0 } else { CANDIDATES };
     let mut found = Vec::new();
     let mut excludes_rest = None;
     let wanted = if declaration.has_whole_exponents() { SAMPLES_OF_EXPONENTS } else { SAMPLES };
-    for point in candidates(source, 0x9E37_79B9_7F4A_7C15, 0..CANDIDATES) {
+    for point in candidates(source, 0x9E37_79B9_7F4A_7C15, 0..attempts) {
         let holds = |id: Id, point: &Point| evaluate(graph, id, point).value > 0.0;
         if !source.admissible.iter().all(|&id| holds(id, &point)) {
             continue;
@@ -58,7 +59,8 @@ pub(crate) fn samples(graph: &mut Graph, source: &Source<'_>) -> Result<Vec<Poin
             excludes_rest = Some(k);
             continue;
         }
-        let is_finite = |id| evaluate(graph, id, &point).value.is_finite();
+        let mut memo = Memo::default();
+        let mut is_finite = |id| evaluate_with(graph, id, &point, &mut memo).value.is_finite();
         if source.is_inside(graph, &point) && is_finite(energy) && is_finite(gradient) {
             found.push(point);
         }
