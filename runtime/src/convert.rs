@@ -1,35 +1,20 @@
-//! Matrices from and to nalgebra and glam (features `nalgebra` and `glam`), entry (i, j) to entry (i, j).
+//! Matrices from and to nalgebra (feature `nalgebra`), entry (i, j) to entry (i, j).
 //!
-//! A matrix of piola is an array of its rows; nalgebra and glam store columns. Copying the numbers in the
-//! order of memory would transpose them, and a transposed F is a valid F with another stress. These functions
-//! cannot be misread: each takes or returns rows on piola's side and the library's own matrix on the other.
-//! (Whole slices of matrices by columns need no copy: see `piola::batch`.)
+//! A matrix of piola is an array of its rows; nalgebra stores columns. Copying the numbers in the order of
+//! memory would transpose them, and a transposed F is a valid F with another stress. These functions cannot
+//! be misread: each takes or returns rows on piola's side and the library's own matrix on the other. (Whole
+//! slices of matrices by columns need no copy: see `piola::batch`.)
 //!
-//! They are for one version of each library. For another one a line of code does the same, here for any
-//! nalgebra: `[0, 1, 2].map(|i| [0, 1, 2].map(|j| F[(i, j)]))`, and `Matrix3::from_fn(|i, j| P[i][j])` the
-//! other way.
-//!
-//! ```
-//! # #[cfg(feature = "glam")] {
-//! use piola::convert::{from_glam, to_glam};
-//!
-//! let F = [[1.0, 0.2, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-//! // Shear along x: what points along y leans towards x.
-//! assert_eq!(to_glam(&F) * glam::DVec3::Y, glam::DVec3::new(0.2, 1.0, 0.0));
-//! assert_eq!(from_glam(&to_glam(&F)), F);
-//! # }
-//! ```
+//! They are for two versions of nalgebra. For another one, and for glam with its own indices, a line of code
+//! does the same: `[0, 1, 2].map(|i| [0, 1, 2].map(|j| F[(i, j)]))`, and `Matrix3::from_fn(|i, j| P[i][j])`
+//! the other way.
 //!
 //! Tangents are 9×9 for [`to_nalgebra`], from [`Tangent::to_matrix`](crate::point::Tangent::to_matrix): row
 //! 3i+j for entry (i, j) of P, column 3k+l for entry (k, l) of F. A matrix of nalgebra's flattened by its own
 //! `reshape` or `as_slice` is in the other order, 3j+i: use `dP_dF *
 //! SVector::from_row_slice(dF.as_flattened())` on piola's rows instead.
 
-#[cfg(feature = "glam")]
-use crate::point::Matrix3;
-
 /// The rows of a matrix of nalgebra.
-#[cfg(any(feature = "nalgebra", test))]
 #[must_use]
 pub fn from_nalgebra<T: nalgebra::Scalar + Copy, const M: usize, const N: usize>(
     matrix: &nalgebra::SMatrix<T, M, N>,
@@ -39,40 +24,11 @@ pub fn from_nalgebra<T: nalgebra::Scalar + Copy, const M: usize, const N: usize>
 
 /// The matrix of nalgebra with these rows: 3×3 for F and P, 6×6 for tangents in Voigt notation, 9×9 for
 /// dP/dF.
-#[cfg(any(feature = "nalgebra", test))]
 #[must_use]
 pub fn to_nalgebra<T: nalgebra::Scalar + Copy, const M: usize, const N: usize>(
     rows: &[[T; N]; M],
 ) -> nalgebra::SMatrix<T, M, N> {
     nalgebra::SMatrix::from_fn(|i, j| rows[i][j])
-}
-
-/// The rows of a matrix of glam.
-#[cfg(feature = "glam")]
-#[must_use]
-pub fn from_glam(matrix: &glam::DMat3) -> Matrix3<f64> {
-    matrix.transpose().to_cols_array_2d()
-}
-
-/// The matrix of glam with these rows.
-#[cfg(feature = "glam")]
-#[must_use]
-pub fn to_glam(rows: &Matrix3<f64>) -> glam::DMat3 {
-    glam::DMat3::from_cols_array_2d(rows).transpose()
-}
-
-/// The rows of a matrix of glam in single precision.
-#[cfg(feature = "glam")]
-#[must_use]
-pub fn from_glam_f32(matrix: &glam::Mat3) -> Matrix3<f32> {
-    matrix.transpose().to_cols_array_2d()
-}
-
-/// The matrix of glam in single precision with these rows.
-#[cfg(feature = "glam")]
-#[must_use]
-pub fn to_glam_f32(rows: &Matrix3<f32>) -> glam::Mat3 {
-    glam::Mat3::from_cols_array_2d(rows).transpose()
 }
 
 #[cfg(test)]
@@ -81,8 +37,7 @@ mod tests {
 
     const ROWS: [[f64; 3]; 3] = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
 
-    #[cfg(any(feature = "nalgebra", test))]
-    #[test]
+        #[test]
     fn nalgebra_stores_columns_and_piola_rows() {
         let matrix: nalgebra::Matrix3<f64> = to_nalgebra(&ROWS);
         assert_eq!(matrix.as_slice(), [1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0]);
@@ -93,8 +48,7 @@ mod tests {
 
     /// The product of a flattened tangent and a flattened dF, in the documented order of indices, is that of
     /// `apply`.
-    #[cfg(any(feature = "nalgebra", test))]
-    #[test]
+        #[test]
     #[expect(non_snake_case, reason = "F as in the literature")]
     fn tangents_multiply_flattened_rows() {
         use crate::hand_written::SaintVenantKirchhoff;
@@ -108,15 +62,5 @@ mod tests {
             // Nine products of entries below 10 each: a rounding of each and of their sums.
             assert!((found - expected).abs() <= 1e3 * f64::EPSILON, "{found} for {expected}");
         }
-    }
-
-    #[cfg(feature = "glam")]
-    #[test]
-    fn glam_stores_columns_and_piola_rows() {
-        assert_eq!(to_glam(&ROWS).y_axis, glam::DVec3::new(2.0, 5.0, 8.0));
-        assert_eq!(from_glam(&to_glam(&ROWS)), ROWS);
-        let single = ROWS.map(|row| row.map(|x| x as f32));
-        assert_eq!(to_glam_f32(&single).z_axis, glam::Vec3::new(3.0, 6.0, 9.0));
-        assert_eq!(from_glam_f32(&to_glam_f32(&single)), single);
     }
 }

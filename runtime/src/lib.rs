@@ -204,7 +204,7 @@
 //! * [`point`]: P and dP/dF from F through a signed singular value decomposition, and other measures of
 //!   stress;
 //! * [`batch`]: slices of many points, on vector lanes and threads (feature `batch`);
-//! * `convert`: matrices from and to nalgebra and glam (features `nalgebra` and `glam`);
+//! * `convert`: matrices from and to nalgebra (feature `nalgebra`);
 //! * [`contract`](mod@contract): requirements on every material, as tests in one line or functions;
 //! * `interpreter`: materials whose energy is known only at run time, made by `piola-declare` (feature
 //!   `interpreter`).
@@ -229,7 +229,7 @@ pub mod __private;
 #[cfg(feature = "batch")]
 pub mod batch;
 pub mod contract;
-#[cfg(any(feature = "glam", feature = "nalgebra", test))]
+#[cfg(any(feature = "nalgebra", test))]
 pub mod convert;
 mod dynamic;
 #[cfg(test)]
