@@ -142,7 +142,7 @@ fn the_contract_is_checked_without_a_crate() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!((output.status.code(), message.lines().count()), (Some(1), 8), "{message}");
     assert!(message.contains("such as `where J > 0, I1 < 9`") && !message.contains("domain("), "{message}");
-    assert!(message.contains("not judged, because the energy is not finite: objectivity"), "{message}");
+    assert!(message.contains("not judged, because the energy is not finite: isotropy"), "{message}");
 }
 
 /// The parameters of the example are those that were given, or typical ones.

@@ -1,27 +1,18 @@
-//! Rules on rotations: of space, of the rest shape, and among equal stretches.
+//! The rule on rotations of space and of the rest shape, and on equal stretches.
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
 use super::samples::at_samples;
-use super::subject::{Subject, energy, stress, tangent};
+use super::subject::{Subject, energy, stress};
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, stiffness, stress_scale};
 use crate::material::PAIRS;
 use crate::point::Matrix3;
 use crate::point::matrix::multiply;
 
-/// [`Rule::Objectivity`].
-pub(super) fn objectivity(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::Objectivity, material, settings, |judge, stretches, random| {
-        let Q = random.rotation();
-        rotated(judge, material, stretches, &Q, &diagonal([1.0; 3]))
-    })
-}
-
 /// [`Rule::Isotropy`].
 pub(super) fn isotropy(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Isotropy, material, settings, |judge, stretches, random| {
-        let W = random.rotation();
-        rotated(judge, material, stretches, &diagonal([1.0; 3]), &W)?;
+        rotated(judge, material, stretches, &random.rotation(), &random.rotation())?;
         for equal in [[stretches[0], stretches[0], stretches[2]], [stretches[0], stretches[1], stretches[1]]]
         {
             if material.admits(equal) {
@@ -29,21 +20,6 @@ pub(super) fn isotropy(material: &dyn Subject, settings: &Settings) -> Result<Fi
             }
         }
         Ok(())
-    })
-}
-
-/// [`Rule::SymmetricTangent`].
-pub(super) fn symmetric_tangent(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::SymmetricTangent, material, settings, |judge, stretches, random| {
-        let F = multiply(&multiply(&random.rotation(), &diagonal(stretches)), &random.rotation());
-        let dP_dF = tangent(material, &F);
-        let (A, B) = (random.matrix(), random.matrix());
-        let inner =
-            |X: &Matrix3<f64>, Y: &Matrix3<f64>| (0..9).map(|k| X[k / 3][k % 3] * Y[k / 3][k % 3]).sum();
-        let (one, other) = (inner(&A, &dP_dF.apply(&B)), inner(&B, &dP_dF.apply(&A)));
-        // Sums of some 200 products of the tangent with ‖A‖‖B‖ ≤ 9.
-        let tolerance = 500.0 * UNIT * 9.0 * stiffness(&dP_dF.blocks);
-        judge.compare(|| "tangent between two random increments".into(), stretches, one, other, tolerance)
     })
 }
 

@@ -12,7 +12,7 @@
 /// # fn main() {}
 /// ```
 ///
-/// `cargo test` then shows `rubber::rest`, `rubber::objectivity` and so on, and a failure names the wrong
+/// `cargo test` then shows `rubber::rest`, `rubber::isotropy` and so on, and a failure names the wrong
 /// component, the stretches, and both values. The first word names the module; the expression is the material
 /// under test, of any type that implements [`Material`](crate::Material). It may use any name in scope at the
 /// macro, and `?` on any error.
@@ -82,9 +82,7 @@ macro_rules! contract {
             $crate::contract! { @tests
                 rest: Rest,
                 domain: Domain,
-                objectivity: Objectivity,
                 isotropy: Isotropy,
-                symmetric_tangent: SymmetricTangent,
                 stress_slope: StressSlope,
                 tangent_slope: TangentSlope,
                 dual_numbers: DualNumbers,
