@@ -12,8 +12,7 @@ pub use boxes::{BoxError, tetrahedral_box};
 pub use elements::ElementCounts;
 pub use embed::{Anchor, EmbedError, Embedding};
 pub use io::{
-    MshItem, MshOutline, MshRun, NodeLine, NodeLines, ReadError, Surface, TetLine, TetLines, parse_msh,
-    parse_surface_obj, read_msh, read_surface_obj, read_tetgen, turned,
+    ReadError, Surface, parse_msh, parse_surface_obj, read_msh, read_surface_obj, read_tetgen,
 };
 pub(crate) use tet::lumped_masses;
 pub use tet::{Bounds, Group, MeshError, RestShape, TetMesh};

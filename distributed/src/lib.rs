@@ -18,7 +18,6 @@ pub mod command;
 pub mod division;
 pub mod elastic;
 pub mod error;
-pub mod files;
 pub mod minimisation;
 pub mod output;
 pub mod petsc;

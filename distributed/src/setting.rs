@@ -10,7 +10,6 @@ use piola_scenes::clock::Clock;
 use piola_scenes::geometry::{Geometry, GeometryWarning};
 use piola_scenes::play::{self, DragSprings, Stretch};
 use piola_scenes::region;
-use piola_scenes::scene::{Amplitude, Start};
 use piola_scenes::settings::Settings;
 use serde::{Deserialize, Serialize};
 
@@ -20,8 +19,6 @@ use crate::portion::{Element, Place, Portion};
 use crate::share::Share;
 use crate::team::Team;
 use crate::varied::Varied;
-
-mod parts;
 
 /// Prescribed motion of some nodes, which are pinned for it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -79,17 +76,9 @@ fn move_mark(number: usize) -> u64 {
     1 << (32 + number)
 }
 
-/// Path of a file that all ranks can read at once; `None` if rank 0 must read the mesh.
-fn in_parts(settings: &Settings) -> Option<&Path> {
-    let starts_at_rest =
-        matches!(settings.start, Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. });
-    settings.files.as_ref().map(|files| files.mesh.as_path()).filter(|_| starts_at_rest)
-}
-
 impl Setting {
-    /// Reads the body and divides it. The elements of `groups` have the materials with the numbers 1, 2, …;
-    /// all other elements have the material with the number 0. All ranks read a file at once if the body
-    /// starts at rest and consists of linear tetrahedra only. Rank 0 reads all other files as a whole.
+    /// Reads the body on rank 0 and divides it. The elements of `groups` have the materials with the numbers
+    /// 1, 2, …; all other elements have the material with the number 0.
     ///
     /// # Errors
     /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Options`],
@@ -98,18 +87,12 @@ impl Setting {
         if moves.len() > MOST || settings.scene.pulls.len() > MOST {
             return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
         }
-        let in_parts = in_parts(settings).map(|path| parts::read(team, path, settings, groups, moves));
-        let (share, body) = match in_parts.transpose()?.flatten() {
-            Some(read) => read,
-            None => {
-                let read = if team.rank() == 0 { read(settings, groups, moves).map(Some) } else { Ok(None) };
-                let (places, elements, facts) = team.agree(read)?.unwrap_or_default();
-                let facts = team.from_first(facts);
-                let body: BodyFacts = serde_json::from_slice(&facts)
-                    .map_err(|error| Error::Options(format!("the ranks run different programs: {error}")))?;
-                (Share::of(team, Portion::spread(team, places, elements))?, body)
-            }
-        };
+        let read = if team.rank() == 0 { read(settings, groups, moves).map(Some) } else { Ok(None) };
+        let (places, elements, facts) = team.agree(read)?.unwrap_or_default();
+        let facts = team.from_first(facts);
+        let body: BodyFacts = serde_json::from_slice(&facts)
+            .map_err(|error| Error::Options(format!("the ranks run different programs: {error}")))?;
+        let share = Share::of(team, Portion::spread(team, places, elements))?;
         let pulls = settings.scene.pulls.iter().enumerate().map(|(number, &pull)| DragSprings {
             pull,
             nodes: (0..share.owned)

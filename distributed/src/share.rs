@@ -4,9 +4,7 @@
 //! nodes, so that every element is evaluated once. Its forces on nodes of other ranks are sent there. The
 //! owner of a node has at least one element of the node. This module does not depend on materials or on time.
 
-use std::collections::{BTreeMap, HashMap};
-
-use piola_bodies::mesh::turned;
+use std::collections::HashMap;
 
 use crate::error::Error;
 use crate::petsc::Matrix;
@@ -147,92 +145,10 @@ impl Share {
         })
     }
 
-    /// Gives every element the orientation of positive volume, for meshes without a defined orientation.
-    pub fn turn_inverted(&mut self) {
-        let rest: Vec<[f64; 3]> = self.places.iter().map(|place| place.rest).collect();
-        for (nodes, ..) in &mut self.elements {
-            *nodes = turned(*nodes, &rest);
-        }
-    }
-
-    /// Number of tetrahedra of each connected piece of the body, equal on all ranks.
-    #[must_use]
-    pub fn pieces(&self, team: &Team) -> Vec<usize> {
-        // Pieces of this rank, by their numbers among those of all ranks.
-        let mut nodes = Joined::new(self.places.len());
-        for (corners, ..) in &self.elements {
-            corners.windows(2).for_each(|pair| nodes.join(pair[0], pair[1]));
-        }
-        let mut tetrahedra = BTreeMap::<usize, u64>::new();
-        for (corners, ..) in &self.elements {
-            *tetrahedra.entry(nodes.root(corners[0])).or_default() += 1;
-        }
-        let roots: Vec<usize> = tetrahedra.keys().copied().collect();
-        let first: usize = team.all(roots.len())[..team.rank()].iter().sum();
-        let mut piece = |node: usize| {
-            // Every node belongs to an element of this rank.
-            (first + roots.binary_search(&nodes.root(node)).unwrap_or_default()) as u64
-        };
-
-        // A copy and its original join two pieces.
-        let mut starts = vec![0];
-        team.all(self.owned).into_iter().for_each(|owned| starts.push(starts[starts.len() - 1] + owned));
-        let mut asked = vec![Vec::new(); team.size()];
-        for (copy, &number) in self.copies.iter().enumerate() {
-            let rank = starts.partition_point(|&start| start <= number) - 1;
-            asked[rank].push([(number - starts[rank]) as u64, piece(self.owned + copy)]);
-        }
-        let pairs = team.exchange_rows(&asked).concat();
-        let mut pairs: Vec<[u64; 2]> =
-            pairs.into_iter().map(|[node, other]| [piece(node as usize), other]).collect();
-        pairs.sort_unstable();
-        pairs.dedup();
-        let pairs = team.exchange_rows(&vec![pairs; team.size()]).concat();
-        let tetrahedra: Vec<[u64; 1]> = tetrahedra.into_values().map(|count| [count]).collect();
-        let tetrahedra = team.exchange_rows(&vec![tetrahedra; team.size()]).concat();
-        let mut pieces = Joined::new(tetrahedra.len());
-        pairs.iter().for_each(|&[one, other]| pieces.join(one as usize, other as usize));
-        let mut counts = vec![0; tetrahedra.len()];
-        tetrahedra
-            .iter()
-            .enumerate()
-            .for_each(|(piece, [count])| counts[pieces.root(piece)] += *count as usize);
-        counts.retain(|&count| count > 0);
-        counts
-    }
-
     /// Pinned nodes of this rank, copies included, ascending.
     #[must_use]
     pub fn pinned(&self) -> Vec<usize> {
         (0..self.places.len()).filter(|&node| self.places[node].marks & 1 == 1).collect()
-    }
-}
-
-/// Sets of numbers that are joined two by two.
-struct Joined {
-    /// Another number of the set of each number, not greater; itself for one number of each set.
-    of: Vec<usize>,
-}
-
-impl Joined {
-    /// Numbers below `count`, each in a set of its own.
-    fn new(count: usize) -> Self {
-        Self { of: (0..count).collect() }
-    }
-
-    /// Number that stands for the set of a number.
-    fn root(&mut self, mut number: usize) -> usize {
-        while self.of[number] != number {
-            self.of[number] = self.of[self.of[number]];
-            number = self.of[number];
-        }
-        number
-    }
-
-    /// Joins the sets of two numbers.
-    fn join(&mut self, one: usize, other: usize) {
-        let (one, other) = (self.root(one), self.root(other));
-        self.of[one.max(other)] = one.min(other);
     }
 }
 

@@ -86,7 +86,11 @@ impl Geometry {
     /// Properties of the mesh that may be unintended.
     #[must_use]
     pub fn warnings(&self) -> Vec<GeometryWarning> {
-        let mut warnings = Vec::from_iter(size_warning(self.mesh.bounds()));
+        let mut warnings = Vec::new();
+        let length = self.mesh.bounds().size().into_iter().fold(0.0, f64::max);
+        if !USUAL.contains(&length) {
+            warnings.push(GeometryWarning::UnusualSize { length });
+        }
         if !self.mesh.left_out.is_empty() {
             warnings.push(GeometryWarning::ElementsLeftOut { elements: self.mesh.left_out.clone() });
         }
@@ -164,14 +168,7 @@ impl Geometry {
 /// its bounding box, m.
 fn check_body(mesh: &TetMesh, name: &str) -> Result<f64, Error> {
     usable(name, mesh.rest_shapes())?;
-    check_bounds(mesh.bounds())
-}
-
-/// Checks that a body with this bounding box, m, can be simulated and drawn; returns its diagonal, m.
-///
-/// # Errors
-/// [`Error::OutOfRange`].
-pub fn check_bounds(bounds: Bounds) -> Result<f64, Error> {
+    let bounds = mesh.bounds();
     let diagonal = bounds.size().iter().map(|side| side * side).sum::<f64>().sqrt();
     let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |far: f64, x| far.max(x.abs()));
     for (quantity, value, [low, high], requirement) in [
@@ -188,13 +185,6 @@ pub fn check_bounds(bounds: Bounds) -> Result<f64, Error> {
         }
     }
     Ok(diagonal)
-}
-
-/// Warns of an unusually large or small bounding box, m.
-#[must_use]
-pub fn size_warning(bounds: Bounds) -> Option<GeometryWarning> {
-    let length = bounds.size().into_iter().fold(0.0, f64::max);
-    (!USUAL.contains(&length)).then_some(GeometryWarning::UnusualSize { length })
 }
 
 /// Property of a mesh that is rarely intended. A body can be made of it.

@@ -395,14 +395,8 @@ impl DragSprings {
         let region = region::within(bounds, pull.region);
         let places = mesh.positions.iter().copied().enumerate();
         let nodes: Vec<_> = places.filter(|&(_, place)| region.contains(place)).collect();
-        let stiffness = Self::stiffness_of_each(nodes.len(), bounds, young);
+        let stiffness = DRAG_STIFFNESS * stiffness(young, bounds) / nodes.len().max(1) as f64;
         Self { pull, nodes, bounds, stiffness }
-    }
-
-    /// Stiffness of the spring at each of `nodes` nodes, N/m.
-    #[must_use]
-    pub fn stiffness_of_each(nodes: usize, bounds: Bounds, young: f64) -> f64 {
-        DRAG_STIFFNESS * stiffness(young, bounds) / nodes.max(1) as f64
     }
 
     /// The springs at the end of a stretch of time, s.

@@ -9,7 +9,7 @@ mod obj;
 mod tetgen;
 mod text;
 
-pub use msh::{MshItem, MshOutline, MshRun, parse_msh, read_msh};
+pub use msh::{parse_msh, read_msh};
 pub use obj::{Surface, parse_surface_obj, read_surface_obj};
-pub use tetgen::{NodeLine, NodeLines, TetLine, TetLines, read_tetgen, turned};
+pub use tetgen::read_tetgen;
 pub use text::ReadError;

@@ -1,8 +1,8 @@
 //! Meshes, their embeddings, and files of them.
 
 use piola_bodies::mesh::{
-    Bounds, Embedding, MshOutline, NodeLines, ReadError, Surface, TetLines, parse_msh, parse_surface_obj,
-    read_msh, read_surface_obj, read_tetgen, tetrahedral_box,
+    Bounds, Embedding, ReadError, Surface, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
+    read_tetgen, tetrahedral_box,
 };
 use piola_bodies::system::Pins;
 
@@ -34,10 +34,12 @@ fn files() {
     let msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n\
                $Elements\n2\n1 4 2 1 1 1 2 3 4\n2 7 2 1 1 1 2 3 4 1\n$EndElements\n";
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    let lines = ["4 3 1 1", "1 0.5 0 1e3 7 -1 # a node", "2 4 1", "1 1 2 3 4 5"];
-    let file = std::env::temp_dir().join(format!("piola-hostile-{}.msh", std::process::id()));
+    let node = "4 3 1 1\n1 0 0 0 7 -1 # a node\n2 1 0 0 7 0\n3 0 1 0 7 0\n4 0 0 1e3 7 0\n";
+    let ele = "1 4 1\n1 1 2 3 4 5\n";
+    let file = std::env::temp_dir().join(format!("piola-hostile-{}", std::process::id()));
+    let files = ["node", "ele"].map(|extension| file.with_extension(extension));
     check(|hostile| {
-        for text in [msh, obj].into_iter().chain(lines) {
+        for text in [msh, obj, node, ele] {
             let mut bytes = text.as_bytes().to_vec();
             for _ in 0..hostile.0.below(4) {
                 let at = hostile.0.below(bytes.len());
@@ -47,23 +49,17 @@ fn files() {
             }
             let text = String::from_utf8_lossy(&bytes);
             let mesh = parse_msh(&text, "some.msh").or_else(ReadError::only_tetrahedra);
-            if text.starts_with('$') {
-                std::fs::write(&file, &*text).expect("a scratch file");
-                let runs = MshOutline::read(&file)
-                    .and_then(|outline| outline.runs.iter().try_for_each(|run| run.read(&file, |_, _| {})));
-                assert!(runs.is_ok() || mesh.is_err(), "only the whole is read: {runs:?}");
-            }
             let _ = mesh.map(|mesh| mesh.rest_shapes());
             let _ = parse_surface_obj(&text, "some.obj");
-            let [nodes, tets] =
-                [lines[0], lines[2]].map(|good| if hostile.0.once_in(2) { good } else { &text });
-            let _ = NodeLines::of_first_line(nodes).and_then(|lines| lines.node(&text));
-            let _ = TetLines::of_first_line(tets).and_then(|lines| lines.tet(&text));
+            for (file, good) in files.iter().zip([node, ele]) {
+                let text = if hostile.0.once_in(2) { good } else { &text };
+                std::fs::write(file, text).expect("a scratch file");
+            }
+            let _ = read_tetgen(&file).map(|mesh| mesh.rest_shapes());
         }
     });
-    std::fs::remove_file(file).expect("a scratch file");
+    files.iter().for_each(|file| std::fs::remove_file(file).expect("a scratch file"));
     for path in ["", "/", "no/such/file", "\0"] {
-        assert!(MshOutline::read(path).is_err());
         assert!(read_msh(path).is_err() && read_tetgen(path).is_err() && read_surface_obj(path).is_err());
     }
 }

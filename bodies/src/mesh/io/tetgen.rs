@@ -36,178 +36,66 @@ struct Nodes {
     marked: BTreeMap<i64, Vec<usize>>,
 }
 
-/// Format of the lines of a `.node` file, from its first line, for readers that take the file in parts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct NodeLines {
-    /// Number of nodes.
-    pub count: usize,
-    attributes: usize,
-    has_markers: bool,
-}
-
-/// A line of a `.node` file.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct NodeLine {
-    /// Number of the node.
-    pub number: usize,
-    /// Its position, in the unit of the file.
-    pub position: [f64; 3],
-    /// Its boundary marker; 0 for none.
-    pub marker: i64,
-}
-
-impl NodeLines {
-    /// Reads the first line, which is not blank.
-    ///
-    /// # Errors
-    /// Description of the problem.
-    pub fn of_first_line(line: &str) -> Result<Self, String> {
-        Self::read(&mut filled(line).unwrap_or(Line::new(0, ""))).map_err(|problem| problem.text)
+/// `count 3 attributes markers`, then for each node `number x y z attribute … marker`.
+fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
+    let mut cursor = Cursor::with_comments(text, '#');
+    let mut line = cursor.next("the number of nodes")?;
+    let count = line.number("the number of nodes")?;
+    let dimension: usize = line.number("the dimension")?;
+    if dimension != 3 {
+        return Err(line.problem(format!("nodes have {dimension} coordinates; they must have 3")));
     }
-
-    /// Reads a line after the first; `None` for a blank one or a comment.
-    ///
-    /// # Errors
-    /// Description of the problem.
-    pub fn node(&self, line: &str) -> Result<Option<NodeLine>, String> {
-        filled(line).map(|mut line| self.read_node(&mut line)).transpose().map_err(|problem| problem.text)
-    }
-
-    /// `count 3 attributes markers`.
-    fn read(line: &mut Line<'_>) -> Result<Self, Problem> {
-        let count = line.number("the number of nodes")?;
-        let dimension: usize = line.number("the dimension")?;
-        if dimension != 3 {
-            return Err(line.problem(format!("nodes have {dimension} coordinates; they must have 3")));
-        }
-        let attributes = line.number_if_any("the number of attributes")?.unwrap_or(0);
-        let markers: usize = line.number_if_any("the number of boundary markers")?.unwrap_or(0);
-        Ok(Self { count, attributes, has_markers: markers > 0 })
-    }
-
-    /// `number x y z attribute … marker`.
-    fn read_node(&self, line: &mut Line<'_>) -> Result<NodeLine, Problem> {
-        let (number, position) = (line.number("the number of the node")?, line.point()?);
-        for _ in 0..self.attributes {
+    let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
+    let markers: usize = line.number_if_any("the number of boundary markers")?.unwrap_or(0);
+    let mut nodes = Nodes::default();
+    for node in 0..count {
+        let mut line = cursor.next("a node")?;
+        let number = line.number("the number of the node")?;
+        nodes.positions.push(line.point()?);
+        for _ in 0..attributes {
             line.number::<f64>("an attribute of the node")?;
         }
-        let marker = if self.has_markers { line.number("the boundary marker of the node")? } else { 0 };
-        Ok(NodeLine { number, position, marker })
-    }
-}
-
-/// Format of the lines of a `.ele` file, from its first line, for readers that take the file in parts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct TetLines {
-    /// Number of tetrahedra.
-    pub count: usize,
-    has_regions: bool,
-}
-
-/// A line of a `.ele` file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct TetLine {
-    /// Number of the tetrahedron.
-    pub number: usize,
-    /// Numbers of its corners, in either orientation.
-    pub corners: [usize; 4],
-    /// Its region, if the file has regions.
-    pub region: Option<i64>,
-}
-
-impl TetLines {
-    /// Reads the first line, which is not blank.
-    ///
-    /// # Errors
-    /// Description of the problem.
-    pub fn of_first_line(line: &str) -> Result<Self, String> {
-        Self::read(&mut filled(line).unwrap_or(Line::new(0, ""))).map_err(|problem| problem.text)
-    }
-
-    /// Reads a line after the first; `None` for a blank one or a comment.
-    ///
-    /// # Errors
-    /// Description of the problem.
-    pub fn tet(&self, line: &str) -> Result<Option<TetLine>, String> {
-        let read = |mut line: Line<'_>| self.read_tet(&mut line, |line| line.number(NODE));
-        filled(line).map(read).transpose().map_err(|problem| problem.text)
-    }
-
-    /// `count corners attributes`.
-    fn read(line: &mut Line<'_>) -> Result<Self, Problem> {
-        let count = line.number("the number of tetrahedra")?;
-        let nodes: usize = line.number("the number of nodes of a tetrahedron")?;
-        if count == 0 {
-            return Err(line.problem("there is no tetrahedron"));
+        if markers > 0 {
+            let marker = line.number("the boundary marker of the node")?;
+            nodes.marked.entry(marker).or_default().push(node);
         }
-        if nodes == 10 {
-            let elements = ElementCounts::default().and(TETRAHEDRON_10, count);
-            return Err(line.problem(elements.refusal("run TetGen without `-o2`")));
-        }
-        if nodes != 4 {
-            return Err(line.problem(format!("tetrahedra have {nodes} nodes; they must have 4")));
-        }
-        let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
-        Ok(Self { count, has_regions: attributes > 0 })
-    }
-
-    /// `number node … attribute …`.
-    fn read_tet(
-        &self,
-        line: &mut Line<'_>,
-        node: impl Fn(&mut Line<'_>) -> Result<usize, Problem>,
-    ) -> Result<TetLine, Problem> {
-        let number = line.number("the number of the tetrahedron")?;
-        let corners = [node(line)?, node(line)?, node(line)?, node(line)?];
-        // A whole number, written as a real one.
-        let region: Option<f64> =
-            self.has_regions.then(|| line.number("the region of the tetrahedron")).transpose()?;
-        Ok(TetLine { number, corners, region: region.map(|region| region as i64) })
-    }
-}
-
-/// Name of a node of a tetrahedron in errors.
-const NODE: &str = "the number of a node";
-
-/// Line without its comment; `None` if nothing is left.
-fn filled(line: &str) -> Option<Line<'_>> {
-    let text = line.split('#').next().unwrap_or_default();
-    (!text.trim().is_empty()).then(|| Line::new(0, text))
-}
-
-fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
-    let mut cursor = Cursor::with_comments(text, b'#');
-    let lines = NodeLines::read(&mut cursor.next("the number of nodes")?)?;
-    let mut nodes = Nodes::default();
-    for node in 0..lines.count {
-        let mut line = cursor.next("a node")?;
-        let NodeLine { number, position, marker } = lines.read_node(&mut line)?;
         if nodes.index.insert(number, node).is_some() {
             return Err(line.problem(format!("node {number} is given twice")));
         }
-        nodes.positions.push(position);
-        nodes.marked.entry(marker).or_default().push(node);
     }
     nodes.marked.remove(&0);
     Ok(nodes)
 }
 
+/// `count corners attributes`, then for each tetrahedron `number node … attribute …`.
 fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
-    let mut cursor = Cursor::with_comments(text, b'#');
-    let lines = TetLines::read(&mut cursor.next("the number of tetrahedra")?)?;
+    let mut cursor = Cursor::with_comments(text, '#');
+    let mut line = cursor.next("the number of tetrahedra")?;
+    let count = line.number("the number of tetrahedra")?;
+    let corners: usize = line.number("the number of nodes of a tetrahedron")?;
+    if count == 0 {
+        return Err(line.problem("there is no tetrahedron"));
+    }
+    if corners == 10 {
+        let elements = ElementCounts::default().and(TETRAHEDRON_10, count);
+        return Err(line.problem(elements.refusal("run TetGen without `-o2`")));
+    }
+    if corners != 4 {
+        return Err(line.problem(format!("tetrahedra have {corners} nodes; they must have 4")));
+    }
+    let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
     let (mut tets, mut tags) = (Vec::new(), Vec::new());
     let mut regions: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
-    for tet in 0..lines.count {
+    for tet in 0..count {
         let mut line = cursor.next("a tetrahedron")?;
-        let TetLine { number, corners, region } = lines.read_tet(&mut line, |line| nodes.named(line))?;
-        tags.push(number);
+        tags.push(line.number("the number of the tetrahedron")?);
+        let mut node = || nodes.named(&mut line);
+        let corners = [node()?, node()?, node()?, node()?];
         tets.push(turned(corners, &nodes.positions));
-        if let Some(region) = region {
-            regions.entry(region).or_default().push(tet);
+        if attributes > 0 {
+            // A whole number, written as a real one.
+            let region: f64 = line.number("the region of the tetrahedron")?;
+            regions.entry(region as i64).or_default().push(tet);
         }
     }
     let marked = nodes.marked.into_iter().map(|(marker, nodes)| Group {
@@ -230,7 +118,7 @@ fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
 impl Nodes {
     /// Parses the next word of a line as the index of a node.
     fn named(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
-        let number: usize = line.number(NODE)?;
+        let number: usize = line.number("the number of a node")?;
         let index = self.index.get(&number).copied();
         index.ok_or_else(|| line.problem(format!("the .node file has no node {number}")))
     }
@@ -238,11 +126,7 @@ impl Nodes {
 
 /// The corners of a tetrahedron of these nodes, m, in the order of positive volume, unless it is zero: TetGen
 /// guarantees no orientation.
-///
-/// # Panics
-/// If a corner is not one of the nodes.
-#[must_use]
-pub fn turned([a, b, c, d]: [usize; 4], nodes: &[[f64; 3]]) -> [usize; 4] {
+fn turned([a, b, c, d]: [usize; 4], nodes: &[[f64; 3]]) -> [usize; 4] {
     let edge = |node: usize| -> [f64; 3] { std::array::from_fn(|i| nodes[node][i] - nodes[a][i]) };
     let ([x, y, z], [u, v, w], e) = (edge(b), edge(c), edge(d));
     let across = [y * w - z * v, z * u - x * w, x * v - y * u];
@@ -323,20 +207,6 @@ mod tests {
         check("2 4 1\n", "2 10 1\n", 1, second_order);
         check("2 4 1\n", "0 4 1\n", 1, "there is no tetrahedron");
         check("  7", "", 2, "the region of the tetrahedron is missing");
-    }
-
-    #[test]
-    fn lines_are_read_one_by_one() {
-        let lines = NodeLines::of_first_line("6 3 1 1").expect("a first line");
-        assert_eq!(lines.count, 6);
-        let node = NodeLine { number: 4, position: [0.0, 0.0, 1.0], marker: -1 };
-        assert_eq!(lines.node("4  0 0 1  0.5 -1 # the fourth"), Ok(Some(node)));
-        assert_eq!((lines.node(" # none"), lines.node("")), (Ok(None), Ok(None)));
-        assert_eq!(lines.node("4 0 0"), Err("the z coordinate is missing".to_owned()));
-        let lines = TetLines::of_first_line("2 4 1").expect("a first line");
-        let tet = TetLine { number: 2, corners: [3, 2, 4, 5], region: Some(-1) };
-        assert_eq!(lines.tet("2 3 2 4 5 -1"), Ok(Some(tet)));
-        assert_eq!(NodeLines::of_first_line("# none"), Err("the number of nodes is missing".to_owned()));
     }
 
     #[test]

@@ -1,8 +1,6 @@
 //! Text files read line by line and word by word, with errors that name the line.
 
 use std::fmt;
-use std::fs::File;
-use std::io::{BufRead, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -49,7 +47,7 @@ impl ReadError {
     /// volume. [`TetMesh::left_out`] counts them.
     ///
     /// ```
-    /// use piola_bodies::mesh::{ReadError, parse_msh};
+    /// use piola::mesh::{ReadError, parse_msh};
     ///
     /// let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
     ///     $Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 0\n$EndNodes\n\
@@ -100,7 +98,10 @@ fn shown(path: &Path) -> String {
 pub(super) fn read<T>(path: &Path, parse: impl FnOnce(&str) -> Result<T, Problem>) -> Result<T, ReadError> {
     let bytes =
         std::fs::read(path).map_err(|source| ReadError::Unreadable { path: path.to_owned(), source })?;
-    check_encoding(path, &bytes)?;
+    if is_utf_16(&bytes) {
+        let problem = "the file is in UTF-16; save it as UTF-8".to_owned();
+        return Err(ReadError::Malformed { path: path.to_owned(), line: 1, problem });
+    }
     // Names in other encodings must not make a mesh invalid.
     read_text(path, &String::from_utf8_lossy(&bytes), parse)
 }
@@ -111,16 +112,12 @@ pub(super) fn read_text<T>(
     text: &str,
     parse: impl FnOnce(&str) -> Result<T, Problem>,
 ) -> Result<T, ReadError> {
-    parse(text.strip_prefix(MARK).unwrap_or(text)).map_err(|problem| problem.in_file(path))
-}
-
-/// The byte order mark of UTF-8.
-const MARK: &str = "\u{feff}";
-
-/// Refuses a file that begins like one in UTF-16.
-fn check_encoding(path: &Path, start: &[u8]) -> Result<(), ReadError> {
-    let problem = || Problem { line: 1, text: "the file is in UTF-16; save it as UTF-8".to_owned() };
-    if is_utf_16(start) { Err(problem().in_file(path)) } else { Ok(()) }
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    parse(text).map_err(|Problem { line, text }| ReadError::Malformed {
+        path: path.to_owned(),
+        line,
+        problem: text,
+    })
 }
 
 /// True if bytes begin with the byte order mark of UTF-16, or with a character of two bytes, one of them
@@ -140,16 +137,9 @@ pub(super) struct Problem {
     pub(super) text: String,
 }
 
-impl Problem {
-    /// Error that names the file.
-    pub(super) fn in_file(self, path: &Path) -> ReadError {
-        ReadError::Malformed { path: path.to_owned(), line: self.line, problem: self.text }
-    }
-}
-
 /// A line with its number, read word by word.
 pub(super) struct Line<'a> {
-    pub(super) number: usize,
+    number: usize,
     pub(super) text: &'a str,
     pub(super) words: std::str::SplitAsciiWhitespace<'a>,
 }
@@ -195,112 +185,40 @@ impl<'a> Line<'a> {
 }
 
 /// The lines of a file, in order.
-pub(super) struct Cursor<R> {
-    input: R,
+pub(super) struct Cursor<'a> {
+    lines: std::str::Lines<'a>,
     /// Number of the line last read, from 1.
     pub(super) number: usize,
-    /// Number of bytes before the next line.
-    pub(super) offset: u64,
     /// The start of a comment, which is skipped.
-    comment: Option<u8>,
-    /// The line last read, without its comment, in bytes and as text.
-    bytes: Vec<u8>,
-    text: String,
+    comment: Option<char>,
 }
 
-impl<'a> Cursor<&'a [u8]> {
+impl<'a> Cursor<'a> {
     pub(super) fn new(text: &'a str) -> Self {
-        Self::of(text.as_bytes())
+        Self { lines: text.lines(), number: 0, comment: None }
     }
 
-    pub(super) fn with_comments(text: &'a str, comment: u8) -> Self {
+    pub(super) fn with_comments(text: &'a str, comment: char) -> Self {
         Self { comment: Some(comment), ..Self::new(text) }
-    }
-}
-
-impl Cursor<BufReader<File>> {
-    /// The lines of a file, which is not held in memory.
-    pub(super) fn open(path: &Path) -> Result<Self, ReadError> {
-        let unreadable = |source| ReadError::Unreadable { path: path.to_owned(), source };
-        let mut file = BufReader::new(File::open(path).map_err(unreadable)?);
-        let start = file.fill_buf().map_err(unreadable)?;
-        check_encoding(path, start)?;
-        let mark = if start.starts_with(MARK.as_bytes()) { MARK.len() } else { 0 };
-        file.consume(mark);
-        Ok(Self { offset: mark as u64, ..Self::of(file) })
-    }
-
-    /// The lines of a file from a place on: the number of bytes and of lines before it.
-    pub(super) fn open_at(path: &Path, offset: u64, number: usize) -> Result<Self, ReadError> {
-        let unreadable = |source| ReadError::Unreadable { path: path.to_owned(), source };
-        let mut file = File::open(path).map_err(unreadable)?;
-        file.seek(SeekFrom::Start(offset)).map_err(unreadable)?;
-        Ok(Self { number, offset, ..Self::of(BufReader::new(file)) })
-    }
-}
-
-impl<R: BufRead> Cursor<R> {
-    fn of(input: R) -> Self {
-        Self { input, number: 0, offset: 0, comment: None, bytes: Vec::new(), text: String::new() }
-    }
-
-    /// Goes to the next line that is not blank; returns false at the end of the file.
-    fn advance(&mut self) -> Result<bool, Problem> {
-        loop {
-            self.bytes.clear();
-            let problem = |error| Problem {
-                line: self.number + 1,
-                text: format!("the file cannot be read from here on: {error}"),
-            };
-            match self.input.read_until(b'\n', &mut self.bytes).map_err(problem)? {
-                0 => return Ok(false),
-                length => self.offset += length as u64,
-            }
-            self.number += 1;
-            if let Some(start) = self.comment
-                && let Some(at) = self.bytes.iter().position(|&byte| byte == start)
-            {
-                self.bytes.truncate(at);
-            }
-            if !self.bytes.trim_ascii().is_empty() {
-                return Ok(true);
-            }
-        }
-    }
-
-    /// The line last read.
-    fn line(&mut self) -> Line<'_> {
-        self.text.clear();
-        // Names in other encodings must not make a mesh invalid.
-        self.text.push_str(&String::from_utf8_lossy(&self.bytes));
-        Line::new(self.number, self.text.lines().next().unwrap_or_default())
     }
 
     /// Reads the next line that is not blank.
-    pub(super) fn next_filled(&mut self) -> Result<Option<Line<'_>>, Problem> {
-        Ok(if self.advance()? { Some(self.line()) } else { None })
+    pub(super) fn next_filled(&mut self) -> Option<Line<'a>> {
+        loop {
+            let text = self.lines.next()?;
+            self.number += 1;
+            let text = self.comment.and_then(|comment| text.split(comment).next()).unwrap_or(text);
+            if !text.trim().is_empty() {
+                return Some(Line::new(self.number, text));
+            }
+        }
     }
 
     /// Reads the next line that is not blank; at the end of the file an error that `what` is expected.
-    pub(super) fn next(&mut self, what: &str) -> Result<Line<'_>, Problem> {
-        if self.advance()? { Ok(self.line()) } else { Err(self.ends(what)) }
-    }
-
-    /// Skips lines that are not blank, each of which is `what`; the end of a section comes after them.
-    pub(super) fn skip(&mut self, count: usize, what: &str) -> Result<(), Problem> {
-        for _ in 0..count {
-            if !self.advance()? {
-                return Err(self.ends(what));
-            }
-            if self.bytes.trim_ascii_start().starts_with(b"$") {
-                let line = self.line();
-                return Err(line.problem(format!("expected {what}, found `{}`", quoted(line.text.trim()))));
-            }
-        }
-        Ok(())
-    }
-
-    fn ends(&self, what: &str) -> Problem {
-        Problem { line: self.number + 1, text: format!("the file ends where {what} is expected") }
+    pub(super) fn next(&mut self, what: &str) -> Result<Line<'a>, Problem> {
+        self.next_filled().ok_or_else(|| Problem {
+            line: self.number + 1,
+            text: format!("the file ends where {what} is expected"),
+        })
     }
 }

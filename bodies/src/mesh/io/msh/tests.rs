@@ -3,7 +3,7 @@
 use super::*;
 
 /// Two tetrahedra with odd node tags, a triangle on a named surface, a stray node, an unknown section.
-pub(super) const GOOD: &str = r#"$MeshFormat
+const GOOD: &str = r#"$MeshFormat
 4.1 0 8
 $EndMeshFormat
 $PhysicalNames
@@ -50,7 +50,7 @@ $EndElements
 "#;
 
 /// The same in the older format; the second tetrahedron, of two groups, stands there twice.
-pub(super) const OLDER: &str = r#"$MeshFormat
+const OLDER: &str = r#"$MeshFormat
 2.2 0 8
 $EndMeshFormat
 $PhysicalNames
@@ -236,7 +236,7 @@ const OTHERS: [(usize, usize, &str); 5] = [
 ];
 
 /// Both files with other volume elements in addition to the tetrahedra.
-pub(super) fn mixed() -> [String; 2] {
+fn mixed() -> [String; 2] {
     let newer = OTHERS.map(|(tag, kind, nodes)| format!("3 1 {kind} 1\n{tag} {nodes}\n")).concat();
     let older = OTHERS.map(|(tag, kind, nodes)| format!("{tag} {kind} 2 9 1 {nodes}\n")).concat();
     let again = "26 5 2 11 1 40 3 20 10 30 1000 3 40\n";
