@@ -39,8 +39,6 @@ pub struct Module {
     pub file: PathBuf,
     /// Index of the module around it.
     pub parent: Option<usize>,
-    /// Attributes inside the file, such as its documentation.
-    pub attributes: Vec<Attribute>,
     /// Items other than modules.
     pub items: Vec<Item>,
 }
@@ -88,16 +86,9 @@ pub fn crates() -> Vec<Crate> {
     crates
 }
 
-/// Rust files in a folder below [`root`], with their text.
+/// Rust files in a folder below [`root`], with their text, except for hidden folders and those of builds.
 #[must_use]
 pub fn files(folder: &Path) -> Vec<(PathBuf, String)> {
-    files_with("rs", folder)
-}
-
-/// Files with an extension in a folder below [`root`], with their text, except for hidden folders and those
-/// of builds.
-#[must_use]
-pub fn files_with(extension: &str, folder: &Path) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -109,7 +100,7 @@ pub fn files_with(extension: &str, folder: &Path) -> Vec<(PathBuf, String)> {
                 if !is_hidden && name != "target" && name != "node_modules" {
                     folders.push(path);
                 }
-            } else if path.extension().is_some_and(|found| found == extension) {
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
                 let text = read(&path);
                 found.push((path, text));
             }
@@ -137,7 +128,7 @@ fn load(modules: &mut Vec<Module>, path: Vec<String>, parent: Option<usize>, fil
     let parsed = syn::parse_file(&text).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     let is_root = parent.is_none() || file.file_name().is_some_and(|name| name == "mod.rs");
     let children = if is_root { file.with_file_name("") } else { file.with_extension("") };
-    add(modules, path, parent, (file, parsed.attrs), parsed.items, &children);
+    add(modules, path, parent, file, parsed.items, &children);
 }
 
 /// Adds a module; `children` is the folder of the files of its modules.
@@ -145,12 +136,12 @@ fn add(
     modules: &mut Vec<Module>,
     path: Vec<String>,
     parent: Option<usize>,
-    (file, attributes): (PathBuf, Vec<Attribute>),
+    file: PathBuf,
     items: Vec<Item>,
     children: &Path,
 ) {
     let here = modules.len();
-    modules.push(Module { path: path.clone(), file: file.clone(), parent, attributes, items: Vec::new() });
+    modules.push(Module { path: path.clone(), file: file.clone(), parent, items: Vec::new() });
     for item in items {
         if is_for_tests(attributes_of(&item)) {
             continue;
@@ -164,7 +155,7 @@ fn add(
         let ItemMod { attrs, content, .. } = module;
         match (content, other_path(&attrs)) {
             (Some((_, items)), _) => {
-                add(modules, path, Some(here), (file.clone(), attrs), items, &children.join(name));
+                add(modules, path, Some(here), file.clone(), items, &children.join(name));
             }
             (None, Some(other)) => load(modules, path, Some(here), file.with_file_name(other)),
             (None, None) => {

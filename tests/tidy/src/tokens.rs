@@ -1,4 +1,4 @@
-//! Paths and documentation read from tokens, inside of macros as well.
+//! Paths read from tokens, inside of macros as well.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
@@ -88,51 +88,9 @@ fn path(tokens: &[TokenTree], prefix: &[String], found: &mut Vec<Mention>) -> us
     next.max(1)
 }
 
-/// First lines of documentation, with their numbers in the file: `///`, `//!` and `#[doc = "…"]`, inside of
-/// macros as well.
-#[must_use]
-pub fn summaries(tokens: TokenStream) -> Vec<(usize, String)> {
-    let mut found = Vec::new();
-    let tokens: Vec<_> = tokens.into_iter().collect();
-    let mut is_inside = false;
-    let mut next = 0;
-    while next < tokens.len() {
-        let bang = matches!(tokens.get(next + 1), Some(TokenTree::Punct(p)) if p.as_char() == '!');
-        match (&tokens[next], tokens.get(next + 1 + usize::from(bang))) {
-            (TokenTree::Punct(hash), Some(TokenTree::Group(attribute))) if hash.as_char() == '#' => {
-                let text = documentation(attribute.stream());
-                if let (Some(text), false) = (&text, is_inside) {
-                    found.push((attribute.span().start().line, text.trim().to_owned()));
-                }
-                is_inside = text.is_some();
-                next += 1 + usize::from(bang);
-            }
-            (TokenTree::Group(group), _) => {
-                found.extend(summaries(group.stream()));
-                is_inside = false;
-            }
-            _ => is_inside = false,
-        }
-        next += 1;
-    }
-    found
-}
-
-/// The text of `doc = "…"`.
-fn documentation(attribute: TokenStream) -> Option<String> {
-    let mut tokens = attribute.into_iter();
-    match (tokens.next()?, tokens.next()?, tokens.next()?) {
-        (TokenTree::Ident(doc), TokenTree::Punct(_), TokenTree::Literal(text)) if doc == "doc" => {
-            let text: syn::LitStr = syn::parse_str(&text.to_string()).ok()?;
-            Some(text.value())
-        }
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Mention, mentions, summaries};
+    use super::{Mention, mentions};
 
     #[track_caller]
     fn check(code: &str, expected: &[&str]) {
@@ -153,15 +111,5 @@ mod tests {
         );
         check("assert!(crate::a::<b::C>() == d.e);", &["crate::a", "b::C"]);
         check("macro_rules! m { () => { $crate::a::b!() } }", &["crate::a::b"]);
-    }
-
-    #[test]
-    fn only_the_first_line_of_documentation_is_a_summary() {
-        let code =
-            "//! Crate.\n//! More.\nuse a;\n/// One.\n/// Two.\n#[inline]\nfn f(\n/// Three.\n x: u8) {}";
-        let found = summaries(code.parse().expect("tokens"));
-        let expected =
-            [(1, "Crate."), (4, "One."), (8, "Three.")].map(|(line, text)| (line, text.to_owned()));
-        assert_eq!(found, expected);
     }
 }

@@ -1,61 +1,11 @@
-//! Unsafe code has its place and its reasons, and derivatives come from declarations.
+//! Derivatives come from declarations.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
-use piola_tidy::{crates, files, forbid, members};
-use proc_macro2::{TokenStream, TokenTree};
+use piola_tidy::{crates, forbid};
+use proc_macro2::TokenTree;
 use quote::ToTokens;
 use syn::{Block, FnArg, ImplItem, Item, Pat, Signature, TraitItem};
-
-/// Vector instructions are unsafe, and at home in `lanes`; so are the functions of PETSc, a library of C, at
-/// the border to it, and the memory of programs in other languages; there every block states why it is sound.
-#[test]
-fn unsafe_code_stays_in_its_places_and_says_why() {
-    let mut found = Vec::new();
-    let outside =
-        ["distributed", "bindings/c", "bindings/python", "bindings/web", "examples/fenris", "examples/wgpu"]
-            .map(PathBuf::from);
-    let folders = members().into_iter().chain(outside);
-    for (path, text) in folders.flat_map(|folder| files(&folder)) {
-        let lines: Vec<&str> = text.lines().collect();
-        let tokens: TokenStream = match text.parse() {
-            Ok(tokens) => tokens,
-            Err(error) => panic!("{}: {error}", path.display()),
-        };
-        for line in lines_of_word(tokens, "unsafe") {
-            let is_at_home = path.components().any(|part| part.as_os_str() == "lanes")
-                || path.starts_with("bindings")
-                || path == Path::new("distributed/src/petsc.rs")
-                || path.starts_with("distributed/src/petsc");
-            // The documentation of the header describes a function for other languages.
-            let is_foreign = lines[line - 1].contains("unsafe extern \"C\" fn");
-            if is_foreign || lines[line - 1] == "#[unsafe(no_mangle)]" {
-                continue;
-            }
-            let above = lines[line.saturating_sub(9)..line - 1].join("\n");
-            let says_why = above.contains("SAFETY:") || above.contains("# Safety");
-            if !is_at_home || !says_why {
-                found.push(format!("{}:{line}: {}", path.display(), lines[line - 1].trim()));
-            }
-        }
-    }
-    found.dedup();
-    forbid("places of unsafe code that are not at home there or do not say why they are sound", &found);
-}
-
-/// Lines with a word of code, attributes included.
-fn lines_of_word(tokens: TokenStream, word: &str) -> Vec<usize> {
-    let mut found = Vec::new();
-    for token in tokens {
-        match token {
-            TokenTree::Group(group) => found.extend(lines_of_word(group.stream(), word)),
-            TokenTree::Ident(ident) if ident == word => found.push(ident.span().start().line),
-            _ => {}
-        }
-    }
-    found
-}
 
 /// Traits by which an energy answers.
 const ANSWERS: [&str; 4] = ["Material", "Varying", "Law", "Response"];

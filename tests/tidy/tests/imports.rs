@@ -1,30 +1,10 @@
-//! Imports point one way: between crates, between the folders of a crate, and between its modules.
+//! Imports point one way between the folders of a crate and between its modules; Cargo checks those between
+//! crates.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use piola_tidy::imports::{Edge, Graph};
-use piola_tidy::tokens::mentions;
-use piola_tidy::{Crate, crates, files, forbid};
-
-/// Crates that nothing in a folder may name, its tests included.
-const FORBIDDEN: [(&str, &[&str]); 9] = [
-    ("macros/core/src", &["nalgebra", "piola_materials", "faer"]),
-    (
-        "runtime/src",
-        &["piola_bodies", "piola_materials", "piola_scenes", "piola_tests", "piola_codegen", "faer"],
-    ),
-    ("bodies/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]),
-    ("materials/src", &["piola_scenes", "piola_tests", "piola_codegen", "nalgebra", "faer"]),
-    (
-        "declare/src",
-        &["piola_materials", "piola_laboratory", "piola_scenes", "piola_tests", "nalgebra", "faer"],
-    ),
-    ("laboratory/src", &["piola_materials", "piola_scenes", "piola_tests", "piola_codegen"]),
-    ("scenes/src", &["piola_viewer", "piola_cli", "piola_tests", "piola_codegen"]),
-    ("viewer/src", &["piola_cli", "piola_tests", "piola_codegen"]),
-    ("cli/src", &["piola_tests", "piola_codegen"]),
-];
+use piola_tidy::{Crate, crates, forbid};
 
 /// Modules of the runtime from the bottom up: each may need those on the floors below.
 const RUNTIME: &[&[&str]] = &[
@@ -42,28 +22,6 @@ const RUNTIME: &[&[&str]] = &[
 
 /// Modules of bodies from the bottom up.
 const BODIES: &[&[&str]] = &[&["chained"], &["mesh"], &["system"], &["step"]];
-
-#[test]
-fn crates_know_only_those_below_them() {
-    let mut found = Vec::new();
-    for (folder, forbidden) in FORBIDDEN {
-        for (path, text) in files(Path::new(folder)) {
-            let tokens = text.parse().unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-            for mention in mentions(tokens) {
-                let first = mention.segments[0].as_str();
-                if forbidden.contains(&first) {
-                    found.push(format!(
-                        "{}:{}: {}",
-                        path.display(),
-                        mention.line,
-                        mention.segments.join("::")
-                    ));
-                }
-            }
-        }
-    }
-    forbid("paths into crates above", &found);
-}
 
 #[test]
 fn modules_know_only_those_on_the_floors_below_them() {
