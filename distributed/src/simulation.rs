@@ -1,7 +1,7 @@
 //! Time steps of a body that is divided among ranks.
 
 use piola_bodies::step::divided::{InStage, Pace, Repeatable, StagedSteps, advance_within, minimize};
-use piola_bodies::step::{Damping, LinearSolver, NewtonReport, SimulationSettings, Spring};
+use piola_bodies::step::{LinearSolver, NewtonReport, SimulationSettings, Spring};
 
 use crate::elastic::{Elastic, MaterialPart};
 use crate::error::Error;
@@ -65,11 +65,7 @@ impl Simulation {
         parts: &[MaterialPart],
         settings: SimulationSettings,
     ) -> Result<Self, Error> {
-        let damping = match settings.damping {
-            Damping::None => 0.0,
-            Damping::Mass { rate } => rate,
-            _ => return Err(not_divided("damping other than damping proportional to mass")),
-        };
+        let damping = settings.damping.rate();
         let LinearSolver::ConjugateGradients { tolerance, max_iterations } = settings.newton.linear else {
             return Err(not_divided("a linear solver other than conjugate gradients"));
         };

@@ -37,7 +37,7 @@ mod tests {
 
     const ROWS: [[f64; 3]; 3] = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
 
-        #[test]
+    #[test]
     fn nalgebra_stores_columns_and_piola_rows() {
         let matrix: nalgebra::Matrix3<f64> = to_nalgebra(&ROWS);
         assert_eq!(matrix.as_slice(), [1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0]);
@@ -48,7 +48,7 @@ mod tests {
 
     /// The product of a flattened tangent and a flattened dF, in the documented order of indices, is that of
     /// `apply`.
-        #[test]
+    #[test]
     #[expect(non_snake_case, reason = "F as in the literature")]
     fn tangents_multiply_flattened_rows() {
         use crate::hand_written::SaintVenantKirchhoff;

@@ -114,10 +114,9 @@ impl Equilibrium {
         }
         let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
         let mut stiffness = NodalStiffness::new(body, &pairs)?;
-        let tangents = stiffness.linearise(body, &mut elastic, Filter::None, |_, _| {});
+        let tangents = stiffness.linearise(body, &mut elastic, Filter::None);
         demand_admissible(&tangents, body, &elastic)?;
-        let objective =
-            Objective { body, elastic: &mut elastic, quadratic, terms, blocks: &mut blocks, viscosity: None };
+        let objective = Objective { body, elastic: &mut elastic, quadratic, terms, blocks: &mut blocks };
         let mut gradient = vec![[0.0; 3]; positions.len()];
         objective.gradient(positions, &mut gradient);
 

@@ -1,6 +1,6 @@
 //! The function that a step of implicit Euler minimises, or a stage of another integrator.
 //!
-//! With M the lumped masses, D the quadratic form of the [damping](super::damping), α M or β K, and with s, w
+//! With M the lumped masses, D the quadratic form of the [damping](super::damping), α M, and with s, w
 //! and the lengths τ, σ of the stage, for which v = (x − s)/τ and a = (v − w)/σ:
 //!
 //! ```text
@@ -24,7 +24,6 @@ use crate::system::element::Evaluated;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::{Body, NodalStiffness};
 
-use super::damping::Viscosity;
 use super::integrator::Stage;
 use super::spring::Spring;
 use super::term::{EnergyChange, NodeBlocks, Term};
@@ -159,8 +158,6 @@ pub(crate) struct Objective<'a> {
     pub(crate) terms: Terms<'a>,
     /// Second derivatives of the terms, where they were linearised last.
     pub(crate) blocks: &'a mut NodeBlocks,
-    /// Stiffness-proportional damping, where there is any.
-    pub(crate) viscosity: Option<&'a Viscosity>,
 }
 
 impl Objective<'_> {
@@ -169,15 +166,9 @@ impl Objective<'_> {
         self.elastic.evaluate(self.body, x)
     }
 
-    /// Evaluates the elastic gradients and the filtered stiffness, that of damping included, where the
-    /// energies were evaluated last.
+    /// Evaluates the elastic gradients and the filtered stiffness where the energies were evaluated last.
     pub(super) fn linearise(&mut self, filter: Filter, stiffness: &mut NodalStiffness) -> Evaluated {
-        let viscosity = self.viscosity;
-        stiffness.linearise(self.body, self.elastic, filter, |tiles, stiffnesses| {
-            if let Some(viscosity) = viscosity {
-                viscosity.add_tiles_to(tiles, stiffnesses);
-            }
-        })
+        stiffness.linearise(self.body, self.elastic, filter)
     }
 
     /// The gradient at `x`, after the elastic gradients or stiffnesses have been evaluated there.
@@ -191,11 +182,6 @@ impl Objective<'_> {
     pub(super) fn quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         gradient.fill([0.0; 3]);
         self.quadratic.add_gradient(x, gradient);
-        if let Some(viscosity) = self.viscosity {
-            let start = &self.quadratic.stage.start;
-            let displacement = |node: usize| std::array::from_fn(|c| x[node][c] - start[node][c]);
-            viscosity.add_product(self.body, displacement, gradient);
-        }
     }
 
     /// Rounding error of a difference of energies near `x`, the last point of evaluation, J.
@@ -206,8 +192,7 @@ impl Objective<'_> {
 
     /// Curvature dᵀ H d of inertia and damping.
     pub(crate) fn quadratic_curvature(&self, d: &[[f64; 3]]) -> f64 {
-        let viscosity = self.viscosity.map_or(0.0, |viscosity| viscosity.curvature(self.body, d));
-        self.quadratic.curvature(d) + viscosity
+        self.quadratic.curvature(d)
     }
 }
 

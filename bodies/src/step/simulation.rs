@@ -10,7 +10,6 @@ use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::{Body, Pins};
 
-use super::damping::Viscosity;
 use super::minimisation::NewtonWorkspace;
 use super::objective::Terms;
 use super::solver::Choice;
@@ -61,7 +60,6 @@ pub struct Simulation {
     forces: Vec<[f64; 3]>,
     elastic: Elastic,
     workspace: NewtonWorkspace,
-    viscosity: Option<Viscosity>,
     /// Diagonal that a unit of regularisation adds for each mass in statics, 1/s².
     static_regularisation: f64,
     /// Survey of the elastic energies at `positions`, if these were evaluated last.
@@ -96,7 +94,6 @@ impl Simulation {
             forces: Vec::new(),
             elastic: Elastic::new(&body),
             workspace,
-            viscosity: settings.damping.viscosity(&body),
             static_regularisation: static_regularisation(&body),
             evaluated: None,
             body,

@@ -10,7 +10,6 @@
 //! pins.
 
 use std::fmt;
-use std::ops::Range;
 use std::sync::Arc;
 
 use piola::batch::element::TILE;
@@ -18,7 +17,7 @@ use piola::point::Filter;
 
 use super::assemble::Elastic;
 use super::body::Body;
-use super::element::{Evaluated, StiffnessBlocks, pair};
+use super::element::{Evaluated, pair};
 use super::graph::Graph;
 use super::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use super::linear::{LinearError, fits};
@@ -212,15 +211,8 @@ impl NodalStiffness {
         &self.shape.order
     }
 
-    /// Computes gradients and the filtered stiffness at the last point of evaluation, plus `more` for some of
-    /// the tiles.
-    pub(crate) fn linearise(
-        &mut self,
-        body: &Body,
-        elastic: &mut Elastic,
-        filter: Filter,
-        more: impl Fn(Range<usize>, &mut [[StiffnessBlocks; TILE]]),
-    ) -> Evaluated {
+    /// Computes gradients and the filtered stiffness at the last point of evaluation.
+    pub(crate) fn linearise(&mut self, body: &Body, elastic: &mut Elastic, filter: Filter) -> Evaluated {
         let Self { shape, matrix, elements } = self;
         matrix.for_each_chunk(|_, _, blocks| blocks.fill([[0.0; 3]; 3]));
         let keeps_all = elements.tiles.len() == shape.tiles;
@@ -229,7 +221,6 @@ impl NodalStiffness {
             let start = if keeps_all { first } else { 0 };
             let tiles = &mut elements.tiles[start..start + range.len()];
             elastic.linearise(body, filter, first, tiles);
-            more(range, tiles);
             let elements = tiles.as_flattened();
             matrix.for_each_chunk(|chunk, _, blocks| {
                 for &Contribution { block, element, pair, transposed } in shape.gather[chunk].of_wave(number)

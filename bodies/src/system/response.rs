@@ -153,7 +153,7 @@ impl ElasticResponse {
         same("matrix", elements, self.elements, 1)?;
         same("matrix", tiles, body.groups().count(), 1)?;
         let energies = self.elastic.survey();
-        matrix.linearise(body, &mut self.elastic, filter, |_, _| {});
+        matrix.linearise(body, &mut self.elastic, filter);
         Ok(self.sum(energies, body, gradient))
     }
 

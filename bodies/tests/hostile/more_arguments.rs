@@ -67,10 +67,9 @@ impl Hostile {
             0 => Filtering::OnDemand,
             _ => Filtering::Always(self.one_of(&[Filter::None, Filter::Clamp, Filter::Absolute])),
         };
-        let damping = match self.0.below(3) {
+        let damping = match self.0.below(2) {
             0 => Damping::None,
-            1 => Damping::Mass { rate: self.about(1.0) },
-            _ => Damping::Stiffness { time: self.about(1e-3) },
+            _ => Damping::Mass { rate: self.about(1.0) },
         };
         let newton = NewtonSettings::default()
             .with_linear(linear)

@@ -67,10 +67,6 @@ impl Simulation {
     fn advance_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let mut survey = self.survey();
         self.evaluated = None;
-        if let Some(viscosity) = self.viscosity.as_mut().filter(|_| dt != f64::INFINITY) {
-            let [tau, _] = self.settings.integrator.method().lengths(dt);
-            viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time() / tau);
-        }
         let mut newton: Option<NewtonReport> = None;
         for stage in 0..self.steps.begin(dt) {
             let report;
@@ -113,7 +109,6 @@ impl Simulation {
             },
             terms: Terms { springs, others: &self.terms },
             blocks: &mut self.blocks,
-            viscosity: self.viscosity.as_ref().filter(|_| !is_static),
         };
         let mut minimisation =
             StageMinimisation::new(objective, &mut self.workspace, end, displacements, survey)?;

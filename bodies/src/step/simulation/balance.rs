@@ -14,10 +14,6 @@ impl Simulation {
         self.elastic.evaluate_gradients(&self.body);
         self.elastic.add_gradient(&self.body, &mut total);
         self.all_terms().add_gradient(x, &mut total);
-        if let Some(viscosity) = &mut self.viscosity {
-            viscosity.linearise(&self.body, &mut self.elastic, self.settings.damping.time());
-            viscosity.add_product(&self.body, |node| v[node], &mut total);
-        }
         let (rate, gravity) = (self.settings.damping.rate(), self.settings.gravity);
         for (node, (total, mass)) in total.iter_mut().zip(self.body.masses()).enumerate() {
             for c in 0..3 {

@@ -162,9 +162,6 @@ impl Simulation {
                 NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;
         }
         self.steps.set_integrator(settings.integrator);
-        if settings.damping != self.settings.damping {
-            self.viscosity = settings.damping.viscosity(&self.body);
-        }
         self.settings = settings;
         Ok(())
     }

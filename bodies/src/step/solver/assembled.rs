@@ -83,7 +83,7 @@ impl<S: SparseSolver> Solver for Assembled<S> {
 
     fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
         let elements = self.stiffness.elements();
-        elements.add_product(objective.body, 1.0, |node| displacement[node], total);
+        elements.add_product(objective.body, displacement, total);
         objective.quadratic.add_product(displacement, total);
         objective.blocks.add_product(displacement, total);
     }

@@ -43,8 +43,7 @@ fn gathering_gives_what_scattering_gives() {
 
     let mut elastic = Elastic::new(&body);
     elastic.evaluate(&body, &shake(&mut Random::new(1), body.rest(), 0.01));
-    let mut stiffnesses = ElementStiffnesses::new(&body);
-    elastic.linearise(&body, Filter::None, 0, stiffnesses.tiles_mut());
+    let stiffnesses = ElementStiffnesses::of(&body, &mut elastic, Filter::None);
     let unknowns = 3 * (body.rest().len() - 2);
     assert_eq!(matrix.free_nodes().len(), body.rest().len() - 2);
     let mut expected = vec![vec![0.0; unknowns]; unknowns];

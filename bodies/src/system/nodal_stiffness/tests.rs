@@ -20,18 +20,15 @@ fn the_product_is_the_sum_of_those_of_the_elements() {
     let nodes = body.rest().len();
     let mut random = Random::new(4);
     let x: Vec<[f64; 3]> = (0..nodes).map(|_| [0; 3].map(|_| random.uniform(-1.0, 1.0))).collect();
-    let mut elements = ElementStiffnesses::new(&body);
-    elastic.linearise(&body, Filter::Clamp, 0, elements.tiles_mut());
+    let elements = ElementStiffnesses::of(&body, &mut elastic, Filter::Clamp);
     let mut expected = vec![[0.0; 3]; nodes];
-    elements.add_product(&body, 1.5, |node| x[node], &mut expected);
+    elements.add_product(&body, &x, &mut expected);
 
     let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
     let mut found = vec![[f64::NAN; 3]; nodes];
     // Twice, since nothing may be left from the first time.
     for _ in 0..2 {
-        let more =
-            |tiles: Range<usize>, to: &mut [[StiffnessBlocks; TILE]]| elements.add_tiles_to(0.5, tiles, to);
-        let evaluated = stiffness.linearise(&body, &mut elastic, Filter::Clamp, more);
+        let evaluated = stiffness.linearise(&body, &mut elastic, Filter::Clamp);
         assert!(evaluated.survey.is_clean(), "{evaluated:?}");
         stiffness.multiply(&x, &mut found).expect("lengths");
     }
@@ -54,11 +51,10 @@ fn elements_that_are_kept_change_no_bit() {
     let (body, mut elastic) = shaken();
     let [mut waves, mut kept] = [NodalStiffness::new(&body, &[]), NodalStiffness::with_elements(&body, &[])]
         .map(|k| k.expect("small"));
-    waves.linearise(&body, &mut elastic, Filter::Clamp, |_, _| {});
-    kept.linearise(&body, &mut elastic, Filter::Clamp, |_, _| {});
+    waves.linearise(&body, &mut elastic, Filter::Clamp);
+    kept.linearise(&body, &mut elastic, Filter::Clamp);
     assert!(waves.matrix().blocks() == kept.matrix().blocks());
-    let mut elements = ElementStiffnesses::new(&body);
-    elastic.linearise(&body, Filter::Clamp, 0, elements.tiles_mut());
+    let elements = ElementStiffnesses::of(&body, &mut elastic, Filter::Clamp);
     assert!(kept.elements().tiles == elements.tiles && waves.elements().tiles.len() == WAVE);
 }
 
@@ -69,7 +65,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         pool.install(|| {
             let (body, mut elastic) = shaken();
             let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
-            stiffness.linearise(&body, &mut elastic, Filter::None, |_, _| {});
+            stiffness.linearise(&body, &mut elastic, Filter::None);
             stiffness.matrix().blocks().to_vec()
         })
     };

@@ -102,12 +102,11 @@ fn no_setting_returns_nan() {
             LinearSolver::Cholesky,
             LinearSolver::ConjugateGradients { tolerance: number(), max_iterations: number() as usize % 50 },
         ];
-        let damping =
-            [Damping::None, Damping::Mass { rate: number() }, Damping::Stiffness { time: number() }];
+        let damping = [Damping::None, Damping::Mass { rate: number() }];
         let integrators = [Integrator::ImplicitEuler, Integrator::Sdirk2, Integrator::Sdirk3];
         let settings = SimulationSettings {
             gravity: [0.0, if case % 5 == 0 { number() } else { -9.81 }, 0.0],
-            damping: damping[case % 3],
+            damping: damping[case % 2],
             integrator: integrators[case / 4 % 3],
             newton: NewtonSettings {
                 filtering: if case % 2 == 0 { filters[case / 2 % 3] } else { Filtering::OnDemand },
@@ -180,7 +179,7 @@ fn a_clone_is_independent_and_exact() {
         let newton = NewtonSettings::default().with_linear(linear);
         let settings = SimulationSettings::default()
             .with_gravity([0.0, -9.81, 0.0])
-            .with_damping(Damping::Stiffness { time: 1e-3 })
+            .with_damping(Damping::Mass { rate: 1.0 })
             .with_newton(newton);
         let mut body = simulation(&mesh, neo_hookean(), &left_end(&mesh), settings);
         body.step(0.01).expect("a step");
