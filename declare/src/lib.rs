@@ -45,7 +45,3 @@ pub use mistakes::{Mistake, Mistakes, Place};
 // For messages of sister crates.
 #[doc(hidden)]
 pub use piola_codegen::read::spelling::nearest;
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -27,7 +27,3 @@ pub mod stability;
 
 pub use rest::AtRest;
 pub use specimen::Specimen;
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

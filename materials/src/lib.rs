@@ -114,7 +114,3 @@ catalogue! {
     "yeoh" yeoh::Yeoh for rubber,
     "yeoh-fleming" yeoh_fleming::YeohFleming for rubber,
 }
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -27,7 +27,3 @@ pub mod statics;
 pub mod tensile_reading;
 pub mod unit;
 pub mod watch;
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -18,7 +18,3 @@ pub mod state;
 mod typed;
 
 pub use show::{Frame, topology};
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -107,7 +107,3 @@ fn declaration(mut function: ItemFn) -> Option<(TokenStream, TokenStream)> {
     };
     Some((arguments, function.into_token_stream()))
 }
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
