@@ -33,3 +33,9 @@ pub mod multiprecision;
 pub mod quotients;
 pub mod random;
 pub mod soundness;
+
+/// True if the tests judge all cases that they have: with `PIOLA_FULL` in the environment.
+#[must_use]
+pub fn is_full() -> bool {
+    std::env::var_os("PIOLA_FULL").is_some()
+}

@@ -51,7 +51,7 @@ fn seed(index: usize, name: &str) -> u64 {
 }
 
 fn patterns() -> usize {
-    let default = if std::env::var_os("PIOLA_FULL").is_some() { ALL_PATTERNS } else { PATTERNS };
+    let default = if piola_tests::is_full() { ALL_PATTERNS } else { PATTERNS };
     std::env::var("PIOLA_BITS").ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 /// Number of random deformation gradients that each element starts from: 15, or 60 with `PIOLA_FULL`.
 fn count() -> u64 {
-    if std::env::var_os("PIOLA_FULL").is_some() { 60 } else { 15 }
+    if piola_tests::is_full() { 60 } else { 15 }
 }
 
 /// Most of the typical materials are nearly incompressible. Above a threshold of about 2μ/κ, here 0.04, those
