@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use piola_scenes::options::{SceneOptions, StepOptions, scenes};
+use piola_scenes::output::new_folder;
 use piola_scenes::run::Output;
 use piola_scenes::settings::{Files, Settings};
 use piola_viewer::state::State;
@@ -74,17 +75,16 @@ pub(crate) struct Run {
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
 
-    /// Folder for frame_NNNN.ply, frames.png, summary.json and state.json [default: out/SCENE].
+    /// New folder for frame_NNNN.ply, frames.png, summary.json and state.json [default: out/SCENE, or the first
+    /// of out/SCENE-2, out/SCENE-3, … that does not exist].
     ///
-    /// A run replaces the earlier one there, and only its files, which are listed in piola-files.txt. The
-    /// folder is refused if it contains other files with names of results. Ctrl-C ends a run with the frames
-    /// that it has.
+    /// Ctrl-C ends a run with the frames that it has.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Continue the run in the folder, to the last bit as if it had not been interrupted; needs the same
-    /// options, except for --frames and --threads.
-    #[arg(long)]
+    /// Continue the run in the folder of --out, to the last bit as if it had not been interrupted; needs the
+    /// same options, except for --frames and --threads.
+    #[arg(long, requires = "out")]
     resume: bool,
 
     /// Write the tetrahedra as well, frame_NNNN.vtu with fields and frames.pvd with times, for ParaView.
@@ -136,7 +136,7 @@ impl Run {
         let mut settings = self.choice.settings()?;
         settings.frames = self.frames.unwrap_or(settings.frames);
         let name = settings.scene.name;
-        let folder = self.out.unwrap_or_else(|| PathBuf::from("out").join(name));
+        let folder = self.out.unwrap_or_else(|| new_folder(&PathBuf::from("out").join(name)));
         Ok((settings, Output::new(folder).with_vtu(self.vtu).with_resume(self.resume)))
     }
 }

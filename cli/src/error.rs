@@ -228,8 +228,9 @@ impl Error {
             }
             SceneError::Pin { .. } => "; choose a place with --pin".into(),
             SceneError::Folder { .. } => "; name another one with --out".into(),
-            SceneError::ForeignFiles { .. } => "; move them away, or name another folder with --out".into(),
-            SceneError::Busy { .. } => ", or name another one with --out".into(),
+            SceneError::FolderExists { .. } => {
+                "; name a new one with --out, or continue the run in it with --resume".into()
+            }
             SceneError::NothingToResume { .. } => {
                 "; leave out --resume, or name another one with --out".into()
             }

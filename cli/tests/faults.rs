@@ -1,4 +1,4 @@
-//! Runs that are killed, and disks that fill up: a folder is afterwards as before, or holds a shorter run.
+//! Runs that are killed, and disks that fill up: the folder holds a shorter run afterwards.
 #![cfg(unix)]
 
 use std::collections::BTreeMap;
@@ -11,9 +11,9 @@ use piola::__private::random::Random;
 
 /// Number of kills at random moments, unless the environment variable `PIOLA_KILLS` gives another.
 const KILLS: usize = 4;
-/// Number of kills without `PIOLA_FULL`: one in a new folder and one in the folder of an earlier run.
+/// Number of kills without `PIOLA_FULL`.
 const FEWER_KILLS: usize = 2;
-/// Number of kills for each run that then continues to its end and is replaced by another one.
+/// Number of kills for each run that then continues to its end.
 const SEQUELS: usize = 4;
 /// Steps of a run of a cube: together about as long as the picture at its end.
 const FRAMES: usize = 1500;
@@ -29,19 +29,19 @@ fn is_full() -> bool {
 type Files = BTreeMap<String, Vec<u8>>;
 
 /// The command for a run of the cube.
-fn run(scratch: &Path, dt: &str, out: &str) -> Command {
+fn run(scratch: &Path, out: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
     let frames = FRAMES.to_string();
     for (name, text) in [("cube.node", NODES), ("cube.ele", TETRAHEDRA)] {
         fs::write(scratch.join(name), text).expect("a scratch file");
     }
-    command.args(["run", "horse", "--mesh", "cube.ele", "--dt", dt, "--frames", &frames, "--out", out]);
+    command.args(["run", "horse", "--mesh", "cube.ele", "--dt", "0.03", "--frames", &frames, "--out", out]);
     command.current_dir(scratch).stdout(Stdio::null()).stderr(Stdio::null());
     command
 }
 
-fn start(scratch: &Path, dt: &str) -> Child {
-    run(scratch, dt, "out").spawn().expect("the command starts")
+fn start(scratch: &Path) -> Child {
+    run(scratch, "out").spawn().expect("the command starts")
 }
 
 #[track_caller]
@@ -63,11 +63,11 @@ fn kill(mut run: Child, after: Duration, signal: &str) -> bool {
     was_running
 }
 
-/// The frames and other files of a folder, without figures of time and what is not part of a run.
+/// The files of a folder; none if it does not exist.
 fn files(folder: &Path) -> Files {
-    let names = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").file_name());
+    let Ok(entries) = fs::read_dir(folder) else { return Files::new() };
+    let names = entries.map(|entry| entry.expect("an entry").file_name());
     let names = names.map(|name| name.into_string().expect("UTF-8"));
-    let names = names.filter(|name| folder.join(name).is_file() && name != "piola-files.txt");
     names.map(|name| (name.clone(), fs::read(folder.join(&name)).expect("a file"))).collect()
 }
 
@@ -81,87 +81,61 @@ fn is_beginning(some: &Files, whole: &Files) -> bool {
         && frames(some).len() <= frames(whole).len()
 }
 
-/// The runs that may be in a folder, and what the user keeps there.
-struct Runs {
-    scratch: tempfile::TempDir,
-    old: Files,
-    new: Files,
-}
+/// The run as it is if nothing happens.
+struct Whole(Files);
 
-impl Runs {
+impl Whole {
     fn new() -> Self {
-        let scratch = tempfile::tempdir().expect("a scratch folder");
-        let whole = |dt, name: &str| {
-            complete(&mut run(scratch.path(), dt, name));
-            files(&scratch.path().join(name))
-        };
-        Self { old: whole("0.02", "old"), new: whole("0.03", "new"), scratch }
+        let scratch = scratch();
+        complete(&mut run(scratch.path(), "out"));
+        Self(files(&scratch.path().join("out")))
     }
 
-    /// A folder with a file of the user, and with an earlier run or without.
-    fn folder(&self, has_earlier: bool) -> tempfile::TempDir {
-        let scratch = tempfile::tempdir().expect("a scratch folder");
-        let out = scratch.path().join("out");
-        fs::create_dir(&out).expect("a folder");
-        if has_earlier {
-            for entry in fs::read_dir(self.scratch.path().join("old")).expect("a folder") {
-                let entry = entry.expect("an entry");
-                fs::copy(entry.path(), out.join(entry.file_name())).expect("a copy");
-            }
-        }
-        fs::write(out.join("frame_notes.txt"), "mine").expect("a file");
-        scratch
-    }
-
-    /// Checks a folder after a run of `new` was killed in it.
+    /// Checks the folder of a run that was killed.
     #[track_caller]
-    fn check(&self, scratch: &Path, has_earlier: bool, context: &str) {
-        let out = scratch.join("out");
-        let mut now = files(&out);
-        assert_eq!(now.remove("frame_notes.txt").as_deref(), Some(&b"mine"[..]), "{context}: the user's");
-        let is_old = has_earlier && is_beginning(&now, &self.old);
-        assert!(is_old || is_beginning(&now, &self.new), "{context}: {:?}", now.keys());
+    fn check(&self, scratch: &Path, context: &str) {
+        let now = files(&scratch.join("out"));
+        assert!(is_beginning(&now, &self.0), "{context}: {:?}", now.keys());
         if let Some(text) = now.get("summary.json") {
             let summary: serde_json::Value = serde_json::from_slice(text).expect("JSON");
             assert_eq!(summary["frames"], frames(&now).len() - 1, "{context}");
         }
     }
 
-    /// Lets a run go on that was cut off, if it had made a step, and then runs another one.
+    /// Lets a run go on that was cut off, if it had saved a state.
     #[track_caller]
     fn go_on(&self, scratch: &Path, context: &str) {
         let out = scratch.join("out");
-        let is_new = fs::read(out.join("frame_0001.ply")).ok().as_ref() == self.new.get("frame_0001.ply");
-        if is_new && out.join("state.json").is_file() {
-            complete(run(scratch, "0.03", "out").arg("--resume"));
-            assert!(frames(&files(&out)) == frames(&self.new), "{context}: it goes on otherwise");
+        if out.join("state.json").is_file() {
+            complete(run(scratch, "out").arg("--resume"));
+            assert!(frames(&files(&out)) == frames(&self.0), "{context}: it goes on otherwise");
         }
-        complete(&mut run(scratch, "0.03", "out"));
-        assert!(frames(&files(&out)) == frames(&self.new), "{context}: the next run");
     }
+}
+
+fn scratch() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a scratch folder")
 }
 
 #[test]
 fn killed_at_any_moment() {
-    let runs = Runs::new();
+    let begun = Instant::now();
+    let whole = Whole::new();
+    let duration = begun.elapsed();
     let kills = std::env::var("PIOLA_KILLS")
         .map_or(if is_full() { KILLS } else { FEWER_KILLS }, |text| text.parse().expect("a number"));
     let mut random = Random::new(17);
-    let begun = Instant::now();
-    complete(&mut run(runs.folder(false).path(), "0.03", "out"));
-    let duration = begun.elapsed();
     let mut counts = BTreeMap::new();
     for number in 0..kills {
-        let has_earlier = number % 2 == 1;
-        let signal = ["KILL", "INT", "TERM"][number / 2 % 3];
-        let scratch = runs.folder(has_earlier);
+        let signal = ["KILL", "INT", "TERM"][number % 3];
+        let scratch = scratch();
         let after = duration.mul_f64(random.uniform(0.0, 1.1));
-        let came = kill(start(scratch.path(), "0.03"), after, signal);
+        let came = kill(start(scratch.path()), after, signal);
         *counts.entry((signal, came)).or_insert(0) += 1;
         let context = format!("kill {number} by {signal} after {after:?}");
-        runs.check(scratch.path(), has_earlier, &context);
+        whole.check(scratch.path(), &context);
         if number % SEQUELS == 0 {
-            runs.go_on(scratch.path(), &context);
+            whole.go_on(scratch.path(), &context);
         }
     }
     println!("{counts:?}");
@@ -172,16 +146,16 @@ fn killed_at_any_moment() {
 /// `PIOLA_KILLS` is set, otherwise every 500 ms with `PIOLA_FULL`, or every two seconds.
 #[test]
 fn interrupted_at_every_moment() {
-    let runs = Runs::new();
+    let whole = Whole::new();
     let pause = match is_full() {
         _ if std::env::var_os("PIOLA_KILLS").is_some() => 50,
         true => 500,
         false => 2000,
     };
     for turn in 1.. {
-        let scratch = runs.folder(false);
-        let came = kill(start(scratch.path(), "0.03"), turn * Duration::from_millis(pause), "INT");
-        runs.check(scratch.path(), false, &format!("interrupted at moment {turn}"));
+        let scratch = scratch();
+        let came = kill(start(scratch.path()), turn * Duration::from_millis(pause), "INT");
+        whole.check(scratch.path(), &format!("interrupted at moment {turn}"));
         let files = files(&scratch.path().join("out"));
         let has_begun = !frames(&files).is_empty();
         assert_eq!(files.contains_key("summary.json"), has_begun, "{:?}", files.keys());
@@ -194,15 +168,13 @@ fn interrupted_at_every_moment() {
 /// Two runs into one folder: one is refused, the other is whole.
 #[test]
 fn two_runs_into_one_folder() {
-    let runs = Runs::new();
-    for has_earlier in [false, true] {
-        let scratch = runs.folder(has_earlier);
-        let both = [(); 2].map(|()| start(scratch.path(), "0.03"));
-        let mut codes = both.map(|mut run| run.wait().expect("the command ends").code());
-        codes.sort_unstable();
-        assert_eq!(codes, [Some(0), Some(2)]);
-        assert!(frames(&files(&scratch.path().join("out"))) == frames(&runs.new));
-    }
+    let whole = Whole::new();
+    let scratch = scratch();
+    let both = [(); 2].map(|()| start(scratch.path()));
+    let mut codes = both.map(|mut run| run.wait().expect("the command ends").code());
+    codes.sort_unstable();
+    assert_eq!(codes, [Some(0), Some(2)]);
+    assert!(frames(&files(&scratch.path().join("out"))) == frames(&whole.0));
 }
 
 /// A disk that is full at some frame leaves the frames before and a summary with the reason.

@@ -1,4 +1,4 @@
-//! Files in the folder of a run: those of others are left alone, and an interrupted run keeps its results.
+//! Files in the folder of a run, which is a new one; an interrupted run keeps its results.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -48,54 +48,33 @@ fn summary(folder: &Path) -> Value {
 }
 
 #[test]
-fn files_of_others_are_refused_before_the_first_step() {
+fn a_run_begins_in_a_new_folder_and_leaves_others_alone() {
     let scratch = tempfile::tempdir().expect("a scratch folder");
     let out = scratch.path().join("out");
     fs::create_dir(&out).expect("a folder");
-    for name in ["frame_0001.ply", "frame_0042.ply", "frame_20240101.vtu", "frames.png", "README"] {
-        fs::write(out.join(name), "mine").expect("a file");
-    }
-    let before = content(&out);
+    fs::write(out.join("frame_0001.ply"), "mine").expect("a file");
     // This number of steps would take minutes.
     let output = run(scratch.path(), &["--frames", "100000"]);
     assert_code(&output, 2);
-    for word in ["`frame_0001.ply`", "`frames.png`", "--out"] {
+    for word in ["the folder out exists already", "--out", "--resume"] {
         assert!(stderr(&output).contains(word), "{word}: {}", stderr(&output));
     }
-    assert_eq!(content(&out), before);
+    assert_eq!(content(&out), [("frame_0001.ply".to_owned(), b"mine".to_vec())].into());
 
-    for name in ["frame_0001.ply", "frame_0042.ply", "frame_20240101.vtu", "frames.png"] {
-        fs::remove_file(out.join(name)).expect("a file");
+    for folder in ["out/horse", "out/horse-2"] {
+        let output = piola(scratch.path(), &["run", "horse", "--body", "bar", "--frames", "1"]);
+        assert_code(&output, 0);
+        assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("are in {folder}\n")));
     }
-    assert_code(&run(scratch.path(), &["--frames", "2"]), 0);
-    assert_eq!(content(&out)["README"], b"mine");
-}
-
-#[test]
-fn a_run_replaces_an_earlier_one_without_a_trace() {
-    let scratch = tempfile::tempdir().expect("a scratch folder");
-    let [out, fresh] = ["out", "fresh"].map(|name| scratch.path().join(name));
-    assert_code(&run(scratch.path(), &["--frames", "4", "--vtu"]), 0);
-    assert_code(&run(scratch.path(), &["--frames", "2"]), 0);
-    assert_code(&run(scratch.path(), &["--frames", "2", "--out", "fresh"]), 2);
-    assert_code(
-        &piola(scratch.path(), &["run", "horse", "--body", "bar", "--frames", "2", "--out", "fresh"]),
-        0,
-    );
-    let names = |folder: &Path| content(folder).into_keys().collect::<Vec<_>>();
-    assert_eq!(names(&out), names(&fresh));
-    assert_eq!(fs::read_dir(&out).expect("a folder").count(), names(&out).len(), "no folders are left");
+    assert_same(&out.join("horse"), &out.join("horse-2"));
+    assert_code(&piola(scratch.path(), &["run", "horse", "--resume"]), 2);
 }
 
 /// Asserts that two runs have the same frames, picture and results, except for the times of solving.
 #[track_caller]
 fn assert_same(one: &Path, other: &Path) {
     let (mut first, mut second) = (content(one), content(other));
-    for files in [&mut first, &mut second] {
-        for name in ["summary.json", "piola-files.txt"] {
-            files.remove(name);
-        }
-    }
+    [&mut first, &mut second].map(|files| files.remove("summary.json"));
     assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
     for (name, bytes) in first {
         assert!(second[&name] == bytes, "{name} differs");

@@ -165,6 +165,8 @@ fn a_mesh_of_ones_own_is_drawn_by_its_boundary() {
 #[track_caller]
 fn run_on(folder: &Path, mesh: &str, scene: &str, options: &[&str]) -> (String, Value) {
     fs::write(folder.join("body.msh"), mesh).expect("a scratch file");
+    // Of an earlier run.
+    let _ = fs::remove_dir_all(folder.join("out"));
     let arguments = ["run", scene, "--mesh", "body.msh", "--frames", "2", "--out", "out"];
     let output = piola(folder, &[&arguments[..], options].concat());
     let said =

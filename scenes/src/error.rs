@@ -189,17 +189,9 @@ pub enum Error {
         /// Error of the system.
         source: io::Error,
     },
-    /// The folder contains files that have names of results but were not written by a run.
-    #[error("the folder {} contains files that piola has not written: {}", folder.display(), some(names))]
-    ForeignFiles {
-        /// The folder.
-        folder: PathBuf,
-        /// Names of the files.
-        names: Vec<String>,
-    },
-    /// Another run is writing to the folder.
-    #[error("another run is writing to the folder {}; wait until it has ended", folder.display())]
-    Busy {
+    /// The folder for a new run exists.
+    #[error("the folder {} exists already", folder.display())]
+    FolderExists {
         /// The folder.
         folder: PathBuf,
     },
@@ -269,16 +261,6 @@ fn explained(error: &StepError) -> String {
                 .into()
         }
         other => other.to_string(),
-    }
-}
-
-/// The first names in backquotes, and the number of the others.
-fn some(names: &[String]) -> String {
-    const SHOWN: usize = 4;
-    let shown = list(&names[..names.len().min(SHOWN)]);
-    match names.len().saturating_sub(SHOWN) {
-        0 => shown,
-        more => format!("{shown} and {more} more"),
     }
 }
 

@@ -9,7 +9,7 @@ mod summary;
 mod vtu;
 mod whole;
 
-pub use folder::Folder;
+pub use folder::{Folder, new_folder};
 pub use ply::{read_vertices, write_ply};
 pub use sealed::{SealError, seal, unseal};
 pub use summary::{Ended, FinalPlace, FinalState, Newton, StepCounts, Summary, TensileReading};
@@ -40,24 +40,5 @@ pub const STATE_FILE: &str = "state.json";
 /// Name of the file with the summary.
 pub const SUMMARY_FILE: &str = "summary.json";
 
-/// Name of a file that reserves disk space during a run.
-const RESERVE: &str = ".piola-reserve";
-
 /// Name of a file that is being written.
 const PARTIAL: &str = ".piola-partial";
-
-/// True if any run could have written a file of this name.
-fn is_result(name: &str) -> bool {
-    [CAGES_FILE, PICTURE_FILE, STATE_FILE, SUMMARY_FILE, RESERVE, PARTIAL].contains(&name) || is_frame(name)
-}
-
-/// True if it is a name that [`frame_file`] or [`cage_file`] gives.
-fn is_frame(name: &str) -> bool {
-    let Some((digits, extension)) = name.strip_prefix("frame_").and_then(|rest| rest.split_once('.')) else {
-        return false;
-    };
-    // At least four digits, and no zero in front of more.
-    let is_number = digits.bytes().all(|byte| byte.is_ascii_digit())
-        && (digits.len() == 4 || digits.len() > 4 && !digits.starts_with('0'));
-    is_number && ["ply", "vtu"].contains(&extension)
-}

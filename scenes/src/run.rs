@@ -21,11 +21,11 @@ use course::{Course, Setup};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Output {
-    /// The folder for surfaces and the summary.
+    /// The folder for surfaces and the summary: a new one, unless a run is resumed.
     pub folder: PathBuf,
     /// True to write the tetrahedra with [`crate::fields`], too.
     pub vtu: bool,
-    /// True to continue the run in the folder; otherwise its files are replaced.
+    /// True to continue the run in the folder.
     pub resume: bool,
 }
 
@@ -77,7 +77,7 @@ pub fn run(settings: &Settings, output: &Output, watch: &mut dyn Watch) -> Resul
         Course::resume(setup, Folder::reopen(&output.folder)?)?
     } else {
         setup.play.check_start(settings, &setup.geometry)?;
-        Course::begin(setup, Folder::prepare(&output.folder)?)?
+        Course::begin(setup, Folder::create(&output.folder)?)?
     };
     course.play(watch)
 }
@@ -103,7 +103,6 @@ impl Finished {
     /// # Errors
     /// [`Error::Write`] if it cannot be written. All frames are kept.
     pub fn close(mut self) -> Result<Summary, Error> {
-        self.folder.release();
         if self.vtu {
             let dt = self.summary.dt;
             let frames = (0..=self.summary.frames).map(|frame| (frame as f64 * dt, cage_file(frame)));

@@ -82,7 +82,7 @@ impl<'a> Course<'a> {
             motion: Vec::new(),
         };
         let mut course = Self::new(setup, folder, progress);
-        match course.folder.reserve().and_then(|()| course.write_frame(0)) {
+        match course.write_frame(0) {
             Ok(()) => Ok(course),
             Err(error) => Err(course.abandon(error)),
         }
@@ -100,13 +100,11 @@ impl<'a> Course<'a> {
         let saved = Saved::read(text.trim_end_matches('\n'), setup.settings, vtu).map_err(refused)?;
         setup.play = saved.moment.resume(&setup.geometry)?;
         for frame in 0..=setup.play.clock().frame() {
-            if !folder.contains(&frame_file(frame)) {
+            if !folder.path().join(frame_file(frame)).is_file() {
                 return Err(refused(format!("{} is missing", frame_file(frame))));
             }
         }
-        let mut course = Self::new(setup, folder, saved.progress);
-        course.folder.reserve()?;
-        Ok(course)
+        Ok(Self::new(setup, folder, saved.progress))
     }
 
     fn new(setup: Setup<'a>, folder: Folder, progress: Progress) -> Self {
