@@ -18,16 +18,16 @@ mod signals;
 pub mod view;
 
 use std::fmt::Display;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
-use indicatif::{ProgressBar, ProgressStyle};
 use piola::__private::message::printable;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::{Ended, Summary};
 use piola_scenes::run::run;
+use piola_scenes::settings::Settings;
 use piola_scenes::watch::Watch;
 
 use command::{Cli, Command, Run, View};
@@ -67,16 +67,15 @@ pub fn main() -> ExitCode {
     })
 }
 
-/// Runs a scene; the progress bar goes to standard error, or nowhere if that is not a terminal.
+/// Runs a scene; the count of its steps goes to standard error, or nowhere if that is not a terminal.
 fn play(arguments: Run) -> Result<ExitCode, Error> {
     let (settings, output) = arguments.settings()?;
     let signals = Signals::listen().map_err(Error::Signals)?;
-    let bar = ProgressBar::new(settings.frames as u64).with_message(settings.scene.name);
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} steps") {
-        bar.set_style(style);
+    let is_shown = io::stderr().is_terminal();
+    let result = run(&settings, &output, &mut Progress { settings: &settings, signals: &signals, is_shown });
+    if is_shown {
+        let _ = write!(io::stderr(), "\r\x1b[K");
     }
-    let result = run(&settings, &output, &mut Progress { bar: &bar, signals: &signals });
-    bar.finish_and_clear();
     let mut finished = match (result, signals.exit_code()) {
         (Err(error @ SceneError::Interrupted), Some(code)) => {
             warn(format_args!("error: {error}"));
@@ -104,15 +103,19 @@ fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCo
     Ok(signal.filter(|_| summary.ended == Ended::Interrupted).map_or(ExitCode::FAILURE, ExitCode::from))
 }
 
-/// Moves the progress bar, and ends the run when a signal has come.
+/// Shows the number of steps, and ends the run when a signal has come.
 struct Progress<'a> {
-    bar: &'a ProgressBar,
+    settings: &'a Settings,
     signals: &'a Signals,
+    is_shown: bool,
 }
 
 impl Watch for Progress<'_> {
     fn frame(&mut self, frame: usize) {
-        self.bar.set_position(frame as u64);
+        if self.is_shown {
+            let Settings { scene, frames, .. } = self.settings;
+            let _ = write!(io::stderr(), "\r{}: {frame} of {frames} steps", scene.name);
+        }
     }
 
     fn stops(&mut self) -> bool {
