@@ -7,8 +7,8 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use piola_bodies::mesh::{
-    Anchor, Bounds, ElementCounts, Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj,
-    read_msh, read_surface_obj, read_tetgen, tetrahedral_box,
+    Anchor, ElementCounts, Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh,
+    read_surface_obj, read_tetgen, tetrahedral_box,
 };
 
 use crate::error::Error;

@@ -197,7 +197,7 @@ fn play(scratch: &Path, files: Files) -> bool {
 fn play_by(settings: Settings, scratch: &Path, files: Files) -> bool {
     let settings = settings.with_files(Some(files)).with_frames(1);
     // Of an earlier run.
-    let _ = std::fs::remove_dir_all(scratch.join("out"));
+    let _ = fs::remove_dir_all(scratch.join("out"));
     let finished = match run(&settings, &Output::new(scratch.join("out")).with_vtu(true), &mut ()) {
         Ok(finished) => finished,
         Err(error) => return refused(&error),
