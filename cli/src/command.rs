@@ -75,8 +75,8 @@ pub(crate) struct Run {
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
 
-    /// New folder for frame_NNNN.ply, frames.png, summary.json and state.json [default: out/SCENE, or the first
-    /// of out/SCENE-2, out/SCENE-3, … that does not exist].
+    /// New folder for frame_NNNN.ply, frames.png, summary.json and state.json [default: out/SCENE, or the
+    /// first of out/SCENE-2, out/SCENE-3, … that does not exist].
     ///
     /// Ctrl-C ends a run with the frames that it has.
     #[arg(long, value_name = "DIR")]

@@ -74,7 +74,9 @@ fn a_run_begins_in_a_new_folder_and_leaves_others_alone() {
 #[track_caller]
 fn assert_same(one: &Path, other: &Path) {
     let (mut first, mut second) = (content(one), content(other));
-    [&mut first, &mut second].map(|files| files.remove("summary.json"));
+    for files in [&mut first, &mut second] {
+        files.remove("summary.json");
+    }
     assert_eq!(first.keys().collect::<Vec<_>>(), second.keys().collect::<Vec<_>>());
     for (name, bytes) in first {
         assert!(second[&name] == bytes, "{name} differs");

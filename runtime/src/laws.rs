@@ -1,5 +1,5 @@
-//! Energies for tests, declared as users declare theirs: neither `piola` nor `piola-bodies` depends on a crate
-//! of materials.
+//! Energies for tests, declared as users declare theirs: neither `piola` nor `piola-bodies` depends on a
+//! crate of materials.
 
 use piola::{Inversion, material};
 

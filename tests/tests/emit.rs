@@ -2,9 +2,9 @@
 //!
 //! The energies cover polynomials, logarithms, exponentials, real powers in lists, a pole, a locking domain
 //! and continuations; deformation gradients are those of all reference cases. Every other energy of the
-//! catalogue is printed and read by the compiler, with `PIOLA_FULL` by three compilers. The text for CUDA is C
-//! as well and has the same bits; other languages are judged by `PIOLA_EMITTED` in the test `reference`. Text
-//! in `f32` is judged with the feature `full`, which compiles elements in `f32`.
+//! catalogue is printed and read by the compiler, with `PIOLA_FULL` by three compilers. The text for CUDA is
+//! C as well and has the same bits; other languages are judged by `PIOLA_EMITTED` in the test `reference`.
+//! Text in `f32` is judged with the feature `full`, which compiles elements in `f32`.
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
