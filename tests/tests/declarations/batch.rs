@@ -90,7 +90,7 @@ fn points_get_what_they_would_get_alone(
     let mut p = 0;
     while p < COUNT {
         // The first ones and those around the huge one are alone, the others by threes unless all are judged.
-        let count = if is_full() || p < 8 || p >= HUGE - 2 && p <= HUGE { 1 } else { 3.min(COUNT - p) };
+        let count = if is_full() || p < 8 || (HUGE - 2..=HUGE).contains(&p) { 1 } else { 3.min(COUNT - p) };
         let alone = answers(material, backend, &all[p..p + count]);
         for (refused, survey) in refused.iter_mut().zip(&alone.surveys) {
             *refused += survey.refused;
