@@ -60,8 +60,8 @@
 mod chained;
 #[cfg(test)]
 #[allow(dead_code, reason = "each crate that includes this file needs some of it")]
-#[path = "../../runtime/src/laws.rs"]
-mod laws;
+#[path = "../../runtime/src/hand_written.rs"]
+mod hand_written;
 pub mod mesh;
 pub mod step;
 pub mod system;

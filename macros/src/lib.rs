@@ -66,6 +66,7 @@ use proc_macro::TokenStream;
 /// * `serde`: the type implements `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`),
 ///   as its parameters, which are checked when they are read; functions among them must implement both as
 ///   well.
+/// * `part`: the energy is a part of a sum, whose rest state may carry stress or lack a shear modulus.
 ///
 /// If the small-strain moduli μ and λ are affine in exactly two parameters, both plain numbers, and depend on
 /// no other, the type also has `from_young_poisson(young, poisson, other parameters…)`, unless it is

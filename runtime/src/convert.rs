@@ -51,11 +51,11 @@ mod tests {
     #[test]
     #[expect(non_snake_case, reason = "F as in the literature")]
     fn tangents_multiply_flattened_rows() {
-        use crate::laws;
+        use crate::hand_written::SaintVenantKirchhoff;
         use crate::point::{Filter, evaluate};
 
         let F = [[1.1, 0.2, 0.0], [-0.1, 0.9, 0.3], [0.0, 0.1, 1.2]];
-        let tangent = evaluate(&laws::saint_venant_kirchhoff(), &F, Filter::None).tangent;
+        let tangent = evaluate(&SaintVenantKirchhoff, &F, Filter::None).tangent;
         let matrix: nalgebra::SMatrix<f64, 9, 9> = to_nalgebra(&tangent.to_matrix());
         let product = matrix * nalgebra::SVector::<f64, 9>::from_row_slice(ROWS.as_flattened());
         for (found, expected) in product.iter().zip(tangent.apply(&ROWS).as_flattened()) {

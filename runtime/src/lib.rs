@@ -199,7 +199,7 @@
 //! Each module depends only on those above it:
 //!
 //! * [`lanes`]: real numbers, one at a time or side by side in vector registers;
-//! * [`material`](mod@material): the trait that energies implement, generated or by hand;
+//! * [`material`](mod@material): the trait that energies implement, generated or by hand, and sums of them;
 //! * [`univariate`]: curves as parameters of an energy;
 //! * [`point`]: P and dP/dF from F through a signed singular value decomposition, and other measures of
 //!   stress;
@@ -234,7 +234,7 @@ pub mod convert;
 mod dynamic;
 #[cfg(test)]
 #[allow(dead_code, reason = "each crate that includes this file needs some of it")]
-mod laws;
+mod hand_written;
 // Its kernels are not compiled a second time for the unit tests, none of which needs them.
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod interpreter;

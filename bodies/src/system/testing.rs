@@ -3,34 +3,34 @@
 use piola::__private::random::Random;
 #[cfg(feature = "faer")]
 use piola::batch::Batch;
+use piola::material::Scaled;
 #[cfg(feature = "faer")]
 use piola::point::Filter;
 
-use crate::laws::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff};
+use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff};
 use crate::mesh::{TetMesh, tetrahedral_box};
 #[cfg(feature = "faer")]
 use crate::system::Body;
 
-// As stiff as rubber foam.
-pub(crate) fn kirchhoff() -> SaintVenantKirchhoff {
-    SaintVenantKirchhoff::new(3.0e4, 4.5e4).expect("finite parameters")
+// The hand-written energies have moduli of about 1 Pa; these are as stiff as rubber foam.
+pub(crate) fn kirchhoff() -> Scaled<SaintVenantKirchhoff> {
+    scaled(3.0e4, SaintVenantKirchhoff)
 }
 
-pub(crate) fn rotated() -> RotatedLinear {
-    rotated_with(3.0e4)
+pub(crate) fn rotated() -> Scaled<RotatedLinear> {
+    scaled(3.0e4, RotatedLinear)
 }
 
-pub(crate) fn neo_hookean() -> NeoHookean {
-    NeoHookean::new(3.0e3, 4.5e3).expect("finite parameters")
+pub(crate) fn neo_hookean() -> Scaled<NeoHookean> {
+    scaled(3.0e3, NeoHookean)
 }
 
-pub(crate) fn by_invariants() -> NeoHookeanByInvariants {
-    NeoHookeanByInvariants::new(3.0e3, 4.5e3).expect("finite parameters")
+pub(crate) fn by_invariants() -> Scaled<NeoHookeanByInvariants> {
+    scaled(3.0e3, NeoHookeanByInvariants)
 }
 
-/// Of this shear modulus, Pa.
-pub(crate) fn rotated_with(mu: f64) -> RotatedLinear {
-    RotatedLinear::new(mu, 1.5 * mu).expect("finite parameters")
+pub(crate) fn scaled<M>(factor: f64, material: M) -> Scaled<M> {
+    Scaled::new(factor, material).expect("a finite factor")
 }
 
 /// A beam of `cells` cubes along x with sides of 0.1 m, each cut into six tetrahedra around a diagonal.

@@ -100,8 +100,8 @@ impl<E: Kernels> Batch<'_, E> {
 mod tests {
     use super::*;
     use crate::batch::Layout;
+    use crate::hand_written::{ExtendedNeoHookean, SaintVenantKirchhoff};
     use crate::lanes::Backend;
-    use crate::laws;
     use crate::material::Material;
     use crate::point::evaluate;
     use crate::random::Random;
@@ -150,8 +150,8 @@ mod tests {
 
     #[test]
     fn every_measure_is_that_of_the_points() {
-        check_against_points(&laws::saint_venant_kirchhoff());
-        check_against_points(&laws::extended_neo_hookean(0.3));
+        check_against_points(&SaintVenantKirchhoff);
+        check_against_points(&ExtendedNeoHookean { epsilon: 0.3 });
     }
 
     #[test]
@@ -166,8 +166,7 @@ mod tests {
         }
         let two_threads = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
         for measure in Measure::ALL {
-            let material = laws::saint_venant_kirchhoff();
-            let batch = Batch::new(&material);
+            let batch = Batch::new(&SaintVenantKirchhoff);
             let run = |batch: &Batch<'_, f64>, F: &[f64]| {
                 let (mut stresses, mut tangents) = (vec![0.0; 6 * COUNT], vec![0.0; 36 * COUNT]);
                 batch.measured_tangents(measure, F, &mut stresses, &mut tangents).expect("lengths");
@@ -193,8 +192,7 @@ mod tests {
         let F = [0.0; 9];
         for measure in Measure::ALL {
             let (mut stress, mut tangent) = ([0.0; 6], [0.0; 36]);
-            let material = laws::saint_venant_kirchhoff();
-            let batch = Batch::new(&material);
+            let batch = Batch::new(&SaintVenantKirchhoff);
             let survey = batch.measured_tangents(measure, &F, &mut stress, &mut tangent).expect("lengths");
             assert_eq!(survey.is_clean(), measure == Measure::Kirchhoff, "{measure:?}: {tangent:?}");
         }

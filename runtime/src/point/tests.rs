@@ -2,7 +2,7 @@
 
 use super::tangent::assemble_blocks;
 use super::*;
-use crate::laws;
+use crate::hand_written::{NeoHookean, RotatedLinear, SaintVenantKirchhoff};
 use crate::material::Material;
 use crate::material::PAIRS;
 use crate::random::Random;
@@ -135,8 +135,8 @@ fn single_precision_differs_by_its_rounding() {
     let mut random = Random::new(13);
     for stretches in STRETCHES {
         let F = with_stretches(&mut random, stretches).map(|row| row.map(|x| x as f32));
-        let wide = evaluate(&laws::saint_venant_kirchhoff(), &F.map(|row| row.map(f64::from)), Filter::Clamp);
-        let narrow = evaluate(&laws::saint_venant_kirchhoff(), &F, Filter::Clamp);
+        let wide = evaluate(&SaintVenantKirchhoff, &F.map(|row| row.map(f64::from)), Filter::Clamp);
+        let narrow = evaluate(&SaintVenantKirchhoff, &F, Filter::Clamp);
         let expected = wide.tangent.to_matrix();
         let dP_dF = narrow.tangent.to_matrix().map(|row| row.map(f64::from));
         // A polynomial of degree 2 in stretches up to 2, whose moduli are up to 5.5.
@@ -169,13 +169,13 @@ fn rotating_space_or_rest_shape_rotates_stress_and_tangent() {
     }
     let mut random = Random::new(14);
     for stretches in STRETCHES {
-        check(&laws::saint_venant_kirchhoff(), stretches, &mut random);
+        check(&SaintVenantKirchhoff, stretches, &mut random);
     }
     for stretches in &STRETCHES[..3] {
-        check(&laws::neo_hookean(), *stretches, &mut random);
+        check(&NeoHookean, *stretches, &mut random);
     }
     for stretches in &STRETCHES[..4] {
-        check(&laws::rotated_linear(), *stretches, &mut random);
+        check(&RotatedLinear, *stretches, &mut random);
     }
 }
 
@@ -187,7 +187,7 @@ fn roundings_decide_at_a_pole() {
     let mut at = |sum: f64| {
         let (l1, l2) = (random.uniform(1.0, 2.0), random.uniform(0.1, 1.0));
         let F = with_stretches(&mut random, [l1, l2, sum * l1 - l2]);
-        let point = evaluate(&laws::rotated_linear(), &F.map(|row| row.map(|x| x as f32)), Filter::None);
+        let point = evaluate(&RotatedLinear, &F.map(|row| row.map(|x| x as f32)), Filter::None);
         let [l1, l2, l3] = point.stretches;
         assert_eq!(point.status.bounded, l2 + l3 < 2.0 * u * l1);
         ((l2 + l3) / (u * l1), point.status.bounded)
@@ -205,21 +205,21 @@ fn the_status_says_what_the_numbers_cannot() {
     let at = |d: [f64; 3]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }));
     let fine = Status::default();
     let inverted = at([1.0, 1.0, -0.1]);
-    assert_eq!(evaluate(&laws::saint_venant_kirchhoff(), &inverted, Filter::None).status, fine);
-    assert_eq!(evaluate(&laws::rotated_linear(), &inverted, Filter::None).status, fine);
-    assert!(evaluate(&laws::neo_hookean(), &inverted, Filter::None).status.refused);
-    assert!(evaluate_energy(&laws::neo_hookean(), &inverted).status.refused);
-    assert!(evaluate_stress(&laws::neo_hookean(), &inverted).status.refused);
+    assert_eq!(evaluate(&SaintVenantKirchhoff, &inverted, Filter::None).status, fine);
+    assert_eq!(evaluate(&RotatedLinear, &inverted, Filter::None).status, fine);
+    assert!(evaluate(&NeoHookean, &inverted, Filter::None).status.refused);
+    assert!(evaluate_energy(&NeoHookean, &inverted).status.refused);
+    assert!(evaluate_stress(&NeoHookean, &inverted).status.refused);
 
-    let mirrored = evaluate(&laws::rotated_linear(), &at([1.0, 1.0, -1.0]), Filter::None);
+    let mirrored = evaluate(&RotatedLinear, &at([1.0, 1.0, -1.0]), Filter::None);
     assert_eq!(mirrored.status, Status { bounded: true, ..fine });
     assert!(mirrored.tangent.to_matrix().iter().flatten().all(|x| x.is_finite()));
-    let collapsed = evaluate(&laws::rotated_linear(), &at([0.0; 3]), Filter::Clamp);
+    let collapsed = evaluate(&RotatedLinear, &at([0.0; 3]), Filter::Clamp);
     assert_eq!(collapsed.status, Status { bounded: true, filtered: true, ..fine });
     assert!(collapsed.tangent.blocks.twist == [0.0; 3]);
 
     let broken = at([1.0, f64::NAN, 1.0]);
-    assert!(evaluate(&laws::saint_venant_kirchhoff(), &broken, Filter::Clamp).status.nonfinite);
-    assert!(evaluate_energy(&laws::saint_venant_kirchhoff(), &broken).status.nonfinite);
-    assert!(evaluate_stress(&laws::saint_venant_kirchhoff(), &broken).status.nonfinite);
+    assert!(evaluate(&SaintVenantKirchhoff, &broken, Filter::Clamp).status.nonfinite);
+    assert!(evaluate_energy(&SaintVenantKirchhoff, &broken).status.nonfinite);
+    assert!(evaluate_stress(&SaintVenantKirchhoff, &broken).status.nonfinite);
 }

@@ -4,7 +4,7 @@ use piola::__private::random::Random;
 use piola::batch::{Batch, Kernels, LengthError, Quadrature};
 use piola::lanes::Backend;
 
-use crate::laws;
+use crate::hand_written::SaintVenantKirchhoff;
 
 /// Sums of elements with random slopes agree with the formulas, regardless of the neighbouring elements.
 fn check<E: Kernels>(nodes: usize, points: usize) {
@@ -22,7 +22,7 @@ fn check<E: Kernels>(nodes: usize, points: usize) {
     for backend in Backend::available() {
         let mut elements = Quadrature::new(nodes, points).with_backend(backend);
         elements.deform(&positions, &slopes, &mut F).expect("lengths fit");
-        Batch::new(&laws::saint_venant_kirchhoff()).tangents(&F, &mut P, &mut dP_dF).expect("lengths fit");
+        Batch::new(&SaintVenantKirchhoff).tangents(&F, &mut P, &mut dP_dF).expect("lengths fit");
         let mut gradients = zeros(3 * nodes * ELEMENTS);
         let mut stiffnesses = zeros(9 * nodes * nodes * ELEMENTS);
         elements.gradients(&slopes, &volumes, &P, &mut gradients).expect("lengths fit");

@@ -7,7 +7,8 @@ use piola::lanes::{Backend, Real, Scalar};
 use piola::point::Filter;
 
 use crate::Logarithmic;
-use crate::laws;
+use crate::hand_written::NeoHookeanByInvariants;
+use crate::hand_written::{NeoHookean, SaintVenantKirchhoff};
 
 /// Nodes, corners and shapes at rest of a mesh whose tetrahedra share nodes.
 struct Mesh<E> {
@@ -121,13 +122,13 @@ where
 
 #[test]
 fn stiffnesses_at_positions_are_those_of_their_gradients() {
-    check::<f64>(&laws::saint_venant_kirchhoff(), Filter::None);
+    check::<f64>(&SaintVenantKirchhoff, Filter::None);
     #[cfg(feature = "f32")]
-    check::<f32>(&laws::saint_venant_kirchhoff(), Filter::None);
-    check::<f64>(&laws::neo_hookean(), Filter::Clamp);
+    check::<f32>(&SaintVenantKirchhoff, Filter::None);
+    check::<f64>(&NeoHookean, Filter::Clamp);
     let logarithmic = Logarithmic::new(1.0, 1.5).expect("admissible");
     check::<f64>(&logarithmic, Filter::None);
-    check::<f64>(&laws::neo_hookean_by_invariants(), Filter::None);
+    check::<f64>(&NeoHookeanByInvariants, Filter::None);
     #[cfg(feature = "f32")]
     check::<f32>(&logarithmic, Filter::None);
 }
@@ -141,7 +142,7 @@ fn elements_of_negative_volume_are_not_finite() {
     }
     let tetrahedra = Tetrahedra::new(positions.len(), &corners).expect("nodes that exist");
     let (mut gradients, mut stiffnesses) = (vec![0.0; 12 * COUNT], vec![0.0; 144 * COUNT]);
-    for energy in [&laws::saint_venant_kirchhoff() as &dyn TileMaterial<f64>, &laws::neo_hookean()] {
+    for energy in [&SaintVenantKirchhoff as &dyn TileMaterial<f64>, &NeoHookean] {
         for backend in Backend::available() {
             for filter in [Filter::None, Filter::Clamp] {
                 let survey = Batch::new(energy).with_backend(backend).with_filter(filter).stiffnesses_at(
@@ -164,8 +165,7 @@ fn nodes_that_do_not_exist_and_lengths_that_do_not_fit_are_errors() {
     assert_eq!(error, NoSuchNode { element: Some(1), node: 4, nodes: 4 });
     assert_eq!(error.to_string(), "element 1 names node 4: the 4 nodes are numbered from 0");
     let tetrahedra = Tetrahedra::new(5, &corners).expect("nodes that exist");
-    let material = laws::saint_venant_kirchhoff();
-    let batch = Batch::<f64>::new(&material);
+    let batch = Batch::<f64>::new(&SaintVenantKirchhoff);
     let call = |positions: usize, rest: usize| {
         let (positions, rest) = (vec![[0.0; 3]; positions], vec![0.0; rest]);
         batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut [0.0; 24], &mut [0.0; 288])

@@ -3,13 +3,14 @@ use piola::batch::TileMaterial;
 use piola::point::Filter;
 
 use super::*;
+use crate::hand_written::RotatedLinear;
 use crate::mesh::Anchor;
 use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::step::{
     Damping, Filtering, NewtonError, NewtonReport, NewtonSettings, Simulation, SimulationSettings, Spring,
     StepError,
 };
-use crate::system::testing::{beam, kirchhoff, rotated, rotated_with, shake};
+use crate::system::testing::{beam, kirchhoff, rotated, scaled, shake};
 use crate::system::{Cholesky, LowerTriangle};
 
 const GRADIENTS: LinearSolver = LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 2000 };
@@ -171,7 +172,7 @@ fn stiffness_of_any_unit_is_as_good() {
     let mesh = beam(8);
     let run = |linear: LinearSolver, factor: f64| {
         let newton = NewtonSettings { linear, ..NewtonSettings::default() };
-        let material = rotated_with(factor);
+        let material = scaled(factor, RotatedLinear);
         let mut body = simulation(
             &mesh,
             material,

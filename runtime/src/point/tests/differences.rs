@@ -50,13 +50,13 @@ fn stress_and_tangent_are_the_derivatives_of_the_energy() {
     let mut random = Random::new(21);
     for _ in 0..10 {
         for stretches in STRETCHES {
-            check_material(&laws::saint_venant_kirchhoff(), stretches, &mut random);
+            check_material(&SaintVenantKirchhoff, stretches, &mut random);
         }
         for stretches in &STRETCHES[..3] {
-            check_material(&laws::neo_hookean(), *stretches, &mut random);
+            check_material(&NeoHookean, *stretches, &mut random);
         }
         for stretches in &STRETCHES[..5] {
-            check_material(&laws::rotated_linear(), *stretches, &mut random);
+            check_material(&RotatedLinear, *stretches, &mut random);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::differences::{check_slope, flat};
 use super::*;
 use crate::convert::{from_nalgebra, to_nalgebra};
-use crate::laws;
+use crate::hand_written::ExtendedNeoHookean;
 use crate::material::Material;
 use crate::point::measures::voigt::{INDEX, Matrix6, ORDER};
 use crate::point::measures::{
@@ -151,10 +151,10 @@ fn everywhere(check: impl Fn(&Sample)) {
         of::<f64>(material, &check);
         of::<f32>(material, &check);
     }
-    both(&laws::saint_venant_kirchhoff(), &check);
-    both(&laws::neo_hookean(), &check);
-    both(&laws::rotated_linear(), &check);
-    both(&laws::extended_neo_hookean(0.3), &check);
+    both(&SaintVenantKirchhoff, &check);
+    both(&NeoHookean, &check);
+    both(&RotatedLinear, &check);
+    both(&ExtendedNeoHookean { epsilon: 0.3 }, &check);
 }
 
 #[track_caller]
@@ -298,12 +298,12 @@ fn the_tangents_are_slopes_of_the_stresses() {
     let mut random = Random::new(72);
     for _ in 0..10 {
         for stretches in MODERATE {
-            check_slopes(&laws::saint_venant_kirchhoff(), stretches, &mut random);
-            check_slopes(&laws::rotated_linear(), stretches, &mut random);
-            check_slopes(&laws::extended_neo_hookean(0.3), stretches, &mut random);
+            check_slopes(&SaintVenantKirchhoff, stretches, &mut random);
+            check_slopes(&RotatedLinear, stretches, &mut random);
+            check_slopes(&ExtendedNeoHookean { epsilon: 0.3 }, stretches, &mut random);
         }
-        for stretches in MODERATE.into_iter().filter(|&l| Material::admits(&laws::neo_hookean(), l)) {
-            check_slopes(&laws::neo_hookean(), stretches, &mut random);
+        for stretches in MODERATE.into_iter().filter(|&l| Material::admits(&NeoHookean, l)) {
+            check_slopes(&NeoHookean, stretches, &mut random);
         }
     }
 }
@@ -322,22 +322,20 @@ fn two_energies_have_tangents_by_Hooke() {
         for stretches in MODERATE.into_iter().chain(EXTREME) {
             let F = with_stretches(&mut random, stretches);
             // S = 2μ E + λ tr E.
-            let Sample { measures, uM, smallest, .. } = Sample::new::<R>(&laws::saint_venant_kirchhoff(), F);
+            let Sample { measures, uM, smallest, .. } = Sample::new::<R>(&SaintVenantKirchhoff, F);
             let limit = ISOTROPY * uM / (smallest * smallest);
             check(&measures.dS_dE, &isotropic(LAMBDA, MU), limit, "StVK", &F);
             // From the decomposition on in R: where the stretches are wrong, so are both sides of the
             // division.
             let narrow: Matrix3<R> = F.map(|row| row.map(R::splat));
-            let point = evaluate(&laws::saint_venant_kirchhoff(), &narrow, Filter::None);
+            let point = evaluate(&SaintVenantKirchhoff, &narrow, Filter::None);
             let dS_dE = Measures::of(&point).dS_dE.map(|row| row.map(Into::into));
             check(&dS_dE, &isotropic(LAMBDA, MU), limit, "StVK", &F);
         }
-        for stretches in
-            MODERATE.into_iter().chain(EXTREME).filter(|&l| Material::admits(&laws::neo_hookean(), l))
-        {
+        for stretches in MODERATE.into_iter().chain(EXTREME).filter(|&l| Material::admits(&NeoHookean, l)) {
             let F = with_stretches(&mut random, stretches);
             // τ = μ (FFᵀ − I) + λ ln J I.
-            let Sample { measures, uM, largest, J, .. } = Sample::new::<R>(&laws::neo_hookean(), F);
+            let Sample { measures, uM, largest, J, .. } = Sample::new::<R>(&NeoHookean, F);
             let expected = isotropic(LAMBDA / J, (MU - LAMBDA * J.ln()) / J);
             check(&measures.c, &expected, ISOTROPY * uM * largest * largest / J, "neo-Hookean", &F);
         }
@@ -370,11 +368,11 @@ fn the_point_decomposes_its_deformation() {
     let mut random = Random::new(74);
     for stretches in STRETCHES {
         let F = with_stretches(&mut random, stretches);
-        let found = evaluate(&laws::saint_venant_kirchhoff(), &F, Filter::Clamp).decomposition();
+        let found = evaluate(&SaintVenantKirchhoff, &F, Filter::Clamp).decomposition();
         assert_eq!(found, svd(&F));
         let H = moved(&F, -1.0, &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
         let Svd { stretches: found, .. } =
-            evaluate(&laws::saint_venant_kirchhoff(), DisplacementGradient(&H), Filter::None).decomposition();
+            evaluate(&SaintVenantKirchhoff, DisplacementGradient(&H), Filter::None).decomposition();
         // Two decompositions to 20 u λ1 each, of matrices that differ by two roundings.
         for (found, expected) in found.into_iter().zip(svd(&F).stretches) {
             assert!((found - expected).abs() < 25.0 * f64::EPSILON * stretches[0]);
@@ -386,7 +384,7 @@ fn the_point_decomposes_its_deformation() {
 fn without_volume_only_the_Kirchhoff_stress_is_finite() {
     for stretches in [[1.1, 0.7, 0.0], [1.1, 0.0, 0.0], [0.0; 3]] {
         let F: Matrix3<f64> = std::array::from_fn(|i| std::array::from_fn(|j| stretches[i] * delta(i, j)));
-        let point = evaluate(&laws::rotated_linear(), &F, Filter::None);
+        let point = evaluate(&RotatedLinear, &F, Filter::None);
         let Measures { S, tau, sigma, dS_dE, c, c_jaumann } = Measures::of(&point);
         assert!(tau.iter().flatten().all(|x| x.is_finite()), "{tau:?}");
         for stress in [S, sigma] {
@@ -396,7 +394,7 @@ fn without_volume_only_the_Kirchhoff_stress_is_finite() {
             assert!(!tangent.iter().flatten().all(|x| x.is_finite()), "{tangent:?}");
         }
     }
-    let numbers = every_number(&evaluate(&laws::rotated_linear(), &[[f64::NAN; 3]; 3], Filter::None));
+    let numbers = every_number(&evaluate(&RotatedLinear, &[[f64::NAN; 3]; 3], Filter::None));
     assert!(numbers.into_iter().all(f64::is_nan));
 }
 
@@ -406,7 +404,7 @@ fn a_filtered_tangent_has_no_material_part() {
     let mut random = Random::new(75);
     let F = with_stretches(&mut random, [0.8, 0.7, 0.6]);
     let error = |filter: Filter| {
-        let point = evaluate(&laws::saint_venant_kirchhoff(), &F, filter);
+        let point = evaluate(&SaintVenantKirchhoff, &F, filter);
         let Measures { S, dS_dE, .. } = Measures::of(&point);
         let found = geometric_and_material(&F, &S, &dS_dE);
         difference(&found, &point.tangent.to_matrix()) / norm(found.iter().flatten())

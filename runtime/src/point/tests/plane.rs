@@ -3,7 +3,7 @@
 use super::differences::check_slope;
 use super::*;
 use crate::convert::to_nalgebra;
-use crate::laws;
+use crate::hand_written::ExtendedNeoHookean;
 use crate::point::plane::{Matrix2, PlanePoint, in_space, plane_strain, plane_stress, plane_svd};
 
 /// Stretches in the plane: apart, equal, at rest, nearly equal, large, small, and two that are inverted.
@@ -94,12 +94,12 @@ fn everywhere(check: impl Fn(&dyn Fn(&Matrix2<f64>, Filter) -> [PlanePoint<f64>;
             }
         }
     }
-    of(&laws::neo_hookean(), &IN_PLANE[..7], &check);
+    of(&NeoHookean, &IN_PLANE[..7], &check);
     // Beyond the middle the sides of these have no equilibrium.
-    of(&laws::saint_venant_kirchhoff(), &IN_PLANE[..4], &check);
-    of(&laws::rotated_linear(), &IN_PLANE[..4], &check);
+    of(&SaintVenantKirchhoff, &IN_PLANE[..4], &check);
+    of(&RotatedLinear, &IN_PLANE[..4], &check);
     // The last has a pole so near that h would have to be small compared with it.
-    of(&laws::extended_neo_hookean(0.3), &IN_PLANE[..8], &check);
+    of(&ExtendedNeoHookean { epsilon: 0.3 }, &IN_PLANE[..8], &check);
 }
 
 #[test]
@@ -114,10 +114,10 @@ fn points_are_those_in_space_with_the_free_component_condensed() {
             }
         }
     }
-    of(&laws::neo_hookean(), &IN_PLANE[..7]);
-    of(&laws::saint_venant_kirchhoff(), &IN_PLANE[..4]);
-    of(&laws::rotated_linear(), &IN_PLANE[..4]);
-    of(&laws::extended_neo_hookean(0.3), &IN_PLANE);
+    of(&NeoHookean, &IN_PLANE[..7]);
+    of(&SaintVenantKirchhoff, &IN_PLANE[..4]);
+    of(&RotatedLinear, &IN_PLANE[..4]);
+    of(&ExtendedNeoHookean { epsilon: 0.3 }, &IN_PLANE);
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn nearly_incompressible_sheets_lose_no_digits_of_the_stress() {
 #[test]
 fn filters_clamp_the_condensed_eigenvalues() {
     let mut random = Random::new(95);
-    let material = laws::extended_neo_hookean(0.3);
+    let material = ExtendedNeoHookean { epsilon: 0.3 };
     let mut changed = 0;
     for _ in 0..200 {
         let F = std::array::from_fn(|_| std::array::from_fn(|_| random.uniform(-1.0, 1.0)));
@@ -212,18 +212,18 @@ fn what_has_no_equilibrium_or_no_energy_says_so() {
     // Inverted in the plane: J < 0 for every thickness.
     let inverted = [[1.0, 0.0], [0.0, -1.0]];
     for point in [
-        plane_strain(&laws::neo_hookean(), &inverted, Filter::None),
-        plane_stress(&laws::neo_hookean(), &inverted, Filter::None),
+        plane_strain(&NeoHookean, &inverted, Filter::None),
+        plane_stress(&NeoHookean, &inverted, Filter::None),
     ] {
         assert!(point.status.refused && !point.no_equilibrium);
     }
     // Saint Venant–Kirchhoff: t (μ (t² − 1) + λ/2 (Σ λ² − 3)) is positive for all t > 0 in a wide sheet.
-    let wide = plane_stress(&laws::saint_venant_kirchhoff(), &[[3.0f64, 0.0], [0.0, 3.0]], Filter::None);
+    let wide = plane_stress(&SaintVenantKirchhoff, &[[3.0f64, 0.0], [0.0, 3.0]], Filter::None);
     assert!(wide.status.refused && wide.no_equilibrium && wide.stress[0][0].is_nan());
     for bad in [f64::NAN, f64::INFINITY] {
         let F = [[1.0, bad], [0.0, 1.0]];
-        assert!(plane_strain(&laws::neo_hookean(), &F, Filter::Clamp).status.nonfinite);
-        assert!(plane_stress(&laws::neo_hookean(), &F, Filter::Clamp).status.nonfinite);
+        assert!(plane_strain(&NeoHookean, &F, Filter::Clamp).status.nonfinite);
+        assert!(plane_stress(&NeoHookean, &F, Filter::Clamp).status.nonfinite);
     }
 }
 
@@ -251,12 +251,12 @@ fn no_bits_give_a_NaN_under_a_clean_status() {
             std::array::from_fn(|_| std::array::from_fn(|_| random.uniform(-1.0, 1.0) * sizes));
         for F in [wild, tame] {
             let narrow = F.map(|row| row.map(|x| x as f32));
-            check(&laws::neo_hookean(), &F);
-            check(&laws::saint_venant_kirchhoff(), &F);
-            check(&laws::rotated_linear(), &F);
-            check(&laws::extended_neo_hookean(0.3), &F);
-            check(&laws::neo_hookean(), &narrow);
-            check(&laws::extended_neo_hookean(0.3), &narrow);
+            check(&NeoHookean, &F);
+            check(&SaintVenantKirchhoff, &F);
+            check(&RotatedLinear, &F);
+            check(&ExtendedNeoHookean { epsilon: 0.3 }, &F);
+            check(&NeoHookean, &narrow);
+            check(&ExtendedNeoHookean { epsilon: 0.3 }, &narrow);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::differences::{check_slope, flat};
 use super::*;
-use crate::laws;
+use crate::hand_written::ExtendedNeoHookean;
 use crate::point::measures::{
     Measure, cauchy, green_naghdi_tangent, jaumann_tangent, kirchhoff, kirchhoff_tangent, material_tangent,
     second_piola, spatial_tangent, voigt,
@@ -31,10 +31,10 @@ fn everywhere(check: impl Fn(&dyn Fn(&Matrix3<f64>) -> Point<f64>, &Matrix3<f64>
             }
         }
     }
-    of(&laws::neo_hookean(), &SHAPES[..4], &check);
-    of(&laws::saint_venant_kirchhoff(), &SHAPES, &check);
-    of(&laws::rotated_linear(), &SHAPES, &check);
-    of(&laws::extended_neo_hookean(0.3), &SHAPES, &check);
+    of(&NeoHookean, &SHAPES[..4], &check);
+    of(&SaintVenantKirchhoff, &SHAPES, &check);
+    of(&RotatedLinear, &SHAPES, &check);
+    of(&ExtendedNeoHookean { epsilon: 0.3 }, &SHAPES, &check);
 }
 
 /// Rᵀ τ R with the rotation R = U Vᵀ.

@@ -1,8 +1,9 @@
 //! Settings, copies, threads and errors.
 
 use super::*;
+use crate::hand_written::RotatedLinear;
 use crate::system::BodyError;
-use crate::system::testing::rotated_with;
+use crate::system::testing::scaled;
 
 #[test]
 fn nonsense_is_refused_with_a_reason() {
@@ -47,7 +48,7 @@ fn nonsense_is_refused_with_a_reason() {
 #[test]
 fn what_overflows_is_not_outside_of_a_domain() {
     let mesh = beam(1);
-    let stiff = rotated_with(1e308);
+    let stiff = scaled(1e308, RotatedLinear);
     let mut body = simulation(&mesh, stiff, &Pins::none(), SimulationSettings::default());
     let stretched: Vec<_> = mesh.positions.iter().map(|[x, y, z]| [9.0 * x, *y, *z]).collect();
     body.set_positions(&stretched).expect("finite");

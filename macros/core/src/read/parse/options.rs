@@ -36,13 +36,14 @@ pub struct Options {
 }
 
 /// Each argument as it is written.
-const FORMS: [(&str, &str); 8] = [
+const FORMS: [(&str, &str); 9] = [
     ("domain", "domain(J > 0.0)"),
     ("admissible", "admissible(mu > 0.0)"),
     ("extend", "extend"),
     ("refuse", "refuse(\"why it does not extend\")"),
     ("typical", "typical(\"natural rubber\", mu = 4e5)"),
     ("prestressed", "prestressed"),
+    ("part", "part"),
     ("fit", "fit"),
     ("serde", "serde"),
 ];
@@ -78,7 +79,7 @@ impl Options {
             ("extend", Meta::Path(_)) => self.extend = Some(Vec::new()),
             ("refuse", Meta::List(list)) => self.refuse = reason(&list.tokens, diagnostics),
             ("typical", Meta::List(list)) => self.typical = Typical::read(name, &list.tokens, diagnostics),
-            ("prestressed", Meta::Path(_)) => self.prestressed = true,
+            ("prestressed" | "part", Meta::Path(_)) => self.prestressed = true,
             ("fit", Meta::Path(_)) => self.fit = true,
             ("serde", Meta::Path(_)) => self.serde = true,
             (text, _) => {
