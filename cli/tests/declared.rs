@@ -121,7 +121,7 @@ fn the_contract_is_checked_without_a_crate() {
         &["contract", OGDEN, "--param", "mu=1e5", "--param", "alpha=2", "--extend", "0.1"],
     );
     assert!(text.contains("keeps the contract") && text.contains("below 0.1, it does as well"), "{text}");
-    assert!(text.lines().filter(|line| line.contains("comparisons")).count() >= 24, "{text}");
+    assert!(text.lines().filter(|line| line.contains("comparisons")).count() >= 20, "{text}");
     // Terms that are large and nearly cancel: f32 keeps nothing of their sum.
     let lossy = [
         "contract",
