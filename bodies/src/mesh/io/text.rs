@@ -47,7 +47,7 @@ impl ReadError {
     /// volume. [`TetMesh::left_out`] counts them.
     ///
     /// ```
-    /// use piola::mesh::{ReadError, parse_msh};
+    /// use piola_bodies::mesh::{ReadError, parse_msh};
     ///
     /// let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
     ///     $Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 0\n$EndNodes\n\
