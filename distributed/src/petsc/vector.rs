@@ -143,9 +143,9 @@ pub(super) fn with_given<T>(raw: ffi::Vec, work: impl FnOnce(&[f64]) -> T) -> Re
         check(ffi::VecGetArrayRead(raw, &mut entries))?;
     }
     let done = match usize::try_from(count) {
-        // SAFETY: the vector has `count` entries here, entries are f64 in any PETSc with real numbers, and
-        // they do not change until the array is released.
         Ok(count) if count > 0 && !entries.is_null() => {
+            // SAFETY: the vector has `count` entries here, entries are f64 in any PETSc with real numbers,
+            // and they do not change until the array is released.
             work(unsafe { std::slice::from_raw_parts(entries, count) })
         }
         _ => work(&[]),
