@@ -9,9 +9,9 @@ use piola_bodies::mesh::{Bounds, Embedding, read_msh, read_surface_obj};
 use piola_bodies::step::{Damping, NewtonSettings, Simulation, SimulationSettings};
 use piola_bodies::system::{Body, Pins};
 
-// The energy density ψ(λ1, λ2, λ3), J/m³; stress and tangent follow from it. Replace it by your own: I1, I2
-// and J are predefined. An energy that is defined only for J > 0, such as one with ln J, needs
-// `#[material(domain(J > 0.0), extend)]`, and below, for flat elements,
+// The energy density ψ(λ1, λ2, λ3), J/m³; stress and tangent follow from it. Replace it by your own, without
+// stress at rest; I1, I2 and J are predefined. One that is defined only for J > 0, such as one with ln J,
+// needs `#[material(domain(J > 0.0), extend)]`, and in the function `rubber`, for flat elements,
 // `Rubber::new(…)?.with_inversion(piola::Inversion::Extend { epsilon: 0.1 })`.
 /// Rotated linear solid; mu and lambda in Pa.
 #[material]

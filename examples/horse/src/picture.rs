@@ -4,7 +4,7 @@ type Vector = [f64; 3];
 
 /// Width and height of a frame, and length of a metre, in units of the picture.
 const FRAME: [f64; 2] = [1200.0, 1000.0];
-const METRE: f64 = 500.0;
+const METRE: f64 = 440.0;
 /// Direction to the light.
 const LIGHT: Vector = [-0.45, 0.75, 0.48];
 
@@ -20,10 +20,10 @@ pub(crate) fn svg(frames: &[(f64, Vec<Vector>)], triangles: &[[usize; 3]]) -> St
     svg += "</style><rect width='100%' height='100%' fill='#f1f1ef'/>";
     for (number, (time, vertices)) in frames.iter().enumerate() {
         let [x, y] = [number % 3, number / 3].map(|place| place as f64);
-        let [x, y] = [x * FRAME[0] + 550.0, y * FRAME[1] + 850.0];
-        svg += &format!("<g transform='translate({x} {y})'><text x='-500' y='-780'>{time:.2} s</text>");
+        let (size, [x, y]) = ("width='1200' height='1000'", [x * FRAME[0], y * FRAME[1]]);
+        svg += &format!("<svg x='{x}' y='{y}' {size} viewBox='-550 -850 1200 1000'>");
         draw(&mut svg, vertices, triangles);
-        svg += "</g>";
+        svg += &format!("<text x='-500' y='-780'>{time:.2} s</text></svg>");
     }
     svg + "</svg>\n"
 }
