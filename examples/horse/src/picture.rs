@@ -20,8 +20,8 @@ pub(crate) fn svg(frames: &[(f64, Vec<Vector>)], triangles: &[[usize; 3]]) -> St
     svg += "</style><rect width='100%' height='100%' fill='#f1f1ef'/>";
     for (number, (time, vertices)) in frames.iter().enumerate() {
         let [x, y] = [number % 3, number / 3].map(|place| place as f64);
-        let (size, [x, y]) = ("width='1200' height='1000'", [x * FRAME[0], y * FRAME[1]]);
-        svg += &format!("<svg x='{x}' y='{y}' {size} viewBox='-550 -850 1200 1000'>");
+        let ([w, h], [x, y]) = (FRAME, [x * FRAME[0], y * FRAME[1]]);
+        svg += &format!("<svg x='{x}' y='{y}' width='{w}' height='{h}' viewBox='-550 -850 {w} {h}'>");
         draw(&mut svg, vertices, triangles);
         svg += &format!("<text x='-500' y='-780'>{time:.2} s</text></svg>");
     }
