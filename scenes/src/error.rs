@@ -195,6 +195,12 @@ pub enum Error {
         /// The folder.
         folder: PathBuf,
     },
+    /// Another run is writing to the folder.
+    #[error("another run is writing to the folder {}; wait until it has ended", folder.display())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// No run to continue.
     #[error("the folder {} contains no run to continue", folder.display())]
     NothingToResume {

@@ -3,7 +3,7 @@
 //! Files are written during the run, so that an interruption leaves a shorter run. Nothing that was there
 //! before is replaced: a run begins in a folder that does not exist yet.
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -22,19 +22,21 @@ pub struct Folder {
     written: Vec<String>,
     /// Folders that did not exist before, innermost first.
     created: Vec<PathBuf>,
+    /// The folder, locked until the program ends; `None` on systems that lock no folders.
+    _lock: Option<File>,
 }
 
 impl Folder {
     /// Creates a folder for the files of a run.
     ///
     /// # Errors
-    /// [`Error::FolderExists`], [`Error::Folder`] if it cannot be created.
+    /// [`Error::FolderExists`], [`Error::Folder`] if it cannot be created, [`Error::Busy`].
     pub fn create(path: &Path) -> Result<Self, Error> {
         let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created: Vec<_> = path.ancestors().take_while(is_new).map(PathBuf::from).collect();
         let parents = path.parent().map_or(Ok(()), fs::create_dir_all);
         match parents.and_then(|()| fs::create_dir(path)) {
-            Ok(()) => Ok(Self { path: path.into(), written: Vec::new(), created }),
+            Ok(()) => Self::locked(path, created),
             Err(source) => {
                 remove_folders(created.get(1..).unwrap_or_default());
                 Err(match path.is_dir() {
@@ -48,11 +50,20 @@ impl Folder {
     /// Opens the folder of a run to continue it.
     ///
     /// # Errors
-    /// [`Error::NothingToResume`] if the folder has no state of a run.
+    /// [`Error::NothingToResume`] if the folder has no state of a run, [`Error::Busy`] if another program writes
+    /// there.
     pub fn reopen(path: &Path) -> Result<Self, Error> {
         match path.join(STATE_FILE).is_file() {
-            true => Ok(Self { path: path.into(), written: Vec::new(), created: Vec::new() }),
+            true => Self::locked(path, Vec::new()),
             false => Err(Error::NothingToResume { folder: path.into() }),
+        }
+    }
+
+    fn locked(path: &Path, created: Vec<PathBuf>) -> Result<Self, Error> {
+        let lock = File::open(path).ok();
+        match lock.as_ref().map(File::try_lock) {
+            Some(Err(TryLockError::WouldBlock)) => Err(Error::Busy { folder: path.into() }),
+            _ => Ok(Self { path: path.into(), written: Vec::new(), created, _lock: lock }),
         }
     }
 
