@@ -1,4 +1,9 @@
 //! Status of the evaluation of a point, and counts of the statuses of many.
+//!
+//! The four flags of [`Status`] are the only vocabulary, in four containers: `Status` for a point,
+//! `Status<R::Mask>` for points on lanes, `Status<u64>` with a bit for each point of a tile, and
+//! [`StatusCell`], one atomic byte for a point of a batch, which any thread may write. A [`Survey`] counts
+//! flags over many points and names the first point that is refused or nonfinite; surveys can be added.
 
 use std::iter::Sum;
 use std::ops::{Add, BitAnd, BitOr};
