@@ -8,14 +8,35 @@ pub(super) const TETRAHEDRON: usize = 4;
 /// Gmsh's type number of a tetrahedron of second order.
 pub(super) const TETRAHEDRON_10: usize = 11;
 
-/// Orders of elements, from 1.
-const ORDERS: [&str; 10] =
-    ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"];
+/// Names of the types of first and second order, for one element and for several.
+///
+/// Some shapes have two types of second order, which differ in their number of nodes.
+const NAMES: [(usize, &str, &str); 19] = [
+    (1, "line", "lines"),
+    (2, "triangle", "triangles"),
+    (3, "quadrangle", "quadrangles"),
+    (TETRAHEDRON, "tetrahedron", "tetrahedra"),
+    (5, "hexahedron", "hexahedra"),
+    (6, "prism", "prisms"),
+    (7, "pyramid", "pyramids"),
+    (8, "second-order line (3 nodes)", "second-order lines (3 nodes)"),
+    (9, "second-order triangle (6 nodes)", "second-order triangles (6 nodes)"),
+    (10, "second-order quadrangle (9 nodes)", "second-order quadrangles (9 nodes)"),
+    (TETRAHEDRON_10, "second-order tetrahedron (10 nodes)", "second-order tetrahedra (10 nodes)"),
+    (12, "second-order hexahedron (27 nodes)", "second-order hexahedra (27 nodes)"),
+    (13, "second-order prism (18 nodes)", "second-order prisms (18 nodes)"),
+    (14, "second-order pyramid (14 nodes)", "second-order pyramids (14 nodes)"),
+    (15, "point", "points"),
+    (16, "second-order quadrangle (8 nodes)", "second-order quadrangles (8 nodes)"),
+    (17, "second-order hexahedron (20 nodes)", "second-order hexahedra (20 nodes)"),
+    (18, "second-order prism (15 nodes)", "second-order prisms (15 nodes)"),
+    (19, "second-order pyramid (13 nodes)", "second-order pyramids (13 nodes)"),
+];
 
 /// Counts of elements in a file by type, as Gmsh numbers the types.
 ///
 /// Displayed as `6 second-order tetrahedra (10 nodes), 1 hexahedron, 48 tetrahedra`, with linear tetrahedra
-/// at the end.
+/// at the end; types of third or higher order by their numbers, as `2 elements of type 29`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ElementCounts(BTreeMap<usize, usize>);
 
@@ -52,19 +73,12 @@ impl fmt::Display for ElementCounts {
         let others = self.0.iter().filter(|&(&kind, _)| kind != TETRAHEDRON);
         for (place, (&kind, &count)) in others.chain(tetrahedra).enumerate() {
             let comma = if place == 0 { "" } else { ", " };
-            let Some((shape, order)) = shape_and_order(kind) else {
-                let elements = if count == 1 { "element" } else { "elements" };
-                write!(f, "{comma}{count} {elements} of type {kind}")?;
-                continue;
-            };
-            write!(f, "{comma}{count} ")?;
-            if order > 1 {
-                write!(f, "{}-order ", ORDERS[order - 1])?;
-            }
-            let (one, several) = shape.names();
-            f.write_str(if count == 1 { one } else { several })?;
-            if let Some(nodes) = second_order_nodes(kind) {
-                write!(f, " ({nodes} nodes)")?;
+            match NAMES.iter().find(|name| name.0 == kind) {
+                Some(&(_, one, several)) => {
+                    write!(f, "{comma}{count} {}", if count == 1 { one } else { several })?;
+                }
+                None if count == 1 => write!(f, "{comma}1 element of type {kind}")?,
+                None => write!(f, "{comma}{count} elements of type {kind}")?,
             }
         }
         Ok(())
@@ -73,99 +87,11 @@ impl fmt::Display for ElementCounts {
 
 /// Dimension of the elements of a type, which distinguishes groups of one name; `None` for an unknown type.
 pub(super) fn dimension(kind: usize) -> Option<usize> {
-    shape_and_order(kind).map(|(shape, _)| match shape {
-        Shape::Point => 0,
-        Shape::Line => 1,
-        Shape::Triangle | Shape::Quadrangle => 2,
-        Shape::Tetrahedron | Shape::Hexahedron | Shape::Prism | Shape::Pyramid => 3,
-    })
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Shape {
-    Point,
-    Line,
-    Triangle,
-    Quadrangle,
-    Tetrahedron,
-    Hexahedron,
-    Prism,
-    Pyramid,
-}
-
-impl Shape {
-    /// The names of one and of several.
-    fn names(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Point => ("point", "points"),
-            Self::Line => ("line", "lines"),
-            Self::Triangle => ("triangle", "triangles"),
-            Self::Quadrangle => ("quadrangle", "quadrangles"),
-            Self::Tetrahedron => ("tetrahedron", "tetrahedra"),
-            Self::Hexahedron => ("hexahedron", "hexahedra"),
-            Self::Prism => ("prism", "prisms"),
-            Self::Pyramid => ("pyramid", "pyramids"),
-        }
-    }
-}
-
-/// Shape and order of the elements of a type, complete or without nodes on faces and inside.
-fn shape_and_order(kind: usize) -> Option<(Shape, usize)> {
-    Some(match kind {
-        15 => (Shape::Point, 1),
-        1 => (Shape::Line, 1),
-        8 => (Shape::Line, 2),
-        26..=28 => (Shape::Line, kind - 23),
-        62..=66 => (Shape::Line, kind - 56),
-        2 => (Shape::Triangle, 1),
-        9 => (Shape::Triangle, 2),
-        20..=25 => (Shape::Triangle, kind / 2 - 7),
-        42..=46 => (Shape::Triangle, kind - 36),
-        52..=56 => (Shape::Triangle, kind - 46),
-        3 => (Shape::Quadrangle, 1),
-        10 | 16 => (Shape::Quadrangle, 2),
-        36..=38 => (Shape::Quadrangle, kind - 33),
-        39..=41 => (Shape::Quadrangle, kind - 36),
-        47..=51 => (Shape::Quadrangle, kind - 41),
-        57..=61 => (Shape::Quadrangle, kind - 51),
-        TETRAHEDRON => (Shape::Tetrahedron, 1),
-        TETRAHEDRON_10 => (Shape::Tetrahedron, 2),
-        29..=31 => (Shape::Tetrahedron, kind - 26),
-        32..=33 => (Shape::Tetrahedron, kind - 28),
-        71..=75 => (Shape::Tetrahedron, kind - 65),
-        79..=83 => (Shape::Tetrahedron, kind - 73),
-        5 => (Shape::Hexahedron, 1),
-        12 | 17 => (Shape::Hexahedron, 2),
-        92..=98 => (Shape::Hexahedron, kind - 89),
-        99..=105 => (Shape::Hexahedron, kind - 96),
-        6 => (Shape::Prism, 1),
-        13 | 18 => (Shape::Prism, 2),
-        90..=91 => (Shape::Prism, kind - 87),
-        106..=110 => (Shape::Prism, kind - 101),
-        111..=117 => (Shape::Prism, kind - 108),
-        7 => (Shape::Pyramid, 1),
-        14 | 19 => (Shape::Pyramid, 2),
-        118..=124 => (Shape::Pyramid, kind - 115),
-        125..=131 => (Shape::Pyramid, kind - 122),
-        _ => return None,
-    })
-}
-
-/// Number of nodes of an element of second order, of which some shapes have two types. For higher orders, it
-/// has changed between versions of Gmsh.
-fn second_order_nodes(kind: usize) -> Option<usize> {
     match kind {
-        8 => Some(3),
-        9 => Some(6),
-        10 => Some(9),
-        16 => Some(8),
-        TETRAHEDRON_10 => Some(10),
-        12 => Some(27),
-        17 => Some(20),
-        13 => Some(18),
-        18 => Some(15),
-        14 => Some(14),
-        19 => Some(13),
+        15 => Some(0),
+        1 | 8 | 26..=28 | 62..=66 => Some(1),
+        2..=3 | 9..=10 | 16 | 20..=25 | 36..=61 => Some(2),
+        4..=7 | 11..=14 | 17..=19 | 29..=33 | 71..=75 | 79..=83 | 90..=131 => Some(3),
         _ => None,
     }
 }
@@ -191,27 +117,19 @@ mod tests {
         );
         check(
             &[(29, 2), (83, 1), (999, 1), (35, 2)],
-            "2 third-order tetrahedra, 2 elements of type 35, \
-             1 tenth-order tetrahedron, 1 element of type 999",
+            "2 elements of type 29, 2 elements of type 35, 1 element of type 83, 1 element of type 999",
         );
         check(&[(5, 0)], "");
     }
 
-    /// Every type that has a name has an order with one, and Gmsh's numbers of shapes and orders: the counts
-    /// are of lines, and so on.
+    /// Gmsh's numbers of shapes and orders: ten lines, complete from order 1 to 10, and so on.
     #[test]
     fn types_are_those_of_gmsh() {
-        let known: Vec<(Shape, usize)> = (0..1000).filter_map(shape_and_order).collect();
-        let count = |shape| known.iter().filter(|&&(other, _)| other == shape).count();
-        assert!(known.iter().all(|&(_, order)| (1..=ORDERS.len()).contains(&order)));
-        assert_eq!(count(Shape::Point), 1);
-        assert_eq!(count(Shape::Line), 10, "complete from order 1 to 10");
-        assert_eq!(count(Shape::Triangle), 18, "complete from 1, incomplete from 3 to 10");
-        assert_eq!(count(Shape::Quadrangle), 19, "complete from 1, incomplete from 2 to 10");
-        assert_eq!(count(Shape::Tetrahedron), 17, "complete from 1, incomplete from 4 to 10");
-        for shape in [Shape::Hexahedron, Shape::Prism, Shape::Pyramid] {
-            assert_eq!(count(shape), 17, "complete from 1 to 9, incomplete from 2");
-        }
+        let count = |wanted| (0..1000).filter(|&kind| dimension(kind) == Some(wanted)).count();
+        // Triangles and quadrangles: complete from 1, incomplete from 3 and from 2 to 10. Tetrahedra: complete
+        // from 1, incomplete from 4 to 10. Hexahedra, prisms, pyramids: complete from 1 to 9, incomplete from 2.
+        assert_eq!([0, 1, 2, 3].map(count), [1, 10, 18 + 19, 17 + 3 * 17]);
         assert_eq!([15, 8, 16, 33, 140].map(dimension), [Some(0), Some(1), Some(2), Some(3), None]);
+        assert!(NAMES.iter().all(|&(kind, ..)| dimension(kind).is_some()));
     }
 }
