@@ -1,7 +1,6 @@
 //! Slopes: a central difference approaches a right derivative as h², until rounding takes over.
 
 use super::*;
-use crate::material::Material;
 
 /// Checks that (f(h) − f(−h))/2h tends to `derivative` as h² does, with a floor of `rounding`/h from the
 /// rounding of f.
@@ -30,33 +29,4 @@ pub(super) fn check_slope<const N: usize>(
 
 pub(super) fn flat(A: &Matrix3<f64>) -> [f64; 9] {
     std::array::from_fn(|k| A[k / 3][k % 3])
-}
-
-fn check_material(material: &impl Material, stretches: [f64; 3], random: &mut Random) {
-    let F = with_stretches(random, stretches);
-    let dF = random.matrix();
-    let point = evaluate(material, &F, Filter::None);
-    let power = flat(&point.stress).iter().zip(flat(&dF)).map(|(p, f)| p * f).sum();
-    // Both functions are of order 10 here and rounded 20 times or so.
-    let rounding = 200.0 * f64::EPSILON;
-    let energy = |h: f64| [evaluate_energy(material, &moved(&F, h, &dF)).energy];
-    check_slope(energy, [power], rounding, &format!("stress at {stretches:?}"));
-    let stress = |h: f64| flat(&evaluate_stress(material, &moved(&F, h, &dF)).stress);
-    check_slope(stress, flat(&point.tangent.apply(&dF)), rounding, &format!("tangent at {stretches:?}"));
-}
-
-#[test]
-fn stress_and_tangent_are_the_derivatives_of_the_energy() {
-    let mut random = Random::new(21);
-    for _ in 0..10 {
-        for stretches in STRETCHES {
-            check_material(&SaintVenantKirchhoff, stretches, &mut random);
-        }
-        for stretches in &STRETCHES[..3] {
-            check_material(&NeoHookean, *stretches, &mut random);
-        }
-        for stretches in &STRETCHES[..5] {
-            check_material(&RotatedLinear, *stretches, &mut random);
-        }
-    }
 }

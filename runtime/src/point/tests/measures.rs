@@ -231,19 +231,6 @@ fn S_and_its_tangent_give_dP_dF_back() {
 }
 
 #[test]
-fn the_spatial_tangent_is_that_of_the_material_pushed_forward() {
-    everywhere(|Sample { F, measures, uM, largest, smallest, J, .. }| {
-        let pushed = tangent_of(|[i, j, k, l]| {
-            let inner = |p, q| sum(|r, s| F[k][r] * F[l][s] * component(&measures.dS_dE, [p, q, r, s]));
-            sum(|p, q| F[i][p] * F[j][q] * inner(p, q)) / J
-        });
-        // The sums magnify the error of dS/dE, u M/λ3², by λ1⁴/J.
-        let limit = TANGENT * uM * (largest / smallest).powi(2) * largest * largest / J.abs();
-        check(&measures.c, &pushed, limit, "c", F);
-    });
-}
-
-#[test]
 fn the_spatial_tangents_are_dP_dF_less_the_turning_stress() {
     everywhere(|Sample { F, point, measures, uM, largest, J, .. }| {
         let dP_dF = point.tangent.to_matrix();
