@@ -1,4 +1,5 @@
-//! Mistakes: each gives one message, on its tokens, with the remedy.
+//! Mistakes: each gives one message, on its tokens, with the remedy. The mistakes that
+//! `tests/declarations/mistakes.rs` shows with whole messages are left out here.
 
 mod declaration;
 mod domain;
@@ -148,9 +149,7 @@ fn one_mistake_gives_one_message() {
 #[test]
 fn names() {
     check_added("K", "K", "known are `l1`, `l2`, `l3`, `mu`, `m`, `J`, `I1`, `I2`, `I1b`, `I2b`");
-    check_added("m", "m", "write `sum(|p| … m[p] …)`");
     let single = "single entries of a list cannot be used: declare them as parameters of their own, or write `m[p]`, inside";
-    check_added("m[0]", "m[0]", single);
     check_added("m[1] * J + m[2] * m[0].ln() + sum(|p| m[p] * m[0]) + m[p]", "m[1]", single);
     check_added("sum(|p| m[p + 1])", "m[p + 1]", "an entry is written `m[p]`, inside `sum(|p| …)`");
     check_arguments(
@@ -160,11 +159,6 @@ fn names() {
     check_added("m[p]", "m[p]", "entries are only read inside a sum: `sum(|p| m[p])`");
     check_added("l1[p]", "l1", "`l1` is not a list");
     check_added("N", "N", "`N` is the length of lists");
-    check_added(
-        "sum(|p| m[p] * p)",
-        "p",
-        "selects entries, as in `m[p]`, and is not a number: write the terms out",
-    );
     check_added("I3", "I3", "write `J.powi(2)`");
     check_added("I1_bar", "I1_bar", "write `I1b`");
     check_added("Ib2", "Ib2", "write `I2b`");
@@ -177,11 +171,8 @@ fn names() {
     check_added("f64::EPSILON", "f64::EPSILON", "write constants as numbers");
     check_added("I4", "I4", "it belongs to fibres, and an energy is isotropic");
     check_added("pi", "pi", "write `PI`");
-    check_added("f64::INFINITY", "f64::INFINITY", "the numbers of an energy are finite");
     check_body(&format!("let unused = 1.0; {GOOD}"), &[("unused", "`unused` is not used")]);
-    check_body(&format!("let mu = 1.0; {GOOD}"), &[("mu", "`mu` is taken already")]);
     check_body(&format!("let x = mu; let x = 2.0 * x; x + {GOOD}"), &[("x", "`x` is taken already")]);
-    check_body("mu * (I1 - 3.0 - 2.0 * J.ln())", &[("m", "`m` does not occur")]);
     // A condition does not see into the body, nor an energy into a block that has ended.
     let condition = |arguments: &str, body: &str| {
         let item = format!("fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {{ {body} }}");
@@ -195,7 +186,6 @@ fn names() {
 
 #[test]
 fn calls_and_operators() {
-    check_added("J.log()", "log", "takes one argument, the base; the natural logarithm is `.ln()`");
     check_added("J.pow(2)", "pow", "write `.powi(2)`");
     check_added("J.zeta()", "zeta", "there are `.powi(2)`, `.powf(alpha)`");
     check_added("J.acos()", "acos", "implements `piola::Univariate`");
@@ -207,13 +197,10 @@ fn calls_and_operators() {
     check_added("(0.0).log10()", "(0.0).log10()", "a number that is not positive");
     check_added("tr(J)", "tr", "write the sum of the eigenvalues");
     check_added("J.abs()", "abs", "`abs` has a kink");
-    check_added("J.ln(2.0)", "ln", "`ln` takes no argument");
-    check_added("J.powi()", "powi", "one argument, the exponent");
     check_added("J.powi(0.5)", "0.5", "`powi` takes a whole number: for this one write `.powf(0.5)`");
     check_added("J.powi(2 * mu)", "2 * mu", "for this one write `.powf(2 * mu)`");
     check_added("sum(|p| J.powi(m[p]))", "m[p]", "for this one write `.powf(m[p])`");
     check_added("J.powi(1000)", "1000", "at most 64");
-    check_added("J.powi(99999999999999999999)", "99999999999999999999", "at most 64");
     check_added("J.powf(l1)", "l1", "not of stretches");
     check_added("ln(J)", "ln", "write `x.ln()`");
     check_added("f64::powf(J, 2.0)", "f64::powf", "write `x.powf(alpha)`");
@@ -225,12 +212,9 @@ fn calls_and_operators() {
     check_added("J ** 2", "*", "a power is written `x.powi(2)`");
     check_added("J % 2.0", "%", "only `+ - * /`");
     check_added("!J", "!", "only `-`");
-    check_added("(J > 1.0)", ">", "an energy has no comparisons");
-    check_added("if mu > 0.0 { 1.0 } else { 2.0 }", "if", "no branches");
     check_added("match 1 { _ => J }", "match", "no branches");
     check_added("if mu > 0.0 { nu } else { 2.0 }", "if", "no branches");
     check_added("(J as f64)", "f64", "remove the cast");
-    check_added("[J, mu]", "[J, mu]", "lists are parameters, as `mu: [f64; N]`");
     check_added("mu * [J - 1.0]", "[J - 1.0]", "parentheses are round in an energy");
     check_body(&format!("return {GOOD};"), &[("return", "write it without `return` and `;`")]);
 }
@@ -250,7 +234,6 @@ fn numbers() {
     for suffix in ["i32", "usize", "u8", "f16"] {
         check_added(&format!("1{suffix}"), &format!("1{suffix}"), "remove the suffix");
     }
-    check_added("1e999", "1e999", "not finite");
     check_added("true", "true", "a literal in an energy is a number");
     check_added("J / 0.0", "0.0", "division by zero");
     check_added("(J - J).recip()", "(J - J)", "division by zero");
@@ -263,7 +246,6 @@ fn numbers() {
         &format!("fn E([a, b, c]: [f64; 3], mu: f64) -> f64 {{ {shape} }}"),
         &[(shape, "in the derivatives")],
     );
-    check_added("1e30 * 1e30 + 1.0", "1e30 * 1e30", "leaves 128 bits");
 }
 
 /// Papers write products without a sign.
@@ -281,7 +263,6 @@ fn numbers_before_names() {
 
 #[test]
 fn lines() {
-    check_body(&format!("{GOOD};"), &[(";", "remove this `;`")]);
     check_body(&format!("mu; {GOOD}"), &[("mu;", "`let` bindings and one expression at the end")]);
     check_body(&format!("let x: f64 = {GOOD}; x"), &[]);
     check_body(&format!("let mut x = {GOOD}; x"), &[(&format!("let mut x = {GOOD};"), "write `let name")]);
