@@ -2,8 +2,8 @@
 //! is used.
 //!
 //! `TRYBUILD=overwrite cargo test -p piola-macros` writes `ui/*.stderr` anew. How tokens are underlined is up
-//! to the compiler, so they are compared where it has the version that they were written by; that the
-//! messages are those of the macro is tested everywhere, by `piola-codegen`.
+//! to the compiler, so they are compared where it has the version that they were written by; the test
+//! `declarations` of `piola-tests` compares whole messages everywhere.
 
 use std::process::Command;
 

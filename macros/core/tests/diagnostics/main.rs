@@ -6,9 +6,6 @@ mod domain;
 mod energy;
 mod sums;
 
-use std::fs;
-use std::path::Path;
-
 use proc_macro2::TokenStream;
 
 /// The messages of a declaration, each with the tokens that it stands on.
@@ -278,40 +275,4 @@ fn lines() {
 fn half_a_body_is_one_mistake() {
     check("", "fn E([a, b, c]: [f64; 3], mu: f64) -> f64 { mu * }", &[("}", "expected an expression")]);
     check("", "fn E([a, b, c]: [f64; 3], mu) -> f64 { mu }", &[(")", "a declaration is `fn Name(")]);
-}
-
-/// The messages of the cases of `piola-macros`, regardless of how the compiler underlines tokens. Those of
-/// `tests/declarations/mistakes.rs` are judged, word by word, by the test `declarations` of `piola-tests`.
-#[test]
-fn the_compiler_shows_these_messages() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui");
-    let mut compared = 0;
-    for file in fs::read_dir(&folder).expect("the cases") {
-        let path = file.expect("a case").path();
-        // A thousand parentheses overflow the stack of a test before they are a declaration:
-        // tests/nesting.rs.
-        let is_too_deep = path.ends_with("nested_too_deep.rs");
-        if is_too_deep || path.extension().is_none_or(|extension| extension != "rs") {
-            continue;
-        }
-        let source = fs::read_to_string(&path).expect("a case");
-        let declarations = piola_codegen::declarations(&source).expect("a Rust source");
-        if declarations.is_empty() {
-            let declares_nothing =
-                ["no_function.rs", "dyn_material.rs"].iter().any(|name| path.ends_with(name));
-            assert!(declares_nothing, "{} declares nothing", path.display());
-            continue;
-        }
-        let said: Vec<String> = declarations
-            .into_iter()
-            .flat_map(|(arguments, item)| piola_codegen::analyse(arguments, item, None).err())
-            .flatten()
-            .map(|error| error.to_string())
-            .collect();
-        let shown = fs::read_to_string(path.with_extension("stderr")).expect("what the compiler shows");
-        let shown: Vec<_> = shown.lines().filter_map(|line| line.strip_prefix("error: ")).collect();
-        assert_eq!(shown, said, "{}", path.display());
-        compared += 1;
-    }
-    assert!(compared > 6, "{compared} cases");
 }
