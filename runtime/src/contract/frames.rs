@@ -2,8 +2,7 @@
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
-use super::samples::at_samples;
-use super::subject::{Subject, energy, stress};
+use super::subject::{Subject, at_samples, energy, stress};
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, stiffness, stress_scale};
 use crate::material::PAIRS;
 use crate::point::Matrix3;

@@ -1,7 +1,6 @@
 //! The rule on invariants: energy and derivatives by I1, I2 and J against those by stretches.
 
-use super::samples::at_samples;
-use super::subject::Subject;
+use super::subject::{Subject, at_samples};
 use super::{
     Finding, Rule, Settings, UNIT, Violation, gradient_name, hessian_name, pair_name, stiffness, stress_scale,
 };

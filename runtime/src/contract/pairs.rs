@@ -14,8 +14,7 @@
 //! and the quotients agree with their definition. Stretches 1 and 3 can only be close together with stretch 2
 //! between them.
 
-use super::samples::at_samples;
-use super::subject::Subject;
+use super::subject::{Subject, at_samples};
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, stiffness};
 use crate::material::{Blocks, PAIRS};
 

@@ -8,8 +8,7 @@
 
 use super::frames::diagonal;
 use super::pairs::mean;
-use super::samples::at_samples;
-use super::subject::{Subject, energy, stress, tangent};
+use super::subject::{Subject, at_samples, energy, stress, tangent};
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, stiffness, stress_scale};
 use crate::material::Inversion;
 use crate::point::Matrix3;

@@ -1,9 +1,37 @@
-//! Report of a broken rule: rule, component, stretches, both values.
+//! Report of a broken rule: rule, component, stretches, both values, and a remedy in the author's notation.
 
 use std::error::Error;
 use std::fmt;
 
 use super::Rule;
+
+/// Notation in which an energy is declared, and in which the remedies of its violations are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Notation {
+    /// Rust: the arguments of [`material`](macro@crate::material) and of [`contract!`](crate::contract!).
+    #[default]
+    Rust,
+    /// A formula, as the command `piola` and the Python package read it: conditions follow `where`.
+    Formula,
+}
+
+impl Notation {
+    /// One of two texts: for declarations in Rust, and for formulas.
+    pub(super) fn either(self, rust: &'static str, formula: &'static str) -> &'static str {
+        match self {
+            Self::Rust => rust,
+            Self::Formula => formula,
+        }
+    }
+
+    /// Advice to leave out large stretches.
+    pub(super) fn narrower(self) -> &'static str {
+        self.either(
+            "narrow the stretches of the test, as in `range: (0.7, 1.4)`",
+            "exclude large stretches by a condition after the formula, such as `where J > 0, I1 < 9`",
+        )
+    }
+}
 
 /// Expectation of a violation where a value is infinite or NaN.
 pub(super) const FINITE: &str = "a finite number";
