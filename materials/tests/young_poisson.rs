@@ -1,24 +1,9 @@
-//! Constructors from Young's modulus and Poisson's ratio: what they build is as stiff as asked. Which
-//! parameters these moduli determine is judged for the whole catalogue by `tests/tests/declarations`.
+//! Constructors from Young's modulus and Poisson's ratio: what they build is as stiff as asked. The parameters
+//! that these moduli determine are judged for the whole catalogue by `tests/tests/declarations`.
 
 use piola::material;
 use piola::material::{Declared, MaterialError, Moduli};
 use piola_materials::{NeoHookean, RotatedLinear, StVenantKirchhoff};
-
-// Energies that the crate does not compile by default, from their files.
-#[path = "../src/hencky.rs"]
-mod hencky;
-#[path = "../src/isochoric_neo_hookean.rs"]
-mod isochoric_neo_hookean;
-#[path = "../src/stable_neo_hookean.rs"]
-mod stable_neo_hookean;
-#[path = "../src/yeoh.rs"]
-mod yeoh;
-
-use hencky::Hencky;
-use isochoric_neo_hookean::IsochoricNeoHookean;
-use stable_neo_hookean::StableNeoHookean;
-use yeoh::Yeoh;
 
 /// Poisson's ratios from that of cork to that of rubber.
 const RATIOS: [f64; 5] = [0.0, 0.2, 0.3, 0.45, 0.499];
@@ -63,13 +48,9 @@ fn check<M: Declared>(build: impl Fn(f64, f64) -> Result<M, MaterialError>) -> R
 
 #[test]
 fn materials_are_as_stiff_as_asked() -> Result<(), MaterialError> {
-    check(Hencky::from_young_poisson)?;
-    check(IsochoricNeoHookean::from_young_poisson)?;
     check(NeoHookean::from_young_poisson)?;
     check(RotatedLinear::from_young_poisson)?;
-    check(StVenantKirchhoff::from_young_poisson)?;
-    check(StableNeoHookean::from_young_poisson)?;
-    check(|young, poisson| Yeoh::from_young_poisson(young, poisson, -1.46e3, 40.4))
+    check(StVenantKirchhoff::from_young_poisson)
 }
 
 /// Parameters that are differences of moduli, one of them with a constant, and names of what is emitted.
