@@ -298,39 +298,6 @@ fn portable_lanes_give_the_bits_of_a_scalar() {
     }
 }
 
-/// Climbs towards worse backward errors from the worst of random starts.
-#[test]
-fn a_search_for_counterexamples_finds_none() {
-    fn climb<R: Scalar>(seed: u64) {
-        let mut random = Random::new(seed);
-        for start in 0..40 {
-            let mut F = random.matrix();
-            let magnitude = 2f64.powi(-(start % 20));
-            F = product(&F, &product(&diagonal([1.0, magnitude, magnitude * magnitude]), &random.rotation()));
-            let mut record = 0.0;
-            for step in 0..400usize {
-                let amount = 2f64.powi(-((step % 50) as i32));
-                let mut candidate = perturbed(&F, amount, &random.matrix());
-                if step % 3 == 0 {
-                    candidate = F;
-                    candidate[step % 9 / 3][step % 3] *= random.uniform(-2.0, 2.0);
-                }
-                let mut worst = Worst::default();
-                let candidate_in_R = rounded::<R>(&candidate);
-                for (_, answers) in by_every_backend(Method::Plain, &[candidate_in_R]) {
-                    worst.see(&candidate_in_R, &answers[0]);
-                }
-                worst.check("climb");
-                if worst.backward > record {
-                    (record, F) = (worst.backward, candidate);
-                }
-            }
-        }
-    }
-    climb::<f64>(2);
-    climb::<f32>(3);
-}
-
 #[track_caller]
 fn check_exact(F: Exact, stretches: [f64; 3]) {
     let svd = svd::<f64>(&F);
