@@ -1,29 +1,6 @@
-//! Arguments of the attribute, signatures, and parameters of functions.
+//! Signatures, and parameters of functions.
 
-use super::{check, check_arguments, check_signature, mistakes};
-
-#[test]
-fn arguments() {
-    check_arguments("domein(J > 0.0), extend", &[("domein", "did you mean `domain(J > 0.0)`?")]);
-    check_arguments("domain(J > 0.0), fit(mu)", &[("fit", "`fit` is written `fit`")]);
-    check_arguments("domain(J > 0.0), fitt", &[("fitt", "did you mean `fit`?")]);
-    check_arguments("domain(J > 0.0), refuse(no)", &[("no", "give as a string the reason why")]);
-    check_arguments(
-        "domain(J > 0.0), unit(\"Pa\")",
-        &[("unit", "there are `domain(J > 0.0)`, `admissible(mu > 0.0)`")],
-    );
-    check_arguments("domain(J > 0.0), a::b", &[("a::b", "an argument is one word")]);
-    check_arguments("domain(J > 0.0 && l1 > 0.0)", &[("&&", "separated by commas")]);
-    let parameters = |condition: &str, tokens: &str, expected: &str| {
-        check_arguments(&format!("domain(J > 0.0), admissible({condition})"), &[(tokens, expected)]);
-    };
-    parameters("mu.powi(1 + 1) > 0.0", "1 + 1", "`powi` takes one number");
-    parameters("mu.abs() > 0.0", "abs", "has a kink");
-    parameters("m > 0.0", "m", "write `m[p]`");
-    parameters("sum(|p| m[p]) > 0.0", "sum(|p| m[p])", "it holds for each entry");
-    parameters("m[p] > m[q]", "q", "the index here is `p`");
-    parameters("nu > 0.0", "nu", "did you mean `mu`?");
-}
+use super::{check, check_signature, mistakes};
 
 #[test]
 fn signatures() {
