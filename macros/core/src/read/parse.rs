@@ -15,6 +15,7 @@ use syn::{Attribute, Expr, Ident, Type, Visibility};
 
 use crate::algebra::expr::Length;
 use crate::read::diagnostics::Diagnostics;
+use crate::read::unit::Unit;
 pub(crate) use function::Function;
 pub use lengths::Entries;
 pub(crate) use nesting::check_file;
@@ -100,6 +101,13 @@ impl Parameter {
     pub fn is_function(&self) -> bool {
         matches!(self.kind, Kind::Function(_))
     }
+
+    /// The unit that its documentation states, for a function that of its values. A whole exponent has none,
+    /// and its documentation need not state that.
+    #[must_use]
+    pub fn unit(&self) -> Option<Unit> {
+        if self.is_whole { Some(Unit::Dimensionless) } else { Unit::read(&self.doc).ok().flatten() }
+    }
 }
 
 impl Declaration {
@@ -142,6 +150,16 @@ impl Declaration {
     #[must_use]
     pub fn has_functions(&self) -> bool {
         self.parameters.iter().any(Parameter::is_function)
+    }
+
+    /// True if the documentation of a parameter states a unit.
+    pub(crate) fn has_units(&self) -> bool {
+        self.parameters.iter().any(|parameter| matches!(Unit::read(&parameter.doc), Ok(Some(_))))
+    }
+
+    /// The exponent of Pa in the unit of each parameter; `None` without one.
+    pub(crate) fn pascals(&self) -> Vec<Option<i64>> {
+        self.parameters.iter().map(|parameter| parameter.unit().map(Unit::pascals)).collect()
     }
 }
 

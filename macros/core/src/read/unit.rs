@@ -1,7 +1,5 @@
 //! Units of parameters, which their documentation states: `Shear modulus μ, Pa.`
 
-use crate::read::parse::{Declaration, Parameter};
-
 /// The unit of a parameter, a whole power of Pa.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
@@ -74,27 +72,6 @@ impl Unit {
             Self::PerPascal => -1,
             Self::Dimensionless => 0,
         }
-    }
-}
-
-impl Parameter {
-    /// The unit that its documentation states, for a function that of its values. A whole exponent has none,
-    /// and its documentation need not state that.
-    #[must_use]
-    pub fn unit(&self) -> Option<Unit> {
-        if self.is_whole { Some(Unit::Dimensionless) } else { Unit::read(&self.doc).ok().flatten() }
-    }
-}
-
-impl Declaration {
-    /// True if the documentation of a parameter states a unit.
-    pub(crate) fn has_units(&self) -> bool {
-        self.parameters.iter().any(|parameter| matches!(Unit::read(&parameter.doc), Ok(Some(_))))
-    }
-
-    /// The exponent of Pa in the unit of each parameter; `None` without one.
-    pub(crate) fn pascals(&self) -> Vec<Option<i64>> {
-        self.parameters.iter().map(|parameter| parameter.unit().map(Unit::pascals)).collect()
     }
 }
 
