@@ -392,12 +392,6 @@ fn a_limit_below_a_gap_names_the_gap() {
 }
 
 #[test]
-fn a_material_that_admits_nothing_is_not_called_right() {
-    let settings = Settings { range: (3.0, 4.0), points: 0, ..Settings::default() };
-    assert_eq!(isotropy(&NeoHookean, &settings), Err(Violation::NothingToCheck { rule: Rule::Isotropy }));
-}
-
-#[test]
 fn what_a_material_has_not_is_not_asked_for() {
     let rules = |material: &dyn Fn() -> Result<Report, Violations>| {
         let report = material().unwrap_or_else(|violations| panic!("{violations}"));

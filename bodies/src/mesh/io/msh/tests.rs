@@ -293,14 +293,6 @@ fn an_element_twice_in_one_group_is_two_elements() {
     );
 }
 
-#[test]
-fn a_byte_order_mark_is_skipped() {
-    for good in [GOOD, OLDER] {
-        let marked = parse_msh(&format!("\u{feff}{good}"), "marked.msh").expect("a good file");
-        assert_eq!(Ok(marked), parse(good));
-    }
-}
-
 /// Escapes, an invisible mark and a line of a million characters in every place where a message quotes
 /// text of the file.
 #[test]
@@ -325,10 +317,4 @@ fn a_file_cut_anywhere_is_an_error_and_no_panic() {
             assert!(parse(&good[..end]).is_err(), "cut after {end} bytes");
         }
     }
-}
-
-#[test]
-fn errors_name_the_file() {
-    let missing = read_msh("no/such/file.msh").expect_err("no such file");
-    assert!(missing.to_string().starts_with("no/such/file.msh: cannot be read: "), "{missing}");
 }
