@@ -208,15 +208,6 @@ fn judge_rule(
     on_lanes: Option<&dyn OnLanes>,
     settings: &Settings,
 ) -> Option<Result<Finding, Violation>> {
-    let applies = match rule {
-        Rule::Extension => material.inversion() != Inversion::Refuse,
-        Rule::Invariants => material.has_invariants(),
-        Rule::Moduli => material.stated_moduli().is_some(),
-        _ => true,
-    };
-    if !applies {
-        return None;
-    }
     Some(match rule {
         Rule::Rest => rest(material, settings),
         Rule::Domain => domain(material, settings),
@@ -226,9 +217,13 @@ fn judge_rule(
         Rule::DualNumbers => dual_numbers(material, settings),
         Rule::Quotients => quotients(material, settings),
         Rule::Strains => strains(material, settings),
+        Rule::Invariants if !material.has_invariants() => return None,
         Rule::Invariants => invariants(material, settings),
-        Rule::Extension => extension(material, settings),
-        Rule::Moduli => moduli(material, settings),
+        Rule::Extension => match material.inversion() {
+            Inversion::Refuse => return None,
+            Inversion::Extend { epsilon } => extension(material, epsilon, settings),
+        },
+        Rule::Moduli => moduli(material, material.stated_moduli()?, settings),
         Rule::SinglePrecision => single_precision(material, settings),
         Rule::Lanes => lanes(material, on_lanes?, settings),
     })

@@ -110,13 +110,13 @@ const STRESSED: &str = "append to the energy a term that cancels this stress, su
                         on purpose, as that of a material declared `prestressed`, set `stress_free_at_rest: false`, as in \
                         `piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`";
 
-/// [`Rule::Moduli`].
-pub(super) fn moduli(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    let rule = Rule::Moduli;
-    let Some(stated) = material.stated_moduli() else {
-        return Err(Violation::DoesNotApply { rule, lacks: "stated moduli" });
-    };
-    let mut judge = Judge::new(rule, settings.notation);
+/// [`Rule::Moduli`], of a material that states these.
+pub(super) fn moduli(
+    material: &dyn Subject,
+    stated: Moduli,
+    settings: &Settings,
+) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::Moduli, settings.notation);
     let stretches = [1.0; 3];
     let tolerance = 64.0 * UNIT * stiffness(&material.blocks(stretches));
     let found = Moduli::at_rest(material);

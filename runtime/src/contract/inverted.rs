@@ -3,19 +3,19 @@
 use super::slopes::{Approach, energy_along, stress_along};
 use super::subject::Subject;
 use super::{Finding, Judge, Rule, Settings, Violation, gradient_name};
-use crate::material::{Blocks, Inversion};
+use crate::material::Blocks;
 use crate::random::Random;
 
 /// Values of −λ3 at which the extension is judged beyond det F = 0.
 const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
 
-/// [`Rule::Extension`].
-pub(super) fn extension(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    let rule = Rule::Extension;
-    let Inversion::Extend { epsilon } = material.inversion() else {
-        return Err(Violation::DoesNotApply { rule, lacks: "extension beyond its domain" });
-    };
-    let mut judge = Judge::new(rule, settings.notation);
+/// [`Rule::Extension`], of a material that is extended from a threshold on.
+pub(super) fn extension(
+    material: &dyn Subject,
+    epsilon: f64,
+    settings: &Settings,
+) -> Result<Finding, Violation> {
+    let mut judge = Judge::new(Rule::Extension, settings.notation);
     let mut random = Random::new(settings.seed);
     let (_, high) = settings.range;
     for point in 0..settings.points {

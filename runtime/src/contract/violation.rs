@@ -101,13 +101,6 @@ pub enum Violation {
         /// The rule.
         rule: Rule,
     },
-    /// The material lacks the subject of the rule. [`check_rule`](super::check_rule) skips such a rule.
-    DoesNotApply {
-        /// The rule.
-        rule: Rule,
-        /// The feature that the material lacks, such as `stated moduli`.
-        lacks: &'static str,
-    },
 }
 
 impl Violation {
@@ -115,10 +108,9 @@ impl Violation {
     #[must_use]
     pub fn rule(&self) -> Rule {
         match self {
-            Self::Differs { rule, .. }
-            | Self::WrongKind { rule, .. }
-            | Self::NothingToCheck { rule }
-            | Self::DoesNotApply { rule, .. } => *rule,
+            Self::Differs { rule, .. } | Self::WrongKind { rule, .. } | Self::NothingToCheck { rule } => {
+                *rule
+            }
         }
     }
 }
@@ -172,7 +164,6 @@ impl fmt::Display for Violation {
                      domain, or another `range` or more `points` of the settings"
                 )
             }
-            Self::DoesNotApply { lacks, .. } => write!(f, "    does not apply: the material has no {lacks}"),
         }
     }
 }
