@@ -100,7 +100,8 @@ pub(super) fn rest(material: &dyn Subject, settings: &Settings) -> Result<Findin
         }
         let shear = blocks.hessian[0] - blocks.hessian[3];
         judge.compare(|| pair_name("flip", k), stretches, blocks.flip[k], shear, tolerance)?;
-        judge.positive(|| pair_name("flip", k), stretches, blocks.flip[k])?;
+        let (flip, words) = (blocks.flip[k], || (pair_name("flip", k), None));
+        judge.demand(flip > 0.0, "a positive number", words, stretches, flip)?;
     }
     judge.finding()
 }

@@ -114,7 +114,8 @@ fn restoring(
              energy as declared {declared}: {first}; or {narrower}; or {alone}"
         )
     };
-    judge.negative(|| gradient_name(2), stretches, found, remedy)
+    let words = || (gradient_name(2), Some(remedy()));
+    judge.demand(found < 0.0, "a negative number", words, stretches, found)
 }
 
 /// True if the material admits the mirror image. The point itself must be admitted then, too: a bound such as

@@ -101,16 +101,6 @@ impl Judge {
         Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
     }
 
-    /// Demands found > 0.
-    pub(super) fn positive(
-        &mut self,
-        component: impl FnOnce() -> String,
-        stretches: [f64; 3],
-        found: f64,
-    ) -> Result<(), Violation> {
-        self.demand(found > 0.0, "a positive number", || (component(), None), stretches, found)
-    }
-
     /// Demands that a statement hold; the report gives it as 1 or 0.
     pub(super) fn holds(
         &mut self,
@@ -121,18 +111,6 @@ impl Judge {
     ) -> Result<(), Violation> {
         let words = || (format!("{} (1 or 0)", component()), Some(remedy.into()));
         self.demand(found, "1", words, stretches, if found { 1.0 } else { 0.0 })
-    }
-
-    /// Demands found < 0.
-    pub(super) fn negative(
-        &mut self,
-        component: impl FnOnce() -> String,
-        stretches: [f64; 3],
-        found: f64,
-        remedy: impl FnOnce() -> String,
-    ) -> Result<(), Violation> {
-        let words = || (component(), Some(remedy()));
-        self.demand(found < 0.0, "a negative number", words, stretches, found)
     }
 
     /// Demands a value that is neither infinite nor NaN.
@@ -148,7 +126,7 @@ impl Judge {
     }
 
     /// Demands that a condition be met; component and remedy are put into words only if it is not.
-    fn demand(
+    pub(super) fn demand(
         &mut self,
         is_met: bool,
         expected: &'static str,
