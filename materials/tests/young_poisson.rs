@@ -1,5 +1,5 @@
-//! Constructors from Young's modulus and Poisson's ratio: what they build is as stiff as asked. The parameters
-//! that these moduli determine are judged for the whole catalogue by `tests/tests/declarations`.
+//! Constructors from Young's modulus and Poisson's ratio: what they build is as stiff as asked. The
+//! parameters that these moduli determine are judged for the whole catalogue by `tests/tests/declarations`.
 
 use piola::material;
 use piola::material::{Declared, MaterialError, Moduli};

@@ -127,7 +127,8 @@ mod tests {
     fn types_are_those_of_gmsh() {
         let count = |wanted| (0..1000).filter(|&kind| dimension(kind) == Some(wanted)).count();
         // Triangles and quadrangles: complete from 1, incomplete from 3 and from 2 to 10.
-        // Tetrahedra: complete from 1, incomplete from 4 to 10. Others: complete from 1 to 9, incomplete from 2.
+        // Tetrahedra: complete from 1, incomplete from 4 to 10.
+        // Hexahedra, prisms, pyramids: complete from 1 to 9, incomplete from 2.
         assert_eq!([0, 1, 2, 3].map(count), [1, 10, 18 + 19, 17 + 3 * 17]);
         assert_eq!([15, 8, 16, 33, 140].map(dimension), [Some(0), Some(1), Some(2), Some(3), None]);
         assert!(NAMES.iter().all(|&(kind, ..)| dimension(kind).is_some()));

@@ -1,5 +1,5 @@
-//! Properties of derivatives that are read off their operations: poles of twists, quotients without gaps, shared
-//! powers. The tests of `piola-tests` judge the values, for the whole catalogue.
+//! Properties of derivatives that are read off their operations: poles of twists, quotients without gaps,
+//! shared powers. The tests of `piola-tests` judge the values, for the whole catalogue.
 
 use std::fs;
 use std::path::Path;
