@@ -226,7 +226,7 @@ impl<H: Host> Driver<H> {
                 let total: Duration = self.times.iter().sum();
                 self.stats.steps_per_second = Some(self.times.len() as f64 / total.as_secs_f64());
                 self.stats.newton_iterations = report.newton.iterations;
-                self.stats.energies = report.energies;
+                self.stats.elastic_energy = report.energies.elastic;
             }
             Err(error) => {
                 self.stats.paused = true;

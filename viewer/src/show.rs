@@ -6,7 +6,6 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use piola::material::Parameter;
-use piola_bodies::step::Energies;
 use piola_declare::{Energy, Mistake};
 use piola_materials::DECLARATIONS;
 use piola_scenes::geometry::Geometry;
@@ -39,8 +38,8 @@ pub(crate) struct FrameStats {
     pub(crate) steps_per_second: Option<f64>,
     /// Newton iterations of the last step.
     pub(crate) newton_iterations: usize,
-    /// Energies after the last step, J.
-    pub(crate) energies: Energies,
+    /// Elastic energy after the last step, J.
+    pub(crate) elastic_energy: f64,
     /// Reason why the last step failed.
     pub(crate) trouble: Option<String>,
 }
@@ -149,8 +148,7 @@ pub(crate) fn figures(session: &Session, stats: &FrameStats) -> Arc<str> {
         "min_det_f": measure::min_det_f(&mesh.positions, positions, &mesh.tets),
         "inverted": measure::inverted(&mesh.positions, positions, &mesh.tets),
         "from_rest": measure::distance_from_rest(mesh, positions, play.simulation().pinned().len()),
-        "elastic_energy": stats.energies.elastic,
-        "kinetic_energy": stats.energies.kinetic,
+        "elastic_energy": stats.elastic_energy,
         "pulls": session.pulls().map(|(_, drag)| (drag.vertex, drag.target)).collect::<Vec<_>>(),
         "trouble": stats.trouble,
     });

@@ -14,8 +14,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
-/// The first field of a file, which names its format and version.
-const FORMAT: &str = "piola state 2";
 /// The longest file that is written or read, in bytes: a state of two million nodes.
 const MAX_LENGTH: u64 = 256 << 20;
 /// Bound of the numbers of drags in files, which leaves numbers for later drags.
@@ -46,31 +44,16 @@ pub struct Drag {
     pub place: [f64; 3],
 }
 
-/// The mark [`FORMAT`] of a file.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub(crate) struct Format;
-
-impl From<Format> for String {
-    fn from(_: Format) -> Self {
-        FORMAT.into()
-    }
-}
-
-impl TryFrom<String> for Format {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        match text == FORMAT {
-            true => Ok(Self),
-            false => Err(format!("the format is `{text}`, where `{FORMAT}` can be read")),
-        }
-    }
+/// Format of a file and its version.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+enum Format {
+    #[serde(rename = "piola state 2")]
+    Two,
 }
 
 impl State {
     pub(crate) fn new(moment: Moment, material_at_start: MaterialSpec, pulls: BTreeMap<u64, Drag>) -> Self {
-        Self { format: Format, moment, material_at_start, pulls }
+        Self { format: Format::Two, moment, material_at_start, pulls }
     }
 
     /// Takes the body from files, or, with `None`, that of the program.
