@@ -26,8 +26,7 @@ pub enum Unit {
 
 impl Unit {
     /// Converts a length in this unit to metres, rounded once for whole numbers: 12 mm are the number 0.012.
-    #[must_use]
-    pub fn to_metres(self, length: f64) -> f64 {
+    fn to_metres(self, length: f64) -> f64 {
         // Units below a metre are divided by: their sizes in metres would be rounded.
         match self {
             Self::Um => length / 1e6,

@@ -25,12 +25,6 @@ pub enum Motion {
 }
 
 impl Pull {
-    /// Share of the full motion at a time, s; `None` once released.
-    #[must_use]
-    pub fn share_at(&self, time: f64) -> Option<f64> {
-        self.share_during(time, time)
-    }
-
     /// Share of the full motion at the end of a stretch of time, s; `None` once released before it.
     #[must_use]
     pub fn share_during(&self, start: f64, end: f64) -> Option<f64> {
