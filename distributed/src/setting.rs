@@ -7,7 +7,7 @@ use piola_bodies::mesh::Bounds;
 use piola_bodies::step::Spring;
 use piola_bodies::system::Pins;
 use piola_scenes::clock::Clock;
-use piola_scenes::geometry::{Geometry, GeometryWarning};
+use piola_scenes::geometry::{Geometry, NOTHING_PULLED};
 use piola_scenes::play::{self, DragSprings, Stretch};
 use piola_scenes::region;
 use piola_scenes::settings::Settings;
@@ -197,7 +197,7 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
         let springs = DragSprings::new(pull, mesh, young);
         springs.nodes.iter().for_each(|&(node, _)| marks[node] |= pull_mark(number));
         if springs.nodes.is_empty() {
-            warnings.push(GeometryWarning::NothingPulled);
+            warnings.push(NOTHING_PULLED.into());
         }
         stiffnesses.push(springs.stiffness);
     }
@@ -219,7 +219,7 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole,
     let facts = BodyFacts {
         bounds: mesh.bounds(),
         checksum: geometry.checksum(),
-        warnings: warnings.iter().map(ToString::to_string).collect(),
+        warnings,
         stiffnesses,
     };
     let facts = serde_json::to_vec(&facts).map_err(|error| Error::Options(error.to_string()))?;

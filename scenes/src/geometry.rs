@@ -7,8 +7,8 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use piola_bodies::mesh::{
-    Anchor, ElementCounts, Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh,
-    read_surface_obj, read_tetgen, tetrahedral_box,
+    Anchor, Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
+    read_tetgen, tetrahedral_box,
 };
 
 use crate::error::Error;
@@ -83,24 +83,37 @@ impl Geometry {
         }
     }
 
-    /// Properties of the mesh that may be unintended.
+    /// Properties of the mesh that are rarely intended, in sentences. A body can be made of it.
     #[must_use]
-    pub fn warnings(&self) -> Vec<GeometryWarning> {
+    pub fn warnings(&self) -> Vec<String> {
+        let mesh = &self.mesh;
         let mut warnings = Vec::new();
-        let length = self.mesh.bounds().size().into_iter().fold(0.0, f64::max);
+        let length = mesh.bounds().size().into_iter().fold(0.0, f64::max);
         if !USUAL.contains(&length) {
-            warnings.push(GeometryWarning::UnusualSize { length });
+            // In single precision, the length has no digits of rounding.
+            let length = length as f32;
+            warnings.push(format!(
+                "the body is {length} m long; is that meant? --unit names the unit of the mesh, such as --unit mm"
+            ));
         }
-        if !self.mesh.left_out.is_empty() {
-            warnings.push(GeometryWarning::ElementsLeftOut { elements: self.mesh.left_out.clone() });
+        if !mesh.left_out.is_empty() {
+            warnings.push(format!(
+                "only linear tetrahedra are read; left out of the body, which lacks their volume: {}",
+                mesh.left_out
+            ));
         }
-        if self.mesh.dropped_nodes > 0 {
-            warnings.push(GeometryWarning::NodesDropped { nodes: self.mesh.dropped_nodes });
+        if mesh.dropped_nodes > 0 {
+            let nodes = mesh.dropped_nodes;
+            warnings.push(format!("{nodes} nodes of the file belong to no tetrahedron and were left out"));
         }
-        let components = self.mesh.connected_components();
+        let components = mesh.connected_components();
         if let [largest, _, ..] = components[..] {
-            let tetrahedra = self.mesh.tets.len();
-            warnings.push(GeometryWarning::InPieces { pieces: components.len(), largest, tetrahedra });
+            warnings.push(format!(
+                "the mesh is in {} pieces that share no node and move independently, the largest of {largest} of the \
+                 {} tetrahedra; nodes that are meant to be one must be merged in the mesh generator",
+                components.len(),
+                mesh.tets.len()
+            ));
         }
         warnings
     }
@@ -187,46 +200,9 @@ fn check_body(mesh: &TetMesh, name: &str) -> Result<f64, Error> {
     Ok(diagonal)
 }
 
-/// Property of a mesh that is rarely intended. A body can be made of it.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum GeometryWarning {
-    /// The body is very large or very small.
-    // In single precision, the length has no digits of rounding.
-    #[error("the body is {} m long; is that meant? --unit names the unit of the mesh, such as --unit mm", *length as f32)]
-    UnusualSize {
-        /// Its longest side, m.
-        length: f64,
-    },
-    /// Volume elements of the file are not linear tetrahedra, and not part of the body.
-    #[error("only linear tetrahedra are read; left out of the body, which lacks their volume: {elements}")]
-    ElementsLeftOut {
-        /// Counts by type.
-        elements: ElementCounts,
-    },
-    /// A scene pulls at a region without nodes of the body.
-    #[error("no node of the body lies where the scene pulls, and nothing is pulled there")]
-    NothingPulled,
-    /// The file has nodes of no tetrahedron, which are not part of the body.
-    #[error("{nodes} nodes of the file belong to no tetrahedron and were left out")]
-    NodesDropped {
-        /// Number of nodes.
-        nodes: usize,
-    },
-    /// The tetrahedra are not connected.
-    #[error(
-        "the mesh is in {pieces} pieces that share no node and move independently, the largest of {largest} of the \
-         {tetrahedra} tetrahedra; nodes that are meant to be one must be merged in the mesh generator"
-    )]
-    InPieces {
-        /// Number of pieces.
-        pieces: usize,
-        /// Number of tetrahedra of the largest.
-        largest: usize,
-        /// Number of tetrahedra of all.
-        tetrahedra: usize,
-    },
-}
+/// Warning of a scene that pulls at a region without nodes of the body.
+pub const NOTHING_PULLED: &str =
+    "no node of the body lies where the scene pulls, and nothing is pulled there";
 
 /// The faces of tetrahedra that no other tetrahedron shares, seen from outside counter-clockwise, with their
 /// nodes.
@@ -272,7 +248,7 @@ mod tests {
     fn what_is_seldom_meant_is_told() -> Result<(), Box<dyn error::Error>> {
         let mut mesh = tetrahedral_box([2, 1, 1], [2.0, 1.0, 1.0])?;
         let of = |mesh: &TetMesh| Geometry::new(mesh.clone(), "mesh", &Surface::default(), "none");
-        assert_eq!(of(&mesh)?.warnings(), []);
+        assert_eq!(of(&mesh)?.warnings(), [""; 0]);
 
         // A copy next to it, with other nodes, and a node far away.
         let nodes = mesh.positions.len();
@@ -280,8 +256,12 @@ mod tests {
         mesh.positions.extend(mesh.positions.clone().iter().map(|[x, y, z]| [x + 2.0, *y, *z]));
         mesh.positions.push([1e7; 3]);
         let warnings = of(&mesh.without_unused_nodes())?.warnings();
-        let pieces = GeometryWarning::InPieces { pieces: 2, largest: 12, tetrahedra: 24 };
-        assert_eq!(warnings, [GeometryWarning::NodesDropped { nodes: 1 }, pieces]);
+        assert!(warnings[0].starts_with("1 nodes of the file belong to no tetrahedron"), "{warnings:?}");
+        assert!(
+            warnings[1].contains("in 2 pieces") && warnings[1].contains("of 12 of the 24"),
+            "{warnings:?}"
+        );
+        assert_eq!(warnings.len(), 2);
         Ok(())
     }
 
@@ -294,7 +274,7 @@ mod tests {
                 &Surface::default(),
                 "none",
             )?;
-            Ok::<_, Box<dyn error::Error>>(geometry.warnings().first().map(ToString::to_string))
+            Ok::<_, Box<dyn error::Error>>(geometry.warnings().first().cloned())
         };
         assert_eq!([1e-4, 1.0, 20.0].map(|size| warned(size).expect("a box")), [const { None }; 3]);
         for (size, shown) in [(100.0, "100"), (20.1, "20.1"), (9e-5, "0.00009")] {

@@ -9,7 +9,7 @@ use piola_bodies::system::{Body, Part, Pins};
 
 use crate::clock::Clock;
 use crate::error::Error;
-use crate::geometry::{Geometry, GeometryWarning};
+use crate::geometry::{Geometry, NOTHING_PULLED};
 use crate::material::{self, MaterialSpec, Parameters};
 use crate::output::{Newton, StepCounts};
 use crate::region;
@@ -127,9 +127,9 @@ impl Play {
 
     /// Properties of the body that may be unintended, also in view of what the scene does to it.
     #[must_use]
-    pub fn warnings(&self, geometry: &Geometry) -> Vec<GeometryWarning> {
+    pub fn warnings(&self, geometry: &Geometry) -> Vec<String> {
         let is_idle = self.pulls.iter().any(|springs| springs.nodes.is_empty());
-        let idle = is_idle.then_some(GeometryWarning::NothingPulled);
+        let idle = is_idle.then(|| NOTHING_PULLED.to_owned());
         geometry.warnings().into_iter().chain(idle).collect()
     }
 
