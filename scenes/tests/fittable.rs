@@ -1,13 +1,11 @@
 //! The derivatives of the stress by the parameters, against the stress itself.
 
-mod own;
-
-use piola::Inversion;
-use piola::material::{Fittable, MaterialError, Parameter, Unit};
+use piola::material::{MaterialError, Parameter, Unit};
+use piola_declare::Energy;
 use piola_laboratory::fit::Candidate;
-use piola_materials::{DECLARATIONS, FittableVisitor};
+use piola_materials::DECLARATIONS;
 use piola_scenes::error::Error;
-use piola_scenes::material::{EXTENSION, MaterialSpec};
+use piola_scenes::material::MaterialSpec;
 
 /// Within the domains of all: rest, equal stretches, tension, compression, a sheet.
 const STRETCHES: [[f64; 3]; 6] =
@@ -41,41 +39,21 @@ fn values(name: &str) -> Vec<Vec<f64>> {
     lists.map(|list| list.iter().map(nonzero).collect()).collect()
 }
 
-/// The energy as a candidate of a fit.
-fn candidate(name: &str) -> Result<Box<dyn Candidate>, Error> {
-    let spec = MaterialSpec::new(name);
-    let parameters = spec.description()?.parameters.iter().zip(values(name));
-    let named = |spec: MaterialSpec, (parameter, values): (&Parameter, Vec<f64>)| {
-        spec.with_parameter(&parameter.name, values)
+/// An energy with these values as a candidate of a fit.
+fn candidate(spec: MaterialSpec, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, Error> {
+    let parameters = spec.description()?.parameters.iter().zip(values);
+    let named = |spec: MaterialSpec, (parameter, values): (&Parameter, &Vec<f64>)| {
+        spec.with_parameter(&parameter.name, values.clone())
     };
     parameters.fold(spec.clone(), named).candidate()
 }
 
-/// The compiled energy, if this build has it.
-fn compiled(name: &str) -> Option<Box<dyn Candidate>> {
-    struct Boxed;
-    impl FittableVisitor for Boxed {
-        type Output = Box<dyn Candidate>;
-        fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output {
-            Box::new(material)
-        }
-    }
-    let entry = piola_materials::find(name)?;
-    let inversion = match entry.description.extends {
-        true => Inversion::Extend { epsilon: EXTENSION },
-        false => Inversion::Refuse,
-    };
-    let values = values(name);
-    let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-    Some(entry.visit_fittable(&values, inversion, Boxed).unwrap_or_else(|error| panic!("{name}: {error}")))
-}
-
-/// All energies but the one whose parameters are functions, and those of them that this build has compiled.
+/// All energies but the one whose parameters are functions.
 fn candidates() -> impl Iterator<Item = (&'static str, Box<dyn Candidate>)> {
     let names = DECLARATIONS.iter().map(|declaration| declaration.name);
-    names.filter(|&name| name != "stretch_spline").flat_map(|name| {
-        let declared = candidate(name).unwrap_or_else(|error| panic!("{name}: {error}"));
-        std::iter::once(declared).chain(compiled(name)).map(move |material| (name, material))
+    names.filter(|&name| name != "stretch_spline").map(|name| {
+        let declared = candidate(MaterialSpec::new(name), &values(name));
+        (name, declared.unwrap_or_else(|error| panic!("{name}: {error}")))
     })
 }
 
@@ -211,7 +189,83 @@ fn values_are_those_of_the_constructor() {
 
 #[test]
 fn curves_cannot_be_fitted() {
-    let refused = candidate("stretch_spline").err().expect("cannot be fitted");
+    let spline = MaterialSpec::typical("stretch_spline").expect("in the catalogue");
+    let refused = spline.candidate().err().expect("cannot be fitted");
     let expected = MaterialError::NotFittable { material: "StretchSpline".into() };
     assert!(refused.to_string().contains(&expected.to_string()), "{refused}");
+}
+
+/// Sums in products, in logarithms, in each other's terms and in exponents; lists of two lengths; names of
+/// what is emitted.
+const NESTED: &str = "
+#[material(domain(J > 0.0), prestressed, fit)]
+pub fn Nested<const N: usize, const M: usize>(
+    [l1, l2, l3]: [f64; 3],
+    /// Shares, Pa.
+    mu: [f64; N],
+    /// Exponents.
+    alpha: [f64; N],
+    /// Coefficients.
+    derivatives: [f64; M],
+    /// A stress, Pa.
+    p: f64,
+) -> f64 {
+    let total = sum(|k| mu[k]);
+    let powers = sum(|k| mu[k] / total * (l1.powf(alpha[k]) + l2.powf(alpha[k]) + l3.powf(alpha[k])));
+    let series = sum(|k| derivatives[k] * (derivatives[k] * powers).exp());
+    total * series.ln() + p * powers * sum(|k| alpha[k] * mu[k]).ln() + p * I1.powf(sum(|k| derivatives[k]))
+}";
+
+/// Powers of what differs from entry to entry, in a list of fixed length.
+const SHIFTED: &str = "
+#[material(prestressed, fit)]
+pub fn Shifted(
+    [l1, l2, l3]: [f64; 3],
+    /// Moduli, Pa.
+    mu: [f64; 2],
+    /// Stiffening.
+    b: [f64; 2],
+    /// Exponent.
+    n: f64,
+) -> f64 {
+    sum(|k| mu[k] * (1.0 + b[k] * I1).powf(n * b[k]))
+}";
+
+/// A real power, whose logarithm vanishes at rest.
+const STIFFENING: &str = "
+#[material(domain(J > 0.0), admissible(n > 2.0), fit)]
+pub fn Stiffening(
+    [l1, l2, l3]: [f64; 3],
+    /// Shear modulus, Pa.
+    mu: f64,
+    /// Modulus of the power, Pa.
+    c: f64,
+    /// Its exponent.
+    n: f64,
+) -> f64 {
+    mu / 2.0 * (I1b - 3.0) + c * (1.0 + (I1b - 3.0)).powf(n) + mu * (J - 1.0).powi(2)
+}";
+
+/// The candidate of a declaration.
+fn declared(text: &str, values: &[&[f64]]) -> Box<dyn Candidate> {
+    let energy = Energy::from_rust(text).expect("a declaration");
+    let values: Vec<_> = values.iter().map(|values| values.to_vec()).collect();
+    candidate(MaterialSpec::declared(energy), &values).expect("admissible values")
+}
+
+/// Harder than any energy of the catalogue.
+#[test]
+fn derivatives_of_sums_and_powers_are_slopes() -> Result<(), MaterialError> {
+    check_slopes("Nested", &*declared(NESTED, &[&[1.5, 2.0, 0.5], &[1.3, 4.0, -2.0], &[0.25, 0.5], &[3.0]]))?;
+    // An exponent of zero, where λ^α is 1 and its derivative ln λ.
+    let zero = declared(NESTED, &[&[1.5, 2.0], &[1.0, 0.0], &[0.5], &[3.0]]);
+    let [.., to_exponent, _, _] = zero.gradient_by_parameters([2.0, 1.0, 0.5])[..] else {
+        panic!("six numbers")
+    };
+    assert!(to_exponent[0] > 0.0 && to_exponent[1] > 0.0, "{to_exponent:?}");
+    check_slopes("Shifted", &*declared(SHIFTED, &[&[1.0, 2.0], &[0.5, 0.7], &[1.2]]))?;
+    let solid = declared(STIFFENING, &[&[1.0], &[2.0], &[2.5]]);
+    check_slopes("Stiffening", &*solid)?;
+    assert_eq!(solid.gradient_by_parameters([1.0; 3]), [[0.0; 3]; 3]);
+    Ok(())
 }
