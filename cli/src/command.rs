@@ -137,7 +137,7 @@ impl Run {
         settings.frames = self.frames.unwrap_or(settings.frames);
         let name = settings.scene.name;
         let folder = self.out.unwrap_or_else(|| new_folder(&PathBuf::from("out").join(name)));
-        Ok((settings, Output::new(folder).with_vtu(self.vtu).with_resume(self.resume)))
+        Ok((settings, Output { folder, vtu: self.vtu, resume: self.resume }))
     }
 }
 

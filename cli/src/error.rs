@@ -44,14 +44,6 @@ pub enum Error {
     /// Standard output cannot be written to.
     #[error("cannot write to standard output: {0}")]
     StandardOutput(#[source] io::Error),
-    /// A file cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Error of the system.
-        source: io::Error,
-    },
     /// A file that is to be written is also read, or written by two.
     #[error("{} is named by {one} and by {other}, which would overwrite it; name another file", path.display())]
     NamedTwice {
@@ -194,8 +186,8 @@ impl Error {
     pub(crate) fn remedy(&self) -> String {
         let Self::Scene(error) = self else { return String::new() };
         match error {
-            SceneError::UnknownBody { .. } => ", or a file with --mesh".into(),
-            SceneError::UnknownMaterial { .. } => ". `piola materials` describes them".into(),
+            SceneError::Unknown { kind: "body", .. } => ", or a file with --mesh".into(),
+            SceneError::Unknown { kind: "material", .. } => ". `piola materials` describes them".into(),
             SceneError::MissingParameters { missing, .. } => {
                 let options: Vec<_> = missing.iter().map(|name| format!("--param {name}=…")).collect();
                 format!("; add {}", options.join(" "))
@@ -227,10 +219,10 @@ impl Error {
                     .into()
             }
             SceneError::Pin { .. } => "; choose a place with --pin".into(),
-            SceneError::Folder { .. } => "; name another one with --out".into(),
-            SceneError::FolderExists { .. } => {
+            SceneError::Folder { source, .. } if source.kind() == io::ErrorKind::AlreadyExists => {
                 "; name a new one with --out, or continue the run in it with --resume".into()
             }
+            SceneError::Folder { .. } => "; name another one with --out".into(),
             SceneError::NothingToResume { .. } => {
                 "; leave out --resume, or name another one with --out".into()
             }

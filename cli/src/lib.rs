@@ -27,8 +27,6 @@ use piola::__private::message::printable;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::{Ended, Summary};
 use piola_scenes::run::run;
-use piola_scenes::settings::Settings;
-use piola_scenes::watch::Watch;
 
 use command::{Cli, Command, Run, View};
 use error::Error;
@@ -72,7 +70,13 @@ fn play(arguments: Run) -> Result<ExitCode, Error> {
     let (settings, output) = arguments.settings()?;
     let signals = Signals::listen().map_err(Error::Signals)?;
     let is_shown = io::stderr().is_terminal();
-    let result = run(&settings, &output, &mut Progress { settings: &settings, signals: &signals, is_shown });
+    let result = run(&settings, &output, &mut |frame| {
+        if is_shown {
+            let (scene, frames) = (settings.scene.name, settings.frames);
+            let _ = write!(io::stderr(), "\r{scene}: {frame} of {frames} steps");
+        }
+        signals.exit_code().is_some()
+    });
     if is_shown {
         let _ = write!(io::stderr(), "\r\x1b[K");
     }
@@ -101,26 +105,6 @@ fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCo
         Ended::Finished => warn(format_args!("error: {}", summary.failures.join("; "))),
     }
     Ok(signal.filter(|_| summary.ended == Ended::Interrupted).map_or(ExitCode::FAILURE, ExitCode::from))
-}
-
-/// Shows the number of steps, and ends the run when a signal has come.
-struct Progress<'a> {
-    settings: &'a Settings,
-    signals: &'a Signals,
-    is_shown: bool,
-}
-
-impl Watch for Progress<'_> {
-    fn frame(&mut self, frame: usize) {
-        if self.is_shown {
-            let Settings { scene, frames, .. } = self.settings;
-            let _ = write!(io::stderr(), "\r{}: {frame} of {frames} steps", scene.name);
-        }
-    }
-
-    fn stops(&mut self) -> bool {
-        self.signals.exit_code().is_some()
-    }
 }
 
 fn serve(arguments: View) -> Result<(), Error> {

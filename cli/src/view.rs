@@ -115,7 +115,7 @@ impl Viewer {
         let token = Token::new()?;
         let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
         let threads = threads.map_err(SceneError::from)?;
-        let warnings = session.play().warnings(session.geometry()).iter().map(ToString::to_string).collect();
+        let warnings = session.play().warnings(session.geometry());
         let topology = topology(session.geometry()).into();
         let at_rest = AtRest { moduli: session.play().moduli(), volume: Volume::Free };
         let first = Conversation::after(session.pulls().map(|(drag, _)| drag));

@@ -56,7 +56,7 @@ fn a_run_begins_in_a_new_folder_and_leaves_others_alone() {
     // This number of steps would take minutes.
     let output = run(scratch.path(), &["--frames", "100000"]);
     assert_code(&output, 2);
-    for word in ["the folder out exists already", "--out", "--resume"] {
+    for word in ["the folder out: it exists already", "--out", "--resume"] {
         assert!(stderr(&output).contains(word), "{word}: {}", stderr(&output));
     }
     assert_eq!(content(&out), [("frame_0001.ply".to_owned(), b"mine".to_vec())].into());
@@ -98,7 +98,8 @@ fn a_run_goes_on_to_the_last_bit() {
         let whole = ["run", "dinosaur", "--newton", newton, "--integrator", integrator, "--vtu"];
         assert_code(&piola(scratch.path(), &[&whole[..], more].concat()), 0);
     };
-    for how in [["single", "implicit-euler"], ["full", "implicit-euler"], ["full", "sdirk2"]] {
+    let euler = "implicit-euler";
+    for how in [["single", euler], ["full", euler], ["full", "sdirk2"], ["full", "sdirk3"]] {
         let (whole, parts) = (how.join("-"), format!("{}-in-parts", how.join("-")));
         dinosaur(how, &["--frames", "3", "--out", &parts]);
         dinosaur(how, &["--frames", "5", "--out", &parts, "--resume", "--threads", "2"]);
@@ -130,13 +131,10 @@ fn only_the_same_run_goes_on() {
     // A state that was changed by a bit, and a frame that is missing.
     let path = scratch.path().join("out/state.json");
     let state = fs::read(&path).expect("a state");
-    for bit in (0..8 * state.len()).step_by(4099) {
-        let mut changed = state.clone();
-        changed[bit / 8] ^= 1 << (bit % 8);
-        fs::write(&path, changed).expect("a file");
-        let output = run(scratch.path(), &["--frames", "4", "--resume"]);
-        assert_code(&output, 2);
-    }
+    let mut changed = state.clone();
+    changed[state.len() / 2] ^= 1;
+    fs::write(&path, changed).expect("a file");
+    refused(&["--frames", "4", "--resume"], &["its state cannot be read"]);
     fs::write(&path, state).expect("a file");
     fs::remove_file(scratch.path().join("out/frame_0001.ply")).expect("a frame");
     refused(&["--frames", "4", "--resume"], &["frame_0001.ply is missing"]);

@@ -17,9 +17,11 @@ use crate::region::RegionError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// No scene has that name.
-    #[error("there is no scene `{}`; choose one of {}", quoted(name), list(known))]
-    UnknownScene {
+    /// No scene, body or material has that name.
+    #[error("there is no {kind} `{}`; choose one of {}", quoted(name), list(known))]
+    Unknown {
+        /// `scene`, `body` or `material`.
+        kind: &'static str,
         /// The name as given.
         name: String,
         /// The names that exist.
@@ -72,22 +74,6 @@ pub enum Error {
     /// An energy cannot be printed in another language.
     #[error(transparent)]
     Emit(#[from] EmitError),
-    /// No body has that name.
-    #[error("there is no body `{}`; choose one of {}", quoted(name), list(known))]
-    UnknownBody {
-        /// The name as given.
-        name: String,
-        /// The names that exist.
-        known: Vec<&'static str>,
-    },
-    /// No material has that name.
-    #[error("there is no material `{}`; choose one of {}", quoted(name), list(known))]
-    UnknownMaterial {
-        /// The name as given.
-        name: String,
-        /// The names that exist.
-        known: Vec<Text>,
-    },
     /// The material has no parameter of that name.
     #[error(
         "{material} has no parameter `{}`; {} has {}",
@@ -181,19 +167,13 @@ pub enum Error {
     /// The solver refuses a setting, a position or a velocity.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// Files cannot be written to the folder.
+    /// Files cannot be written to the folder; a new run is not begun in one that exists.
     #[error("cannot write to the folder {}: {source}", path.display())]
     Folder {
         /// The folder.
         path: PathBuf,
         /// Error of the system.
         source: io::Error,
-    },
-    /// The folder for a new run exists.
-    #[error("the folder {} exists already", folder.display())]
-    FolderExists {
-        /// The folder.
-        folder: PathBuf,
     },
     /// Another run is writing to the folder.
     #[error("another run is writing to the folder {}; wait until it has ended", folder.display())]

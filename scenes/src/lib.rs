@@ -26,4 +26,3 @@ pub mod settings;
 pub mod statics;
 pub mod tensile_reading;
 pub mod unit;
-pub mod watch;

@@ -1,9 +1,13 @@
-//! Materials of bodies, chosen by name. Of the files here only `origin` uses the catalogue.
+//! Materials of bodies, chosen by name.
+//!
+//! Energies are interpreted, except for elements of a body whose energy the program has compiled: the
+//! bindings compile those that most programs use, the command `piola` none.
 //!
 //! \[Ogden72\] Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment
 //! for incompressible rubberlike solids*, 1972.
 
 use std::collections::BTreeMap;
+use std::sync::{LazyLock, OnceLock};
 
 use piola::Inversion;
 use piola::batch;
@@ -13,13 +17,13 @@ use piola_declare::Energy;
 use piola_declare::emit::Emission;
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
-use piola_materials::DECLARATIONS;
+use piola_materials::{DECLARATIONS, Declaration};
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use origin::Origin;
+use fitted::Fitted;
 
-mod origin;
+mod fitted;
 
 /// Stretch below which a material is extended unless its specification has another.
 ///
@@ -81,13 +85,14 @@ impl MaterialSpec {
     /// ones of the declaration.
     #[must_use]
     pub fn declared(energy: Energy) -> Self {
+        let spec = Self::new(&energy.description().name).with_typical(&energy);
+        Self { energy: Some(energy), ..spec }
+    }
+
+    /// The specification with the typical parameters of an energy.
+    fn with_typical(self, energy: &Energy) -> Self {
         let parameters = energy.description().parameters.iter().zip(energy.typical());
-        let named = |(parameter, values): (&piola::material::Parameter, &[f64])| {
-            (parameter.name.to_string(), values.to_vec())
-        };
-        let parameters = parameters.map(named).collect();
-        let spec = Self::new(&energy.description().name);
-        Self { energy: Some(energy), parameters, ..spec }
+        parameters.fold(self, |spec, (parameter, values)| spec.with_parameter(&parameter.name, values))
     }
 
     /// The specification with another name in messages; a name of the catalogue also chooses the energy.
@@ -149,14 +154,10 @@ impl MaterialSpec {
     /// The material of a name with its typical parameters in the catalogue.
     ///
     /// # Errors
-    /// [`Error::UnknownMaterial`].
+    /// [`Error::Unknown`].
     pub fn typical(material: &str) -> Result<Self, Error> {
-        let origin = find(material)?;
-        let Description { parameters, typical, .. } = origin.description();
-        let values = typical.iter().flat_map(|typical| typical.values.iter());
-        Ok(parameters.iter().zip(values).fold(Self::new(&origin.name()), |spec, (parameter, values)| {
-            spec.with_parameter(&parameter.name, &**values)
-        }))
+        let (name, energy) = find(material)?;
+        Ok(Self::new(name).with_typical(energy))
     }
 
     /// The specification with every parameter given, those that follow from moduli too.
@@ -178,12 +179,9 @@ impl MaterialSpec {
     /// The description of the material's declaration.
     ///
     /// # Errors
-    /// [`Error::UnknownMaterial`].
+    /// [`Error::Unknown`].
     pub fn description(&self) -> Result<&Description, Error> {
-        match &self.energy {
-            Some(energy) => Ok(energy.description()),
-            None => find(&self.material).map(|origin| origin.description()),
-        }
+        Ok(self.known()?.1.description())
     }
 
     /// Values given for a parameter, several for a list; empty if none is given.
@@ -196,16 +194,24 @@ impl MaterialSpec {
     /// Finds the material and checks its parameters.
     ///
     /// # Errors
-    /// [`Error::UnknownMaterial`], [`Error::UnknownParameter`], [`Error::MissingParameters`] or
+    /// [`Error::Unknown`], [`Error::UnknownParameter`], [`Error::MissingParameters`] or
     /// [`Error::Inadmissible`].
     pub fn build(&self) -> Result<MaterialInfo, Error> {
-        self.resolve(|origin, values, inversion| {
-            let names = origin.description().parameters.iter().map(|parameter| parameter.name.clone());
+        let (name, _) = self.known()?;
+        let compiled = if self.energy.is_none() { piola_materials::find(&name) } else { None };
+        self.resolve(|energy, values, inversion| {
+            let names = energy.description().parameters.iter().map(|parameter| parameter.name.clone());
+            let elements: Box<dyn batch::TileMaterial<f64>> =
+                match compiled.map(|entry| entry.material(values, inversion)) {
+                    // Lists have a few lengths there.
+                    None | Some(Err(MaterialError::Shape { .. })) => energy.boxed(values, inversion)?,
+                    Some(material) => material?,
+                };
             Ok(MaterialInfo {
-                name: self.name(origin),
+                name: name.clone(),
                 parameters: names.zip(values).map(|(name, values)| (name, values.to_vec())).collect(),
-                elements: origin.elements(values, inversion)?,
-                moduli: origin.moduli(values, inversion)?,
+                elements,
+                moduli: Moduli::of(&energy.material(values, inversion)?),
             })
         })
     }
@@ -215,7 +221,7 @@ impl MaterialSpec {
     /// # Errors
     /// Like [`MaterialSpec::build`].
     pub fn specimen(&self) -> Result<Box<dyn Specimen>, Error> {
-        self.resolve(|origin, values, inversion| origin.specimen(values, inversion))
+        Ok(Box::new(self.interpreted()?))
     }
 
     /// The material as a program, also in `f32`.
@@ -223,7 +229,7 @@ impl MaterialSpec {
     /// # Errors
     /// Like [`MaterialSpec::build`].
     pub fn interpreted(&self) -> Result<Interpreted, Error> {
-        self.resolve(|origin, values, inversion| origin.interpreted(values, inversion))
+        self.resolve(|energy, values, inversion| energy.material(values, inversion))
     }
 
     /// The material as source text of another language: [`Energy::emit`].
@@ -231,7 +237,7 @@ impl MaterialSpec {
     /// # Errors
     /// Like [`MaterialSpec::build`], and [`Error::Emit`].
     pub fn emit(&self, emission: &Emission) -> Result<String, Error> {
-        Ok(self.resolve(|origin, values, inversion| Ok(origin.energy().emit(values, inversion, emission)))??)
+        Ok(self.resolve(|energy, values, inversion| Ok(energy.emit(values, inversion, emission)))??)
     }
 
     /// The material as a candidate of the laboratory, for fits of its parameters.
@@ -239,58 +245,62 @@ impl MaterialSpec {
     /// # Errors
     /// Like [`MaterialSpec::build`], and [`Error::Inadmissible`] if the material has functions as parameters.
     pub fn candidate(&self) -> Result<Box<dyn Candidate>, Error> {
-        self.resolve(|origin, values, inversion| origin.candidate(values, inversion))
+        self.resolve(|energy, values, inversion| {
+            if !energy.is_fittable() {
+                return Err(MaterialError::NotFittable { material: energy.description().name.clone() });
+            }
+            let material = energy.material(values, inversion)?;
+            Ok(Box::new(Fitted { energy: energy.clone(), material }) as Box<dyn Candidate>)
+        })
+    }
+
+    /// The energy, and its name in messages, which for an energy of the catalogue is the one there.
+    fn known(&self) -> Result<(Text, &Energy), Error> {
+        match &self.energy {
+            Some(energy) => Ok((self.material.clone().into(), energy)),
+            None => find(&self.material).map(|(name, energy)| (name.into(), energy)),
+        }
     }
 
     /// Finds the material, gives each parameter its values in the order of the declaration, and builds
     /// something from them.
     fn resolve<T>(
         &self,
-        make: impl FnOnce(&Origin<'_>, &[&[f64]], Inversion) -> Result<T, MaterialError>,
+        make: impl FnOnce(&Energy, &[&[f64]], Inversion) -> Result<T, MaterialError>,
     ) -> Result<T, Error> {
-        let origin = match &self.energy {
-            Some(energy) => Origin::Declared(energy),
-            None => find(&self.material)?,
-        };
+        let (name, energy) = self.known()?;
         let refused = |mut source| {
             // Its declaration has a meaningless name if it is a formula.
             if let (
-                Origin::Declared(_),
+                Some(_),
                 MaterialError::NoExtension { material, .. } | MaterialError::NotFittable { material },
-            ) = (&origin, &mut source)
+            ) = (&self.energy, &mut source)
             {
                 *material = "the energy".into();
             }
-            Error::Inadmissible { material: self.name(&origin), source }
+            Error::Inadmissible { material: name.clone(), source }
         };
         let matched;
         let values = match self.lame {
             Some([mu, lambda]) if self.parameters.is_empty() => {
-                let moduli = |values: &[&[f64]]| origin.moduli(values, Inversion::Refuse);
+                let moduli = |values: &[&[f64]]| Ok(Moduli::of(&energy.material(values, Inversion::Refuse)?));
                 let wanted = Moduli { mu, lambda };
-                matched = piola_materials::matching(origin.description(), moduli, wanted).map_err(refused)?;
+                matched = piola_materials::matching(energy.description(), moduli, wanted).map_err(refused)?;
                 matched.iter().map(Vec::as_slice).collect()
             }
-            _ => self.values(self.name(&origin), origin.description())?,
+            _ => self.values(&name, energy.description())?,
         };
         let inversion = match self.inversion {
             Some(StoredInversion::Extend(epsilon)) => Inversion::Extend { epsilon },
-            None if origin.description().extends => Inversion::Extend { epsilon: EXTENSION },
+            None if energy.description().extends => Inversion::Extend { epsilon: EXTENSION },
             _ => Inversion::Refuse,
         };
-        make(&origin, &values, inversion).map_err(refused)
-    }
-
-    /// The name in messages, which for an energy of the catalogue is the one there.
-    fn name(&self, origin: &Origin<'_>) -> Text {
-        match origin {
-            Origin::Catalogue(_) => origin.name(),
-            Origin::Declared(_) => self.material.clone().into(),
-        }
+        make(energy, &values, inversion).map_err(refused)
     }
 
     /// The values in the order of the declaration.
-    fn values(&self, material: Text, description: &Description) -> Result<Vec<&[f64]>, Error> {
+    fn values(&self, material: &Text, description: &Description) -> Result<Vec<&[f64]>, Error> {
+        let material = material.clone();
         let known = || description.parameters.iter().map(|parameter| &parameter.name);
         if let Some((parameter, _)) =
             self.parameters.iter().find(|(name, _)| !known().any(|known| known == name))
@@ -338,11 +348,25 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     DECLARATIONS.iter().map(|declaration| declaration.name)
 }
 
-/// The energy that the catalogue has under a name, in any spelling.
-fn find(material: &str) -> Result<Origin<'static>, Error> {
-    let unknown =
-        || Error::UnknownMaterial { name: material.into(), known: names().map(Text::from).collect() };
-    Origin::in_catalogue(material).ok_or_else(unknown)
+/// The energy that the catalogue has under a name, in any spelling, and its name there.
+fn find(material: &str) -> Result<(&'static str, &'static Energy), Error> {
+    /// A declaration, and its energy, made when it is first used.
+    type Known = (&'static Declaration, OnceLock<Energy>);
+    static CATALOGUE: LazyLock<Vec<Known>> =
+        LazyLock::new(|| DECLARATIONS.iter().map(|declaration| (declaration, OnceLock::new())).collect());
+    let known = CATALOGUE.iter().find(|(declaration, _)| same_name(declaration.name, material));
+    let Some((Declaration { name, source, .. }, energy)) = known else {
+        return Err(Error::Unknown { kind: "material", name: material.into(), known: names().collect() });
+    };
+    Ok((name, energy.get_or_init(|| of_catalogue(source))))
+}
+
+/// The energy of a declaration of the catalogue.
+///
+/// # Panics
+/// If it has a mistake; the tests of the catalogue compile them all.
+fn of_catalogue(source: &str) -> Energy {
+    Energy::from_rust(source).expect("the catalogue has no mistake")
 }
 
 /// True if two names agree in letters and digits, ignoring case.
@@ -355,47 +379,11 @@ fn same_name(one: &str, other: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use piola::material::{Form, Parameter, Unit};
-
     use super::*;
-
-    fn gent() -> Description {
-        let parameter = |name: &'static str, doc: &'static str, unit| Parameter {
-            name: name.into(),
-            doc: doc.into(),
-            unit,
-            form: Form::Number,
-        };
-        Description {
-            name: "Gent".into(),
-            summary: "Rubber that locks.".into(),
-            formula: "…".into(),
-            parameters: vec![
-                parameter("mu", "Shear modulus, Pa.", Some(Unit::Pascal)),
-                parameter("jm", "Where it locks.", None),
-            ]
-            .into(),
-            domain: "J > 0".into(),
-            extends: true,
-            refusal: None,
-            admissible: Vec::new().into(),
-            moduli: ["mu".into(), "kappa".into()],
-            typical: None,
-        }
-    }
 
     #[test]
     fn most_bodies_are_as_stiff_as_said() {
         assert_eq!(Moduli::from_young_poisson(1e6, 0.45), Ok(soft_moduli()));
-    }
-
-    #[test]
-    fn values_come_in_the_order_of_the_declaration() {
-        let energy = MaterialSpec::new("gent")
-            .with_parameter("jm", [3.0])
-            .with_parameter("mu", [1.0])
-            .with_parameter("mu", [2.0]);
-        assert_eq!(energy.values("gent".into(), &gent()).ok(), Some(vec![&[2.0][..], &[3.0][..]]));
     }
 
     #[test]
@@ -411,24 +399,23 @@ mod tests {
 
     #[test]
     fn unknown_and_missing_parameters_are_named() {
-        let message =
-            |energy: MaterialSpec| energy.values("gent".into(), &gent()).err().map(|error| error.to_string());
-        assert_eq!(
-            message(MaterialSpec::new("gent").with_parameter("mue", [1.0])).as_deref(),
-            Some("gent has no parameter `mue`; did you mean `mu`? It has `mu`, `jm`")
-        );
-        for (given, found) in
-            [("mu_1", "did you mean `mu`? It"), ("Jm", "did you mean `jm`? It"), ("kappa", "it")]
-        {
-            assert_eq!(
-                message(MaterialSpec::new("gent").with_parameter(given, [1.0])),
-                Some(format!("gent has no parameter `{given}`; {found} has `mu`, `jm`"))
-            );
+        let message = |parameter: &str| {
+            MaterialSpec::new("gent")
+                .with_parameter(parameter, [1.0])
+                .build()
+                .err()
+                .map(|error| error.to_string())
+        };
+        for (given, found) in [
+            ("mue", "did you mean `mu`? It"),
+            ("mu_1", "did you mean `mu`? It"),
+            ("Jm", "did you mean `jm`? It"),
+            ("xyz", "it"),
+        ] {
+            let expected = format!("gent has no parameter `{given}`; {found} has `mu`, `jm`, `kappa`");
+            assert_eq!(message(given), Some(expected));
         }
-        assert_eq!(
-            message(MaterialSpec::new("gent").with_parameter("mu", [1.0])).as_deref(),
-            Some("gent needs a value for `jm`")
-        );
+        assert_eq!(message("mu").as_deref(), Some("gent needs a value for `jm`, `kappa`"));
     }
 
     #[test]

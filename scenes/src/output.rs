@@ -39,6 +39,3 @@ pub const STATE_FILE: &str = "state.json";
 
 /// Name of the file with the summary.
 pub const SUMMARY_FILE: &str = "summary.json";
-
-/// Name of a file that is being written.
-const PARTIAL: &str = ".piola-partial";

@@ -58,7 +58,7 @@ pub fn run_trial(settings: &Settings, geometry: &Geometry) -> Result<TrialOutcom
         }
     }
     if outcome.recovered.is_none() {
-        outcome.final_state = Some(find_equilibrium(&mut play, mesh, &mut ())?);
+        outcome.final_state = Some(find_equilibrium(&mut play, mesh, &mut |_| false)?);
     }
     Ok(outcome)
 }

@@ -10,7 +10,6 @@ use crate::output::{
     CAGES_FILE, Folder, SUMMARY_FILE, Summary, cage_file, frame_file, read_vertices, write_pvd,
 };
 use crate::settings::Settings;
-use crate::watch::Watch;
 
 mod course;
 mod progress;
@@ -19,7 +18,6 @@ use course::{Course, Setup};
 
 /// Files of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub struct Output {
     /// The folder for surfaces and the summary: a new one, unless a run is resumed.
     pub folder: PathBuf,
@@ -29,27 +27,9 @@ pub struct Output {
     pub resume: bool,
 }
 
-impl Output {
-    /// Surfaces and the summary, in a folder.
-    #[must_use]
-    pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), vtu: false, resume: false }
-    }
-
-    /// Writes the tetrahedra as well, or not.
-    #[must_use]
-    pub fn with_vtu(mut self, vtu: bool) -> Self {
-        self.vtu = vtu;
-        self
-    }
-
-    /// Chooses whether the run in the folder is resumed.
-    #[must_use]
-    pub fn with_resume(mut self, resume: bool) -> Self {
-        self.resume = resume;
-        self
-    }
-}
+/// Observer of a run: a function that gets the number of the last frame that was written, 0 for the start,
+/// before each step. It returns true to end the run with the frames that it has.
+pub type Watch<'a> = dyn FnMut(usize) -> bool + Send + 'a;
 
 /// A run whose summary can still be added to.
 #[derive(Debug)]
@@ -71,7 +51,7 @@ pub struct Finished {
 /// # Errors
 /// An error of the settings, the body or the folder, and one of the first step or its files: nothing is
 /// written then. [`Error::Interrupted`] if `watch` stops the run before its first step.
-pub fn run(settings: &Settings, output: &Output, watch: &mut dyn Watch) -> Result<Finished, Error> {
+pub fn run(settings: &Settings, output: &Output, watch: &mut Watch<'_>) -> Result<Finished, Error> {
     let mut setup = Setup::new(settings, output.vtu)?;
     let course = if output.resume {
         Course::resume(setup, Folder::reopen(&output.folder)?)?
@@ -108,7 +88,7 @@ impl Finished {
             let frames = (0..=self.summary.frames).map(|frame| (frame as f64 * dt, cage_file(frame)));
             self.add(CAGES_FILE, |file| write_pvd(file, frames));
         }
-        let Self { summary, mut folder, .. } = self;
+        let Self { summary, folder, .. } = self;
         folder.replace(SUMMARY_FILE, |file| summary.write_json(file))?;
         Ok(summary)
     }

@@ -85,10 +85,11 @@ impl Scene {
     /// The scene of a name.
     ///
     /// # Errors
-    /// [`Error::UnknownScene`] with the names that exist.
+    /// [`Error::Unknown`] with the names that exist.
     pub fn find(name: &str) -> Result<&'static Self, Error> {
         let scene = SCENES.iter().copied().find(|scene| scene.name == name);
-        scene.ok_or_else(|| Error::UnknownScene {
+        scene.ok_or_else(|| Error::Unknown {
+            kind: "scene",
             name: name.into(),
             known: SCENES.iter().map(|scene| scene.name).collect(),
         })

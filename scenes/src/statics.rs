@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::measure;
 use crate::output::{FinalPlace, FinalState, Summary};
 use crate::play::Play;
-use crate::watch::Watch;
+use crate::run::Watch;
 
 /// Maximum number of calls of statics, and of Newton iterations in a call: a call that fails loses nothing of
 /// the calls before.
@@ -20,14 +20,15 @@ const ITERATIONS: usize = 10;
 ///
 /// # Errors
 /// [`Error::Equilibrium`] if a force is not finite or memory does not suffice, [`Error::Interrupted`].
-pub fn find_equilibrium(play: &mut Play, mesh: &TetMesh, watch: &mut dyn Watch) -> Result<FinalState, Error> {
+pub fn find_equilibrium(play: &mut Play, mesh: &TetMesh, watch: &mut Watch<'_>) -> Result<FinalState, Error> {
+    let frame = play.clock().frame();
     let simulation = play.simulation_mut();
     let settings = *simulation.settings();
     let newton = NewtonSettings::default().with_max_iterations(ITERATIONS).with_tolerance(1e-10);
     simulation.set_settings(settings.with_newton(newton))?;
     let mut newton_iterations = 0;
     for _ in 0..CALLS {
-        if watch.stops() {
+        if watch(frame) {
             return Err(Error::Interrupted);
         }
         // If statics fails, the body stays where it is and is examined there.

@@ -4,12 +4,12 @@
 //! before is replaced: a run begins in a folder that does not exist yet.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
-use super::{PARTIAL, STATE_FILE};
+use super::{STATE_FILE, whole};
 
 #[cfg(test)]
 mod tests;
@@ -18,8 +18,6 @@ mod tests;
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    /// Names of the files written here.
-    written: Vec<String>,
     /// Folders that did not exist before, innermost first.
     created: Vec<PathBuf>,
     /// The folder, locked until the program ends; `None` on systems that lock no folders.
@@ -30,7 +28,7 @@ impl Folder {
     /// Creates a folder for the files of a run.
     ///
     /// # Errors
-    /// [`Error::FolderExists`], [`Error::Folder`] if it cannot be created, [`Error::Busy`].
+    /// [`Error::Folder`] if it exists or cannot be created, [`Error::Busy`].
     pub fn create(path: &Path) -> Result<Self, Error> {
         let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created: Vec<_> = path.ancestors().take_while(is_new).map(PathBuf::from).collect();
@@ -39,9 +37,10 @@ impl Folder {
             Ok(()) => Self::locked(path, created),
             Err(source) => {
                 remove_folders(created.get(1..).unwrap_or_default());
-                Err(match path.is_dir() {
-                    true => Error::FolderExists { folder: path.into() },
-                    false => Error::Folder { path: path.into(), source },
+                let exists = || io::Error::new(io::ErrorKind::AlreadyExists, "it exists already");
+                Err(Error::Folder {
+                    path: path.into(),
+                    source: if path.is_dir() { exists() } else { source },
                 })
             }
         }
@@ -63,7 +62,7 @@ impl Folder {
         let lock = File::open(path).ok();
         match lock.as_ref().map(File::try_lock) {
             Some(Err(TryLockError::WouldBlock)) => Err(Error::Busy { folder: path.into() }),
-            _ => Ok(Self { path: path.into(), written: Vec::new(), created, _lock: lock }),
+            _ => Ok(Self { path: path.into(), created, _lock: lock }),
         }
     }
 
@@ -78,22 +77,12 @@ impl Folder {
     /// # Errors
     /// [`Error::Write`] if the disk is full or `content` fails. The folder is then as it was.
     pub fn write(
-        &mut self,
+        &self,
         name: &str,
         content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), Error> {
-        let [partial, path] = [PARTIAL, name].map(|name| self.path.join(name));
-        let written = File::create(&partial).and_then(|file| {
-            let mut file = BufWriter::new(file);
-            content(&mut file)?;
-            file.flush()?;
-            fs::rename(&partial, &path)
-        });
-        self.written.push(name.into());
-        written.map_err(|source| {
-            let _ = fs::remove_file(&partial);
-            Error::Write { path, source }
-        })
+        let path = self.path.join(name);
+        whole::replace(&path, false, content).map_err(|source| Error::Write { path, source })
     }
 
     /// Writes one file, which is on the disk before it replaces one of its name.
@@ -101,23 +90,20 @@ impl Folder {
     /// # Errors
     /// Like [`Folder::write`].
     pub fn replace(
-        &mut self,
+        &self,
         name: &str,
         content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), Error> {
-        self.write(name, |file| {
-            content(file)?;
-            file.flush()?;
-            file.get_ref().sync_all()
-        })
+        let path = self.path.join(name);
+        whole::replace(&path, true, content).map_err(|source| Error::Write { path, source })
     }
 
-    /// Removes the files of the run, and the folders that it created.
+    /// Removes a folder that was created here, with its files, and the folders around it that are empty.
     pub fn abandon(self) {
-        for name in &self.written {
-            let _ = fs::remove_file(self.path.join(name));
+        if let [folder, around @ ..] = &self.created[..] {
+            let _ = fs::remove_dir_all(folder);
+            remove_folders(around);
         }
-        remove_folders(&self.created);
     }
 }
 

@@ -1,8 +1,8 @@
 //! Files that appear complete or not at all.
 
-use std::fs::{self, File, Permissions};
-use std::io::{self, Write};
-use std::path::Path;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
@@ -14,53 +14,49 @@ use crate::error::Error;
 /// # Errors
 /// [`Error::Write`]; an earlier file is then as it was.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
-    write(path, content).map_err(|source| Error::Write { path: path.into(), source })
-}
-
-fn write(path: &Path, content: &[u8]) -> io::Result<()> {
-    match fs::metadata(path) {
-        Ok(earlier) if earlier.is_file() && !is_descriptor(path) => {
-            replace(&fs::canonicalize(path)?, content, Some(earlier.permissions()))
-        }
+    // A file that replaced one that is open already would reach nobody.
+    let is_open = ["/dev", "/proc"].iter().any(|open| path.starts_with(open));
+    let written = match fs::canonicalize(path) {
+        Ok(place) if place.is_file() && !is_open => replace(&place, true, |file| file.write_all(content)),
         Err(error) if error.kind() == io::ErrorKind::NotFound && !path.is_symlink() => {
-            replace(path, content, None)
+            replace(path, true, |file| file.write_all(content))
         }
         // What is begun through a link to no file can only be finished through it.
-        _ => File::options().append(true).create(true).open(path)?.write_all(content),
-    }
-}
-
-/// True if a path leads to something that is open already: a file that replaced it would reach nobody.
-fn is_descriptor(path: &Path) -> bool {
-    ["/dev/fd", "/dev/stdin", "/dev/stdout", "/dev/stderr", "/proc"].iter().any(|open| path.starts_with(open))
-}
-
-/// Writes a temporary file next to the final one, and moves it there.
-fn replace(path: &Path, content: &[u8], earlier: Option<Permissions>) -> io::Result<()> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".piola-");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    // Nobody has given the name of a temporary file that such an error has.
-    let mut aside = builder.tempfile_in(folder).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => {
-            io::Error::other(format!("the folder {} does not exist", folder.display()))
+        _ => {
+            let file = File::options().append(true).create(true).open(path);
+            file.and_then(|mut file| file.write_all(content))
         }
-        kind => io::Error::from(kind),
-    })?;
-    if let Some(earlier) = earlier {
-        aside.as_file().set_permissions(earlier)?;
+    };
+    written.map_err(|source| Error::Write { path: path.into(), source })
+}
+
+/// Writes a file next to its final place and moves it there, after it is on the disk if that is wanted.
+pub(super) fn replace(
+    path: &Path,
+    is_durable: bool,
+    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut partial = path.as_os_str().to_owned();
+    partial.push(".piola-partial");
+    let partial = PathBuf::from(partial);
+    // One that a killed program has left. A new file is no link that leads elsewhere.
+    let _ = fs::remove_file(&partial);
+    let written = File::create_new(&partial).and_then(|file| {
+        if let Ok(earlier) = fs::metadata(path) {
+            file.set_permissions(earlier.permissions())?;
+        }
+        let mut file = BufWriter::new(file);
+        content(&mut file)?;
+        file.flush()?;
+        if is_durable {
+            file.get_ref().sync_all()?;
+        }
+        fs::rename(&partial, path)
+    });
+    if written.is_err() {
+        let _ = fs::remove_file(&partial);
     }
-    aside.write_all(content)?;
-    aside.as_file().sync_all()?;
-    aside.persist(path).map_err(|error| error.error)?;
-    // Makes the name as durable as the file; systems that cannot do so do it in their own time.
-    let _ = File::open(folder).and_then(|folder| folder.sync_all());
-    Ok(())
+    written
 }
 
 #[cfg(test)]
@@ -77,55 +73,39 @@ mod tests {
             write_whole(&path, content.as_bytes())?;
             assert_eq!(fs::read_to_string(&path)?, content);
         }
-        assert_eq!(fs::read_dir(scratch.path())?.count(), 1);
+        assert!(replace(&path, false, |_| Err(io::Error::other("a full disk"))).is_err());
+        assert_eq!(
+            (fs::read_dir(scratch.path())?.count(), fs::read_to_string(&path)?),
+            (1, "another".into())
+        );
         assert!(write_whole(&scratch.path().join("no/map.svg"), b"").is_err());
         assert!(write_whole(scratch.path(), b"").is_err(), "a folder");
         Ok(())
     }
 
-    /// Shared memory is not a descriptor, though it is listed next to them.
-    #[test]
-    fn descriptors_are_told_from_files_beside_them() {
-        for (path, expected) in [
-            ("/dev/stdout", true),
-            ("/dev/fd/3", true),
-            ("/proc/self/fd/1", true),
-            ("/dev/shm/map.svg", false),
-            ("dev/stdout", false),
-        ] {
-            assert_eq!(is_descriptor(Path::new(path)), expected, "{path}");
-        }
-    }
-
     #[cfg(unix)]
     #[test]
     fn permissions_and_links_stay_and_pipes_are_written_into() -> TestResult {
-        use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+        use std::os::unix::fs::{PermissionsExt, symlink};
 
         let scratch = tempfile::tempdir()?;
         let [file, link, hanging, pipe] =
             ["file", "link", "hanging", "pipe"].map(|name| scratch.path().join(name));
         fs::write(&file, "old")?;
-        fs::set_permissions(&file, Permissions::from_mode(0o600))?;
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o600))?;
         symlink("file", &link)?;
         write_whole(&link, b"new")?;
-        assert_eq!(fs::read_to_string(&file)?, "new");
+        assert_eq!((fs::read_to_string(&file)?, link.is_symlink()), ("new".into(), true));
         assert_eq!(fs::metadata(&file)?.permissions().mode() & 0o777, 0o600);
-        assert!(link.is_symlink());
 
         symlink("made", &hanging)?;
         write_whole(&hanging, b"first")?;
         assert_eq!(fs::read_to_string(scratch.path().join("made"))?, "first");
-        assert!(hanging.is_symlink());
 
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status()?.success());
-        let reader = std::thread::spawn({
-            let pipe = pipe.clone();
-            move || fs::read_to_string(pipe)
-        });
-        write_whole(&pipe, b"through")?;
+        let reader = std::thread::spawn(move || fs::read_to_string(pipe));
+        write_whole(&scratch.path().join("pipe"), b"through")?;
         assert_eq!(reader.join().expect("a reader that ends")?, "through");
-        assert!(fs::symlink_metadata(&pipe)?.file_type().is_fifo());
         Ok(())
     }
 }

@@ -10,8 +10,8 @@ use piola_laboratory::AtRest;
 use piola_laboratory::curve::Volume;
 use rayon::ThreadPool;
 
-use super::Finished;
-use super::progress::{MAX_LENGTH, Pace, Progress, Saved};
+use super::progress::{MAX_LENGTH, Progress, Saved};
+use super::{Finished, Watch};
 use crate::error::Error;
 use crate::fields;
 use crate::geometry::Geometry;
@@ -24,8 +24,11 @@ use crate::play::Play;
 use crate::settings::Settings;
 use crate::statics::find_equilibrium;
 use crate::tensile_reading::read_specimen;
-use crate::watch::Watch;
 
+/// Minimum time between states on the disk: a run that is killed must recompute at most this much.
+const PAUSE: Duration = Duration::from_secs(1);
+/// Time between states on the disk, as a multiple of the time that it takes to write one.
+const SHARE: u32 = 20;
 /// Forces on a body that are together below this share of Young's modulus times the square of its size are
 /// rounding: those of ten thousand elements of its size, each with an error of a few roundings, are smaller
 /// still.
@@ -60,6 +63,8 @@ pub(super) struct Course<'a> {
     positions: Vec<[f64; 3]>,
     /// Times of the steps since the run was started or resumed.
     times: Vec<Duration>,
+    /// Time after which the next state is written; the first is due at once.
+    due: Instant,
     failures: Vec<String>,
 }
 
@@ -109,19 +114,18 @@ impl<'a> Course<'a> {
 
     fn new(setup: Setup<'a>, folder: Folder, progress: Progress) -> Self {
         let positions = setup.play.simulation().positions().to_vec();
-        Self { setup, folder, progress, positions, times: Vec::new(), failures: Vec::new() }
+        let (times, failures) = (Vec::new(), Vec::new());
+        Self { setup, folder, progress, positions, times, due: Instant::now(), failures }
     }
 
     /// Plays the scene to its end.
-    pub(super) fn play(mut self, watch: &mut dyn Watch) -> Result<Finished, Error> {
+    pub(super) fn play(mut self, watch: &mut Watch<'_>) -> Result<Finished, Error> {
         let mut ended = Ended::Finished;
-        let mut pace = Pace::new();
         let first = self.setup.play.clock().frame() + 1;
-        watch.frame(first - 1);
         for frame in first..=self.setup.settings.frames {
-            let made = if watch.stops() { Err(Error::Interrupted) } else { self.step(frame, &mut pace) };
+            let made = if watch(frame - 1) { Err(Error::Interrupted) } else { self.step(frame) };
             match made {
-                Ok(()) => watch.frame(frame),
+                Ok(()) => {}
                 Err(error) if frame == 1 => return Err(self.abandon(error)),
                 Err(Error::Interrupted) => {
                     ended = Ended::Interrupted;
@@ -142,16 +146,16 @@ impl<'a> Course<'a> {
     }
 
     /// Makes a step and writes its files.
-    fn step(&mut self, frame: usize, pace: &mut Pace) -> Result<(), Error> {
+    fn step(&mut self, frame: usize) -> Result<(), Error> {
         let clock = Instant::now();
         let report = self.setup.threads.install(|| self.setup.play.step())?;
         self.times.push(clock.elapsed());
         self.write_frame(frame)?;
         self.note(frame, &report);
-        if pace.is_due() {
-            let since = Instant::now();
+        let now = Instant::now();
+        if self.due <= now {
             self.save_state()?;
-            pace.written(since);
+            self.due = Instant::now() + PAUSE.max(SHARE * now.elapsed());
         }
         Ok(())
     }
@@ -163,7 +167,9 @@ impl<'a> Course<'a> {
             let no_force = NO_FORCE * self.setup.play.moduli().young() * size * size;
             self.progress.stationary_start &= report.newton.first_residual <= no_force;
         }
-        self.progress.step(report, self.setup.play.steps());
+        self.progress.steps += self.setup.play.steps();
+        self.progress.newton_iterations += report.newton.iterations;
+        self.progress.energy = report.energies.elastic;
     }
 
     fn write_frame(&mut self, frame: usize) -> Result<(), Error> {
@@ -176,8 +182,9 @@ impl<'a> Course<'a> {
             self.folder
                 .write(&cage_file(frame), |file| fields::write(file, simulation, material.as_ref()))?;
         }
-        let distance = measure::mean_distance(&self.positions, nodes);
-        self.progress.frame(distance, measure::min_det_f(&mesh.positions, nodes, &mesh.tets));
+        let Progress { motion, min_det_f, .. } = &mut self.progress;
+        motion.push(motion.last().unwrap_or(&0.0) + measure::mean_distance(&self.positions, nodes));
+        *min_det_f = min_det_f.min(measure::min_det_f(&mesh.positions, nodes, &mesh.tets));
         self.positions.copy_from_slice(nodes);
         Ok(())
     }
@@ -194,7 +201,7 @@ impl<'a> Course<'a> {
         error
     }
 
-    fn finish(mut self, mut ended: Ended, watch: &mut dyn Watch) -> Finished {
+    fn finish(mut self, mut ended: Ended, watch: &mut Watch<'_>) -> Finished {
         let pinned = self.setup.play.simulation().pinned().len();
         let distance = measure::distance_from_rest(&self.setup.geometry.mesh, &self.positions, pinned);
         let recovered = distance <= Summary::RECOVERED;
@@ -240,7 +247,7 @@ impl<'a> Course<'a> {
             ..
         } = self;
         let at_rest = AtRest { moduli: play.moduli(), volume: Volume::Free };
-        let warnings = play.warnings(&geometry).into_iter().map(|warning| warning.to_string());
+        let warnings = play.warnings(&geometry).into_iter();
         let missing = reading.and_then(|reading| reading.missing()).map(str::to_owned);
         let summary = Summary {
             scene: settings.scene.name.into(),
@@ -278,7 +285,7 @@ impl<'a> Course<'a> {
     }
 
     /// Finds the equilibrium to which the body is drawn.
-    fn examine(&mut self, watch: &mut dyn Watch) -> Result<Option<FinalState>, Error> {
+    fn examine(&mut self, watch: &mut Watch<'_>) -> Result<Option<FinalState>, Error> {
         let Setup { play, geometry, threads, .. } = &mut self.setup;
         threads.install(|| find_equilibrium(play, &geometry.mesh, watch)).map(Some)
     }

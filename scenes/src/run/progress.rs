@@ -1,8 +1,5 @@
 //! Figures of a run so far, and the state from which it continues.
 
-use std::time::{Duration, Instant};
-
-use piola_bodies::step::StepReport;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -10,10 +7,6 @@ use crate::moment::Moment;
 use crate::output::{StepCounts, seal, unseal};
 use crate::settings::Settings;
 
-/// Minimum time between states on the disk: a run that is killed must recompute at most this much.
-const PAUSE: Duration = Duration::from_secs(1);
-/// Time between states on the disk, as a multiple of the time that it takes to write one.
-const SHARE: u32 = 20;
 /// Largest size of a state of a run, in bytes; a longer file is refused.
 pub(super) const MAX_LENGTH: u64 = 1 << 32;
 
@@ -31,21 +24,6 @@ pub(super) struct Progress {
     pub(super) energy: f64,
     /// Mean distance that nodes have moved up to each frame, m.
     pub(super) motion: Vec<f64>,
-}
-
-impl Progress {
-    /// Figures of a frame: the mean distance that nodes have moved since the one before, and the smallest
-    /// det F.
-    pub(super) fn frame(&mut self, distance: f64, min_det_f: f64) {
-        self.motion.push(self.motion.last().unwrap_or(&0.0) + distance);
-        self.min_det_f = self.min_det_f.min(min_det_f);
-    }
-
-    pub(super) fn step(&mut self, report: &StepReport, steps: StepCounts) {
-        self.steps += steps;
-        self.newton_iterations += report.newton.iterations;
-        self.energy = report.energies.elastic;
-    }
 }
 
 /// A state of a run, from which it continues as if it had not been interrupted.
@@ -111,28 +89,4 @@ fn difference(before: &Settings, now: &Settings) -> Option<String> {
     let text =
         |values: &serde_json::Map<String, Value>| values.get(name).map(Value::to_string).unwrap_or_default();
     Some(format!("its setting `{name}` was {}, and is {} now", text(&before), text(&now)))
-}
-
-/// Pace of writing states.
-#[derive(Debug)]
-pub(super) struct Pace {
-    /// The first state is due at once.
-    last: Option<Instant>,
-    took: Duration,
-}
-
-impl Pace {
-    pub(super) fn new() -> Self {
-        Self { last: None, took: Duration::ZERO }
-    }
-
-    pub(super) fn is_due(&self) -> bool {
-        self.last.is_none_or(|last| last.elapsed() >= PAUSE.max(SHARE * self.took))
-    }
-
-    /// Notes that a state has been written, since a moment.
-    pub(super) fn written(&mut self, since: Instant) {
-        self.took = since.elapsed();
-        self.last = Some(Instant::now());
-    }
 }

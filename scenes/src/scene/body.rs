@@ -90,10 +90,11 @@ impl Body {
     /// The body of a name.
     ///
     /// # Errors
-    /// [`Error::UnknownBody`] with the names that exist.
+    /// [`Error::Unknown`] with the names that exist.
     pub fn find(name: &str) -> Result<Self, Error> {
         let body = Self::ALL.iter().copied().find(|body| body.name == name);
-        body.ok_or_else(|| Error::UnknownBody {
+        body.ok_or_else(|| Error::Unknown {
+            kind: "body",
             name: name.into(),
             known: Self::ALL.iter().map(|body| body.name).collect(),
         })

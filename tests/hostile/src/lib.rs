@@ -198,7 +198,8 @@ fn play_by(settings: Settings, scratch: &Path, files: Files) -> bool {
     let settings = settings.with_files(Some(files)).with_frames(1);
     // Of an earlier run.
     let _ = fs::remove_dir_all(scratch.join("out"));
-    let finished = match run(&settings, &Output::new(scratch.join("out")).with_vtu(true), &mut ()) {
+    let output = Output { folder: scratch.join("out"), vtu: true, resume: false };
+    let finished = match run(&settings, &output, &mut |_| false) {
         Ok(finished) => finished,
         Err(error) => return refused(&error),
     };

@@ -1,5 +1,7 @@
 //! Folders of runs, new and continued.
 
+use std::io::Write;
+
 use super::*;
 use crate::output::frame_file;
 
@@ -13,7 +15,7 @@ fn names(folder: &Path) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-fn write(folder: &mut Folder, name: &str, text: &str) -> Result<(), Error> {
+fn write(folder: &Folder, name: &str, text: &str) -> Result<(), Error> {
     folder.write(name, |file| file.write_all(text.as_bytes()))
 }
 
@@ -21,8 +23,8 @@ fn write(folder: &mut Folder, name: &str, text: &str) -> Result<(), Error> {
 fn files_are_in_their_place_at_once_and_go_if_nothing_came_of_them() -> TestResult {
     let scratch = tempfile::tempdir()?;
     let target = scratch.path().join("a/b");
-    let mut folder = Folder::create(&target)?;
-    write(&mut folder, &frame_file(0), "one")?;
+    let folder = Folder::create(&target)?;
+    write(&folder, &frame_file(0), "one")?;
     folder.replace("summary.json", |file| file.write_all(b"two"))?;
     let failed = folder.write(&frame_file(1), |_| Err(io::Error::other("a full disk")));
     assert!(failed.is_err_and(|error| error.to_string().contains("frame_0001.ply: a full disk")));
@@ -38,8 +40,8 @@ fn a_run_begins_in_a_new_folder() -> TestResult {
     let target = scratch.path().join("out");
     fs::write(scratch.path().join("file"), "mine")?;
     assert!(matches!(Folder::reopen(&target), Err(Error::NothingToResume { .. })));
-    write(&mut Folder::create(&target)?, STATE_FILE, "{}")?;
-    assert!(matches!(Folder::create(&target), Err(Error::FolderExists { .. })));
+    write(&Folder::create(&target)?, STATE_FILE, "{}")?;
+    assert!(matches!(Folder::create(&target), Err(Error::Folder { .. })));
     assert!(matches!(Folder::create(&scratch.path().join("file")), Err(Error::Folder { .. })));
     assert!(matches!(Folder::create(&scratch.path().join("file/out")), Err(Error::Folder { .. })));
     assert_eq!(names(scratch.path())?, ["file", "out"]);
@@ -49,16 +51,5 @@ fn a_run_begins_in_a_new_folder() -> TestResult {
     }
     folder.abandon();
     assert_eq!(names(&target)?, ["state.json"]);
-    Ok(())
-}
-
-#[test]
-fn new_folders_are_numbered() -> TestResult {
-    let scratch = tempfile::tempdir()?;
-    for expected in ["horse", "horse-2", "horse-3"] {
-        let folder = new_folder(&scratch.path().join("horse"));
-        assert_eq!(folder, scratch.path().join(expected));
-        Folder::create(&folder)?;
-    }
     Ok(())
 }
