@@ -7,6 +7,7 @@ use piola_scenes::options::{SceneOptions, StepOptions, scenes};
 use piola_scenes::output::new_folder;
 use piola_scenes::run::Output;
 use piola_scenes::settings::{Files, Settings};
+use piola_viewer::session::Session;
 use piola_viewer::state::State;
 
 use crate::bench::{Check, Curve, Fit};
@@ -15,7 +16,7 @@ use crate::declare::Declare;
 use crate::emit::Emit;
 use crate::error::Error;
 use crate::overlap::refuse_overlaps;
-use crate::view::{Begin, Options};
+use crate::view::Viewer;
 
 /// Elastic bodies that collapse, invert and recover.
 ///
@@ -142,17 +143,17 @@ impl Run {
 }
 
 impl View {
-    /// Options of the viewer.
-    pub(crate) fn options(self) -> Result<Options, Error> {
+    /// The viewer of the scene or of the saved state.
+    pub(crate) fn start(self) -> Result<Viewer, Error> {
         self.refuse_overlaps()?;
-        let begin = match &self.load {
-            None => Begin::Scene(Box::new(self.choice.settings()?)),
+        let session = match &self.load {
+            None => Session::new(self.choice.settings()?)?,
             Some(path) => {
                 let files = self.choice.only_files()?;
-                Begin::State(Box::new(State::read(path)?.with_files(files)))
+                Session::resume(State::read(path)?.with_files(files))?
             }
         };
-        Ok(Options::new(begin).with_port(self.port).with_save(self.save))
+        Viewer::start(session, self.port, self.save)
     }
 
     /// Refuses to write over files that are read. A state may be saved to the file that it was loaded from.

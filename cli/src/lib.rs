@@ -31,7 +31,6 @@ use piola_scenes::run::run;
 use command::{Cli, Command, Run, View};
 use error::Error;
 use signals::Signals;
-use view::Viewer;
 
 /// Parses the command line and runs the command; returns the exit status: 2 if the command line is invalid, 1
 /// if something failed on the way, and 128 with the number of a signal that has ended a run.
@@ -108,7 +107,7 @@ fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCo
 }
 
 fn serve(arguments: View) -> Result<(), Error> {
-    let viewer = Viewer::start(arguments.options()?)?;
+    let viewer = arguments.start()?;
     let rest = viewer.at_rest();
     say(format_args!("{} shows the scene; Ctrl-C ends it\n  at rest  {rest}", viewer.url()))?;
     rest.warning().iter().for_each(|warning| warn(format_args!("warning: {warning}")));

@@ -26,11 +26,9 @@ use std::thread::{self, JoinHandle};
 use piola_laboratory::AtRest;
 use piola_laboratory::curve::Volume;
 use piola_scenes::error::Error as SceneError;
-use piola_scenes::settings::Settings;
 use piola_viewer::conversation::Conversation;
 use piola_viewer::driver::{Driver, Order};
 use piola_viewer::session::Session;
-use piola_viewer::state::State;
 use piola_viewer::topology;
 
 use crate::error::Error;
@@ -43,49 +41,6 @@ use token::Token;
 /// Orders that wait for the driver; connections with more of them wait themselves, in turn. A page waits
 /// behind at most this number of orders of others, and one of each connection.
 const ORDERS: usize = 16;
-
-/// Settings of a viewer.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Options {
-    /// The beginning.
-    pub begin: Begin,
-    /// The port on 127.0.0.1; 0 for any that is free.
-    pub port: u16,
-    /// The file for the page's button to save the state; without one, the state is kept in memory.
-    pub save: Option<PathBuf>,
-}
-
-impl Options {
-    /// A viewer at any free port, which writes no files.
-    #[must_use]
-    pub fn new(begin: Begin) -> Self {
-        Self { begin, port: 0, save: None }
-    }
-
-    /// Serves at this port on 127.0.0.1; 0 for any that is free.
-    #[must_use]
-    pub fn with_port(mut self, port: u16) -> Self {
-        self.port = port;
-        self
-    }
-
-    /// Saves the state to a file when the page's button is pressed.
-    #[must_use]
-    pub fn with_save(mut self, file: impl Into<Option<PathBuf>>) -> Self {
-        self.save = file.into();
-        self
-    }
-}
-
-/// Beginning of a viewer.
-#[derive(Clone, Debug)]
-pub enum Begin {
-    /// A scene before its first step.
-    Scene(Box<Settings>),
-    /// A saved state.
-    State(Box<State>),
-}
 
 /// A page that is being served. Once dropped it accepts no page, and the body plays on until the last page is
 /// closed.
@@ -100,17 +55,14 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// Starts to play and to serve.
+    /// Starts to play and to serve, at a port on 127.0.0.1, or with 0 at any that is free. When the page's
+    /// button is pressed, the state is written to a file, or without one kept in memory.
     ///
     /// # Errors
-    /// An error of the settings or the state, [`Error::Port`], [`Error::Thread`] or [`Error::Random`].
-    pub fn start(options: Options) -> Result<Self, Error> {
-        let session = match options.begin {
-            Begin::Scene(settings) => Session::new(*settings)?,
-            Begin::State(state) => Session::resume(*state)?,
-        };
-        let no_port = |source| Error::Port { port: options.port, source };
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, options.port)).map_err(no_port)?;
+    /// [`Error::Port`], [`Error::Thread`] or [`Error::Random`].
+    pub fn start(session: Session, port: u16, save: Option<PathBuf>) -> Result<Self, Error> {
+        let no_port = |source| Error::Port { port, source };
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(no_port)?;
         let address = listener.local_addr().map_err(no_port)?;
         let token = Token::new()?;
         let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
@@ -122,7 +74,7 @@ impl Viewer {
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));
         let door = Door { port: address.port(), token: token.clone() };
-        let driver = Driver::new(OwnThreads::new(threads), session, options.save);
+        let driver = Driver::new(OwnThreads::new(threads), session, save);
         let patience = Patience::default();
         let server = Server { listener, door, patience, topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {

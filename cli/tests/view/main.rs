@@ -6,7 +6,7 @@ mod page;
 mod saving;
 mod sockets;
 
-use piola_cli::view::{Begin, Options, Viewer};
+use piola_cli::view::Viewer;
 use piola_scenes::scene::Scene;
 use piola_scenes::settings::Settings;
 use piola_viewer::protocol::Act;
@@ -42,6 +42,5 @@ fn bits(session: &Session) -> String {
 
 /// A viewer of the dinosaur at a port of its own.
 fn viewer() -> Viewer {
-    let begin = Begin::Scene(Box::new(settings()));
-    Viewer::start(Options::new(begin)).expect("a viewer")
+    Viewer::start(session(), 0, None).expect("a viewer")
 }

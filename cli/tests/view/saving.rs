@@ -3,23 +3,24 @@
 use std::fs;
 use std::path::Path;
 
-use piola_cli::view::{Begin, Options, Viewer};
+use piola_cli::view::Viewer;
 use piola_viewer::protocol::Act;
+use piola_viewer::session::Session;
 use piola_viewer::state::State;
 use serde_json::json;
 
 use crate::page::Page;
-use crate::{TAIL, session, settings};
+use crate::{TAIL, session};
 
-fn viewer(begin: Begin, save: &Path) -> Viewer {
-    Viewer::start(Options::new(begin).with_save(save.to_owned())).expect("a viewer")
+fn viewer(session: Session, save: &Path) -> Viewer {
+    Viewer::start(session, 0, Some(save.to_owned())).expect("a viewer")
 }
 
 #[test]
 fn a_viewer_saves_and_loads() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let (save, again) = (folder.path().join("state.json"), folder.path().join("again.json"));
-    let first = viewer(Begin::Scene(Box::new(settings())), &save);
+    let first = viewer(session(), &save);
     let mut page = Page::open(&first.url());
     page.send(json!({ "act": { "pull": { "drag": 0, "vertex": TAIL, "target": [-3.0, 2.0, 0.0] } } }));
     page.wait("steps", |page| page.frame() > 5);
@@ -28,7 +29,7 @@ fn a_viewer_saves_and_loads() {
     let state = State::read(&save).expect("a state");
     drop((page, first));
 
-    let second = viewer(Begin::State(Box::new(state.clone())), &again);
+    let second = viewer(Session::resume(state.clone()).expect("a state that plays"), &again);
     let mut page = Page::open(&second.url());
     page.send(json!({ "run": { "pause": { "paused": true } } }));
     page.send(json!({ "act": { "restore": {} } }));
@@ -47,8 +48,7 @@ fn a_page_moves_its_own_drags_and_not_those_of_a_state() {
         let pull = Act::Pull { drag: page << 32, vertex: TAIL, target: [0.0, 2.0, 0.0] };
         session.apply(&pull).expect("a pull");
     }
-    let begin = Begin::State(Box::new(session.state()));
-    let viewer = Viewer::start(Options::new(begin)).expect("a viewer");
+    let viewer = Viewer::start(session, 0, None).expect("a viewer");
     let mut page = Page::open(&viewer.url());
     page.send(json!({ "act": { "pull": { "drag": 0, "vertex": TAIL, "target": [-3.0, 2.0, 0.5] } } }));
     page.wait("a pull", |page| page.figures["pulls"].as_array().is_some_and(|pulls| pulls.len() == 5));
@@ -59,7 +59,7 @@ fn a_page_is_told_names_of_files_and_no_paths() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let inside = folder.path().join("inside");
     fs::create_dir(&inside).expect("a scratch folder");
-    let viewer = viewer(Begin::Scene(Box::new(settings())), &inside.join("state.json"));
+    let viewer = viewer(session(), &inside.join("state.json"));
     fs::remove_dir(&inside).expect("an empty folder");
     let mut page = Page::open(&viewer.url());
     page.send(json!({ "act": { "save": {} } }));

@@ -2,14 +2,15 @@
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
+use std::thread;
 use std::time::{Duration, Instant};
 
-use piola_cli::view::{Begin, Options, Viewer};
+use piola_cli::view::Viewer;
 use serde_json::json;
 use tungstenite::Message;
 
 use crate::page::{Page, parts};
-use crate::{BACK, TAIL, settings, viewer};
+use crate::{BACK, TAIL, session, viewer};
 
 #[test]
 fn a_vertex_is_dragged_and_comes_back() {
@@ -125,69 +126,109 @@ fn nobody_waits_for_a_page_that_does_not_read() {
     assert!(quiet.socket.read().is_err(), "frames were kept");
 }
 
+/// Lines that say nothing take all places, until they are closed; a page that is served stays served.
+#[test]
+fn silent_lines_shut_nobody_out_for_long() {
+    let viewer = viewer();
+    let url = viewer.url();
+    let mut witness = Page::open(&url);
+    let line = |_| TcpStream::connect(viewer.address()).expect("somebody listens");
+    let lines: Vec<_> = (0..40).map(line).collect();
+    let start = Instant::now();
+    assert!(Page::try_open(&url).is_none(), "any number of connections is served");
+    let frame = witness.look()["frame"].as_u64();
+    witness.wait("steps", |page| Some(page.frame()) > frame);
+    // The limit for a request is five seconds.
+    while Page::try_open(&url).is_none() {
+        assert!(start.elapsed() < Duration::from_secs(20), "nobody is let in");
+        thread::sleep(Duration::from_millis(100));
+    }
+    drop(lines);
+}
+
+/// The viewer keeps no answers for a page that does not read: it stops reading its messages.
+#[test]
+fn answers_do_not_pile_up() {
+    let viewer = viewer();
+    let mut deaf = Page::open(&viewer.url());
+    deaf.socket.get_mut().set_write_timeout(Some(Duration::from_millis(500))).expect("a socket");
+    let act = json!({ "act": { "material": { "name": "a".repeat(15_000), "as_stiff": true } } }).to_string();
+    // More than the buffers of both sides hold.
+    let refused = (0..5_000).position(|_| deaf.socket.send(Message::text(act.clone())).is_err());
+    assert!(refused.is_some(), "75 MB of answers are kept");
+    Page::open(&viewer.url()).look();
+}
+
+/// Asks the viewer of an address, and returns its answer.
+fn ask(viewer: &Viewer, request: &str) -> String {
+    let mut stream = TcpStream::connect(viewer.address()).expect("somebody listens");
+    stream.write_all(request.as_bytes()).expect("somebody reads");
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).expect("an answer");
+    answer
+}
+
 #[test]
 fn strangers_are_not_let_in() {
-    let viewer = viewer();
-    let ask = |request: String| {
-        let mut stream = TcpStream::connect(viewer.address()).expect("somebody listens");
-        stream.write_all(request.as_bytes()).expect("somebody reads");
-        let mut answer = String::new();
-        stream.read_to_string(&mut answer).expect("an answer");
+    let (viewer, other) = (viewer(), viewer());
+    let (url, again) = (viewer.url(), other.url());
+    let ((own, query), (_, others)) = (parts(&url), parts(&again));
+    let port = viewer.address().port();
+    let check = |status: &str, request: &str| {
+        let answer = ask(&viewer, request);
+        assert!(answer.starts_with(&format!("HTTP/1.1 {status} ")), "{status}: {request}{answer}");
         answer
     };
-    let (url, own) = (viewer.url(), viewer.address());
-    let (_, token) = parts(&url);
-    let wrong = format!("?token={}", "0".repeat(32));
-    let socket = |host: &str, origin: &str, query: &str| {
-        ask(format!(
-            "GET /socket{query} HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nUpgrade: websocket\r\n\
-             Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
-        ))
-    };
-    let (host, origin) = (own.to_string(), format!("http://{own}"));
-    assert!(socket(&host, "http://evil.example", token).starts_with("HTTP/1.1 403"));
-    assert!(socket("evil.example", "http://evil.example", token).starts_with("HTTP/1.1 403"));
-    // Another user of this machine can send anything that a browser sends, except the token.
-    assert!(socket(&host, &origin, "").starts_with("HTTP/1.1 403"));
-    assert!(socket(&host, &origin, &wrong).starts_with("HTTP/1.1 403"));
-    let get = |path: &str| ask(format!("GET {path} HTTP/1.1\r\nHost: {own}\r\n\r\n"));
-    for path in ["/", "/index.html", &format!("/{wrong}")] {
-        let answer = get(path);
-        assert!(answer.starts_with("HTTP/1.1 403") && answer.contains("Open the address"), "{answer}");
-    }
-    let page = get(&format!("/{token}"));
-    assert!(page.starts_with("HTTP/1.1 200") && page.contains("<!doctype html>"), "{page}");
+    let get =
+        |status: &str, path: &str, host: &str| check(status, &format!("GET {path} HTTP/1.1\r\n{host}\r\n"));
+    let host = format!("Host: {own}\r\n");
+    let page = get("200", &format!("/{query}"), &host);
+    assert!(page.contains("<!doctype html>"), "{page}");
     assert!(page.contains("Content-Security-Policy: default-src 'none'"), "{page}");
-    let again = Viewer::start(Options::new(Begin::Scene(Box::new(settings())))).expect("a viewer");
-    assert_ne!(parts(&again.url()).1, token, "one token for all");
-    let file = ask(format!("GET /../../etc/passwd HTTP/1.1\r\nHost: {own}\r\n\r\n"));
-    assert!(file.starts_with("HTTP/1.1 404"), "{file}");
-    let long = ask(format!("GET / HTTP/1.1\r\nHost: {own}\r\nCookie: {}", "a".repeat(17_000)));
-    assert!(long.starts_with("HTTP/1.1 431"), "{long}");
+    get("200", &format!("/?a=b&{}", &query[1..]), &format!("host: localhost:{port}\r\n"));
+    get("404", "/../../etc/passwd", &host);
+    for host in
+        ["", "Host: evil.example\r\n", "Host: 127.0.0.1:1\r\n", &format!("{host}Host: evil.example\r\n")]
+    {
+        get("403", &format!("/{query}"), host);
+    }
+    // Other users of this machine can send anything that a browser sends, except the token.
+    let twice = format!("{others}&{}", &query[1..]);
+    let upper = query.to_uppercase().replace("TOKEN", "token");
+    for token in ["", "?token", "?token=", others, &twice, &format!("{query}0"), &upper] {
+        for path in ["/", "/index.html", "/socket"] {
+            let answer = get("403", &format!("{path}{token}"), &host);
+            assert!(answer.contains("Open the address"), "{answer}");
+        }
+    }
     // The page names no place but its own.
-    for file in [
-        &format!("/{token}"),
-        "/page.js",
-        "/link.js",
-        "/stage.js",
-        "/drag.js",
-        "/orbit.js",
-        "/panel.js",
-        "/editor.js",
-        "/slider.js",
-    ] {
-        let text = get(file);
-        assert!(text.starts_with("HTTP/1.1 200"), "{file}");
+    for file in ["page", "link", "line", "stage", "drag", "orbit", "panel", "editor", "slider"] {
+        let text = get("200", &format!("/{file}.js"), &host);
         assert!(!text.contains("http://") && !text.contains("https://"), "{file} loads from elsewhere");
     }
+    check("431", &format!("GET / HTTP/1.1\r\n{host}Cookie: {}", "a".repeat(17_000)));
+    check("405", &format!("POST / HTTP/1.1\r\n{host}\r\n"));
+    check("400", "no request\r\n\r\n");
+
+    let socket = format!(
+        "GET /socket{query} HTTP/1.1\r\n{host}Origin: http://{own}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
+         Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+    );
+    for origin in ["https://evil.example", "null", "http://127.0.0.1", &format!("https://{own}")] {
+        check("403", &socket.replace(&format!("http://{own}"), origin));
+    }
+    check("403", &socket.replace(&format!("Origin: http://{own}\r\n"), ""));
+    for (piece, other) in [(": 13", ": 8"), ("Sec-WebSocket-Key", "Other-Key"), ("dGhl", "")] {
+        check("400", &socket.replace(piece, other));
+    }
+    check("400", &format!("{socket}early"));
 }
 
 #[test]
 fn a_port_that_is_taken_is_named() {
     let viewer = viewer();
     let port = viewer.address().port();
-    let begin = Begin::Scene(Box::new(settings()));
-    let error = Viewer::start(Options::new(begin).with_port(port)).expect_err("taken");
+    let error = Viewer::start(session(), port, None).expect_err("taken");
     assert!(error.to_string().contains(&port.to_string()), "{error}");
     assert_eq!(error.exit_code(), 2);
 }
