@@ -165,18 +165,6 @@ fn interrupted_at_every_moment() {
     }
 }
 
-/// Two runs into one folder: one is refused, the other is whole.
-#[test]
-fn two_runs_into_one_folder() {
-    let whole = Whole::new();
-    let scratch = scratch();
-    let both = [(); 2].map(|()| start(scratch.path()));
-    let mut codes = both.map(|mut run| run.wait().expect("the command ends").code());
-    codes.sort_unstable();
-    assert_eq!(codes, [Some(0), Some(2)]);
-    assert!(frames(&files(&scratch.path().join("out"))) == frames(&whole.0));
-}
-
 /// A disk that is full at some frame leaves the frames before and a summary with the reason.
 ///
 /// The disk is a small one in memory, for which the test needs namespaces of its own; on systems that allow

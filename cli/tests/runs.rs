@@ -87,46 +87,20 @@ fn check_with(arguments: &[&str], scene: &str, frames: u64, more: &[&str]) -> Va
     summary
 }
 
-#[test]
-fn horse_collapses() {
-    let summary = check(&["run", "horse", "--frames", "3"], "horse", 3);
-    assert_eq!((&summary["tets"], &summary["nodes"]), (&2646.into(), &787.into()));
-    assert_eq!(summary["newton_iterations_mean"], 1.0);
-    assert_eq!((&summary["integrator"], &summary["newton"]), (&"implicit_euler".into(), &"single".into()));
-    assert_eq!(summary["recovered"], false);
-    assert!(summary["min_det_f"].as_f64().is_some_and(|det| det < 1e-12), "flattened: {summary}");
-}
-
-#[test]
-fn dinosaur_is_pulled() {
-    let summary = check(&["run", "dinosaur", "--frames", "3", "--newton", "full"], "dinosaur", 3);
-    assert_eq!((&summary["tets"], &summary["nodes"]), (&1031.into(), &347.into()));
-    assert_eq!(summary["newton"], "full");
-    assert!(summary["newton_iterations_mean"].as_f64().is_some_and(|mean| mean > 1.0), "{summary}");
-    assert!(summary["energy"].as_f64().is_some_and(|energy| energy > 0.0), "{summary}");
-}
-
-/// Two stages, with an iteration each.
-#[test]
-fn an_integrator_of_second_order_is_chosen() {
-    let arguments = ["run", "dinosaur", "--frames", "3", "--integrator", "sdirk2"];
-    let summary = check(&arguments, "dinosaur", 3);
-    assert_eq!(summary["integrator"], "sdirk2");
-    assert_eq!(summary["newton_iterations_mean"], 2.0);
-}
-
-/// A frame is made in more steps for a smaller tolerance, and in one where any error will do.
+/// A frame is made in more steps for a smaller tolerance, and in one of two stages where any error will do.
 #[test]
 fn a_tolerance_chooses_the_steps_of_time() {
-    let taken = |tolerance: &str| {
+    let run = |tolerance: &str| {
         let arguments = ["run", "dinosaur", "--frames", "2", "--integrator", "sdirk2", "--newton", "full"];
         let arguments = [&arguments[..], &["--tolerance", tolerance]].concat();
         let summary = check_with(&arguments, "dinosaur", 2, &["tolerance"]);
+        assert_eq!((&summary["integrator"], &summary["newton"]), (&"sdirk2".into(), &"full".into()));
         assert_eq!(summary["steps"]["unresolved"], 0, "{summary}");
+        assert!(summary["newton_iterations_mean"].as_f64().is_some_and(|mean| mean >= 2.0), "{summary}");
         summary["steps"]["taken"].as_u64().expect("a count")
     };
-    assert_eq!(taken("1000"), 2);
-    assert!(taken("0.01") > 4);
+    assert_eq!(run("1000"), 2);
+    assert!(run("0.01") > 4);
 }
 
 #[test]
@@ -178,41 +152,24 @@ fn run_on(folder: &Path, mesh: &str, scene: &str, options: &[&str]) -> (String, 
 #[test]
 fn elements_that_are_left_out_are_in_the_warnings() {
     let folder = tempfile::tempdir().expect("a scratch folder");
-    for (mesh, elements) in [
-        (include_str!("meshes/hexmiddle.msh"), "1 hexahedron"),
-        (include_str!("meshes/prismmiddle.msh"), "2 prisms"),
-    ] {
-        let (said, summary) = run_on(folder.path(), mesh, "stretch", &["--only-tetrahedra"]);
-        let warning = format!(
-            "only linear tetrahedra are read; left out of the body, which lacks their volume: {elements}"
-        );
-        assert!(said.contains(&format!("warning: {warning}")), "{said}");
-        assert_eq!((&summary["tets"], &summary["warnings"][0]), (&48.into(), &warning.into()));
-    }
+    let mesh = bar(1e3).replace("$Elements\n18\n", "$Elements\n19\n2 6 0 1 2 3 5 6 7\n");
+    let (said, summary) = run_on(folder.path(), &mesh, "horse", &["--only-tetrahedra"]);
+    let warning = "only linear tetrahedra are read; left out of the body, which lacks their volume: 1 prism";
+    assert!(said.contains(&format!("warning: {warning}")), "{said}");
+    assert_eq!((&summary["tets"], &summary["warnings"][0]), (&18.into(), &warning.into()));
 }
 
-/// A cube whose nodes are all at its ends.
+/// A bar without nodes between the marks.
 #[test]
 fn a_reading_that_finds_no_nodes_says_so() {
     let folder = tempfile::tempdir().expect("a scratch folder");
-    let (said, summary) = run_on(folder.path(), include_str!("meshes/plain22.msh"), "stretch", &[]);
+    let (said, summary) = run_on(folder.path(), &bar(1e3), "stretch", &[]);
     let missing = "no stretch was measured: between the marks, nodes lie at fewer than two heights";
     assert_eq!(said.matches(missing).count(), 2, "in the text and as a warning: {said}");
     assert!(!said.contains("NaN"), "{said}");
     assert!(summary["warnings"][0].as_str().is_some_and(|text| text.starts_with(missing)), "{summary}");
     let reading = summary["reading"].as_object().expect("a reading");
     assert!(reading.len() == 1 && reading["nominal_stress"].is_f64(), "{summary}");
-}
-
-#[test]
-fn parametric_nodes_are_nodes() {
-    let folder = tempfile::tempdir().expect("a scratch folder");
-    let surface = |mesh: &str| {
-        run_on(folder.path(), mesh, "stretch", &[]);
-        fs::read(folder.path().join("out/frame_0002.ply")).expect("a surface")
-    };
-    let plain = surface(include_str!("meshes/plain22.msh"));
-    assert!(surface(include_str!("meshes/param22.msh")) == plain);
 }
 
 /// A bar of three cubes with edges of 50, one above the other, in a unit that is `times` times as long.
@@ -257,22 +214,6 @@ fn a_mesh_in_millimetres_is_the_body_in_metres() {
     assert!(said.contains("warning: the body is 0.000015 m long"), "{said}");
 }
 
-/// A resumed run keeps the unit in which it was begun.
-#[test]
-fn the_unit_is_part_of_the_state_of_a_run() {
-    let folder = tempfile::tempdir().expect("a scratch folder");
-    let options = ["--unit", "mm", "--gravity", "9.81", "--pin", ":,:0.001,:"];
-    run_on(folder.path(), &bar(1.0), "horse", &options);
-    let resume = ["run", "horse", "--mesh", "body.msh", "--out", "out", "--frames", "4", "--resume"];
-    let refused = piola(folder.path(), &[&resume[..], &options[2..]].concat());
-    let said = String::from_utf8_lossy(&refused.stderr);
-    assert!(
-        refused.status.code() == Some(2) && said.contains("`unit` was \"mm\", and is \"m\" now"),
-        "{said}"
-    );
-    assert!(piola(folder.path(), &[&resume[..], &options].concat()).status.success());
-}
-
 #[test]
 fn a_pull_that_finds_no_node_says_so() {
     let folder = tempfile::tempdir().expect("a scratch folder");
@@ -303,22 +244,12 @@ fn tetrahedra_with_fields_are_written_for_paraview() {
 }
 
 #[test]
-fn threads_change_no_bit() {
-    let folder = tempfile::tempdir().expect("a scratch folder");
-    let surface = |threads: &str| {
-        let arguments = ["run", "horse", "--frames", "4", "--threads", threads, "--out", threads];
-        assert!(piola(folder.path(), &arguments).status.success());
-        fs::read(folder.path().join(threads).join("frame_0004.ply")).expect("a surface")
-    };
-    let one = surface("1");
-    for threads in ["2", "5"] {
-        assert!(one == surface(threads), "{threads} threads give another surface than one");
-    }
-}
-
-#[test]
 fn horse_stands_up_again() {
     let summary = check(&["run", "horse"], "horse", 150);
+    assert_eq!((&summary["tets"], &summary["nodes"]), (&2646.into(), &787.into()));
+    assert_eq!(summary["newton_iterations_mean"], 1.0);
+    assert_eq!((&summary["integrator"], &summary["newton"]), (&"implicit_euler".into(), &"single".into()));
+    assert!(summary["min_det_f"].as_f64().is_some_and(|det| det < 1e-12), "flattened: {summary}");
     assert_eq!(summary["recovered"], true, "{summary}");
 }
 
@@ -385,21 +316,6 @@ fn a_point_without_forces_is_called_a_saddle() {
 }
 
 #[test]
-fn a_body_stuck_inside_out_is_certified() {
-    let arguments = ["run", "inside_out", "--material", "ogden", "--body", "dinosaur"];
-    let summary = check(&arguments, "inside_out", 300);
-    assert_eq!(summary["recovered"], false, "{summary}");
-    assert_eq!(summary["final_state"]["place"], "stable_elsewhere", "{summary}");
-}
-
-#[test]
-fn a_point_unfolds() {
-    let summary = check(&["run", "point"], "point", 300);
-    assert_eq!((&summary["recovered"], &summary["stationary_start"]), (&true.into(), &false.into()));
-    assert_eq!(summary["min_det_f"], 0.0, "nothing turns inside out on the way");
-}
-
-#[test]
 fn another_material_is_as_stiff_as_that_of_the_scene() {
     let summary = check(&["run", "horse", "--material", "st_venant_kirchhoff", "--frames", "1"], "horse", 1);
     let value = |name: &str| summary["parameters"][name][0].as_f64().expect("a number");
@@ -433,16 +349,4 @@ fn a_material_is_checked() {
     let map = fs::read_to_string(folder.path().join("map.svg")).expect("a map");
     assert!(map.starts_with("<svg") && map.trim_end().ends_with("</svg>"));
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "the map and nothing else");
-}
-
-#[test]
-fn a_parameter_takes_the_place_of_a_typical_one() {
-    let folder = tempfile::tempdir().expect("a scratch folder");
-    let arguments =
-        ["check", "hencky", "--param", "mu=1e6", "--from", "0.8", "--to", "1.25", "--resolution", "3"];
-    let output = piola(folder.path(), &arguments);
-    let text = String::from_utf8_lossy(&output.stdout);
-    assert!(text.starts_with("Hencky mu=1e6 lambda=204000\n"), "{text}");
-    // A solid that is stable at moderate stretches says so.
-    assert_eq!(text.matches("100 %").count(), 3, "{text}");
 }
