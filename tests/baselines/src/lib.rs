@@ -19,8 +19,7 @@
 //! And what they are made of:
 //!
 //! * [`decompositions`]: singular values by other methods and libraries;
-//! * [`eigen`]: the projection of a 9×9 matrix that is known by its entries only;
-//! * [`hand_written`]: energies with derivatives by hand.
+//! * [`eigen`]: the projection of a 9×9 matrix that is known by its entries only.
 //!
 //! [`stability`] is the table of their errors and those of piola, `tests/STABILITY.md`.
 //!
@@ -38,7 +37,6 @@ pub mod decompositions;
 pub mod differences;
 pub mod direct;
 pub mod eigen;
-pub mod hand_written;
 pub mod invariants;
 mod matrix;
 pub mod polar;

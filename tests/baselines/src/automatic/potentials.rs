@@ -7,7 +7,7 @@
 use num_dual::{DualNum, DualNumFloat};
 
 use super::Potential;
-pub use crate::hand_written::{NeoHookean, StVenantKirchhoff};
+pub use crate::invariants::{NeoHookean, StVenantKirchhoff};
 
 /// Σₚ μₚ/αₚ (λ1^αₚ + λ2^αₚ + λ3^αₚ − 3) − (Σₚ μₚ) ln J + κ/2 (J − 1)².
 #[derive(Clone, Copy, Debug)]

@@ -7,7 +7,24 @@
 use piola::Real;
 
 use super::{Derivatives, InvariantEnergy};
-pub use crate::hand_written::{NeoHookean, StVenantKirchhoff};
+
+/// μ Σ Ei² + λ/2 (Σ Ei)² with Ei = (λi² − 1)/2.
+#[derive(Clone, Copy, Debug)]
+pub struct StVenantKirchhoff {
+    /// Shear modulus μ, Pa.
+    pub mu: f64,
+    /// First Lamé parameter λ, Pa.
+    pub lambda: f64,
+}
+
+/// μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
+#[derive(Clone, Copy, Debug)]
+pub struct NeoHookean {
+    /// Shear modulus μ, Pa.
+    pub mu: f64,
+    /// First Lamé parameter λ, Pa.
+    pub lambda: f64,
+}
 
 /// c10 (I1 − 3) + c01 (I2 − 3) − 2 (c10 + 2 c01) ln J + κ/2 (J − 1)², the coupled Mooney–Rivlin solid.
 #[derive(Clone, Copy, Debug)]
