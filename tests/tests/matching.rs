@@ -34,15 +34,6 @@ fn stress(energy: &Judged, values: &[Vec<f64>]) -> Result<[f64; 9], Box<dyn std:
 }
 
 #[test]
-fn every_material_can_be_as_stiff_as_asked() -> Result<(), Box<dyn std::error::Error>> {
-    for energy in ENERGIES.iter() {
-        let found = moduli(energy, &matched(energy, Moduli::from_young_poisson(1e6, 0.45)?)?)?;
-        assert!((found.young() / 1e6 - 1.0).abs() < TOLERANCE, "{}: {found:?}", energy.name);
-    }
-    Ok(())
-}
-
-#[test]
 fn stress_follows_young_at_any_strain() -> Result<(), Box<dyn std::error::Error>> {
     for energy in ENERGIES.iter() {
         let soft = stress(energy, &matched(energy, Moduli::from_young_poisson(1e6, 0.45)?)?)?;
@@ -56,7 +47,8 @@ fn stress_follows_young_at_any_strain() -> Result<(), Box<dyn std::error::Error>
 }
 
 #[test]
-fn a_volumetric_parameter_brings_poisson_about() -> Result<(), Box<dyn std::error::Error>> {
+fn every_material_is_as_stiff_as_asked_and_a_volumetric_parameter_brings_poisson_about()
+-> Result<(), Box<dyn std::error::Error>> {
     let without = [
         "arap",
         "blatz_ko",
@@ -69,6 +61,7 @@ fn a_volumetric_parameter_brings_poisson_about() -> Result<(), Box<dyn std::erro
     ];
     for energy in ENERGIES.iter() {
         let found = moduli(energy, &matched(energy, Moduli::from_young_poisson(1e6, 0.45)?)?)?;
+        assert!((found.young() / 1e6 - 1.0).abs() < TOLERANCE, "{}: {found:?}", energy.name);
         let matches = (found.poisson() - 0.45).abs() < TOLERANCE;
         assert_eq!(matches, !without.contains(&energy.name), "{}: {found:?}", energy.name);
     }
