@@ -59,29 +59,27 @@ impl Sample {
     }
 }
 
-trait Property {
-    /// The error says by how much it does not hold.
-    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String>;
-}
+/// A property; its error says by how much it does not hold.
+type Property = fn(&Subject, &Sample) -> Result<(), String>;
 
 /// Number of deformations.
 const SAMPLES: usize = 384;
 
 #[track_caller]
-fn for_every_energy(property: impl Property + Sync) {
+fn for_every_energy(property: Property) {
     let mut random = Random::new(384);
     let samples: Vec<_> = (0..SAMPLES).map(|_| Sample::draw(&mut random)).collect();
     let failures: Vec<_> =
-        ENERGIES.par_iter().flat_map_iter(|energy| failures(&property, energy, &samples)).collect();
+        ENERGIES.par_iter().flat_map_iter(|energy| failures(property, energy, &samples)).collect();
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));
 }
 
 /// The first failure of an energy for each of its inversions.
-fn failures(property: &impl Property, energy: &Judged, samples: &[Sample]) -> Vec<String> {
+fn failures(property: Property, energy: &Judged, samples: &[Sample]) -> Vec<String> {
     let of_inversion = |inversion| {
         let subject = energy.subject(&energy.typical(), inversion).expect("typical parameters");
         samples.iter().find_map(|sample| {
-            let error = property.holds(&subject, sample).err()?;
+            let error = property(&subject, sample).err()?;
             Some(format!("{} {inversion:?}: {error} at {sample:?}", energy.name))
         })
     };
@@ -120,153 +118,124 @@ fn scale(point: &Point<f64>, F: &Matrix3<f64>) -> f64 {
     norm(&point.stress) + norm(&point.tangent.to_matrix()) * norm(F)
 }
 
-struct Objectivity;
-
-impl Property for Objectivity {
-    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
-        let material: &dyn Response<f64> = &*subject.double;
-        let F = sample.F();
-        let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
-        let turned = evaluate_stress(material, &product(&sample.rotation, &F)).stress;
-        let expected = product(&sample.rotation, &point.stress);
-        at_most("‖P(QF) − Q P(F)‖", distance(&turned, &expected), C * UNIT * scale(&point, &F))
-    }
+fn objectivity(subject: &Subject, sample: &Sample) -> Result<(), String> {
+    let material: &dyn Response<f64> = &*subject.double;
+    let F = sample.F();
+    let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
+    let turned = evaluate_stress(material, &product(&sample.rotation, &F)).stress;
+    let expected = product(&sample.rotation, &point.stress);
+    at_most("‖P(QF) − Q P(F)‖", distance(&turned, &expected), C * UNIT * scale(&point, &F))
 }
 
 #[test]
 fn a_rotation_of_space_rotates_the_stress() {
-    for_every_energy(Objectivity);
+    for_every_energy(objectivity);
 }
 
-struct Isotropy;
-
-impl Property for Isotropy {
-    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
-        let material: &dyn Response<f64> = &*subject.double;
-        let F = sample.F();
-        let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
-        let turned = evaluate_stress(material, &product(&F, &sample.rotation)).stress;
-        let expected = product(&point.stress, &sample.rotation);
-        at_most("‖P(FQ) − P(F) Q‖", distance(&turned, &expected), C * UNIT * scale(&point, &F))
-    }
+fn isotropy(subject: &Subject, sample: &Sample) -> Result<(), String> {
+    let material: &dyn Response<f64> = &*subject.double;
+    let F = sample.F();
+    let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
+    let turned = evaluate_stress(material, &product(&F, &sample.rotation)).stress;
+    let expected = product(&point.stress, &sample.rotation);
+    at_most("‖P(FQ) − P(F) Q‖", distance(&turned, &expected), C * UNIT * scale(&point, &F))
 }
 
 #[test]
 fn a_rotation_of_the_rest_shape_rotates_the_stress() {
-    for_every_energy(Isotropy);
+    for_every_energy(isotropy);
 }
 
-struct PrincipalFrames;
-
-impl Property for PrincipalFrames {
-    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
-        let material: &dyn Response<f64> = &*subject.double;
-        let F = sample.F();
-        let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
-        let expected = sample.in_frames(material.gradient(sample.stretches));
-        at_most("‖P − U diag(ψi) Vᵀ‖", distance(&point.stress, &expected), C * UNIT * scale(&point, &F))?;
-        let energy = evaluate_energy(material, &F).energy;
-        let expected = material.energy(sample.stretches);
-        // At rest the terms of an energy are of the size of its stiffness and cancel.
-        let terms = expected.abs() + norm(&point.stress) * norm(&F) + material.blocks([1.0; 3]).hessian[0];
-        at_most("|ψ(F) − ψ(λ)|", (energy - expected).abs(), C * UNIT * terms)
-    }
+fn principal_frames(subject: &Subject, sample: &Sample) -> Result<(), String> {
+    let material: &dyn Response<f64> = &*subject.double;
+    let F = sample.F();
+    let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
+    let expected = sample.in_frames(material.gradient(sample.stretches));
+    at_most("‖P − U diag(ψi) Vᵀ‖", distance(&point.stress, &expected), C * UNIT * scale(&point, &F))?;
+    let energy = evaluate_energy(material, &F).energy;
+    let expected = material.energy(sample.stretches);
+    // At rest the terms of an energy are of the size of its stiffness and cancel.
+    let terms = expected.abs() + norm(&point.stress) * norm(&F) + material.blocks([1.0; 3]).hessian[0];
+    at_most("|ψ(F) − ψ(λ)|", (energy - expected).abs(), C * UNIT * terms)
 }
 
 #[test]
 fn stress_and_energy_are_those_of_the_stretches() {
-    for_every_energy(PrincipalFrames);
+    for_every_energy(principal_frames);
 }
 
-struct Products;
-
-impl Property for Products {
-    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
-        let material: &dyn Response<f64> = &*subject.double;
-        for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
-            let Some(point) = evaluate_inside(material, &sample.F(), filter) else { return Ok(()) };
-            let tangent = point.tangent.to_matrix();
-            if (0..81).any(|entry| tangent[entry / 9][entry % 9] != tangent[entry % 9][entry / 9]) {
-                return Err(format!("{filter:?}: dP/dF is not symmetric"));
-            }
-            let applied = point.tangent.apply(&sample.increment);
-            let expected =
-                matrix(|i, j| (0..9).map(|k| tangent[3 * i + j][k] * sample.increment[k / 3][k % 3]).sum());
-            let bound = C * UNIT * norm(&tangent) * norm(&sample.increment);
-            at_most("‖apply(dF) − (dP/dF) dF‖", distance(&applied, &expected), bound)?;
+fn products(subject: &Subject, sample: &Sample) -> Result<(), String> {
+    let material: &dyn Response<f64> = &*subject.double;
+    for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
+        let Some(point) = evaluate_inside(material, &sample.F(), filter) else { return Ok(()) };
+        let tangent = point.tangent.to_matrix();
+        if (0..81).any(|entry| tangent[entry / 9][entry % 9] != tangent[entry % 9][entry / 9]) {
+            return Err(format!("{filter:?}: dP/dF is not symmetric"));
         }
-        Ok(())
+        let applied = point.tangent.apply(&sample.increment);
+        let expected =
+            matrix(|i, j| (0..9).map(|k| tangent[3 * i + j][k] * sample.increment[k / 3][k % 3]).sum());
+        let bound = C * UNIT * norm(&tangent) * norm(&sample.increment);
+        at_most("‖apply(dF) − (dP/dF) dF‖", distance(&applied, &expected), bound)?;
     }
+    Ok(())
 }
 
 #[test]
 fn a_tangent_is_symmetric_and_its_product_that_of_its_matrix() {
-    for_every_energy(Products);
+    for_every_energy(products);
 }
 
-struct Filters;
-
-impl Property for Filters {
-    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
-        let material: &dyn Response<f64> = &*subject.double;
-        let tangent = |filter| {
-            let point = evaluate_inside(material, &sample.F(), filter)?;
-            let rows = point.tangent.to_matrix();
-            Some(SMatrix::<f64, 9, 9>::from_fn(|i, j| rows[i][j]))
-        };
-        let (Some(none), Some(clamp), Some(absolute)) =
-            (tangent(Filter::None), tangent(Filter::Clamp), tangent(Filter::Absolute))
-        else {
-            return Ok(());
-        };
-        let noise = C * UNIT * none.norm();
-        let negative = |matrix: SMatrix<f64, 9, 9>| -matrix.symmetric_eigenvalues().min();
-        at_most("−smallest eigenvalue of the clamped tangent", negative(clamp), noise)?;
-        at_most("−smallest eigenvalue of absolute − clamped", negative(absolute - clamp), noise)?;
-        at_most("−smallest eigenvalue of clamped − unfiltered", negative(clamp - none), noise)?;
-        // Where nothing is negative, nothing is changed; else clamped is half way to absolute.
-        at_most("‖none + absolute − 2 clamped‖", (none + absolute - 2.0 * clamp).norm(), noise)
-    }
+fn filters(subject: &Subject, sample: &Sample) -> Result<(), String> {
+    let material: &dyn Response<f64> = &*subject.double;
+    let tangent = |filter| {
+        let point = evaluate_inside(material, &sample.F(), filter)?;
+        let rows = point.tangent.to_matrix();
+        Some(SMatrix::<f64, 9, 9>::from_fn(|i, j| rows[i][j]))
+    };
+    let (Some(none), Some(clamp), Some(absolute)) =
+        (tangent(Filter::None), tangent(Filter::Clamp), tangent(Filter::Absolute))
+    else {
+        return Ok(());
+    };
+    let noise = C * UNIT * none.norm();
+    let negative = |matrix: SMatrix<f64, 9, 9>| -matrix.symmetric_eigenvalues().min();
+    at_most("−smallest eigenvalue of the clamped tangent", negative(clamp), noise)?;
+    at_most("−smallest eigenvalue of absolute − clamped", negative(absolute - clamp), noise)?;
+    at_most("−smallest eigenvalue of clamped − unfiltered", negative(clamp - none), noise)?;
+    // Where nothing is negative, nothing is changed; else clamped is half way to absolute.
+    at_most("‖none + absolute − 2 clamped‖", (none + absolute - 2.0 * clamp).norm(), noise)
 }
 
 #[test]
 fn filters_are_semidefinite_and_ordered() {
-    for_every_energy(Filters);
+    for_every_energy(filters);
 }
 
-struct SinglePrecision;
-
-impl Property for SinglePrecision {
-    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
-        let F = sample.F().map(|row| row.map(|x| x as f32));
-        check_single_accuracy(subject, &F).map_err(|fault| fault.to_string())
-    }
+fn single_precision(subject: &Subject, sample: &Sample) -> Result<(), String> {
+    let F = sample.F().map(|row| row.map(|x| x as f32));
+    check_single_accuracy(subject, &F).map_err(|fault| fault.to_string())
 }
 
 #[test]
 fn single_precision_is_close_to_double() {
-    for_every_energy(SinglePrecision);
+    for_every_energy(single_precision);
 }
 
-struct Infection;
-
-impl Property for Infection {
-    fn holds(&self, subject: &Subject, sample: &Sample) -> Result<(), String> {
-        for entry in 0..9 {
-            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-                let mut F = sample.F();
-                F[entry / 3][entry % 3] = value;
-                check(&*subject.double as &dyn Response<f64>, &F)
-                    .map_err(|fault| format!("{fault}: {F:?}"))?;
-                check(&*subject.single, &F.map(|row| row.map(|x| x as f32)))
-                    .map_err(|fault| fault.to_string())?;
-            }
+fn infection(subject: &Subject, sample: &Sample) -> Result<(), String> {
+    for entry in 0..9 {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut F = sample.F();
+            F[entry / 3][entry % 3] = value;
+            check(&*subject.double as &dyn Response<f64>, &F).map_err(|fault| format!("{fault}: {F:?}"))?;
+            check(&*subject.single, &F.map(|row| row.map(|x| x as f32)))
+                .map_err(|fault| fault.to_string())?;
         }
-        Ok(())
     }
+    Ok(())
 }
 
 #[test]
 fn what_is_not_finite_is_said_to_be() {
-    for_every_energy(Infection);
+    for_every_energy(infection);
 }
