@@ -164,18 +164,8 @@ impl Case {
             Quantity::Tangent => self.sens.tangent,
             Quantity::Projected => self.sens.psd,
         };
-        // Scaled by the largest entry, so that squares neither overflow nor vanish.
-        let norm = |entries: &mut dyn Iterator<Item = f64>| {
-            let entries: Vec<f64> = entries.collect();
-            let largest =
-                entries.iter().fold(0.0, |a: f64, b| if b.is_nan() { f64::NAN } else { a.max(b.abs()) });
-            if largest == 0.0 || !largest.is_finite() {
-                return largest;
-            }
-            largest * entries.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
-        };
-        let distance = norm(&mut values.iter().zip(&expected).map(|(x, y)| x - y));
-        let scale = norm(&mut expected.iter().copied()) + sensitivity + noise;
+        let distance = norm(values.iter().zip(&expected).map(|(x, y)| x - y));
+        let scale = norm(expected.iter().copied()) + sensitivity + noise;
         // An infinite scale would excuse everything.
         if values.len() != expected.len() || !distance.is_finite() || !scale.is_finite() {
             f64::INFINITY
@@ -185,4 +175,15 @@ impl Case {
             distance / (unit_roundoff * scale)
         }
     }
+}
+
+/// √Σx², scaled by the largest entry, so that squares neither overflow nor vanish; NaN if an entry is.
+#[must_use]
+pub fn norm(entries: impl IntoIterator<Item = f64>) -> f64 {
+    let entries: Vec<f64> = entries.into_iter().collect();
+    let largest = entries.iter().fold(0.0, |a: f64, b| if b.is_nan() { f64::NAN } else { a.max(b.abs()) });
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    largest * entries.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
 }

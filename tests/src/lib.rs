@@ -6,6 +6,8 @@
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
 //! * [`energies`]: the catalogue behind pointers; [`compiled`]: the evaluation of a point, compiled once;
+//! * [`answers`]: all that a batch computes;
+//! * [`twins`]: compiled and interpreted materials, compared;
 //! * [`emitted`]: energies as source text, executed by programs of `emitted/`;
 //! * [`bits`]: deformation gradients of arbitrary finite entries; [`soundness`]: what must hold at each of
 //!   them;
@@ -22,6 +24,7 @@
 //!
 //! With `PIOLA_FULL` in the environment, as `.ci/run` has it, some tests judge more cases.
 
+pub mod answers;
 pub mod bits;
 pub mod cases;
 pub mod compiled;
@@ -33,6 +36,7 @@ pub mod multiprecision;
 pub mod quotients;
 pub mod random;
 pub mod soundness;
+pub mod twins;
 
 /// True if the tests judge all cases that they have: with `PIOLA_FULL` in the environment.
 #[must_use]

@@ -7,10 +7,12 @@
 use piola::__private::random::Random;
 use piola::interpreter::Interpreted;
 use piola::lanes::{Lanes, Lanes2};
-use piola::material::{Argument, Blocks, Constraint, Declared, Fittable, MaterialError};
+use piola::material::{Argument, Blocks, Declared, Fittable, MaterialError};
 use piola::{Inversion, Material, Real};
 use piola_declare::Energy;
+use piola_tests::answers::Answers;
 use piola_tests::declarations::{Sample, find, slices, values};
+use piola_tests::twins::{self, check_fit, responses};
 
 #[path = "../declarations/compiled.rs"]
 mod declarations;
@@ -21,18 +23,6 @@ use declarations::{
 };
 
 const EXTEND: Inversion = Inversion::Extend { epsilon: 0.2 };
-
-/// All responses as text, which tells every bit, and NaN from NaN only by its name.
-fn responses<R: Real>(material: &impl Material, at: [R; 3]) -> String {
-    let invariants = material.has_invariants().then(|| {
-        let energy = material.has_energy_by_invariants().then(|| material.energy_by_invariants(at));
-        (energy, material.derivatives_by_invariants(at), material.admits_invariants(at))
-    });
-    let strains = at.map(|stretch| stretch - R::splat(1.0));
-    let Blocks { gradient, hessian, flip, twist } = material.blocks(at);
-    let alone = (material.energy(at), material.gradient(at), material.gradient_at_strains(strains));
-    format!("{alone:?} {gradient:?} {hessian:?} {flip:?} {twist:?} {:?} {invariants:?}", material.admits(at))
-}
 
 /// Ordered stretches of every size, some of them equal or of opposite sign.
 fn stretches() -> impl Iterator<Item = [f64; 3]> {
@@ -70,8 +60,8 @@ fn check<M: Declared>() -> (Sample, Vec<(M, Interpreted)>) {
                 }
             };
             for at in stretches() {
-                let [found, expected] = [responses(&interpreted, at), responses(&compiled, at)];
-                assert_eq!(found, expected, "{} {values:?} {inversion:?} at {at:?}", M::DESCRIPTION.name);
+                let what = format!("{} {values:?} {inversion:?} at {at:?}", M::DESCRIPTION.name);
+                twins::check(&what, &responses(&interpreted, at), &responses(&compiled, at));
             }
             judged.push((compiled, interpreted));
         }
@@ -96,35 +86,14 @@ fn check<M: Declared>() -> (Sample, Vec<(M, Interpreted)>) {
 /// largest terms, since generated code computes them with the logarithms of the standard library.
 #[track_caller]
 fn check_fittable<M: Fittable>() {
-    let close = |found: &[f64], expected: &[f64]| {
-        assert_eq!(found.len(), expected.len());
-        let scale = expected.iter().fold(0.0f64, |scale, value| scale.max(value.abs()));
-        for (found, expected) in found.iter().zip(expected) {
-            assert!((found - expected).abs() <= 1e-12 * scale, "{found} interpreted, {expected} compiled");
-        }
-    };
     let (sample, judged) = check::<M>();
     let energy = &sample.judged.energy;
     for (compiled, interpreted) in judged {
         let values = compiled.values();
-        assert_eq!(energy.values(&interpreted), values);
         let again = M::from_values(&slices(&values), Inversion::Refuse).expect("admissible");
         assert_eq!(compiled.with_values(&slices(&values)).expect("admissible").values(), again.values());
         for at in [[1.2, 1.0, 0.9], [1.3, 1.3, 0.7], [1.01, 1.0, 0.99]] {
-            let found = energy.gradient_by_parameters(&interpreted, at).concat();
-            close(&found, &compiled.gradient_by_parameters(at).concat());
-            let pairs = [
-                (energy.constraints(&interpreted), compiled.constraints()),
-                (energy.domain_constraints(&interpreted, at), compiled.domain_constraints(at)),
-            ];
-            for (found, expected) in pairs {
-                let limits = |all: &[Constraint]| all.iter().map(|one| one.limit.clone()).collect::<Vec<_>>();
-                assert_eq!(limits(&found), limits(&expected));
-                for (found, expected) in found.iter().zip(&expected) {
-                    close(&[found.value], &[expected.value]);
-                    close(&found.gradient, &expected.gradient);
-                }
-            }
+            check_fit(energy, &interpreted, &compiled, at);
         }
     }
 }
@@ -195,7 +164,8 @@ fn lists_of_any_length_give_the_bits_of_arrays() -> Result<(), MaterialError> {
         let array = Fixed::new(mu, alpha, 2e6)?.with_inversion(inversion)?;
         let vector = Terms::new(mu.to_vec(), alpha.to_vec(), 2e6)?.with_inversion(inversion)?;
         for at in stretches() {
-            assert_eq!(responses(&array, at), responses(&vector, at), "{inversion:?} at {at:?}");
+            let what = format!("{inversion:?} at {at:?}");
+            twins::check(&what, &responses(&array, at), &responses(&vector, at));
             let [found, expected] = [vector.gradient_by_parameters(at), array.gradient_by_parameters(at)];
             assert_eq!(format!("{found:?}"), format!("{expected:?}"));
         }
@@ -273,11 +243,9 @@ fn batches_of_lists_have_the_bits_of_arrays() {
         for backend in Backend::available() {
             let tangents = |energy: &Energy| {
                 let material = energy.boxed(&values, inversion).expect("admissible");
-                let (mut stresses, mut tangents) = (vec![0.0; 9 * 70], vec![0.0; 81 * 70]);
-                let batch = Batch::new(&*material).with_backend(backend);
-                let survey = batch.tangents(&points, &mut stresses, &mut tangents);
-                let numbers = stresses.into_iter().chain(tangents).map(f64::to_bits).collect::<Vec<_>>();
-                (survey.expect("slices of one number of points"), numbers)
+                let answers = Answers::of(Batch::new(&*material).with_backend(backend), &points);
+                let numbers = answers.numbers().into_iter().map(f64::to_bits).collect::<Vec<_>>();
+                (answers.surveys, numbers)
             };
             assert!(tangents(&array) == tangents(&vector), "{backend:?}, {length} terms");
         }

@@ -9,14 +9,17 @@
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
 use piola::__private::random::Random;
+use piola::Inversion;
 use piola::batch::{Batch, Kernels, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::lanes::Backend;
-use piola::material::{Constraint, Fittable, MaterialError, PerPoint, Response};
+use piola::material::{Fittable, MaterialError, PerPoint};
 use piola::point::Filter;
-use piola::{Inversion, Real, Status, StatusCell};
 use piola_declare::Energy;
 use piola_materials::{CATALOGUE, DECLARATIONS, Entry, FittableVisitor};
+use piola_tests::answers::Answers;
+use piola_tests::bits::Precision;
+use piola_tests::twins::{check, check_fit, responses};
 
 const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
 
@@ -38,34 +41,9 @@ fn entries() -> impl Iterator<Item = (&'static Entry, Energy, Inversion)> {
     })
 }
 
-/// `f64` or `f32`.
-trait Precision: Kernels + Real<Mask = bool> {
-    const NAME: &'static str;
-
-    /// Any finite number: one with these bits.
-    fn of_bits(bits: u64) -> Self;
-}
-
-impl Precision for f64 {
-    const NAME: &'static str = "f64";
-
-    fn of_bits(bits: u64) -> Self {
-        Some(Self::from_bits(bits)).filter(|value| value.is_finite()).unwrap_or(1.0)
-    }
-}
-
-#[cfg(feature = "full")]
-impl Precision for f32 {
-    const NAME: &'static str = "f32";
-
-    fn of_bits(bits: u64) -> Self {
-        Some(Self::from_bits(bits as u32)).filter(|value| value.is_finite()).unwrap_or(1.0)
-    }
-}
-
 /// Deformation gradients of all kinds: ordinary ones, some of them inverted, others near rest, diagonal with
 /// equal entries, flat, and of arbitrary bits.
-fn deformations<E: Precision>(seed: u64) -> Vec<E> {
+fn deformations<E: Kernels + Precision>(seed: u64) -> Vec<E> {
     let mut random = Random::new(seed);
     let mut all = Vec::new();
     for k in 0..POINTS {
@@ -78,49 +56,24 @@ fn deformations<E: Precision>(seed: u64) -> Vec<E> {
             1 => F[2] = F[1],
             _ => {}
         }
-        let entry = |x: f64| if k % 6 == 5 { E::of_bits(random.bits()) } else { E::splat(x) };
+        let mut bits = || Some(E::from_bits(random.bits())).filter(|entry| entry.is_finite());
+        let entry = |x: f64| if k % 6 == 5 { bits().unwrap_or(E::splat(1.0)) } else { E::splat(x) };
         all.extend(F.into_iter().flatten().map(entry));
     }
     all
 }
 
-/// True if two results are equal, or both NaN.
-fn same<E: Precision>(one: E, other: E) -> bool {
-    let [one, other]: [f64; 2] = [one.into(), other.into()];
-    one.to_bits() == other.to_bits() || one.is_nan() && other.is_nan()
-}
-
-#[track_caller]
-fn check<E: Precision>(what: &str, found: &[E], expected: &[E]) {
-    for (k, (&found, &expected)) in found.iter().zip(expected).enumerate() {
-        assert!(same(found, expected), "{what}, entry {k}: {found:?} interpreted, {expected:?} compiled");
-    }
-}
-
-/// All results of a batch, and the status of its points.
-fn results<E: Precision>(
+/// All results of a batch.
+fn results<E: Kernels>(
     material: &dyn TileMaterial<E>,
     backend: Backend,
     filter: Filter,
     F: &[E],
-) -> (Vec<E>, Vec<Status>) {
-    let zero = E::splat(0.0);
-    let statuses: Vec<StatusCell> = (0..POINTS).map(|_| StatusCell::default()).collect();
-    let batch = Batch::new(material).with_backend(backend).with_filter(filter).with_statuses(&statuses);
-    let (mut energies, mut P) = (vec![zero; POINTS], vec![zero; 9 * POINTS]);
-    let (mut with_tangents, mut dP_dF) = (vec![zero; 9 * POINTS], vec![zero; 81 * POINTS]);
-    let mut all_statuses = Vec::new();
-    let mut keep = || all_statuses.extend(statuses.iter().map(StatusCell::get));
-    batch.energies(F, &mut energies).expect("lengths");
-    keep();
-    batch.stresses(F, &mut P).expect("lengths");
-    keep();
-    batch.tangents(F, &mut with_tangents, &mut dP_dF).expect("lengths");
-    keep();
-    ([energies, P, with_tangents, dP_dF].concat(), all_statuses)
+) -> Answers<E> {
+    Answers::of(Batch::new(material).with_backend(backend).with_filter(filter), F)
 }
 
-fn check_batches<E: Precision>(
+fn check_batches<E: Kernels + Precision>(
     name: &str,
     interpreted: &dyn TileMaterial<E>,
     compiled: &dyn TileMaterial<E>,
@@ -128,11 +81,11 @@ fn check_batches<E: Precision>(
     let F = deformations::<E>(name.len() as u64);
     for backend in Backend::available() {
         for filter in [Filter::None, Filter::Clamp] {
-            let [(found, found_status), (expected, expected_status)] =
+            let [found, expected] =
                 [interpreted, compiled].map(|material| results(material, backend, filter, &F));
             let what = format!("{name} in {} on {backend}, {filter:?}", E::NAME);
-            assert_eq!(found_status, expected_status, "{what}");
-            check(&what, &found, &expected);
+            assert_eq!(found.statuses, expected.statuses, "{what}");
+            check(&what, &found.numbers(), &expected.numbers());
         }
     }
 }
@@ -173,28 +126,6 @@ fn batches_in_single_precision_have_the_bits_of_compiled_ones() {
     of::<StretchSpline>("stretch_spline");
 }
 
-/// All responses at one triple of stretches, as one row.
-fn responses(material: &dyn Response<f64>, at: [f64; 3]) -> Vec<f64> {
-    let blocks = material.blocks(at);
-    let mut all = vec![material.energy(at), f64::from(u8::from(material.admits(at)))];
-    all.extend(material.gradient(at));
-    all.extend(material.gradient_at_strains(at.map(|stretch| stretch - 1.0)));
-    all.extend(blocks.gradient.into_iter().chain(blocks.hessian).chain(blocks.flip).chain(blocks.twist));
-    all.push(f64::from(u8::from(material.has_invariants())));
-    all.push(f64::from(u8::from(material.has_pole())));
-    all.push(f64::from(u8::from(material.ends_at_zero_volume())));
-    if material.has_invariants() {
-        all.push(f64::from(u8::from(material.has_second_invariant())));
-        all.push(f64::from(u8::from(material.admits_invariants(at))));
-        all.extend(material.gradient_by_invariants(at));
-        all.extend(material.derivatives_by_invariants(at));
-        if material.has_energy_by_invariants() {
-            all.push(material.energy_by_invariants(at));
-        }
-    }
-    all
-}
-
 /// Ordered stretches of every size, some of them equal or of opposite sign.
 fn stretches(random: &mut Random) -> [f64; 3] {
     let spread = [0.0, 1e-9, 0.3, 3.0, 300.0][random.below(5)];
@@ -225,18 +156,6 @@ fn single_points_have_the_bits_of_the_compiled_catalogue() {
     }
 }
 
-/// Numbers that generated code computes once, with the logarithms and fused operations of the standard
-/// library: they differ by a few roundings of their largest terms.
-#[track_caller]
-fn check_close(what: &str, found: &[f64], expected: &[f64]) {
-    assert_eq!(found.len(), expected.len(), "{what}");
-    let scale = expected.iter().fold(0.0f64, |scale, value| scale.max(value.abs()));
-    for (k, (&found, &expected)) in found.iter().zip(expected).enumerate() {
-        let is_close = (found - expected).abs() <= 1e-12 * scale || found.is_nan() && expected.is_nan();
-        assert!(is_close, "{what}, entry {k}: {found:?} interpreted, {expected:?} compiled");
-    }
-}
-
 /// Slopes by the parameters, conditions on them, and materials with other values.
 #[test]
 fn fits_have_the_numbers_of_the_compiled_catalogue() {
@@ -244,28 +163,7 @@ fn fits_have_the_numbers_of_the_compiled_catalogue() {
     impl FittableVisitor for Slopes<'_> {
         type Output = ();
         fn visit<M: Fittable + 'static>(self, material: M) {
-            let Self(energy, interpreted, at) = self;
-            let name = &energy.description().name;
-            assert_eq!(energy.values(interpreted), material.values(), "{name}");
-            check_close(
-                name,
-                &energy.gradient_by_parameters(interpreted, at).concat(),
-                &material.gradient_by_parameters(at).concat(),
-            );
-            let pairs = [
-                (energy.constraints(interpreted), material.constraints()),
-                (energy.domain_constraints(interpreted, at), material.domain_constraints(at)),
-            ];
-            for (found, expected) in pairs {
-                let limits = |all: &[Constraint]| all.iter().map(|one| one.limit.clone()).collect::<Vec<_>>();
-                assert_eq!(limits(&found), limits(&expected), "{name}");
-                let numbers = |all: &[Constraint]| {
-                    all.iter()
-                        .flat_map(|one| one.gradient.iter().copied().chain([one.value]))
-                        .collect::<Vec<_>>()
-                };
-                check_close(name, &numbers(&found), &numbers(&expected));
-            }
+            check_fit(self.0, self.1, &material, self.2);
         }
     }
     for entry in CATALOGUE {
@@ -304,9 +202,12 @@ fn materials_of_one_energy_do_not_mix_their_constants() {
     });
     for k in [0, 1, 1, 0, 1] {
         let found = results::<f64>(&materials[k], Backend::best(), Filter::None, &F);
-        check(&format!("material {k}"), &found.0, &alone[k].0);
+        check(&format!("material {k}"), &found.numbers(), &alone[k].numbers());
     }
-    assert!(alone[0].0.iter().zip(&alone[1].0).any(|(one, other)| one < other), "they differ");
+    assert!(
+        alone[0].numbers().iter().zip(&alone[1].numbers()).any(|(one, other)| one < other),
+        "they differ"
+    );
 }
 
 /// The error for values that a constructor rejects is that of the compiled constructor.
@@ -334,7 +235,7 @@ fn values_are_refused_as_by_the_compiled_catalogue() {
             for inversion in
                 [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }, Inversion::Extend { epsilon: 2.0 }]
             {
-                // Of moduli that are told, the first digits: see `check_close`.
+                // Of moduli that are told, the first digits: they differ by roundings.
                 let told = |error: MaterialError| match error {
                     MaterialError::UnstableRest { moduli } => format!("unstable: {:.6e}", moduli.mu),
                     error => error.to_string(),

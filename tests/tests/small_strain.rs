@@ -9,6 +9,7 @@ use piola::__private::random::Random;
 use piola::interpreter::Interpreted;
 use piola::point::{self, DisplacementGradient, EnergyPoint, Filter, Matrix3, StressPoint};
 use piola::{Inversion, Material, Real};
+use piola_tests::cases::norm;
 use piola_tests::compiled;
 use piola_tests::energies::{ENERGIES, Format, Subject};
 use piola_tests::multiprecision::Multiprecision;
@@ -92,17 +93,6 @@ fn plus_identity<R: Real>(displacement: &Matrix3<R>) -> Matrix3<R> {
     std::array::from_fn(|i| {
         std::array::from_fn(|j| if i == j { displacement[i][j] + one } else { displacement[i][j] })
     })
-}
-
-/// Scaled by the largest entry, so that squares do not underflow.
-fn norm(entries: impl IntoIterator<Item = f64>) -> f64 {
-    let entries: Vec<f64> = entries.into_iter().collect();
-    let largest = entries.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
-    if largest == 0.0 {
-        0.0
-    } else {
-        largest * entries.iter().map(|x| (x / largest).powi(2)).sum::<f64>().sqrt()
-    }
 }
 
 #[track_caller]

@@ -7,10 +7,11 @@
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
 use piola::__private::random::Random;
+use piola::Inversion;
 use piola::batch::Batch;
 use piola::lanes::Backend;
 use piola::point::Filter;
-use piola::{Inversion, StatusCell};
+use piola_tests::answers::Answers;
 use piola_tests::energies::ENERGIES;
 
 const COUNT: usize = 384;
@@ -46,15 +47,10 @@ fn entries_that_a_plane_of_symmetry_makes_zero_are_zero() {
         let subject = energy.subject(&energy.typical(), Inversion::Refuse).expect("typical parameters");
         for backend in Backend::available() {
             for filter in [Filter::None, Filter::Clamp] {
-                let statuses: Vec<StatusCell> = (0..COUNT).map(|_| StatusCell::default()).collect();
-                let batch = Batch::new(&*subject.double)
-                    .with_backend(backend)
-                    .with_filter(filter)
-                    .with_statuses(&statuses);
-                let (mut P, mut dP_dF) = (vec![0.0; 9 * COUNT], vec![0.0; 81 * COUNT]);
-                batch.tangents(&F, &mut P, &mut dP_dF).expect("lengths fit");
-                for (p, F) in samples.iter().enumerate().filter(|(p, _)| !statuses[*p].get().refused) {
-                    let (P, dP_dF) = (&P[9 * p..][..9], &dP_dF[81 * p..][..81]);
+                let batch = Batch::new(&*subject.double).with_backend(backend).with_filter(filter);
+                let Answers { beside, tangents, statuses, .. } = Answers::of(batch, &F);
+                for (p, F) in samples.iter().enumerate().filter(|(p, _)| !statuses[*p][2].refused) {
+                    let (P, dP_dF) = (&beside[9 * p..][..9], &tangents[81 * p..][..81]);
                     let axes = if p % 2 == 0 { 0..3 } else { 0..1 };
                     for axis in axes {
                         for row in 0..9 {

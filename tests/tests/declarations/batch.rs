@@ -5,7 +5,7 @@
 
 use piola::batch::{Batch, Layout, TileMaterial};
 use piola::lanes::Backend;
-use piola::{Status, StatusCell, Survey};
+use piola_tests::answers::Answers;
 use piola_tests::declarations::{Sample, slices};
 use piola_tests::is_full;
 
@@ -30,32 +30,8 @@ fn deformations() -> Vec<[f64; 9]> {
     all
 }
 
-/// Results of a batch: energies, stresses, stresses with tangents, the status of each point after each call,
-/// and the outcome of each call.
-struct Answers {
-    energies: Vec<f64>,
-    stresses: Vec<f64>,
-    beside: Vec<f64>,
-    tangents: Vec<f64>,
-    statuses: Vec<[Status; 3]>,
-    surveys: [Survey; 3],
-}
-
-fn answers(energy: &dyn TileMaterial<f64>, backend: Backend, all: &[[f64; 9]]) -> Answers {
-    let (n, F) = (all.len(), all.as_flattened());
-    let statuses: [Vec<StatusCell>; 3] =
-        [(); 3].map(|()| all.iter().map(|_| StatusCell::default()).collect());
-    let batch = |call: usize| Batch::new(energy).with_backend(backend).with_statuses(&statuses[call]);
-    let (mut energies, mut stresses) = (vec![0.0; n], vec![0.0; 9 * n]);
-    let (mut beside, mut tangents) = (vec![0.0; 9 * n], vec![0.0; 81 * n]);
-    let surveys = [
-        batch(0).energies(F, &mut energies),
-        batch(1).stresses(F, &mut stresses),
-        batch(2).tangents(F, &mut beside, &mut tangents),
-    ]
-    .map(|survey| survey.expect("lengths"));
-    let statuses = (0..n).map(|p| [0, 1, 2].map(|call| statuses[call][p].get())).collect();
-    Answers { energies, stresses, beside, tangents, statuses, surveys }
+fn answers(energy: &dyn TileMaterial<f64>, backend: Backend, all: &[[f64; 9]]) -> Answers<f64> {
+    Answers::of(Batch::new(energy).with_backend(backend), all.as_flattened())
 }
 
 /// As bits, so that NaN equals itself.
@@ -83,7 +59,7 @@ fn points_get_what_they_would_get_alone(
     what: &str,
     material: &dyn TileMaterial<f64>,
     backend: Backend,
-    together: &Answers,
+    together: &Answers<f64>,
     all: &[[f64; 9]],
 ) {
     let mut refused = [0; 3];
@@ -110,7 +86,7 @@ fn points_get_what_they_would_get_alone(
 }
 
 /// Tangents need a decomposition, and stresses may come from invariants.
-fn stresses_are_the_same_by_another_way(what: &str, together: &Answers, all: &[[f64; 9]]) {
+fn stresses_are_the_same_by_another_way(what: &str, together: &Answers<f64>, all: &[[f64; 9]]) {
     let is_judged = |p: &usize| *p != HUGE && together.statuses[*p].iter().all(|status| status.is_clean());
     for p in (0..COUNT).filter(is_judged) {
         let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -127,7 +103,7 @@ fn lines_are_points(
     what: &str,
     material: &dyn TileMaterial<f64>,
     backend: Backend,
-    together: &Answers,
+    together: &Answers<f64>,
     all: &[[f64; 9]],
 ) {
     let whole = COUNT / 8 * 8;
