@@ -250,8 +250,10 @@ impl Energy {
     }
 }
 
-/// The programs of all responses.
-fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs> {
+/// The programs of all responses; `None` if one needs more registers than there are.
+#[doc(hidden)]
+#[must_use]
+pub fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs> {
     let program = |model: &mut Model, roots: &[Id]| lower(declaration, &model.program(roots));
     let within = |model: &mut Model, roots: &[Id], bounds: &[Id]| {
         lower_within(declaration, &model.program(roots), &model.program(bounds))

@@ -40,6 +40,9 @@ mod rust;
 mod text;
 
 pub use energy::Energy;
+// For the judge of random energies, which compares each program with an oracle.
+#[doc(hidden)]
+pub use energy::programs;
 pub use formula::FormulaOptions;
 pub use mistakes::{Mistake, Mistakes, Place};
 // For messages of sister crates.

@@ -1,11 +1,11 @@
 //! Random energies, and what their compiled forms must compute: a search for what nobody thought of.
 //!
 //! * [`generator`]: declarations of random energies as source text, each from a seed;
-//! * [`program`]: what generated code computes, by an interpreter of scheduled programs: the same bits;
 //! * [`hard`]: stretches at which digits are easily lost;
 //! * [`polynomial`]: Taylor polynomials in three stretches, the calculus of the oracle;
 //! * [`oracle`]: what each value must be, in 256 bits, from the generator's own expression;
-//! * [`judge`]: all of it for one seed.
+//! * [`judge`]: all of it for one seed. The interpreter executes the programs, with the bits of generated
+//!   code: see `tests/random.rs`.
 //!
 //! The oracle shares no code with the compiler of declarations: not its parser, not its graph, not its
 //! calculus.
@@ -15,4 +15,3 @@ pub mod hard;
 pub mod judge;
 pub mod oracle;
 pub mod polynomial;
-pub mod program;

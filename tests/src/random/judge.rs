@@ -2,19 +2,23 @@
 
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
+use piola::__private::interpreter::{ParameterValues, Programs, Value};
 use piola::__private::pole_floor;
 use piola::__private::random::Random;
-use piola::Real;
+use piola::interpreter::Interpreted;
 use piola::material::PAIRS;
+use piola::{Inversion, Material, Real};
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::algebra::interpret::{self, evaluate};
-use piola_codegen::model::{Model, Variant};
+use piola_codegen::model::Model;
+use piola_codegen::read::parse;
+use piola_declare::programs;
 
 use super::generator::{Declaration, Domain};
 use super::hard;
 use super::oracle::{self, Expected, Number};
-use super::program::{Inputs, Parameters, run};
 
 /// The constant of |X − X*| ≤ C u scale, as for the reference cases. Where that fails, what the formula as
 /// printed loses enters the scale, and then Σ|terms| of the compiled expression: both are counted.
@@ -144,23 +148,20 @@ fn compile_and_run(
     let (arguments, item) = (tokens(&declaration.arguments())?, tokens(&declaration.item())?);
     let (read, mut model) =
         piola_codegen::analyse(arguments, item, None).map_err(|error| error.to_string())?;
-    let values: Vec<&[f64]> =
-        declaration.parameters.iter().map(|parameter| parameter.values.as_slice()).collect();
-    let parameters = Parameters::new(&read, &values);
+    let programs = programs(&read, &mut model).ok_or("too many registers")?;
+    let subject = Subject::new(&read, declaration, model, programs);
     let mut random = Random::new(!seed);
     let is_whole = declaration.domain == Domain::Whole;
     for stretches in hard::stretches(&mut random, points, is_whole) {
-        judge_stretches(declaration, &mut model, &parameters, stretches, tally);
+        judge_stretches(declaration, &subject, stretches, tally);
     }
     for strains in hard::strains(&mut random, points.div_ceil(4)) {
-        let roots = model.at_strains;
-        let inputs = Inputs { stretches: strains.map(|strain| 1.0 + strain), strains, epsilon: EPSILON };
-        let found: Vec<f64> = run(&model.program(&roots), &parameters, &inputs);
         let expected = oracle::at_strains(declaration, strains);
         let at = format!("strains {strains:?}");
-        for (i, value) in found.into_iter().enumerate() {
+        for (i, value) in subject.plain.gradient_at_strains(strains).into_iter().enumerate() {
             let name = || format!("ψ{} by strains", i + 1);
-            let terms = || terms(&model, &parameters, roots[i], inputs.stretches);
+            let root = subject.model.at_strains[i];
+            let terms = || subject.terms(root, strains.map(|strain| 1.0 + strain));
             let found = Found { name: &name, at: &at, value, range: 1.0, terms: &terms };
             tally.value(&found, &expected[i]);
         }
@@ -168,61 +169,81 @@ fn compile_and_run(
     Ok(())
 }
 
-/// Judges all programs at stretches.
-fn judge_stretches(
-    declaration: &Declaration,
-    model: &mut Model,
-    parameters: &Parameters,
-    stretches: [f64; 3],
-    tally: &mut Tally,
-) {
-    let inputs = Inputs { stretches, strains: stretches.map(|stretch| stretch - 1.0), epsilon: EPSILON };
-    let extended = model.extended.clone().map(|extended| (" extended", extended));
-    let variants: Vec<(&str, Variant)> = std::iter::once(("", model.plain.clone())).chain(extended).collect();
-    let mut outputs = Vec::new();
-    for (word, variant) in &variants {
-        let mut compute = |roots: &[_]| run::<f64>(&model.program(roots), parameters, &inputs);
-        let energy = compute(&[variant.energy]);
-        outputs.push((*word, variant, energy[0], compute(&variant.gradient), compute(&variant.blocks())));
+/// A compiled declaration with its parameters: its programs, which the interpreter executes with the bits of
+/// generated code, and its expressions.
+struct Subject {
+    model: Model,
+    /// Values and lengths of the parameters, and the threshold of extensions.
+    point: interpret::Point,
+    plain: Interpreted,
+    extended: Interpreted,
+}
+
+impl Subject {
+    fn new(read: &parse::Declaration, declaration: &Declaration, model: Model, programs: Programs) -> Self {
+        let values: Vec<_> = declaration.parameters.iter().map(|one| one.values.clone()).collect();
+        let mut lengths = vec![0; read.lengths.len()];
+        for (parameter, list) in read.parameters.iter().zip(&values) {
+            if let Some(length) = parameter.length() {
+                lengths[length] = list.len();
+            }
+        }
+        let numbers = ParameterValues::new(values.iter().cloned().map(Value::Numbers).collect());
+        let programs = Arc::new(programs);
+        let material = |inversion| Interpreted::new(programs.clone(), numbers.clone(), inversion);
+        let point =
+            interpret::Point { stretches: [1.0; 3], parameters: values.into(), lengths, epsilon: EPSILON };
+        Self {
+            model,
+            point,
+            plain: material(Inversion::Refuse),
+            extended: material(Inversion::Extend { epsilon: EPSILON }),
+        }
     }
+
+    /// Σ|terms| of an expression, every subtraction replaced by an addition of magnitudes.
+    fn terms(&self, root: Id, stretches: [f64; 3]) -> f64 {
+        let point = interpret::Point { stretches, ..self.point.clone() };
+        evaluate(&self.model.graph, root, &point).magnitude
+    }
+}
+
+/// Judges all programs at stretches.
+fn judge_stretches(declaration: &Declaration, subject: &Subject, stretches: [f64; 3], tally: &mut Tally) {
+    let plain = Some(("", &subject.model.plain, &subject.plain));
+    let extended = subject.model.extended.as_ref().map(|variant| (" extended", variant, &subject.extended));
     let point = oracle::at_stretches(declaration, stretches);
     let at = format!("{stretches:?}");
-    for (word, variant, energy, gradient, blocks) in outputs {
+    for (word, variant, material) in plain.into_iter().chain(extended) {
         let mut value = |name: &str, value: f64, expected: &Expected, root: Id| {
             let name = || format!("{name}{word}");
-            let terms = || terms(model, parameters, root, stretches);
+            let terms = || subject.terms(root, stretches);
             tally.value(&Found { name: &name, at: &at, value, range: point.range, terms: &terms }, expected);
         };
-        value("ψ", energy, &point.energy, variant.energy);
+        let (gradient, blocks) = (material.gradient(stretches), material.blocks(stretches));
+        value("ψ", material.energy(stretches), &point.energy, variant.energy);
         for i in 0..3 {
             let (expected, root) = (&point.gradient[i], variant.gradient[i]);
             value(["ψ1", "ψ2", "ψ3"][i], gradient[i], expected, root);
-            value(["ψ1 of blocks", "ψ2 of blocks", "ψ3 of blocks"][i], blocks[i], expected, root);
+            value(["ψ1 of blocks", "ψ2 of blocks", "ψ3 of blocks"][i], blocks.gradient[i], expected, root);
         }
         for k in 0..6 {
             let name = ["ψ11", "ψ22", "ψ33", "ψ12", "ψ13", "ψ23"][k];
-            value(name, blocks[3 + k], &point.hessian[k], variant.hessian[k]);
+            value(name, blocks.hessian[k], &point.hessian[k], variant.hessian[k]);
         }
         for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
-            value(["D-12", "D-13", "D-23"][pair], blocks[9 + pair], &point.flip[pair], variant.flip[pair]);
+            value(["D-12", "D-13", "D-23"][pair], blocks.flip[pair], &point.flip[pair], variant.flip[pair]);
             // At a pole the value is bounded, and the status reports it.
             if !(variant.has_pole && stretches[i] + stretches[j] < pole_floor(stretches)) {
                 value(
                     ["D+12", "D+13", "D+23"][pair],
-                    blocks[12 + pair],
+                    blocks.twist[pair],
                     &point.twist[pair],
                     variant.twist[pair],
                 );
             }
         }
     }
-}
-
-/// Σ|terms| of an expression, every subtraction replaced by an addition of magnitudes.
-fn terms(model: &Model, parameters: &Parameters, root: Id, stretches: [f64; 3]) -> f64 {
-    let Parameters { values, lengths } = parameters.clone();
-    let point = interpret::Point { stretches, parameters: values.into(), lengths, epsilon: EPSILON };
-    evaluate(&model.graph, root, &point).magnitude
 }
 
 /// A value to be judged, and its circumstances.
