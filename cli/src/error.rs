@@ -119,11 +119,14 @@ pub enum Error {
         /// The tests that it has.
         known: Vec<&'static str>,
     },
-    /// A unit is given without measured points.
+    /// An option of measured points is given without them.
     #[error(
-        "--unit applies to measured points: add --data FILE, or leave it out; units of parameters are written after them"
+        "{0} applies to measured points: add --data FILE, or leave it out; units of parameters are written after them"
     )]
-    UnitWithoutData,
+    WithoutData(
+        /// The option.
+        &'static str,
+    ),
     /// Parameters cannot be fitted to the data.
     #[error(
         "{material} cannot be fitted: {source}{}",

@@ -96,10 +96,12 @@ fn data_say_what_they_are_or_are_told_by_options() {
     let (read, options, agreement) = fit(&["whole.csv"]);
     let expected = "whole.csv: `stretch` as stretch, `nominal_stress_MPa` as nominal stress in MPa; 25 points of uniaxial";
     assert!(read.ends_with(expected), "{read}");
-    for (file, said) in
-        [("bare.csv", "`stress` as nominal stress in MPa"), ("headless.csv", "decimal commas")]
-    {
-        let (read, again, agreement_again) = fit(&[file, "--mode", "UT", "--unit", "MPa"]);
+    for (file, columns, said) in [
+        ("bare.csv", &[][..], "`stress` as nominal stress in MPa"),
+        ("headless.csv", &["--strain", "1=stretch", "--stress", "2"], "decimal commas"),
+    ] {
+        let (read, again, agreement_again) =
+            fit(&[&[file, "--mode", "UT", "--unit", "MPa"], columns].concat());
         assert!(read.contains(said), "{read}");
         assert_eq!((again, agreement_again), (options.clone(), agreement.clone()), "{file}");
     }
@@ -109,7 +111,7 @@ fn data_say_what_they_are_or_are_told_by_options() {
 fn files_of_several_tests_are_read_together() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     fs::write(folder.path().join("ut.csv"), "Strain [%],Stress [MPa]\n50,0.4\n100,0.6\n").expect("a file");
-    fs::write(folder.path().join("ps.txt"), "1.5 450\n2 700\n").expect("a file");
+    fs::write(folder.path().join("ps.txt"), "stretch stress\n1.5 450\n2 700\n").expect("a file");
     let files =
         ["--data", "ut.csv", "--mode", "uniaxial", "--data", "ps.txt", "--mode", "planar", "--unit", "kPa"];
     let text = piola(folder.path(), &[&["curve", "yeoh", "--incompressible"], &files[..]].concat());

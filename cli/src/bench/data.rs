@@ -1,29 +1,30 @@
-//! Options for measured points: files, and the tests and units that they do not name.
+//! Options for measured points: files, and the columns, tests and units that they do not name.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use piola_laboratory::data::{Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944, Test, decoded};
+use piola_laboratory::data::{
+    ColumnChoice, Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944, Test, decoded,
+};
 
 use crate::error::Error;
 use crate::overlap::refuse_overlaps;
 
 /// Contents of files, below the help of each command that reads measurements.
 pub(super) const HELP: &str = "\
-Files of measured points, as written by test machines and spreadsheets:
-  separators  commas, semicolons, tabs or spaces; decimals with a point or a comma
-  columns     by the words of their headers: `stretch`; `strain` (nominal), `true strain`, `shear strain`,
-              `volume ratio`, `volume strain`; `stress` (nominal), `true stress`, `pressure`; `mode`.
+Files of measured points:
+  separators  tabs, semicolons, commas or spaces; decimals with a point, or with a comma if columns are not
+              separated by commas
+  columns     `stretch`, `strain` (nominal), `true strain`, `shear strain`, `volume ratio`, `volume strain`;
+              `stress` (nominal), `true stress`, `pressure`; `mode`. Others are chosen by --strain and --stress.
               True stress σ becomes nominal stress P = σ/λ, as for an incompressible solid
   units       after the name or in a row below, as in `strain [%]`, `stress (MPa)`: Pa, kPa, MPa, GPa, psi,
               ksi, bar, atm, kgf/cm2, kgf/mm2, dyn/cm2, N/mm2
   tests       uniaxial (UT, tension, compression), equibiaxial (ET, EB, BT, biaxial), pure_shear (PS, planar),
               simple_shear (SS), volumetric (hydrostatic), in a column `mode` or by --mode
-  without a header: a stretch and a nominal stress, with --mode and --unit
-  decks       blocks such as *UNIAXIAL TEST DATA, with nominal stress and nominal strain, and --unit
 The output names what was read and what was left out of each file.";
 
-/// Measured points, with tests and units that their files do not name.
+/// Measured points, with columns, tests and units that their files do not name.
 #[derive(Debug, Args)]
 pub(crate) struct Data {
     /// Measured points: a file, or `treloar`; may be repeated, as for a file of each test.
@@ -39,6 +40,15 @@ pub(crate) struct Data {
     /// Unit of stresses whose header names none, such as MPa: one for all files, or one for each --data.
     #[arg(long = "unit", value_name = "UNIT")]
     units: Vec<StressUnit>,
+
+    /// Column of the strain, by name or number, and what it holds if its header does not say it, as in
+    /// `Dehnung`, `1=stretch`, `Dehnung=strain [%]`: one for all files, or one for each --data.
+    #[arg(long = "strain", value_name = "COLUMN")]
+    strains: Vec<ColumnChoice>,
+
+    /// Column of the stress, as in `Spannung`, `2`, `2=true stress [MPa]`.
+    #[arg(long = "stress", value_name = "COLUMN")]
+    stresses: Vec<ColumnChoice>,
 }
 
 /// Measured points of all files, and how these were understood.
@@ -63,12 +73,18 @@ impl Data {
 
     /// The points of all files; `None` without a file.
     pub(super) fn read(&self) -> Result<Option<Measured>, Error> {
-        let (files, given) = (self.files.len(), self.units.len());
-        if files == 0 && given > 0 {
-            return Err(Error::UnitWithoutData);
-        }
-        if given > 1 && given != files {
-            return Err(Error::Unpaired { option: "--unit", given, files });
+        let files = self.files.len();
+        for (option, given) in [
+            ("--unit", self.units.len()),
+            ("--strain", self.strains.len()),
+            ("--stress", self.stresses.len()),
+        ] {
+            if files == 0 && given > 0 {
+                return Err(Error::WithoutData(option));
+            }
+            if given > 1 && given != files {
+                return Err(Error::Unpaired { option, given, files });
+            }
         }
         let mut all = Measured::default();
         for (index, file) in self.files.iter().enumerate() {
@@ -89,6 +105,10 @@ impl Data {
         let mut options = ReadOptions::default();
         options.test = self.of_file(&self.tests, index);
         options.unit = self.of_file(&self.units, index);
+        if !is_treloar(file) {
+            options.strain = self.of_file(&self.strains, index);
+            options.stress = self.of_file(&self.stresses, index);
+        }
         let (files, given) = (self.files.len(), self.tests.len());
         let reading =
             Measurements::read_with(&decoded(&bytes), &options).map_err(|source| match source.fault {
@@ -112,10 +132,10 @@ impl Data {
     }
 
     /// The value of an option for a file: the only one, or that of its place.
-    fn of_file<T: Copy>(&self, values: &[T], index: usize) -> Option<T> {
+    fn of_file<T: Clone>(&self, values: &[T], index: usize) -> Option<T> {
         match values {
-            [one] => Some(*one),
-            values if values.len() == self.files.len() => Some(values[index]),
+            [one] => Some(one.clone()),
+            values if values.len() == self.files.len() => Some(values[index].clone()),
             _ => None,
         }
     }

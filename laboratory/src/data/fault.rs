@@ -2,11 +2,7 @@
 
 use piola::__private::message::{number, quoted};
 
-use crate::curve::{Mode, ModeError, ResponseError};
-
-/// Sizes of controls and of stresses, Pa, that measurements may have.
-pub(crate) const CONTROLS: (f64, f64) = (1e-6, 1e6);
-pub(crate) const STRESSES: (f64, f64) = (1e-100, 1e100);
+use crate::curve::{Mode, ModeError};
 
 /// A mistake in a file of measurements.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -24,47 +20,25 @@ pub struct DataError {
 #[non_exhaustive]
 pub enum Fault {
     /// The file is empty.
-    #[error("there is no table; {HEADER}, then lines such as `uniaxial,1.5,0.37`")]
-    NoHeader,
+    #[error(
+        "there is no table; write `mode,stretch,nominal_stress_MPa`, then lines such as `uniaxial,1.5,0.37`"
+    )]
+    NoTable,
     /// The file is a spreadsheet, or another archive.
     #[error("this is not text but an archive, as spreadsheets are; save the sheet as CSV")]
     Archive,
-    /// A column is missing.
-    #[error("the header `{}` has no column of a {quantity}; {HEADER}, or {WORDS}", quoted(found))]
-    NoColumn {
-        /// The quantity that is missing: a stretch or a stress.
-        quantity: &'static str,
-        /// The header as given.
-        found: String,
-    },
-    /// A force or an elongation instead of a stress or a strain.
+    /// The header does not determine the columns of the strain and the stress.
     #[error(
-        "`{}` is a force or a length, from which no stress or strain follows without the size of the specimen: divide \
-         forces by the cross-section at rest and elongations by the length at rest, and name the columns `stress [MPa]` \
-         and `strain`",
-        quoted(found)
+        "{problem}; the columns are {}. Write a header such as `stretch,nominal_stress_MPa`, or give the columns by name or \
+         number and what they hold: `--strain \"1=strain [%]\" --stress \"2=stress [MPa]\"` (`ReadOptions::with_strain`). \
+         Divide forces by the cross-section and elongations by the length at rest",
+        listed(columns)
     )]
-    NoSize {
-        /// The header of the column.
-        found: String,
-    },
-    /// Two columns hold the same quantity.
-    #[error("the columns `{}` and `{}` are both of {quantity}; keep one, or rename the other", quoted(&found[0]), quoted(&found[1]))]
-    ColumnTwice {
-        /// The quantity.
-        quantity: &'static str,
-        /// The headers of the columns.
-        found: [String; 2],
-    },
-    /// Stress of an unnamed kind next to a true strain.
-    #[error(
-        "`{}` stands next to a true strain: is it a true stress, or a nominal one, force by area at rest? Write `true stress` \
-         or `nominal stress`",
-        quoted(found)
-    )]
-    WhichStress {
-        /// The header of the stress.
-        found: String,
+    Columns {
+        /// The reason.
+        problem: String,
+        /// The header, column by column; where there is none, the first row.
+        columns: Vec<String>,
     },
     /// No unit of stress is named.
     #[error(
@@ -73,28 +47,7 @@ pub enum Fault {
         quoted(found)
     )]
     NoUnit {
-        /// The header of the stress, or which column it is.
-        found: String,
-    },
-    /// The header and the row of units below it name different units.
-    #[error("`{}` has the unit `{}` in the row below it; keep one", quoted(header), quoted(below))]
-    UnitTwice {
-        /// The header of the column.
-        header: String,
-        /// The unit below it.
-        below: String,
-    },
-    /// The unit of a strain is not known.
-    #[error(
-        "the unit `{}` of `{}` is not known; write `strain [%]`, `strain [‰]`, `strain [µε]` or `strain [-]`, with numbers \
-         in that unit",
-        quoted(found),
-        quoted(header)
-    )]
-    StrainUnit {
-        /// The header of the column.
-        header: String,
-        /// The text that stands for a unit.
+        /// The header of the stress, or its number.
         found: String,
     },
     /// Nothing names the test.
@@ -103,16 +56,10 @@ pub enum Fault {
          simple_shear or volumetric in each line, or give the test (`--mode uniaxial`, `ReadOptions::with_test`)"
     )]
     NoMode,
-    /// Columns without a header, which are not a stretch and a stress.
-    #[error("there is no header above {columns} columns; {HEADER}, or {WORDS}")]
-    Columns {
-        /// Number of columns in the data.
-        columns: usize,
-    },
     /// A row has another number of fields than the header.
     #[error(
         "{found} fields where the header has {expected}; write as many{}",
-        if found > expected { ", and decimals with a point where commas separate columns" } else { "" }
+        if found > expected { ", and decimals with a point, or columns separated by semicolons or tabs" } else { "" }
     )]
     Fields {
         /// Fields of the row.
@@ -137,42 +84,23 @@ pub enum Fault {
     },
     /// A comma or a point in a number may be one of decimals, or one of thousands.
     #[error(
-        "`{}` may have a mark of decimals or one of thousands; write decimals with one mark in the whole file, and \
-         thousands without any",
+        "`{}` may have a mark of decimals or one of thousands; write decimals with one mark in the whole file, a point if \
+         all have three digits behind it, and thousands without any",
         quoted(found)
     )]
     Decimals {
         /// The text there.
         found: String,
     },
-    /// No specimen can be brought to that stretch, shear or volume.
-    #[error("{reason}{remedy}")]
-    Control {
-        /// The reason.
-        #[source]
-        reason: ResponseError,
-        /// Advice about what the number may be instead, to be put behind the reason.
-        remedy: &'static str,
-    },
-    /// A stretch, a shear or a volume is out of bounds.
-    #[error(
-        "{} is {}; it must be at most {:e}{}", mode.quantity(), number(*control), CONTROLS.1,
-        if *mode == Mode::SimpleShear { "" } else { " and at least 1e-6" }
-    )]
-    ControlRange {
-        /// The test.
-        mode: Mode,
-        /// The control as given.
-        control: f64,
-    },
-    /// A stress is out of bounds.
-    #[error(
-        "the stress is {} Pa; it must be at most {:e} Pa, and at least {:e} Pa if it is not 0: does the header name the right unit?",
-        number(*stress), STRESSES.1, STRESSES.0
-    )]
-    StressRange {
-        /// The stress, Pa.
-        stress: f64,
+    /// A stretch, a shear, a volume or a stress is out of range.
+    #[error("{quantity} is {}; it must be {requirement}", number(*value))]
+    Range {
+        /// The quantity, such as `the stretch`.
+        quantity: &'static str,
+        /// The value as given, stresses in Pa.
+        value: f64,
+        /// The range, and advice about what else the number may be.
+        requirement: &'static str,
     },
     /// A quantity that the test does not have.
     #[error("`{}` is not a quantity of the test {mode}", quoted(column))]
@@ -182,12 +110,11 @@ pub enum Fault {
         /// The test.
         mode: Mode,
     },
-    /// The stress has another sign than the strain.
+    /// A point that is unlikely to be what its header and its test mean.
     #[error(
-        "{mode} {} = {} has a stress of {} Pa, of another sign than its strain: {}a strain is written under `strain` or \
-         `strain [%]`, a compression with negative strain and stress or under `compressive strain` and `compressive stress`",
-        mode.letter(), number(*control), number(*stress),
-        if *control < mode.rest() && *stress > 0.0 { "is the number a strain, or a compression? " } else { "" }
+        "{mode} {} = {} has a stress of {} Pa{question}: a strain is written under `strain` or `strain [%]`, a compression \
+         with negative strain and stress or under `compressive strain` and `compressive stress`",
+        mode.letter(), number(*control), number(*stress)
     )]
     Sign {
         /// The test.
@@ -196,20 +123,8 @@ pub enum Fault {
         control: f64,
         /// The stress, Pa.
         stress: f64,
-    },
-    /// A test called compression with points beyond rest.
-    #[error(
-        "a compression reaches {} = {} with {} Pa: strain and stress of compression are negative, or positive in columns \
-         named `compressive strain` and `compressive stress`",
-        mode.letter(), number(*control), number(*stress)
-    )]
-    Compression {
-        /// The test.
-        mode: Mode,
-        /// The control.
-        control: f64,
-        /// The stress, Pa.
-        stress: f64,
+        /// The reason, and what the numbers may be instead.
+        question: &'static str,
     },
     /// Stretches as large as strains in percent.
     #[error(
@@ -233,16 +148,11 @@ pub enum Fault {
     NoPoints,
 }
 
-const HEADER: &str = "write `mode,stretch,nominal_stress_MPa` above the points";
-const WORDS: &str = "name columns by `stretch`, `strain`, `true strain`, `shear strain`, `volume ratio`, `volume strain` and \
-                     `stress`, `true stress`, `pressure`, with a unit as in `strain [%]`, `stress [MPa]`";
-
-impl Fault {
-    /// The fault with what a number that cannot be a control may be instead.
-    pub(super) fn with_remedy(self, remedy: &'static str) -> Self {
-        match self {
-            Self::Control { reason, .. } => Self::Control { reason, remedy },
-            fault => fault,
-        }
-    }
+/// Columns with their numbers.
+fn listed(columns: &[String]) -> String {
+    const MOST: usize = 12;
+    let columns = (1..).zip(columns).map(|(number, column)| format!("{number} `{}`", quoted(column)));
+    let (shown, others) = (columns.clone().take(MOST).collect::<Vec<_>>(), columns.skip(MOST).count());
+    let more = if others > 0 { format!(" and {others} more") } else { String::new() };
+    shown.join(", ") + &more
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use piola::__private::message::number;
 
-use super::fault::{CONTROLS, Fault, STRESSES};
+use super::fault::Fault;
 use crate::curve::{Mode, Response, ResponseError, Volume, respond};
 use crate::specimen::Specimen;
 
@@ -29,19 +29,25 @@ impl Measured {
     /// The mistake in a reading out of the range that the [module](super) states.
     pub(crate) fn fault(&self) -> Option<Fault> {
         let Self { mode, control, stress } = *self;
-        let (size, least) = match mode {
-            Mode::SimpleShear => (control.abs(), 0.0),
-            _ => (control, CONTROLS.0),
-        };
-        if !mode.allows(control) {
-            Some(Fault::Control { reason: ResponseError::Control { mode, control }, remedy: "" })
-        } else if !(least..=CONTROLS.1).contains(&size) {
-            Some(Fault::ControlRange { mode, control })
-        } else if stress != 0.0 && !(STRESSES.0..=STRESSES.1).contains(&stress.abs()) {
-            Some(Fault::StressRange { stress })
+        let is_shear = mode == Mode::SimpleShear;
+        let size = if is_shear { control.abs() } else { control };
+        let (quantity, value, requirement) = if !mode.allows(control)
+            || !(size <= 1e6 && (is_shear || size >= 1e-6))
+        {
+            let requirement = match is_shear {
+                true => "finite, and at most 1e6",
+                false => {
+                    "positive, at least 1e-6 and at most 1e6; a strain is written under `strain`, one in percent under `strain [%]`"
+                }
+            };
+            (mode.quantity(), control, requirement)
+        } else if stress != 0.0 && !(1e-100..=1e100).contains(&stress.abs()) {
+            let requirement = "at most 1e100 Pa, and at least 1e-100 Pa if it is not 0: is its unit right?";
+            ("the stress in Pa", stress, requirement)
         } else {
-            None
-        }
+            return None;
+        };
+        Some(Fault::Range { quantity, value, requirement })
     }
 }
 

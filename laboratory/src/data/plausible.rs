@@ -3,7 +3,7 @@
 use super::fault::{DataError, Fault};
 use super::heading::{Heading, Quantity};
 use super::measured::Measured;
-use super::test::Test;
+use super::options::Test;
 use crate::curve::Mode;
 
 /// Stretches that are unlikely for rubber: numbers that are all beyond the first, or some beyond the second,
@@ -13,7 +13,7 @@ const FAR: (f64, f64) = (8.0, 20.0);
 const SMALL: f64 = 0.02;
 
 /// Refuses points of a table, with line and test of each, that are unlikely to be what their header names.
-pub(super) fn check(points: &[Measured], rows: &[(u64, Test)], heading: &Heading) -> Result<(), DataError> {
+pub(super) fn check(points: &[Measured], rows: &[(u64, Test)], column: &Heading) -> Result<(), DataError> {
     for mode in Mode::ALL {
         let points: Vec<_> = points.iter().zip(rows).filter(|(point, _)| point.mode == mode).collect();
         let strain = |point: &Measured| point.control - mode.rest();
@@ -22,19 +22,17 @@ pub(super) fn check(points: &[Measured], rows: &[(u64, Test)], heading: &Heading
         };
         let (range, peak) = (greatest(&strain), greatest(&|point| point.stress));
         let is_pulled = points.iter().all(|(point, _)| point.stress > -0.01 * peak);
-        if heading.unit.is_none() && mode != Mode::Volumetric {
+        if column.unit.is_none() && mode != Mode::Volumetric {
             let mut controls = points.iter().filter(|(point, _)| strain(point).abs() > SMALL);
             let least = controls.clone().map(|(point, _)| point.control).fold(f64::INFINITY, f64::min);
             let most = controls.clone().map(|(point, _)| point.control).fold(0.0, f64::max);
             if let Some((_, (line, _))) = controls.next()
                 && (least > FAR.0 || most > FAR.1)
             {
-                let (column, range) = (heading.text.clone(), least..=most);
-                let is_stretch = heading.quantity == Quantity::Stretch;
-                return Err(DataError {
-                    line: *line,
-                    fault: Fault::Percent { column, mode, range, is_stretch },
-                });
+                let is_stretch = column.quantity == Quantity::Stretch;
+                let (column, range) = (column.text.clone(), least..=most);
+                let fault = Fault::Percent { column, mode, range, is_stretch };
+                return Err(DataError { line: *line, fault });
             }
         }
         for &(point, &(line, test)) in &points {
@@ -46,12 +44,14 @@ pub(super) fn check(points: &[Measured], rows: &[(u64, Test)], heading: &Heading
             if strain.abs() <= SMALL.min(0.1 * range) || stress.abs() <= noise * peak {
                 continue;
             }
-            if (test.is_compression || heading.is_compressive) && strain > 0.0 {
-                return Err(DataError { line, fault: Fault::Compression { mode, control, stress } });
-            }
-            if (strain > 0.0) != (stress > 0.0) {
-                return Err(DataError { line, fault: Fault::Sign { mode, control, stress } });
-            }
+            let question = if (test.is_compression || column.is_compressive) && strain > 0.0 {
+                ", but the test is a compression"
+            } else if (strain > 0.0) != (stress > 0.0) {
+                ", of another sign than its strain; is the number a strain, or a compression?"
+            } else {
+                continue;
+            };
+            return Err(DataError { line, fault: Fault::Sign { mode, control, stress, question } });
         }
     }
     Ok(())

@@ -2,16 +2,15 @@
 
 use std::fmt;
 
-use piola::__private::message::names;
+use piola::__private::message::{names, quoted};
 
+use super::columns::{Row, Table, Used};
 use super::fault::{DataError, Fault};
-use super::heading::Quantity;
-use super::layout;
+use super::heading::{Heading, Quantity, Unit};
 use super::measured::{Measured, Measurements};
-use super::options::ReadOptions;
+use super::options::{ReadOptions, Test};
 use super::plausible;
-use super::section::Section;
-use super::table::{Separator, decimal};
+use super::table::{decimal, number};
 use crate::curve::Mode;
 
 /// Measurements, and how a file was understood.
@@ -53,7 +52,7 @@ impl Measurements {
         Self::read_with(text, &ReadOptions::default()).map(|reading| reading.measurements)
     }
 
-    /// Reads the text of a file, with a test and a unit if it names none.
+    /// Reads the text of a file, with columns, a test and a unit if it names none.
     ///
     /// # Errors
     /// [`DataError`] of the first malformed line, if the columns or their numbers are ambiguous, or if no
@@ -63,76 +62,136 @@ impl Measurements {
         if text.starts_with("PK\u{3}\u{4}") {
             return Err(DataError { line: 1, fault: Fault::Archive });
         }
-        let (separator, mut sections) = layout::sections(text)?;
-        if options.test.is_some() {
-            sections.iter_mut().for_each(Section::leave_out_specimens);
+        let table = Table::of(text, options)?;
+        let at_header = |fault| DataError { line: table.line, fault };
+        if table.used.mode.is_none() && options.test.is_none() {
+            return Err(at_header(Fault::NoMode));
         }
-        let cells = sections.iter().flat_map(Section::numbers);
-        let unclear =
-            |(line, found): (u64, &str)| DataError { line, fault: Fault::Decimals { found: found.into() } };
-        let decimal = decimal(cells.clone()).map_err(unclear)?;
-        if let Some(found) = thousands(separator, decimal, cells) {
-            return Err(unclear(found));
-        }
-
+        let factors = [&table.used.control, &table.used.stress].map(|column| factor(column, options));
+        let [control, stress] = factors;
+        let factors = [control.map_err(at_header)?, stress.map_err(at_header)?];
+        let decimal = match table.separator {
+            ',' => '.',
+            _ => decimal(table.numbers()).map_err(|(line, found)| {
+                let fault = Fault::Decimals { found: found.into() };
+                DataError { line, fault }
+            })?,
+        };
         let (mut points, mut rows) = (Vec::new(), Vec::new());
-        for section in &sections {
-            section.is_complete(options).map_err(|fault| DataError { line: section.line, fault })?;
-            let first = points.len();
-            for row in &section.rows {
-                let (test, point) = section.point(row, decimal, options)?;
-                points.push(point);
-                rows.push((row.line, test));
-            }
-            plausible::check(&points[first..], &rows[first..], &section.control.heading)?;
+        for row in &table.rows {
+            let point = table.used.point(row, decimal, factors, options);
+            let (test, point) = point.map_err(|fault| DataError { line: row.line, fault })?;
+            points.push(point);
+            rows.push((row.line, test));
         }
+        plausible::check(&points, &rows, &table.used.control)?;
         if points.iter().all(Measured::is_rest) {
-            let line = sections.last().map_or(1, |section| section.line);
-            return Err(DataError { line, fault: Fault::NoPoints });
+            return Err(at_header(Fault::NoPoints));
         }
         let measurements = Measurements { points };
-        let note = note(&sections, separator, decimal, options, &measurements);
+        let note = note(&table, decimal, options, &measurements);
         Ok(Reading { measurements, note })
     }
 }
 
-/// A number that may have commas for thousands: quoted ones in a file that is separated by commas, if none of
-/// them has another number of digits behind the comma than three.
-fn thousands<'a>(
-    separator: Separator,
-    decimal: char,
-    cells: impl Iterator<Item = (u64, &'a str)>,
-) -> Option<(u64, &'a str)> {
-    if (separator, decimal) != (Separator::Comma, ',') {
-        return None;
+impl Table<'_> {
+    /// The fields that must be numbers, with their lines.
+    fn numbers(&self) -> impl Iterator<Item = (u64, &str)> + Clone {
+        let places = [self.used.control.place, self.used.stress.place];
+        self.rows.iter().flat_map(move |row| places.map(|place| (row.line, row.fields[place])))
     }
-    let mut cells = cells.filter(|(_, cell)| cell.contains(','));
-    let is_whole = |cell: &str| {
-        let (before, after) = cell.trim_start_matches(['-', '+']).split_once(',').unwrap_or(("", ""));
-        !before.starts_with('0') && after.len() == 3
+}
+
+/// The size of a unit of a column, with the sign of compression.
+fn factor(column: &Heading, options: &ReadOptions) -> Result<f64, Fault> {
+    let size = match (column.unit, options.unit) {
+        (Some(Unit::Share(size)), _) => size,
+        (Some(Unit::Stress(unit)), _) => unit.pascals(),
+        (None, _) if !column.quantity.is_stress() => 1.0,
+        (None, Some(unit)) => unit.pascals(),
+        (None, None) => return Err(Fault::NoUnit { found: column.text.clone() }),
     };
-    let first = cells.next().filter(|(_, cell)| is_whole(cell))?;
-    cells.all(|(_, cell)| is_whole(cell)).then_some(first)
+    Ok(if column.is_compressive { -size } else { size })
+}
+
+impl Used {
+    /// The point of a row, with its test.
+    fn point(
+        &self,
+        row: &Row<'_>,
+        decimal: char,
+        factors: [f64; 2],
+        options: &ReadOptions,
+    ) -> Result<(Test, Measured), Fault> {
+        let test = match self.mode {
+            Some(place) => row.fields[place].parse()?,
+            None => options.test.ok_or(Fault::NoMode)?,
+        };
+        let value = |column: &Heading, factor: f64| {
+            let found = row.fields[column.place];
+            let fault = || Fault::Number { column: column.text.clone(), found: found.into() };
+            Ok::<_, Fault>(factor * number(found, decimal).ok_or_else(fault)?)
+        };
+        let not_of_test =
+            |column: &Heading| Fault::NotOfTest { column: column.text.clone(), mode: test.mode };
+        let (control, stress) = (value(&self.control, factors[0])?, value(&self.stress, factors[1])?);
+        let control = control_of(self.control.quantity, test.mode, control);
+        let control = control.ok_or_else(|| not_of_test(&self.control))?;
+        // The control first: a stress may be divided by it.
+        if let Some(fault) = (Measured { mode: test.mode, control, stress: 0.0 }).fault() {
+            return Err(fault);
+        }
+        let stress = stress_of(self.stress.quantity, test.mode, control, stress);
+        let stress = stress.ok_or_else(|| not_of_test(&self.stress))?;
+        let measured = Measured { mode: test.mode, control, stress };
+        measured.fault().map_or(Ok((test, measured)), Err)
+    }
+}
+
+/// The control of a test from a quantity that a column holds.
+fn control_of(quantity: Quantity, mode: Mode, value: f64) -> Option<f64> {
+    match (quantity, mode) {
+        (Quantity::Stretch, _)
+        | (Quantity::Strain | Quantity::Shear, Mode::SimpleShear)
+        | (Quantity::Volume, Mode::Volumetric) => Some(value),
+        (Quantity::TrueStrain, Mode::SimpleShear) => None,
+        (Quantity::Strain, _) | (Quantity::VolumeStrain, Mode::Volumetric) => Some(1.0 + value),
+        (Quantity::TrueStrain, _) => Some(value.exp()),
+        _ => None,
+    }
+}
+
+/// The stress of a test from a quantity that a column holds.
+///
+/// In the first three tests the area that a true stress acts on is 1/λ of that at rest where the volume is
+/// kept: λ^(−½) λ^(−½), λ λ^(−2), 1 · λ^(−1). In simple shear the plates keep their area, and the stress of a
+/// volumetric test is a true one already.
+fn stress_of(quantity: Quantity, mode: Mode, control: f64, value: f64) -> Option<f64> {
+    match (quantity, mode) {
+        (Quantity::TrueStress, Mode::Uniaxial | Mode::Equibiaxial | Mode::PureShear) => Some(value / control),
+        (Quantity::Stress | Quantity::TrueStress, _) => Some(value),
+        (Quantity::Pressure, Mode::Volumetric) => Some(-value),
+        _ => None,
+    }
+}
+
+/// The column with its quantity and unit, in sentences.
+fn described(column: &Heading, options: &ReadOptions) -> String {
+    let unit = match (column.unit, options.unit) {
+        (Some(Unit::Stress(unit)), _) => format!(" in {unit}"),
+        (Some(Unit::Share(0.01)), _) => " in %".into(),
+        (None, Some(unit)) if column.quantity.is_stress() => format!(" in {unit}"),
+        _ => String::new(),
+    };
+    let sign = if column.is_compressive { ", compression positive" } else { "" };
+    format!("`{}` as {}{unit}{sign}", quoted(&column.text), column.quantity.name())
 }
 
 /// Describes how the file was understood.
-fn note(
-    sections: &[Section<'_>],
-    separator: Separator,
-    decimal: char,
-    options: &ReadOptions,
-    data: &Measurements,
-) -> String {
-    let mut columns: Vec<String> = Vec::new();
-    for column in sections.iter().flat_map(|section| [&section.control, &section.stress]) {
-        let name = column.name(options);
-        if !columns.contains(&name) {
-            columns.push(name);
-        }
-    }
-    let mut parts = vec![columns.join(", ")];
-    let is_true = |section: &Section<'_>| section.stress.heading.quantity == Quantity::TrueStress;
-    if sections.iter().any(is_true) {
+fn note(table: &Table<'_>, decimal: char, options: &ReadOptions, data: &Measurements) -> String {
+    let Used { control, stress, .. } = &table.used;
+    let mut parts = vec![format!("{}, {}", described(control, options), described(stress, options))];
+    if stress.quantity == Quantity::TrueStress {
         parts.push("nominal stress from true stress as of an incompressible solid".into());
     }
     let counts = Mode::ALL.map(|mode| match data.of(mode).count() {
@@ -141,15 +200,13 @@ fn note(
         count => Some(format!("{count} points of {mode}")),
     });
     parts.push(counts.into_iter().flatten().collect::<Vec<_>>().join(", "));
-    if separator != Separator::Comma || decimal != '.' {
-        let decimals = if decimal == ',' { " and decimal commas" } else { "" };
-        parts.push(format!("separated by {}{decimals}", separator.name()));
+    if decimal == ',' {
+        parts.push("decimal commas".into());
     }
-    let unused: Vec<_> = sections.iter().flat_map(|section| &section.unused).collect();
-    if !unused.is_empty() {
-        parts.push(format!("left out: {}", names(unused)));
+    if !table.unused.is_empty() {
+        parts.push(format!("left out: {}", names(&table.unused)));
     }
-    match sections.first().map_or(0, |section| section.preamble) {
+    match table.preamble {
         0 => {}
         1 => parts.push("a line above the header left out".into()),
         lines => parts.push(format!("{lines} lines above the header left out")),

@@ -1,0 +1,205 @@
+//! The header of a table: which of its columns are used, and what they hold.
+
+use piola::__private::message::quoted;
+
+use super::fault::{DataError, Fault};
+use super::heading::{Heading, Quantity, has_clear_unit, unit};
+use super::options::{ColumnChoice, ReadOptions};
+use super::table::{fields, is_number, separator};
+
+/// A row of fields.
+pub(super) struct Row<'a> {
+    pub(super) line: u64,
+    pub(super) fields: Vec<&'a str>,
+}
+
+impl Row<'_> {
+    /// True if this is not a header but a row of the table.
+    fn is_data(&self) -> bool {
+        self.fields.iter().filter(|field| is_number(field)).count() > 1
+    }
+
+    /// True if this may be a row of units below a header.
+    fn is_units(&self) -> bool {
+        self.fields.iter().any(|field| unit(field).is_some())
+            && !self.fields.iter().any(|field| is_number(field))
+    }
+}
+
+/// Rows with the columns that are used.
+pub(super) struct Table<'a> {
+    /// The line of the header, or of the first row where there is none.
+    pub(super) line: u64,
+    pub(super) separator: char,
+    pub(super) used: Used,
+    /// Headers of columns that are not used.
+    pub(super) unused: Vec<String>,
+    /// Lines above the header that are not comments.
+    pub(super) preamble: usize,
+    pub(super) rows: Vec<Row<'a>>,
+}
+
+/// The columns that are used.
+pub(super) struct Used {
+    /// The column with the test.
+    pub(super) mode: Option<usize>,
+    pub(super) control: Heading,
+    pub(super) stress: Heading,
+}
+
+impl<'a> Table<'a> {
+    /// The table of a file: below the first line whose columns are those of the options, or else in plain
+    /// form. If both columns are chosen by their numbers, it begins with the first number in one of them.
+    pub(super) fn of(text: &'a str, options: &ReadOptions) -> Result<Self, DataError> {
+        let (separator, mut rows) = rows(text)?;
+        let number = |choice: &Option<ColumnChoice>| choice.as_ref().and_then(ColumnChoice::number);
+        let places = number(&options.strain).zip(number(&options.stress));
+        let (preamble, begin, used) = match places {
+            Some((strain, stress)) => by_numbers(&rows, [strain, stress], options)?,
+            None => by_names(&rows, options)?,
+        };
+        let Row { line, fields } = &rows[preamble];
+        let (line, expected, has_header) = (*line, fields.len(), begin > preamble);
+        let is_used =
+            |place| [Some(used.control.place), Some(used.stress.place), used.mode].contains(&Some(place));
+        let names = fields.iter().enumerate();
+        let unused = names.filter(|(place, name)| has_header && !name.is_empty() && !is_used(*place));
+        let unused = unused.map(|(_, name)| (*name).to_owned()).collect();
+        rows.drain(..begin);
+        for row in &mut rows {
+            // Such as of a separator at the end of each line.
+            while row.fields.len() > expected && row.fields.last().is_some_and(|field| field.is_empty()) {
+                row.fields.pop();
+            }
+            if row.fields.len() != expected {
+                let fault = Fault::Fields { found: row.fields.len(), expected };
+                return Err(DataError { line: row.line, fault });
+            }
+        }
+        Ok(Self { line, separator, used, unused, preamble, rows })
+    }
+}
+
+/// The separator, and all rows with something in them that are not comments. Lines may end as on any system.
+fn rows(text: &str) -> Result<(char, Vec<Row<'_>>), DataError> {
+    let end = if text.contains('\n') { '\n' } else { '\r' };
+    let is_comment = |text: &str| ["#", "//", "**"].iter().any(|mark| text.starts_with(mark));
+    let lines = (1..).zip(text.split(end)).map(|(line, text)| (line, text.trim_matches([' ', '\r'])));
+    let lines: Vec<_> = lines.filter(|(_, text)| !text.trim().is_empty() && !is_comment(text)).collect();
+    let separator = lines.last().map_or(' ', |(_, last)| separator(last));
+    let rows = lines.into_iter().map(|(line, text)| Row { line, fields: fields(text, separator) });
+    let rows: Vec<_> = rows.filter(|row| row.fields.iter().any(|field| !field.is_empty())).collect();
+    if rows.is_empty() { Err(DataError { line: 1, fault: Fault::NoTable }) } else { Ok((separator, rows)) }
+}
+
+/// The index of the header, or of the first row if there is none, that of the first row, and the columns.
+type Found = (usize, usize, Used);
+
+fn by_names(rows: &[Row<'_>], options: &ReadOptions) -> Result<Found, DataError> {
+    for (index, row) in rows.iter().enumerate().filter(|(_, row)| !row.is_data()) {
+        let units = rows.get(index + 1).filter(|row| row.is_units());
+        let Ok(used) = Used::of(&row.fields, units, options) else { continue };
+        let is_row = |above: &Row<'_>| above.is_data() && above.fields.len() == row.fields.len();
+        if rows[..index].iter().any(is_row) {
+            break;
+        }
+        return Ok((index, index + 1 + usize::from(units.is_some()), used));
+    }
+    // The line above the numbers, or what else may be a header.
+    let first = rows.iter().position(Row::is_data).unwrap_or(rows.len());
+    let names = rows[..first].iter().rfind(|row| !row.is_units()).unwrap_or(&rows[0]);
+    match Used::of(&names.fields, None, options) {
+        Err(problem) if !names.is_data() => Err(refused(names, problem)),
+        _ => Err(refused(names, "there is no header above the numbers".into())),
+    }
+}
+
+fn by_numbers(rows: &[Row<'_>], numbers: [usize; 2], options: &ReadOptions) -> Result<Found, DataError> {
+    let field = |row: &Row<'_>, number: usize| {
+        row.fields.get(number.wrapping_sub(1)).is_some_and(|field| is_number(field))
+    };
+    let first = rows.iter().position(|row| numbers.iter().any(|number| field(row, *number)));
+    let first = first.unwrap_or(rows.len() - 1);
+    let nameless = vec![""; rows[first].fields.len()];
+    let used = Used::of(&nameless, None, options).map_err(|problem| refused(&rows[first], problem))?;
+    Ok((first, first, used))
+}
+
+fn refused(row: &Row<'_>, problem: String) -> DataError {
+    let columns = row.fields.iter().map(|&name| name.into()).collect();
+    DataError { line: row.line, fault: Fault::Columns { problem, columns } }
+}
+
+impl Used {
+    /// The columns among those with these names and the units below them, or the reason why there are none.
+    fn of(names: &[&str], units: Option<&Row<'_>>, options: &ReadOptions) -> Result<Self, String> {
+        let heading = |(place, name): (usize, &&str)| {
+            let heading = Heading::of(place, name);
+            let below =
+                units.and_then(|units| units.fields.get(place)).and_then(|below| Some((below, unit(below)?)));
+            match (heading.unit, below) {
+                (None, Some((below, _))) => {
+                    Heading::of(place, &format!("{name} [{}]", below.trim_matches(BRACKETS)))
+                }
+                (Some(own), Some((_, below))) if below != own => {
+                    Heading { quantity: Quantity::Other, ..heading }
+                }
+                _ => heading,
+            }
+        };
+        let headings: Vec<_> = names.iter().enumerate().map(heading).collect();
+        let mode = headings.iter().position(|heading| heading.quantity == Quantity::Mode);
+        let control = column(names, &headings, options.strain.as_ref(), false)?;
+        let stress = column(names, &headings, options.stress.as_ref(), true)?;
+        if control.quantity == Quantity::TrueStrain && stress.quantity == Quantity::Stress && stress.is_bare {
+            let text = quoted(&stress.text);
+            return Err(format!(
+                "`{text}` next to a true strain may be a `true stress` or a `nominal stress`"
+            ));
+        }
+        Ok(Self { mode, control, stress })
+    }
+}
+
+/// Brackets around units.
+const BRACKETS: [char; 4] = ['(', ')', '[', ']'];
+
+/// The column of a choice, or the only one whose header is a stress, or else a strain, in plain form.
+fn column(
+    names: &[&str],
+    headings: &[Heading],
+    choice: Option<&ColumnChoice>,
+    is_stress: bool,
+) -> Result<Heading, String> {
+    let (kind, usual) = match is_stress {
+        true => ("a stress", Quantity::Stress),
+        false => ("a stretch or a strain", Quantity::Strain),
+    };
+    let suits = |heading: &&Heading| match is_stress {
+        true => heading.quantity.is_stress(),
+        false => heading.quantity.is_control(),
+    };
+    let Some(choice) = choice else {
+        let mut found = headings.iter().filter(suits);
+        return match (found.next(), found.next()) {
+            (Some(one), None) => Ok(one.clone()),
+            (None, _) => Err(format!("no header is {kind} in plain form")),
+            (Some(one), Some(other)) => {
+                Err(format!("`{}` and `{}` are both {kind}", quoted(&one.text), quoted(&other.text)))
+            }
+        };
+    };
+    let place = choice.place(names)?;
+    let own = &headings[place];
+    let held = choice.holds.as_ref().map(|holds| Heading::of(place, holds));
+    let (quantity, unit) = match &held {
+        None if suits(&own) => (own.quantity, own.unit),
+        None => (usual, own.unit),
+        Some(held) if suits(&held) => (held.quantity, held.unit.or(own.unit)),
+        Some(held) => return Err(format!("`{}` is not {kind} in plain form", quoted(&held.text))),
+    };
+    if !has_clear_unit(&own.text, unit, is_stress) {
+        return Err(format!("`{}` has no known unit of {kind}", quoted(&own.text)));
+    }
+    Ok(Heading { text: own.text.clone(), quantity, unit, ..held.unwrap_or_else(|| own.clone()) })
+}
