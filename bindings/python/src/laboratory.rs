@@ -6,8 +6,8 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use piola::contract::{Notation, Settings, check};
 use piola::point::{stress, svd};
 use piola_declare::Energy;
-use piola_laboratory::curve::{Mode, Volume, sweep};
-use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
+use piola_laboratory::curve::{Mode, ModeError, Volume, sweep};
+use piola_laboratory::data::{Measured, Measurements, ReadOptions, StressUnitError, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
 use piola_laboratory::stability::{Path, Report, SurveySettings, survey};
@@ -87,7 +87,7 @@ impl Material {
         restarts: usize,
         seed: u64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let data = measurements(data)?;
+        let data = from_dictionary(data)?;
         let candidate = self.uniform()?.candidate().map_err(of_material)?;
         let settings = FitSettings::default()
             .with_volume(volume(incompressible))
@@ -239,10 +239,10 @@ fn volume(incompressible: bool) -> Volume {
 }
 
 fn mode(name: &str) -> PyResult<Mode> {
-    name.parse().map_err(|error: piola_laboratory::curve::ModeError| value_error(error.to_string()))
+    name.parse().map_err(|error: ModeError| value_error(error.to_string()))
 }
 
-fn measurements(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
+fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
     let mut points = Vec::new();
     for (name, readings) in data {
         let name: String = name.extract()?;
@@ -275,7 +275,43 @@ fn path(path: Path) -> &'static str {
 /// stress, Pa.
 #[pyfunction]
 pub(crate) fn treloar(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
-    let data = Measurements::read(TRELOAR_1944).map_err(|error| value_error(error.to_string()))?;
+    by_mode(py, &Measurements::read(TRELOAR_1944).map_err(|error| value_error(error.to_string()))?)
+}
+
+/// Measurements from the text of a table, in the form that `Material.fit` takes.
+///
+///     measurements(text, /, *, strain=None, stress=None, mode=None, unit=None)
+///
+/// text: the content of a file: a header, then numbers separated by tabs, semicolons, commas or spaces.
+/// strain, stress: columns by name or number, and what they hold if the header does not say it, as in
+///     "Dehnung", "1=stretch", "2=true stress [MPa]"; not needed if the header has plain names and units.
+/// mode: the test, if no column names it, as in `curve`.
+/// unit: the unit of stresses whose header names none, such as "MPa".
+///
+/// Returns a dictionary from modes to arrays of shape (n, 2): control and stress, Pa. Raises ValueError if the
+/// table is ambiguous.
+#[pyfunction]
+#[pyo3(signature = (text, /, *, strain = None, stress = None, mode = None, unit = None))]
+pub(crate) fn measurements<'py>(
+    py: Python<'py>,
+    text: &str,
+    strain: Option<&str>,
+    stress: Option<&str>,
+    mode: Option<&str>,
+    unit: Option<&str>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let refused = |error: &dyn std::error::Error| value_error(error.to_string());
+    let mut options = ReadOptions::default();
+    options.strain = strain.map(Into::into);
+    options.stress = stress.map(Into::into);
+    options.test = mode.map(str::parse).transpose().map_err(|error: ModeError| refused(&error))?;
+    options.unit = unit.map(str::parse).transpose().map_err(|error: StressUnitError| refused(&error))?;
+    let reading = Measurements::read_with(text, &options).map_err(|error| refused(&error))?;
+    by_mode(py, &reading.measurements)
+}
+
+/// Measurements as a dictionary of Python.
+fn by_mode<'py>(py: Python<'py>, data: &Measurements) -> PyResult<Bound<'py, PyDict>> {
     let result = PyDict::new(py);
     for mode in data.modes() {
         let readings: Vec<[f64; 2]> = data.of(mode).map(|point| [point.control, point.stress]).collect();

@@ -43,7 +43,7 @@ mod _piola {
     #[pymodule_export]
     use crate::description::{Description, Parameter, catalogue};
     #[pymodule_export]
-    use crate::laboratory::treloar;
+    use crate::laboratory::{measurements, treloar};
     #[pymodule_export]
     use crate::material::{Material, declare, describe};
     #[pymodule_export]

@@ -57,6 +57,18 @@ def test_treloar_is_fitted_and_warned_about():
     assert 0.5 < fit.determination["all"] < 1 and any("lambda" in warning for warning in fit.warnings)
 
 
+def test_tables_are_read_by_explicit_choice():
+    plain = piola.measurements("strain [%];stress [MPa]\n10;0,12\n50;0,4\n", mode="uniaxial")
+    assert np.allclose(plain["uniaxial"], [[1.1, 0.12e6], [1.5, 0.4e6]], rtol=1e-14)
+    text = "Zeit,Dehnung,Spannung\n0,1.1,0.12\n1,1.5,0.4\n"
+    chosen = piola.measurements(text, strain="Dehnung=stretch", stress="3", mode="uniaxial", unit="MPa")
+    assert np.allclose(chosen["uniaxial"], plain["uniaxial"], rtol=1e-14)
+    with pytest.raises(ValueError, match="1 `Zeit`, 2 `Dehnung`, 3 `Spannung`"):
+        piola.measurements(text, mode="uniaxial")
+    with pytest.raises(ValueError, match="is not a test"):
+        piola.measurements(text, mode="torsion")
+
+
 def test_data_that_cannot_be_fitted_are_refused(rubber):
     def message(error, call):
         with pytest.raises(error) as caught:
