@@ -7,6 +7,7 @@ use crate::error::{Code, Failure, guard};
 use crate::lent::{self, Arrays};
 use crate::material::{Material, Precision};
 use crate::options::{self, Options, Survey};
+use crate::twins::twins;
 
 /// A measure of stress with the tangent that belongs to it.
 ///
@@ -28,38 +29,20 @@ pub enum Measure {
     GreenNaghdi = 4,
 }
 
+twins!(
+    E = f64, f32: " in single precision.";
+
 /// Energy densities, Pa, of deformation gradients F, nine numbers each, row by row: one number for each
 /// point.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_energies(
+fn piola_energies, piola_energies_f32(
     material: *const Material,
     options: *const Options,
-    F: *const f64,
+    F: *const E,
     F_length: usize,
-    energies: *mut f64,
+    energies: *mut E,
     energies_length: usize,
     survey: *mut Survey,
-) -> Code {
-    let (inputs, outputs) = ([("F", F, F_length)], [("energies", energies, energies_length)]);
-    // SAFETY: the requirements of the header on its caller.
-    unsafe {
-        call(material, options, inputs, outputs, survey, |batch, [F], [energies]| {
-            Ok(batch.energies(F, energies)?)
-        })
-    }
-}
-
-/// `piola_energies` in single precision.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_energies_f32(
-    material: *const Material,
-    options: *const Options,
-    F: *const f32,
-    F_length: usize,
-    energies: *mut f32,
-    energies_length: usize,
-    survey: *mut Survey,
-) -> Code {
+) {
     let (inputs, outputs) = ([("F", F, F_length)], [("energies", energies, energies_length)]);
     // SAFETY: the requirements of the header on its caller.
     unsafe {
@@ -70,32 +53,15 @@ pub unsafe extern "C" fn piola_energies_f32(
 }
 
 /// First Piola stresses P, Pa: nine numbers for each F, row by row.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_stresses(
+fn piola_stresses, piola_stresses_f32(
     material: *const Material,
     options: *const Options,
-    F: *const f64,
+    F: *const E,
     F_length: usize,
-    P: *mut f64,
+    P: *mut E,
     P_length: usize,
     survey: *mut Survey,
-) -> Code {
-    let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length)]);
-    // SAFETY: the requirements of the header on its caller.
-    unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
-}
-
-/// `piola_stresses` in single precision.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_stresses_f32(
-    material: *const Material,
-    options: *const Options,
-    F: *const f32,
-    F_length: usize,
-    P: *mut f32,
-    P_length: usize,
-    survey: *mut Survey,
-) -> Code {
+) {
     let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length)]);
     // SAFETY: the requirements of the header on its caller.
     unsafe { call(material, options, inputs, outputs, survey, |batch, [F], [P]| Ok(batch.stresses(F, P)?)) }
@@ -103,40 +69,17 @@ pub unsafe extern "C" fn piola_stresses_f32(
 
 /// Stresses P, Pa, and filtered tangents dP/dF, Pa: 81 numbers for each point, row 3i+j for entry (i, j) of
 /// P, column 3k+l for entry (k, l) of F.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_tangents(
+fn piola_tangents, piola_tangents_f32(
     material: *const Material,
     options: *const Options,
-    F: *const f64,
+    F: *const E,
     F_length: usize,
-    P: *mut f64,
+    P: *mut E,
     P_length: usize,
-    dP_dF: *mut f64,
+    dP_dF: *mut E,
     dP_dF_length: usize,
     survey: *mut Survey,
-) -> Code {
-    let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)]);
-    // SAFETY: the requirements of the header on its caller.
-    unsafe {
-        call(material, options, inputs, outputs, survey, |batch, [F], [P, dP_dF]| {
-            Ok(batch.tangents(F, P, dP_dF)?)
-        })
-    }
-}
-
-/// `piola_tangents` in single precision.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_tangents_f32(
-    material: *const Material,
-    options: *const Options,
-    F: *const f32,
-    F_length: usize,
-    P: *mut f32,
-    P_length: usize,
-    dP_dF: *mut f32,
-    dP_dF_length: usize,
-    survey: *mut Survey,
-) -> Code {
+) {
     let (inputs, outputs) = ([("F", F, F_length)], [("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)]);
     // SAFETY: the requirements of the header on its caller.
     unsafe {
@@ -148,47 +91,19 @@ pub unsafe extern "C" fn piola_tangents_f32(
 
 /// Energy densities, stresses and tangents: `piola_energies` and `piola_tangents` with one decomposition of
 /// each F.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_energies_and_tangents(
+fn piola_energies_and_tangents, piola_energies_and_tangents_f32(
     material: *const Material,
     options: *const Options,
-    F: *const f64,
+    F: *const E,
     F_length: usize,
-    energies: *mut f64,
+    energies: *mut E,
     energies_length: usize,
-    P: *mut f64,
+    P: *mut E,
     P_length: usize,
-    dP_dF: *mut f64,
+    dP_dF: *mut E,
     dP_dF_length: usize,
     survey: *mut Survey,
-) -> Code {
-    let (inputs, outputs) = (
-        [("F", F, F_length)],
-        [("energies", energies, energies_length), ("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)],
-    );
-    // SAFETY: the requirements of the header on its caller.
-    unsafe {
-        call(material, options, inputs, outputs, survey, |batch, [F], [energies, P, dP_dF]| {
-            Ok(batch.energies_and_tangents(F, energies, P, dP_dF)?)
-        })
-    }
-}
-
-/// `piola_energies_and_tangents` in single precision.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_energies_and_tangents_f32(
-    material: *const Material,
-    options: *const Options,
-    F: *const f32,
-    F_length: usize,
-    energies: *mut f32,
-    energies_length: usize,
-    P: *mut f32,
-    P_length: usize,
-    dP_dF: *mut f32,
-    dP_dF_length: usize,
-    survey: *mut Survey,
-) -> Code {
+) {
     let (inputs, outputs) = (
         [("F", F, F_length)],
         [("energies", energies, energies_length), ("P", P, P_length), ("dP_dF", dP_dF, dP_dF_length)],
@@ -206,19 +121,18 @@ pub unsafe extern "C" fn piola_energies_and_tangents_f32(
 /// null, with a length of 0.
 ///
 /// A point is nonfinite if its stress is, such as the Cauchy stress for a singular F.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_stresses_in(
+fn piola_stresses_in, piola_stresses_in_f32(
     material: *const Material,
     options: *const Options,
     measure: i32,
-    F: *const f64,
+    F: *const E,
     F_length: usize,
-    stresses: *mut f64,
+    stresses: *mut E,
     stresses_length: usize,
-    tangents: *mut f64,
+    tangents: *mut E,
     tangents_length: usize,
     survey: *mut Survey,
-) -> Code {
+) {
     let (inputs, outputs) = (
         [("F", F, F_length)],
         [("stresses", stresses, stresses_length), ("tangents", tangents, tangents_length)],
@@ -226,36 +140,15 @@ pub unsafe extern "C" fn piola_stresses_in(
     // SAFETY: the requirements of the header on its caller.
     unsafe {
         call(material, options, inputs, outputs, survey, |batch, [F], [stresses, tangents]| {
-            in_measure(&batch, measure, F, stresses, tangents)
+            let measure = lent::choice("measure", measure, measures::Measure::ALL)?;
+            Ok(match tangents {
+                [] => batch.measured_stresses(measure, F, stresses),
+                _ => batch.measured_tangents(measure, F, stresses, tangents),
+            }?)
         })
     }
 }
-
-/// `piola_stresses_in` in single precision.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_stresses_in_f32(
-    material: *const Material,
-    options: *const Options,
-    measure: i32,
-    F: *const f32,
-    F_length: usize,
-    stresses: *mut f32,
-    stresses_length: usize,
-    tangents: *mut f32,
-    tangents_length: usize,
-    survey: *mut Survey,
-) -> Code {
-    let (inputs, outputs) = (
-        [("F", F, F_length)],
-        [("stresses", stresses, stresses_length), ("tangents", tangents, tangents_length)],
-    );
-    // SAFETY: the requirements of the header on its caller.
-    unsafe {
-        call(material, options, inputs, outputs, survey, |batch, [F], [stresses, tangents]| {
-            in_measure(&batch, measure, F, stresses, tangents)
-        })
-    }
-}
+);
 
 /// Runs a batch on borrowed arrays.
 ///
@@ -302,19 +195,4 @@ pub(crate) unsafe fn call_with<E: Precision, const I: usize, const O: usize>(
         }
         lent::report("survey", survey, compute(batch, read, written)?.into())
     }
-}
-
-/// Stresses in a measure, and tangents if there is an array for them.
-fn in_measure<E: Precision>(
-    batch: &Batch<'_, E>,
-    measure: i32,
-    F: &[E],
-    stresses: &mut [E],
-    tangents: &mut [E],
-) -> Result<piola::Survey, Failure> {
-    let measure = lent::choice("measure", measure, measures::Measure::ALL)?;
-    Ok(match tangents {
-        [] => batch.measured_stresses(measure, F, stresses),
-        _ => batch.measured_tangents(measure, F, stresses, tangents),
-    }?)
 }

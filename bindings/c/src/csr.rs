@@ -1,10 +1,10 @@
 //! Assembly into a sparse matrix of the caller.
 
-use piola::batch::CsrPlaces;
-use piola::batch::{Layout, Tetrahedra};
+use piola::batch::{CsrPlaces, Layout, Tetrahedra};
 
-use crate::error::{Code, Failure, guard};
-use crate::lent::{Arrays, Plain};
+use crate::error::{Failure, guard};
+use crate::lent::Arrays;
+use crate::twins::twins;
 use crate::{handle, lent};
 
 /// The places of the stiffnesses of tetrahedra in a sparse matrix of compressed rows. Immutable: threads may
@@ -13,6 +13,9 @@ pub struct Csr(CsrPlaces);
 
 /// Marks a node without unknowns, instead of its first unknown: PIOLA_NO_UNKNOWN of the header.
 pub(crate) const NO_UNKNOWN: usize = usize::MAX;
+
+twins!(
+    E = i32, i64: " for a matrix with indices of 64 bits.";
 
 /// Finds the places of the stiffnesses of tetrahedra in a sparse matrix: row r has the columns
 /// `columns[row_starts[r]]` to `columns[row_starts[r + 1] - 1]`, in any order, counted from 0. The matrix may
@@ -24,100 +27,26 @@ pub(crate) const NO_UNKNOWN: usize = usize::MAX;
 ///
 /// Errors: PIOLA_CODE_MATRIX for arrays that are not a matrix and for missing entries, PIOLA_CODE_VALUE for
 /// nodes that do not exist.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_csr_new_i32(
+fn piola_csr_new_i32, piola_csr_new_i64(
     nodes: usize,
     corners: *const usize,
     corners_length: usize,
     unknowns: *const usize,
     unknowns_length: usize,
-    row_starts: *const i32,
+    row_starts: *const E,
     row_starts_length: usize,
-    columns: *const i32,
+    columns: *const E,
     columns_length: usize,
     csr: *mut *mut Csr,
-) -> Code {
-    let (corners, unknowns) = ((corners, corners_length), (unknowns, unknowns_length));
-    let (row_starts, columns) = ((row_starts, row_starts_length), (columns, columns_length));
-    // SAFETY: the requirements of the header on its caller.
-    unsafe { new(nodes, corners, unknowns, row_starts, columns, csr) }
-}
-
-/// `piola_csr_new_i32` for a matrix with indices of 64 bits.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_csr_new_i64(
-    nodes: usize,
-    corners: *const usize,
-    corners_length: usize,
-    unknowns: *const usize,
-    unknowns_length: usize,
-    row_starts: *const i64,
-    row_starts_length: usize,
-    columns: *const i64,
-    columns_length: usize,
-    csr: *mut *mut Csr,
-) -> Code {
-    let (corners, unknowns) = ((corners, corners_length), (unknowns, unknowns_length));
-    let (row_starts, columns) = ((row_starts, row_starts_length), (columns, columns_length));
-    // SAFETY: the requirements of the header on its caller.
-    unsafe { new(nodes, corners, unknowns, row_starts, columns, csr) }
-}
-
-/// Adds the stiffnesses of all tetrahedra, 144 numbers each from `piola_stiffnesses` in this layout, one of
-/// `piola_layout`, to the values of the matrix, one for each of its columns. The sums are taken in the order
-/// of the tetrahedra, on the thread of the caller.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_csr_add(
-    csr: *const Csr,
-    layout: i32,
-    stiffnesses: *const f64,
-    stiffnesses_length: usize,
-    values: *mut f64,
-    values_length: usize,
-) -> Code {
-    // SAFETY: the requirements of the header on its caller.
-    unsafe { add(csr, layout, (stiffnesses, stiffnesses_length), (values, values_length)) }
-}
-
-/// `piola_csr_add` in single precision.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_csr_add_f32(
-    csr: *const Csr,
-    layout: i32,
-    stiffnesses: *const f32,
-    stiffnesses_length: usize,
-    values: *mut f32,
-    values_length: usize,
-) -> Code {
-    // SAFETY: the requirements of the header on its caller.
-    unsafe { add(csr, layout, (stiffnesses, stiffnesses_length), (values, values_length)) }
-}
-
-/// Frees what `piola_csr_new_i32` has made, or does nothing with null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_csr_free(csr: *mut Csr) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(csr) }
-}
-
-/// # Safety
-/// Pointers are null or point to what the header requires, and arrays are as long as stated.
-unsafe fn new<I: Plain + TryInto<usize>>(
-    nodes: usize,
-    corners: (*const usize, usize),
-    unknowns: (*const usize, usize),
-    row_starts: (*const I, usize),
-    columns: (*const I, usize),
-    csr: *mut *mut Csr,
-) -> Code {
+) {
     guard(|| {
         let mut arrays = Arrays::new();
-        // SAFETY: that of this function.
+        // SAFETY: the requirements of the header on its caller.
         unsafe {
-            let corners = lent::corners("corners", arrays.input("corners", corners.0, corners.1)?)?;
-            let unknowns = arrays.input("unknowns", unknowns.0, unknowns.1)?;
-            let row_starts = arrays.input("row_starts", row_starts.0, row_starts.1)?;
-            let columns = arrays.input("columns", columns.0, columns.1)?;
+            let corners = lent::corners("corners", arrays.input("corners", corners, corners_length)?)?;
+            let unknowns = arrays.input("unknowns", unknowns, unknowns_length)?;
+            let row_starts = arrays.input("row_starts", row_starts, row_starts_length)?;
+            let columns = arrays.input::<E>("columns", columns, columns_length)?;
             if !unknowns.is_empty() {
                 lent::demand_length("unknowns", unknowns.len(), 1, nodes)?;
             }
@@ -132,26 +61,41 @@ unsafe fn new<I: Plain + TryInto<usize>>(
         }
     })
 }
+);
 
-/// # Safety
-/// Pointers are null or point to what the header requires, and arrays are as long as stated.
-unsafe fn add<E: Plain + piola::lanes::Scalar>(
+twins!(
+    E = f64, f32: " in single precision.";
+
+/// Adds the stiffnesses of all tetrahedra, 144 numbers each from `piola_stiffnesses` in this layout, one of
+/// `piola_layout`, to the values of the matrix, one for each of its columns. The sums are taken in the order
+/// of the tetrahedra, on the thread of the caller.
+fn piola_csr_add, piola_csr_add_f32(
     csr: *const Csr,
     layout: i32,
-    stiffnesses: (*const E, usize),
-    values: (*mut E, usize),
-) -> Code {
+    stiffnesses: *const E,
+    stiffnesses_length: usize,
+    values: *mut E,
+    values_length: usize,
+) {
     guard(|| {
         let mut arrays = Arrays::new();
-        // SAFETY: that of this function.
+        // SAFETY: the requirements of the header on its caller.
         let (csr, stiffnesses, values) = unsafe {
             (
                 lent::value("csr", csr)?,
-                arrays.input("stiffnesses", stiffnesses.0, stiffnesses.1)?,
-                arrays.output("values", values.0, values.1)?,
+                arrays.input("stiffnesses", stiffnesses, stiffnesses_length)?,
+                arrays.output::<E>("values", values, values_length)?,
             )
         };
         let layout = lent::choice("layout", layout, [Layout::Points, Layout::Lines])?;
         csr.0.add(stiffnesses, layout, values).map_err(Failure::from)
     })
+}
+);
+
+/// Frees what `piola_csr_new_i32` has made, or does nothing with null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn piola_csr_free(csr: *mut Csr) {
+    // SAFETY: a handle that is not used any more.
+    unsafe { handle::free(csr) }
 }

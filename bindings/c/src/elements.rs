@@ -1,13 +1,14 @@
 //! Linear tetrahedra: shapes at rest, gradients of their energies and stiffnesses.
 
-use piola::batch::{Batch, REST, Tetrahedra};
+use piola::batch::{REST, Tetrahedra};
 use piola_bodies::mesh::TetMesh;
 
 use crate::batch::{call, call_with};
-use crate::error::{Code, Failure, guard};
+use crate::error::{Code, guard};
 use crate::lent::{self, Arrays};
-use crate::material::{Material, Precision};
+use crate::material::Material;
 use crate::options::{Options, Survey};
+use crate::twins::twins;
 
 /// Shapes of tetrahedra at rest: ten numbers each, the inverse of Dm row by row, 1/m, and the volume, m³, the
 /// input of `piola_stiffnesses`. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
@@ -48,6 +49,9 @@ pub unsafe extern "C" fn piola_rest_shapes(
     })
 }
 
+twins!(
+    E = f64, f32: " in single precision.";
+
 /// Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and filtered
 /// stiffnesses, N/m, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
 /// numbers each as from `piola_rest_shapes`.
@@ -56,47 +60,19 @@ pub unsafe extern "C" fn piola_rest_shapes(
 /// numbers, row by row: row and column 3n+a for coordinate a of node n.
 ///
 /// The filter acts on dP/dF and is pulled back to the nodes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_stiffnesses(
+fn piola_stiffnesses, piola_stiffnesses_f32(
     material: *const Material,
     options: *const Options,
-    F: *const f64,
+    F: *const E,
     F_length: usize,
-    rest: *const f64,
+    rest: *const E,
     rest_length: usize,
-    gradients: *mut f64,
+    gradients: *mut E,
     gradients_length: usize,
-    stiffnesses: *mut f64,
+    stiffnesses: *mut E,
     stiffnesses_length: usize,
     survey: *mut Survey,
-) -> Code {
-    let (inputs, outputs) = (
-        [("F", F, F_length), ("rest", rest, rest_length)],
-        [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
-    );
-    // SAFETY: the requirements of the header on its caller.
-    unsafe {
-        call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
-            Ok(batch.stiffnesses(F, rest, gradients, stiffnesses)?)
-        })
-    }
-}
-
-/// `piola_stiffnesses` in single precision.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_stiffnesses_f32(
-    material: *const Material,
-    options: *const Options,
-    F: *const f32,
-    F_length: usize,
-    rest: *const f32,
-    rest_length: usize,
-    gradients: *mut f32,
-    gradients_length: usize,
-    stiffnesses: *mut f32,
-    stiffnesses_length: usize,
-    survey: *mut Survey,
-) -> Code {
+) {
     let (inputs, outputs) = (
         [("F", F, F_length), ("rest", rest, rest_length)],
         [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
@@ -116,22 +92,21 @@ pub unsafe extern "C" fn piola_stiffnesses_f32(
 /// shapes of tetrahedra with edges of length 1 along the axes.
 ///
 /// Errors: PIOLA_CODE_VALUE for nodes that do not exist.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_stiffnesses_at(
+fn piola_stiffnesses_at, piola_stiffnesses_at_f32(
     material: *const Material,
     options: *const Options,
-    positions: *const f64,
+    positions: *const E,
     positions_length: usize,
     corners: *const usize,
     corners_length: usize,
-    rest: *const f64,
+    rest: *const E,
     rest_length: usize,
-    gradients: *mut f64,
+    gradients: *mut E,
     gradients_length: usize,
-    stiffnesses: *mut f64,
+    stiffnesses: *mut E,
     stiffnesses_length: usize,
     survey: *mut Survey,
-) -> Code {
+) {
     let (inputs, outputs) = (
         [("positions", positions, positions_length), ("rest", rest, rest_length)],
         [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
@@ -149,64 +124,12 @@ pub unsafe extern "C" fn piola_stiffnesses_at(
                 outputs,
                 survey,
                 |batch, [positions, rest], [gradients, stiffnesses]| {
-                    stiffnesses_at(&batch, corners, positions, rest, gradients, stiffnesses)
+                    let positions = lent::vectors("positions", positions)?;
+                    let tetrahedra = Tetrahedra::new(positions.len(), corners)?;
+                    Ok(batch.stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses)?)
                 },
             )
         }
     })
 }
-
-/// `piola_stiffnesses_at` in single precision.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_stiffnesses_at_f32(
-    material: *const Material,
-    options: *const Options,
-    positions: *const f32,
-    positions_length: usize,
-    corners: *const usize,
-    corners_length: usize,
-    rest: *const f32,
-    rest_length: usize,
-    gradients: *mut f32,
-    gradients_length: usize,
-    stiffnesses: *mut f32,
-    stiffnesses_length: usize,
-    survey: *mut Survey,
-) -> Code {
-    let (inputs, outputs) = (
-        [("positions", positions, positions_length), ("rest", rest, rest_length)],
-        [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
-    );
-    guard(|| {
-        let mut arrays = Arrays::new();
-        // SAFETY: the requirements of the header on its caller.
-        unsafe {
-            let corners = lent::corners("corners", arrays.input("corners", corners, corners_length)?)?;
-            call_with(
-                arrays,
-                material,
-                options,
-                inputs,
-                outputs,
-                survey,
-                |batch, [positions, rest], [gradients, stiffnesses]| {
-                    stiffnesses_at(&batch, corners, positions, rest, gradients, stiffnesses)
-                },
-            )
-        }
-    })
-}
-
-/// Gradients and stiffnesses, with the nodes at positions.
-fn stiffnesses_at<E: Precision>(
-    batch: &Batch<'_, E>,
-    corners: &[[usize; 4]],
-    positions: &[E],
-    rest: &[E],
-    gradients: &mut [E],
-    stiffnesses: &mut [E],
-) -> Result<piola::Survey, Failure> {
-    let positions = lent::vectors("positions", positions)?;
-    let tetrahedra = Tetrahedra::new(positions.len(), corners)?;
-    Ok(batch.stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses)?)
-}
+);

@@ -33,3 +33,4 @@ pub mod term;
 
 mod handle;
 mod lent;
+mod twins;
