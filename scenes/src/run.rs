@@ -10,6 +10,7 @@ use crate::output::{
     CAGES_FILE, Folder, SUMMARY_FILE, Summary, cage_file, frame_file, read_vertices, write_pvd,
 };
 use crate::settings::Settings;
+use crate::statics::Watch;
 
 mod course;
 mod progress;
@@ -26,10 +27,6 @@ pub struct Output {
     /// True to continue the run in the folder.
     pub resume: bool,
 }
-
-/// Observer of a run: a function that gets the number of the last frame that was written, 0 for the start,
-/// before each step. It returns true to end the run with the frames that it has.
-pub type Watch<'a> = dyn FnMut(usize) -> bool + Send + 'a;
 
 /// A run whose summary can still be added to.
 #[derive(Debug)]

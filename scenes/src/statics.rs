@@ -7,12 +7,15 @@ use crate::error::Error;
 use crate::measure;
 use crate::output::{FinalPlace, FinalState, Summary};
 use crate::play::Play;
-use crate::run::Watch;
 
 /// Maximum number of calls of statics, and of Newton iterations in a call: a call that fails loses nothing of
 /// the calls before.
 const CALLS: usize = 20;
 const ITERATIONS: usize = 10;
+
+/// Observer of a run: a function that gets the number of the last frame that was written, 0 for the start,
+/// before each step. It returns true to end the run with the frames that it has.
+pub type Watch<'a> = dyn FnMut(usize) -> bool + Send + 'a;
 
 /// Takes a body without inertia to the equilibrium to which it is drawn, and examines it there.
 ///

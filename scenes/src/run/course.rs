@@ -10,8 +10,8 @@ use piola_laboratory::AtRest;
 use piola_laboratory::curve::Volume;
 use rayon::ThreadPool;
 
+use super::Finished;
 use super::progress::{MAX_LENGTH, Progress, Saved};
-use super::{Finished, Watch};
 use crate::error::Error;
 use crate::fields;
 use crate::geometry::Geometry;
@@ -22,7 +22,7 @@ use crate::output::{
 };
 use crate::play::Play;
 use crate::settings::Settings;
-use crate::statics::find_equilibrium;
+use crate::statics::{Watch, find_equilibrium};
 use crate::tensile_reading::read_specimen;
 
 /// Minimum time between states on the disk: a run that is killed must recompute at most this much.
