@@ -68,10 +68,6 @@ use proc_macro::TokenStream;
 ///   well.
 /// * `part`: the energy is a part of a sum, whose rest state may carry stress or lack a shear modulus.
 ///
-/// If the small-strain moduli μ and λ are affine in exactly two parameters, both plain numbers, and depend on
-/// no other, the type also has `from_young_poisson(young, poisson, other parameters…)`, unless it is
-/// `prestressed` or a parameter is a function.
-///
 /// A mistaken declaration gives one message for each mistake, on its tokens, and none where the material is
 /// used.
 #[proc_macro_attribute]

@@ -25,6 +25,15 @@ const ROUNDING: f64 = 1e-12;
 /// let moduli = entry.moduli(&[&values[0], &values[1]], Refuse)?;
 /// assert!((moduli.young() / 1e6 - 1.0).abs() < 1e-14);
 /// assert!((moduli.poisson() - 0.45).abs() < 1e-14);
+///
+/// // A type.
+/// use piola::material::Declared;
+/// use piola_materials::NeoHookean;
+///
+/// let moduli = |values: &[&[f64]]| NeoHookean::from_values(values, Refuse).map(|rubber| rubber.moduli());
+/// let values = piola_materials::matching(&NeoHookean::DESCRIPTION, moduli, wanted)?;
+/// let rubber = NeoHookean::from_values(&[&values[0], &values[1]], Refuse)?;
+/// assert!((rubber.moduli().young() / 1e6 - 1.0).abs() < 1e-14);
 /// # Ok(())
 /// # }
 /// ```

@@ -23,4 +23,3 @@ pub mod simplify;
 #[cfg(test)]
 pub(crate) mod testing;
 pub mod volume;
-pub mod young_poisson;

@@ -24,7 +24,6 @@ mod material;
 mod serde;
 pub mod stub;
 mod writer;
-mod young_poisson;
 
 /// The whole expansion.
 #[must_use]

@@ -17,7 +17,6 @@ use crate::algebra::invariants::{ByInvariants, by_invariants};
 use crate::algebra::quotient::Quotients;
 use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
-use crate::algebra::young_poisson::{YoungPoisson, young_poisson};
 use crate::judge::{self, Derived, Source};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
@@ -66,8 +65,6 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     /// Conditions on parameters that keep given stretches inside the domain, if requested.
     pub domain_constraints: Vec<Constraint>,
-    /// The parameters that a pair of Young's modulus and Poisson's ratio determines, if it does.
-    pub from_young_poisson: Option<YoungPoisson>,
     /// Sums that cancel on flat, thin or huge elements and cost digits there.
     pub lossy: Vec<Id>,
     /// Points of the domain with admissible parameters.
@@ -319,10 +316,7 @@ fn derive(
         constraints.sort_by_key(|constraint| constraint.length.is_some());
         domain_constraints.extend(domain.map(&mut constraint));
     }
-    // Those with functions are known to the constructor alone.
     let units = judge::units_of_parameters(&graph, source);
-    let are_known = !options.prestressed && !declaration.has_functions();
-    let from_young_poisson = are_known.then(|| young_poisson(&graph, moduli)).flatten();
     let model = Model {
         graph,
         energy,
@@ -338,7 +332,6 @@ fn derive(
         by_parameters,
         constraints,
         domain_constraints,
-        from_young_poisson,
         lossy,
         samples,
         programs: FxHashMap::default(),

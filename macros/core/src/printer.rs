@@ -31,14 +31,6 @@ pub fn rust_factor(graph: &mut Graph, declaration: &Declaration, id: Id) -> Stri
     Printer::by_stretches(graph, declaration, Notation::Rust).print(id, Context::Product)
 }
 
-/// The formula of Σ coefficient · name + constant.
-#[must_use]
-pub fn combination(terms: &[(&str, Rational)], constant: Rational) -> String {
-    let terms = terms.iter().filter(|(_, coefficient)| !coefficient.is_zero());
-    let parts = terms.map(|&(name, c)| (c.is_negative(), Notation::Formula.multiple(c, name))).collect();
-    Notation::Formula.sum(parts, constant).1
-}
-
 /// Maximum number of nodes of a text before it is cut off: a graph can be exponentially smaller than the
 /// formula that it stands for.
 const LONGEST: usize = 400;

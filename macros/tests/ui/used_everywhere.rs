@@ -25,7 +25,7 @@ fn derivatives(material: &(impl Fittable + Material)) -> usize {
 }
 
 fn main() -> Result<(), MaterialError> {
-    let solid = Solid::from_young_poisson(1e6, 0.3, 1.0, 3.0)?;
+    let solid = Solid::new(1e6, 1e7, 1.0, 3.0)?;
     let inversion = Inversion::Extend { epsilon: 0.1 };
     let body = Body { solid: Solid::new(1e5, 1e7, 2.0, 3.0)?.with_inversion(inversion)? };
     let stiff = Scaled::new(1e6, solid.clone())?;

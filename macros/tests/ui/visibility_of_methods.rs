@@ -17,7 +17,6 @@ mod solids {
 
 fn main() -> Result<(), piola::material::MaterialError> {
     let _ = solids::Alias::new(1e6, 1e7)?;
-    let _ = solids::Alias::from_young_poisson(1e6, 0.3)?;
     let _ = solids::private()?.with_inversion(piola::Inversion::Refuse)?;
     let _ = solids::private()?.mu();
     Ok(())

@@ -12,7 +12,6 @@ mod contract;
 mod emission;
 mod invariants;
 mod mistakes;
-mod moduli;
 mod oracle;
 mod powers;
 mod printed;

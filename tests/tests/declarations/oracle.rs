@@ -25,7 +25,6 @@ pub(crate) fn understood(text: &str) -> (Declaration, Model) {
 
 pub(crate) fn judge(sample: &Sample) {
     let (declaration, model) = understood(&sample.text.source);
-    crate::moduli::judge(sample, &declaration, &model);
     crate::powers::judge(sample, &model);
     crate::printed::judge(sample, &model);
     // What a function that is a parameter computes is unknown to the interpreter; the contract judges it.

@@ -1,12 +1,11 @@
-//! The inherent methods of a material: `new`, which checks its parameters, the constructor from a stiffness,
-//! the choice of an extension, and getters of the parameters.
+//! The inherent methods of a material: `new`, which checks its parameters, the choice of an extension, and
+//! getters of the parameters.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
 use syn::{Expr, Ident};
 
 use super::writer::{Writer, free_name};
-use super::young_poisson::from_young_poisson;
 use super::{condition_text, doc, generics, naming};
 use crate::model::Model;
 use crate::read::literals::typed;
@@ -18,8 +17,6 @@ pub(super) fn constructor(declaration: &Declaration, model: &mut Model) -> Token
     let (bounds, arguments) = generics(declaration);
     let naming = naming(declaration);
     let new = new(declaration, model);
-    let determined = model.from_young_poisson.as_ref();
-    let from_young_poisson = determined.map(|determined| from_young_poisson(declaration, determined));
     let conditions = declaration.options.extend.as_ref();
     let with_inversion = conditions.map(|conditions| with_inversion(declaration, conditions));
     let getters = declaration.parameters.iter().map(|parameter| getter(declaration, parameter));
@@ -29,8 +26,6 @@ pub(super) fn constructor(declaration: &Declaration, model: &mut Model) -> Token
         #[allow(clippy::too_many_arguments)]
         impl #bounds #name #arguments {
             #new
-
-            #from_young_poisson
 
             #with_inversion
 

@@ -94,19 +94,6 @@ fn inert_type(function: &Function) -> TokenStream {
     let name = &signature.ident;
     let generics = lengths(signature);
     let (types, methods) = parameters(signature, &generics);
-    // Two parameters follow from the stiffness; only a correct declaration determines which two.
-    let from_young_poisson = types.len().checked_sub(2).map(|others| {
-        let others = vec![quote!(impl ::core::marker::Sized); others];
-        quote! {
-            #visibility fn from_young_poisson(
-                _: f64,
-                _: f64,
-                #(_: #others),*
-            ) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
-                ::core::unreachable!("this material does not compile")
-            }
-        }
-    });
     let (methods, results): (Vec<_>, Vec<_>) = methods.into_iter().unzip();
     let replacements: Vec<_> = methods.iter().map(|name| format_ident!("with_{name}")).collect();
     let unreachable = quote!(::core::unreachable!("this material does not compile"));
@@ -121,7 +108,6 @@ fn inert_type(function: &Function) -> TokenStream {
             #visibility fn new(#(_: #types),*) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
                 #unreachable
             }
-            #from_young_poisson
             #visibility fn with_inversion(
                 self,
                 inversion: ::piola::Inversion,

@@ -14,10 +14,9 @@ use crate::read::spelling::taken;
 use crate::read::unit::Unit;
 
 /// Members of every material, which a method for a parameter of the same name would hide.
-const MEMBERS: [&str; 37] = [
+const MEMBERS: [&str; 36] = [
     // Of the type and of the traits of the language.
     "new",
-    "from_young_poisson",
     "with_inversion",
     "clone",
     // Of `Material`.
