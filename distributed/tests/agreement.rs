@@ -435,10 +435,10 @@ fn parameters_of_each_element_are_those_of_one_machine() -> TestResult {
     Ok(())
 }
 
-/// A bar in TetGen's files, which ranks read in parts. The files have markers and regions, an unused node,
-/// comments, and tetrahedra in both orientations.
+/// A bar in TetGen's files, with markers and regions, an unused node, comments, and tetrahedra in both
+/// orientations.
 #[test]
-fn files_read_in_parts_are_those_read_whole() -> TestResult {
+fn a_bar_in_files_of_tetgen_is_that_of_one_machine() -> TestResult {
     let bar = tetrahedral_box([2, 6, 2], [0.3, 1.0, 0.3])?;
     let scratch = tempfile::tempdir()?;
     let file = scratch.path().join("bar.node");
@@ -499,7 +499,7 @@ fn files_read_in_parts_are_those_read_whole() -> TestResult {
         ];
         let found = state_after(count, words.map(str::to_owned), &folder)?;
         let error = distance(&found.positions, simulation.positions());
-        println!("files in {count} parts: {error:.1e} m");
+        println!("bar in files of TetGen on {count} ranks: {error:.1e} m");
         assert!(error <= 1e-8, "{error:e} m on {count} ranks");
         let summary: serde_json::Value =
             serde_json::from_slice(&std::fs::read(folder.join("summary.json"))?)?;
