@@ -19,6 +19,7 @@
 mod damping;
 #[cfg(feature = "faer")]
 mod equilibrium;
+mod error;
 mod filtering;
 mod halving;
 mod integrator;
@@ -35,13 +36,12 @@ mod term;
 pub use damping::Damping;
 #[cfg(feature = "faer")]
 pub use equilibrium::{Equilibrium, Stability};
+pub use error::{SetupError, StepError};
 pub use filtering::Filtering;
 pub use integrator::Integrator;
 pub use line_search::LineSearchSettings;
 pub use newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
-pub use simulation::{
-    AdaptiveReport, Energies, SetupError, Simulation, SimulationSettings, StepError, StepReport,
-};
+pub use simulation::{AdaptiveReport, Energies, Simulation, SimulationSettings, StepReport};
 pub use solver::{LinearSolver, SparseSolver};
 pub use spring::Spring;
 pub use term::{EnergyChange, NodeBlocks, Term};
@@ -57,8 +57,8 @@ pub mod divided {
     pub use super::halving::{Pace, Repeatable, advance_within};
     pub use super::integrator::Stage;
     pub use super::line_search::Line;
-    pub use super::newton::{Definiteness, Linearised, Minimisation, Solution, minimize};
-    pub use super::solver::Preconditioner;
+    pub use super::newton::{Linearised, Minimisation, minimize};
+    pub use super::solver::{Definiteness, Preconditioner, Solution};
     pub use super::staged::{InStage, StagedSteps};
     pub use crate::system::linear::conjugate_gradients::{End, Iteration};
     pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Whole};

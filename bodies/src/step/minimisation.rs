@@ -9,9 +9,9 @@ use crate::system::element::Evaluated;
 use crate::system::{Body, LinearError, Pins};
 
 use super::line_search::Line;
-use super::newton::{Definiteness, Linearised, Minimisation, NewtonError, Solution};
+use super::newton::{Linearised, Minimisation, NewtonError};
 use super::objective::{Objective, product};
-use super::solver::{Choice, Solver};
+use super::solver::{Choice, Definiteness, Solution, Solver};
 use super::term::{EnergyChange, NodeBlocks};
 
 /// Memory of Newton's method.

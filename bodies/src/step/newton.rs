@@ -6,6 +6,7 @@ use piola::point::Filter;
 
 use super::filtering::Filtering;
 use super::line_search::{Line, LineSearchSettings, Outcome, backtrack};
+use super::solver::{Definiteness, Solution};
 
 mod error;
 mod report;
@@ -69,26 +70,6 @@ pub struct Linearised {
     pub filtered: usize,
     /// Number of elements whose tangent is at a pole.
     pub bounded: usize,
-}
-
-/// Requirement on the matrix of a linear system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Definiteness {
-    /// An indefinite matrix is left unsolved.
-    Required,
-    /// An indefinite matrix is made definite, or used until the indefiniteness shows.
-    Optional,
-}
-
-/// Outcome of a linear solve.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Solution {
-    /// Multiple of inertia that was added.
-    pub shift: f64,
-    /// Number of iterations of the linear solver.
-    pub iterations: usize,
-    /// True if the iteration stopped before the tolerance.
-    pub truncated: bool,
 }
 
 /// Moves x towards a minimum, and the pins with the first direction if `pins_move`.

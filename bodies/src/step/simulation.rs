@@ -10,6 +10,7 @@ use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::{Body, Pins};
 
+use super::error::SetupError;
 use super::minimisation::NewtonWorkspace;
 use super::objective::Terms;
 use super::solver::Choice;
@@ -22,13 +23,11 @@ mod advance;
 mod balance;
 mod change;
 mod energies;
-mod error;
 mod settings;
 
 pub use adaptive::AdaptiveReport;
 pub use advance::StepReport;
 pub use energies::Energies;
-pub use error::{SetupError, StepError};
 pub use settings::SimulationSettings;
 
 use settings::check_settings;

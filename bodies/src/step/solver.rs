@@ -20,6 +20,7 @@ use conjugate::Conjugate;
 pub use own::SparseSolver;
 pub use preconditioner::Preconditioner;
 
+pub use interface::{Definiteness, Solution};
 pub(super) use interface::{SolveError, Solver};
 
 /// Solver of the linear systems A p = b of Newton's method, b being minus the gradient.

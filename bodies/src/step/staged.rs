@@ -5,8 +5,8 @@
 
 use piola::NoSuchNode;
 
+use super::error::SetupError;
 use super::integrator::{Integrator, Method, Stage, Stages, State, on_the_way};
-use super::simulation::SetupError;
 use super::spring::Spring;
 
 /// State of nodes, and the stages by which an [`Integrator`] advances it, for any minimiser: the one of

@@ -1,9 +1,10 @@
 //! Steps of a simulation whose length follows from their error.
 
+use crate::step::error::StepError;
 use crate::step::halving::{self, Pace, Repeatable};
 use crate::step::staged::StagedSteps;
 
-use super::{Simulation, StepError, StepReport};
+use super::{Simulation, StepReport};
 
 /// Report of [`Simulation::advance_within`].
 #[derive(Clone, Debug, PartialEq)]

@@ -1,12 +1,13 @@
 //! A step from one state to the next, stage by stage.
 
+use crate::step::error::StepError;
 use crate::step::minimisation::StageMinimisation;
 use crate::step::newton::{NewtonError, NewtonReport, minimize};
 use crate::step::objective::{Objective, Quadratic, Terms};
 use crate::step::staged::InStage;
 use crate::system::element::Evaluated;
 
-use super::{Energies, Simulation, StepError};
+use super::{Energies, Simulation};
 
 /// Report of a step.
 #[derive(Clone, Debug, PartialEq)]

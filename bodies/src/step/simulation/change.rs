@@ -5,6 +5,7 @@ use std::sync::Arc;
 use piola::NoSuchNode;
 use piola::batch::TileMaterial;
 
+use crate::step::error::SetupError;
 use crate::step::minimisation::NewtonWorkspace;
 use crate::step::solver::{Choice, SparseSolver};
 use crate::step::spring::Spring;
@@ -12,7 +13,7 @@ use crate::step::term::Term;
 use crate::system::{BodyError, Pins};
 
 use super::settings::check_settings;
-use super::{SetupError, Simulation, SimulationSettings, static_regularisation};
+use super::{Simulation, SimulationSettings, static_regularisation};
 
 impl Simulation {
     /// Sets the position of each node, m, for any deformation, even collapsed. Pins hold their nodes there.

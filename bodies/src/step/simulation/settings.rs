@@ -1,11 +1,10 @@
 //! Settings of a simulation, and their checks.
 
 use crate::step::damping::Damping;
+use crate::step::error::SetupError;
 use crate::step::integrator::Integrator;
 use crate::step::line_search::LineSearchSettings;
 use crate::step::newton::NewtonSettings;
-
-use super::SetupError;
 
 /// Settings of a [`Simulation`](super::Simulation).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

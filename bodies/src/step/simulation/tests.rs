@@ -9,7 +9,7 @@ use super::*;
 use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::step::{
     Convergence, Damping, Filtering, Integrator, LineSearchSettings, LinearSolver, NewtonError, NewtonReport,
-    NewtonSettings,
+    NewtonSettings, StepError,
 };
 use crate::system::LinearError;
 use crate::system::testing::{beam, kirchhoff, neo_hookean, rotated, shake};

@@ -2,13 +2,12 @@
 
 use piola::point::Filter;
 
-use crate::step::newton::{Definiteness, Solution};
 use crate::step::objective::Objective;
 use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::{Body, LowerTriangle, NodalStiffness, Pins};
 
-use super::interface::{SolveError, Solver};
+use super::interface::{Definiteness, Solution, SolveError, Solver};
 use super::own::SparseSolver;
 
 /// The largest tolerance that a solver receives.

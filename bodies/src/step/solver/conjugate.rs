@@ -2,7 +2,6 @@
 
 use piola::point::Filter;
 
-use crate::step::newton::{Definiteness, Solution};
 use crate::step::objective::Objective;
 use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
@@ -12,7 +11,7 @@ use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::{Body, Pins};
 
-use super::interface::{SolveError, Solver};
+use super::interface::{Definiteness, Solution, SolveError, Solver};
 use super::preconditioner::Preconditioner;
 
 /// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).

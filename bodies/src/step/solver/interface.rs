@@ -2,12 +2,31 @@
 
 use piola::point::Filter;
 
-use crate::step::newton::{Definiteness, Solution};
 use crate::step::objective::Objective;
 use crate::system::Pins;
 use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::linear::conjugate_gradients::{End, Iteration};
+
+/// Requirement on the matrix of a linear system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Definiteness {
+    /// An indefinite matrix is left unsolved.
+    Required,
+    /// An indefinite matrix is made definite, or used until the indefiniteness shows.
+    Optional,
+}
+
+/// Outcome of a linear solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Solution {
+    /// Multiple of inertia that was added.
+    pub shift: f64,
+    /// Number of iterations of the linear solver.
+    pub iterations: usize,
+    /// True if the iteration stopped before the tolerance.
+    pub truncated: bool,
+}
 
 /// A solver of the linear systems of a simulation, with all its memory.
 pub(crate) trait Solver: Send + Sync {
