@@ -61,5 +61,5 @@ pub mod divided {
     pub use super::solver::{Definiteness, Preconditioner, Solution};
     pub use super::staged::{InStage, StagedSteps};
     pub use crate::system::linear::conjugate_gradients::{End, Iteration};
-    pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Whole};
+    pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Undivided};
 }

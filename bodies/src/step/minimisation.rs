@@ -40,8 +40,8 @@ impl NewtonWorkspace {
     }
 
     /// True if the linear solver is user-defined.
-    pub(super) fn has_own_solver(&self) -> bool {
-        matches!(self.choice, Choice::Own(_))
+    pub(super) fn has_user_defined_solver(&self) -> bool {
+        matches!(self.choice, Choice::UserDefined(_))
     }
 
     /// Replaces the pins; sets up a new solver if the present one cannot handle them.

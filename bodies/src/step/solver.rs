@@ -6,8 +6,8 @@
 mod assembled;
 mod conjugate;
 mod interface;
-mod own;
 mod preconditioner;
+mod user_defined;
 
 use std::sync::Arc;
 
@@ -17,8 +17,8 @@ use crate::system::{Body, Pins};
 use assembled::Assembled;
 use conjugate::Conjugate;
 
-pub use own::SparseSolver;
 pub use preconditioner::Preconditioner;
+pub use user_defined::SparseSolver;
 
 pub use interface::{Definiteness, Solution};
 pub(super) use interface::{SolveError, Solver};
@@ -128,7 +128,7 @@ impl LinearSolver {
 #[derive(Clone)]
 pub(crate) enum Choice {
     Setting(LinearSolver),
-    Own(Arc<dyn SetUp>),
+    UserDefined(Arc<dyn SetUp>),
 }
 
 impl Choice {
@@ -141,7 +141,7 @@ impl Choice {
     ) -> Result<Box<dyn Solver>, LinearError> {
         match self {
             Self::Setting(solver) => solver.set_up(body, pins, pairs),
-            Self::Own(solver) => solver.set_up(body, pins, pairs),
+            Self::UserDefined(solver) => solver.set_up(body, pins, pairs),
         }
     }
 }

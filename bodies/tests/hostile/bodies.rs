@@ -2,7 +2,7 @@
 
 use piola::point::Filter;
 use piola_bodies::step::Integrator;
-use piola_bodies::step::divided::{Preconditioner, StagedSteps, Whole};
+use piola_bodies::step::divided::{Preconditioner, StagedSteps, Undivided};
 use piola_bodies::system::{Body, Cholesky, ElasticResponse, LowerTriangle, NodalStiffness, Part};
 
 use crate::arguments::{Hostile, check};
@@ -32,7 +32,7 @@ fn triangle(hostile: &mut Hostile, stiffness: &NodalStiffness) {
 /// Blocks or levels for a stiffness, and what they make of a right side.
 fn preconditioner(hostile: &mut Hostile, stiffness: &NodalStiffness, positions: &[[f64; 3]]) {
     let nodes = hostile.length(positions.len());
-    let mut preconditioner = Preconditioner::new(nodes, Whole);
+    let mut preconditioner = Preconditioner::new(nodes, Undivided);
     let is_free: Vec<bool> = (0..hostile.length(nodes)).map(|_| !hostile.0.once_in(4)).collect();
     let inertia = if hostile.0.once_in(2) { 0.0 } else { hostile.about(1e3) };
     let empty = NodalStiffness::empty().expect("nothing");

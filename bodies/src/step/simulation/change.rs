@@ -157,7 +157,7 @@ impl Simulation {
     pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
         check_settings(&settings)?;
         let (new, old) = (&settings.newton, &self.settings.newton);
-        if new.linear != old.linear || self.workspace.has_own_solver() {
+        if new.linear != old.linear || self.workspace.has_user_defined_solver() {
             let choice = Choice::Setting(new.linear);
             self.workspace =
                 NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;
@@ -173,7 +173,7 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::Linear`] with the error of the solver for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
-        let choice = Choice::Own(Arc::new(solver));
+        let choice = Choice::UserDefined(Arc::new(solver));
         self.workspace = NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;
         Ok(())
     }

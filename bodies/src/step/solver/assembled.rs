@@ -8,7 +8,7 @@ use crate::system::linear::LinearError;
 use crate::system::{Body, LowerTriangle, NodalStiffness, Pins};
 
 use super::interface::{Definiteness, Solution, SolveError, Solver};
-use super::own::SparseSolver;
+use super::user_defined::SparseSolver;
 
 /// The largest tolerance that a solver receives.
 const TOLERANCE: f64 = 1e-3;

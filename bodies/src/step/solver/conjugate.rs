@@ -6,7 +6,7 @@ use crate::step::objective::Objective;
 use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
-use crate::system::linear::multigrid::Whole;
+use crate::system::linear::multigrid::Undivided;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::{Body, Pins};
@@ -22,7 +22,7 @@ use super::preconditioner::Preconditioner;
 pub(super) struct Conjugate {
     stiffness: NodalStiffness,
     nodes: Nodes,
-    preconditioner: Preconditioner<Whole>,
+    preconditioner: Preconditioner<Undivided>,
     conjugate_gradients: ConjugateGradients,
     tolerance: f64,
     max_iterations: usize,
@@ -57,7 +57,7 @@ impl Conjugate {
         Ok(Self {
             stiffness: NodalStiffness::new(body, pairs)?,
             nodes: Nodes::new(nodes, pins),
-            preconditioner: Preconditioner::new(nodes, Whole),
+            preconditioner: Preconditioner::new(nodes, Undivided),
             conjugate_gradients: ConjugateGradients::new(3 * nodes),
             tolerance,
             max_iterations,
@@ -148,7 +148,7 @@ impl Solver for Conjugate {
 struct Linearised<'a> {
     matrix: &'a mut SymmetricBlocks<f64, 3>,
     pinned: &'a [usize],
-    preconditioner: &'a mut Preconditioner<Whole>,
+    preconditioner: &'a mut Preconditioner<Undivided>,
 }
 
 impl System for Linearised<'_> {

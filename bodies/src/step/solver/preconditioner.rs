@@ -190,12 +190,12 @@ fn softness(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::linear::multigrid::Whole;
+    use crate::system::linear::multigrid::Undivided;
     use crate::system::testing::{beam, neo_hookean};
     use crate::system::{Body, LinearError};
 
     fn after(in_use: InUse, iterations: usize, end: End, tolerance: f64) -> (InUse, bool) {
-        let mut preconditioner = Preconditioner { in_use, ..Preconditioner::new(0, Whole) };
+        let mut preconditioner = Preconditioner { in_use, ..Preconditioner::new(0, Undivided) };
         let again = preconditioner.judge(Iteration { iterations, end }, tolerance);
         (preconditioner.in_use, again)
     }
@@ -203,9 +203,9 @@ mod tests {
     #[test]
     fn blocks_are_chosen_where_inertia_counts_and_left_where_they_take_too_long() {
         let diagonals = [[[4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]]; 2];
-        let softness = |inertia: f64| softness(&diagonals, &[true, false], |_| inertia, &Whole);
+        let softness = |inertia: f64| softness(&diagonals, &[true, false], |_| inertia, &Undivided);
         assert_eq!((softness(0.0), softness(2.0)), (0.0, 0.5));
-        let preconditioner = Preconditioner { in_use: InUse::Blocks, ..Preconditioner::new(0, Whole) };
+        let preconditioner = Preconditioner { in_use: InUse::Blocks, ..Preconditioner::new(0, Undivided) };
         assert_eq!((preconditioner.patience(1e-3), preconditioner.patience(0.5)), (60, 7));
         assert_eq!(after(InUse::Blocks, 30, End::Converged, 1e-3), (InUse::Blocks, false));
         assert_eq!(after(InUse::Blocks, 60, End::Limit, 1e-3), (InUse::Wanted, true));
@@ -217,7 +217,7 @@ mod tests {
         let body = Body::new(&beam(1), neo_hookean(), 1000.0).expect("a body");
         let stiffness = NodalStiffness::of_body(&body).expect("small");
         let take = |nodes: usize, free: usize, x: usize| {
-            let mut preconditioner = Preconditioner::new(nodes, Whole);
+            let mut preconditioner = Preconditioner::new(nodes, Undivided);
             preconditioner.take(&stiffness, &vec![true; free], &body.rest()[..x], |_| 0.0)
         };
         let error = |slice, found, expected| Err(LinearError::Length { slice, found, expected });
@@ -230,7 +230,7 @@ mod tests {
     fn levels_serve_as_long_as_they_are_worth_it() {
         let old = InUse::Old { for_a_digit: 5.0 };
         assert_eq!(after(InUse::Fresh, 15, End::Converged, 1e-3), (old, false));
-        assert_eq!(Preconditioner { in_use: old, ..Preconditioner::new(0, Whole) }.patience(1e-2), 40);
+        assert_eq!(Preconditioner { in_use: old, ..Preconditioner::new(0, Undivided) }.patience(1e-2), 40);
         assert_eq!(after(old, 19, End::Converged, 1e-2), (old, false));
         assert_eq!(after(old, 25, End::Converged, 1e-2), (InUse::Wanted, false));
         assert_eq!(after(old, 40, End::Limit, 1e-2), (InUse::Wanted, true));

@@ -49,7 +49,7 @@ use division::ROWS;
 use level::{Coarse, Level};
 
 pub(crate) use division::diagonals;
-pub use division::{Division, Whole};
+pub use division::{Division, Undivided};
 pub use last::{LastLevel, LastSolver};
 
 /// Multigrid levels of a matrix of 3×3 blocks; initially there are none.

@@ -73,14 +73,14 @@ pub trait Division: Sized {
 
 /// Division of a matrix on one machine: it owns all rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Whole;
+pub struct Undivided;
 
 /// Largest number of rows of a level that is always factored. Large bodies have a larger last level, with
 /// half the square root of the number of nodes as the number of rows; its factor still takes less time than
 /// the finest level.
 const FEW: usize = 64;
 
-impl Division for Whole {
+impl Division for Undivided {
     type Error = LinearError;
     type Last = Last;
 

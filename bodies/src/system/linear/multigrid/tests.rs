@@ -28,7 +28,7 @@ fn cube(
 
 struct Preconditioned<'a> {
     matrix: SymmetricBlocks<f64, 3>,
-    multigrid: Multigrid<Whole>,
+    multigrid: Multigrid<Undivided>,
     is_free: &'a [bool],
 }
 
@@ -51,7 +51,7 @@ impl System for Preconditioned<'_> {
 /// Solves a system with a random right side that is zero at pinned nodes.
 fn solve(
     stiffness: &NodalStiffness,
-    multigrid: &Multigrid<Whole>,
+    multigrid: &Multigrid<Undivided>,
     is_free: &[bool],
     tolerance: f64,
 ) -> Iteration {
@@ -63,8 +63,8 @@ fn solve(
     ConjugateGradients::new(3 * b.len()).solve(&mut system, b.as_flattened_mut(), tolerance, 300)
 }
 
-fn set_up(stiffness: &NodalStiffness, is_free: &[bool], positions: &[[f64; 3]]) -> Multigrid<Whole> {
-    let mut multigrid = Multigrid::new(Whole);
+fn set_up(stiffness: &NodalStiffness, is_free: &[bool], positions: &[[f64; 3]]) -> Multigrid<Undivided> {
+    let mut multigrid = Multigrid::new(Undivided);
     let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
     let diagonals = diagonals(matrix, multigrid.division_mut());
     multigrid
@@ -98,7 +98,7 @@ fn old_levels_serve_another_matrix() {
     let mut multigrid = set_up(&stiffness, &is_free, &positions);
     let (bent, is_free, positions) = cube(8, Filter::Clamp, turn);
     let fresh = solve(&bent, &set_up(&bent, &is_free, &positions), &is_free, 1e-6);
-    multigrid.take(bent.matrix(), &diagonals(bent.matrix(), &mut Whole), &is_free);
+    multigrid.take(bent.matrix(), &diagonals(bent.matrix(), &mut Undivided), &is_free);
     let old = solve(&bent, &multigrid, &is_free, 1e-6);
     assert_eq!((fresh.end, old.end), (End::Converged, End::Converged));
     assert!(old.iterations <= 5 * fresh.iterations, "{fresh:?}, {old:?}");
@@ -156,6 +156,6 @@ fn matrices_without_anything_to_aggregate_are_no_exception() {
 #[test]
 fn before_there_are_levels_the_cycle_is_the_unit_matrix() {
     let mut z = [[0.0; 3]];
-    Multigrid::new(Whole).solve(&[[1.0, 2.0, 3.0]], &mut z);
+    Multigrid::new(Undivided).solve(&[[1.0, 2.0, 3.0]], &mut z);
     assert_eq!(z, [[1.0, 2.0, 3.0]]);
 }
