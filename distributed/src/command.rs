@@ -152,12 +152,6 @@ struct Choice {
     #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     parts: Vec<String>,
 
-    /// Individual parameters of each tetrahedron: a table with the first line `element,PARAM,…` and a line
-    /// for each tetrahedron. A line has the number of the tetrahedron in the file of the mesh, and values in
-    /// the format of --param, with lists in quotes. Groups with a --part need no lines.
-    #[arg(long, value_name = "FILE.csv")]
-    vary: Option<PathBuf>,
-
     /// Displacement of nodes: BOX|GROUP=X,Y,Z@T moves them steadily by X, Y, Z in m until the time T in s,
     /// and then holds them; in statics the whole displacement is applied at once. May be repeated.
     #[arg(long = "move", value_name = "BOX|GROUP=X,Y,Z@T", value_parser = motion, allow_hyphen_values = true)]
@@ -173,8 +167,6 @@ pub struct Task {
     pub groups: Vec<String>,
     /// The materials of these groups.
     pub materials: Vec<MaterialPart>,
-    /// Path of a table with parameters of elements.
-    pub table: Option<PathBuf>,
     /// Motions of nodes.
     pub moves: Vec<Move>,
 }
@@ -241,8 +233,8 @@ impl Choice {
     fn task(&self) -> Result<Task, Error> {
         let settings = self.scene.clone().settings(None)?;
         settings.check()?;
-        let (table, moves) = (self.vary.clone(), self.moves.clone());
-        let mut task = Task { settings, groups: Vec::new(), materials: Vec::new(), table, moves };
+        let moves = self.moves.clone();
+        let mut task = Task { settings, groups: Vec::new(), materials: Vec::new(), moves };
         for text in &self.parts {
             let (group, material) = part(text, &task.settings)?;
             task.groups.push(group);
@@ -277,7 +269,7 @@ fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error
     };
     let material = with_values(material, parameters)?;
     material.build()?;
-    Ok((group.to_owned(), MaterialPart { material, varied: None, density }))
+    Ok((group.to_owned(), MaterialPart { material, density }))
 }
 
 fn numbers(text: &str) -> Result<Vec<f64>, String> {

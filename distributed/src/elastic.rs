@@ -3,8 +3,6 @@
 //! The elements are a body of piola, whose nodes are the owned nodes and the copies. This module does not
 //! depend on time or on a solver.
 
-use std::sync::Arc;
-
 use piola::point::Filter;
 use piola_bodies::mesh::{Group, TetMesh};
 use piola_bodies::step::EnergyChange;
@@ -14,15 +12,12 @@ use piola_scenes::material::MaterialSpec;
 use crate::error::Error;
 use crate::petsc::{GhostedVector, PetscError};
 use crate::share::Share;
-use crate::varied::Varied;
 
 /// Material and density of the elements of a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialPart {
     /// The material.
     pub material: MaterialSpec,
-    /// Individual parameters of each element, which replace the parameters of the material.
-    pub varied: Option<Arc<Varied>>,
     /// Mass per rest volume, kg/m³.
     pub density: f64,
 }
@@ -197,10 +192,7 @@ impl Piece {
             if tets.is_empty() {
                 continue;
             }
-            let material = match &part.varied {
-                None => part.material.build()?.elements,
-                Some(varied) => varied.elements(&part.material, tets.iter().map(|&tet| elements[tet].1))?,
-            };
+            let material = part.material.build()?.elements;
             stiffnesses.push((material.rest_stiffness().abs(), tets.len()));
             let name = number.to_string();
             mesh.groups.push(Group { name: name.clone(), dimension: 3, nodes: Vec::new(), tets });

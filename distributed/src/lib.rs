@@ -28,4 +28,3 @@ pub mod share;
 pub mod simulation;
 pub mod system;
 pub mod team;
-pub mod varied;

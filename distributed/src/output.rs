@@ -29,9 +29,6 @@ pub struct Summary {
     pub material: String,
     /// Parameters of the material by name, in SI units.
     pub parameters: Parameters,
-    /// Path of a table with parameters of elements, which replace `parameters`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub table: Option<PathBuf>,
     /// Number of tetrahedra.
     pub tets: usize,
     /// Number of nodes.

@@ -33,9 +33,6 @@ pub struct About {
     pub settings: String,
     /// Checksum of the mesh.
     pub body: u32,
-    /// Checksum of the table with parameters of elements.
-    #[serde(default)]
-    pub table: Option<u32>,
     /// Number of completed steps.
     pub frame: usize,
     /// Clock at the checkpoint; `None` in statics.
@@ -99,7 +96,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let material = MaterialSpec::new("stable neo-Hookean")
         .with_parameter("mu", [moduli.mu])
         .with_parameter("lambda", [moduli.lambda]);
-    let parts = [MaterialPart { material, varied: None, density: 1000.0 }];
+    let parts = [MaterialPart { material, density: 1000.0 }];
     let clock = Instant::now();
     let share = Share::of(team, Portion::of_cube(team, cells, 1.0))?;
     let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
@@ -111,14 +108,8 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let solved = clock.elapsed();
     if let Some(folder) = &options.out {
         output::prepare(team, folder, true)?;
-        let about = About {
-            settings: String::new(),
-            body: 0,
-            table: None,
-            frame: 0,
-            clock: None,
-            progress: Progress::new(),
-        };
+        let about =
+            About { settings: String::new(), body: 0, frame: 0, clock: None, progress: Progress::new() };
         checkpoint::write(team, &checkpoint::file_in(folder), &simulation, &about)?;
     }
     if report.convergence == Convergence::Limit {
@@ -168,9 +159,9 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
     let task = team.agree(options.task())?;
     let newton = options.solver.settings(false)?;
     let folder = folder(&options.out, &task);
-    let mut setting = setting(team, &task)?;
+    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
     output::prepare(team, &folder, options.force)?;
-    let mut simulation = simulation(team, &task, &mut setting, newton)?;
+    let mut simulation = simulation(team, &task, &setting, newton)?;
     // In statics, prescribed motions are complete.
     let share = setting.share.clone();
     simulation.prescribe(|node| setting.place(&share, node, f64::INFINITY))?;
@@ -202,11 +193,11 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.newton()?;
     let folder = folder(&options.out, &task);
-    let mut setting = setting(team, &task)?;
+    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
     if !options.resume {
         output::prepare(team, &folder, options.force)?;
     }
-    let simulation = simulation(team, &task, &mut setting, newton)?;
+    let simulation = simulation(team, &task, &setting, newton)?;
     let progress = Progress::new();
     let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 0 };
     let mut clock = Clock::new(task.settings.dt);
@@ -260,22 +251,16 @@ fn folder(out: &Option<PathBuf>, task: &Task) -> PathBuf {
     out.clone().unwrap_or_else(|| Path::new("out").join(task.settings.scene.name))
 }
 
-fn setting(team: &Team, task: &Task) -> Result<Setting, Error> {
-    let mut setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
-    if let Some(table) = &task.table {
-        setting.vary(team, table)?;
-    }
-    Ok(setting)
-}
-
 fn simulation(
     team: &Team,
     task: &Task,
-    setting: &mut Setting,
+    setting: &Setting,
     newton: NewtonSettings,
 ) -> Result<Simulation, Error> {
     let settings = piola_scenes::play::step_settings(&task.settings).with_newton(newton);
-    let materials = setting.materials(&task.settings, &task.materials);
+    // The elements of groups have the materials with the numbers 1, 2, …; all others have the first one.
+    let first = MaterialPart { material: task.settings.material.clone(), density: task.settings.density };
+    let materials: Vec<_> = std::iter::once(first).chain(task.materials.iter().cloned()).collect();
     Simulation::new(team, setting.share.clone(), &materials, settings)
 }
 
@@ -332,7 +317,6 @@ impl Course<'_> {
         Ok(About {
             settings: self.settings()?,
             body: self.setting.body.checksum,
-            table: self.setting.table(),
             frame: self.frame,
             clock,
             progress: self.progress.clone(),
@@ -340,13 +324,10 @@ impl Course<'_> {
     }
 
     fn resume(&mut self, file: &Path) -> Result<Clock, Error> {
-        let (settings, body, table) = (self.settings()?, self.setting.body.checksum, self.setting.table());
+        let (settings, body) = (self.settings()?, self.setting.body.checksum);
         let check = |about: &About| {
             if about.body != body {
                 return Err("it belongs to another mesh".to_owned());
-            }
-            if about.table != table {
-                return Err("its run began with another table for --vary, or without one".to_owned());
             }
             if about.settings != settings || about.clock.is_none() {
                 return Err(format!("its run began with other options: {}", about.settings));
@@ -380,7 +361,6 @@ impl Course<'_> {
             scene: settings.scene.name.to_owned(),
             material: info.as_ref().map_or_else(String::new, |info| info.name.to_string()),
             parameters: info.map(|info| info.parameters).unwrap_or_default(),
-            table: self.task.table.clone(),
             tets: share.totals[1],
             nodes: share.totals[0],
             ranks: team.size(),

@@ -1,8 +1,5 @@
 //! Setting of a run: the body of a scene, read and divided, with pins, prescribed motions and springs.
 
-use std::path::Path;
-use std::sync::Arc;
-
 use piola_bodies::mesh::Bounds;
 use piola_bodies::step::Spring;
 use piola_bodies::system::Pins;
@@ -13,12 +10,10 @@ use piola_scenes::region;
 use piola_scenes::settings::Settings;
 use serde::{Deserialize, Serialize};
 
-use crate::elastic::MaterialPart;
 use crate::error::Error;
 use crate::portion::{Element, Place, Portion};
 use crate::share::Share;
 use crate::team::Team;
-use crate::varied::Varied;
 
 /// Prescribed motion of some nodes, which are pinned for it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,10 +36,6 @@ pub struct Setting {
     /// Springs of each pull, at the owned nodes of this rank.
     pulls: Vec<DragSprings>,
     moves: Vec<Move>,
-    /// Individual parameters of elements, until their materials are created.
-    varied: Option<Arc<Varied>>,
-    /// Checksum of the table with these parameters.
-    table: Option<u32>,
 }
 
 /// Properties of the whole body, equal on all ranks.
@@ -102,41 +93,7 @@ impl Setting {
             bounds: body.bounds,
             stiffness: body.stiffnesses[number],
         });
-        Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), varied: None, table: None, share, body })
-    }
-
-    /// Reads individual parameters of the elements with the material of the settings from a table. Every rank
-    /// reads the whole table, and keeps the rows of its elements.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] for a malformed table, [`Error::Options`] if ranks read different tables.
-    pub fn vary(&mut self, team: &Team, table: &Path) -> Result<(), Error> {
-        let tags = self.share.elements.iter().map(|&(_, tag, _)| tag).collect();
-        let varied = team.agree(Varied::read(table, &tags))?;
-        let checksum = varied.checksum();
-        if team.all(checksum as usize).iter().any(|&other| other != checksum as usize) {
-            return Err(Error::Options(format!(
-                "--vary {}: the file is not the same on all ranks",
-                table.display()
-            )));
-        }
-        (self.varied, self.table) = (Some(Arc::new(varied)), Some(checksum));
-        Ok(())
-    }
-
-    /// Checksum of the table with parameters of elements.
-    #[must_use]
-    pub fn table(&self) -> Option<u32> {
-        self.table
-    }
-
-    /// Materials of a run with their densities: the material of the settings, then the materials of groups.
-    /// The first call returns the parameters of the table, too.
-    #[must_use]
-    pub fn materials(&mut self, settings: &Settings, groups: &[MaterialPart]) -> Vec<MaterialPart> {
-        let (material, varied) = (settings.material.clone(), self.varied.take());
-        let first = MaterialPart { material, varied, density: settings.density };
-        std::iter::once(first).chain(groups.iter().cloned()).collect()
+        Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), share, body })
     }
 
     /// Springs at owned nodes at the end of a time interval, s.

@@ -8,7 +8,7 @@ mod common;
 use std::path::Path;
 
 use common::{TestResult, checkpoint_in, command, finish, msh, state_after};
-use piola::material::{Moduli, PerPoint};
+use piola::material::Moduli;
 use piola::point::Filter;
 use piola_bodies::mesh::{Bounds, tetrahedral_box};
 use piola_bodies::step::{
@@ -365,72 +365,6 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
         let error = distance(&found.positions, simulation.positions());
         println!("bar on {count} ranks: {error:.1e} m");
         assert!(error <= 1e-9 * f64::from(frames), "{error:e} m on {count} ranks");
-    }
-    Ok(())
-}
-
-/// A bar hangs at its top. Its elements are increasingly soft, and the upper half has another material.
-#[test]
-fn parameters_of_each_element_are_those_of_one_machine() -> TestResult {
-    let mut mesh = tetrahedral_box([2, 8, 2], [0.25, 1.0, 0.25])?;
-    let scratch = tempfile::tempdir()?;
-    let (file, table) = (scratch.path().join("bar.msh"), scratch.path().join("soft.csv"));
-    let upper: Vec<usize> = (0..mesh.tets.len()).filter(|&tet| tet >= mesh.tets.len() / 2).collect();
-    std::fs::write(&file, msh(&mesh, &upper))?;
-    let soft = MaterialSpec::matching("neo-Hookean", (HORSE.material)().build()?.moduli).explicit()?;
-    let mu = |tet: usize| soft.values_of("mu")[0] / (1.0 + 0.01 * tet as f64);
-    let rows = (0..mesh.tets.len() / 2).rev().map(|tet| format!("{:?},{}\n", mu(tet), tet + 1));
-    std::fs::write(&table, "mu,element\n".to_owned() + &rows.collect::<String>())?;
-
-    let lower = mesh.tets.len() / 2;
-    let materials = (0..lower).map(|tet| soft.clone().with_parameter("mu", [mu(tet)]).interpreted());
-    let lower = Box::new(PerPoint::new(materials.collect::<Result<Vec<_>, _>>()?)?);
-    mesh.groups.push(piola_bodies::mesh::Group {
-        name: "upper".to_owned(),
-        dimension: 3,
-        nodes: Vec::new(),
-        tets: upper,
-    });
-    let other = MaterialSpec::matching("stable neo-Hookean", soft.build()?.moduli).build()?.elements;
-    let parts = vec![
-        Part { group: None, material: lower, density: 1000.0 },
-        Part { group: Some("upper".to_owned()), material: other, density: 1000.0 },
-    ];
-    let body = Body::from_parts(&mesh, parts)?;
-    let top = Pins::in_box(&mesh, Bounds { min: [-1.0, 1.0 - 1e-9, -1.0], max: [1.0; 3] })?;
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
-    let mut simulation = Simulation::new(body, &top, settings)?;
-    simulation.equilibrate()?;
-
-    for count in ranks() {
-        let folder = scratch.path().join(count.to_string());
-        let [file, table, folder_name] = [&file, &table, &folder].map(|path| path.to_str().expect("UTF-8"));
-        let words = [
-            "statics",
-            "scramble",
-            "--amplitude",
-            "0",
-            "--mesh",
-            file,
-            "--material",
-            "neo-Hookean",
-            "--vary",
-            table,
-            "--part",
-            "upper=stable neo-Hookean",
-            "--gravity",
-            "9.81",
-            "--pin",
-            ":,0.999999:,:",
-            "--newton-tolerance",
-            "1e-12",
-            "--out",
-            folder_name,
-        ];
-        let found = state_after(count, words.map(str::to_owned), &folder)?;
-        let error = distance(&found.positions, simulation.positions());
-        println!("bar of many materials on {count} ranks: {error:.1e} m");
-        assert!(error <= 1e-8, "{error:e} m on {count} ranks");
     }
     Ok(())
 }

@@ -39,7 +39,6 @@ fn wrong_options_are_named_once() -> TestResult {
         ("box --elements 6 --newton-tolerance 2", "--newton-tolerance 2"),
         ("run no-such-scene", "there is no scene `no-such-scene`"),
         ("run horse --mesh no-such-file.msh", "no-such-file.msh"),
-        ("run horse --vary no-such-table.csv", "--vary no-such-table.csv: "),
         (
             "run horse --frames 1 --dt 0.1 --resume --out no-such-folder",
             "cannot continue from no-such-folder",
@@ -216,7 +215,7 @@ fn elements_are_judged_on_their_rank() -> TestResult {
     let library = Library::start(&[])?;
     let team = Team::new(&library);
     let material = MaterialSpec::matching("neo-Hookean", soft_moduli());
-    let parts = [MaterialPart { material, varied: None, density: 1000.0 }];
+    let parts = [MaterialPart { material, density: 1000.0 }];
     let share = Share::of(&team, Portion::of_cube(&team, 4, 1.0))?;
     let first = share.elements.first().map_or(0, |&(_, tag, _)| tag as usize);
     let tag = team.all(first)[3] as u64;
@@ -230,36 +229,5 @@ fn elements_are_judged_on_their_rank() -> TestResult {
         }
         other => return Err(format!("no rank has refused: {:?}", other.map(|_| ())).into()),
     }
-    Ok(())
-}
-
-/// One rank has an element with a value that the material refuses. A changed table is detected when a run
-/// continues.
-#[test]
-fn tables_of_parameters_are_judged() -> TestResult {
-    let scratch = tempfile::tempdir()?;
-    let (table, folder) = (scratch.path().join("mu.csv"), scratch.path().join("run"));
-    let write = |odd: &str| {
-        let rows = (1..=6 * 8).map(|tet| format!("{tet},{}\n", if tet == 17 { odd } else { "1e5" }));
-        fs::write(&table, "element,mu\n".to_owned() + &rows.collect::<String>())
-    };
-    let mesh = scratch.path().join("cube.msh");
-    fs::write(&mesh, common::msh(&piola_bodies::mesh::tetrahedral_box([2; 3], [1.0; 3])?, &[]))?;
-    let run = |options: &str| {
-        let options = format!(
-            "run scramble --amplitude 0.1 --mesh {} --material neo-Hookean --vary {} --out {} {options}",
-            mesh.display(),
-            table.display(),
-            folder.display()
-        );
-        finish(command(3, words(&options)))
-    };
-    write("-1")?;
-    check_failure(&run("--frames 1")?, "line 18: ");
-    write("2e5")?;
-    let output = run("--frames 1")?;
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    write("3e5")?;
-    check_failure(&run("--frames 2 --resume")?, "another table for --vary");
     Ok(())
 }
