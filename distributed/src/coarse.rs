@@ -7,8 +7,7 @@ use std::rc::Rc;
 
 use piola_bodies::step::divided::{LastLevel, LastSolver};
 
-use crate::division::{Copies, Failure};
-use crate::petsc::{Krylov, Library, Matrix, PetscError, Vector};
+use crate::petsc::{Failure, Krylov, Library, Matrix, PetscError, Vector};
 use crate::team::Team;
 
 /// Default options of PETSc for the solver of the last level.
@@ -36,17 +35,22 @@ pub struct Coarse {
 }
 
 impl Coarse {
-    /// Sets up a solver for the rows of a division.
+    /// Sets up a solver for a level of which this rank owns `owned` rows. `numbers` are the global numbers of
+    /// all rows of this rank, copies of rows of other ranks last. Errors of solutions are noted in `failure`.
     ///
     /// # Errors
     /// [`PetscError`], also for an option with a value that PETSc does not support.
-    pub(crate) fn new(rows: &Copies, level: &LastLevel<'_>) -> Result<Self, PetscError> {
-        let (team, owned) = (rows.team(), rows.owned());
+    pub(crate) fn new(
+        team: &Team,
+        failure: &Failure,
+        owned: usize,
+        numbers: &[usize],
+        level: &LastLevel<'_>,
+    ) -> Result<Self, PetscError> {
         let library = team.library();
         for (name, value) in DEFAULTS {
             library.default_option(name, value)?;
         }
-        let numbers: Vec<usize> = rows.numbers().collect();
         let mut places = Vec::new();
         let mut values = Vec::new();
         for (row, column, block) in level.blocks() {
@@ -72,7 +76,7 @@ impl Coarse {
             krylov: Krylov::once(library, Rc::new(RefCell::new(matrix)), kind, "coarse_")?,
             b: vector()?,
             x: vector()?,
-            failure: rows.failure().clone(),
+            failure: failure.clone(),
         })
     }
 

@@ -3,15 +3,13 @@
 //! Vectors are exchanged by PETSc, lists of integers by [`Team::exchange`]. PETSc also solves the last level.
 //! This module does not depend on bodies.
 
-use std::cell::RefCell;
 use std::ops::Range;
-use std::rc::Rc;
 
 use piola_bodies::step::divided::{Division, LastLevel};
 
 use crate::coarse::Coarse;
 use crate::error::Error;
-use crate::petsc::{GhostedVector, PetscError};
+use crate::petsc::{Failure, GhostedVector, PetscError};
 use crate::team::Team;
 
 /// Largest number of rows of a level that is always the last. Large bodies have a larger last level, with
@@ -26,29 +24,8 @@ const MOST: usize = 512;
 /// aggregates.
 const FEW_OF_A_RANK: usize = 32;
 
-/// First error, since the last call of [`Failure::take`], of exchanges that cannot return an error.
-#[derive(Clone, Default)]
-pub struct Failure(Rc<RefCell<Option<PetscError>>>);
-
-impl Failure {
-    /// Keeps an error, unless an earlier one is kept.
-    pub fn note(&self, result: Result<(), PetscError>) {
-        if let Err(error) = result {
-            self.0.borrow_mut().get_or_insert(error);
-        }
-    }
-
-    /// Removes the error, and returns it.
-    ///
-    /// # Errors
-    /// The first [`PetscError`] that was noted.
-    pub fn take(&self) -> Result<(), PetscError> {
-        self.0.borrow_mut().take().map_or(Ok(()), Err)
-    }
-}
-
 /// Rows of a level on one rank: owned rows, and copies of rows of other ranks.
-pub struct Copies {
+pub struct RowsOfRank {
     team: Team,
     failure: Failure,
     /// Global numbers of the owned rows.
@@ -63,7 +40,7 @@ pub struct Copies {
     vectors: [Option<GhostedVector>; 2],
 }
 
-impl Copies {
+impl RowsOfRank {
     /// Division with a number of owned rows on this rank, and copies of the rows with the global numbers
     /// `numbers`, which are counted rank after rank. Errors of exchanges are noted in `failure`.
     #[must_use]
@@ -91,21 +68,8 @@ impl Copies {
         }
     }
 
-    /// Global number of each row of this rank, copies included.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = usize> {
-        self.owned.clone().map(|number| number as usize).chain(self.numbers.iter().copied())
-    }
-
-    pub(crate) fn owned(&self) -> usize {
+    fn owned(&self) -> usize {
         (self.owned.end - self.owned.start) as usize
-    }
-
-    pub(crate) fn team(&self) -> &Team {
-        &self.team
-    }
-
-    pub(crate) fn failure(&self) -> &Failure {
-        &self.failure
     }
 
     /// Exchanges a vector of N components, if there are several ranks.
@@ -159,7 +123,7 @@ impl Copies {
     }
 }
 
-impl Division for Copies {
+impl Division for RowsOfRank {
     type Error = Error;
     type Last = Coarse;
 
@@ -209,6 +173,8 @@ impl Division for Copies {
     }
 
     fn last(&self, level: &LastLevel<'_>) -> Result<Coarse, Error> {
-        Ok(Coarse::new(self, level)?)
+        let owned = self.owned.clone().map(|number| number as usize);
+        let numbers: Vec<usize> = owned.chain(self.numbers.iter().copied()).collect();
+        Ok(Coarse::new(&self.team, &self.failure, self.owned(), &numbers, level)?)
     }
 }

@@ -131,9 +131,9 @@ impl Setting {
 }
 
 /// Places, elements and properties of the whole body; the properties are in JSON.
-type Whole = (Vec<Place>, Vec<Element>, Vec<u8>);
+type WholeBody = (Vec<Place>, Vec<Element>, Vec<u8>);
 
-fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Whole, Error> {
+fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeBody, Error> {
     let geometry = Geometry::load(settings)?;
     let mesh = &geometry.mesh;
     let young = settings.material.build()?.moduli.young();

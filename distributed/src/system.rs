@@ -12,9 +12,9 @@ use std::rc::Rc;
 use piola_bodies::step::divided::{End, Iteration, Preconditioner};
 use piola_bodies::system::NodalStiffness;
 
-use crate::division::{Copies, Failure};
+use crate::division::RowsOfRank;
 use crate::error::Error;
-use crate::petsc::{GhostedVector, Krylov, Matrix, Operators, PetscError, Vector};
+use crate::petsc::{Failure, GhostedVector, Krylov, Matrix, Operators, PetscError, Vector};
 use crate::share::Share;
 use crate::team::Team;
 
@@ -22,7 +22,7 @@ use crate::team::Team;
 /// with two steps of Chebyshev's iteration and Jacobi's diagonal on each level, and with the aggregates of
 /// the first system for all later systems.
 const DEFAULTS: &[(&str, &str)] = &[
-    ("pc_type", OWN),
+    ("pc_type", SHELL),
     ("pc_gamg_type", "agg"),
     ("pc_gamg_agg_nsmooths", "1"),
     ("pc_gamg_threshold", "0.01"),
@@ -34,7 +34,7 @@ const DEFAULTS: &[(&str, &str)] = &[
 ];
 
 /// PETSc's name for a preconditioner that is a function, such as piola's.
-const OWN: &str = "shell";
+const SHELL: &str = "shell";
 
 /// Largest number of iterations with an old preconditioner of PETSc, relative to the number for the matrix of
 /// the preconditioner.
@@ -42,8 +42,8 @@ const PATIENCE: f64 = 2.0;
 
 /// Linear system of the free nodes: matrix, vectors and solver.
 pub struct LinearSystem {
-    own: Rc<RefCell<Own>>,
-    way: Way,
+    matrix_free: Rc<RefCell<MatrixFree>>,
+    form: Form,
     right: Vector<3>,
     solution: Vector<3>,
     /// True if the options have been checked for unused ones: at first, and with levels of multigrid.
@@ -59,17 +59,17 @@ struct Task<'a> {
 }
 
 /// Form of the matrix in PETSc.
-enum Way {
+enum Form {
     /// Matrix and preconditioner as functions.
-    Own(Krylov),
+    MatrixFree(Krylov),
     /// Whole matrix of PETSc.
     Assembled(Assembled),
 }
 
 /// Stiffness of a rank, and piola's preconditioner.
-struct Own {
+struct MatrixFree {
     stiffness: NodalStiffness,
-    preconditioner: Preconditioner<Copies>,
+    preconditioner: Preconditioner<RowsOfRank>,
     exchange: GhostedVector,
     failure: Failure,
     is_free: Vec<bool>,
@@ -78,7 +78,7 @@ struct Own {
     product: Vec<[f64; 3]>,
 }
 
-impl Operators for Own {
+impl Operators for MatrixFree {
     fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), PetscError> {
         // The entries of pinned nodes follow, and are zero.
         self.x[..x.len()].copy_from_slice(x);
@@ -101,7 +101,7 @@ impl Operators for Own {
     }
 }
 
-impl Own {
+impl MatrixFree {
     /// Multiplies the stiffness by the vector `x` of the owned nodes.
     fn multiply_x(&mut self) -> Result<(), PetscError> {
         let Self { stiffness, exchange, x, product, .. } = self;
@@ -123,37 +123,37 @@ impl LinearSystem {
             library.default_option(name, value)?;
         }
         let (nodes, failure) = (share.ids.len(), Failure::default());
-        let copies = Copies::new(team, &failure, share.owned, share.copies.clone());
-        let own = Rc::new(RefCell::new(Own {
+        let rows = RowsOfRank::new(team, &failure, share.owned, share.copies.clone());
+        let matrix_free = Rc::new(RefCell::new(MatrixFree {
             stiffness,
-            preconditioner: Preconditioner::new(share.owned, copies),
+            preconditioner: Preconditioner::new(share.owned, rows),
             exchange: GhostedVector::new(library, 3, share.owned, &share.copies)?,
             failure,
             is_free: share.free_numbers.iter().map(Option::is_some).collect(),
             x: vec![[0.0; 3]; nodes],
             product: vec![[0.0; 3]; nodes],
         }));
-        let way = if library.is_set_to("pc_type", OWN)? {
-            let matrix = Matrix::of_function(library, share.free, own.clone())?;
+        let form = if library.is_set_to("pc_type", SHELL)? {
+            let matrix = Matrix::of_function(library, share.free, matrix_free.clone())?;
             let mut krylov = Krylov::new(library, Rc::new(RefCell::new(matrix)), "")?;
-            krylov.precondition_by(own.clone())?;
-            Way::Own(krylov)
+            krylov.precondition_by(matrix_free.clone())?;
+            Form::MatrixFree(krylov)
         } else {
-            Way::Assembled(Assembled::new(team, share, &own.borrow().stiffness)?)
+            Form::Assembled(Assembled::new(team, share, &matrix_free.borrow().stiffness)?)
         };
         let vector = || Vector::new(library, share.free);
-        Ok(Self { own, way, right: vector()?, solution: vector()?, is_checked: [false; 2] })
+        Ok(Self { matrix_free, form, right: vector()?, solution: vector()?, is_checked: [false; 2] })
     }
 
     /// Calls `work` with the stiffness of this rank's elements.
     pub fn with_stiffness<T>(&mut self, work: impl FnOnce(&mut NodalStiffness) -> T) -> T {
-        work(&mut self.own.borrow_mut().stiffness)
+        work(&mut self.matrix_free.borrow_mut().stiffness)
     }
 
     /// Adds `stiffness(node)`, N/m, to the diagonal of each owned node.
     pub fn add_to_diagonal(&mut self, share: &Share, stiffness: impl Fn(usize) -> f64) {
-        let mut own = self.own.borrow_mut();
-        (0..share.owned).for_each(|node| own.stiffness.add_to_diagonal(node, stiffness(node)));
+        let mut matrix_free = self.matrix_free.borrow_mut();
+        (0..share.owned).for_each(|node| matrix_free.stiffness.add_to_diagonal(node, stiffness(node)));
     }
 
     /// Adds the product of the stiffness with a displacement, m, of the nodes of the rank to `total`, N, at
@@ -166,20 +166,20 @@ impl LinearSystem {
         displacement: &[[f64; 3]],
         total: &mut [[f64; 3]],
     ) -> Result<(), PetscError> {
-        let own = &mut *self.own.borrow_mut();
-        own.x.copy_from_slice(displacement);
-        own.multiply_x()?;
-        for (total, product) in total.as_flattened_mut().iter_mut().zip(own.product.as_flattened()) {
+        let matrix_free = &mut *self.matrix_free.borrow_mut();
+        matrix_free.x.copy_from_slice(displacement);
+        matrix_free.multiply_x()?;
+        for (total, product) in total.as_flattened_mut().iter_mut().zip(matrix_free.product.as_flattened()) {
             *total += product;
         }
-        own.x.fill([0.0; 3]);
+        matrix_free.x.fill([0.0; 3]);
         Ok(())
     }
 
     /// Discards the preconditioner, so that later results do not depend on earlier systems.
     pub fn begin(&mut self) {
-        self.own.borrow_mut().preconditioner.forget();
-        if let Way::Assembled(assembled) = &mut self.way {
+        self.matrix_free.borrow_mut().preconditioner.forget();
+        if let Form::Assembled(assembled) = &mut self.form {
             assembled.pace = None;
         }
     }
@@ -203,15 +203,15 @@ impl LinearSystem {
         (tolerance, max_iterations): (f64, usize),
         may_fall_back: bool,
     ) -> Result<Iteration, Error> {
-        let Self { own, way, right, solution, .. } = self;
+        let Self { matrix_free, form, right, solution, .. } = self;
         right.with(|right| {
             right.iter_mut().zip(gradient).for_each(|(right, gradient)| *right = gradient.map(|g| -g));
         })?;
         let mut task = Task { right, solution, tolerance, max_iterations };
-        let mut iteration = match way {
-            Way::Own(krylov) => solve(own, krylov, &mut task, x, inertia)?,
-            Way::Assembled(assembled) => {
-                assembled.assemble(share, &own.borrow().stiffness, x)?;
+        let mut iteration = match form {
+            Form::MatrixFree(krylov) => solve(matrix_free, krylov, &mut task, x, inertia)?,
+            Form::Assembled(assembled) => {
+                assembled.assemble(share, &matrix_free.borrow().stiffness, x)?;
                 assembled.solve(&mut task, may_fall_back)?
             }
         };
@@ -227,9 +227,9 @@ impl LinearSystem {
 
     /// Checks for unused options of the user. Options of the last level are checked only if there are levels.
     fn check_options(&mut self, team: &Team) -> Result<(), Error> {
-        let is_with_levels = match self.way {
-            Way::Own(_) => self.own.borrow().preconditioner.levels().is_some(),
-            Way::Assembled(_) => true,
+        let is_with_levels = match self.form {
+            Form::MatrixFree(_) => self.matrix_free.borrow().preconditioner.levels().is_some(),
+            Form::Assembled(_) => true,
         };
         if !std::mem::replace(&mut self.is_checked[usize::from(is_with_levels)], true) {
             let mut names = team.library().unused_options()?;
@@ -244,7 +244,7 @@ impl LinearSystem {
 
 /// Solves with piola's preconditioner, and again with a new one if the first needs too many iterations.
 fn solve(
-    own: &RefCell<Own>,
+    matrix_free: &RefCell<MatrixFree>,
     krylov: &mut Krylov,
     task: &mut Task<'_>,
     x: &[[f64; 3]],
@@ -254,14 +254,15 @@ fn solve(
     let mut given_up = 0;
     loop {
         let limit = {
-            let Own { stiffness, preconditioner, is_free, failure, .. } = &mut *own.borrow_mut();
+            let MatrixFree { stiffness, preconditioner, is_free, failure, .. } =
+                &mut *matrix_free.borrow_mut();
             let taken = preconditioner.take(stiffness, is_free, x, &inertia);
             failure.take()?;
             taken?;
             preconditioner.patience(*tolerance).min(*max_iterations - given_up)
         };
         let mut iteration = krylov.solve(right, solution, *tolerance, limit)?;
-        let again = own.borrow_mut().preconditioner.judge(iteration, *tolerance);
+        let again = matrix_free.borrow_mut().preconditioner.judge(iteration, *tolerance);
         iteration.iterations += given_up;
         if !again || iteration.iterations >= *max_iterations {
             return Ok(iteration);
