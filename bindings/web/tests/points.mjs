@@ -30,9 +30,3 @@ async function runInNode(program, args, stdin, stdout) {
   const module = await WebAssembly.compile(readFileSync(program));
   return wasi.start(await WebAssembly.instantiate(module, wasi.getImportObject())) ?? 0;
 }
-
-// `node points.mjs PROGRAM --time` prints what the program does.
-if (process.argv[1] === new URL(import.meta.url).pathname) {
-  const [program, ...args] = process.argv.slice(2);
-  for (const line of await run(program, args)) console.log(line);
-}

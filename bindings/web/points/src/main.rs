@@ -1,8 +1,8 @@
-//! Points on every back end, for programs that start this one: on the processor itself, or in node as
+//! Points on the portable lanes, for programs that start this one: on the processor itself, or in node as
 //! WebAssembly.
 //!
-//! Each line of standard input is a request in JSON, and each line of standard output an answer with the name
-//! of the back end; `--functions` and `--time` do something else, and read nothing:
+//! Each line of standard input is a request in JSON, and each line of standard output its answer;
+//! `--functions` writes checksums instead, and reads nothing:
 //!
 //! ```text
 //! {"material": "gent", "parameters": {"mu": [1.0], …}, "single": false, "F": [[…9…], …]}
@@ -21,7 +21,6 @@ use piola_materials::DECLARATIONS;
 use serde::{Deserialize, Serialize};
 
 mod functions;
-mod times;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut to = stdout().lock();
@@ -29,9 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         None => {
             for line in stdin().lines() {
                 let request: Request = serde_json::from_str(&line?)?;
-                for answer in request.answers()? {
-                    writeln!(to, "{}", serde_json::to_string(&answer)?)?;
-                }
+                writeln!(to, "{}", serde_json::to_string(&request.answer()?)?)?;
             }
         }
         Some("--functions") => {
@@ -39,8 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 writeln!(to, "{line}")?;
             }
         }
-        Some("--time") => times::write(&mut to)?,
-        Some(other) => return Err(format!("`{other}` is neither `--functions` nor `--time`").into()),
+        Some(other) => return Err(format!("`{other}` is not `--functions`").into()),
     }
     Ok(())
 }
@@ -60,10 +56,9 @@ struct Request {
     deformations: Vec<[f64; 9]>,
 }
 
-/// Results of one back end, point after point; NaN and ∞ are `null`. Numbers are written with all their bits.
+/// Results, point after point; NaN and ∞ are `null`. Numbers are written with all their bits.
 #[derive(Serialize)]
 struct Answer {
-    backend: &'static str,
     /// True if ψ, P or dP/dF of a point has no finite value in this format.
     nonfinite: Vec<bool>,
     psi: Vec<f64>,
@@ -76,7 +71,7 @@ struct Answer {
 }
 
 impl Request {
-    fn answers(&self) -> Result<Vec<Answer>, Box<dyn Error>> {
+    fn answer(&self) -> Result<Answer, Box<dyn Error>> {
         let known = DECLARATIONS.iter().find(|known| known.name == self.material);
         let known = known.ok_or_else(|| format!("there is no material `{}`", self.material))?;
         let energy = Energy::from_rust(known.source)?;
@@ -89,23 +84,19 @@ impl Request {
         });
         let values: Vec<&[f64]> = values.collect::<Result<_, _>>()?;
         let material = energy.material(&values, Inversion::Refuse)?;
-        let answers = Backend::available().map(|backend| {
-            if self.single {
-                self.on::<f32>(&material, backend, |x| x as f32)
-            } else {
-                self.on::<f64>(&material, backend, |x| x)
-            }
-        });
-        answers.collect()
+        if self.single {
+            self.compute::<f32>(&material, |x| x as f32)
+        } else {
+            self.compute::<f64>(&material, |x| x)
+        }
     }
 
-    fn on<E: Kernels + Into<f64>>(
+    fn compute<E: Kernels + Into<f64>>(
         &self,
         material: &dyn TileMaterial<E>,
-        backend: Backend,
         narrow: fn(f64) -> E,
     ) -> Result<Answer, Box<dyn Error>> {
-        let plain = Batch::new(material).with_backend(backend);
+        let plain = Batch::new(material).with_backend(Backend::portable());
         let deformations: Vec<E> = self.deformations.iter().flatten().map(|&x| narrow(x)).collect();
         let count = self.deformations.len();
         let room = |components: usize| vec![narrow(0.0); components * count];
@@ -116,7 +107,6 @@ impl Request {
         plain.with_statuses(&statuses).tangents(&deformations, &mut stress, &mut tangent)?;
         let wide = |values: Vec<E>| values.into_iter().map(Into::into).collect();
         Ok(Answer {
-            backend: backend.name(),
             nonfinite: statuses.iter().map(|status| status.get().nonfinite).collect(),
             psi: wide(psi),
             stress: wide(stress),
