@@ -238,9 +238,8 @@ fn other_minima_are_told_beside_the_one_found() {
     let text = piola(folder.path(), &["fit", "mooney-rivlin", "--data", "sheet.csv"]);
     let differences = text.lines().find_map(|line| line.trim().strip_prefix("differences")).expect("a line");
     let found = differences.split_whitespace().next().expect("a number");
-    let said = format!(
-        "another minimum has differences of {found} %, compared with {found} % of this one: --param c10="
-    );
+    let said =
+        format!("another minimum has differences of {found} %, compared with {found} % of this one: c10 = ");
     assert!(text.contains(&said), "`{said}` is not in: {text}");
 }
 

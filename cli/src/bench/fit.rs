@@ -111,17 +111,9 @@ impl Fit {
             "  the best of {descents} descents, from {start}: {ended} after {evaluations} evaluations\n"
         );
         for warning in &fit.warnings {
-            match warning {
-                Warning::OtherMinimum { values, difference, found, .. } => {
-                    let ([difference, found], options) =
-                        ([difference, found].map(|share| 100.0 * share), options(values));
-                    text += &format!(
-                        "warning: another minimum has differences of {difference:.3} %, compared with {found:.3} % of this one: {options}\n"
-                    );
-                }
-                // The table has it.
-                Warning::Unidentifiable { .. } => {}
-                warning => text += &format!("warning: {warning}\n"),
+            // The table has those that the data do not determine.
+            if !matches!(warning, Warning::Unidentifiable { .. }) {
+                text += &format!("warning: {warning}\n");
             }
         }
         if let Some(file) = &self.svg {

@@ -37,7 +37,8 @@ impl Measured {
             let requirement = match is_shear {
                 true => "finite, and at most 1e6",
                 false => {
-                    "positive, at least 1e-6 and at most 1e6; a strain is written under `strain`, one in percent under `strain [%]`"
+                    "positive, at least 1e-6 and at most 1e6; a strain is written under `strain`, one in percent under \
+                     `strain [%]`"
                 }
             };
             (mode.quantity(), control, requirement)

@@ -7,7 +7,7 @@
 
 use super::candidate::Numbers;
 use super::minimum::Minimum;
-use super::outcome::change;
+use super::outcome::{Warning, change};
 
 /// Bound for another minimum to count as about as good: its differences, relative to those of the best.
 const ABOUT_AS_GOOD: f64 = 1.1;
@@ -24,77 +24,68 @@ const RUNAWAY_FACTOR: f64 = 1e3;
 /// Largest number of other minima that are reported: in a flat valley there would be one for each descent.
 const OTHERS: usize = 5;
 
-/// Minima about as good as the best.
-pub(super) struct Others<'a, 'b> {
-    /// The best minimum of each other solid, best first, at most [`OTHERS`].
-    pub(super) solids: Vec<&'a Minimum<'b>>,
-    /// The minimum of the same solid whose parameters differ most.
-    pub(super) equivalent: Option<Equivalent<'a, 'b>>,
-}
+/// Warnings of other solids, best first, and of the same solid with parameters that differ most, if their
+/// minima are about as good as the best.
+pub(super) fn warnings(best: &Minimum<'_>, minima: &[Minimum<'_>], numbers: &Numbers) -> Vec<Warning> {
+    let count = best.problem.count() as f64;
+    // Values that are exact up to rounding are as good as exact ones.
+    let limit = best.squares * ABOUT_AS_GOOD * ABOUT_AS_GOOD + count * 1e-24;
+    let good = minima.iter().filter(|minimum| minimum.is_least && minimum.squares <= limit);
+    let mut good: Vec<_> = good.collect();
+    good.sort_by(|a, b| a.squares.total_cmp(&b.squares));
 
-/// Equivalent parameters of the best solid.
-pub(super) struct Equivalent<'a, 'b> {
-    pub(super) minimum: &'a Minimum<'b>,
-    /// The numbers that are not the same.
-    pub(super) differing: Vec<usize>,
-    /// True if a single parameter runs off to infinity.
-    pub(super) is_runaway: bool,
-    /// The greatest [`change`] of these.
-    distance: f64,
-}
-
-impl<'a, 'b> Others<'a, 'b> {
-    pub(super) fn of(best: &'a Minimum<'b>, minima: &'a [Minimum<'b>], numbers: &Numbers) -> Self {
-        // Values that are exact up to rounding are as good as exact ones.
-        let limit = best.squares * ABOUT_AS_GOOD * ABOUT_AS_GOOD + best.problem.count() as f64 * 1e-24;
-        let good = minima.iter().filter(|minimum| minimum.is_least && minimum.squares <= limit);
-        let mut good: Vec<_> = good.collect();
-        good.sort_by(|a, b| a.squares.total_cmp(&b.squares));
-
-        let is_same = |number: usize, one: f64, other: f64| {
-            let zero = ZERO * numbers.values[number].abs();
-            (one - other).abs() <= SAME * one.abs().max(other.abs()) + zero
-        };
-        let differing = |one: &Minimum<'_>, other: &Minimum<'_>| {
-            numbers.differing(&one.problem.values, &other.problem.values, is_same)
-        };
-        // Far out, sums such as 1 + x/n leave nothing but rounding, which stresses then show.
-        let is_runaway = |differing: &[usize], one: &Minimum<'_>, other: &Minimum<'_>| match *differing {
-            [number] => {
-                let [one, other] = [one, other].map(|minimum| minimum.problem.values[number]);
-                let far = RUNAWAY_FACTOR * numbers.values[number].abs();
-                far > 0.0 && one * other > 0.0 && one.abs().min(other.abs()) >= far
-            }
-            _ => false,
-        };
-        let (mut solids, mut equivalent) = (vec![best], None::<Equivalent<'_, '_>>);
-        for minimum in good {
-            let is_of = |solid: &&Minimum<'_>| {
-                let differing = differing(solid, minimum);
-                differing.is_empty()
-                    || is_runaway(&differing, solid, minimum)
-                    || solid.problem.has_stresses_of(&minimum.problem, SAME_STRESS)
-            };
-            match solids.iter().position(is_of) {
-                None => solids.push(minimum),
-                Some(0) => {
-                    let differing = differing(best, minimum);
-                    let distance = distance(best, minimum, &differing);
-                    let is_runaway = is_runaway(&differing, best, minimum);
-                    if distance > equivalent.as_ref().map_or(0.0, |furthest| furthest.distance) {
-                        equivalent = Some(Equivalent { minimum, differing, is_runaway, distance });
-                    }
-                }
-                Some(_) => {}
-            }
+    let is_same = |number: usize, one: f64, other: f64| {
+        let zero = ZERO * numbers.values[number].abs();
+        (one - other).abs() <= SAME * one.abs().max(other.abs()) + zero
+    };
+    let differing = |one: &Minimum<'_>, other: &Minimum<'_>| {
+        numbers.differing(&one.problem.values, &other.problem.values, is_same)
+    };
+    let both = |number: usize, one: &Minimum<'_>, other: &Minimum<'_>| {
+        [one, other].map(|minimum| minimum.problem.values[number])
+    };
+    // Far out, sums such as 1 + x/n leave nothing but rounding, which stresses then show.
+    let is_runaway = |differing: &[usize], one: &Minimum<'_>, other: &Minimum<'_>| match *differing {
+        [number] => {
+            let [one, other] = both(number, one, other);
+            let far = RUNAWAY_FACTOR * numbers.values[number].abs();
+            far > 0.0 && one * other > 0.0 && one.abs().min(other.abs()) >= far
         }
-        let solids = solids.into_iter().skip(1).take(OTHERS).collect();
-        Self { solids, equivalent }
+        _ => false,
+    };
+    let (mut solids, mut equivalent, mut furthest) = (vec![best], None, 0.0);
+    for minimum in good {
+        let is_of = |solid: &&Minimum<'_>| {
+            let differing = differing(solid, minimum);
+            differing.is_empty()
+                || is_runaway(&differing, solid, minimum)
+                || solid.problem.has_stresses_of(&minimum.problem, SAME_STRESS)
+        };
+        match solids.iter().position(is_of) {
+            None => solids.push(minimum),
+            Some(0) => {
+                let differing = differing(best, minimum);
+                let is_runaway = is_runaway(&differing, best, minimum);
+                let changed = differing.into_iter().map(|number| {
+                    let [here, there] = both(number, best, minimum);
+                    (numbers.names[number].clone(), here, there)
+                });
+                let changed: Vec<_> = changed.collect();
+                let distance =
+                    changed.iter().map(|(_, here, there)| change(*here, *there)).fold(0.0, f64::max);
+                if distance > furthest {
+                    furthest = distance;
+                    equivalent = Some(Warning::EquivalentParameters { numbers: changed, is_runaway });
+                }
+            }
+            Some(_) => {}
+        }
     }
-}
-
-/// The greatest change of these numbers.
-fn distance(one: &Minimum<'_>, other: &Minimum<'_>, numbers: &[usize]) -> f64 {
-    let change = |&number: &usize| change(one.problem.values[number], other.problem.values[number]);
-    numbers.iter().map(change).fold(0.0, f64::max)
+    let difference = |minimum: &Minimum<'_>| (minimum.squares / count).sqrt();
+    let others = solids.into_iter().skip(1).take(OTHERS).map(|minimum| Warning::OtherMinimum {
+        numbers: numbers.names.iter().cloned().zip(minimum.problem.values.iter().copied()).collect(),
+        difference: difference(minimum),
+        found: difference(best),
+    });
+    others.chain(equivalent).collect()
 }

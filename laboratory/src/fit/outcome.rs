@@ -104,8 +104,6 @@ pub enum Warning {
     },
     /// Another minimum, about as good, of a solid with other stresses.
     OtherMinimum {
-        /// Its parameters, in the form of [`Fit::values`].
-        values: Vec<Vec<f64>>,
         /// Its parameters one by one, by the names of [`Fit::numbers`].
         numbers: Vec<(String, f64)>,
         /// Its [`Fit::difference`].
@@ -151,27 +149,26 @@ impl fmt::Display for Warning {
             Self::Unidentifiable { parameter } => {
                 write!(f, "the data do not determine {parameter}, which keeps its value")
             }
-            Self::Collinear { changes, effect } => match changes.as_slice() {
-                [(name, _)] => write!(
+            Self::Collinear { changes, effect } => {
+                let together: Vec<_> =
+                    changes.iter().map(|(name, change)| format!("{name} {change:+.3} %")).collect();
+                let name = changes.first().map_or("", |(name, _)| name);
+                let (together, what, which) = match changes.as_slice() {
+                    [_] => (name.to_owned(), "a change by 1 % changes", "it"),
+                    _ => (
+                        together.join(", "),
+                        "changed together in this proportion, they change",
+                        "one of them",
+                    ),
+                };
+                write!(
                     f,
-                    "the data hardly determine {name}: a change by 1 % changes the fit by {}; hold it (`--hold {name}`, \
+                    "the data hardly determine {together}: {what} the fit by {}; hold {which} (`--hold {name}`, \
                      `FitSettings::with_held`), or add data of other tests",
                     Percent(*effect)
-                ),
-                changes => {
-                    let together: Vec<_> =
-                        changes.iter().map(|(name, change)| format!("{name} {change:+.3} %")).collect();
-                    let name = changes.first().map_or("", |(name, _)| name);
-                    write!(
-                        f,
-                        "the data hardly determine {}: changed together in this proportion, they change the fit by {}; \
-                         hold one of them (such as `--hold {name}`, `FitSettings::with_held`), or add data of other tests",
-                        together.join(", "),
-                        Percent(*effect)
-                    )
-                }
-            },
-            Self::OtherMinimum { numbers, difference, found, .. } => {
+                )
+            }
+            Self::OtherMinimum { numbers, difference, found } => {
                 let numbers: Vec<_> =
                     numbers.iter().map(|(name, value)| format!("{name} = {value:.4e}")).collect();
                 write!(

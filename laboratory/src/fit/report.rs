@@ -2,7 +2,7 @@
 
 use super::candidate::Numbers;
 use super::minimum::Minimum;
-use super::others::{Equivalent, Others};
+use super::others;
 use super::outcome::{Ended, Fit, Number, Standing, Warning};
 use super::uniqueness::Analysis;
 use crate::data::Agreement;
@@ -23,7 +23,6 @@ pub(super) fn report(
     analysis: Analysis,
 ) -> Fit {
     let (count, free) = (best.problem.count(), best.problem.free.len());
-    let difference = |minimum: &Minimum<'_>| (minimum.squares / count as f64).sqrt();
     let deviation = (count > free).then(|| (best.squares / (count - free) as f64).sqrt());
     let error = |number: usize| {
         let place = best.problem.free.iter().position(|&other| other == number)?;
@@ -49,26 +48,12 @@ pub(super) fn report(
         warnings.push(Warning::Unfinished);
     }
     warnings.extend(analysis.warnings);
-    let Others { solids, equivalent } = Others::of(best, minima, numbers);
-    let others = solids.into_iter().map(|minimum| Warning::OtherMinimum {
-        values: numbers.lists(&minimum.problem.values),
-        numbers: numbers.names.iter().cloned().zip(minimum.problem.values.iter().copied()).collect(),
-        difference: difference(minimum),
-        found: difference(best),
-    });
-    warnings.extend(others);
-    warnings.extend(equivalent.map(|Equivalent { minimum, differing, is_runaway, .. }| {
-        let both = |number: usize| {
-            let [here, there] = [best, minimum].map(|minimum| minimum.problem.values[number]);
-            (numbers.names[number].clone(), here, there)
-        };
-        Warning::EquivalentParameters { numbers: differing.into_iter().map(both).collect(), is_runaway }
-    }));
+    warnings.extend(others::warnings(best, minima, numbers));
     Fit {
         values: numbers.lists(&best.problem.values),
         numbers: fitted,
         agreement,
-        difference: difference(best),
+        difference: (best.squares / count as f64).sqrt(),
         condition: analysis.condition,
         start: best.start,
         descents: minima.len(),

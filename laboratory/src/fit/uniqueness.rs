@@ -91,10 +91,8 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
         let most = changes.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
         let named = problem.free.iter().zip(&changes);
         let part = named.filter(|(_, change)| change.abs() >= SHARE * most.abs());
-        combinations.push(Combination {
-            changes: part.map(|(&number, change)| (numbers.names[number].clone(), change / most)).collect(),
-            effect: value / most.abs() / rows.sqrt(),
-        });
+        let changes = part.map(|(&number, change)| (numbers.names[number].clone(), change / most));
+        combinations.push((changes.collect(), value / most.abs() / rows.sqrt()));
     }
     for (error, length) in errors.iter_mut().zip(&lengths) {
         *error = error.sqrt() / length;
@@ -102,23 +100,17 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
     Analysis { errors, condition: greatest / singular.min(), warnings: warnings(combinations) }
 }
 
-/// Changes of parameters by name, and their effect on the differences, as in [`Warning::Collinear`].
-struct Combination {
-    changes: Vec<(String, f64)>,
-    effect: f64,
-}
-
 /// One for each set of parameters: of combinations of the same ones that which changes least.
-fn warnings(mut combinations: Vec<Combination>) -> Vec<Warning> {
-    combinations.sort_by(|a, b| a.effect.total_cmp(&b.effect));
+fn warnings(mut combinations: Vec<(Vec<(String, f64)>, f64)>) -> Vec<Warning> {
+    combinations.sort_by(|(_, a), (_, b)| a.total_cmp(b));
     let mut seen: Vec<Vec<String>> = Vec::new();
-    combinations.retain(|combination| {
-        let names: Vec<_> = combination.changes.iter().map(|(name, _)| name.clone()).collect();
+    combinations.retain(|(changes, _)| {
+        let names: Vec<_> = changes.iter().map(|(name, _)| name.clone()).collect();
         let is_new = !seen.contains(&names);
         seen.push(names);
         is_new
     });
-    let warning = |Combination { changes, effect }| Warning::Collinear { changes, effect };
+    let warning = |(changes, effect)| Warning::Collinear { changes, effect };
     combinations.into_iter().map(warning).collect()
 }
 
