@@ -66,7 +66,6 @@ use proc_macro::TokenStream;
 /// * `serde`: the type implements `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`),
 ///   as its parameters, which are checked when they are read; functions among them must implement both as
 ///   well.
-/// * `part`: the energy is a part of a sum, whose rest state may carry stress or lack a shear modulus.
 ///
 /// A mistaken declaration gives one message for each mistake, on its tokens, and none where the material is
 /// used.

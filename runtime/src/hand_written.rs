@@ -273,6 +273,65 @@ impl Material for ExtendedNeoHookean {
     }
 }
 
+/// A multiple of an energy, for other stiffnesses.
+pub(crate) struct Scaled<M> {
+    pub(crate) factor: f64,
+    pub(crate) material: M,
+}
+
+impl<M: Material> Material for Scaled<M> {
+    const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
+    const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
+    const CURVATURE_BY_INVARIANTS: piola::material::Curvature = M::CURVATURE_BY_INVARIANTS;
+
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
+        self.material.energy(stretches) * R::splat(self.factor)
+    }
+
+    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        self.material.gradient(stretches).map(|number| number * R::splat(self.factor))
+    }
+
+    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
+        let Blocks { gradient, hessian, flip, twist } = self.material.blocks(stretches);
+        let factor = R::splat(self.factor);
+        Blocks {
+            gradient: gradient.map(|number| number * factor),
+            hessian: hessian.map(|number| number * factor),
+            flip: flip.map(|number| number * factor),
+            twist: twist.map(|number| number * factor),
+        }
+    }
+
+    fn energy_by_invariants<R: Real>(&self, invariants: [R; 3]) -> R {
+        self.material.energy_by_invariants(invariants) * R::splat(self.factor)
+    }
+
+    fn gradient_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 3] {
+        self.material.gradient_by_invariants(invariants).map(|number| number * R::splat(self.factor))
+    }
+
+    fn derivatives_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 9] {
+        self.material.derivatives_by_invariants(invariants).map(|number| number * R::splat(self.factor))
+    }
+
+    fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
+        self.material.admits(stretches)
+    }
+
+    fn admits_invariants<R: Real>(&self, invariants: [R; 3]) -> R::Mask {
+        self.material.admits_invariants(invariants)
+    }
+
+    fn has_pole(&self) -> bool {
+        self.material.has_pole()
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        self.material.ends_at_zero_volume()
+    }
+}
+
 /// μ Σe² + λ/2 (Σe)² of strains e.
 fn quadratic<R: Real>([e1, e2, e3]: [R; 3]) -> R {
     let trace = e1 + e2 + e3;

@@ -199,7 +199,7 @@
 //! Each module depends only on those above it:
 //!
 //! * [`lanes`]: real numbers, one at a time or side by side in vector registers;
-//! * [`material`](mod@material): the trait that energies implement, generated or by hand, and sums of them;
+//! * [`material`](mod@material): the trait that energies implement, generated or by hand;
 //! * [`univariate`]: curves as parameters of an energy;
 //! * [`point`]: P and dP/dF from F through a signed singular value decomposition, and other measures of
 //!   stress;

@@ -17,7 +17,6 @@
 
 use crate::lanes::{Mask, Real, Scalar};
 
-mod combine;
 pub(crate) mod constructor;
 mod description;
 pub(crate) mod differences;
@@ -29,7 +28,6 @@ pub(crate) mod parameter;
 pub(crate) mod properties;
 mod response;
 
-pub use combine::{Scaled, Sum};
 pub use description::{Description, Form, Parameter, Text, Typical, Unit};
 pub use error::{Argument, MaterialError};
 pub use fittable::{Constraint, Fittable, Limit};

@@ -188,7 +188,7 @@ pub fn Solid([l1, l2, l3]: [f64; 3], mu: f64) {
 }
 
 //@ error mu / 2.0 * (J - 1.0).powi(2) => the shear modulus of this energy is zero at rest: add a term that
-//@   resists shear, such as `mu / 2.0 * (I1b - 3.0)`, or add `part` to the attribute if it is a part of a sum
+//@   resists shear, such as `mu / 2.0 * (I1b - 3.0)`
 #[material]
 pub fn Solid([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
     mu / 2.0 * (J - 1.0).powi(2)

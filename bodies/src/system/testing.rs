@@ -3,11 +3,10 @@
 use piola::__private::random::Random;
 #[cfg(feature = "faer")]
 use piola::batch::Batch;
-use piola::material::Scaled;
 #[cfg(feature = "faer")]
 use piola::point::Filter;
 
-use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff};
+use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff, Scaled};
 use crate::mesh::{TetMesh, tetrahedral_box};
 #[cfg(feature = "faer")]
 use crate::system::Body;
@@ -30,7 +29,7 @@ pub(crate) fn by_invariants() -> Scaled<NeoHookeanByInvariants> {
 }
 
 pub(crate) fn scaled<M>(factor: f64, material: M) -> Scaled<M> {
-    Scaled::new(factor, material).expect("a finite factor")
+    Scaled { factor, material }
 }
 
 /// A beam of `cells` cubes along x with sides of 0.1 m, each cut into six tetrahedra around a diagonal.

@@ -9,6 +9,7 @@ use piola::lanes::{Backend, Real, Scalar};
 use piola::point::{Filter, Matrix3, Point, evaluate, evaluate_energy};
 use piola::{Inversion, Material, StatusCell, Survey, material};
 
+#[allow(dead_code, reason = "each crate that includes this file needs some of it")]
 #[path = "../../src/hand_written.rs"]
 mod hand_written;
 mod quadrature;

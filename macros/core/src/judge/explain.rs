@@ -146,11 +146,11 @@ impl Explainer<'_, '_> {
                      {l2} and 0, this does not hold: remove `extend`, or {instead}"
                 )
             }
-            Violation::NoShearModulus => format!(
+            Violation::NoShearModulus => {
                 "the shear modulus of this energy is zero at rest: add a term that resists shear, \
-                such as `mu / 2.0 * (I1b - 3.0)`{}",
-                self.notation.either(", or add `part` to the attribute if it is a part of a sum", "")
-            ),
+                 such as `mu / 2.0 * (I1b - 3.0)`"
+                    .into()
+            }
             Violation::Overflow => {
                 "the exact fractions in the derivatives of this energy leave 128 bits: use smaller numbers"
                     .into()

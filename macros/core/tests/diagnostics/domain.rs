@@ -59,7 +59,7 @@ fn exponents_of_what_vanishes_at_rest_are_above_one() {
             "fn E<const N: usize>([l1, l2, l3]: [f64; 3], k: f64, a: f64, b: f64, c: [f64; N], n: [f64; N]) -> f64 {{ \
              k * a * b * sum(|p| c[p] * n[p]) * (J - 1.0).powi(2) + {energy} }}"
         );
-        mistakes(&format!("domain(J > 0.0), part, admissible({admissible})"), &item)
+        mistakes(&format!("domain(J > 0.0), prestressed, admissible({admissible})"), &item)
     };
     let check = |energy: &str, tokens: &str, admissible: &str, condition: &str| {
         let [(found, message)] = &mistakes(admissible, energy)[..] else { panic!("{energy}") };

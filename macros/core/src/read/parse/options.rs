@@ -24,8 +24,7 @@ pub struct Options {
     pub refuse: Option<LitStr>,
     /// Parameters of some real material.
     pub typical: Option<Typical>,
-    /// The rest state may carry stress or lack stiffness: the stress is meant, or the energy is a part of a
-    /// sum.
+    /// The rest state may carry stress or lack stiffness.
     pub prestressed: bool,
     /// Derivatives by the parameters are requested.
     pub fit: bool,
@@ -36,14 +35,13 @@ pub struct Options {
 }
 
 /// Each argument as it is written.
-const FORMS: [(&str, &str); 9] = [
+const FORMS: [(&str, &str); 8] = [
     ("domain", "domain(J > 0.0)"),
     ("admissible", "admissible(mu > 0.0)"),
     ("extend", "extend"),
     ("refuse", "refuse(\"why it does not extend\")"),
     ("typical", "typical(\"natural rubber\", mu = 4e5)"),
     ("prestressed", "prestressed"),
-    ("part", "part"),
     ("fit", "fit"),
     ("serde", "serde"),
 ];
@@ -79,7 +77,7 @@ impl Options {
             ("extend", Meta::Path(_)) => self.extend = Some(Vec::new()),
             ("refuse", Meta::List(list)) => self.refuse = reason(&list.tokens, diagnostics),
             ("typical", Meta::List(list)) => self.typical = Typical::read(name, &list.tokens, diagnostics),
-            ("prestressed" | "part", Meta::Path(_)) => self.prestressed = true,
+            ("prestressed", Meta::Path(_)) => self.prestressed = true,
             ("fit", Meta::Path(_)) => self.fit = true,
             ("serde", Meta::Path(_)) => self.serde = true,
             (text, _) => {
