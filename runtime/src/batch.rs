@@ -59,7 +59,7 @@
 //! **Without a decomposition.** For an energy that is written in I1, I2 and J, or in sums over the stretches
 //! that these determine, energies, stresses, and unfiltered tangents and stiffnesses are computed from the
 //! invariants, two to four times as fast. Points outside the domain, near its end, out of range, or with
-//! terms by invariants that cancel are decomposed. [`HAS_INVARIANTS`](crate::Material::HAS_INVARIANTS) is
+//! terms by invariants that cancel are decomposed. [`has_invariants`](crate::Material::has_invariants) is
 //! true for such an energy.
 //!
 //! This module is independent of sparsity and of any particular material.

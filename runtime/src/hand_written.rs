@@ -5,7 +5,7 @@
 
 use piola::__private::{Pair, pole_floor};
 use piola::lanes::{Mask, Real};
-use piola::material::{Blocks, Inversion, Material, PAIRS};
+use piola::material::{Blocks, Curvature, Inversion, Material, PAIRS};
 
 const MU: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
@@ -126,9 +126,17 @@ impl Material for NeoHookeanByInvariants {
         NeoHookean.admits(stretches)
     }
 
-    const HAS_INVARIANTS: bool = true;
-    const HAS_SECOND_INVARIANT: bool = false;
-    const CURVATURE_BY_INVARIANTS: piola::material::Curvature = piola::material::Curvature::Volume;
+    fn has_invariants(&self) -> bool {
+        true
+    }
+
+    fn has_second_invariant(&self) -> bool {
+        false
+    }
+
+    fn curvature_by_invariants(&self) -> Curvature {
+        Curvature::Volume
+    }
 
     fn energy_by_invariants<R: Real>(&self, [i1, _, j]: [R; 3]) -> R {
         let log = j.ln();
@@ -280,9 +288,17 @@ pub(crate) struct Scaled<M> {
 }
 
 impl<M: Material> Material for Scaled<M> {
-    const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
-    const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
-    const CURVATURE_BY_INVARIANTS: piola::material::Curvature = M::CURVATURE_BY_INVARIANTS;
+    fn has_invariants(&self) -> bool {
+        self.material.has_invariants()
+    }
+
+    fn has_second_invariant(&self) -> bool {
+        self.material.has_second_invariant()
+    }
+
+    fn curvature_by_invariants(&self) -> Curvature {
+        self.material.curvature_by_invariants()
+    }
 
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
         self.material.energy(stretches) * R::splat(self.factor)

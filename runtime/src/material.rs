@@ -102,67 +102,53 @@ pub trait Material: Send + Sync {
     /// Each number is as accurate, relative to the terms of its sum, as by stretches: near rest these cancel,
     /// so that P errs by u times the moduli even at tiny strains; [`Material::gradient_at_strains`] is more
     /// accurate. The range is that of I2 and J, which ends at the cube root of that of stretches.
-    const HAS_INVARIANTS: bool = false;
+    #[inline(always)]
+    fn has_invariants(&self) -> bool {
+        false
+    }
 
     /// True if ψ by invariants depends on I2. If not, W2, W22, W12 and W2J count as zero, the argument for I2
     /// is ignored, and dP/dF takes half as many operations.
-    const HAS_SECOND_INVARIANT: bool = true;
+    #[inline(always)]
+    fn has_second_invariant(&self) -> bool {
+        true
+    }
 
     /// Second derivatives of ψ by invariants that do not vanish everywhere. The others count as zero, and
     /// dP/dF takes fewer operations.
-    const CURVATURE_BY_INVARIANTS: Curvature = Curvature::All;
+    #[inline(always)]
+    fn curvature_by_invariants(&self) -> Curvature {
+        Curvature::All
+    }
 
     /// True if ψ itself is computed from the invariants too. Near rest Σ (λ² − 1)², for example, has more
     /// digits.
-    const HAS_ENERGY_BY_INVARIANTS: bool = Self::HAS_INVARIANTS;
-
-    /// True if the invariants give the responses of this particular material.
-    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS) holds for all materials of the type, including those that
-    /// have no invariants because their energies are found at run time.
-    #[inline]
-    fn has_invariants(&self) -> bool {
-        Self::HAS_INVARIANTS
-    }
-
-    /// [`HAS_SECOND_INVARIANT`](Self::HAS_SECOND_INVARIANT) of this particular material.
-    #[inline]
-    fn has_second_invariant(&self) -> bool {
-        Self::HAS_SECOND_INVARIANT
-    }
-
-    /// [`CURVATURE_BY_INVARIANTS`](Self::CURVATURE_BY_INVARIANTS) of this particular material.
-    #[inline]
-    fn curvature_by_invariants(&self) -> Curvature {
-        Self::CURVATURE_BY_INVARIANTS
-    }
-
-    /// [`HAS_ENERGY_BY_INVARIANTS`](Self::HAS_ENERGY_BY_INVARIANTS) of this particular material.
-    #[inline]
+    #[inline(always)]
     fn has_energy_by_invariants(&self) -> bool {
-        Self::HAS_ENERGY_BY_INVARIANTS
+        self.has_invariants()
     }
 
     /// Energy density ψ, J/m³ of rest volume, from \[I1, I2, J\]; NaN without
-    /// [`HAS_ENERGY_BY_INVARIANTS`](Self::HAS_ENERGY_BY_INVARIANTS).
+    /// [`Material::has_energy_by_invariants`].
     #[inline(always)]
     fn energy_by_invariants<R: Real>(&self, _: [R; 3]) -> R {
         R::splat(f64::NAN)
     }
 
-    /// Derivatives W1, W2, WJ, Pa, from \[I1, I2, J\]; NaN without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    /// Derivatives W1, W2, WJ, Pa, from \[I1, I2, J\]; NaN without [`Material::has_invariants`].
     #[inline(always)]
     fn gradient_by_invariants<R: Real>(&self, _: [R; 3]) -> [R; 3] {
         [R::splat(f64::NAN); 3]
     }
 
     /// Derivatives W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from \[I1, I2, J\]; NaN without
-    /// [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    /// [`Material::has_invariants`].
     #[inline(always)]
     fn derivatives_by_invariants<R: Real>(&self, _: [R; 3]) -> [R; 9] {
         [R::splat(f64::NAN); 9]
     }
 
-    /// True if \[I1, I2, J\] give the energy in use; false without [`HAS_INVARIANTS`](Self::HAS_INVARIANTS).
+    /// True if \[I1, I2, J\] give the energy in use; false without [`Material::has_invariants`].
     ///
     /// For an extended energy they do if all stretches are surely above ε, that is, for 2J > ε I1, so that no
     /// pole is near. Elsewhere [`Material::admits`] decides.
@@ -216,7 +202,7 @@ pub trait Material: Send + Sync {
 }
 
 /// Second derivatives of an energy by I1, I2 and J that do not vanish everywhere:
-/// [`Material::CURVATURE_BY_INVARIANTS`].
+/// [`Material::curvature_by_invariants`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curvature {
     /// WJJ: c I1 + d I2 + g(J).

@@ -94,7 +94,7 @@ macro_rules! tile_responses {
     ($(
         $(#[$doc:meta])*
         $tile:ident: $response:ident ($Kind:ident) within $domain:ident,
-        $rows:literal rows by $to_rows:expr $(, without row $k:ident if $vanishes:expr)?;
+        $rows:literal rows by $to_rows:expr $(, without row $k:ident of $material:ident if $vanishes:expr)?;
         finite where |$at:pat_param, $result:pat_param| $finite:expr;
     )*) => {
         /// A material over tiles of points: implemented for every [`Material`] and for [`PerPoint`].
@@ -134,7 +134,7 @@ macro_rules! tile_responses {
                                 finite |= R::bits($finite) << group;
                                 for row in 0..$rows {
                                     $(
-                                        let $k = row;
+                                        let ($k, $material) = (row, &material);
                                         if $vanishes {
                                             continue;
                                         }
@@ -202,10 +202,10 @@ tile_responses! {
     3 rows by |gradient| gradient; finite where |at, _| anywhere(at);
 
     /// W1, W2, WJ, W11, W22, WJJ, W12, W1J, W2J, Pa, from I1, I2, J, except for those that the material's
-    /// [`CURVATURE_BY_INVARIANTS`](Material::CURVATURE_BY_INVARIANTS) leaves out.
+    /// [`curvature_by_invariants`](Material::curvature_by_invariants) leaves out.
     tile_derivatives_by_invariants: derivatives_by_invariants (DerivativesByInvariants) within admits_invariants,
-    9 rows by |derivatives| derivatives, without row k if
-    P::Material::CURVATURE_BY_INVARIANTS.leaves_out(k, P::Material::HAS_SECOND_INVARIANT);
+    9 rows by |derivatives| derivatives, without row k of material if
+    material.curvature_by_invariants().leaves_out(k, material.has_second_invariant());
     finite where |at, _| anywhere(at);
 }
 

@@ -54,7 +54,7 @@ pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<
             Curvature::All => &[],
         };
         for &(name, derivative) in vanishing {
-            let component = || format!("vanishing of {name}, as `CURVATURE_BY_INVARIANTS` says");
+            let component = || format!("vanishing of {name}, as `curvature_by_invariants` says");
             judge.holds(component, stretches, derivative == 0.0, "state another `Curvature`")?;
         }
 

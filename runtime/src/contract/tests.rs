@@ -231,9 +231,13 @@ struct ByInvariants<const IS_SEPARATE: bool> {
 }
 
 impl<const IS_SEPARATE: bool> Material for ByInvariants<IS_SEPARATE> {
-    const HAS_INVARIANTS: bool = true;
-    const CURVATURE_BY_INVARIANTS: Curvature =
-        if IS_SEPARATE { Curvature::Separate } else { Curvature::Volume };
+    fn has_invariants(&self) -> bool {
+        true
+    }
+
+    fn curvature_by_invariants(&self) -> Curvature {
+        if IS_SEPARATE { Curvature::Separate } else { Curvature::Volume }
+    }
 
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
         SaintVenantKirchhoff.energy(l)
@@ -347,7 +351,7 @@ fn defects_that_one_rule_sees_are_named_by_it() {
     check_names_alone(
         &ByInvariants::<false> { w2: -0.5, w11: 0.875 },
         Rule::Invariants,
-        "vanishing of W11, as `CURVATURE_BY_INVARIANTS` says",
+        "vanishing of W11, as `curvature_by_invariants` says",
     );
     check_names_alone(&plain(Defect::JumpingEnergy), Rule::StressSlope, "energy");
     check_names_alone(&plain(Defect::DeniesItsEnd), Rule::Domain, "ends_at_zero_volume");

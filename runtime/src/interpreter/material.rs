@@ -323,8 +323,6 @@ impl Material for Interpreted {
         self.admits_alone(false, stretches)
     }
 
-    const HAS_INVARIANTS: bool = true;
-
     fn has_invariants(&self) -> bool {
         self.programs.by_invariants.is_some()
     }

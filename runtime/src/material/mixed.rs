@@ -100,10 +100,6 @@ macro_rules! each_lane {
 macro_rules! mixed_responses {
     ([] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
         impl<M: Material + PartialEq> Material for Mixed<'_, M> {
-            const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
-            const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
-            const CURVATURE_BY_INVARIANTS: Curvature = M::CURVATURE_BY_INVARIANTS;
-            const HAS_ENERGY_BY_INVARIANTS: bool = M::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {

@@ -5,13 +5,13 @@ use super::{Curvature, Material};
 /// Properties of the materials of many points that do not depend on the deformation.
 #[derive(Clone, Copy, Debug)]
 pub struct Properties {
-    /// True if ψ is a function of I1, I2 and J alone: [`Material::HAS_INVARIANTS`].
+    /// True if ψ is a function of I1, I2 and J alone: [`Material::has_invariants`].
     pub(crate) has_invariants: bool,
-    /// True if ψ by invariants depends on I2: [`Material::HAS_SECOND_INVARIANT`].
+    /// True if ψ by invariants depends on I2: [`Material::has_second_invariant`].
     pub(crate) has_second_invariant: bool,
-    /// Second derivatives of ψ by invariants that do not vanish: [`Material::CURVATURE_BY_INVARIANTS`].
+    /// Second derivatives of ψ by invariants that do not vanish: [`Material::curvature_by_invariants`].
     pub(crate) curvature: Curvature,
-    /// True if ψ is computed from the invariants too: [`Material::HAS_ENERGY_BY_INVARIANTS`].
+    /// True if ψ is computed from the invariants too: [`Material::has_energy_by_invariants`].
     pub(crate) has_energy_by_invariants: bool,
     /// True if a twist of any of the materials has a pole: [`Material::has_pole`].
     pub(crate) has_pole: bool,

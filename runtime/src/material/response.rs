@@ -151,10 +151,6 @@ with_responses!(declare_response);
 macro_rules! forward_to_pointee {
     ([$($head:tt)*] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
         $($head)* {
-            const HAS_INVARIANTS: bool = M::HAS_INVARIANTS;
-            const HAS_SECOND_INVARIANT: bool = M::HAS_SECOND_INVARIANT;
-            const CURVATURE_BY_INVARIANTS: Curvature = M::CURVATURE_BY_INVARIANTS;
-            const HAS_ENERGY_BY_INVARIANTS: bool = M::HAS_ENERGY_BY_INVARIANTS;
             $(
                 #[inline(always)]
                 fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {
@@ -167,15 +163,19 @@ macro_rules! forward_to_pointee {
                     (**self).$domain(at)
                 }
             )*
+            #[inline(always)]
             fn has_invariants(&self) -> bool {
                 (**self).has_invariants()
             }
+            #[inline(always)]
             fn has_second_invariant(&self) -> bool {
                 (**self).has_second_invariant()
             }
+            #[inline(always)]
             fn curvature_by_invariants(&self) -> Curvature {
                 (**self).curvature_by_invariants()
             }
+            #[inline(always)]
             fn has_energy_by_invariants(&self) -> bool {
                 (**self).has_energy_by_invariants()
             }

@@ -62,7 +62,10 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
 
     let has_no_energy = (!invariants.has_energy).then(|| {
         quote!(
-            const HAS_ENERGY_BY_INVARIANTS: bool = false;
+            #[inline(always)]
+            fn has_energy_by_invariants(&self) -> bool {
+                false
+            }
         )
     });
     let has_second = !model.graph.is_zero(invariants.gradient[1]);
@@ -73,9 +76,20 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
     };
 
     quote! {
-        const HAS_INVARIANTS: bool = true;
-        const HAS_SECOND_INVARIANT: bool = #has_second;
-        const CURVATURE_BY_INVARIANTS: __p::Curvature = __p::Curvature::#curvature;
+        #[inline(always)]
+        fn has_invariants(&self) -> bool {
+            true
+        }
+
+        #[inline(always)]
+        fn has_second_invariant(&self) -> bool {
+            #has_second
+        }
+
+        #[inline(always)]
+        fn curvature_by_invariants(&self) -> __p::Curvature {
+            __p::Curvature::#curvature
+        }
         #has_no_energy
 
         #energy

@@ -14,7 +14,7 @@ use crate::read::spelling::taken;
 use crate::read::unit::Unit;
 
 /// Members of every material, which a method for a parameter of the same name would hide.
-const MEMBERS: [&str; 36] = [
+const MEMBERS: [&str; 32] = [
     // Of the type and of the traits of the language.
     "new",
     "with_inversion",
@@ -26,10 +26,6 @@ const MEMBERS: [&str; 36] = [
     "blocks",
     "energy_and_blocks",
     "admits",
-    "HAS_INVARIANTS",
-    "HAS_SECOND_INVARIANT",
-    "CURVATURE_BY_INVARIANTS",
-    "HAS_ENERGY_BY_INVARIANTS",
     "has_invariants",
     "has_second_invariant",
     "curvature_by_invariants",
