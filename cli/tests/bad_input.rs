@@ -236,7 +236,7 @@ fn data_that_may_mean_two_things() {
     check(&[], &units, &["2 values of --unit", "1 of --data"]);
     check(&[], &["curve", "gent", "--unit", "MPa"], &["--unit", "--data"]);
     check(&[], &["curve", "gent", "--strain", "1"], &["--strain", "--data"]);
-    let chosen = [&uniaxial[..], &["--strain", "1=stress [MPa]"]].concat();
+    let chosen = [&arguments[..], &["--mode", "uniaxial", "--strain", "1=stress [MPa]"]].concat();
     check(&data("a,stress_Pa\n0.1,0.2\n"), &chosen, &["rubber.csv:1", "not a stretch or a strain"]);
     check(&[], &["curve", "gent", "--at", "1.1", "--rows", "3"], &["--at", "--rows"]);
     check(&[], &["curve", "gent", "--param", "jm=105MPa"], &["`jm`", "without a unit", "in Pa"]);

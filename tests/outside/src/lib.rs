@@ -1,7 +1,7 @@
-//! A material of a user's own crate, and its sum with one of the catalogue.
+//! A material of a user's own crate, next to one of the catalogue.
 
 use piola::DynMaterial;
-use piola::material::{MaterialError, Scaled, Sum};
+use piola::material::MaterialError;
 use piola_materials::NeoHookean;
 
 /// Rubber that stiffens: the first two terms of Yeoh's energy.
@@ -34,21 +34,10 @@ pub fn matrix() -> Result<NeoHookean, MaterialError> {
     NeoHookean::new(3.8e5, 2e7)
 }
 
-/// Factor of the declared energy in the sum.
-pub const FACTOR: f64 = 0.25;
-
-/// The neo-Hookean solid and a multiple of the declared energy, deformed alike.
-///
-/// # Errors
-/// `MaterialError` if a parameter is.
-pub fn sum() -> Result<Sum<NeoHookean, Scaled<Stiffening>>, MaterialError> {
-    Ok(Sum::new(matrix()?, Scaled::new(FACTOR, stiffening()?)?))
-}
-
 /// Materials that are told apart at run time only.
 ///
 /// # Errors
 /// `MaterialError` if a parameter is.
 pub fn boxed() -> Result<[Box<dyn DynMaterial<f64>>; 2], MaterialError> {
-    Ok([Box::new(stiffening()?), Box::new(sum()?)])
+    Ok([Box::new(stiffening()?), Box::new(matrix()?)])
 }

@@ -1,4 +1,3 @@
-//! The promises of every material, tested on a declaration and on a sum.
+//! The promises of every material, tested on a declaration.
 
 piola::contract!(stiffening: outside::stiffening()?);
-piola::contract!(sum: outside::sum()?);

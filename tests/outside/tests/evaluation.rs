@@ -1,4 +1,4 @@
-//! Stress of a sum, at single points and through a trait object.
+//! Stress at single points, in a batch and through a trait object.
 
 use piola::batch::Batch;
 use piola::point::{Filter, evaluate};
@@ -17,24 +17,9 @@ fn largest(stress: &[f64]) -> f64 {
 }
 
 #[test]
-fn the_stress_of_a_sum_is_the_sum_of_stresses() -> Result {
-    let sum = evaluate(&outside::sum()?, &F, Filter::None).stress;
-    let first = evaluate(&outside::matrix()?, &F, Filter::None).stress;
-    let second = evaluate(&outside::stiffening()?, &F, Filter::None).stress;
-    let scale = largest(first.as_flattened()) + outside::FACTOR * largest(second.as_flattened());
-    for i in 0..3 {
-        for j in 0..3 {
-            let expected = first[i][j] + outside::FACTOR * second[i][j];
-            assert!((sum[i][j] - expected).abs() <= ROUNDING * scale, "P{i}{j}: {} ≠ {expected}", sum[i][j]);
-        }
-    }
-    Ok(())
-}
-
-#[test]
 fn a_boxed_material_is_that_of_its_type() -> Result {
     let typed =
-        [evaluate(&outside::stiffening()?, &F, Filter::None), evaluate(&outside::sum()?, &F, Filter::None)];
+        [evaluate(&outside::stiffening()?, &F, Filter::None), evaluate(&outside::matrix()?, &F, Filter::None)];
     for (boxed, typed) in outside::boxed()?.iter().zip(typed) {
         assert_eq!(evaluate(&**boxed, &F, Filter::None), typed);
     }
