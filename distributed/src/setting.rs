@@ -173,12 +173,7 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeB
         .iter()
         .enumerate()
         .map(|(tet, &[a, b, c, d])| [a as u64, b as u64, c as u64, d as u64, tags[tet], materials[tet]]);
-    let facts = BodyFacts {
-        bounds: mesh.bounds(),
-        checksum: geometry.checksum(),
-        warnings,
-        stiffnesses,
-    };
+    let facts = BodyFacts { bounds: mesh.bounds(), checksum: geometry.checksum(), warnings, stiffnesses };
     let facts = serde_json::to_vec(&facts).map_err(|error| Error::Options(error.to_string()))?;
     Ok((places, elements.collect(), facts))
 }

@@ -1,6 +1,6 @@
 //! Names that generated code and the other crates of piola use: not part of the public interface, and
-//! free to change with every version, for which the versions of `piola`, `piola-macros` and `piola-codegen` are
-//! pinned to each other.
+//! free to change with every version. The versions of `piola`, `piola-macros` and `piola-codegen` are pinned
+//! to each other for this reason.
 //!
 //! Each expansion imports this module once, inside a `const _: () = { … }` that contains all implementations,
 //! so that a declaration adds only the type to its module. It re-exports serde, so that a crate that declares

@@ -288,8 +288,8 @@ pub(crate) fn treloar(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
 /// mode: the test, if no column names it, as in `curve`.
 /// unit: the unit of stresses whose header names none, such as "MPa".
 ///
-/// Returns a dictionary from modes to arrays of shape (n, 2): control and stress, Pa. Raises ValueError if the
-/// table is ambiguous.
+/// Returns a dictionary from modes to arrays of shape (n, 2): control and stress, Pa. Raises ValueError if
+/// the table is ambiguous.
 #[pyfunction]
 #[pyo3(signature = (text, /, *, strain = None, stress = None, mode = None, unit = None))]
 pub(crate) fn measurements<'py>(
