@@ -18,8 +18,10 @@ fn largest(stress: &[f64]) -> f64 {
 
 #[test]
 fn a_boxed_material_is_that_of_its_type() -> Result {
-    let typed =
-        [evaluate(&outside::stiffening()?, &F, Filter::None), evaluate(&outside::matrix()?, &F, Filter::None)];
+    let typed = [
+        evaluate(&outside::stiffening()?, &F, Filter::None),
+        evaluate(&outside::matrix()?, &F, Filter::None),
+    ];
     for (boxed, typed) in outside::boxed()?.iter().zip(typed) {
         assert_eq!(evaluate(&**boxed, &F, Filter::None), typed);
     }
