@@ -7,7 +7,7 @@
 //! are 6×6, in the notation of [`voigt`].
 //!
 //! ```
-//! use piola::point::measures::{cauchy, jaumann_tangent, material_tangent, second_piola, spatial_tangent, voigt};
+//! use piola::point::measures::{Measure, voigt};
 //! use piola::point::{Filter, evaluate};
 //!
 //! /// Rubber.
@@ -26,27 +26,27 @@
 //! let check = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-9 * lambda);
 //!
 //! // On paper σ = (μ (FFᵀ − I) + λ ln J I)/J.
-//! let stress = voigt::from_stress(&cauchy(&svd, blocks.gradient));
+//! let stress = Measure::Cauchy.stress(&svd, blocks.gradient);
 //! for (found, expected) in stress.into_iter().zip([0.25 * mu, 0.0, 0.0, 0.0, 0.0, 0.5 * mu]) {
 //!     check(found, expected);
 //! }
 //!
 //! // On paper c is Hooke's law with λ/J and (μ − λ ln J)/J.
-//! let c = spatial_tangent(&svd, blocks);
+//! let c = Measure::Cauchy.tangent(&svd, blocks);
 //! check(c[0][0], lambda + 2.0 * mu);
 //! check(c[0][1], lambda);
 //! check(c[5][5], mu);
 //! // DDSDDE of Abaqus has half of σ11 + σ22 in addition.
-//! check(jaumann_tangent(&svd, blocks)[5][5], mu + 0.125 * mu);
+//! check(Measure::Jaumann.tangent(&svd, blocks)[5][5], mu + 0.125 * mu);
 //!
 //! // A little more shear, dF = 10⁻⁶ e1 ⊗ e2, is dE = (Fᵀ dF + dFᵀ F)/2 and changes S by dS/dE times that.
 //! let more = [[1.0, 0.5 + 1e-6, 0.0], F[1], F[2]];
 //! let S = |F| {
 //!     let point = evaluate(&rubber, F, Filter::None);
-//!     voigt::from_stress(&second_piola(&point.decomposition(), point.tangent.blocks.gradient))
+//!     Measure::SecondPiola.stress(&point.decomposition(), point.tangent.blocks.gradient)
 //! };
 //! let dE = voigt::from_strain(&[[0.0, 0.5e-6, 0.0], [0.5e-6, 0.5e-6, 0.0], [0.0; 3]]);
-//! let dS_dE = material_tangent(&svd, blocks);
+//! let dS_dE = Measure::SecondPiola.tangent(&svd, blocks);
 //! for (row, (after, before)) in dS_dE.iter().zip(S(&more).into_iter().zip(S(&F))) {
 //!     let change: f64 = row.iter().zip(dE).map(|(C, e)| C * e).sum();
 //!     assert!((after - before - change).abs() < 1e-11 * lambda);
@@ -166,8 +166,8 @@
 //! **Filters.** The tangents are derivatives if the blocks are unfiltered:
 //! [`Filter::None`](super::Filter::None). A filter breaks the relation ψj = a λj − b λi. A filtered dP/dF is
 //! no longer the sum of a part with S and one that E alone decides, and it does not belong to any dS/dE. From
-//! filtered blocks these functions make symmetric matrices that are not derivatives and need not be
-//! semidefinite; a semidefinite element stiffness is made of the filtered dP/dF instead.
+//! filtered blocks come symmetric matrices that are not derivatives and need not be semidefinite; a
+//! semidefinite element stiffness is made of the filtered dP/dF instead.
 //!
 //! This module is independent of any particular material and of meshes.
 //!
@@ -181,143 +181,111 @@ use super::svd::Svd;
 use crate::lanes::Real;
 use crate::material::{Blocks, PAIRS};
 
-mod measure;
 pub mod voigt;
 
-pub use measure::Measure;
 use voigt::{Matrix6, ORDER, Principal};
 
-/// The second Piola–Kirchhoff stress S = F⁻¹P = V diag(ψi/λi) Vᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
-#[inline(always)]
-#[must_use]
-pub fn second_piola<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
-    symmetric(&svd.V, three!(i => gradient[i] / svd.stretches[i]))
-}
-
-/// The Kirchhoff stress τ = P Fᵀ = U diag(λi ψi) Uᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
+/// Measure of stress with a tangent that belongs to it.
 ///
-/// Contains no division: finite even if F is singular.
-#[inline(always)]
-#[must_use]
-pub fn kirchhoff<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
-    symmetric(&svd.U, three!(i => gradient[i] * svd.stretches[i]))
+/// Spatial tangents are by deformed volume. They map ε, the symmetric part of dF F⁻¹ as
+/// [`voigt::from_strain`] stores it, to the change of τ, divided by J, as seen by an observer that moves with
+/// the body in the way of their rate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Measure {
+    /// The second Piola–Kirchhoff stress S = F⁻¹P = V diag(ψi/λi) Vᵀ and the material tangent dS/dE, which
+    /// maps an increment of E.
+    SecondPiola,
+    /// The Kirchhoff stress τ = P Fᵀ = U diag(λi ψi) Uᵀ and the tangent J c of its Lie derivative. Contains
+    /// no division: finite even if F is singular.
+    Kirchhoff,
+    /// The Cauchy stress σ = τ/J = U diag(ψi/(λj λk)) Uᵀ and the spatial tangent c of its Truesdell rate,
+    /// which is dS/dE pushed forward: the observer deforms with the body.
+    Cauchy,
+    /// The Cauchy stress σ and c°, of the Jaumann rate of τ: the observer turns with the body. DDSDDE of
+    /// Abaqus, in the order that [`voigt`] states.
+    Jaumann,
+    /// The Cauchy stress σ and c★, of the Green–Naghdi rate of τ: the observer turns with the rotation R of
+    /// the polar decomposition.
+    GreenNaghdi,
 }
 
-/// The Cauchy stress σ = P Fᵀ/J = U diag(ψi/(λj λk)) Uᵀ, Pa, for the gradient ψ1, ψ2, ψ3.
-#[inline(always)]
-#[must_use]
-pub fn cauchy<R: Real>(svd: &Svd<R>, gradient: [R; 3]) -> Matrix3<R> {
-    let areas = areas(svd.stretches);
-    symmetric(&svd.U, three!(i => gradient[i] / areas[i]))
-}
+impl Measure {
+    /// All measures, in the order above.
+    pub const ALL: [Self; 5] =
+        [Self::SecondPiola, Self::Kirchhoff, Self::Cauchy, Self::Jaumann, Self::GreenNaghdi];
 
-/// The material tangent dS/dE, Pa, for unfiltered blocks.
-///
-/// Exactly symmetric. Maps an increment of E, as [`voigt::from_strain`] stores it, to an increment of S.
-#[inline(always)]
-#[must_use]
-pub fn material_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
-    material_principal(svd.stretches, blocks).to_world(&svd.V)
-}
-
-/// The spatial tangent c of the Truesdell rate, Pa, for unfiltered blocks: dS/dE pushed forward, by deformed
-/// volume.
-///
-/// Exactly symmetric. Maps ε, the symmetric part of dF F⁻¹ as [`voigt::from_strain`] stores it, to dτ/J as
-/// seen by an observer that deforms with the body.
-#[inline(always)]
-#[must_use]
-pub fn spatial_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
-    spatial_principal(svd.stretches, blocks).to_world(&svd.U)
-}
-
-/// The spatial tangent c° of the Jaumann rate of τ by deformed volume, Pa, for unfiltered blocks: DDSDDE of
-/// Abaqus.
-///
-/// Exactly symmetric. Maps ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the
-/// body. The order of Abaqus is stated in [`voigt`].
-#[inline(always)]
-#[must_use]
-pub fn jaumann_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
-    jaumann_principal(svd.stretches, blocks).to_world(&svd.U)
-}
-
-/// The spatial tangent c★ of the Green–Naghdi rate of τ by deformed volume, Pa, for unfiltered blocks.
-///
-/// Exactly symmetric. Maps ε as [`spatial_tangent`] does, to dτ/J as seen by an observer that turns with the
-/// rotation R of the polar decomposition.
-#[inline(always)]
-#[must_use]
-pub fn green_naghdi_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
-    green_naghdi_principal(svd.stretches, blocks).to_world(&svd.U)
-}
-
-/// The spatial tangent J c of the Kirchhoff stress, Pa, for unfiltered blocks: dS/dE pushed forward.
-///
-/// Exactly symmetric. Maps ε as [`spatial_tangent`] does, to dτ as seen by an observer that deforms with the
-/// body. Contains no division: finite even if F is singular.
-#[inline(always)]
-#[must_use]
-pub fn kirchhoff_tangent<R: Real>(svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
-    kirchhoff_principal(svd.stretches, blocks).to_world(&svd.U)
-}
-
-#[inline(always)]
-fn material_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
-    let Blocks { gradient, hessian, .. } = blocks;
-    let products = products(l);
-    Principal {
-        diagonal: three!(i => (hessian[i] - gradient[i] / l[i]) / (l[i] * l[i])),
-        mixed: three!(pair => hessian[3 + pair] / products[pair]),
-        shear: three!(pair => blocks.pair_block(pair).1 / products[pair]),
+    /// The six components of the stress, Pa, in the order of [`voigt`], for the gradient ψ1, ψ2, ψ3;
+    /// [`voigt::to_stress`] makes a matrix of them.
+    #[inline(always)]
+    #[must_use]
+    pub fn stress<R: Real>(self, svd: &Svd<R>, gradient: [R; 3]) -> [R; 6] {
+        let l = svd.stretches;
+        let areas = areas(l);
+        match self {
+            Self::SecondPiola => six_numbers(&svd.V, three!(i => gradient[i] / l[i])),
+            Self::Kirchhoff => six_numbers(&svd.U, three!(i => gradient[i] * l[i])),
+            _ => six_numbers(&svd.U, three!(i => gradient[i] / areas[i])),
+        }
     }
-}
 
-#[inline(always)]
-fn spatial_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
-    let Blocks { gradient, hessian, .. } = blocks;
-    let areas = areas(l);
-    Principal {
-        diagonal: three!(i => l[i].mul_add(hessian[i], -gradient[i]) / areas[i]),
-        mixed: three!(pair => hessian[3 + pair] / l[third(pair)]),
-        shear: three!(pair => blocks.pair_block(pair).1 / l[third(pair)]),
+    /// The 6×6 tangent, Pa, for unfiltered blocks; exactly symmetric.
+    #[inline(always)]
+    #[must_use]
+    pub fn tangent<R: Real>(self, svd: &Svd<R>, blocks: &Blocks<R>) -> Matrix6<R> {
+        let principal = self.principal(svd.stretches, blocks);
+        principal.to_world(if self == Self::SecondPiola { &svd.V } else { &svd.U })
     }
-}
 
-#[inline(always)]
-fn jaumann_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
-    let Blocks { gradient, hessian, .. } = blocks;
-    let areas = areas(l);
-    Principal {
-        diagonal: three!(i => l[i].mul_add(hessian[i], gradient[i]) / areas[i]),
-        mixed: three!(pair => hessian[3 + pair] / l[third(pair)]),
-        shear: three!(pair => {
-            let (i, j) = PAIRS[pair];
-            let ratios = R::splat(0.5) * (l[i] / l[j] + l[j] / l[i]);
-            blocks.pair_block(pair).0 * ratios / l[third(pair)]
-        }),
-    }
-}
-
-#[inline(always)]
-fn green_naghdi_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
-    let Blocks { gradient, hessian, .. } = blocks;
-    let areas = areas(l);
-    Principal {
-        diagonal: three!(i => l[i].mul_add(hessian[i], gradient[i]) / areas[i]),
-        mixed: three!(pair => hessian[3 + pair] / l[third(pair)]),
-        shear: three!(pair => blocks.pair_block(pair).0 / l[third(pair)]),
-    }
-}
-
-#[inline(always)]
-fn kirchhoff_principal<R: Real>(l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
-    let Blocks { gradient, hessian, .. } = blocks;
-    let products = products(l);
-    Principal {
-        diagonal: three!(i => l[i] * l[i].mul_add(hessian[i], -gradient[i])),
-        mixed: three!(pair => products[pair] * hessian[3 + pair]),
-        shear: three!(pair => products[pair] * blocks.pair_block(pair).1),
+    /// The tangent in the principal frame: a line of the table above.
+    #[inline(always)]
+    fn principal<R: Real>(self, l: [R; 3], blocks: &Blocks<R>) -> Principal<R> {
+        let Blocks { gradient, hessian, .. } = blocks;
+        match self {
+            Self::SecondPiola => {
+                let products = products(l);
+                Principal {
+                    diagonal: three!(i => (hessian[i] - gradient[i] / l[i]) / (l[i] * l[i])),
+                    mixed: three!(pair => hessian[3 + pair] / products[pair]),
+                    shear: three!(pair => blocks.pair_block(pair).1 / products[pair]),
+                }
+            }
+            Self::Kirchhoff => {
+                let products = products(l);
+                Principal {
+                    diagonal: three!(i => l[i] * l[i].mul_add(hessian[i], -gradient[i])),
+                    mixed: three!(pair => products[pair] * hessian[3 + pair]),
+                    shear: three!(pair => products[pair] * blocks.pair_block(pair).1),
+                }
+            }
+            Self::Cauchy => {
+                let areas = areas(l);
+                Principal {
+                    diagonal: three!(i => l[i].mul_add(hessian[i], -gradient[i]) / areas[i]),
+                    mixed: three!(pair => hessian[3 + pair] / l[third(pair)]),
+                    shear: three!(pair => blocks.pair_block(pair).1 / l[third(pair)]),
+                }
+            }
+            Self::Jaumann => {
+                let areas = areas(l);
+                Principal {
+                    diagonal: three!(i => l[i].mul_add(hessian[i], gradient[i]) / areas[i]),
+                    mixed: three!(pair => hessian[3 + pair] / l[third(pair)]),
+                    shear: three!(pair => {
+                        let (i, j) = PAIRS[pair];
+                        let ratios = R::splat(0.5) * (l[i] / l[j] + l[j] / l[i]);
+                        blocks.pair_block(pair).0 * ratios / l[third(pair)]
+                    }),
+                }
+            }
+            Self::GreenNaghdi => {
+                let areas = areas(l);
+                Principal {
+                    diagonal: three!(i => l[i].mul_add(hessian[i], gradient[i]) / areas[i]),
+                    mixed: three!(pair => hessian[3 + pair] / l[third(pair)]),
+                    shear: three!(pair => blocks.pair_block(pair).0 / l[third(pair)]),
+                }
+            }
+        }
     }
 }
 
@@ -337,12 +305,6 @@ fn areas<R: Real>([l1, l2, l3]: [R; 3]) -> [R; 3] {
 #[inline(always)]
 fn third(pair: usize) -> usize {
     2 - pair
-}
-
-/// Q diag(d) Qᵀ, exactly symmetric.
-#[inline(always)]
-fn symmetric<R: Real>(Q: &Matrix3<R>, d: [R; 3]) -> Matrix3<R> {
-    voigt::to_stress(&six_numbers(Q, d))
 }
 
 /// Q diag(d) Qᵀ as six numbers.

@@ -12,7 +12,6 @@ mod filters;
 mod lanes;
 mod measures;
 mod plane;
-mod rates;
 mod small_strain;
 mod statuses;
 

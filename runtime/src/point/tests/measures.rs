@@ -5,11 +5,8 @@ use super::*;
 use crate::convert::{from_nalgebra, to_nalgebra};
 use crate::hand_written::ExtendedNeoHookean;
 use crate::material::Material;
-use crate::point::measures::voigt::{INDEX, Matrix6, ORDER};
-use crate::point::measures::{
-    cauchy, green_naghdi_tangent, jaumann_tangent, kirchhoff, kirchhoff_tangent, material_tangent,
-    second_piola, spatial_tangent, voigt,
-};
+use crate::point::measures::Measure;
+use crate::point::measures::voigt::{self, INDEX, Matrix6, ORDER};
 
 const MU: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
@@ -48,19 +45,22 @@ struct Measures<R> {
     tau: Matrix3<R>,
     sigma: Matrix3<R>,
     dS_dE: Matrix6<R>,
+    Jc: Matrix6<R>,
     c: Matrix6<R>,
     c_jaumann: Matrix6<R>,
 }
 
 impl<R: Real> Measures<R> {
     fn new(svd: &Svd<R>, blocks: &Blocks<R>) -> Self {
+        let stress = |measure: Measure| voigt::to_stress(&measure.stress(svd, blocks.gradient));
         Self {
-            S: second_piola(svd, blocks.gradient),
-            tau: kirchhoff(svd, blocks.gradient),
-            sigma: cauchy(svd, blocks.gradient),
-            dS_dE: material_tangent(svd, blocks),
-            c: spatial_tangent(svd, blocks),
-            c_jaumann: jaumann_tangent(svd, blocks),
+            S: stress(Measure::SecondPiola),
+            tau: stress(Measure::Kirchhoff),
+            sigma: stress(Measure::Cauchy),
+            dS_dE: Measure::SecondPiola.tangent(svd, blocks),
+            Jc: Measure::Kirchhoff.tangent(svd, blocks),
+            c: Measure::Cauchy.tangent(svd, blocks),
+            c_jaumann: Measure::Jaumann.tangent(svd, blocks),
         }
     }
 
@@ -71,12 +71,12 @@ impl<R: Real> Measures<R> {
 
 /// All numbers of all measures, for comparisons bit by bit.
 pub(super) fn every_number<R: Real>(point: &Point<R>) -> Vec<R> {
-    let Measures { S, tau, sigma, dS_dE, c, c_jaumann } = Measures::of(point);
-    let stresses = [S, tau, sigma].into_iter().flatten().flatten();
     let (svd, blocks) = (point.decomposition(), &point.tangent.blocks);
-    let others = [green_naghdi_tangent(&svd, blocks), kirchhoff_tangent(&svd, blocks)];
-    let tangents = [dS_dE, c, c_jaumann].into_iter().chain(others).flatten().flatten();
-    stresses.chain(tangents).collect()
+    let numbers = |measure: Measure| {
+        let stress = measure.stress(&svd, blocks.gradient);
+        stress.into_iter().chain(measure.tangent(&svd, blocks).into_iter().flatten())
+    };
+    Measure::ALL.into_iter().flat_map(numbers).collect()
 }
 
 /// A point in double precision, and its measures in precision R from the same decomposition and blocks.
@@ -124,6 +124,7 @@ impl Sample {
                 tau: stress(found.tau),
                 sigma: stress(found.sigma),
                 dS_dE: tangent(found.dS_dE),
+                Jc: tangent(found.Jc),
                 c: tangent(found.c),
                 c_jaumann: tangent(found.c_jaumann),
             },
@@ -241,6 +242,7 @@ fn the_spatial_tangents_are_dP_dF_less_the_turning_stress() {
         };
         let limit = TANGENT * uM * largest * largest / J.abs();
         check(&measures.c, &tangent_of(c), limit, "c", F);
+        check(&measures.Jc, &tangent_of(|place| J * c(place)), limit * J.abs(), "J c", F);
         let c_jaumann = tangent_of(|[i, j, k, l]| {
             let turning = delta(i, k) * sigma[j][l]
                 + delta(i, l) * sigma[j][k]
@@ -252,45 +254,38 @@ fn the_spatial_tangents_are_dP_dF_less_the_turning_stress() {
     });
 }
 
-fn check_slopes(material: &impl Material, stretches: [f64; 3], random: &mut Random) {
+/// Rᵀ τ R, with the rotation R of the polar decomposition, changes by c★ alone.
+fn check_turned_back(material: &impl Material, stretches: [f64; 3], random: &mut Random) {
     let F = with_stretches(random, stretches);
-    let measures = Measures::of(&evaluate(material, &F, Filter::None));
-    let along =
-        |dF: &Matrix3<f64>, h: f64| Measures::of(&evaluate(material, &moved(&F, h, dF), Filter::None));
-    let what = |measure: &str| format!("{measure} at {stretches:?}");
-    // S and τ are those of an F known to 20 u, and change there by up to ten times ‖dS/dE‖.
-    let rounding = 200.0 * f64::EPSILON * norm(measures.dS_dE.iter().flatten());
-
-    // Fᵀ dF = dE is symmetric.
-    let dE = symmetric(&random.matrix());
-    let inverse = to_nalgebra(&F).try_inverse().expect("F has volume");
-    let dF = product(&from_nalgebra(&inverse.transpose()), &dE);
-    check_slope(|h| flat(&along(&dF, h).S), flat(&times(&measures.dS_dE, &dE)), rounding, &what("dS/dE"));
-
-    let L = random.matrix();
-    let strain = symmetric(&L);
-    let spin = moved(&L, -1.0, &strain);
-    let (tau, J) = (&measures.tau, stretches.iter().product());
-    // What an observer who deforms by A with the body does not see: A τ + τ Aᵀ.
-    let carried = |A: &Matrix3<f64>| moved(&product(A, tau), 1.0, &product(tau, &transposed(A)));
-    let lie = moved(&carried(&L), J, &times(&measures.c, &strain));
-    let jaumann = moved(&carried(&spin), J, &times(&measures.c_jaumann, &strain));
-    let tau = |h: f64| flat(&along(&product(&L, &F), h).tau);
-    check_slope(tau, flat(&lie), rounding, &what("Lie derivative of τ"));
-    check_slope(tau, flat(&jaumann), rounding, &what("Jaumann rate of τ"));
+    let point = evaluate(material, &F, Filter::None);
+    let Svd { U, V, .. } = point.decomposition();
+    let c = Measure::GreenNaghdi.tangent(&point.decomposition(), &point.tangent.blocks);
+    let J: f64 = stretches.iter().product();
+    let L = random.matrix().map(|row| row.map(|x| 0.3 * x));
+    let rate = times(&c, &symmetric(&L)).map(|row| row.map(|x| J * x));
+    let R = product(&U, &transposed(&V));
+    let expected = product(&transposed(&R), &product(&rate, &R));
+    let along = |h: f64| {
+        let point = evaluate(material, &moved(&F, h, &product(&L, &F)), Filter::None);
+        let svd = point.decomposition();
+        let turned = Svd { U: svd.V, ..svd };
+        flat(&voigt::to_stress(&Measure::Kirchhoff.stress(&turned, point.tangent.blocks.gradient)))
+    };
+    let rounding = 200.0 * f64::EPSILON * (norm(c.iter().flatten()) * J.abs()).max(10.0);
+    check_slope(along, flat(&expected), rounding, &format!("Rᵀ τ R at {F:?}"));
 }
 
 #[test]
-fn the_tangents_are_slopes_of_the_stresses() {
+fn the_Green_Naghdi_tangent_is_the_slope_of_the_stress_turned_back() {
     let mut random = Random::new(72);
     for _ in 0..10 {
         for stretches in MODERATE {
-            check_slopes(&SaintVenantKirchhoff, stretches, &mut random);
-            check_slopes(&RotatedLinear, stretches, &mut random);
-            check_slopes(&ExtendedNeoHookean { epsilon: 0.3 }, stretches, &mut random);
+            check_turned_back(&SaintVenantKirchhoff, stretches, &mut random);
+            check_turned_back(&RotatedLinear, stretches, &mut random);
+            check_turned_back(&ExtendedNeoHookean { epsilon: 0.3 }, stretches, &mut random);
         }
         for stretches in MODERATE.into_iter().filter(|&l| Material::admits(&NeoHookean, l)) {
-            check_slopes(&NeoHookean, stretches, &mut random);
+            check_turned_back(&NeoHookean, stretches, &mut random);
         }
     }
 }
@@ -332,20 +327,10 @@ fn two_energies_have_tangents_by_Hooke() {
 }
 
 #[test]
-fn all_are_exactly_symmetric() {
-    fn check<const N: usize>(A: &[[f64; N]; N]) {
-        for i in 0..N {
-            for j in 0..N {
-                assert_eq!(A[i][j].to_bits(), A[j][i].to_bits(), "{A:?}");
-            }
-        }
-    }
-    everywhere(|Sample { measures: Measures { S, tau, sigma, dS_dE, c, c_jaumann }, .. }| {
-        for stress in [S, tau, sigma] {
-            check(stress);
-        }
-        for tangent in [dS_dE, c, c_jaumann] {
-            check(tangent);
+fn tangents_are_exactly_symmetric() {
+    everywhere(|Sample { measures: Measures { dS_dE, Jc, c, c_jaumann, .. }, .. }| {
+        for C in [dS_dE, Jc, c, c_jaumann] {
+            assert!((0..36).all(|n| C[n / 6][n % 6].to_bits() == C[n % 6][n / 6].to_bits()), "{C:?}");
         }
     });
 }
@@ -372,8 +357,8 @@ fn without_volume_only_the_Kirchhoff_stress_is_finite() {
     for stretches in [[1.1, 0.7, 0.0], [1.1, 0.0, 0.0], [0.0; 3]] {
         let F: Matrix3<f64> = std::array::from_fn(|i| std::array::from_fn(|j| stretches[i] * delta(i, j)));
         let point = evaluate(&RotatedLinear, &F, Filter::None);
-        let Measures { S, tau, sigma, dS_dE, c, c_jaumann } = Measures::of(&point);
-        assert!(tau.iter().flatten().all(|x| x.is_finite()), "{tau:?}");
+        let Measures { S, tau, sigma, dS_dE, Jc, c, c_jaumann } = Measures::of(&point);
+        assert!(tau.iter().flatten().chain(Jc.iter().flatten()).all(|x| x.is_finite()), "{tau:?}");
         for stress in [S, sigma] {
             assert!(!stress.iter().flatten().all(|x| x.is_finite()), "{stress:?}");
         }
