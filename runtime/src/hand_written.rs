@@ -5,7 +5,7 @@
 
 use piola::__private::{Pair, pole_floor};
 use piola::lanes::{Mask, Real};
-use piola::material::{Blocks, Curvature, Inversion, Material, PAIRS};
+use piola::material::{Blocks, Inversion, Material, PAIRS};
 
 const MU: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
@@ -103,66 +103,6 @@ impl Material for NeoHookean {
 
     fn ends_at_zero_volume(&self) -> bool {
         true
-    }
-}
-
-/// [`NeoHookean`] as μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
-pub(crate) struct NeoHookeanByInvariants;
-
-impl Material for NeoHookeanByInvariants {
-    fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
-        NeoHookean.energy(stretches)
-    }
-
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        NeoHookean.gradient(stretches)
-    }
-
-    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
-        NeoHookean.blocks(stretches)
-    }
-
-    fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
-        NeoHookean.admits(stretches)
-    }
-
-    fn has_invariants(&self) -> bool {
-        true
-    }
-
-    fn has_second_invariant(&self) -> bool {
-        false
-    }
-
-    fn curvature_by_invariants(&self) -> Curvature {
-        Curvature::Volume
-    }
-
-    fn energy_by_invariants<R: Real>(&self, [i1, _, j]: [R; 3]) -> R {
-        let log = j.ln();
-        let volumetric = log * (R::splat(0.5 * LAMBDA) * log - R::splat(MU));
-        R::splat(0.5 * MU) * (i1 - R::splat(3.0)) + volumetric
-    }
-
-    fn gradient_by_invariants<R: Real>(&self, [_, _, j]: [R; 3]) -> [R; 3] {
-        [R::splat(0.5 * MU), R::splat(0.0), (R::splat(LAMBDA) * j.ln() - R::splat(MU)) / j]
-    }
-
-    fn derivatives_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 9] {
-        let ([w1, w2, wj], j, zero) = (self.gradient_by_invariants(invariants), invariants[2], R::splat(0.0));
-        [w1, w2, wj, zero, zero, (R::splat(LAMBDA) / j - wj) / j, zero, zero, zero]
-    }
-
-    fn admits_invariants<R: Real>(&self, [_, _, j]: [R; 3]) -> R::Mask {
-        R::splat(0.0).less(j)
-    }
-
-    fn has_pole(&self) -> bool {
-        NeoHookean.has_pole()
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        NeoHookean.ends_at_zero_volume()
     }
 }
 
@@ -281,25 +221,13 @@ impl Material for ExtendedNeoHookean {
     }
 }
 
-/// A multiple of an energy, for other stiffnesses.
+/// A multiple of an energy by stretches, for other stiffnesses.
 pub(crate) struct Scaled<M> {
     pub(crate) factor: f64,
     pub(crate) material: M,
 }
 
 impl<M: Material> Material for Scaled<M> {
-    fn has_invariants(&self) -> bool {
-        self.material.has_invariants()
-    }
-
-    fn has_second_invariant(&self) -> bool {
-        self.material.has_second_invariant()
-    }
-
-    fn curvature_by_invariants(&self) -> Curvature {
-        self.material.curvature_by_invariants()
-    }
-
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
         self.material.energy(stretches) * R::splat(self.factor)
     }
@@ -319,24 +247,8 @@ impl<M: Material> Material for Scaled<M> {
         }
     }
 
-    fn energy_by_invariants<R: Real>(&self, invariants: [R; 3]) -> R {
-        self.material.energy_by_invariants(invariants) * R::splat(self.factor)
-    }
-
-    fn gradient_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 3] {
-        self.material.gradient_by_invariants(invariants).map(|number| number * R::splat(self.factor))
-    }
-
-    fn derivatives_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 9] {
-        self.material.derivatives_by_invariants(invariants).map(|number| number * R::splat(self.factor))
-    }
-
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
         self.material.admits(stretches)
-    }
-
-    fn admits_invariants<R: Real>(&self, invariants: [R; 3]) -> R::Mask {
-        self.material.admits_invariants(invariants)
     }
 
     fn has_pole(&self) -> bool {

@@ -6,7 +6,7 @@ use piola::batch::Batch;
 #[cfg(feature = "faer")]
 use piola::point::Filter;
 
-use crate::hand_written::{NeoHookean, NeoHookeanByInvariants, RotatedLinear, SaintVenantKirchhoff, Scaled};
+use crate::hand_written::{NeoHookean, RotatedLinear, SaintVenantKirchhoff, Scaled};
 use crate::mesh::{TetMesh, tetrahedral_box};
 #[cfg(feature = "faer")]
 use crate::system::Body;
@@ -24,8 +24,20 @@ pub(crate) fn neo_hookean() -> Scaled<NeoHookean> {
     scaled(3.0e3, NeoHookean)
 }
 
-pub(crate) fn by_invariants() -> Scaled<NeoHookeanByInvariants> {
-    scaled(3.0e3, NeoHookeanByInvariants)
+/// [`neo_hookean`] as a function of I1 and J.
+#[piola::material(domain(J > 0.0))]
+pub(crate) fn ByInvariants(
+    [l1, l2, l3]: [f64; 3],
+    /** Pa. */
+    mu: f64,
+    /** Pa. */
+    lambda: f64,
+) -> f64 {
+    mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+}
+
+pub(crate) fn by_invariants() -> ByInvariants {
+    ByInvariants::new(3.0e3, 4.5e3).expect("positive moduli")
 }
 
 pub(crate) fn scaled<M>(factor: f64, material: M) -> Scaled<M> {

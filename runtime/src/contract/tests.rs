@@ -58,6 +58,10 @@ enum Defect {
     OverflowsInExtension,
     EnergyLosesDigits,
     CurvatureWithoutValue,
+    /// An energy that has no value below I1 = 3, or one of −∞.
+    EnergyOfShortStretches(f64),
+    /// Σ f(λ) with f′ = 1 + c λ instead, which pulls elements flat, and which only claims to be extended.
+    PullsBy(f64),
 }
 
 struct Defective<M>(M, Defect);
@@ -80,6 +84,14 @@ impl<M: Material> Material for Defective<M> {
                 right + R::splat(1e6) * (root * root - l[0])
             }
             Defect::AttractsCollapse => right + R::splat(100.0) * below(l[2]) * below(l[2]) * below(l[2]),
+            Defect::EnergyOfShortStretches(energy) => {
+                let is_short = (l[0] * l[0] + l[1] * l[1] + l[2] * l[2]).less(R::splat(3.0));
+                R::select(is_short, R::splat(energy), right)
+            }
+            Defect::PullsBy(c) => {
+                let [e1, e2, e3] = l.map(|l| l * (R::splat(1.0) + R::splat(0.5 * c) * l));
+                e1 + e2 + e3
+            }
             _ => right,
         }
     }
@@ -166,8 +178,19 @@ impl<M: Material> Material for Defective<M> {
             Defect::CurvatureWithoutValue => {
                 blocks.hessian[0] = R::select(l[0].less(R::splat(1.5)), R::splat(f64::NAN), h11);
             }
+            Defect::PullsBy(c) => {
+                let (c, zero) = (R::splat(c), R::splat(0.0));
+                let gradient = l.map(|l| R::splat(1.0) + c * l);
+                blocks = Blocks {
+                    gradient,
+                    hessian: [c, c, c, zero, zero, zero],
+                    flip: [c; 3],
+                    twist: PAIRS.map(|(i, j)| (gradient[i] + gradient[j]) / (l[i] + l[j])),
+                };
+            }
             Defect::LinearInStrains
             | Defect::EnergyLosesDigits
+            | Defect::EnergyOfShortStretches(_)
             | Defect::OverstatedShear
             | Defect::JumpingEnergy
             | Defect::DeniesItsEnd
@@ -204,7 +227,10 @@ impl<M: Material> Material for Defective<M> {
     }
 
     fn inversion(&self) -> Inversion {
-        self.0.inversion()
+        match self.1 {
+            Defect::PullsBy(_) => Inversion::Extend { epsilon: 0.3 },
+            _ => self.0.inversion(),
+        }
     }
 
     fn stated_moduli(&self) -> Option<Moduli> {

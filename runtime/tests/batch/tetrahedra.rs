@@ -7,7 +7,6 @@ use piola::lanes::{Backend, Real, Scalar};
 use piola::point::Filter;
 
 use crate::Logarithmic;
-use crate::hand_written::NeoHookeanByInvariants;
 use crate::hand_written::{NeoHookean, SaintVenantKirchhoff};
 
 /// Nodes, corners and shapes at rest of a mesh whose tetrahedra share nodes.
@@ -128,7 +127,6 @@ fn stiffnesses_at_positions_are_those_of_their_gradients() {
     check::<f64>(&NeoHookean, Filter::Clamp);
     let logarithmic = Logarithmic::new(1.0, 1.5).expect("admissible");
     check::<f64>(&logarithmic, Filter::None);
-    check::<f64>(&NeoHookeanByInvariants, Filter::None);
     #[cfg(feature = "f32")]
     check::<f32>(&logarithmic, Filter::None);
 }

@@ -32,19 +32,19 @@ fn remedies_are_in_the_notation_of_the_energy() {
             assert!(!formula.contains(word), "{word}: {formula}");
         }
     };
-    let stiff = Exponential { size: 1.0, rate: 200.0 };
-    let steep = Exponential { size: 1.0, rate: 40.0 };
+    let stiff = exponential(1.0, 200.0);
+    let steep = exponential(1.0, 40.0);
     let extended = |defect| Defective(ExtendedNeoHookean { epsilon: 0.3 }, defect);
     let overflows = extended(Defect::OverflowsInExtension);
     let (attracts, ends) = (extended(Defect::AttractsCollapse), extended(Defect::EndsAtInversion));
-    let [milder, steeper] = [1.0, -0.1].map(|curvature| Pulling { curvature });
+    let [milder, steeper] = [1.0, -0.1].map(|c| Defective(RotatedLinear, Defect::PullsBy(c)));
     check(
         &|settings| domain(&stiff, settings),
         "the number overflows there: choose smaller parameters, or narrow the stretches of the test",
         "choose smaller parameters, or exclude large stretches by a condition",
     );
     check(
-        &|settings| domain(&Undefined(f64::NAN), settings),
+        &|settings| domain(&undefined(f64::NAN), settings),
         "or to `admissible(…)` if a parameter divides by zero",
         "or `where b > 0` if a parameter divides by zero",
     );
@@ -81,7 +81,7 @@ fn remedies_are_in_the_notation_of_the_energy() {
 
 #[test]
 fn an_overflow_is_told_once() {
-    let violations = check(&Exponential { size: 1.0, rate: 200.0 }, &Settings::default());
+    let violations = check(&exponential(1.0, 200.0), &Settings::default());
     let violations = violations.expect_err("an overflow");
     let text = violations.to_string();
     assert!(violations.0.len() > 6 && text.lines().count() == 7, "{text}");
@@ -119,108 +119,32 @@ fn why_nothing_was_compared_is_told() {
     }
 }
 
-/// A (exp(a (I1b − 3)) − 1), which overflows as J falls.
-struct Exponential {
-    size: f64,
-    rate: f64,
+/// A (exp(a (I1b − 3)) − 1), which overflows as J falls, and a little resistance to changes of volume.
+#[crate::material(domain(J > 0.0))]
+fn Exponential([l1, l2, l3]: [f64; 3], size: f64, rate: f64) -> f64 {
+    size * ((rate * (I1b - 3.0)).exp() - 1.0) + (J - 1.0).powi(2)
 }
 
-impl Exponential {
-    /// J^(−2/3) and I1.
-    fn measures<R: Real>([l1, l2, l3]: [R; 3]) -> (R, R) {
-        let scale = (l1 * l2 * l3).cbrt();
-        (R::splat(1.0) / (scale * scale), l1 * l1 + l2 * l2 + l3 * l3)
-    }
-}
-
-impl Material for Exponential {
-    fn energy<R: Real>(&self, l: [R; 3]) -> R {
-        let (scale, i1) = Self::measures(l);
-        let exponent = R::splat(self.rate) * (scale * i1 - R::splat(3.0));
-        R::splat(self.size) * (exponent.exp() - R::splat(1.0))
-    }
-
-    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
-        self.blocks(l).gradient
-    }
-
-    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
-        let (scale, i1) = Self::measures(l);
-        let (two, third, rate) = (R::splat(2.0), R::splat(1.0 / 3.0), R::splat(self.rate));
-        let slope = R::splat(self.size) * rate * (rate * (scale * i1 - R::splat(3.0))).exp();
-        // Derivatives of I1b: ∂²/∂λi∂λj without the term for i = j, and that term.
-        let first = l.map(|l| two * scale * (l - third * i1 / l));
-        let mixed = |i: usize, j: usize| {
-            let product = first[i] / l[j] + two * scale * l[j] / l[i];
-            rate * first[i] * first[j] - two * third * product
-        };
-        let same = |i: usize, j: usize| two * scale * (R::splat(1.0) + third * i1 / (l[i] * l[j]));
-        let opposite = |i: usize, j: usize| two * scale * (R::splat(1.0) - third * i1 / (l[i] * l[j]));
-        let hessian = derivatives::ENTRIES
-            .map(|(i, j)| slope * if i == j { mixed(i, i) + same(i, i) } else { mixed(i, j) });
-        Blocks {
-            gradient: first.map(|first| slope * first),
-            hessian: [hessian[0], hessian[1], hessian[2], hessian[3], hessian[4], hessian[5]],
-            flip: PAIRS.map(|(i, j)| slope * same(i, j)),
-            twist: PAIRS.map(|(i, j)| slope * opposite(i, j)),
-        }
-    }
-
-    fn admits<R: Real>(&self, l: [R; 3]) -> R::Mask {
-        R::splat(0.0).less(l[0] * l[1] * l[2])
-    }
-
-    fn has_pole(&self) -> bool {
-        false
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        true
-    }
+fn exponential(size: f64, rate: f64) -> Exponential {
+    Exponential::new(size, rate).expect("positive moduli")
 }
 
 #[test]
 fn an_energy_that_overflows_is_defined() {
-    let soft = Exponential { size: 1.95e5, rate: 0.018 };
+    let soft = exponential(1.95e5, 0.018);
     let flat = [1.0, 1.0, 8e-9];
     assert!(soft.admits(flat) && soft.energy(flat) == f64::INFINITY);
     check_passes(&soft, &Settings::default());
 }
 
-/// [`SaintVenantKirchhoff`] with an energy that has no value below I1 = 3, or one of −∞.
-struct Undefined(f64);
-
-impl Material for Undefined {
-    fn energy<R: Real>(&self, l: [R; 3]) -> R {
-        let is_short = (l[0] * l[0] + l[1] * l[1] + l[2] * l[2]).less(R::splat(3.0));
-        R::select(is_short, R::splat(self.0), SaintVenantKirchhoff.energy(l))
-    }
-
-    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
-        SaintVenantKirchhoff.gradient(l)
-    }
-
-    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
-        SaintVenantKirchhoff.blocks(l)
-    }
-
-    fn admits<R: Real>(&self, l: [R; 3]) -> R::Mask {
-        SaintVenantKirchhoff.admits(l)
-    }
-
-    fn has_pole(&self) -> bool {
-        false
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
+fn undefined(energy: f64) -> Defective<SaintVenantKirchhoff> {
+    Defective(SaintVenantKirchhoff, Defect::EnergyOfShortStretches(energy))
 }
 
 #[test]
 fn an_energy_without_a_value_is_told_of_by_the_rule_domain() {
     let text = |rule: Rule, energy: f64| {
-        let verdict = check_rule(rule, &Undefined(energy), &Settings::default());
+        let verdict = check_rule(rule, &undefined(energy), &Settings::default());
         verdict.and_then(Result::err).map(|violation| violation.to_string()).unwrap_or_default()
     };
     let domain = text(Rule::Domain, f64::NAN);
@@ -236,53 +160,4 @@ fn an_energy_without_a_value_is_told_of_by_the_rule_domain() {
     let line = "    found       NaN, where NaN is expected: not a finite number, here or near by, but an overflow, or a root, \
                 real power or logarithm of something negative; see the rule `domain`";
     assert_eq!(other.lines().last(), Some(line), "{other}");
-}
-
-/// Σ f(λ), f′ = 1 + c λ, which pulls elements flat. It is declared for all stretches, and only claims to be
-/// extended.
-struct Pulling {
-    curvature: f64,
-}
-
-impl Pulling {
-    fn slope<R: Real>(&self, l: R) -> R {
-        R::splat(1.0) + R::splat(self.curvature) * l
-    }
-}
-
-impl Material for Pulling {
-    fn energy<R: Real>(&self, l: [R; 3]) -> R {
-        let [e1, e2, e3] = l.map(|l| l * (R::splat(1.0) + R::splat(0.5 * self.curvature) * l));
-        e1 + e2 + e3
-    }
-
-    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
-        l.map(|l| self.slope(l))
-    }
-
-    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
-        let (c, zero) = (R::splat(self.curvature), R::splat(0.0));
-        Blocks {
-            gradient: self.gradient(l),
-            hessian: [c, c, c, zero, zero, zero],
-            flip: [c; 3],
-            twist: PAIRS.map(|(i, j)| (self.slope(l[i]) + self.slope(l[j])) / (l[i] + l[j])),
-        }
-    }
-
-    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn inversion(&self) -> Inversion {
-        Inversion::Extend { epsilon: 0.3 }
-    }
-
-    fn has_pole(&self) -> bool {
-        true
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
 }
