@@ -69,7 +69,7 @@
 use std::fmt;
 
 use crate::kernels::deformation::Deform;
-use crate::kernels::form::StiffnessForm;
+use crate::kernels::form::Outputs;
 use crate::kernels::sink::Source;
 use crate::kernels::workspace::Workspace;
 use crate::lanes::Backend;
@@ -208,7 +208,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     pub fn tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
         let outputs = [("P", P, 9), ("dP_dF", dP_dF, 81)];
         self.run([("F", F, 9)], outputs, |call, job, [F], [P, dP_dF]| {
-            call.points(job, F).tangents((), P, dP_dF, None)
+            call.points(job, F).tangents(P, dP_dF, None)
         })
     }
 
@@ -226,7 +226,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         let outputs = [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, 81)];
         self.run([("F", F, 9)], outputs, |call, job, [F], [energies, P, dP_dF]| {
-            call.points(job, F).tangents((), P, dP_dF, Some(energies))
+            call.points(job, F).tangents(P, dP_dF, Some(energies))
         })
     }
 
@@ -255,9 +255,9 @@ impl<'a, E: Kernels> Batch<'a, E> {
             let Job { workspace, start, count } = job;
             let Workspace { F: lines, rest: shapes, svd, scratch } = workspace;
             let F = Source::new(call.backend, call.layout, F, lines);
-            let rest = Source::new(call.backend, call.layout, rest, shapes);
-            let mut tile = Tile { call, start, count, F, rest, svd, is_decomposed: false, scratch };
-            tile.tangents(StiffnessForm::Full, gradients, stiffnesses, None)
+            let outputs = Outputs::Elements(Source::new(call.backend, call.layout, rest, shapes));
+            let mut tile = Tile { call, start, count, F, outputs, svd, is_decomposed: false, scratch };
+            tile.tangents(gradients, stiffnesses, None)
         })
     }
 
@@ -320,9 +320,9 @@ impl<'a, E: Kernels> Batch<'a, E> {
             let rest = Source::new(call.backend, call.layout, rest, shapes);
             tetrahedra.set_edges(start, count, positions, edges);
             E::deform(call.backend, Deform { edges, rest, count });
-            let F = edges.source();
-            let mut tile = Tile { call, start, count, F, rest, svd, is_decomposed: false, scratch };
-            tile.tangents(StiffnessForm::Full, gradients, stiffnesses, None)
+            let (F, outputs) = (edges.source(), Outputs::Elements(rest));
+            let mut tile = Tile { call, start, count, F, outputs, svd, is_decomposed: false, scratch };
+            tile.tangents(gradients, stiffnesses, None)
         })
     }
 

@@ -23,144 +23,61 @@ use std::cell::Cell;
 use crate::lanes::{Backend, Scalar};
 use crate::status::Status;
 use deformation::{Decompose, Deform, Invariants};
-use form::BlockStiffness;
-use form::{FullStiffness, FullTangent, StiffnessForm};
 use measure::{MeasuredStress, MeasuredTangent};
-use stress::{Stress, StressByInvariants, stress_of};
-use tangents::{FilterBlocks, Shaped, Tangents, TangentsByInvariants, shape_by_invariants};
+use stress::{Stress, StressByInvariants};
+use tangents::{FilterBlocks, Tangents, TangentsByInvariants};
 use workspace::Workspace;
 
-/// Last stages of a tile: P and dP/dF of points without shapes at rest, gradients and stiffnesses of elements
-/// with REST components of a shape at rest each.
-#[expect(private_interfaces, reason = "sealed: only this crate can name what the functions take")]
-pub trait Outputs<const REST: usize>: Scalar {
-    /// Form of the second output.
-    #[doc(hidden)]
-    type Form: Copy;
-    #[doc(hidden)]
-    fn stress(backend: Backend, kernel: Stress<'_, Self, REST>) -> Status<u64>;
-    /// Returns the points that have results.
-    #[doc(hidden)]
-    fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, REST>) -> u64;
-    #[doc(hidden)]
-    fn tangents(backend: Backend, form: Self::Form, kernel: Tangents<'_, Self, REST>) -> Status<u64>;
-    /// Returns the points that have results.
-    #[doc(hidden)]
-    fn tangents_by_invariants(
-        backend: Backend,
-        form: Self::Form,
-        kernel: TangentsByInvariants<'_, Self, REST>,
-    ) -> u64;
+/// Passes every kernel to a macro, with the function that runs it.
+macro_rules! with_kernels {
+    ($callback:ident $($context:tt)*) => {
+        $callback! {
+            [$($context)*]
+            decompose(Decompose) -> () = Backend::run,
+            deform(Deform) -> () = Backend::run,
+            invariants(Invariants) -> u64 = Backend::run,
+            filter_blocks(FilterBlocks) -> Status<u64> = Backend::run,
+            measured_stress(MeasuredStress) -> Status<u64> = Backend::run,
+            measured_tangent(MeasuredTangent) -> Status<u64> = Backend::run,
+            stress(Stress) -> Status<u64> = stress::run,
+            stress_by_invariants(StressByInvariants) -> u64 = stress::run_by_invariants,
+            tangents(Tangents) -> Status<u64> = tangents::run,
+            tangents_by_invariants(TangentsByInvariants) -> u64 = tangents::run_by_invariants,
+        }
+    };
 }
 
-/// The kernels above for one format: no function is generic, so that each is compiled once, here. With the
-/// feature `f32` there are those of `f32`, too.
-#[diagnostic::on_unimplemented(
-    message = "there are no batches of `{Self}`",
-    note = "those of `f32` come with the feature `f32` of the crate `piola`; those of `f64` with `batch`"
-)]
-#[expect(private_interfaces, reason = "sealed: only this crate can name what the functions take")]
-pub trait Kernels: Outputs<0, Form = ()> + Outputs<10, Form = StiffnessForm> {
-    #[doc(hidden)]
-    fn decompose(backend: Backend, kernel: Decompose<'_, Self>);
-    #[doc(hidden)]
-    fn deform(backend: Backend, kernel: Deform<'_, Self>);
-    #[doc(hidden)]
-    fn invariants(backend: Backend, kernel: Invariants<'_, Self>) -> u64;
-    #[doc(hidden)]
-    fn filter_blocks(backend: Backend, kernel: FilterBlocks<'_, Self>) -> Status<u64>;
-    #[doc(hidden)]
-    fn measured_stress(backend: Backend, kernel: MeasuredStress<'_, Self>) -> Status<u64>;
-    #[doc(hidden)]
-    fn measured_tangent(backend: Backend, kernel: MeasuredTangent<'_, Self>) -> Status<u64>;
-    /// Lends the workspace of this thread; allocates one if it is in use already or there is none yet.
-    #[doc(hidden)]
-    fn with_workspace<T>(body: impl FnOnce(&mut Workspace<Self>) -> T) -> T;
+macro_rules! declare_kernels {
+    ([] $($name:ident($Kernel:ident) -> $Output:ty = $run:path,)*) => {
+        /// The kernels above for one format: no function is generic, so that each is compiled once, here. With
+        /// the feature `f32` there are those of `f32`, too.
+        #[diagnostic::on_unimplemented(
+            message = "there are no batches of `{Self}`",
+            note = "those of `f32` come with the feature `f32` of the crate `piola`; those of `f64` with `batch`"
+        )]
+        #[expect(private_interfaces, reason = "sealed: only this crate can name what the functions take")]
+        pub trait Kernels: Scalar {
+            $(
+                #[doc(hidden)]
+                fn $name(backend: Backend, kernel: $Kernel<'_, Self>) -> $Output;
+            )*
+            /// Lends the workspace of this thread; allocates one if it is in use already or there is none yet.
+            #[doc(hidden)]
+            fn with_workspace<T>(body: impl FnOnce(&mut Workspace<Self>) -> T) -> T;
+        }
+    };
 }
+with_kernels!(declare_kernels);
 
-macro_rules! formats {
-    ($($Number:ident)*) => {$(
-        #[expect(private_interfaces, reason = "as in the trait")]
-        impl Outputs<0> for $Number {
-            type Form = ();
-
-            fn stress(backend: Backend, kernel: Stress<'_, Self, 0>) -> Status<u64> {
-                backend.run(kernel)
-            }
-
-            fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 0>) -> u64 {
-                stress_of(backend, kernel)
-            }
-
-            fn tangents(backend: Backend, (): (), kernel: Tangents<'_, Self, 0>) -> Status<u64> {
-                backend.run(Shaped(kernel, FullTangent))
-            }
-
-            fn tangents_by_invariants(
-                backend: Backend,
-                (): (),
-                kernel: TangentsByInvariants<'_, Self, 0>,
-            ) -> u64 {
-                shape_by_invariants(backend, kernel, FullTangent)
-            }
-        }
-
-        #[expect(private_interfaces, reason = "as in the trait")]
-        impl Outputs<10> for $Number {
-            type Form = StiffnessForm;
-
-            fn stress(backend: Backend, kernel: Stress<'_, Self, 10>) -> Status<u64> {
-                backend.run(kernel)
-            }
-
-            fn stress_by_invariants(backend: Backend, kernel: StressByInvariants<'_, Self, 10>) -> u64 {
-                stress_of(backend, kernel)
-            }
-
-            fn tangents(backend: Backend, form: StiffnessForm, kernel: Tangents<'_, Self, 10>) -> Status<u64> {
-                match form {
-                    StiffnessForm::Full => backend.run(Shaped(kernel, FullStiffness)),
-                    StiffnessForm::Blocks => backend.run(Shaped(kernel, BlockStiffness)),
-                }
-            }
-
-            fn tangents_by_invariants(
-                backend: Backend,
-                form: StiffnessForm,
-                kernel: TangentsByInvariants<'_, Self, 10>,
-            ) -> u64 {
-                match form {
-                    StiffnessForm::Full => shape_by_invariants(backend, kernel, FullStiffness),
-                    StiffnessForm::Blocks => shape_by_invariants(backend, kernel, BlockStiffness),
-                }
-            }
-        }
-
+macro_rules! compile_kernels {
+    ([$Number:ident] $($name:ident($Kernel:ident) -> $Output:ty = $run:path,)*) => {
         #[expect(private_interfaces, reason = "as in the trait")]
         impl Kernels for $Number {
-            fn decompose(backend: Backend, kernel: Decompose<'_, Self>) {
-                backend.run(kernel);
-            }
-
-            fn deform(backend: Backend, kernel: Deform<'_, Self>) {
-                backend.run(kernel);
-            }
-
-            fn invariants(backend: Backend, kernel: Invariants<'_, Self>) -> u64 {
-                backend.run(kernel)
-            }
-
-            fn filter_blocks(backend: Backend, kernel: FilterBlocks<'_, Self>) -> Status<u64> {
-                backend.run(kernel)
-            }
-
-            fn measured_stress(backend: Backend, kernel: MeasuredStress<'_, Self>) -> Status<u64> {
-                backend.run(kernel)
-            }
-
-            fn measured_tangent(backend: Backend, kernel: MeasuredTangent<'_, Self>) -> Status<u64> {
-                backend.run(kernel)
-            }
+            $(
+                fn $name(backend: Backend, kernel: $Kernel<'_, Self>) -> $Output {
+                    $run(backend, kernel)
+                }
+            )*
 
             fn with_workspace<T>(body: impl FnOnce(&mut Workspace<Self>) -> T) -> T {
                 thread_local!(static SPARE: Cell<Option<Box<Workspace<$Number>>>> = const { Cell::new(None) });
@@ -172,9 +89,9 @@ macro_rules! formats {
                 result
             }
         }
-    )*};
+    };
 }
-formats!(f64);
+with_kernels!(compile_kernels f64);
 // Not compiled a second time for the unit tests, which need those of `f64` only.
 #[cfg(all(feature = "f32", not(test)))]
-formats!(f32);
+with_kernels!(compile_kernels f32);

@@ -15,7 +15,7 @@ use super::tetrahedra::set_edges;
 use super::tile::{Call, Tile};
 use crate::kernels::Kernels;
 use crate::kernels::deformation::Deform;
-use crate::kernels::form::StiffnessForm;
+use crate::kernels::form::Outputs;
 use crate::kernels::sink::{Layout, Lines};
 use crate::kernels::svd_tile::SvdTile;
 use crate::kernels::workspace::Workspace;
@@ -115,7 +115,7 @@ impl Elements {
         gradients: &mut [f64],
         stiffnesses: &mut [f64],
     ) -> Status<u64> {
-        self.run(material, filter, |tile| tile.tangents(StiffnessForm::Blocks, gradients, stiffnesses, None))
+        self.run(material, filter, |tile| tile.tangents(gradients, stiffnesses, None))
     }
 
     /// Runs stages, and keeps the decomposition if there is one.
@@ -123,7 +123,7 @@ impl Elements {
         &mut self,
         material: &dyn TileMaterial<f64>,
         filter: Filter,
-        stages: impl FnOnce(&mut Tile<'_, f64, 10>) -> Status<u64>,
+        stages: impl FnOnce(&mut Tile<'_, f64>) -> Status<u64>,
     ) -> Status<u64> {
         let Self { backend, start, count, ref rest, ref F, svd: ref mut kept } = *self;
         let call = Call {
@@ -136,9 +136,10 @@ impl Elements {
             keeps_svd: true,
         };
         f64::with_workspace(|Workspace { svd: spare, scratch, .. }| {
-            let (F, rest, is_decomposed) = (F.source(), rest.source(), kept.is_some());
+            let (F, outputs) = (F.source(), Outputs::ElementsByBlocks(rest.source()));
+            let is_decomposed = kept.is_some();
             let svd = kept.as_deref_mut().unwrap_or(&mut *spare);
-            let mut tile = Tile { call, start, count, F, rest, svd, is_decomposed, scratch };
+            let mut tile = Tile { call, start, count, F, outputs, svd, is_decomposed, scratch };
             let status = stages(&mut tile);
             match tile.is_decomposed {
                 true => _ = kept.get_or_insert_with(|| Box::new(*spare)),

@@ -7,14 +7,15 @@
 
 use super::jobs::Job;
 use super::material::{Arguments, Properties, TileMaterial};
+use crate::kernels::Kernels;
 use crate::kernels::deformation::{Decompose, Invariants};
+use crate::kernels::form::Outputs;
 use crate::kernels::rows::{Rows, first_bits};
 use crate::kernels::sink::{Layout, Sink, Source};
 use crate::kernels::stress::{Stress, StressByInvariants};
 use crate::kernels::svd_tile::SvdTile;
 use crate::kernels::tangents::{FilterBlocks, Tangents, TangentsByInvariants};
 use crate::kernels::workspace::{Scratch, Workspace};
-use crate::kernels::{Kernels, Outputs};
 use crate::lanes::{Backend, NonTemporal};
 use crate::point::Filter;
 use crate::status::Status;
@@ -35,14 +36,15 @@ pub(super) struct Call<'a, E> {
 
 impl<'a, E: Kernels> Call<'a, E> {
     /// A tile of points with these deformation gradients.
-    pub(super) fn points<'t>(self, job: Job<'t, E>, F: &'t [E]) -> Tile<'t, E, 0>
+    pub(super) fn points<'t>(self, job: Job<'t, E>, F: &'t [E]) -> Tile<'t, E>
     where
         'a: 't,
     {
         let Job { workspace, start, count } = job;
         let Workspace { F: lines, svd, scratch, .. } = workspace;
         let F = Source::new(self.backend, self.layout, F, lines);
-        Tile { call: self, start, count, F, rest: Source::NONE, svd, is_decomposed: false, scratch }
+        let outputs = Outputs::Points;
+        Tile { call: self, start, count, F, outputs, svd, is_decomposed: false, scratch }
     }
 
     /// Sink for the points that are not in `served`.
@@ -66,22 +68,22 @@ impl<'a, E: Kernels> Call<'a, E> {
     }
 }
 
-/// A tile of points, or of elements with the REST components of their shapes at rest, and its memory.
-pub(super) struct Tile<'t, E, const REST: usize> {
+/// A tile of points, or of elements with their shapes at rest, and its memory.
+pub(super) struct Tile<'t, E> {
     pub(super) call: Call<'t, E>,
     /// Number of the first point.
     pub(super) start: usize,
     /// Number of points.
     pub(super) count: usize,
     pub(super) F: Source<'t, E, 9>,
-    pub(super) rest: Source<'t, E, REST>,
+    pub(super) outputs: Outputs<'t, E>,
     pub(super) svd: &'t mut SvdTile<E>,
     /// True if [`svd`](Self::svd) is the decomposition of F.
     pub(super) is_decomposed: bool,
     pub(super) scratch: &'t mut Scratch<E>,
 }
 
-impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
+impl<E: Kernels> Tile<'_, E> {
     /// Energies.
     pub(super) fn energies(&mut self, energies: &mut [E]) -> Status<u64> {
         let has_energy = self.call.properties.has_energy_by_invariants;
@@ -107,7 +109,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
                 F: self.F,
                 gradients: &self.scratch.gradients,
                 has_second_invariant: call.properties.has_second_invariant,
-                rest: self.rest,
+                outputs: self.outputs,
                 count: self.count,
                 line: &mut self.scratch.line,
                 to: call.sink(to, 0),
@@ -124,7 +126,7 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         let kernel = Stress {
             points: self.svd,
             gradients: &gradients.0,
-            rest: self.rest,
+            outputs: self.outputs,
             count: self.count,
             line,
             to: call.sink(to, served),
@@ -136,7 +138,6 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
     /// for them.
     pub(super) fn tangents(
         &mut self,
-        form: <E as Outputs<REST>>::Form,
         first: &mut [E],
         second: &mut [E],
         mut energies: Option<&mut [E]>,
@@ -158,14 +159,14 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
                 derivatives,
                 has_second_invariant,
                 curvature,
-                rest: self.rest,
+                outputs: self.outputs,
                 count: self.count,
                 line,
                 short_line,
                 first: call.sink(first, 0),
                 second: call.large_sink(second, fence.as_ref(), 0),
             };
-            served &= E::tangents_by_invariants(call.backend, form, kernel);
+            served &= E::tangents_by_invariants(call.backend, kernel);
             served = self.accepted(served);
         }
         if served == first_bits(self.count) {
@@ -176,14 +177,14 @@ impl<E: Kernels + Outputs<REST>, const REST: usize> Tile<'_, E, REST> {
         if let Some(energies) = energies {
             status = status | self.energies_by_stretches(served, energies);
         }
-        let (points, rest, count) = (&*self.svd, self.rest, self.count);
+        let (points, outputs, count) = (&*self.svd, self.outputs, self.count);
         let Scratch { blocks, line, .. } = &mut *self.scratch;
         let to = call.sink(first, served);
-        let kernel = Stress { points, gradients: &blocks.0, rest, count, line, to };
+        let kernel = Stress { points, gradients: &blocks.0, outputs, count, line, to };
         let stressed = E::stress(call.backend, kernel);
         let to = call.large_sink(second, fence.as_ref(), served);
-        let kernel = Tangents { points, blocks, rest, count, has_pole, line, to };
-        (E::tangents(call.backend, form, kernel) | stressed | status) & !served
+        let kernel = Tangents { points, blocks, outputs, count, has_pole, line, to };
+        (E::tangents(call.backend, kernel) | stressed | status) & !served
     }
 
     /// Decomposes F at the points that are not in `served`, unless that has been done. Elsewhere frames and

@@ -2,6 +2,7 @@
 
 #![expect(non_snake_case, reason = "U, V, W, P as in the literature")]
 
+use super::sink::Source;
 use crate::lanes::{Lanes, Mask, Real, Scalar};
 use crate::material::Blocks;
 use crate::point::invariants::tangent::{Entries, RowsOf, Terms};
@@ -9,39 +10,61 @@ use crate::point::matrix::{dot, three, thrice, to_row_major};
 use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks};
 use crate::status::Status;
 
-/// The second output of an element's response.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StiffnessForm {
-    /// All 144 entries, row by row.
-    Full,
-    /// The 90 entries of the blocks of node pairs.
-    Blocks,
+/// Outputs of a tile.
+#[derive(Clone, Copy)]
+pub(crate) enum Outputs<'a, E> {
+    /// P and all 81 entries of dP/dF.
+    Points,
+    /// Gradients of elements with these shapes at rest, and all 144 entries of their stiffnesses, row by row.
+    Elements(Source<'a, E, 10>),
+    /// The same with the 90 entries of the blocks of node pairs.
+    ElementsByBlocks(Source<'a, E, 10>),
 }
 
-/// Form of N components, made from a point's judged tangent and the REST components of its rest shape.
-pub(crate) trait Output<const REST: usize, const N: usize> {
+/// The kind of thing that outputs belong to: [`Points`] or [`Elements`].
+pub(crate) trait Site {
+    /// Shape at rest.
+    type Rest<R: Real>;
+}
+
+/// Points, which have no shape at rest.
+pub(crate) struct Points;
+
+impl Site for Points {
+    type Rest<R: Real> = ();
+}
+
+/// Elements, which have Dm⁻¹ row by row and the volume at rest.
+pub(crate) struct Elements;
+
+impl Site for Elements {
+    type Rest<R: Real> = [R; 10];
+}
+
+/// Second output: a form of N components, made from a point's judged tangent and the shape at rest.
+pub(crate) trait Output<S: Site, const N: usize> {
     /// Changes blocks if the form requires more than the filter.
     #[inline(always)]
-    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; REST], has_pole: bool) -> Status<R::Mask> {
+    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &S::Rest<R>, has_pole: bool) -> Status<R::Mask> {
         let _ = (blocks, rest, has_pole);
         Status::clean()
     }
 
-    fn put_all<R: Real>(tangent: &Tangent<R>, rest: &[R; REST], to: &mut (impl Components<R> + ?Sized));
+    fn put_all<R: Real>(tangent: &Tangent<R>, rest: &S::Rest<R>, to: &mut (impl Components<R> + ?Sized));
 }
 
 /// Form that is made without a decomposition as well.
-pub(crate) trait OutputByInvariants<const REST: usize, const N: usize>: Output<REST, N> {
+pub(crate) trait OutputByInvariants<S: Site, const N: usize>: Output<S, N> {
     /// Returns the largest entry on the diagonal of the tangent.
     fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
-        rest: &[R; REST],
+        rest: &S::Rest<R>,
         to: &mut (impl Components<R> + ?Sized),
     ) -> R;
 
     /// True if nothing can overflow on the way from the tangent, given a bound of its entries, to the form.
     #[inline(always)]
-    fn stays_finite<R: Real>(tangent: R, rest: &[R; REST]) -> R::Mask {
+    fn stays_finite<R: Real>(tangent: R, rest: &S::Rest<R>) -> R::Mask {
         let _ = (tangent, rest);
         R::Mask::splat(true)
     }
@@ -97,19 +120,19 @@ impl<R: Real, C: Components<R> + ?Sized> Assemble<R> for Blocks3<'_, FullTangent
     }
 }
 
-impl Output<0, 81> for FullTangent {
+impl Output<Points, 81> for FullTangent {
     #[inline(always)]
-    fn put_all<R: Real>(tangent: &Tangent<R>, _: &[R; 0], to: &mut (impl Components<R> + ?Sized)) {
+    fn put_all<R: Real>(tangent: &Tangent<R>, (): &(), to: &mut (impl Components<R> + ?Sized)) {
         let Tangent { U, V, blocks } = tangent;
         assemble_blocks(U, V, blocks, &mut Blocks3(Self, to));
     }
 }
 
-impl OutputByInvariants<0, 81> for FullTangent {
+impl OutputByInvariants<Points, 81> for FullTangent {
     #[inline(always)]
     fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
-        _: &[R; 0],
+        (): &(),
         to: &mut (impl Components<R> + ?Sized),
     ) -> R {
         terms.assemble(&Entries, &mut Blocks3(Self, to))
@@ -290,7 +313,7 @@ macro_rules! stiffness_form {
             }
         }
 
-        impl Output<10, $numbers> for $Form {
+        impl Output<Elements, $numbers> for $Form {
             #[inline(always)]
             fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
                 prepare_stiffness(blocks, rest, has_pole)
@@ -308,7 +331,7 @@ macro_rules! stiffness_form {
             }
         }
 
-        impl OutputByInvariants<10, $numbers> for $Form {
+        impl OutputByInvariants<Elements, $numbers> for $Form {
             #[inline(always)]
             fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
                 terms: &Terms<R, HAS_SECOND, HAS_ALL>,

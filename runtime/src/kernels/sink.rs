@@ -30,10 +30,6 @@ impl Layout {
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'a, E, const N: usize>(&'a [E]);
 
-impl<E> Source<'_, E, 0> {
-    pub(crate) const NONE: Self = Self(&[]);
-}
-
 impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
     /// Source from a tile's part of a slice; `lines` is scratch memory for transposed points and for a tile
     /// that is not full.
@@ -52,14 +48,12 @@ impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
     #[inline(always)]
     pub(crate) fn get_all<R: Lanes<Scalar = E>>(&self, at: usize) -> [R; N] {
         let mut numbers = [R::splat(0.0); N];
-        if N > 0 {
-            let from = &self.0[at / E::LINE * N * E::LINE + at % E::LINE..];
-            // A constant length makes one check of all those to come.
-            let last = (R::LANES - 1) / E::LINE * N + N - 1;
-            let from = &from[..last * E::LINE + R::LANES.min(E::LINE)];
-            for k in 0..N {
-                numbers[k] = R::load_lines(&from[k * E::LINE..], N);
-            }
+        let from = &self.0[at / E::LINE * N * E::LINE + at % E::LINE..];
+        // A constant length makes one check of all those to come.
+        let last = (R::LANES - 1) / E::LINE * N + N - 1;
+        let from = &from[..last * E::LINE + R::LANES.min(E::LINE)];
+        for k in 0..N {
+            numbers[k] = R::load_lines(&from[k * E::LINE..], N);
         }
         numbers
     }

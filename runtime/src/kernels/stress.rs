@@ -2,7 +2,7 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
-use super::form::{Components, gradient_is_finite, put_gradient};
+use super::form::{Components, Elements, Outputs, Points, Site, gradient_is_finite, put_gradient};
 use super::rows::{Row, Rows, first_bits, for_each_group};
 use super::sink::{LineBuffer, Sink, Source};
 use super::svd_tile::SvdTile;
@@ -12,53 +12,65 @@ use crate::point::matrix::{three, to_matrix, to_row_major};
 use crate::point::{Matrix3, stress, stress_is_finite};
 use crate::status::Status;
 
-/// Kernel from frames and ψi to P, Pa, or to the gradients of elements, N, if there are shapes at rest.
-pub(crate) struct Stress<'a, E, const REST: usize> {
+/// Frames and ψi, from which P, Pa, or the gradients of elements, N, are made.
+pub(crate) struct Stress<'a, E> {
     pub(crate) points: &'a SvdTile<E>,
     /// ψi in the first three rows.
     pub(crate) gradients: &'a [Row<E>],
-    pub(crate) rest: Source<'a, E, REST>,
+    pub(crate) outputs: Outputs<'a, E>,
     pub(crate) count: usize,
     pub(crate) line: &'a mut LineBuffer<E>,
     pub(crate) to: Sink<'a, E>,
 }
 
-impl<E: Scalar, const REST: usize> Kernel<E> for Stress<'_, E, REST>
-where
-    At<REST>: FirstOutput<REST>,
-{
+/// Runs the kernel for the outputs.
+pub(crate) fn run<E: Scalar>(backend: Backend, stress: Stress<'_, E>) -> Status<u64> {
+    match stress.outputs {
+        Outputs::Points => backend.run(StressAt::<_, Points>(stress, ())),
+        Outputs::Elements(shapes) | Outputs::ElementsByBlocks(shapes) => {
+            backend.run(StressAt::<_, Elements>(stress, shapes))
+        }
+    }
+}
+
+/// Kernel of [`Stress`], with the shapes at rest.
+struct StressAt<'a, E: Scalar, S: FirstOutput>(Stress<'a, E>, S::Shapes<'a, E>);
+
+impl<E: Scalar, S: FirstOutput> Kernel<E> for StressAt<'_, E, S> {
     type Output = Status<u64>;
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
-        let Self { points, gradients, rest, count, line, mut to } = self;
+        let Self(Stress { points, gradients, count, line, mut to, .. }, shapes) = self;
         let (served, mut status) = (to.served, Status::default());
         for_each_group!(R, count, but served, |at| {
             let svd = points.get::<R>(at);
             let stress = stress(&svd, three!(k => R::load(&gradients[k][at..])));
-            let rest = rest.get_all(at);
-            let is_finite =
-                stress_is_finite(svd.stretches, &stress) & At::<REST>::stays_finite(&stress, &rest);
+            let rest = S::rest(&shapes, at);
+            let is_finite = stress_is_finite(svd.stretches, &stress) & S::stays_finite(&stress, &rest);
             status.nonfinite |= R::bits(!is_finite) << at;
-            At::<REST>::put(&stress, &rest, &mut to, line, at);
-            At::<REST>::finish::<R>(&mut to, line, at, count);
+            S::put(&stress, &rest, &mut to, line, at);
+            S::finish::<R>(&mut to, line, at, count);
         });
         status & first_bits(count)
     }
 }
 
-/// Points, or elements with REST components of a shape at rest.
-pub(crate) struct At<const REST: usize>;
-
 /// The output that is made from P: P itself at points, the gradient at elements.
-pub(crate) trait FirstOutput<const REST: usize> {
+pub(crate) trait FirstOutput: Site {
+    /// Shapes at rest of a tile.
+    type Shapes<'a, E: Scalar>;
+
+    /// Shapes at rest of the points from `at` on.
+    fn rest<R: Lanes>(shapes: &Self::Shapes<'_, R::Scalar>, at: usize) -> Self::Rest<R>;
+
     /// True if the output is finite, given that P is.
-    fn stays_finite<R: Lanes>(stress: &Matrix3<R>, rest: &[R; REST]) -> R::Mask;
+    fn stays_finite<R: Lanes>(stress: &Matrix3<R>, rest: &Self::Rest<R>) -> R::Mask;
 
     /// Puts the output into its place; [`FirstOutput::finish`] must follow.
     fn put<R: Lanes>(
         stress: &Matrix3<R>,
-        rest: &[R; REST],
+        rest: &Self::Rest<R>,
         to: &mut Sink<'_, R::Scalar>,
         line: &mut LineBuffer<R::Scalar>,
         at: usize,
@@ -68,16 +80,21 @@ pub(crate) trait FirstOutput<const REST: usize> {
     fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize);
 }
 
-impl FirstOutput<0> for At<0> {
+impl FirstOutput for Points {
+    type Shapes<'a, E: Scalar> = ();
+
     #[inline(always)]
-    fn stays_finite<R: Lanes>(_: &Matrix3<R>, _: &[R; 0]) -> R::Mask {
+    fn rest<R: Lanes>((): &(), _: usize) {}
+
+    #[inline(always)]
+    fn stays_finite<R: Lanes>(_: &Matrix3<R>, (): &()) -> R::Mask {
         R::Mask::splat(true)
     }
 
     #[inline(always)]
     fn put<R: Lanes>(
         stress: &Matrix3<R>,
-        _: &[R; 0],
+        (): &(),
         to: &mut Sink<'_, R::Scalar>,
         line: &mut LineBuffer<R::Scalar>,
         at: usize,
@@ -91,7 +108,14 @@ impl FirstOutput<0> for At<0> {
     }
 }
 
-impl FirstOutput<10> for At<10> {
+impl FirstOutput for Elements {
+    type Shapes<'a, E: Scalar> = Source<'a, E, 10>;
+
+    #[inline(always)]
+    fn rest<R: Lanes>(shapes: &Source<'_, R::Scalar, 10>, at: usize) -> [R; 10] {
+        shapes.get_all(at)
+    }
+
     #[inline(always)]
     fn stays_finite<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
         gradient_is_finite(stress, rest)
@@ -114,56 +138,54 @@ impl FirstOutput<10> for At<10> {
     }
 }
 
-/// Kernel from F and W1, W2, WJ to P, or to the gradients of elements, N, if there are shapes at rest.
-pub(crate) struct StressByInvariants<'a, E, const REST: usize> {
+/// F and W1, W2, WJ, from which P, or the gradients of elements, are made without a decomposition.
+pub(crate) struct StressByInvariants<'a, E> {
     pub(crate) F: Source<'a, E, 9>,
     pub(crate) gradients: &'a Rows<E, 3>,
     pub(crate) has_second_invariant: bool,
-    pub(crate) rest: Source<'a, E, REST>,
+    pub(crate) outputs: Outputs<'a, E>,
     pub(crate) count: usize,
     pub(crate) line: &'a mut LineBuffer<E>,
     pub(crate) to: Sink<'a, E>,
 }
 
-/// [`StressByInvariants`] with or without terms in I2.
-struct StressOf<'a, E, const HAS_SECOND: bool, const REST: usize>(StressByInvariants<'a, E, REST>);
+/// Runs the kernel for the outputs, with or without terms in I2. Returns the points whose result is finite.
+pub(crate) fn run_by_invariants<E: Scalar>(backend: Backend, stress: StressByInvariants<'_, E>) -> u64 {
+    match (stress.outputs, stress.has_second_invariant) {
+        (Outputs::Points, true) => backend.run(ByInvariantsAt::<_, Points, true>(stress, ())),
+        (Outputs::Points, false) => backend.run(ByInvariantsAt::<_, Points, false>(stress, ())),
+        (Outputs::Elements(shapes) | Outputs::ElementsByBlocks(shapes), true) => {
+            backend.run(ByInvariantsAt::<_, Elements, true>(stress, shapes))
+        }
+        (Outputs::Elements(shapes) | Outputs::ElementsByBlocks(shapes), false) => {
+            backend.run(ByInvariantsAt::<_, Elements, false>(stress, shapes))
+        }
+    }
+}
 
-impl<E: Scalar, const HAS_SECOND: bool, const REST: usize> Kernel<E> for StressOf<'_, E, HAS_SECOND, REST>
-where
-    At<REST>: FirstOutput<REST>,
-{
-    /// The points whose result is finite.
+/// Kernel of [`StressByInvariants`], with the shapes at rest.
+struct ByInvariantsAt<'a, E: Scalar, S: FirstOutput, const HAS_SECOND: bool>(
+    StressByInvariants<'a, E>,
+    S::Shapes<'a, E>,
+);
+
+impl<E: Scalar, S: FirstOutput, const HAS_SECOND: bool> Kernel<E> for ByInvariantsAt<'_, E, S, HAS_SECOND> {
     type Output = u64;
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
-        let StressByInvariants { F, gradients, rest, count, line, mut to, .. } = self.0;
+        let Self(StressByInvariants { F, gradients, count, line, mut to, .. }, shapes) = self;
         let mut finite = 0;
         for_each_group!(R, count, |at| {
             let F = to_matrix(F.get_all::<R>(at));
             let gradient = gradients.get_all(at);
             let stress = stress_by_invariants::<R, HAS_SECOND>(&F, gradient);
-            let rest = rest.get_all(at);
-            At::<REST>::put(&stress, &rest, &mut to, line, at);
-            let stays_finite = At::<REST>::stays_finite(&stress, &rest);
-            At::<REST>::finish::<R>(&mut to, line, at, count);
+            let rest = S::rest(&shapes, at);
+            S::put(&stress, &rest, &mut to, line, at);
+            let stays_finite = S::stays_finite(&stress, &rest);
+            S::finish::<R>(&mut to, line, at, count);
             finite |= R::bits(gradient_is_in_range(gradient) & stays_finite) << at;
         });
         finite & first_bits(count)
-    }
-}
-
-/// Runs a kernel with or without terms in I2.
-pub(crate) fn stress_of<E: Scalar, const REST: usize>(
-    backend: Backend,
-    kernel: StressByInvariants<'_, E, REST>,
-) -> u64
-where
-    At<REST>: FirstOutput<REST>,
-{
-    if kernel.has_second_invariant {
-        backend.run(StressOf::<_, true, REST>(kernel))
-    } else {
-        backend.run(StressOf::<_, false, REST>(kernel))
     }
 }

@@ -2,10 +2,12 @@
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
-use super::form::{Output, OutputByInvariants};
+use super::form::{
+    BlockStiffness, Elements, FullStiffness, FullTangent, Output, OutputByInvariants, Outputs, Points,
+};
 use super::rows::{Rows, first_bits, for_each_group, from_rows, to_rows};
 use super::sink::{LineBuffer, Sink, Source};
-use super::stress::{At, FirstOutput};
+use super::stress::FirstOutput;
 use super::svd_tile::SvdTile;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::material::Curvature;
@@ -44,38 +46,49 @@ impl<E: Scalar> Kernel<E> for FilterBlocks<'_, E> {
     }
 }
 
-/// Frames and judged blocks of a tile, with the output for its tangents or stiffnesses.
-pub(crate) struct Tangents<'a, E, const REST: usize> {
+/// Frames and judged blocks of a tile, from which its tangents or stiffnesses are made.
+pub(crate) struct Tangents<'a, E> {
     pub(crate) points: &'a SvdTile<E>,
     pub(crate) blocks: &'a Rows<E, 15>,
-    pub(crate) rest: Source<'a, E, REST>,
+    pub(crate) outputs: Outputs<'a, E>,
     pub(crate) count: usize,
     pub(crate) has_pole: bool,
     pub(crate) line: &'a mut LineBuffer<E>,
     pub(crate) to: Sink<'a, E>,
 }
 
-/// [`Tangents`] with an output of a form.
-pub(crate) struct Shaped<'a, E, F, const REST: usize, const N: usize>(
-    pub(crate) Tangents<'a, E, REST>,
-    pub(crate) F,
-);
+/// Runs the kernel for the outputs.
+pub(crate) fn run<E: Scalar>(backend: Backend, tangents: Tangents<'_, E>) -> Status<u64> {
+    match tangents.outputs {
+        Outputs::Points => backend.run(Shaped::<_, Points, _, 81>(tangents, (), FullTangent)),
+        Outputs::Elements(shapes) => {
+            backend.run(Shaped::<_, Elements, _, 144>(tangents, shapes, FullStiffness))
+        }
+        Outputs::ElementsByBlocks(shapes) => {
+            backend.run(Shaped::<_, Elements, _, 90>(tangents, shapes, BlockStiffness))
+        }
+    }
+}
 
-impl<E, F, const REST: usize, const N: usize> Kernel<E> for Shaped<'_, E, F, REST, N>
+/// Kernel of [`Tangents`], with the shapes at rest and a form of the output.
+struct Shaped<'a, E: Scalar, S: FirstOutput, F, const N: usize>(Tangents<'a, E>, S::Shapes<'a, E>, F);
+
+impl<E, S, F, const N: usize> Kernel<E> for Shaped<'_, E, S, F, N>
 where
     E: Scalar,
-    F: Output<REST, N>,
+    S: FirstOutput,
+    F: Output<S, N>,
 {
     type Output = Status<u64>;
 
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
-        let Tangents { points, blocks, rest, count, has_pole, line, mut to } = self.0;
+        let Self(Tangents { points, blocks, count, has_pole, line, mut to, .. }, shapes, _) = self;
         let (served, mut status) = (to.served, Status::default());
         for_each_group!(R, count, but served, |at| {
             let Svd { U, V, .. } = points.get::<R>(at);
             let mut blocks = from_rows(blocks.get_all(at));
-            let rest = rest.get_all(at);
+            let rest = S::rest(&shapes, at);
             let prepared = F::prepare(&mut blocks, &rest, has_pole);
             status.bounded |= R::bits(prepared.bounded) << at;
             status.nonfinite |= R::bits(prepared.nonfinite) << at;
@@ -86,14 +99,15 @@ where
     }
 }
 
-/// Output for the stresses and tangents of a tile by invariants, or for its gradients and stiffnesses.
-pub(crate) struct TangentsByInvariants<'a, E, const REST: usize> {
+/// F, invariants and derivatives of a tile, from which its stresses and tangents, or gradients and
+/// stiffnesses, are made without a decomposition.
+pub(crate) struct TangentsByInvariants<'a, E> {
     pub(crate) F: Source<'a, E, 9>,
     pub(crate) invariants: &'a Rows<E, 3>,
     pub(crate) derivatives: &'a Rows<E, 9>,
     pub(crate) has_second_invariant: bool,
     pub(crate) curvature: Curvature,
-    pub(crate) rest: Source<'a, E, REST>,
+    pub(crate) outputs: Outputs<'a, E>,
     pub(crate) count: usize,
     pub(crate) line: &'a mut LineBuffer<E>,
     pub(crate) short_line: &'a mut LineBuffer<E>,
@@ -102,80 +116,84 @@ pub(crate) struct TangentsByInvariants<'a, E, const REST: usize> {
     pub(crate) second: Sink<'a, E>,
 }
 
-/// [`TangentsByInvariants`] with an output of a form.
-struct ShapedByInvariants<
-    'a,
-    E,
-    M,
-    const HAS_SECOND: bool,
-    const HAS_ALL: bool,
-    const REST: usize,
-    const N: usize,
->(TangentsByInvariants<'a, E, REST>, M);
-
-impl<E, M, const HAS_SECOND: bool, const HAS_ALL: bool, const REST: usize, const N: usize> Kernel<E>
-    for ShapedByInvariants<'_, E, M, HAS_SECOND, HAS_ALL, REST, N>
-where
-    E: Scalar,
-    M: OutputByInvariants<REST, N>,
-    At<REST>: FirstOutput<REST>,
-{
-    /// The points that keep their digits and stay in range.
-    type Output = u64;
-
-    #[inline(always)]
-    fn run<R: Lanes<Scalar = E>>(self) -> u64 {
-        let TangentsByInvariants {
-            F,
-            invariants,
-            derivatives,
-            rest,
-            count,
-            line,
-            short_line,
-            mut first,
-            mut second,
-            ..
-        } = self.0;
-        let mut served = 0;
-        for_each_group!(R, count, |at| {
-            let (F, invariants) = (to_matrix(F.get_all::<R>(at)), invariants.get_all(at));
-            let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(&F, invariants, &derivatives.get_all(at));
-            let rest = rest.get_all(at);
-            // The larger output first: what P needs of the registers stays in few.
-            let largest = M::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
-            let stress = terms.stress();
-            let keeps_digits = terms.keeps_digits(largest) & M::stays_finite(terms.bound(), &rest);
-            At::<REST>::put(&stress, &rest, &mut first, short_line, at);
-            let stays_finite = At::<REST>::stays_finite(&stress, &rest);
-            served |= R::bits(keeps_digits & stays_finite) << at;
-            // Where no register holds anything any more: the transposes need them all.
-            second.finish::<R, N>(line, at, count);
-            At::<REST>::finish::<R>(&mut first, short_line, at, count);
-        });
-        served & first_bits(count)
+/// Runs the kernel for the outputs. Returns the points that keep their digits and stay in range.
+pub(crate) fn run_by_invariants<E: Scalar>(backend: Backend, tangents: TangentsByInvariants<'_, E>) -> u64 {
+    match tangents.outputs {
+        Outputs::Points => with_terms::<_, Points, _, 81>(backend, tangents, (), FullTangent),
+        Outputs::Elements(shapes) => {
+            with_terms::<_, Elements, _, 144>(backend, tangents, shapes, FullStiffness)
+        }
+        Outputs::ElementsByBlocks(shapes) => {
+            with_terms::<_, Elements, _, 90>(backend, tangents, shapes, BlockStiffness)
+        }
     }
 }
 
-/// Runs a kernel for a form, with or without terms in I2.
+/// Runs a kernel with the terms that do not vanish.
 ///
 /// Each of the four kernels pays: with those of all terms instead, tangents of Saint Venant–Kirchhoff take
 /// 14 % more instructions, and those of energies in I1 and J 27 %.
-pub(crate) fn shape_by_invariants<E, F, const REST: usize, const N: usize>(
+fn with_terms<'a, E, S, F, const N: usize>(
     backend: Backend,
-    kernel: TangentsByInvariants<'_, E, REST>,
+    tangents: TangentsByInvariants<'a, E>,
+    shapes: S::Shapes<'a, E>,
     form: F,
 ) -> u64
 where
     E: Scalar,
-    F: OutputByInvariants<REST, N>,
-    At<REST>: FirstOutput<REST>,
+    S: FirstOutput,
+    F: OutputByInvariants<S, N>,
 {
-    let has_second = kernel.has_second_invariant;
-    match (has_second, kernel.curvature.has_all(has_second)) {
-        (true, true) => backend.run(ShapedByInvariants::<_, _, true, true, REST, N>(kernel, form)),
-        (true, false) => backend.run(ShapedByInvariants::<_, _, true, false, REST, N>(kernel, form)),
-        (false, true) => backend.run(ShapedByInvariants::<_, _, false, true, REST, N>(kernel, form)),
-        (false, false) => backend.run(ShapedByInvariants::<_, _, false, false, REST, N>(kernel, form)),
+    let has_second = tangents.has_second_invariant;
+    match (has_second, tangents.curvature.has_all(has_second)) {
+        (true, true) => backend.run(ByInvariants::<_, S, _, true, true, N>(tangents, shapes, form)),
+        (true, false) => backend.run(ByInvariants::<_, S, _, true, false, N>(tangents, shapes, form)),
+        (false, true) => backend.run(ByInvariants::<_, S, _, false, true, N>(tangents, shapes, form)),
+        (false, false) => backend.run(ByInvariants::<_, S, _, false, false, N>(tangents, shapes, form)),
+    }
+}
+
+/// Kernel of [`TangentsByInvariants`], with the shapes at rest and a form of the second output.
+struct ByInvariants<
+    'a,
+    E: Scalar,
+    S: FirstOutput,
+    M,
+    const HAS_SECOND: bool,
+    const HAS_ALL: bool,
+    const N: usize,
+>(TangentsByInvariants<'a, E>, S::Shapes<'a, E>, M);
+
+impl<E, S, M, const HAS_SECOND: bool, const HAS_ALL: bool, const N: usize> Kernel<E>
+    for ByInvariants<'_, E, S, M, HAS_SECOND, HAS_ALL, N>
+where
+    E: Scalar,
+    S: FirstOutput,
+    M: OutputByInvariants<S, N>,
+{
+    type Output = u64;
+
+    #[inline(always)]
+    fn run<R: Lanes<Scalar = E>>(self) -> u64 {
+        let Self(tangents, shapes, _) = self;
+        let TangentsByInvariants { F, invariants, derivatives, count, line, short_line, .. } = tangents;
+        let (mut first, mut second) = (tangents.first, tangents.second);
+        let mut served = 0;
+        for_each_group!(R, count, |at| {
+            let (F, invariants) = (to_matrix(F.get_all::<R>(at)), invariants.get_all(at));
+            let terms = Terms::<R, HAS_SECOND, HAS_ALL>::new(&F, invariants, &derivatives.get_all(at));
+            let rest = S::rest(&shapes, at);
+            // The larger output first: what P needs of the registers stays in few.
+            let largest = M::put_all_by_invariants(&terms, &rest, second.place::<R, N>(line, at));
+            let stress = terms.stress();
+            let keeps_digits = terms.keeps_digits(largest) & M::stays_finite(terms.bound(), &rest);
+            S::put(&stress, &rest, &mut first, short_line, at);
+            let stays_finite = S::stays_finite(&stress, &rest);
+            served |= R::bits(keeps_digits & stays_finite) << at;
+            // Where no register holds anything any more: the transposes need them all.
+            second.finish::<R, N>(line, at, count);
+            S::finish::<R>(&mut first, short_line, at, count);
+        });
+        served & first_bits(count)
     }
 }
