@@ -305,14 +305,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         let group = self.group();
         let (nodes, points) = (tetrahedra.nodes(), tetrahedra.corners().len().next_multiple_of(group));
-        if positions.len() != nodes {
-            let found = 3 * positions.len();
-            return Err(LengthError { slice: "positions", found, components: 3, points: nodes, group: 1 });
-        }
-        if rest.len() != REST * points {
-            let found = rest.len();
-            return Err(LengthError { slice: "rest", found, components: REST, points, group });
-        }
+        LengthError::check("positions", 3 * positions.len(), 3, nodes, 1)?;
+        LengthError::check("rest", rest.len(), REST, points, group)?;
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, 144)];
         self.run([("rest", rest, REST)], outputs, |call, job, [rest], [gradients, stiffnesses]| {
             let Job { workspace, start, count } = job;
@@ -350,12 +344,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
             lengths.chain(outputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components)));
         let materials = properties.points.map(|points| ("materials", points, 1));
         let statuses = (!self.statuses.is_empty()).then_some(("statuses", self.statuses.len(), 1));
-        let misfit = lengths
-            .chain(materials)
-            .chain(statuses)
-            .find(|(_, length, components)| *length != count * components);
-        if let Some((slice, found, components)) = misfit {
-            return Err(LengthError { slice, found, components, points: count, group });
+        for (slice, found, components) in lengths.chain(materials).chain(statuses) {
+            LengthError::check(slice, found, components, count, group)?;
         }
         let call = Call {
             material: self.material,
@@ -393,6 +383,22 @@ pub struct LengthError {
     pub points: usize,
     /// Divisor of the number of points that the layout requires.
     pub group: usize,
+}
+
+impl LengthError {
+    /// Checks that a slice has this number of components for each of the points.
+    fn check(
+        slice: &'static str,
+        found: usize,
+        components: usize,
+        points: usize,
+        group: usize,
+    ) -> Result<(), Self> {
+        match components.checked_mul(points) == Some(found) {
+            true => Ok(()),
+            false => Err(Self { slice, found, components, points, group }),
+        }
+    }
 }
 
 impl fmt::Display for LengthError {

@@ -253,9 +253,7 @@ impl<F: Univariate, const N: u8> Derivative<'_, F, N> {
             _ => self.0.second_derivative(x),
         }
     }
-}
 
-impl<F: Univariate, const N: u8> Derivative<'_, F, N> {
     /// True if the slope jumps between a and b, at a point that is not among the breakpoints.
     ///
     /// A mean of slopes is then wrong by up to the jump. Between close points a smooth slope is nearly

@@ -114,12 +114,8 @@ impl CsrPlaces {
             Layout::Lines => E::LINE,
         };
         let points = self.places.len().next_multiple_of(group);
-        let check = |slice, found, components, points, group| match found == components * points {
-            true => Ok(()),
-            false => Err(LengthError { slice, found, components, points, group }),
-        };
-        check("stiffnesses", stiffnesses.len(), 144, points, group)?;
-        check("values", values.len(), 1, self.entries, 1)?;
+        LengthError::check("stiffnesses", stiffnesses.len(), 144, points, group)?;
+        LengthError::check("values", values.len(), 1, self.entries, 1)?;
         for (element, places) in self.places.iter().enumerate() {
             for (k, &place) in places.iter().enumerate() {
                 if place < NONE {

@@ -64,9 +64,9 @@ impl<E: Scalar> Quadrature<E> {
     pub fn deform(&self, positions: &[E], slopes: &[E], F: &mut [E]) -> Result<(), LengthError> {
         let (unknowns, points) = (self.unknowns(), self.points);
         let elements = positions.len().checked_div(unknowns).unwrap_or(0);
-        fit("positions", positions, unknowns, elements)?;
-        fit("slopes", slopes, unknowns, elements.saturating_mul(points))?;
-        fit("F", F, 9, elements.saturating_mul(points))?;
+        LengthError::check("positions", positions.len(), unknowns, elements, 1)?;
+        LengthError::check("slopes", slopes.len(), unknowns, elements.saturating_mul(points), 1)?;
+        LengthError::check("F", F.len(), 9, elements.saturating_mul(points), 1)?;
         for (point, (F, slopes)) in F.chunks_exact_mut(9).zip(chunks(slopes, unknowns)).enumerate() {
             F.fill(E::splat(0.0));
             let x = &positions[point / points * unknowns..][..unknowns];
@@ -93,8 +93,8 @@ impl<E: Scalar> Quadrature<E> {
         gradients: &mut [E],
     ) -> Result<(), LengthError> {
         let (unknowns, elements) = (self.unknowns(), self.elements(slopes, volumes)?);
-        fit("P", P, 9, volumes.len())?;
-        fit("gradients", gradients, unknowns, elements)?;
+        LengthError::check("P", P.len(), 9, volumes.len(), 1)?;
+        LengthError::check("gradients", gradients.len(), unknowns, elements, 1)?;
         gradients.fill(E::splat(0.0));
         let points = chunks(slopes, unknowns).zip(volumes).zip(P.chunks_exact(9)).enumerate();
         for (point, ((slopes, &volume), P)) in points {
@@ -123,8 +123,8 @@ impl<E: Scalar> Quadrature<E> {
     ) -> Result<(), LengthError> {
         let (unknowns, elements) = (self.unknowns(), self.elements(slopes, volumes)?);
         let Self { nodes, points, backend, .. } = *self;
-        fit("dP_dF", dP_dF, 81, volumes.len())?;
-        fit("stiffnesses", stiffnesses, unknowns.saturating_mul(unknowns), elements)?;
+        LengthError::check("dP_dF", dP_dF.len(), 81, volumes.len(), 1)?;
+        LengthError::check("stiffnesses", stiffnesses.len(), unknowns.saturating_mul(unknowns), elements, 1)?;
         if stiffnesses.is_empty() {
             return Ok(());
         }
@@ -147,23 +147,14 @@ impl<E: Scalar> Quadrature<E> {
     /// Number of elements in these slices.
     fn elements(&self, slopes: &[E], volumes: &[E]) -> Result<usize, LengthError> {
         let elements = volumes.len().checked_div(self.points).unwrap_or(0);
-        fit("volumes", volumes, self.points, elements)?;
-        fit("slopes", slopes, self.unknowns(), volumes.len())?;
+        LengthError::check("volumes", volumes.len(), self.points, elements, 1)?;
+        LengthError::check("slopes", slopes.len(), self.unknowns(), volumes.len(), 1)?;
         Ok(elements)
     }
 
     fn unknowns(&self) -> usize {
         self.nodes.saturating_mul(3)
     }
-}
-
-/// Checks that a slice has this number of components for each point or element.
-fn fit<E>(slice: &'static str, of: &[E], components: usize, points: usize) -> Result<(), LengthError> {
-    let found = of.len();
-    if components.checked_mul(points) == Some(found) {
-        return Ok(());
-    }
-    Err(LengthError { slice, found, components, points, group: 1 })
 }
 
 fn chunks<E>(of: &[E], size: usize) -> impl Iterator<Item = &[E]> {

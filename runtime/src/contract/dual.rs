@@ -9,14 +9,7 @@
 //! | x + y, x − y | x′ ± y′ |
 //! | x y | x′ y + x y′ |
 //! | x / y | (x′ − (x/y) y′) / y |
-//! | √x, ∛x | x′ / 2√x, x′ / 3(∛x)² |
-//! | ln x, eˣ | x′ / x, eˣ x′ |
-//! | ln(1 + x), eˣ − 1 | x′ / (1 + x), eˣ x′ |
-//! | sinh x, cosh x, tanh x | cosh x x′, sinh x x′, x′ / cosh² x |
-//! | asinh x, atan x | x′ / √(1 + x²), x′ / (1 + x²) |
-//! | sin x, cos x | cos x x′, −sin x x′ |
-//! | erf x | 2/√π e^(−x²) x′ |
-//! | softplus x, sigmoid x | sigmoid x x′, sigmoid x sigmoid(−x) x′ |
+//! | a function of one number | its own at x, times x′: the list below |
 //! | xʳ | r xʳ⁻¹ x′ + xʳ ln x r′ |
 //! | ln(x/y) | x′/x − y′/y |
 //! | \|x\|, max, min, select | that of what is taken |
@@ -53,11 +46,6 @@ impl Dual {
 
     const fn constant(value: f64) -> Self {
         Self { value, slope: 0.0 }
-    }
-
-    /// A function of this number by its value and its derivative there.
-    fn mapped(self, function: fn(f64) -> f64, derivative: impl Fn(f64) -> f64) -> Self {
-        Self { value: function(self.value), slope: derivative(self.value) * self.slope }
     }
 }
 
@@ -97,6 +85,16 @@ impl Neg for Dual {
     }
 }
 
+/// Functions by their derivatives at the value x.
+macro_rules! functions {
+    ($($method:ident |$x:ident| $derivative:expr,)*) => {$(
+        fn $method(self) -> Self {
+            let $x = self.value;
+            Self { value: Real::$method($x), slope: $derivative * self.slope }
+        }
+    )*};
+}
+
 impl Real for Dual {
     type Mask = bool;
     type Logarithm = DualLogarithm;
@@ -117,74 +115,23 @@ impl Real for Dual {
         Self { value: Real::mul_add(self.value, factor.value, addend.value), slope }
     }
 
-    fn sqrt(self) -> Self {
-        let value = Real::sqrt(self.value);
-        Self { value, slope: self.slope / (2.0 * value) }
-    }
-
-    fn cbrt(self) -> Self {
-        let value = Real::cbrt(self.value);
-        Self { value, slope: self.slope / (3.0 * value * value) }
-    }
-
-    fn ln(self) -> Self {
-        Self { value: Real::ln(self.value), slope: self.slope / self.value }
-    }
-
-    fn exp(self) -> Self {
-        let value = Real::exp(self.value);
-        Self { value, slope: value * self.slope }
-    }
-
-    fn ln_1p(self) -> Self {
-        self.mapped(Real::ln_1p, |x| 1.0 / (1.0 + x))
-    }
-
-    fn exp_m1(self) -> Self {
-        self.mapped(Real::exp_m1, Real::exp)
-    }
-
-    fn sinh(self) -> Self {
-        self.mapped(Real::sinh, Real::cosh)
-    }
-
-    fn cosh(self) -> Self {
-        self.mapped(Real::cosh, Real::sinh)
-    }
-
-    fn tanh(self) -> Self {
-        self.mapped(Real::tanh, |x| {
-            let cosh = Real::cosh(x);
-            1.0 / (cosh * cosh)
-        })
-    }
-
-    fn asinh(self) -> Self {
-        self.mapped(Real::asinh, |x| 1.0 / Real::sqrt(1.0 + x * x))
-    }
-
-    fn sin(self) -> Self {
-        self.mapped(Real::sin, Real::cos)
-    }
-
-    fn cos(self) -> Self {
-        self.mapped(Real::cos, |x| -Real::sin(x))
-    }
-
-    fn atan(self) -> Self {
-        self.mapped(Real::atan, |x| 1.0 / (1.0 + x * x))
-    }
-
-    fn erf(self) -> Self {
-        self.mapped(Real::erf, |x| FRAC_2_SQRT_PI * Real::exp(-x * x))
-    }
-
-    fn softplus(self) -> Self {
-        self.mapped(Real::softplus, Real::sigmoid)
-    }
-
-    fn sigmoid(self) -> Self {
-        self.mapped(Real::sigmoid, |x| Real::sigmoid(x) * Real::sigmoid(-x))
+    functions! {
+        sqrt |x| 0.5 / Real::sqrt(x),
+        cbrt |x| 1.0 / (3.0 * Real::cbrt(x) * Real::cbrt(x)),
+        ln |x| 1.0 / x,
+        exp |x| Real::exp(x),
+        ln_1p |x| 1.0 / (1.0 + x),
+        exp_m1 |x| Real::exp(x),
+        sinh |x| Real::cosh(x),
+        cosh |x| Real::sinh(x),
+        tanh |x| 1.0 / (Real::cosh(x) * Real::cosh(x)),
+        asinh |x| 1.0 / Real::sqrt(1.0 + x * x),
+        sin |x| Real::cos(x),
+        cos |x| -Real::sin(x),
+        atan |x| 1.0 / (1.0 + x * x),
+        erf |x| FRAC_2_SQRT_PI * Real::exp(-x * x),
+        softplus |x| Real::sigmoid(x),
+        sigmoid |x| Real::sigmoid(x) * Real::sigmoid(-x),
     }
 
     fn logarithm(self) -> DualLogarithm {

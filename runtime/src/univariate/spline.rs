@@ -213,12 +213,12 @@ impl Univariate for Spline {
 
     #[inline(always)]
     fn quotient<R: Real>(&self, a: R, b: R) -> R {
-        by_pieces(&Energies(self), a, b)
+        by_pieces(&Quotients::<false>(self), a, b)
     }
 
     #[inline(always)]
     fn derivative_quotient<R: Real>(&self, a: R, b: R) -> R {
-        by_pieces(&Forces(self), a, b)
+        by_pieces(&Quotients::<true>(self), a, b)
     }
 
     /// Builds the spline from its control points, listed as x, φ′, x, φ′, …
@@ -259,10 +259,10 @@ impl Univariate for Spline {
 /// The stretch of a length, an area or a volume at rest.
 const REST: f64 = 1.0;
 
-/// The quotients of φ, piece by piece.
-struct Energies<'a>(&'a Spline);
+/// The quotients of φ, or of φ′, piece by piece.
+struct Quotients<'a, const OF_SLOPE: bool>(&'a Spline);
 
-impl Piecewise for Energies<'_> {
+impl<const OF_SLOPE: bool> Piecewise for Quotients<'_, OF_SLOPE> {
     #[inline(always)]
     fn breakpoints(&self) -> &[f64] {
         &self.0.knots
@@ -271,23 +271,11 @@ impl Piecewise for Energies<'_> {
     #[inline(always)]
     fn quotient_within<R: Real>(&self, k: usize, a: R, b: R) -> R {
         let ([_, c1, c2, c3, c4], [sum, squares, cubic]) = self.0.pieces[k].between(a, b);
-        (c4 * squares + c2).mul_add(sum, c3.mul_add(cubic, c1))
-    }
-}
-
-/// The quotients of φ′, piece by piece.
-struct Forces<'a>(&'a Spline);
-
-impl Piecewise for Forces<'_> {
-    #[inline(always)]
-    fn breakpoints(&self) -> &[f64] {
-        &self.0.knots
-    }
-
-    #[inline(always)]
-    fn quotient_within<R: Real>(&self, k: usize, a: R, b: R) -> R {
-        let ([_, _, c2, c3, c4], [sum, _, cubic]) = self.0.pieces[k].between(a, b);
-        (R::splat(3.0) * c3).mul_add(sum, (R::splat(4.0) * c4) * cubic) + (c2 + c2)
+        if OF_SLOPE {
+            (R::splat(3.0) * c3).mul_add(sum, (R::splat(4.0) * c4) * cubic) + (c2 + c2)
+        } else {
+            (c4 * squares + c2).mul_add(sum, c3.mul_add(cubic, c1))
+        }
     }
 }
 
