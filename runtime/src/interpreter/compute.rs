@@ -1,10 +1,8 @@
 //! The operations of programs: each is the one that the emitted Rust of the same declaration performs.
 
-use std::cell::Cell;
-
 use super::parameters::Parameters;
 use super::program::{Elementary, Exponent, Operation};
-use super::registers::Files;
+use super::registers::{Each, Files};
 use crate::lanes::Real;
 use crate::quotient::{
     Pair, above_zero, asinh_quotient, atan_quotient, cos_quotient, cosh_quotient, erf_quotient,
@@ -25,17 +23,6 @@ impl<R: Real> Same<R> {
     }
 }
 
-/// An operand with a value of its own at each group.
-#[derive(Clone, Copy)]
-struct Each<'a, R, const G: usize>(&'a [Cell<R>; G]);
-
-impl<R: Real, const G: usize> Each<'_, R, G> {
-    #[inline(always)]
-    fn get(self, group: usize) -> R {
-        self.0[group].get()
-    }
-}
-
 /// Computes one operation at all groups.
 #[inline(always)]
 pub(super) fn compute<R: Real, const G: usize>(
@@ -44,43 +31,18 @@ pub(super) fn compute<R: Real, const G: usize>(
     parameters: &Parameters<'_>,
     entry: usize,
 ) {
-    /// A loop over the groups: `to = value` with the operands read from their registers.
+    /// A loop over the groups: `to = value` with the operands read from their registers, of numbers unless
+    /// another kind is named.
     macro_rules! each {
-        (number $to:expr, [$($operand_kind:ident $x:ident: $register:expr),+] $value:expr) => {{
-            let to = file.number($to);
-            $(let $x = file.$operand_kind($register);)+
-            for group in 0..G {
-                to.set(group, { $(let $x = read!($operand_kind $x, group);)+ $value });
-            }
-        }};
         ($kind:ident $to:expr, [$($operand_kind:ident $x:ident: $register:expr),+] $value:expr) => {{
             let to = file.$kind($to);
             $(let $x = file.$operand_kind($register);)+
             for group in 0..G {
-                let value = { $(let $x = read!($operand_kind $x, group);)+ $value };
-                to[group].set(value);
+                to.set(group, { $(let $x = $x.get(group);)+ $value });
             }
         }};
-    }
-    macro_rules! read {
-        (number $x:ident, $group:expr) => {
-            $x.get($group)
-        };
-        ($kind:ident $x:ident, $group:expr) => {
-            $x[$group].get()
-        };
-    }
-    macro_rules! unary {
-        ($to:expr, $a:expr, |$x:ident| $value:expr) => { each!(number $to, [number $x: $a] $value) };
-    }
-    macro_rules! binary {
-        ($to:expr, $a:expr, $b:expr, |$x:ident, $y:ident| $value:expr) => {
-            each!(number $to, [number $x: $a, number $y: $b] $value)
-        };
-    }
-    macro_rules! ternary {
-        ($to:expr, $operands:expr, |$x:ident, $y:ident, $z:ident| $value:expr) => {
-            each!(number $to, [number $x: $operands[0], number $y: $operands[1], number $z: $operands[2]] $value)
+        ($to:expr, [$($x:ident: $register:expr),+] $value:expr) => {
+            each!(number $to, [$(number $x: $register),+] $value)
         };
     }
     /// An operation of arithmetic: an operand that is constant is read once, and a result that is constant
@@ -151,47 +113,47 @@ pub(super) fn compute<R: Real, const G: usize>(
             arithmetic!(to, [x: a, y: b, z: c, w: d] (-x).mul_add(y, z) * w)
         }
         Operation::NegMul(to, a, b) => arithmetic!(to, [x: a, y: b] -(x * y)),
-        Operation::Sqrt(to, a) => unary!(to, a, |x| x.sqrt()),
-        Operation::Cbrt(to, a) => unary!(to, a, |x| x.cbrt()),
-        Operation::Ln(to, a) => unary!(to, a, |x| x.ln()),
-        Operation::Exp(to, a) => unary!(to, a, |x| x.exp()),
-        Operation::Max(to, a, b) => binary!(to, a, b, |x, y| x.max(y)),
-        Operation::Below(to, a, b) => binary!(to, a, b, |x, y| (x - y).min(R::splat(0.0))),
-        Operation::AboveZero(to, a) => unary!(to, a, |x| above_zero(x)),
-        Operation::WhereNegative(to, of) => {
-            ternary!(to, of, |x, y, z| R::select(x.less(R::splat(0.0)), y, z))
+        Operation::Sqrt(to, a) => each!(to, [x: a] x.sqrt()),
+        Operation::Cbrt(to, a) => each!(to, [x: a] x.cbrt()),
+        Operation::Ln(to, a) => each!(to, [x: a] x.ln()),
+        Operation::Exp(to, a) => each!(to, [x: a] x.exp()),
+        Operation::Max(to, a, b) => each!(to, [x: a, y: b] x.max(y)),
+        Operation::Below(to, a, b) => each!(to, [x: a, y: b] (x - y).min(R::splat(0.0))),
+        Operation::AboveZero(to, a) => each!(to, [x: a] above_zero(x)),
+        Operation::WhereNegative(to, [a, b, c]) => {
+            each!(to, [x: a, y: b, z: c] R::select(x.less(R::splat(0.0)), y, z))
         }
-        Operation::ShareAbove(to, of) => ternary!(to, of, |x, y, z| share_above(x, y, z)),
-        Operation::ShareBelow(to, of) => ternary!(to, of, |x, y, z| share_below(x, y, z)),
-        Operation::PoleFloor(to, of) => ternary!(to, of, |x, y, z| pole_floor([x, y, z])),
-        Operation::LnProduct(to, of) => ternary!(to, of, |x, y, z| ln_product([x, y, z])),
+        Operation::ShareAbove(to, [a, b, c]) => each!(to, [x: a, y: b, z: c] share_above(x, y, z)),
+        Operation::ShareBelow(to, [a, b, c]) => each!(to, [x: a, y: b, z: c] share_below(x, y, z)),
+        Operation::PoleFloor(to, [a, b, c]) => each!(to, [x: a, y: b, z: c] pole_floor([x, y, z])),
+        Operation::LnProduct(to, [a, b, c]) => each!(to, [x: a, y: b, z: c] ln_product([x, y, z])),
         Operation::Elementary(function, to, a) => match function {
-            Elementary::Asinh => unary!(to, a, |x| x.asinh()),
-            Elementary::Atan => unary!(to, a, |x| x.atan()),
-            Elementary::Cos => unary!(to, a, |x| x.cos()),
-            Elementary::Cosh => unary!(to, a, |x| x.cosh()),
-            Elementary::Erf => unary!(to, a, |x| x.erf()),
-            Elementary::ExpM1 => unary!(to, a, |x| x.exp_m1()),
-            Elementary::Ln1p => unary!(to, a, |x| x.ln_1p()),
-            Elementary::Sigmoid => unary!(to, a, |x| x.sigmoid()),
-            Elementary::Sin => unary!(to, a, |x| x.sin()),
-            Elementary::Sinh => unary!(to, a, |x| x.sinh()),
-            Elementary::Softplus => unary!(to, a, |x| x.softplus()),
-            Elementary::Tanh => unary!(to, a, |x| x.tanh()),
+            Elementary::Asinh => each!(to, [x: a] x.asinh()),
+            Elementary::Atan => each!(to, [x: a] x.atan()),
+            Elementary::Cos => each!(to, [x: a] x.cos()),
+            Elementary::Cosh => each!(to, [x: a] x.cosh()),
+            Elementary::Erf => each!(to, [x: a] x.erf()),
+            Elementary::ExpM1 => each!(to, [x: a] x.exp_m1()),
+            Elementary::Ln1p => each!(to, [x: a] x.ln_1p()),
+            Elementary::Sigmoid => each!(to, [x: a] x.sigmoid()),
+            Elementary::Sin => each!(to, [x: a] x.sin()),
+            Elementary::Sinh => each!(to, [x: a] x.sinh()),
+            Elementary::Softplus => each!(to, [x: a] x.softplus()),
+            Elementary::Tanh => each!(to, [x: a] x.tanh()),
         },
         Operation::ElementaryQuotient(function, to, a, b) => match function {
-            Elementary::Asinh => binary!(to, a, b, |x, y| asinh_quotient(x, y)),
-            Elementary::Atan => binary!(to, a, b, |x, y| atan_quotient(x, y)),
-            Elementary::Cos => binary!(to, a, b, |x, y| cos_quotient(x, y)),
-            Elementary::Cosh => binary!(to, a, b, |x, y| cosh_quotient(x, y)),
-            Elementary::Erf => binary!(to, a, b, |x, y| erf_quotient(x, y)),
-            Elementary::ExpM1 => binary!(to, a, b, |x, y| exp_m1_quotient(x, y)),
-            Elementary::Ln1p => binary!(to, a, b, |x, y| ln_1p_quotient(x, y)),
-            Elementary::Sigmoid => binary!(to, a, b, |x, y| sigmoid_quotient(x, y)),
-            Elementary::Sin => binary!(to, a, b, |x, y| sin_quotient(x, y)),
-            Elementary::Sinh => binary!(to, a, b, |x, y| sinh_quotient(x, y)),
-            Elementary::Softplus => binary!(to, a, b, |x, y| softplus_quotient(x, y)),
-            Elementary::Tanh => binary!(to, a, b, |x, y| tanh_quotient(x, y)),
+            Elementary::Asinh => each!(to, [x: a, y: b] asinh_quotient(x, y)),
+            Elementary::Atan => each!(to, [x: a, y: b] atan_quotient(x, y)),
+            Elementary::Cos => each!(to, [x: a, y: b] cos_quotient(x, y)),
+            Elementary::Cosh => each!(to, [x: a, y: b] cosh_quotient(x, y)),
+            Elementary::Erf => each!(to, [x: a, y: b] erf_quotient(x, y)),
+            Elementary::ExpM1 => each!(to, [x: a, y: b] exp_m1_quotient(x, y)),
+            Elementary::Ln1p => each!(to, [x: a, y: b] ln_1p_quotient(x, y)),
+            Elementary::Sigmoid => each!(to, [x: a, y: b] sigmoid_quotient(x, y)),
+            Elementary::Sin => each!(to, [x: a, y: b] sin_quotient(x, y)),
+            Elementary::Sinh => each!(to, [x: a, y: b] sinh_quotient(x, y)),
+            Elementary::Softplus => each!(to, [x: a, y: b] softplus_quotient(x, y)),
+            Elementary::Tanh => each!(to, [x: a, y: b] tanh_quotient(x, y)),
         },
         Operation::Logarithm(to, a) => each!(logarithm to, [number x: a] x.logarithm()),
         Operation::Power(to, logarithm, exponent) => {
@@ -209,28 +171,26 @@ pub(super) fn compute<R: Real, const G: usize>(
             });
         }
         Operation::ExpQuotient(to, [a, ea], [b, eb]) => {
-            each!(number to, [number a: a, number ea: ea, number b: b, number eb: eb] {
-                exp_quotient([a, ea], [b, eb])
-            });
+            each!(to, [a: a, ea: ea, b: b, eb: eb] exp_quotient([a, ea], [b, eb]));
         }
         Operation::WholePower(to, a, exponent, order) => {
             let n = whole(exponent);
-            unary!(to, a, |x| whole_power(x, n, u32::from(order)));
+            each!(to, [x: a] whole_power(x, n, u32::from(order)));
         }
         Operation::WholePowerQuotient(to, [a, b], exponent, order) => {
             let n = whole(exponent);
-            binary!(to, a, b, |x, y| whole_power_quotient([x, y], n, u32::from(order)));
+            each!(to, [x: a, y: b] whole_power_quotient([x, y], n, u32::from(order)));
         }
         Operation::Function(to, k, order, a) => match (order, parameters.function(k)) {
-            (0, Some(function)) => unary!(to, a, |x| function.value(x)),
-            (1, Some(function)) => unary!(to, a, |x| function.derivative(x)),
-            (2, Some(function)) => unary!(to, a, |x| function.second_derivative(x)),
-            _ => unary!(to, a, |_x| R::splat(f64::NAN)),
+            (0, Some(function)) => each!(to, [x: a] function.value(x)),
+            (1, Some(function)) => each!(to, [x: a] function.derivative(x)),
+            (2, Some(function)) => each!(to, [x: a] function.second_derivative(x)),
+            _ => each!(to, [_x: a] R::splat(f64::NAN)),
         },
         Operation::FunctionQuotient(to, k, order, [a, b]) => match (order, parameters.function(k)) {
-            (0, Some(function)) => binary!(to, a, b, |x, y| function.quotient(x, y)),
-            (1, Some(function)) => binary!(to, a, b, |x, y| function.derivative_quotient(x, y)),
-            _ => unary!(to, a, |_x| R::splat(f64::NAN)),
+            (0, Some(function)) => each!(to, [x: a, y: b] function.quotient(x, y)),
+            (1, Some(function)) => each!(to, [x: a, y: b] function.derivative_quotient(x, y)),
+            _ => each!(to, [_x: a] R::splat(f64::NAN)),
         },
     }
 }

@@ -147,6 +147,22 @@ pub(super) struct Files<'a, R: Real, const G: usize> {
     pairs: &'a [[Cell<Pair<R>>; G]],
 }
 
+/// The cells of a register, with a value of its own at each group.
+#[derive(Clone, Copy)]
+pub(super) struct Each<'a, T, const G: usize>(pub(super) &'a [Cell<T>; G]);
+
+impl<T: Copy, const G: usize> Each<'_, T, G> {
+    #[inline(always)]
+    pub(super) fn get(self, group: usize) -> T {
+        self.0[group].get()
+    }
+
+    #[inline(always)]
+    pub(super) fn set(self, group: usize, value: T) {
+        self.0[group].set(value);
+    }
+}
+
 /// The cells of a register for numbers, or of a constant.
 #[derive(Clone, Copy)]
 pub(super) struct Numbers<'a, R, const G: usize> {
@@ -202,13 +218,13 @@ impl<'a, R: Real, const G: usize> Files<'a, R, G> {
     }
 
     #[inline(always)]
-    pub(super) fn logarithm(&self, register: Register) -> &'a [Cell<R::Logarithm>; G] {
-        &self.logarithms[usize::from(register)]
+    pub(super) fn logarithm(&self, register: Register) -> Each<'a, R::Logarithm, G> {
+        Each(&self.logarithms[usize::from(register)])
     }
 
     #[inline(always)]
-    pub(super) fn pair(&self, register: Register) -> &'a [Cell<Pair<R>>; G] {
-        &self.pairs[usize::from(register)]
+    pub(super) fn pair(&self, register: Register) -> Each<'a, Pair<R>, G> {
+        Each(&self.pairs[usize::from(register)])
     }
 
     /// Sets a constant to a parameter, or to an entry of a list.
