@@ -99,7 +99,6 @@ impl<E: Kernels> Batch<'_, E> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::Layout;
     use crate::hand_written::{ExtendedNeoHookean, SaintVenantKirchhoff};
     use crate::lanes::Backend;
     use crate::material::Material;
@@ -152,39 +151,6 @@ mod tests {
     fn every_measure_is_that_of_the_points() {
         check_against_points(&SaintVenantKirchhoff);
         check_against_points(&ExtendedNeoHookean { epsilon: 0.3 });
-    }
-
-    #[test]
-    fn bits_do_not_depend_on_layout_or_threads() {
-        let sample = sample();
-        let F = sample.as_flattened();
-        let mut lines = vec![0.0; 9 * COUNT];
-        for p in 0..COUNT {
-            for k in 0..9 {
-                lines[Layout::Lines.index::<f64>(p, 9, k)] = F[9 * p + k];
-            }
-        }
-        let two_threads = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
-        for measure in Measure::ALL {
-            let batch = Batch::new(&SaintVenantKirchhoff);
-            let run = |batch: &Batch<'_, f64>, F: &[f64]| {
-                let (mut stresses, mut tangents) = (vec![0.0; 6 * COUNT], vec![0.0; 36 * COUNT]);
-                batch.measured_tangents(measure, F, &mut stresses, &mut tangents).expect("lengths");
-                (stresses, tangents)
-            };
-            let (stresses, tangents) = run(&batch, F);
-            let shared = two_threads.install(|| run(&batch.with_threads(true), F));
-            assert!(shared == (stresses.clone(), tangents.clone()), "{measure:?}");
-            let in_lines = run(&batch.with_layout(Layout::Lines), &lines);
-            for p in 0..COUNT {
-                for k in 0..36 {
-                    let found = in_lines.1[Layout::Lines.index::<f64>(p, 36, k)];
-                    assert_eq!(found.to_bits(), tangents[36 * p + k].to_bits(), "{measure:?}");
-                }
-                let found = in_lines.0[Layout::Lines.index::<f64>(p, 6, 1)];
-                assert_eq!(found.to_bits(), stresses[6 * p + 1].to_bits(), "{measure:?}");
-            }
-        }
     }
 
     #[test]

@@ -6,6 +6,7 @@
 use piola::__private::random::Random;
 use piola::batch::{Batch, Kernels, Layout, REST, TileMaterial};
 use piola::lanes::{Backend, Real, Scalar};
+use piola::point::measures::Measure;
 use piola::point::{Filter, Matrix3, Point, evaluate, evaluate_energy};
 use piola::{Inversion, Material, StatusCell, Survey, material};
 
@@ -127,13 +128,16 @@ fn number<E: Number>(layout: Layout, slice: &[E], numbers: usize, p: usize, k: u
 /// Everything that a batch gives.
 #[derive(Debug, PartialEq)]
 struct All<E> {
-    surveys: [Survey; 4],
+    surveys: [Survey; 5],
     energies: Vec<E>,
     P: Vec<E>,
     P_with_tangent: Vec<E>,
     full: Vec<E>,
     gradients: Vec<E>,
     stiffnesses: Vec<E>,
+    /// τ, and the tangent of its Lie derivative, which no division makes infinite.
+    kirchhoff: Vec<E>,
+    kirchhoff_tangents: Vec<E>,
 }
 
 fn all<E: Number>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> All<E> {
@@ -143,19 +147,22 @@ fn all<E: Number>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> A
     let rest = lay(layout, &sample.rest);
     let zero = |numbers: usize| vec![E::of(0.0); numbers * count];
     let mut all = All {
-        surveys: [Survey::default(); 4],
+        surveys: [Survey::default(); 5],
         energies: zero(1),
         P: zero(9),
         P_with_tangent: zero(9),
         full: zero(81),
         gradients: zero(12),
         stiffnesses: zero(144),
+        kirchhoff: zero(6),
+        kirchhoff_tangents: zero(36),
     };
     let surveys = [
         batch.energies(&F, &mut all.energies),
         batch.stresses(&F, &mut all.P),
         batch.tangents(&F, &mut all.P_with_tangent, &mut all.full),
         batch.stiffnesses(&F, &rest, &mut all.gradients, &mut all.stiffnesses),
+        batch.measured_tangents(Measure::Kirchhoff, &F, &mut all.kirchhoff, &mut all.kirchhoff_tangents),
     ];
     all.surveys = surveys.map(|survey| survey.expect("lengths fit"));
     all
@@ -202,7 +209,7 @@ fn check_against_points<E: Number, M: Material>(material: &M, skip: impl Fn(usiz
                 }
                 check_point(&mut worst, &found, &sample, p, material, &F, &point);
             }
-            assert_eq!(found.surveys.map(|survey| survey.refused), [refused; 4], "{backend}");
+            assert_eq!(found.surveys.map(|survey| survey.refused), [refused; 5], "{backend}");
             // Twice the 20 u of a decomposition, times what a material makes of it.
             assert!(worst.0 <= 400.0, "{backend}, {filter:?}: {} u", worst.0);
         }
@@ -296,6 +303,8 @@ fn bits<E: Number>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
         (&all.full, 81),
         (&all.gradients, 12),
         (&all.stiffnesses, 144),
+        (&all.kirchhoff, 6),
+        (&all.kirchhoff_tangents, 36),
     ];
     for p in 0..count {
         for (output, numbers) in outputs {

@@ -27,18 +27,6 @@ pub const ORDER: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), 
 /// `C[INDEX[i][j]][INDEX[k][l]]`.
 pub const INDEX: [[usize; 3]; 3] = [[0, 5, 4], [5, 1, 3], [4, 3, 2]];
 
-/// The six components of a stress; if the matrix is not quite symmetric, of its symmetric part.
-#[inline(always)]
-#[must_use]
-pub fn from_stress<R: Real>(stress: &Matrix3<R>) -> [R; 6] {
-    let mut numbers = [R::splat(0.0); 6];
-    for index in 0..6 {
-        let (i, j) = ORDER[index];
-        numbers[index] = R::splat(0.5) * (stress[i][j] + stress[j][i]);
-    }
-    numbers
-}
-
 /// The stress with these six components.
 #[inline(always)]
 #[must_use]
@@ -52,8 +40,8 @@ pub fn to_stress<R: Real>(numbers: &[R; 6]) -> Matrix3<R> {
 #[inline(always)]
 #[must_use]
 pub fn from_strain<R: Real>(strain: &Matrix3<R>) -> [R; 6] {
-    let [e11, e22, e33, e23, e13, e12] = from_stress(strain);
-    [e11, e22, e33, e23 + e23, e13 + e13, e12 + e12]
+    let twice = |i: usize, j: usize| strain[i][j] + strain[j][i];
+    [strain[0][0], strain[1][1], strain[2][2], twice(1, 2), twice(0, 2), twice(0, 1)]
 }
 
 /// A tangent in the principal frame of an isotropic body: entries that are not listed are zero or follow by

@@ -388,19 +388,19 @@ fn a_filtered_tangent_has_no_material_part() {
 #[test]
 fn six_numbers_are_in_the_order_of_Voigt_with_shears_of_strains_doubled() {
     let A = [[11.0, 12.0, 13.0], [12.0, 22.0, 23.0], [13.0, 23.0, 33.0]];
-    assert_eq!(voigt::from_stress(&A), [11.0, 22.0, 33.0, 23.0, 13.0, 12.0]);
+    let six = [11.0, 22.0, 33.0, 23.0, 13.0, 12.0];
+    assert_eq!(voigt::to_stress(&six), A);
     assert_eq!(voigt::from_strain(&A), [11.0, 22.0, 33.0, 46.0, 26.0, 24.0]);
-    assert_eq!(voigt::to_stress(&voigt::from_stress(&A)), A);
     for i in 0..3 {
         for j in 0..3 {
             assert_eq!(ORDER[INDEX[i][j]], (i.min(j), i.max(j)));
         }
     }
     // Work: 11² + 22² + 33² + 2 (23² + 13² + 12²).
-    let work: f64 = voigt::from_stress(&A).iter().zip(voigt::from_strain(&A)).map(|(s, e)| s * e).sum();
+    let work: f64 = six.iter().zip(voigt::from_strain(&A)).map(|(s, e)| s * e).sum();
     assert_eq!(work, sum(|i, j| A[i][j] * A[i][j]));
     let skewed = [[1.0, 3.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    assert_eq!(voigt::from_stress(&skewed)[5], 2.0);
+    assert_eq!(voigt::from_strain(&skewed)[5], 4.0);
 }
 
 #[test]
