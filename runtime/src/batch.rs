@@ -265,33 +265,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// m: F = Ds Dm⁻¹ is computed on the way.
     ///
     /// The length of `rest` gives their number. In [`Layout::Lines`] it extends to the end of the last line;
-    /// fill it up with shapes of tetrahedra with edges of length 1 along the axes.
-    ///
-    /// ```
-    /// use piola::batch::{Batch, Tetrahedra};
-    /// use piola::material;
-    ///
-    /// /// Rubber.
-    /// #[material(domain(J > 0.0))]
-    /// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
-    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-    /// }
-    ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let rubber = Rubber::new(1e6, 4e6)?;
-    /// let corners = [[0, 1, 2, 3]];
-    /// let tetrahedra = Tetrahedra::new(4, &corners)?;
-    /// // Dm⁻¹ and the volume; node 1 is drawn away by a tenth of its edge.
-    /// let rest = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
-    /// let positions = [[0.0, 0.0, 0.0], [1.1, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    /// let (mut gradients, mut stiffnesses) = ([0.0; 12], [0.0; 144]);
-    /// let batch = Batch::new(&rubber);
-    /// batch.stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut stiffnesses)?;
-    /// let P11 = 1e6 * (1.1 - 1.0 / 1.1) + 4e6 * f64::ln(1.1) / 1.1;
-    /// assert!((gradients[3] - P11 / 6.0).abs() < 1e-9);
-    /// # Ok(())
-    /// # }
-    /// ```
+    /// fill it up with shapes of tetrahedra with edges of length 1 along the axes. The
+    /// [front page](crate#tetrahedra) of the crate has a program.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not match.

@@ -15,26 +15,8 @@ const NONE: u32 = u32::MAX - 1;
 /// Places of the stiffnesses of tetrahedra in a sparse matrix of the caller, found once.
 ///
 /// The matrix may be whole, or one of its triangles. Unknowns may have any numbers, and nodes may have none,
-/// such as pinned ones. Takes 576 bytes for each tetrahedron.
-///
-/// ```
-/// use piola::batch::{CsrPlaces, Layout, Tetrahedra};
-///
-/// // Nodes 0 and 1 of a tetrahedron are free, and have the unknowns 0 to 2 and 3 to 5: a matrix of six rows.
-/// let corners = [[0, 1, 2, 3]];
-/// let tetrahedra = Tetrahedra::new(4, &corners)?;
-/// let row_starts: Vec<i32> = (0..=6).map(|row| 6 * row).collect();
-/// let columns: Vec<i32> = [0, 1, 2, 3, 4, 5].repeat(6);
-/// let unknowns = |node: usize| (node < 2).then_some(3 * node);
-/// let places = CsrPlaces::new(tetrahedra, unknowns, &row_starts, &columns)?;
-///
-/// // For each deformation: the entries of all tetrahedra are added to the values.
-/// let stiffnesses = [1.0; 144];
-/// let mut values = vec![0.0; 36];
-/// places.add(&stiffnesses, Layout::Points, &mut values)?;
-/// assert_eq!(values, [1.0; 36]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
+/// such as pinned ones. Takes 576 bytes for each tetrahedron. The [front page](crate#tetrahedra) of the crate
+/// has a program.
 #[derive(Clone, Debug)]
 pub struct CsrPlaces {
     places: Vec<[u32; 144]>,

@@ -19,30 +19,8 @@ impl<E: Kernels> Batch<'_, E> {
     /// Stresses in another measure, Pa: six components of each F, in the order of
     /// [`voigt`](crate::point::measures::voigt).
     ///
-    /// A point is `nonfinite` if its stress is, such as σ for a singular F.
-    ///
-    /// ```
-    /// use piola::batch::Batch;
-    /// use piola::point::measures::Measure;
-    ///
-    /// /// Rubber.
-    /// #[piola::material(domain(J > 0.0))]
-    /// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64) -> f64 {
-    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln()
-    /// }
-    ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let rubber = Rubber::new(1e6)?;
-    /// // Simple shear: σ = μ (FFᵀ − I).
-    /// let F = [1.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(100);
-    /// let (mut sigma, mut ddsdde) = (vec![0.0f64; 6 * 100], vec![0.0f64; 36 * 100]);
-    /// let survey = Batch::new(&rubber).measured_tangents(Measure::Jaumann, &F, &mut sigma, &mut ddsdde)?;
-    /// assert!(survey.is_clean());
-    /// assert!((sigma[6 * 99 + 5] - 0.5e6).abs() < 1e-3);
-    /// assert!((ddsdde[36 * 99 + 35] - 1.125e6).abs() < 1e-3);
-    /// # Ok(())
-    /// # }
-    /// ```
+    /// A point is `nonfinite` if its stress is, such as σ for a singular F. The
+    /// [front page](crate#points-in-batches) of the crate has a program.
     ///
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not match.

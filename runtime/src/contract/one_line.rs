@@ -30,17 +30,7 @@
 /// ```
 ///
 /// A material declared `prestressed` carries stress at rest, which the rule `rest` admits by
-/// [`stress_free_at_rest: false`](crate::contract::Settings::stress_free_at_rest):
-///
-/// ```
-/// # /// A gel that swells.
-/// # #[piola::material(domain(J > 0.0), prestressed)]
-/// # pub fn Gel([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ kappa: f64) -> f64 {
-/// #     mu / 2.0 * I1 + kappa / 2.0 * (J - 1.0).powi(2)
-/// # }
-/// piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false);
-/// # fn main() {}
-/// ```
+/// [`stress_free_at_rest: false`](crate::contract::Settings::stress_free_at_rest).
 ///
 /// A rule that does not apply, such as the one on extensions for a material that refuses inversion, counts as
 /// kept. `cargo test -- --show-output` shows the comparisons of each rule.

@@ -26,28 +26,8 @@ pub struct DensePoint<R: Real> {
 /// and well inside its domain, no decomposition is computed.
 ///
 /// That takes a fraction of the time (`cargo speed-report --only point`). The frames are then unknown: for
-/// products or principal stretches call [`evaluate`].
-///
-/// ```
-/// use piola::material;
-/// use piola::point::{Filter, evaluate_dense};
-///
-/// /// Rubber.
-/// #[material(domain(J > 0.0))]
-/// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
-///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-/// }
-///
-/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let rubber = Rubber::new(1e6, 4e6)?;
-/// let shear = [[1.0f64, 0.3, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// let sheared = evaluate_dense(&rubber, &shear, Filter::None);
-/// assert!(sheared.status.is_clean());
-/// // The shear stress is μ γ, and its slope is μ.
-/// assert!((sheared.stress[0][1] - 3e5).abs() < 1e-9 && (sheared.tangent[1][1] - 1e6).abs() < 1e-9);
-/// # Ok(())
-/// # }
-/// ```
+/// products or principal stretches call [`evaluate`]. The [front page](crate) of the crate begins with a
+/// program.
 #[inline(always)]
 #[must_use]
 pub fn evaluate_dense<R: Real>(
