@@ -85,6 +85,7 @@ use subject::{OnLanes, Subject};
 
 /// Stack size, bytes, of the threads in which [`contract!`](crate::contract!) runs: enough for code without
 /// optimisation.
+#[doc(hidden)]
 pub const STACK: usize = 1 << 26;
 
 /// Choice of the points that are checked, and of the demands on the rest state.

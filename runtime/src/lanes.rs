@@ -30,6 +30,7 @@ mod x86;
 pub use backend::{Backend, Kernel};
 pub(crate) use complement::scaled_complement;
 pub use lanes2::Lanes2;
+#[doc(hidden)] // of a hidden method of `Lanes`
 pub use non_temporal::NonTemporal;
 pub use real::{Mask, Real};
 #[doc(hidden)] // how the interpreter is compiled once for each format

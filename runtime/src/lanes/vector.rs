@@ -15,6 +15,7 @@ pub trait Lanes: Real {
     ///
     /// Each gets the bits that it would get alone. On x86-64 there are two: the singular value decomposition
     /// spills with them, and is still faster than with one. Scalars and portable lanes are their own.
+    #[doc(hidden)] // for the kernels of batches
     type Interleaved: Lanes<Scalar = Self::Scalar>;
 
     /// The number of lanes.
@@ -33,6 +34,7 @@ pub trait Lanes: Real {
     ///
     /// # Panics
     /// If the slice is shorter.
+    #[doc(hidden)] // for the kernels of batches
     #[inline(always)]
     fn load_lines(from: &[Self::Scalar], components: usize) -> Self {
         // A register is no longer than a line.
@@ -51,6 +53,7 @@ pub trait Lanes: Real {
     ///
     /// # Panics
     /// If the lengths differ.
+    #[doc(hidden)] // for the kernels of batches
     #[inline]
     fn store_non_temporal(from: &[Self::Scalar], to: &mut [Self::Scalar], fence: &NonTemporal) {
         let _ = fence;
@@ -64,6 +67,7 @@ pub trait Lanes: Real {
     ///
     /// # Panics
     /// If an entry lies outside of its slice.
+    #[doc(hidden)] // for the kernels of batches
     #[inline(never)]
     fn points_to_line<const N: usize>(from: &[Self::Scalar], to: &mut [Self::Scalar]) {
         for (p, point) in from.as_chunks::<N>().0.iter().enumerate() {
@@ -80,6 +84,7 @@ pub trait Lanes: Real {
     ///
     /// # Panics
     /// If an entry lies outside of its slice.
+    #[doc(hidden)] // for the kernels of batches
     #[inline(never)]
     fn line_to_points<const N: usize>(from: &[Self::Scalar], points: usize, to: &mut [Self::Scalar]) {
         let to = &mut to.as_chunks_mut::<N>().0[..points];
