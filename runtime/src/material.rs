@@ -22,7 +22,6 @@ mod description;
 pub(crate) mod differences;
 mod error;
 mod fittable;
-pub(crate) mod mixed;
 pub(crate) mod parameter;
 #[cfg(feature = "batch")]
 pub(crate) mod properties;

@@ -17,8 +17,15 @@ pub use crate::material::properties::Properties;
 trait Points: Send + Sync {
     type Material: Material;
 
+    /// True if points may have materials that do not [share lanes](Graded::shares_lanes).
+    const MAY_DIFFER: bool;
+
     /// The material on the lanes that begin with a point.
     fn at(&self, point: usize) -> impl Material;
+
+    /// The points of a tile that begins with the point `start`, as bits, whose materials share lanes with that
+    /// of its point `first`.
+    fn sharing(&self, start: usize, count: usize, first: usize) -> u64;
 
     /// All the materials: one, or one for each point.
     fn materials(&self) -> &[Self::Material];
@@ -39,9 +46,15 @@ trait Points: Send + Sync {
 impl<M: Material> Points for M {
     type Material = M;
 
+    const MAY_DIFFER: bool = false;
+
     #[inline(always)]
     fn at(&self, _: usize) -> impl Material {
         self
+    }
+
+    fn sharing(&self, _: usize, _: usize, _: usize) -> u64 {
+        u64::MAX
     }
 
     fn materials(&self) -> &[M] {
@@ -56,9 +69,18 @@ impl<M: Material> Points for M {
 impl<M: Graded, S: AsRef<[M]> + Send + Sync> Points for PerPoint<M, S> {
     type Material = M;
 
+    const MAY_DIFFER: bool = true;
+
     #[inline(always)]
     fn at(&self, point: usize) -> impl Material {
         self.from(point)
+    }
+
+    fn sharing(&self, start: usize, count: usize, first: usize) -> u64 {
+        let materials = &PerPoint::materials(self)[start..start + count];
+        let is_apart = |other: &M| !materials[first].shares_lanes(other);
+        let apart = materials.iter().enumerate().map(|(point, other)| u64::from(is_apart(other)) << point);
+        !apart.fold(0, |bits, bit| bits | bit)
     }
 
     fn materials(&self) -> &[M] {
@@ -119,16 +141,26 @@ macro_rules! tile_responses {
         impl<E: Scalar, P: Points> TileMaterial<E> for P {
             $(
                 fn $tile(&self, arguments: Arguments<'_, E>, to: &mut Rows<E, $rows>) -> Status<u64> {
-                    struct OnLanes<'a, P, E>(&'a P, Arguments<'a, E>, &'a mut Rows<E, $rows>);
+                    /// The points of a tile whose materials share lanes with that of its point `first`.
+                    struct OnLanes<'a, P, E> {
+                        points: &'a P,
+                        first: usize,
+                        own: u64,
+                        arguments: Arguments<'a, E>,
+                        to: &'a mut Rows<E, $rows>,
+                    }
                     impl<P: Points, E: Scalar> Kernel<E> for OnLanes<'_, P, E> {
                         type Output = Status<u64>;
                         #[inline(always)]
                         fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
-                            let Self(points, Arguments { start, count, rows, .. }, to) = self;
+                            let Self { points, first, own, arguments, to } = self;
+                            let Arguments { start, count, rows, .. } = arguments;
+                            let others = if P::MAY_DIFFER { !own } else { 0 };
                             let (mut admitted, mut finite) = (0, 0);
-                            for_each_group!(R, count, |group| {
+                            for_each_group!(R, count, but others, |group| {
                                 let at = rows.get_all::<R>(group);
-                                let material = points.at(start + group);
+                                let is_whole = (others >> group) & first_bits(R::LANES) == 0;
+                                let material = points.at(start + if is_whole { group } else { first });
                                 let result = $to_rows(material.$response(at));
                                 let ($at, $result) = (at, result);
                                 finite |= R::bits($finite) << group;
@@ -139,11 +171,16 @@ macro_rules! tile_responses {
                                             continue;
                                         }
                                     )?
-                                    to.set(row, group, result[row]);
+                                    if is_whole {
+                                        to.set(row, group, result[row]);
+                                    } else {
+                                        let before = to.get(row, group);
+                                        to.set(row, group, R::select(mask::<R>(own >> group), result[row], before));
+                                    }
                                 }
                                 admitted |= R::bits(material.$domain(at)) << group;
                             });
-                            domain_and_range(count, admitted, finite)
+                            domain_and_range(count, admitted, finite) & own
                         }
                     }
                     struct Finite<'a, E>(Arguments<'a, E>, &'a Rows<E, $rows>);
@@ -165,7 +202,15 @@ macro_rules! tile_responses {
                         let finite = arguments.backend.run(Finite(arguments, to));
                         return domain_and_range(arguments.count, admitted, finite);
                     }
-                    arguments.backend.run(OnLanes(self, arguments, to))
+                    let Arguments { backend, start, count, .. } = arguments;
+                    let (mut left, mut status) = (first_bits(count), Status::default());
+                    while left != 0 {
+                        let first = left.trailing_zeros() as usize;
+                        let own = self.sharing(start, count, first);
+                        status = status | backend.run(OnLanes { points: self, first, own, arguments, to });
+                        left &= !own;
+                    }
+                    status
                 }
             )*
 
@@ -229,6 +274,12 @@ fn together<E: Scalar, P: Points>(
             results,
         },
     )
+}
+
+/// The lanes whose bits are set.
+#[inline(always)]
+fn mask<R: Real>(bits: u64) -> R::Mask {
+    R::splat(0.5).less(R::from_fn(|lane| (bits >> lane & 1) as f64))
 }
 
 /// Placeholder for a check of finiteness: accepts every point.

@@ -9,7 +9,6 @@ use super::parameters::{Context, ParameterValues, Parameters};
 use super::program::{Program, Sizes};
 use super::registers::Registers;
 use crate::lanes::{Mask, Real, Scalar};
-use crate::material::mixed::Mixed;
 use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Moduli, RawTile, ResponseKind};
 use crate::univariate::Univariate;
 
@@ -427,9 +426,13 @@ impl Material for Interpreted {
 }
 
 impl Graded for Interpreted {
-    type OnLanes<'a> = Mixed<'a, Self>;
+    type OnLanes<'a> = &'a Self;
 
     fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes<'a> {
-        Mixed::new(material)
+        material(0)
+    }
+
+    fn shares_lanes(&self, other: &Self) -> bool {
+        self == other
     }
 }

@@ -29,7 +29,7 @@ impl ParameterValue for f64 {
 }
 
 /// The most lanes of any back end: 16 of `f32` in AVX-512.
-pub(super) const LANES: usize = 16;
+const LANES: usize = 16;
 
 /// Values of a parameter for the points on the lanes of a register.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,8 +52,8 @@ impl ParameterValue for PerLane {
 
 /// A material whose parameters may differ from point to point: every declared one.
 ///
-/// Parameters that are numbers have a value for each lane. Other parameters, such as functions, do not: a
-/// point with a material that its neighbours do not have costs one more evaluation (`Mixed`).
+/// Parameters that are numbers have a value for each lane. Other parameters, such as functions, do not: next
+/// to each other, points that differ in these cost one evaluation for each of their materials.
 pub trait Graded: Material + Sized {
     /// This kind of material with parameters for each lane.
     type OnLanes<'a>: Material
@@ -63,10 +63,18 @@ pub trait Graded: Material + Sized {
     /// Materials side by side, `material(lane)` on each of at most 16 lanes.
     ///
     /// All must have the same [`inversion`](Material::inversion), threshold included, as [`PerPoint`] checks:
-    /// it selects the program.
+    /// it selects the program. Each must [share lanes](Graded::shares_lanes) with the first.
     fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes<'a>
     where
         Self: 'a;
+
+    /// True if lanes hold this material and the other one side by side: unless they differ in parameters that
+    /// are not numbers.
+    #[inline(always)]
+    fn shares_lanes(&self, other: &Self) -> bool {
+        let _ = other;
+        true
+    }
 }
 
 /// Points may share materials by pointers to them.
@@ -81,6 +89,11 @@ macro_rules! graded_by_pointee {
                 Self: 'a,
             {
                 M::on_lanes(|lane| &**material(lane))
+            }
+
+            #[inline(always)]
+            fn shares_lanes(&self, other: &Self) -> bool {
+                M::shares_lanes(self, other)
             }
         }
     )*};

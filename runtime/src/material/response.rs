@@ -27,7 +27,6 @@ macro_rules! with_responses {
         }
     };
 }
-pub(super) use with_responses;
 
 /// A response that many points compute together: see [`Material::respond_together`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -29,14 +29,18 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
             }
 
             impl #bounds __p::Graded for #name #arguments {
-                type OnLanes<'lanes> = __p::Mixed<'lanes, Self>;
+                type OnLanes<'lanes> = &'lanes Self;
 
                 #[inline(always)]
                 fn on_lanes<'lanes>(material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy) -> Self::OnLanes<'lanes>
                 where
                     Self: 'lanes,
                 {
-                    __p::Mixed::new(material)
+                    material(0)
+                }
+
+                fn shares_lanes(&self, other: &Self) -> bool {
+                    ::core::ptr::eq(self, other) || self == other
                 }
             }
         };

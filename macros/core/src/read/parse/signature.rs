@@ -14,7 +14,7 @@ use crate::read::spelling::taken;
 use crate::read::unit::Unit;
 
 /// Members of every material, which a method for a parameter of the same name would hide.
-const MEMBERS: [&str; 32] = [
+const MEMBERS: [&str; 33] = [
     // Of the type and of the traits of the language.
     "new",
     "with_inversion",
@@ -52,6 +52,7 @@ const MEMBERS: [&str; 32] = [
     "domain_constraints",
     // Of `Graded`.
     "on_lanes",
+    "shares_lanes",
 ];
 
 /// Values that are patterns everywhere, so that no argument can have their name.
