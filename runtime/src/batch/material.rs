@@ -197,18 +197,19 @@ macro_rules! tile_responses {
                             finite
                         }
                     }
-                    if P::Material::RESPONDS_TOGETHER {
-                        let admitted = together(self, ResponseKind::$Kind, arguments, to.0.as_flattened_mut());
-                        let finite = arguments.backend.run(Finite(arguments, to));
-                        return domain_and_range(arguments.count, admitted, finite);
-                    }
                     let Arguments { backend, start, count, .. } = arguments;
                     let (mut left, mut status) = (first_bits(count), Status::default());
                     while left != 0 {
                         let first = left.trailing_zeros() as usize;
                         let own = self.sharing(start, count, first);
-                        status = status | backend.run(OnLanes { points: self, first, own, arguments, to });
                         left &= !own;
+                        let of_own = if P::Material::RESPONDS_TOGETHER {
+                            let admitted = together(self, ResponseKind::$Kind, first, own, arguments, to);
+                            domain_and_range(count, admitted, backend.run(Finite(arguments, to))) & own
+                        } else {
+                            backend.run(OnLanes { points: self, first, own, arguments, to })
+                        };
+                        status = status | of_own;
                     }
                     status
                 }
@@ -254,26 +255,52 @@ tile_responses! {
     finite where |at, _| anywhere(at);
 }
 
-/// Passes a whole tile to the material. Returns the points inside the domain as bits.
-fn together<E: Scalar, P: Points>(
+/// Passes the points of a tile whose materials share lanes with that of its point `first` to the material,
+/// all at once. Returns those inside the domain as bits.
+fn together<E: Scalar, P: Points, const N: usize>(
     points: &P,
     response: ResponseKind,
+    first: usize,
+    own: u64,
     Arguments { backend, start, count, rows }: Arguments<'_, E>,
-    results: &mut [E],
+    to: &mut Rows<E, N>,
 ) -> u64 {
     let (materials, have_own) = (points.materials(), points.count().is_some());
-    P::Material::respond_together(
-        |point| &materials[if have_own { start + point } else { 0 }],
-        response,
-        RawTile {
-            backend,
-            count,
-            materials: if have_own { count } else { 1 },
-            stride: ROW,
-            arguments: rows.0.as_flattened(),
-            results,
-        },
-    )
+    // The other points stand in with the same material.
+    let place = |point: usize| start + if own >> point & 1 == 1 { point } else { first };
+    let unread = match response {
+        ResponseKind::DerivativesByInvariants => {
+            let Properties { curvature, has_second_invariant, .. } = Points::properties(points);
+            (0..9).filter(|&k| curvature.leaves_out(k, has_second_invariant)).fold(0, |bits, k| bits | 1 << k)
+        }
+        _ => 0,
+    };
+    let respond = |to: &mut Rows<E, N>| {
+        P::Material::respond_together(
+            |point| &materials[if have_own { place(point) } else { 0 }],
+            response,
+            RawTile {
+                backend,
+                count,
+                materials: if have_own { count } else { 1 },
+                stride: ROW,
+                arguments: rows.0.as_flattened(),
+                results: to.0.as_flattened_mut(),
+                unread,
+            },
+        )
+    };
+    if !own & first_bits(count) == 0 {
+        return respond(to);
+    }
+    let mut all = *to;
+    let admitted = respond(&mut all);
+    for (to, from) in to.0.iter_mut().zip(&all.0) {
+        for point in (0..count).filter(|point| own >> point & 1 == 1) {
+            to[point] = from[point];
+        }
+    }
+    admitted
 }
 
 /// The lanes whose bits are set.

@@ -223,16 +223,15 @@ impl Interpreted {
         mask
     }
 
-    /// A response of a tile whose points have this material except for real numbers among its parameters;
-    /// results that nothing reads, as bits, are left out. Returns the points inside the domain as bits.
+    /// A response of a tile whose points have this material except for real numbers among its parameters.
+    /// Returns the points inside the domain as bits.
     fn respond<E: Scalar>(
         &self,
         response: ResponseKind,
         parameters: Parameters<'_>,
         tile: &mut RawTile<'_, E>,
-        unread: u32,
     ) -> u64 {
-        let RawTile { backend, count, stride, arguments, .. } = *tile;
+        let RawTile { backend, count, stride, arguments, unread, .. } = *tile;
         let context = Context { parameters, ..self.context() };
         let is_by_invariants = response.is_by_invariants();
         let (Some(program), Some((_, calls))) = (self.program(response), self.domain(is_by_invariants))
@@ -382,46 +381,15 @@ impl Material for Interpreted {
         mut tile: RawTile<'_, E>,
     ) -> u64 {
         let first = material(0);
-        let unread = match response {
-            ResponseKind::DerivativesByInvariants => {
-                let (has_second, curvature) = (first.has_second_invariant(), first.curvature_by_invariants());
-                (0..9).filter(|&k| curvature.leaves_out(k, has_second)).fold(0, |bits, k| bits | 1 << k)
-            }
-            _ => 0,
-        };
-        let others = || (1..tile.materials).map(material);
-        if others().all(|other| std::ptr::eq(other, first) || other == first) {
-            return first.respond(response, Parameters::same(&first.values), &mut tile, unread);
+        let mut others = (1..tile.materials).map(material);
+        if others.all(|other| std::ptr::eq(other, first) || other == first) {
+            return first.respond(response, Parameters::same(&first.values), &mut tile);
         }
-        let is_alike = |other: &Self| {
-            other.is_of_the_same_energy(first)
-                && other.values.are_alike(&first.values, &first.programs.are_whole)
-        };
-        if others().all(is_alike) {
-            // Lanes beyond the points have the values of the last.
-            let last = tile.materials - 1;
-            let each = |point: usize| &material(point.min(last)).values;
-            let parameters = Parameters { each: Some(&each), ..Parameters::same(&first.values) };
-            return first.respond(response, parameters, &mut tile, unread);
-        }
-        // Each different material at all points, of which those that have it take its results.
-        let mut admitted = 0;
-        let mut together = tile.results.to_vec();
-        for k in 0..tile.count {
-            let one = material(k);
-            if (0..k).any(|earlier| material(earlier) == one) {
-                continue;
-            }
-            let own = bits(tile.count, |point| material(point) == one);
-            admitted |= own & one.respond(response, Parameters::same(&one.values), &mut tile, 0);
-            for (to, from) in together.chunks_mut(tile.stride).zip(tile.results.chunks(tile.stride)) {
-                for point in (0..tile.count).filter(|point| own >> point & 1 == 1) {
-                    to[point] = from[point];
-                }
-            }
-        }
-        tile.results.copy_from_slice(&together);
-        admitted
+        // They differ in real numbers only. Lanes beyond the points have the values of the last.
+        let last = tile.materials - 1;
+        let each = |point: usize| &material(point.min(last)).values;
+        let parameters = Parameters { each: Some(&each), ..Parameters::same(&first.values) };
+        first.respond(response, parameters, &mut tile)
     }
 }
 
@@ -432,7 +400,9 @@ impl Graded for Interpreted {
         material(0)
     }
 
+    /// True if both differ in real numbers only.
     fn shares_lanes(&self, other: &Self) -> bool {
-        self == other
+        let is_alike = || self.values.are_alike(&other.values, &self.programs.are_whole);
+        std::ptr::eq(self, other) || self.is_of_the_same_energy(other) && is_alike()
     }
 }

@@ -68,6 +68,8 @@ pub struct RawTile<'a, E> {
     pub arguments: &'a [E],
     /// Rows for the results.
     pub results: &'a mut [E],
+    /// Rows that nothing reads, as bits.
+    pub unread: u32,
 }
 
 macro_rules! declare_response {
