@@ -105,6 +105,8 @@ pub struct Arguments<'a, E> {
     pub(crate) start: usize,
     /// Number of points in the tile.
     pub(crate) count: usize,
+    /// Properties of the materials of all tiles.
+    pub(crate) properties: Properties,
     pub(crate) rows: &'a Rows<E, 3>,
 }
 
@@ -262,7 +264,7 @@ fn together<E: Scalar, P: Points, const N: usize>(
     response: ResponseKind,
     first: usize,
     own: u64,
-    Arguments { backend, start, count, rows }: Arguments<'_, E>,
+    Arguments { backend, start, count, properties, rows }: Arguments<'_, E>,
     to: &mut Rows<E, N>,
 ) -> u64 {
     let (materials, have_own) = (points.materials(), points.count().is_some());
@@ -270,7 +272,7 @@ fn together<E: Scalar, P: Points, const N: usize>(
     let place = |point: usize| start + if own >> point & 1 == 1 { point } else { first };
     let unread = match response {
         ResponseKind::DerivativesByInvariants => {
-            let Properties { curvature, has_second_invariant, .. } = Points::properties(points);
+            let Properties { curvature, has_second_invariant, .. } = properties;
             (0..9).filter(|&k| curvature.leaves_out(k, has_second_invariant)).fold(0, |bits, k| bits | 1 << k)
         }
         _ => 0,

@@ -277,6 +277,7 @@ impl<E: Kernels> Tile<'_, E> {
     }
 
     fn arguments<'r>(&self, rows: &'r Rows<E, 3>) -> Arguments<'r, E> {
-        Arguments { backend: self.call.backend, start: self.start, count: self.count, rows }
+        let Call { backend, properties, .. } = self.call;
+        Arguments { backend, start: self.start, count: self.count, properties, rows }
     }
 }
