@@ -129,22 +129,6 @@ pub struct PlanePoint<R> {
     pub no_equilibrium: bool,
 }
 
-impl<R: Real> PlanePoint<R> {
-    /// The Cauchy stress in the plane, Pa: σ = P Fᵀ/J = U diag(ψ1/(λ2 λ3), ψ2/(λ1 λ3)) Uᵀ.
-    ///
-    /// The result of the division, infinity or NaN, if λ2 = 0.
-    #[must_use]
-    pub fn cauchy(&self) -> Matrix2<R> {
-        let ([l1, l2], l3) = (self.stretches, self.out_of_plane_stretch);
-        let principal = [self.gradient[0] / (l2 * l3), self.gradient[1] / (l1 * l3)];
-        let [[u11, u12], [u21, u22]] = self.tangent.U;
-        let entry = |x: [R; 2], y: [R; 2]| (x[0] * y[0]).mul_add(principal[0], x[1] * y[1] * principal[1]);
-        let (first, second) = ([u11, u12], [u21, u22]);
-        let shear = entry(first, second);
-        [[entry(first, first), shear], [shear, entry(second, second)]]
-    }
-}
-
 /// Deformation gradient in space, diag(F, λ3), at which [`evaluate`](super::evaluate) gives the same point.
 #[must_use]
 pub fn in_space<R: Real>(F: &Matrix2<R>, out_of_plane_stretch: R) -> super::Matrix3<R> {

@@ -176,7 +176,7 @@ impl std::error::Error for UnrecordedParameter {}
 impl RecordedOperation {
     /// The operation on other operands.
     #[must_use]
-    pub fn with_operands(self, mut map: impl FnMut(Id) -> Id) -> Self {
+    pub(super) fn with_operands(self, mut map: impl FnMut(Id) -> Id) -> Self {
         match self {
             Self::Argument(_) | Self::Parameter(_) | Self::Literal(_) | Self::Truth(_) => self,
             Self::Unary(operator, a) => Self::Unary(operator, map(a)),
