@@ -20,24 +20,6 @@ use hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKir
 
 const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
 
-/// Numbers of a format that a test can make and read.
-trait Number: Kernels + Real<Mask = bool> {
-    fn of(value: f64) -> Self;
-}
-
-impl Number for f64 {
-    fn of(value: f64) -> Self {
-        value
-    }
-}
-
-#[cfg(feature = "f32")]
-impl Number for f32 {
-    fn of(value: f64) -> Self {
-        value as f32
-    }
-}
-
 /// Of invariants, by Σ (λ² − 1)².
 #[material]
 fn GreenSquares(
@@ -82,13 +64,13 @@ struct Sample<E> {
     rest: Vec<[E; REST]>,
 }
 
-impl<E: Number> Sample<E> {
+impl<E: Kernels> Sample<E> {
     fn new(count: usize) -> Self {
         let mut random = Random::new(2011);
         let mut nine = |scale: f64, identity: f64| -> [E; 9] {
             let matrix = random.matrix();
             std::array::from_fn(|k| {
-                E::of(scale * matrix[k / 3][k % 3] + if k % 4 == 0 { identity } else { 0.0 })
+                E::splat(scale * matrix[k / 3][k % 3] + if k % 4 == 0 { identity } else { 0.0 })
             })
         };
         let F = (0..count)
@@ -103,7 +85,7 @@ impl<E: Number> Sample<E> {
         let rest = (0..count)
             .map(|p| {
                 let shape = nine(0.3, 1.0);
-                std::array::from_fn(|k| if k < 9 { shape[k] } else { E::of(0.5 + 0.01 * p as f64) })
+                std::array::from_fn(|k| if k < 9 { shape[k] } else { E::splat(0.5 + 0.01 * p as f64) })
             })
             .collect();
         Self { F, rest }
@@ -111,8 +93,8 @@ impl<E: Number> Sample<E> {
 }
 
 /// As a slice of a layout.
-fn lay<E: Number, const N: usize>(layout: Layout, points: &[[E; N]]) -> Vec<E> {
-    let mut slice = vec![E::of(0.0); N * points.len()];
+fn lay<E: Kernels, const N: usize>(layout: Layout, points: &[[E; N]]) -> Vec<E> {
+    let mut slice = vec![E::splat(0.0); N * points.len()];
     for (p, numbers) in points.iter().enumerate() {
         for (k, number) in numbers.iter().enumerate() {
             slice[layout.index::<E>(p, N, k)] = *number;
@@ -121,7 +103,7 @@ fn lay<E: Number, const N: usize>(layout: Layout, points: &[[E; N]]) -> Vec<E> {
     slice
 }
 
-fn number<E: Number>(layout: Layout, slice: &[E], numbers: usize, p: usize, k: usize) -> E {
+fn number<E: Kernels>(layout: Layout, slice: &[E], numbers: usize, p: usize, k: usize) -> E {
     slice[layout.index::<E>(p, numbers, k)]
 }
 
@@ -140,12 +122,12 @@ struct All<E> {
     kirchhoff_tangents: Vec<E>,
 }
 
-fn all<E: Number>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> All<E> {
+fn all<E: Kernels>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> All<E> {
     let batch = batch.with_layout(layout);
     let count = sample.F.len();
     let F = lay(layout, &sample.F);
     let rest = lay(layout, &sample.rest);
-    let zero = |numbers: usize| vec![E::of(0.0); numbers * count];
+    let zero = |numbers: usize| vec![E::splat(0.0); numbers * count];
     let mut all = All {
         surveys: [Survey::default(); 5],
         energies: zero(1),
@@ -173,7 +155,7 @@ fn all<E: Number>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> A
 struct Worst(f64);
 
 impl Worst {
-    fn see<E: Number>(&mut self, found: E, expected: E, scale: f64) {
+    fn see<E: Kernels>(&mut self, found: E, expected: E, scale: f64) {
         let (found, expected): (f64, f64) = (found.into(), expected.into());
         let error = (found - expected).abs() / (<E as Real>::UNIT_ROUNDOFF * scale.max(f64::MIN_POSITIVE));
         if error > self.0 || error.is_nan() {
@@ -182,7 +164,7 @@ impl Worst {
     }
 }
 
-fn norm<E: Number>(numbers: impl IntoIterator<Item = E>) -> f64 {
+fn norm<E: Kernels>(numbers: impl IntoIterator<Item = E>) -> f64 {
     numbers.into_iter().map(|x| Into::<f64>::into(x).powi(2)).sum::<f64>().sqrt()
 }
 
@@ -192,7 +174,7 @@ fn norm<E: Number>(numbers: impl IntoIterator<Item = E>) -> f64 {
 /// slope, for which its norm over the smallest distance between singular values of what matters stands: the
 /// sample has nothing near a pole but the points of `skip`.
 #[track_caller]
-fn check_against_points<E: Number, M: Material>(material: &M, skip: impl Fn(usize) -> bool) {
+fn check_against_points<E: Kernels, M: Material>(material: &M, skip: impl Fn(usize) -> bool) {
     let sample = Sample::<E>::new(200);
     for backend in Backend::available() {
         for filter in FILTERS {
@@ -216,7 +198,7 @@ fn check_against_points<E: Number, M: Material>(material: &M, skip: impl Fn(usiz
     }
 }
 
-fn check_point<E: Number>(
+fn check_point<E: Kernels>(
     worst: &mut Worst,
     found: &All<E>,
     sample: &Sample<E>,
@@ -245,17 +227,18 @@ fn check_point<E: Number>(
         let (n, a) = (column / 3, column % 3);
         let shape = |n: usize| rest[3 * n + row % 3];
         match (a == row / 3, n) {
-            (false, _) => E::of(0.0),
+            (false, _) => E::splat(0.0),
             (true, 0) => -(shape(0) + shape(1) + shape(2)),
             (true, n) => shape(n - 1),
         }
     };
     let shape = norm(rest[..9].iter().copied()).max(1.0) * 2.0;
     for row in 0..12 {
-        let force = (0..9).fold(E::of(0.0), |sum, k| sum + rest[9] * G(k, row) * point.stress[k / 3][k % 3]);
+        let force =
+            (0..9).fold(E::splat(0.0), |sum, k| sum + rest[9] * G(k, row) * point.stress[k / 3][k % 3]);
         worst.see(found.gradients[12 * p + row], force, shape * stress);
         for column in 0..12 {
-            let mut entry = E::of(0.0);
+            let mut entry = E::splat(0.0);
             for k in 0..9 {
                 for l in 0..9 {
                     entry = entry + rest[9] * G(k, row) * dP_dF[k][l] * G(l, column);
@@ -294,7 +277,7 @@ fn every_output_by_invariants_is_that_of_the_points() {
 }
 
 /// The bits of every number, in any layout of the batch.
-fn bits<E: Number>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
+fn bits<E: Kernels>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
     let mut bits = Vec::new();
     let outputs = [
         (&all.energies, 1),
@@ -316,7 +299,7 @@ fn bits<E: Number>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
     bits
 }
 
-fn check_bits<E: Number>(energy: &dyn TileMaterial<E>, filter: Filter) {
+fn check_bits<E: Kernels>(energy: &dyn TileMaterial<E>, filter: Filter) {
     // Enough tiles for threads to share, in both layouts, the last one not full.
     const COUNT: usize = 64 * 20 + 16;
     let sample = Sample::<E>::new(COUNT);

@@ -6,8 +6,8 @@ use piola::batch::{Batch, Kernels, Layout, LengthError, REST, Tetrahedra, TileMa
 use piola::lanes::{Backend, Real, Scalar};
 use piola::point::Filter;
 
-use crate::Logarithmic;
 use crate::hand_written::{NeoHookean, SaintVenantKirchhoff};
+use crate::{Logarithmic, lay};
 
 /// Nodes, corners and shapes at rest of a mesh whose tetrahedra share nodes.
 struct Mesh<E> {
@@ -52,19 +52,13 @@ fn edges<E: Scalar>(positions: &[[E; 3]], corners: [usize; 4]) -> [[E; 3]; 3] {
     std::array::from_fn(|a| [x1[a] - x0[a], x2[a] - x0[a], x3[a] - x0[a]])
 }
 
-fn lay<E: Scalar, const N: usize>(layout: Layout, points: &[[E; N]], padding: [E; N]) -> Vec<E> {
-    let count = match layout {
-        Layout::Points => points.len(),
-        Layout::Lines => points.len().next_multiple_of(E::LINE),
-    };
-    let mut slice = vec![E::splat(0.0); N * count];
-    for p in 0..count {
-        let numbers = points.get(p).unwrap_or(&padding);
-        for k in 0..N {
-            slice[layout.index::<E>(p, N, k)] = numbers[k];
-        }
+/// As a slice of a layout, whose last line is filled up.
+fn padded<E: Kernels, const N: usize>(layout: Layout, points: &[[E; N]], padding: [E; N]) -> Vec<E> {
+    let mut points = points.to_vec();
+    if layout == Layout::Lines {
+        points.resize(points.len().next_multiple_of(E::LINE), padding);
     }
-    slice
+    lay(layout, &points)
 }
 
 /// The outputs at positions are those at the deformation gradients that these make.
@@ -90,7 +84,7 @@ where
     for backend in Backend::available() {
         for layout in [Layout::Points, Layout::Lines] {
             let batch = Batch::new(material).with_filter(filter).with_backend(backend).with_layout(layout);
-            let (F, rest) = (lay(layout, &F, unit_F), lay(layout, &rest, unit));
+            let (F, rest) = (padded(layout, &F, unit_F), padded(layout, &rest, unit));
             let count = rest.len() / REST;
             let zeros = |numbers: usize| vec![E::splat(0.0); numbers * count];
             let (mut gradients, mut full) = (zeros(12), zeros(144));
