@@ -49,8 +49,8 @@ macro_rules! with_kernels {
 
 macro_rules! declare_kernels {
     ([] $($name:ident($Kernel:ident) -> $Output:ty = $run:path,)*) => {
-        /// The kernels above for one format: no function is generic, so that each is compiled once, here. With
-        /// the feature `f32` there are those of `f32`, too.
+        /// The kernels above for one format: no function is generic, so that each is compiled once, here.
+        /// With the feature `f32` there are those of `f32`, too.
         #[diagnostic::on_unimplemented(
             message = "there are no batches of `{Self}`",
             note = "those of `f32` come with the feature `f32` of the crate `piola`; those of `f64` with `batch`"
@@ -61,7 +61,7 @@ macro_rules! declare_kernels {
                 #[doc(hidden)]
                 fn $name(backend: Backend, kernel: $Kernel<'_, Self>) -> $Output;
             )*
-            /// Lends the workspace of this thread; allocates one if it is in use already or there is none yet.
+            /// Lends the workspace of this thread; allocates one if it is in use already or there is none.
             #[doc(hidden)]
             fn with_workspace<T>(body: impl FnOnce(&mut Workspace<Self>) -> T) -> T;
         }

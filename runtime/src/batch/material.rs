@@ -23,8 +23,8 @@ trait Points: Send + Sync {
     /// The material on the lanes that begin with a point.
     fn at(&self, point: usize) -> impl Material;
 
-    /// The points of a tile that begins with the point `start`, as bits, whose materials share lanes with that
-    /// of its point `first`.
+    /// The points of a tile that begins with the point `start`, as bits, whose materials share lanes with
+    /// that of its point `first`.
     fn sharing(&self, start: usize, count: usize, first: usize) -> u64;
 
     /// All the materials: one, or one for each point.
