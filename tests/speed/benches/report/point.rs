@@ -3,10 +3,13 @@
 //! Each family of cases is a contest of its own: all methods get its deformation gradients in one run, in
 //! turns, and what they leave behind is judged.
 
+use std::any::type_name;
 use std::collections::{BTreeMap, BTreeSet};
 use std::hint::black_box;
 
 use indicatif::ProgressBar;
+use piola::Real;
+use piola::batch::Kernels;
 use piola_speed::{Effort, Times, front, time_all_in_turns};
 use piola_tests::cases::{Case, Quantity};
 
@@ -75,11 +78,11 @@ pub(crate) fn count(cases: &[Case]) -> u64 {
 }
 
 /// The cases of a subject that a format can hold, by family.
-fn families<S: Subject, E: Number>(cases: &[Case]) -> BTreeMap<&str, Vec<&Case>> {
+fn families<S: Subject, E: Kernels>(cases: &[Case]) -> BTreeMap<&str, Vec<&Case>> {
     let mut families: BTreeMap<&str, Vec<&Case>> = BTreeMap::new();
     for case in cases.iter().filter(|case| case.material == S::IN_CATALOGUE) {
-        let fits = |quantity| case.reference(quantity).into_iter().all(|x| E::fits(x));
-        let is_exact = E::IS_DOUBLE || case.f32_exact;
+        let fits = |quantity| case.reference(quantity).into_iter().all(|x| E::splat(x).is_finite());
+        let is_exact = E::UNIT_ROUNDOFF == f64::UNIT_ROUNDOFF || case.f32_exact;
         if is_exact && [Quantity::Stress, Quantity::Tangent, Quantity::Projected].into_iter().all(fits) {
             families.entry(&case.tag).or_default().push(case);
         }
@@ -101,14 +104,14 @@ fn contests<S: Subject, E: Number>(
         }
         let together = all_hard(&of_work);
         of_work.extend(together);
-        mark_fronts(&mut of_work, E::ROUNDOFF);
+        mark_fronts(&mut of_work, E::UNIT_ROUNDOFF);
         rows.extend(of_work);
     }
     Ok(())
 }
 
 /// Deformation gradients of one energy: point i is that of case i mod the number of cases.
-struct Group<'a, E: Number> {
+struct Group<'a, E> {
     cases: Vec<&'a Case>,
     points: Points<E>,
     contestants: Vec<Contestant<E>>,
@@ -151,7 +154,7 @@ fn contest<S: Subject, E: Number>(
         PointRow {
             work: work.name(),
             material: S::NAME,
-            precision: E::NAME,
+            precision: type_name::<E>(),
             method: label.method,
             setting: label.setting,
             ns_per_element: times.least,
@@ -167,12 +170,12 @@ fn contest<S: Subject, E: Number>(
 }
 
 /// ‖X − X*‖/(‖X*‖ + sens).
-fn judge<E: Number>(case: &Case, quantity: Quantity, values: &[f64]) -> f64 {
-    case.error(quantity, values, 0.0, E::ROUNDOFF) * E::ROUNDOFF
+fn judge<E: Real>(case: &Case, quantity: Quantity, values: &[f64]) -> f64 {
+    case.error(quantity, values, 0.0, E::UNIT_ROUNDOFF) * E::UNIT_ROUNDOFF
 }
 
 /// The times of the contestants, each over all groups.
-fn in_turns<E: Number>(groups: &mut [Group<'_, E>], effort: Effort) -> Vec<Times> {
+fn in_turns<E: Kernels>(groups: &mut [Group<'_, E>], effort: Effort) -> Vec<Times> {
     let count = groups[0].contestants.len();
     let points = POINTS * groups.len();
     let mut by_method: Vec<Vec<(&Points<E>, &mut Contestant<E>)>> = (0..count).map(|_| Vec::new()).collect();
