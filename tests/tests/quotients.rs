@@ -160,7 +160,7 @@ fn judge(
     let mut scales = vec![1.1, 1.5 - 1e-5, 4.0, 30.0, 0.05, 1e-6];
     scales.extend(upper_end(material));
     let samples = samples(&scales, material.admits([1.0, 0.9, -0.8]), threshold);
-    let declared: Lazy = LazyCell::new(Box::new(|| Declared::read(energy.description(), &values, inversion)));
+    let declared: Lazy = LazyCell::new(Box::new(|| Declared::read(energy.energy.text(), &values, inversion)));
     let judge = Judge { subject: &subject, moved: moved.as_ref(), declared: &declared };
     Ok(vec![("f64", judge.tally::<f64>(&samples)?), ("f32", judge.tally::<f32>(&samples)?)])
 }

@@ -16,26 +16,18 @@ use std::process::ExitCode;
 
 use piola::batch::{Batch, Kernels, LengthError, TileMaterial};
 use piola::lanes::Backend;
-use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint};
+use piola::point::{EnergyPoint, Filter, StressPoint};
 use piola::{Inversion, Real, Status, Survey};
 use piola_declare::emit::Precision;
-use piola_tests::cases::{Case, Quantity};
+use piola_tests::cases::{Case, FILES, Quantity};
 use piola_tests::compiled::{evaluate, evaluate_dense, evaluate_energy, evaluate_stress};
-use piola_tests::declared;
+use piola_tests::declared::Declared;
 use piola_tests::emitted::{Answer, Runner};
 use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find, is_asked_for};
 use rayon::prelude::*;
 
 /// The constant of the judgement ‖X − X*‖ ≤ C u (‖X*‖ + sens).
 const C: f64 = 30.0;
-
-/// The files of cases, next to their description.
-const FILES: [&str; 4] = [
-    "reference/cases.json",
-    "reference/cases-more.json",
-    "reference/cases-further.json",
-    "reference/cases-ordinary.json",
-];
 
 /// Energies whose parameters are functions, which no file of cases can hold.
 const WITHOUT_CASES: [&str; 1] = ["stretch_spline"];
@@ -78,10 +70,7 @@ fn judge_all() -> Result<(), String> {
 
 /// The cases of all files, which leave no energy of the catalogue out.
 fn own_cases() -> Result<Vec<Case>, String> {
-    let mut cases = Vec::new();
-    for file in FILES {
-        cases.extend(Case::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file))?);
-    }
+    let cases = Case::own(&FILES)?;
     for energy in ENERGIES.iter() {
         if !WITHOUT_CASES.contains(&energy.name) && cases.iter().all(|case| case.material != energy.name) {
             return Err(format!("{} has no reference cases", energy.name));
@@ -106,7 +95,7 @@ fn judge_energy(
     let first = cases.first().ok_or_else(|| format!("{name} has no reference cases"))?;
     let values = first.values(energy.description())?;
     let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-    let declared = declared::Declared::read(energy.description(), &values, Inversion::Refuse)?;
+    let declared = Declared::read(energy.energy.text(), &values, Inversion::Refuse)?;
     let mut table = Table { cases: cases.len(), energies: 1, ..Table::default() };
     let mut failures = Vec::new();
     let mut answers = runner.map(|runner| runner.answers(energy, &cases)).transpose()?.map(Vec::into_iter);
@@ -279,8 +268,7 @@ impl Judge<'_> {
 
     fn points<R: Format>(self, subject: &Subject) -> Vec<Judgement> {
         let material = R::of(subject);
-        let f = self.case.deformation;
-        let deformation: Matrix3<R> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(f[3 * i + j])));
+        let deformation = self.case.F::<R>();
         let EnergyPoint { energy, status: of_energy } = evaluate_energy(material, &deformation);
         let StressPoint { stress, status: of_stress } = evaluate_stress(material, &deformation);
         let plain = evaluate(material, &deformation, Filter::None);

@@ -5,7 +5,6 @@
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
-use std::path::Path;
 
 use piola::Inversion;
 use piola::material::Response;
@@ -70,10 +69,7 @@ type Row = [Option<f64>; COLUMNS.len()];
 /// # Errors
 /// Where the cases cannot be read, or one does not fit its material; says which and why.
 pub fn document() -> Result<String, String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reference");
-    let mut cases = Case::read(&folder.join("cases.json"))?;
-    cases.extend(Case::read(&folder.join("cases-more.json"))?);
-    report(&cases)
+    report(&Case::own(&["cases", "cases-more"])?)
 }
 
 fn report(cases: &[Case]) -> Result<String, String> {
@@ -223,8 +219,7 @@ impl Measure<'_> {
 
     fn row<R: Judged>(&self, subject: &Subject, clamp: Clamp<R>) -> Row {
         let material = R::of(subject);
-        let deformation: Matrix3<R> =
-            std::array::from_fn(|i| std::array::from_fn(|j| R::splat(self.0.deformation[3 * i + j])));
+        let deformation = self.0.F::<R>();
         COLUMNS.map(|(method, quantity)| {
             let fits = |value: f64| R::splat(value).is_finite();
             if !self.0.reference(quantity).into_iter().all(fits) {
