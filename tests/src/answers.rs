@@ -1,4 +1,4 @@
-//! All that a batch computes of its points, for judges that compare batches, and points of all kinds for them.
+//! All that a batch computes of its points, for judges that compare batches, and points of all kinds.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
