@@ -16,7 +16,6 @@ use piola_baselines::{coincidences, decompositions, differences, eigen};
 
 use super::Work;
 use super::contestant::{AtPoint, Contestant, Label, Number, OnLanes};
-use super::subject::Subject;
 
 /// The product on lanes.
 pub(crate) const OURS: &str = "piola";
@@ -40,9 +39,12 @@ pub(crate) const JACOBI: &str = "Jacobi SVD";
 pub(crate) const NALGEBRA: &str = "nalgebra SVD";
 pub(crate) const FAER: &str = "faer SVD";
 
-/// All that take part for an energy.
-pub(crate) fn all<S: Subject, E: Number>(subject: &S, work: Work) -> Vec<Contestant<E>> {
-    let (material, potential) = (subject.material(), subject.potential());
+/// The methods for any energy, given as it is declared and as a potential of hyper-dual numbers.
+pub(crate) fn all<E: Number>(
+    material: impl Material + Copy + 'static,
+    potential: impl Potential + Copy + 'static,
+    work: Work,
+) -> Vec<Contestant<E>> {
     let filter = match work {
         Work::Tangent => Filter::None,
         Work::Projected => Filter::Clamp,
@@ -86,7 +88,6 @@ pub(crate) fn all<S: Subject, E: Number>(subject: &S, work: Work) -> Vec<Contest
         let label = Label::set(JACOBI, sweeps);
         all.push(Contestant::on_lanes(label, Jacobi { material, filter, sweeps }));
     }
-    all.extend(subject.special(work));
     all
 }
 
