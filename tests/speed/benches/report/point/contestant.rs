@@ -137,6 +137,14 @@ pub(crate) trait OnLanes {
     fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]);
 }
 
+/// A point alone is a register of one.
+impl<T: OnLanes, E: Kernels> AtPoint<E> for T {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        OnLanes::evaluate(self, F)
+    }
+}
+
 struct OneByOne<'a, T, E> {
     method: &'a T,
     F: &'a [Matrix3<E>],

@@ -259,25 +259,11 @@ impl<T: DirectEnergy> OnLanes for Direct<T> {
     }
 }
 
-impl<T: DirectEnergy, E: Number> AtPoint<E> for Direct<T> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
-        direct::evaluate(&self.0, F)
-    }
-}
-
 struct Polar(polar::RotatedLinear);
 
 impl OnLanes for Polar {
     #[inline(always)]
     fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]) {
-        self.0.evaluate(F)
-    }
-}
-
-impl<E: Number> AtPoint<E> for Polar {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
         self.0.evaluate(F)
     }
 }
