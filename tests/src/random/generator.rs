@@ -25,10 +25,10 @@ pub enum Invariant {
 pub enum Expression {
     /// A number that is exact in decimal digits, numerator over denominator.
     Number(i32, i32),
-    /// A parameter that is a number.
-    Parameter(usize),
+    /// A parameter that is a number, by its name.
+    Parameter(String),
     /// The current entry of a parameter that is a list, inside of a sum over it.
-    Entry(usize),
+    Entry(String),
     /// An invariant.
     Invariant(Invariant),
     /// I1b − 3 or I2b − 3 as the base of a real power: a sum of squares, though it is printed as a
@@ -175,7 +175,7 @@ impl Declaration {
             false => format!(", {name}: f64"),
         };
         let parameters: String = self.parameters.iter().map(parameter).collect();
-        let terms: Vec<_> = self.terms.iter().map(|term| self.text(term)).collect();
+        let terms: Vec<_> = self.terms.iter().map(text).collect();
         format!("pub fn Random([l1, l2, l3]: [f64; 3]{parameters}) -> f64 {{ {} }}", terms.join(" + "))
     }
 
@@ -187,62 +187,35 @@ impl Declaration {
         format!("#[material({})]\n{}\n{values}", self.arguments(), self.item())
     }
 
-    fn text(&self, expression: &Expression) -> String {
-        let of = |inner: &Expression| self.text(inner);
-        let name = |k: usize| &self.parameters[k].name;
-        match expression {
-            E::Number(numerator, denominator) => {
-                format!("{:?}", f64::from(*numerator) / f64::from(*denominator))
-            }
-            E::Parameter(k) => name(*k).clone(),
-            E::Entry(k) => format!("{}[p]", name(*k)),
-            E::Invariant(invariant) => format!("{invariant:?}"),
-            E::Excess(invariant) => format!("({invariant:?} - 3.0)"),
-            E::Stretch(k) => ["a", "b"][*k].to_owned(),
-            E::Add(a, b) => format!("({} + {})", of(a), of(b)),
-            E::Sub(a, b) => format!("({} - {})", of(a), of(b)),
-            E::Mul(a, b) => format!("({} * {})", of(a), of(b)),
-            E::Div(a, b) => format!("({} / {})", of(a), of(b)),
-            E::Whole(a, n) => format!("{}.powi({n})", of(a)),
-            E::Real(a, r) => format!("{}.powf({})", of(a), of(r)),
-            E::Of(function, a) => format!("{}.{}()", of(a), function.name()),
-            E::OverStretches(body) => format!("sum(|a| {})", of(body)),
-            E::OverPairs(body) => format!("sum(|a, b| {})", of(body)),
-            E::OverLists(body) => format!("sum(|p| {})", of(body)),
-        }
-    }
-
     /// Removes the parameters that no term names.
     fn with_used_parameters(mut self) -> Self {
-        let mut places = vec![None; self.parameters.len()];
-        self.terms.iter_mut().for_each(|term| {
-            each_parameter(term, &mut |k| places[*k] = Some(0));
-        });
-        let mut parameters = Vec::new();
-        for (parameter, place) in self.parameters.into_iter().zip(&mut places) {
-            if let Some(place) = place {
-                *place = parameters.len();
-                parameters.push(parameter);
-            }
-        }
-        self.terms.iter_mut().for_each(|term| {
-            each_parameter(term, &mut |k| *k = places[*k].unwrap_or(*k));
-        });
-        Self { parameters, ..self }
+        let terms: String = self.terms.iter().map(text).collect();
+        self.parameters.retain(|parameter| terms.contains(&parameter.name));
+        self
     }
 }
 
-fn each_parameter(expression: &mut Expression, show: &mut impl FnMut(&mut usize)) {
+/// An expression as it is printed.
+fn text(expression: &Expression) -> String {
     match expression {
-        E::Parameter(k) | E::Entry(k) => show(k),
-        E::Number(..) | E::Invariant(_) | E::Excess(_) | E::Stretch(_) => {}
-        E::Add(a, b) | E::Sub(a, b) | E::Mul(a, b) | E::Div(a, b) | E::Real(a, b) => {
-            each_parameter(a, show);
-            each_parameter(b, show);
+        E::Number(numerator, denominator) => {
+            format!("{:?}", f64::from(*numerator) / f64::from(*denominator))
         }
-        E::Whole(a, _) | E::Of(_, a) | E::OverStretches(a) | E::OverPairs(a) | E::OverLists(a) => {
-            each_parameter(a, show);
-        }
+        E::Parameter(name) => name.clone(),
+        E::Entry(name) => format!("{name}[p]"),
+        E::Invariant(invariant) => format!("{invariant:?}"),
+        E::Excess(invariant) => format!("({invariant:?} - 3.0)"),
+        E::Stretch(k) => ["a", "b"][*k].to_owned(),
+        E::Add(a, b) => format!("({} + {})", text(a), text(b)),
+        E::Sub(a, b) => format!("({} - {})", text(a), text(b)),
+        E::Mul(a, b) => format!("({} * {})", text(a), text(b)),
+        E::Div(a, b) => format!("({} / {})", text(a), text(b)),
+        E::Whole(a, n) => format!("{}.powi({n})", text(a)),
+        E::Real(a, r) => format!("{}.powf({})", text(a), text(r)),
+        E::Of(function, a) => format!("{}.{}()", text(a), function.name()),
+        E::OverStretches(body) => format!("sum(|a| {})", text(body)),
+        E::OverPairs(body) => format!("sum(|a, b| {})", text(body)),
+        E::OverLists(body) => format!("sum(|p| {})", text(body)),
     }
 }
 
@@ -289,7 +262,7 @@ impl Maker {
         }
     }
 
-    fn parameter(&mut self, meaning: Meaning, is_list: bool) -> usize {
+    fn parameter(&mut self, meaning: Meaning, is_list: bool) -> String {
         let k = self.parameters.len();
         let letter = match meaning {
             Meaning::Modulus => "mu",
@@ -303,8 +276,10 @@ impl Maker {
         };
         let count = if is_list { 2 } else { 1 };
         let values = (0..count).map(|_| self.value(meaning)).collect();
-        self.parameters.push(Parameter { name: format!("{letter}{k}"), values, is_list, above });
-        k
+        // No name is a part of another one.
+        let name = format!("{letter}{k:02}");
+        self.parameters.push(Parameter { name: name.clone(), values, is_list, above });
+        name
     }
 
     fn factor(&mut self, meaning: Meaning) -> Expression {
