@@ -31,11 +31,11 @@ pub(crate) fn judge(sample: &Sample) {
             }
             Err(error) => panic!("{inversion:?}: {error}"),
         };
-        for [compiler, language, standard] in &COMPILERS[..if is_full() { 3 } else { 1 }] {
+        for &[compiler, language, standard] in &COMPILERS[..if is_full() { 3 } else { 1 }] {
             let mut command = Command::new(compiler);
             command.args(STRICT).args([language, standard, "-"]).stdin(Stdio::piped());
             let Ok(mut running) = command.spawn() else {
-                assert_ne!(*compiler, "cc", "a C compiler is needed");
+                assert_ne!(compiler, "cc", "a C compiler is needed");
                 continue;
             };
             running
