@@ -25,6 +25,7 @@ use piola_tests::cases::Case;
 mod charts;
 mod data;
 mod growth;
+mod markdown;
 mod page;
 mod point;
 mod steps;
