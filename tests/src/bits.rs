@@ -12,7 +12,7 @@ use piola::point::Matrix3;
 use piola::__private::random::Random;
 
 /// A real type of one machine number, read and written by its bits.
-pub trait Precision: Real<Mask = bool> + PartialOrd {
+pub trait Precision: Real<Mask = bool> + PartialOrd + Into<f64> {
     /// `f64` or `f32`.
     const NAME: &'static str;
     /// The largest finite number.
@@ -24,7 +24,9 @@ pub trait Precision: Real<Mask = bool> + PartialOrd {
     fn from_bits(bits: u64) -> Self;
 
     /// The number as a double, exactly.
-    fn widen(self) -> f64;
+    fn widen(self) -> f64 {
+        self.into()
+    }
 }
 
 impl Precision for f64 {
@@ -35,10 +37,6 @@ impl Precision for f64 {
     fn from_bits(bits: u64) -> Self {
         Self::from_bits(bits)
     }
-
-    fn widen(self) -> f64 {
-        self
-    }
 }
 
 impl Precision for f32 {
@@ -48,10 +46,6 @@ impl Precision for f32 {
 
     fn from_bits(bits: u64) -> Self {
         Self::from_bits(bits as u32)
-    }
-
-    fn widen(self) -> f64 {
-        f64::from(self)
     }
 }
 

@@ -6,7 +6,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use piola::Real;
 use piola::material::Description;
+use piola::point::Matrix3;
 use serde::Deserialize;
 
 /// A file of cases.
@@ -77,7 +79,21 @@ impl Quantity {
     pub const ALL: [Self; 4] = [Self::Energy, Self::Stress, Self::Tangent, Self::Projected];
 }
 
+/// The files of `reference/`.
+pub const FILES: [&str; 4] = ["cases", "cases-more", "cases-further", "cases-ordinary"];
+
 impl Case {
+    /// Reads some of the [`FILES`].
+    ///
+    /// # Errors
+    /// Those of [`Self::read`].
+    pub fn own(files: &[&str]) -> Result<Vec<Self>, String> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
+        let cases: Result<Vec<_>, _> =
+            files.iter().map(|file| Self::read(&folder.join(format!("{file}.json")))).collect();
+        cases.map(|cases| cases.into_iter().flatten().collect())
+    }
+
     /// Reads a file of cases.
     ///
     /// # Errors
@@ -122,6 +138,13 @@ impl Case {
             None => Err(format!("{}: no value for `{name}`", self.id)),
         };
         description.parameters.iter().map(|parameter| value(&parameter.name)).collect()
+    }
+
+    /// The deformation gradient, rounded to a format.
+    #[must_use]
+    #[expect(non_snake_case, reason = "F as in the literature")]
+    pub fn F<R: Real>(&self) -> Matrix3<R> {
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(self.deformation[3 * i + j])))
     }
 
     /// λ1 ≥ λ2 ≥ |λ3|, nearest `f64`.

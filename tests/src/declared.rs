@@ -1,30 +1,22 @@
-//! An energy of the catalogue in the form that its compiler reads, for checks of its expressions.
-
-use std::fmt::Display;
-use std::path::PathBuf;
+//! An energy in the form that its compiler reads, for checks of its expressions.
 
 use piola::Inversion;
-use piola::material::Description;
 use piola_codegen::algebra::interpret::{Memo, Point, evaluate, evaluate_with};
 use piola_codegen::model::{Model, model};
 use piola_codegen::read::parse::{Declaration, parse};
 
-/// All declarations of the catalogue's sources.
+/// The declaration of a text, and its expressions.
 ///
 /// # Errors
-/// Where a file cannot be read or its declaration is not understood; says which and why.
-pub fn declarations() -> Result<Vec<Declaration>, String> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../materials/src");
-    let mut found = Vec::new();
-    for file in std::fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))? {
-        let path = file.map_err(|error| format!("{}: {error}", folder.display()))?.path();
-        let text = |error: &dyn Display| format!("{}: {error}", path.display());
-        let source = std::fs::read_to_string(&path).map_err(|error| text(&error))?;
-        for (arguments, item) in piola_codegen::declarations(&source).map_err(|error| text(&error))? {
-            found.push(parse(arguments, item).map_err(|error| text(&error))?);
-        }
-    }
-    Ok(found)
+/// Where the text is not one declaration that is understood; says why.
+pub fn understood(text: &str) -> Result<(Declaration, Model), String> {
+    let mut all = piola_codegen::declarations(text).map_err(|error| format!("{error}: {text}"))?;
+    let (Some((arguments, item)), true) = (all.pop(), all.is_empty()) else {
+        return Err(format!("not one declaration: {text}"));
+    };
+    let declaration = parse(arguments, item).map_err(|error| format!("{error}: {text}"))?;
+    let model = model(&declaration).map_err(|error| format!("{error}: {text}"))?;
+    Ok((declaration, model))
 }
 
 /// An energy with parameters, as expressions.
@@ -38,21 +30,17 @@ pub struct Declared {
 }
 
 impl Declared {
-    /// Reads the declaration from the catalogue's sources.
+    /// Reads the declaration of a text.
     ///
     /// # Errors
-    /// Where it is not found or not understood; says which and why.
-    pub fn read(description: &Description, values: &[&[f64]], inversion: Inversion) -> Result<Self, String> {
-        let declaration = declarations()?
-            .into_iter()
-            .find(|declaration| declaration.name == description.name)
-            .ok_or_else(|| format!("{}: not declared", description.name))?;
+    /// Those of [`understood`].
+    pub fn read(text: &str, values: &[&[f64]], inversion: Inversion) -> Result<Self, String> {
+        let (declaration, model) = understood(text)?;
         let lengths = declaration.parameters.iter().map(|parameter| parameter.length()).collect();
         let (is_extended, epsilon) = match inversion {
             Inversion::Refuse => (false, 0.0),
             Inversion::Extend { epsilon } => (true, epsilon),
         };
-        let model = model(&declaration).map_err(|error| format!("{}: {error}", description.name))?;
         let point = Point { epsilon, ..Point::default() };
         let declared = Self { model, lengths, point, is_extended };
         Ok(Self { point: declared.point(values, [1.0; 3]), ..declared })

@@ -111,18 +111,11 @@ impl<const LIMBS: usize> Multiprecision<LIMBS> {
         let mut carry = false;
         for k in 0..=LIMBS {
             let (a, b) = (if k == 0 { 0 } else { self.limbs[k - 1] }, shifted(k));
-            let ((sum, first), second);
-            if subtract {
-                (sum, first) = a.overflowing_sub(b);
-                let (result, again) = sum.overflowing_sub(u64::from(carry));
-                second = again;
-                *(if k == 0 { &mut below[LIMBS - 1] } else { &mut limbs[k - 1] }) = result;
-            } else {
-                (sum, first) = a.overflowing_add(b);
-                let (result, again) = sum.overflowing_add(u64::from(carry));
-                second = again;
-                *(if k == 0 { &mut below[LIMBS - 1] } else { &mut limbs[k - 1] }) = result;
-            }
+            let (sum, first) = if subtract { a.overflowing_sub(b) } else { a.overflowing_add(b) };
+            let carried = u64::from(carry);
+            let (result, second) =
+                if subtract { sum.overflowing_sub(carried) } else { sum.overflowing_add(carried) };
+            *(if k == 0 { &mut below[LIMBS - 1] } else { &mut limbs[k - 1] }) = result;
             carry = first | second;
         }
         if carry {
@@ -249,6 +242,15 @@ const fn negative_power_of_two(n: usize) -> f64 {
     power
 }
 
+/// Methods of [`Real`] that functions of [`elementary`] compute.
+macro_rules! computed {
+    ($($method:ident $function:ident,)*) => {$(
+        fn $method(self) -> Self {
+            self.$function()
+        }
+    )*};
+}
+
 impl<const LIMBS: usize> Real for Multiprecision<LIMBS> {
     type Mask = bool;
     type Logarithm = Self;
@@ -290,37 +292,15 @@ impl<const LIMBS: usize> Real for Multiprecision<LIMBS> {
         if self.kind == Kind::Zero { self } else { self * root * root }
     }
 
-    fn ln(self) -> Self {
-        self.natural_logarithm()
-    }
-
-    fn exp(self) -> Self {
-        self.exponential()
-    }
-
-    fn ln_1p(self) -> Self {
-        self.logarithm_of_one_more()
-    }
-
-    fn exp_m1(self) -> Self {
-        self.exponential_less_one()
-    }
-
-    fn sinh(self) -> Self {
-        self.hyperbolic_sine()
+    computed! {
+        ln natural_logarithm, exp exponential, ln_1p logarithm_of_one_more, exp_m1 exponential_less_one,
+        sinh hyperbolic_sine, tanh hyperbolic_tangent, asinh inverse_hyperbolic_sine, atan arctangent,
+        erf error_function,
     }
 
     fn cosh(self) -> Self {
         let exponential = self.abs().exponential();
         (exponential + exponential.inverse_root(1)).scaled(-1)
-    }
-
-    fn tanh(self) -> Self {
-        self.hyperbolic_tangent()
-    }
-
-    fn asinh(self) -> Self {
-        self.inverse_hyperbolic_sine()
     }
 
     fn sin(self) -> Self {
@@ -329,14 +309,6 @@ impl<const LIMBS: usize> Real for Multiprecision<LIMBS> {
 
     fn cos(self) -> Self {
         self.sine_after_quarters(1)
-    }
-
-    fn atan(self) -> Self {
-        self.arctangent()
-    }
-
-    fn erf(self) -> Self {
-        self.error_function()
     }
 
     fn softplus(self) -> Self {

@@ -5,7 +5,7 @@
 //! * [`polynomial`]: Taylor polynomials in three stretches, the calculus of the oracle;
 //! * [`oracle`]: what each value must be, in 256 bits, from the generator's own expression;
 //! * [`judge`]: all of it for one seed. The interpreter executes the programs, with the bits of generated
-//!   code: see `tests/random.rs`.
+//!   code: see `tests/interpreted.rs`.
 //!
 //! The oracle shares no code with the compiler of declarations: not its parser, not its graph, not its
 //! calculus.

@@ -26,7 +26,7 @@ use crate::energies::Subject;
 pub const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
 
 /// Kind of answer to a deformation, if it is sound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Answer {
     /// All numbers are exact to rounding.
     Clean,

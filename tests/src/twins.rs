@@ -1,20 +1,35 @@
 //! Materials that are compiled and interpreted, compared: equal bits of all responses, and equal numbers for
 //! fits.
 
+use piola::__private::random::Random;
 use piola::interpreter::Interpreted;
 use piola::material::{Constraint, Fittable, Response};
 use piola_declare::Energy;
 
 use crate::bits::Precision;
 
+/// Ordered stretches of every size, some of them equal, zero or of opposite sign.
+pub fn stretches(random: &mut Random) -> [f64; 3] {
+    let spread = [0.0, 1e-9, 0.3, 3.0, 300.0][random.below(5)];
+    let mut stretches: [f64; 3] = std::array::from_fn(|_| (spread * random.uniform(-0.5, 0.5)).exp());
+    if random.below(4) == 0 {
+        stretches[1] = stretches[0];
+    }
+    stretches.sort_by(|a, b| b.total_cmp(a));
+    if random.below(4) == 0 {
+        stretches[2] = [-stretches[2], 0.0, -0.0][random.below(3)];
+    }
+    stretches
+}
+
 /// All responses at one triple of stretches, as one row.
 #[must_use]
-pub fn responses(material: &dyn Response<f64>, at: [f64; 3]) -> Vec<f64> {
-    let truth = |value: bool| f64::from(u8::from(value));
+pub fn responses<R: Precision>(material: &dyn Response<R>, at: [R; 3]) -> Vec<R> {
+    let truth = |value: bool| R::splat(f64::from(u8::from(value)));
     let blocks = material.blocks(at);
     let mut all = vec![material.energy(at), truth(material.admits(at))];
     all.extend(material.gradient(at));
-    all.extend(material.gradient_at_strains(at.map(|stretch| stretch - 1.0)));
+    all.extend(material.gradient_at_strains(at.map(|stretch| stretch - R::splat(1.0))));
     all.extend(blocks.gradient.into_iter().chain(blocks.hessian).chain(blocks.flip).chain(blocks.twist));
     all.extend([material.has_invariants(), material.has_pole(), material.ends_at_zero_volume()].map(truth));
     if material.has_invariants() {

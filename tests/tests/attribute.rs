@@ -2,15 +2,15 @@
 //! bit by bit, equal descriptions and equal refusals; and the typed constructors, which only a compiled type
 //! has.
 //!
-//! The catalogue is compared in the same way by `declare/tests/catalogue.rs`.
+//! The catalogue is compared in the same way by `interpreted.rs`.
 
 use piola::__private::random::Random;
+use piola::batch::{Batch, TileMaterial};
 use piola::interpreter::Interpreted;
-use piola::lanes::{Lanes, Lanes2};
-use piola::material::{Argument, Blocks, Declared, Fittable, MaterialError};
-use piola::{Inversion, Material, Real};
-use piola_declare::Energy;
-use piola_tests::answers::Answers;
+use piola::lanes::Backend;
+use piola::material::{Argument, Declared, Fittable, MaterialError};
+use piola::{Inversion, Material};
+use piola_tests::answers::{Answers, deformations};
 use piola_tests::declarations::{Sample, find, slices, values};
 use piola_tests::twins::{self, check_fit, responses};
 
@@ -24,17 +24,11 @@ use declarations::{
 
 const EXTEND: Inversion = Inversion::Extend { epsilon: 0.2 };
 
-/// Ordered stretches of every size, some of them equal or of opposite sign.
+/// Stretches of all kinds, those of a rest state and of a point without extent among them.
 fn stretches() -> impl Iterator<Item = [f64; 3]> {
     let mut random = Random::new(7);
     let fixed = [[1.0, 1.0, 1.0], [1.3, 1.1, 0.7], [2.5, 2.5, 0.16], [1.2, 0.8, -0.3], [0.0; 3]];
-    let drawn = (0..200).map(move |k| {
-        let spread = [1e-9, 0.3, 0.3, 3.0][k % 4];
-        let mut all: [f64; 3] = std::array::from_fn(|_| (spread * random.uniform(-0.5, 0.5)).exp());
-        all.sort_by(|a, b| b.total_cmp(a));
-        [all[0], if k % 5 == 0 { all[0] } else { all[1] }, if k % 7 == 0 { -all[2] } else { all[2] }]
-    });
-    fixed.into_iter().chain(drawn)
+    fixed.into_iter().chain((0..200).map(move |_| twins::stretches(&mut random)))
 }
 
 /// Compares a compiled type with the energy of the same text, at all values of its remarks.
@@ -120,41 +114,18 @@ fn types_and_texts_give_the_same_bits() {
     check::<FunctionsOfInvariants>();
 }
 
-type Two = Lanes2<f64>;
-
-/// Each lane gets the bits that it would get alone.
-#[track_caller]
-fn check_lanes<M: Declared>() {
-    let points: [[f64; 2]; 3] = [[1.5, 1.1], [1.1, 0.9], [0.8, -0.3]];
-    let split = |numbers: Vec<Two>| -> Vec<[f64; 2]> {
-        let store = |number: Two| {
-            let mut lanes = [0.0; 2];
-            number.store(&mut lanes);
-            lanes
-        };
-        numbers.into_iter().map(store).collect()
-    };
-    fn all<R: Real>(material: &impl Material, at: [R; 3]) -> Vec<R> {
-        let Blocks { gradient, hessian, flip, twist } = material.blocks(at);
-        let blocks = gradient.into_iter().chain(hessian).chain(flip).chain(twist);
-        blocks.chain([material.energy(at)]).collect()
-    }
-    for (compiled, _) in check::<M>().1 {
-        let together = split(all(&compiled, points.map(|stretch| Two::load(&stretch))));
-        let admitted = Two::bits(compiled.admits(points.map(|stretch| Two::load(&stretch))));
-        for lane in 0..2 {
-            let at = points.map(|stretch| stretch[lane]);
-            let alone: Vec<_> = all(&compiled, at).into_iter().map(f64::to_bits).collect();
-            let found: Vec<_> = together.iter().map(|lanes| lanes[lane].to_bits()).collect();
-            assert_eq!(found, alone, "{} lane {lane}", M::DESCRIPTION.name);
-            assert_eq!(admitted >> lane & 1 == 1, compiled.admits(at));
+#[test]
+fn lists_have_the_same_bits_on_lanes() {
+    let points = deformations().concat();
+    for (compiled, interpreted) in check::<Terms>().1 {
+        for backend in Backend::available() {
+            let materials: [&dyn TileMaterial<f64>; 2] = [&interpreted, &compiled];
+            let [found, expected] =
+                materials.map(|material| Answers::of(Batch::new(material).with_backend(backend), &points));
+            assert_eq!(found.statuses, expected.statuses, "{backend}");
+            twins::check(&format!("on {backend}"), &found.numbers(), &expected.numbers());
         }
     }
-}
-
-#[test]
-fn lanes_get_what_they_would_get_alone() {
-    check_lanes::<Terms>();
 }
 
 #[test]
@@ -226,28 +197,4 @@ fn typed_constructors_refuse_what_is_inadmissible() -> Result<(), MaterialError>
     assert!(Implied::new(1e-9).is_ok_and(|solid| solid.admits([1.0f64; 3])));
     assert!(Unlucky::new([1.0, 0.5], [2.5, -1.5], 2.0, 7.0).is_ok());
     Ok(())
-}
-
-/// What a batch computes with arrays and with lists, on every back end.
-#[test]
-fn batches_of_lists_have_the_bits_of_arrays() {
-    use piola::batch::Batch;
-    use piola::lanes::Backend;
-    let mut random = Random::new(7);
-    let points: Vec<f64> =
-        (0..9 * 70).map(|k| if k % 9 % 4 == 0 { 1.0 } else { 0.0 } + random.uniform(-0.3, 0.3)).collect();
-    let [mu, alpha] = [[6.3e5, 1.2e3, 1e4, 7.7e2, 3.1e4, 1e3, 5.5e4], [1.3, 5.0, 2.0, 3.7, 1.1, 8.2, 0.4]];
-    let [array, vector] = ["Fixed", "Terms"].map(|name| find("compiled", name).judged.energy.clone());
-    for (length, inversion) in [1, 2, 3, 7].into_iter().flat_map(|n| [(n, Inversion::Refuse), (n, EXTEND)]) {
-        let values = [&mu[..length], &alpha[..length], &[2e6]];
-        for backend in Backend::available() {
-            let tangents = |energy: &Energy| {
-                let material = energy.boxed(&values, inversion).expect("admissible");
-                let answers = Answers::of(Batch::new(&*material).with_backend(backend), &points);
-                let numbers = answers.numbers().into_iter().map(f64::to_bits).collect::<Vec<_>>();
-                (answers.surveys, numbers)
-            };
-            assert!(tangents(&array) == tangents(&vector), "{backend:?}, {length} terms");
-        }
-    }
 }

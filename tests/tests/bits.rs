@@ -81,21 +81,15 @@ fn every_entry<R: Judged>() {
             total.add(tally);
         }
     }
-    println!(
-        "{}: {} patterns in {:.1} s: {} clean, {} bounded, {} refused, {} outside the format, {} flagged early",
-        R::NAME,
-        total.patterns,
-        start.elapsed().as_secs_f64(),
-        total.clean,
-        total.bounded,
-        total.refused,
-        total.nonfinite,
-        total.flagged_early
-    );
-    assert!(total.faults.is_empty(), "{report}");
-    assert!(100 * total.flagged_early <= total.patterns, "one in a hundred may be flagged early");
+    let Tally { patterns, answers, faults } = total;
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{}: {patterns} patterns in {seconds:.1} s: {answers:?}", R::NAME);
+    assert!(faults.is_empty(), "{report}");
+    let flagged_early = answers.get(&Answer::FlaggedEarly).copied().unwrap_or(0);
+    assert!(100 * flagged_early <= patterns, "one in a hundred may be flagged early");
     // A judge that never meets one of the answers judges nothing.
-    assert!(total.clean > 0 && total.bounded > 0 && total.refused > 0 && total.nonfinite > 0);
+    let all = [Answer::Clean, Answer::Bounded, Answer::Refused, Answer::Nonfinite];
+    assert!(all.iter().all(|answer| answers.contains_key(answer)), "{answers:?}");
 }
 
 /// A precision with all the judges that it has.
@@ -138,34 +132,17 @@ impl Judged for f32 {
 #[derive(Default)]
 struct Tally {
     patterns: usize,
-    clean: usize,
-    bounded: usize,
-    refused: usize,
-    nonfinite: usize,
-    flagged_early: usize,
+    answers: BTreeMap<Answer, usize>,
     /// How often, and where first.
     faults: BTreeMap<Fault, (usize, String)>,
 }
 
 impl Tally {
-    fn count(&mut self, answer: Answer) {
-        self.patterns += 1;
-        *match answer {
-            Answer::Clean => &mut self.clean,
-            Answer::Bounded => &mut self.bounded,
-            Answer::Refused => &mut self.refused,
-            Answer::Nonfinite => &mut self.nonfinite,
-            Answer::FlaggedEarly => &mut self.flagged_early,
-        } += 1;
-    }
-
     fn add(&mut self, other: Self) {
         self.patterns += other.patterns;
-        self.clean += other.clean;
-        self.bounded += other.bounded;
-        self.refused += other.refused;
-        self.nonfinite += other.nonfinite;
-        self.flagged_early += other.flagged_early;
+        for (answer, count) in other.answers {
+            *self.answers.entry(answer).or_default() += count;
+        }
         self.faults.extend(other.faults);
     }
 }
@@ -189,13 +166,11 @@ fn trial<R: Judged>(subject: &Subject, seed: u64, patterns: usize) -> Tally {
         for (at, (pattern, F)) in patterns.iter().zip(&together).enumerate() {
             let round = pattern / Family::ALL.len();
             match judge(subject, F, round.is_multiple_of(8)) {
-                Ok(answer) => tally.count(answer),
-                Err(fault) => {
-                    tally.patterns += 1;
-                    faults.push((at, fault));
-                }
+                Ok(answer) => *tally.answers.entry(answer).or_default() += 1,
+                Err(fault) => faults.push((at, fault)),
             }
         }
+        tally.patterns += together.len();
         for (at, fault) in faults {
             let first = || (0, format!("{:?}", simplest(subject, together[at], fault)));
             tally.faults.entry(fault).or_insert_with(first).0 += 1;

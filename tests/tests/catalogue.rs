@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use piola::Inversion;
-use piola::material::Fittable;
-use piola_materials::{DECLARATIONS, FittableVisitor};
+use piola_materials::{CATALOGUE, DECLARATIONS};
 use piola_tests::energies::ENERGIES;
 
 fn sources() -> PathBuf {
@@ -13,12 +11,29 @@ fn sources() -> PathBuf {
 }
 
 #[test]
-fn every_declaration_has_typical_parameters_and_units() {
+fn the_catalogue_is_complete_and_sorted() {
+    let is_declaration = |path: &PathBuf| {
+        let source = fs::read_to_string(path).expect("a source");
+        !piola_codegen::declarations(&source).expect("Rust").is_empty()
+    };
+    let files = fs::read_dir(sources()).expect("sources").map(|file| file.expect("a source").path());
+    let mut declared: Vec<_> = files.filter(is_declaration).collect();
+    declared.sort();
+    let names: Vec<_> =
+        ENERGIES.iter().map(|energy| sources().join(energy.name).with_extension("rs")).collect();
+    assert_eq!(declared, names);
+    assert!(CATALOGUE.is_sorted_by_key(|entry| entry.name), "entries stand in the order of their names");
+}
+
+#[test]
+fn every_declaration_has_documentation_typical_parameters_and_units() {
     for energy in ENERGIES.iter() {
         let (name, description) = (energy.name, energy.description());
+        assert!(!description.summary.is_empty() && !description.formula.is_empty(), "{name} is documented");
         let typical = description.typical.as_ref().unwrap_or_else(|| panic!("{name} has none"));
         assert!(!typical.source.is_empty(), "{name} names no source");
         for (parameter, values) in description.parameters.iter().zip(typical.values.iter()) {
+            assert!(!parameter.doc.is_empty(), "{name}: {} is not documented", parameter.name);
             assert!(!values.is_empty(), "{name}: {} has no value", parameter.name);
             assert!(parameter.unit.is_some(), "{name}: {} has no unit", parameter.name);
         }
@@ -27,23 +42,10 @@ fn every_declaration_has_typical_parameters_and_units() {
 
 #[test]
 fn energies_of_rubber_are_those_with_typical_parameters_of_it_and_can_be_fitted() {
-    struct Fits;
-    impl FittableVisitor for Fits {
-        type Output = ();
-        fn visit<M: Fittable + 'static>(self, _: M) {}
-    }
     for (energy, declaration) in ENERGIES.iter().zip(DECLARATIONS) {
         let source = energy.description().typical.as_ref().map_or("", |typical| &typical.source);
         assert_eq!(declaration.is_rubber, source.contains("natural rubber"), "{}", energy.name);
-        if declaration.is_rubber {
-            assert!(energy.energy.is_fittable(), "{}", energy.name);
-        }
-        if let Some(entry) = energy.compiled
-            && declaration.is_rubber
-        {
-            let fits = entry.visit_fittable(&entry.typical(), Inversion::Refuse, Fits);
-            assert_eq!(fits, Ok(()), "{}", entry.name);
-        }
+        assert!(!declaration.is_rubber || energy.energy.is_fittable(), "{}", energy.name);
     }
 }
 

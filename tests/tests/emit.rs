@@ -1,9 +1,9 @@
 //! Energies as C: their results, compiled by a C compiler, have the bits of scalars here.
 //!
 //! The energies cover polynomials, logarithms, exponentials, real powers in lists, a pole, a locking domain
-//! and continuations; deformation gradients are those of all reference cases. Every other energy of the
-//! catalogue is printed and read by the compiler, with `PIOLA_FULL` by three compilers. The text for CUDA is
-//! C as well and has the same bits; other languages are judged by `PIOLA_EMITTED` in the test `reference`.
+//! and continuations; deformation gradients are those of all reference cases. That compilers read every other
+//! energy is judged by the test `declarations`. The text for CUDA is C as well and has the same bits; other
+//! languages are judged by `PIOLA_EMITTED` in the test `reference`.
 //! Text in `f32` is judged with the feature `full`, which compiles elements in `f32`.
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
@@ -17,9 +17,9 @@ use piola::lanes::Backend;
 use piola::point::{Filter, Matrix3};
 use piola::{Inversion, Material, Status};
 use piola_declare::emit::{Emission, EmitError, PointFunction, Precision, Target};
-use piola_tests::cases::Case;
+use piola_tests::cases::{Case, FILES};
 use piola_tests::compiled;
-use piola_tests::energies::{ENERGIES, Format, Judged, find};
+use piola_tests::energies::{Format, Judged, find};
 
 const STRICT: [&str; 6] = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off"];
 
@@ -60,7 +60,6 @@ trait Number: Format + Kernels {
     const PRECISION: Precision;
     const NAME_IN_C: &'static str;
     fn put(self, to: &mut Vec<u8>);
-    fn of_f64(number: f64) -> Self;
 }
 
 impl Number for f64 {
@@ -68,9 +67,6 @@ impl Number for f64 {
     const NAME_IN_C: &'static str = "double";
     fn put(self, to: &mut Vec<u8>) {
         to.extend(self.to_ne_bytes());
-    }
-    fn of_f64(number: f64) -> Self {
-        number
     }
 }
 
@@ -80,9 +76,6 @@ impl Number for f32 {
     const NAME_IN_C: &'static str = "float";
     fn put(self, to: &mut Vec<u8>) {
         to.extend(self.to_ne_bytes());
-    }
-    fn of_f64(number: f64) -> Self {
-        number as f32
     }
 }
 
@@ -133,13 +126,9 @@ fn results<R: Number>(energy: &Judged, inversion: Inversion, F: &Matrix3<R>) -> 
 
 /// Compiles with the C compiler that Rust links with.
 fn compile(folder: &Path, arguments: &[&str]) {
-    compile_with("cc", folder, arguments);
-}
-
-fn compile_with(compiler: &str, folder: &Path, arguments: &[&str]) {
-    let output = Command::new(compiler).args(STRICT).args(arguments).current_dir(folder).output();
+    let output = Command::new("cc").args(STRICT).args(arguments).current_dir(folder).output();
     let output = output.expect("a compiler");
-    assert!(output.status.success(), "{compiler}: {}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
 fn print<R: Number>(energy: &Judged, target: Target, inversion: Inversion) -> Result<String, EmitError> {
@@ -150,16 +139,9 @@ fn print<R: Number>(energy: &Judged, target: Target, inversion: Inversion) -> Re
 fn check<R: Number>(name: &str, target: Target) {
     let energy = find(name).expect("in the catalogue");
     let folder = tempfile::tempdir().expect("a folder");
-    let mut cases = Vec::new();
-    for file in ["cases", "cases-more", "cases-further", "cases-ordinary"] {
-        let path = format!("{}/reference/{file}.json", env!("CARGO_MANIFEST_DIR"));
-        cases.extend(Case::read(Path::new(&path)).expect("reference cases"));
-    }
+    let cases = Case::own(&FILES).expect("reference cases");
     assert_eq!(cases.len(), 1213);
-    let points: Vec<Matrix3<R>> = cases
-        .iter()
-        .map(|case| [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::of_f64(case.deformation[3 * i + j]))))
-        .collect();
+    let points: Vec<Matrix3<R>> = cases.iter().map(Case::F).collect();
     for inversion in energy.inversions(0.1) {
         let text = print::<R>(energy, target, inversion).expect("an energy that can be printed");
         std::fs::write(folder.path().join("energy.h"), text).expect("a file");
@@ -219,36 +201,6 @@ fn text_for_cuda_has_the_bits_of_c() {
 }
 
 same_bits! { neo_hookean st_venant_kirchhoff ogden hencky gent fung rotated_linear stable_neo_hookean }
-
-#[test]
-fn every_energy_is_read_without_a_warning() {
-    let folder = tempfile::tempdir().expect("a folder");
-    // The file is compiled alone, so that no function is called: clang warns of these more often than gcc.
-    let is_there = |compiler: &str| Command::new(compiler).arg("--version").output().is_ok();
-    let mut compilers =
-        vec![("cc", "c", "-std=c99"), ("clang", "c", "-std=c99"), ("c++", "c++", "-std=c++17")];
-    compilers.retain(|&(compiler, ..)| compiler == "cc" || piola_tests::is_full() && is_there(compiler));
-    let mut refused = Vec::new();
-    // By invariants and by a decomposition, and the energy as it is.
-    let functions = [PointFunction::Tangent, PointFunction::Blocks];
-    let emission = Emission::new(Target::C).with_prefix("energy").with_functions(functions);
-    for energy in ENERGIES.iter() {
-        let text = match energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission) {
-            Ok(text) => text,
-            Err(EmitError::Function(_)) => {
-                refused.push(energy.name);
-                continue;
-            }
-            Err(error) => panic!("{}: {error}", energy.name),
-        };
-        std::fs::write(folder.path().join("energy.h"), text + "\nint main(void) { return 0; }\n")
-            .expect("a file");
-        for &(compiler, language, standard) in &compilers {
-            compile_with(compiler, folder.path(), &[standard, "-fsyntax-only", "-x", language, "energy.h"]);
-        }
-    }
-    assert_eq!(refused, ["stretch_spline"]);
-}
 
 #[test]
 fn mistakes_say_what_to_do() {

@@ -3,8 +3,8 @@
 //!
 //! Every energy that the build compiles is read from its own declaration. Batches are compared in `f64` on
 //! every back end, and with the feature `full` in `f32` those of energies with all kinds of operations;
-//! single points in `f64`, all responses of them. Deformation gradients are arbitrary patterns of bits, so
-//! that the ends of the formats take part.
+//! single points in both formats, all responses of them. Deformation gradients are arbitrary patterns of
+//! bits, so that the ends of the formats take part.
 
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
@@ -13,54 +13,28 @@ use piola::Inversion;
 use piola::batch::{Batch, Kernels, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::lanes::Backend;
-use piola::material::{Fittable, MaterialError, PerPoint};
+use piola::material::{Fittable, MaterialError};
 use piola::point::Filter;
 use piola_declare::Energy;
-use piola_materials::{CATALOGUE, DECLARATIONS, Entry, FittableVisitor};
+use piola_materials::{CATALOGUE, Entry, FittableVisitor};
 use piola_tests::answers::Answers;
-use piola_tests::bits::Precision;
-use piola_tests::twins::{check, check_fit, responses};
-
-const INVERSIONS: [Inversion; 2] = [Inversion::Refuse, Inversion::Extend { epsilon: 0.1 }];
+use piola_tests::bits::{Family, Precision};
+use piola_tests::energies::{ENERGIES, Judged, Subject, find};
+use piola_tests::twins::{check, check_fit, responses, stretches};
 
 /// Points of a batch: three tiles, the last of them not full.
 const POINTS: usize = 150;
 
-/// The energy of a declaration of the catalogue, compiled at run time.
-fn declared(name: &str) -> Energy {
-    let declaration = DECLARATIONS.iter().find(|known| known.name == name).expect("a name of the catalogue");
-    Energy::from_rust(declaration.source).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"))
+/// The energies that the build compiles, as judges take them, with their entries in the catalogue.
+fn compiled() -> impl Iterator<Item = (&'static Judged, &'static Entry)> {
+    ENERGIES.iter().filter_map(|energy| Some((energy, energy.compiled?)))
 }
 
-/// The energies of the catalogue with their ways of inversion.
-fn entries() -> impl Iterator<Item = (&'static Entry, Energy, Inversion)> {
-    CATALOGUE.iter().flat_map(|entry| {
-        let energy = declared(entry.name);
-        let inversions = if entry.description.extends { &INVERSIONS[..] } else { &INVERSIONS[..1] };
-        inversions.iter().map(move |&inversion| (entry, energy.clone(), inversion))
-    })
-}
-
-/// Deformation gradients of all kinds: ordinary ones, some of them inverted, others near rest, diagonal with
-/// equal entries, flat, and of arbitrary bits.
-fn deformations<E: Kernels + Precision>(seed: u64) -> Vec<E> {
+/// Deformation gradients of all kinds.
+fn deformations<E: Precision>(seed: u64) -> Vec<E> {
     let mut random = Random::new(seed);
-    let mut all = Vec::new();
-    for k in 0..POINTS {
-        let spread = [0.3, 2.0, 1e-6, 1e-12, 100.0][random.below(5)];
-        let mut F: [[f64; 3]; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| f64::from(u8::from(i == j)) + spread * random.uniform(-0.5, 0.5))
-        });
-        match k % 6 {
-            0 => F = [[F[0][0], 0.0, 0.0], [0.0, F[0][0], 0.0], [0.0, 0.0, F[2][2]]],
-            1 => F[2] = F[1],
-            _ => {}
-        }
-        let mut bits = || Some(E::from_bits(random.bits())).filter(|entry| entry.is_finite());
-        let entry = |x: f64| if k % 6 == 5 { bits().unwrap_or(E::splat(1.0)) } else { E::splat(x) };
-        all.extend(F.into_iter().flatten().map(entry));
-    }
-    all
+    let draw = |k: usize| Family::ALL[k % Family::ALL.len()].draw::<E>(&mut random);
+    (0..POINTS).flat_map(draw).flatten().collect()
 }
 
 /// All results of a batch.
@@ -92,11 +66,12 @@ fn check_batches<E: Kernels + Precision>(
 
 #[test]
 fn batches_have_the_bits_of_the_compiled_catalogue() {
-    for (entry, energy, inversion) in entries() {
-        let values = entry.typical();
-        let interpreted = energy.boxed(&values, inversion).expect("typical parameters");
-        let compiled = entry.material(&values, inversion).expect("typical parameters");
-        check_batches::<f64>(&format!("{} {inversion:?}", entry.name), &*interpreted, &*compiled);
+    for (energy, _) in compiled() {
+        for inversion in energy.inversions(0.1) {
+            let Subject { double, exact, .. } =
+                energy.subject(&energy.typical(), inversion).expect("typical parameters");
+            check_batches::<f64>(&format!("{} {inversion:?}", energy.name), &exact, &*double);
+        }
     }
 }
 
@@ -107,13 +82,10 @@ fn batches_in_single_precision_have_the_bits_of_compiled_ones() {
     use piola_materials::{ArrudaBoyce, Gent, NeoHookean, Ogden, RotatedLinear, StretchSpline};
 
     fn of<M: Declared + 'static>(name: &str) {
-        let energy = declared(name);
-        let entry = piola_materials::find(name).expect("an energy of the catalogue");
-        for inversion in
-            INVERSIONS.into_iter().filter(|_| entry.description.extends).chain([Inversion::Refuse])
-        {
-            let values = entry.typical();
-            let interpreted = energy.material(&values, inversion).expect("typical parameters");
+        let energy = find(name).expect("an energy of the catalogue");
+        for inversion in energy.inversions(0.1) {
+            let values = energy.typical();
+            let interpreted = energy.energy.material(&values, inversion).expect("typical parameters");
             let compiled = M::from_values(&values, inversion).expect("typical parameters");
             check_batches::<f32>(&format!("{name} {inversion:?}"), &interpreted, &compiled);
         }
@@ -126,32 +98,21 @@ fn batches_in_single_precision_have_the_bits_of_compiled_ones() {
     of::<StretchSpline>("stretch_spline");
 }
 
-/// Ordered stretches of every size, some of them equal or of opposite sign.
-fn stretches(random: &mut Random) -> [f64; 3] {
-    let spread = [0.0, 1e-9, 0.3, 3.0, 300.0][random.below(5)];
-    let mut stretches: [f64; 3] = std::array::from_fn(|_| (spread * random.uniform(-0.5, 0.5)).exp());
-    if random.below(4) == 0 {
-        stretches[1] = stretches[0];
-    }
-    stretches.sort_by(|a, b| b.total_cmp(a));
-    if random.below(4) == 0 {
-        stretches[2] = [-stretches[2], 0.0, -0.0][random.below(3)];
-    }
-    stretches
-}
-
 #[test]
 fn single_points_have_the_bits_of_the_compiled_catalogue() {
     let mut random = Random::new(1);
-    for (entry, energy, inversion) in entries() {
-        let values = entry.typical();
-        let interpreted = energy.boxed(&values, inversion).expect("typical parameters");
-        let compiled = entry.material(&values, inversion).expect("typical parameters");
-        assert_eq!(energy.description(), &entry.description, "{}", entry.name);
-        for _ in 0..200 {
-            let at = stretches(&mut random);
-            let what = format!("{} {inversion:?} at {at:?}", entry.name);
-            check(&what, &responses(&*interpreted, at), &responses(&*compiled, at));
+    for (energy, entry) in compiled() {
+        assert_eq!(energy.description(), &entry.description, "{}", energy.name);
+        for inversion in energy.inversions(0.1) {
+            let Subject { double, single, exact, .. } =
+                energy.subject(&energy.typical(), inversion).expect("typical parameters");
+            for _ in 0..200 {
+                let at = stretches(&mut random);
+                let what = format!("{} {inversion:?} at {at:?}", energy.name);
+                check(&what, &responses::<f64>(&exact, at), &responses::<f64>(&*double, at));
+                let at = at.map(|stretch| stretch as f32);
+                check(&what, &responses::<f32>(&exact, at), &responses::<f32>(&*single, at));
+            }
         }
     }
 }
@@ -166,10 +127,10 @@ fn fits_have_the_numbers_of_the_compiled_catalogue() {
             check_fit(self.0, self.1, &material, self.2);
         }
     }
-    for entry in CATALOGUE {
-        let (energy, values) = (declared(entry.name), entry.typical());
+    for (Judged { energy, .. }, entry) in compiled() {
+        let values = entry.typical();
         let interpreted = energy.material(&values, Inversion::Refuse).expect("typical parameters");
-        let slopes = Slopes(&energy, &interpreted, [1.2, 1.0, 0.9]);
+        let slopes = Slopes(energy, &interpreted, [1.2, 1.0, 0.9]);
         match entry.visit_fittable(&values, Inversion::Refuse, slopes) {
             Ok(()) => assert!(energy.is_fittable(), "{}", entry.name),
             Err(error) => {
@@ -185,7 +146,7 @@ fn fits_have_the_numbers_of_the_compiled_catalogue() {
 /// Constants stay in a thread's registers from one tile to the next: each material finds its own.
 #[test]
 fn materials_of_one_energy_do_not_mix_their_constants() {
-    let energy = declared("arruda_boyce");
+    let energy = &find("arruda_boyce").expect("an energy of the catalogue").energy;
     let typical: Vec<Vec<f64>> = energy.typical().iter().map(|list| list.to_vec()).collect();
     let scaled = |factor: f64| {
         let values: Vec<Vec<f64>> = typical.iter().map(|list| vec![factor * list[0]]).collect();
@@ -214,8 +175,7 @@ fn materials_of_one_energy_do_not_mix_their_constants() {
 #[test]
 fn values_are_refused_as_by_the_compiled_catalogue() {
     let mut refused = 0;
-    for entry in CATALOGUE {
-        let energy = declared(entry.name);
+    for (Judged { energy, .. }, entry) in compiled() {
         let typical: Vec<Vec<f64>> = entry.typical().iter().map(|list| list.to_vec()).collect();
         let mut all = vec![Vec::new(), typical[..typical.len() - 1].to_vec()];
         for (k, list) in typical.iter().enumerate() {
@@ -253,30 +213,4 @@ fn values_are_refused_as_by_the_compiled_catalogue() {
     }
     // More than a thousand of the eighteen energies that `.ci/run` compiles.
     assert!(18 * refused > 1000 * CATALOGUE.len(), "{refused} of {} energies", CATALOGUE.len());
-}
-
-/// Points of a batch with materials that differ in numbers, in the lengths of lists, or altogether.
-#[test]
-fn each_point_may_have_a_material_of_its_own() {
-    let F = deformations::<f64>(7);
-    let ogden = declared("ogden");
-    let term = |k: usize| [1e5 * (1.0 + k as f64 / 50.0)];
-    let terms = |k: usize| vec![1e5; 1 + k % 2];
-    let alike = |k: usize| ogden.material(&[&term(k), &[2.0], &[1e6]], Inversion::Refuse);
-    let mixed = |k: usize| ogden.material(&[&terms(k), &terms(k), &[1e6]], Inversion::Refuse);
-    for materials in [(0..POINTS).map(alike).collect(), (0..POINTS).map(mixed).collect::<Result<Vec<_>, _>>()]
-    {
-        let materials = materials.expect("admissible");
-        let each = PerPoint::new(&materials).expect("alike");
-        for backend in Backend::available() {
-            let mut together = vec![0.0; 9 * POINTS];
-            Batch::new(&each).with_backend(backend).stresses(&F, &mut together).expect("lengths");
-            for (k, material) in materials.iter().enumerate() {
-                let mut alone = [0.0; 9];
-                let own = &F[9 * k..][..9];
-                Batch::new(material).with_backend(backend).stresses(own, &mut alone).expect("lengths");
-                check(&format!("point {k} on {backend}"), &together[9 * k..][..9], &alone);
-            }
-        }
-    }
 }

@@ -118,32 +118,31 @@ fn scale(point: &Point<f64>, F: &Matrix3<f64>) -> f64 {
     norm(&point.stress) + norm(&point.tangent.to_matrix()) * norm(F)
 }
 
-fn objectivity(subject: &Subject, sample: &Sample) -> Result<(), String> {
+/// P of a turned F is the turned P.
+fn turned(
+    what: &str,
+    subject: &Subject,
+    sample: &Sample,
+    turn: fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>,
+) -> Result<(), String> {
     let material: &dyn Response<f64> = &*subject.double;
     let F = sample.F();
     let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
-    let turned = evaluate_stress(material, &product(&sample.rotation, &F)).stress;
-    let expected = product(&sample.rotation, &point.stress);
-    at_most("‖P(QF) − Q P(F)‖", distance(&turned, &expected), C * UNIT * scale(&point, &F))
+    let found = evaluate_stress(material, &turn(&F, &sample.rotation)).stress;
+    let expected = turn(&point.stress, &sample.rotation);
+    at_most(what, distance(&found, &expected), C * UNIT * scale(&point, &F))
 }
 
 #[test]
 fn a_rotation_of_space_rotates_the_stress() {
-    for_every_energy(objectivity);
-}
-
-fn isotropy(subject: &Subject, sample: &Sample) -> Result<(), String> {
-    let material: &dyn Response<f64> = &*subject.double;
-    let F = sample.F();
-    let Some(point) = evaluate_inside(material, &F, Filter::None) else { return Ok(()) };
-    let turned = evaluate_stress(material, &product(&F, &sample.rotation)).stress;
-    let expected = product(&point.stress, &sample.rotation);
-    at_most("‖P(FQ) − P(F) Q‖", distance(&turned, &expected), C * UNIT * scale(&point, &F))
+    for_every_energy(|subject, sample| {
+        turned("‖P(QF) − Q P(F)‖", subject, sample, |F, Q| product(Q, F))
+    });
 }
 
 #[test]
 fn a_rotation_of_the_rest_shape_rotates_the_stress() {
-    for_every_energy(isotropy);
+    for_every_energy(|subject, sample| turned("‖P(FQ) − P(F) Q‖", subject, sample, product));
 }
 
 fn principal_frames(subject: &Subject, sample: &Sample) -> Result<(), String> {

@@ -32,7 +32,7 @@ const EXTEND: Inversion = Inversion::Extend { epsilon: 0.25 };
 type Line = (&'static str, &'static str, &'static str, Tally);
 
 fn main() -> ExitCode {
-    let judged: Result<Vec<_>, String> = trials().into_par_iter().map(Trial::lines).collect();
+    let judged: Result<Vec<_>, String> = trials().into_par_iter().map(judge).collect();
     let failures = judged.map(|lines| {
         let mut lines = lines.concat();
         print(&mut lines);
@@ -62,14 +62,8 @@ const OTHERS: [(&str, &[&[f64]]); 2] = [
     ),
 ];
 
-/// An energy with parameters.
-struct Trial {
-    energy: &'static Judged,
-    /// Name of the inversion in the table.
-    word: &'static str,
-    values: Vec<&'static [f64]>,
-    inversion: Inversion,
-}
+/// An energy, the name of its inversion in the table, its parameters, and the inversion.
+type Trial = (&'static Judged, &'static str, Vec<&'static [f64]>, Inversion);
 
 /// A trial for each energy with each choice of parameters, plain and, where it can be, extended.
 fn trials() -> Vec<Trial> {
@@ -82,7 +76,7 @@ fn trials() -> Vec<Trial> {
                 if inversion == EXTEND && !can_be_extended(energy, &values) {
                     continue;
                 }
-                trials.push(Trial { energy, word, values: values.clone(), inversion });
+                trials.push((energy, word, values.clone(), inversion));
             }
         }
     }
@@ -93,18 +87,6 @@ fn trials() -> Vec<Trial> {
 fn can_be_extended(Judged { energy, .. }: &Judged, values: &[&[f64]]) -> bool {
     let restores = || !matches!(energy.material(values, EXTEND), Err(MaterialError::DoesNotRestore { .. }));
     energy.description().extends && (values == energy.typical() || restores())
-}
-
-impl Trial {
-    /// Judges the material in both formats.
-    ///
-    /// # Errors
-    /// Why it cannot be judged.
-    fn lines(self) -> Result<Vec<Line>, String> {
-        let Self { energy, word, values, inversion } = self;
-        let tallies = judge(energy, &values, inversion)?;
-        Ok(tallies.into_iter().map(|(precision, tally)| (energy.name, word, precision, tally)).collect())
-    }
 }
 
 /// The quotients that fail, one in each line.
@@ -136,12 +118,11 @@ fn print(table: &mut [Line]) {
     println!("{:28} {:6} {:4} {total}", "all", "", "");
 }
 
-/// The tallies of both formats.
-fn judge(
-    energy: &Judged,
-    values: &[&[f64]],
-    inversion: Inversion,
-) -> Result<Vec<(&'static str, Tally)>, String> {
+/// The lines of both formats.
+///
+/// # Errors
+/// Why the material cannot be judged.
+fn judge((energy, word, values, inversion): Trial) -> Result<Vec<Line>, String> {
     let rounded: Vec<Vec<f64>> =
         values.iter().map(|list| list.iter().map(|&value| f64::from(value as f32)).collect()).collect();
     let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
@@ -160,9 +141,10 @@ fn judge(
     let mut scales = vec![1.1, 1.5 - 1e-5, 4.0, 30.0, 0.05, 1e-6];
     scales.extend(upper_end(material));
     let samples = samples(&scales, material.admits([1.0, 0.9, -0.8]), threshold);
-    let declared: Lazy = LazyCell::new(Box::new(|| Declared::read(energy.description(), &values, inversion)));
+    let declared: Lazy = LazyCell::new(Box::new(|| Declared::read(energy.energy.text(), &values, inversion)));
     let judge = Judge { subject: &subject, moved: moved.as_ref(), declared: &declared };
-    Ok(vec![("f64", judge.tally::<f64>(&samples)?), ("f32", judge.tally::<f32>(&samples)?)])
+    let (double, single) = (judge.tally::<f64>(&samples)?, judge.tally::<f32>(&samples)?);
+    Ok(vec![(energy.name, word, "f64", double), (energy.name, word, "f32", single)])
 }
 
 /// Expressions of an energy, understood when they are first asked for.

@@ -9,10 +9,6 @@
 
 use std::collections::BTreeMap;
 
-use piola::__private::random::Random;
-use piola::{Inversion, Material};
-use piola_tests::energies::{ENERGIES, Format, Subject};
-use piola_tests::random::hard;
 use piola_tests::random::judge::{Tally, judge};
 use rayon::prelude::*;
 
@@ -61,34 +57,4 @@ fn random_energies_have_no_wrong_digit_that_they_do_not_flag() {
     // Otherwise the generator makes nothing worth judging: it is 15 %, 5 %, and 0.3 %.
     assert!(2 * total.refused < total.declarations && 10 * total.flagged < total.judged, "{total}");
     assert!(100 * (total.lost + total.terms + total.range) < total.judged, "{total}");
-}
-
-/// The judge executes programs by the interpreter: it has the bits of the material that the build compiles.
-#[track_caller]
-fn check<R: Format>(name: &str, subject: &Subject, stretches: [R; 3], strains: [R; 3]) {
-    let (compiled, interpreted) = (R::of(subject), &subject.exact);
-    // The text of a floating-point number is that of its bits, except for NaN.
-    let found = format!(
-        "{:?}",
-        (interpreted.energy(stretches), interpreted.gradient(stretches), interpreted.blocks(stretches))
-    );
-    let expected = format!(
-        "{:?}",
-        (compiled.energy(stretches), compiled.gradient(stretches), compiled.blocks(stretches))
-    );
-    assert_eq!(found, expected, "{name} at {stretches:?}");
-    let (found, expected) = (interpreted.gradient_at_strains(strains), compiled.gradient_at_strains(strains));
-    assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{name} at strains {strains:?}");
-}
-
-#[test]
-fn programs_have_the_bits_of_generated_code() {
-    for energy in ENERGIES.iter() {
-        let subject = energy.subject(&energy.typical(), Inversion::Refuse).expect("typical parameters");
-        for stretches in hard::stretches(&mut Random::new(5), 24, false) {
-            let strains = stretches.map(|stretch| 1e-3 * (stretch - 1.0));
-            check(energy.name, &subject, stretches, strains);
-            check(energy.name, &subject, stretches.map(|x| x as f32), strains.map(|x| x as f32));
-        }
-    }
 }

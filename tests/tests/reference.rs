@@ -14,28 +14,21 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
 
-use piola::batch::{Batch, Kernels, LengthError, TileMaterial};
+use piola::batch::{Batch, Kernels, TileMaterial};
 use piola::lanes::Backend;
-use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint};
-use piola::{Inversion, Real, Status, Survey};
+use piola::point::{EnergyPoint, Filter, StressPoint};
+use piola::{Inversion, Real, Status};
 use piola_declare::emit::Precision;
-use piola_tests::cases::{Case, Quantity};
+use piola_tests::answers::Answers;
+use piola_tests::cases::{Case, FILES, Quantity};
 use piola_tests::compiled::{evaluate, evaluate_dense, evaluate_energy, evaluate_stress};
-use piola_tests::declared;
+use piola_tests::declared::Declared;
 use piola_tests::emitted::{Answer, Runner};
 use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find, is_asked_for};
 use rayon::prelude::*;
 
 /// The constant of the judgement ‖X − X*‖ ≤ C u (‖X*‖ + sens).
 const C: f64 = 30.0;
-
-/// The files of cases, next to their description.
-const FILES: [&str; 4] = [
-    "reference/cases.json",
-    "reference/cases-more.json",
-    "reference/cases-further.json",
-    "reference/cases-ordinary.json",
-];
 
 /// Energies whose parameters are functions, which no file of cases can hold.
 const WITHOUT_CASES: [&str; 1] = ["stretch_spline"];
@@ -78,10 +71,7 @@ fn judge_all() -> Result<(), String> {
 
 /// The cases of all files, which leave no energy of the catalogue out.
 fn own_cases() -> Result<Vec<Case>, String> {
-    let mut cases = Vec::new();
-    for file in FILES {
-        cases.extend(Case::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file))?);
-    }
+    let cases = Case::own(&FILES)?;
     for energy in ENERGIES.iter() {
         if !WITHOUT_CASES.contains(&energy.name) && cases.iter().all(|case| case.material != energy.name) {
             return Err(format!("{} has no reference cases", energy.name));
@@ -106,7 +96,7 @@ fn judge_energy(
     let first = cases.first().ok_or_else(|| format!("{name} has no reference cases"))?;
     let values = first.values(energy.description())?;
     let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-    let declared = declared::Declared::read(energy.description(), &values, Inversion::Refuse)?;
+    let declared = Declared::read(energy.energy.text(), &values, Inversion::Refuse)?;
     let mut table = Table { cases: cases.len(), energies: 1, ..Table::default() };
     let mut failures = Vec::new();
     let mut answers = runner.map(|runner| runner.answers(energy, &cases)).transpose()?.map(Vec::into_iter);
@@ -249,12 +239,12 @@ impl Judge<'_> {
         let refused = |error| format!("{}: {} {error}", self.case.id, energy.name);
         let subject = energy.subject(values, Inversion::Refuse).map_err(refused)?;
         let mut judgements = self.points::<f64>(&subject);
-        judgements.extend(self.batches(&*subject.double, "f64 lanes", |value| value, |value| value));
+        judgements.extend(self.batches::<f64>(&*subject.double, "f64 lanes"));
         if self.case.f32_exact {
             judgements.extend(self.points::<f32>(&subject));
             #[cfg(feature = "full")]
             if let Some(elements) = in_single_precision(energy.name, values).map_err(refused)? {
-                judgements.extend(self.batches(&*elements, "f32 lanes", |value| value as f32, f64::from));
+                judgements.extend(self.batches(&*elements, "f32 lanes"));
             }
         }
         Ok(judgements)
@@ -279,8 +269,7 @@ impl Judge<'_> {
 
     fn points<R: Format>(self, subject: &Subject) -> Vec<Judgement> {
         let material = R::of(subject);
-        let f = self.case.deformation;
-        let deformation: Matrix3<R> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(f[3 * i + j])));
+        let deformation = self.case.F::<R>();
         let EnergyPoint { energy, status: of_energy } = evaluate_energy(material, &deformation);
         let StressPoint { stress, status: of_stress } = evaluate_stress(material, &deformation);
         let plain = evaluate(material, &deformation, Filter::None);
@@ -300,42 +289,22 @@ impl Judge<'_> {
     }
 
     /// Results of a batch of one point, with every back end.
-    fn batches<E: Kernels>(
-        self,
-        energy: &dyn TileMaterial<E>,
-        precision: &'static str,
-        narrow: fn(f64) -> E,
-        widen: fn(E) -> f64,
-    ) -> Vec<Judgement> {
-        let f = self.case.deformation.map(narrow);
-        let wide = |values: &[E]| values.iter().map(|&x| widen(x)).collect::<Vec<_>>();
-        let status = |survey: Result<Survey, LengthError>| {
-            let survey = survey.expect("the slices are of one point");
-            Status {
-                refused: survey.refused > 0,
-                bounded: survey.bounded > 0,
-                nonfinite: survey.nonfinite > 0,
-                filtered: survey.filtered > 0,
-            }
-        };
+    fn batches<E: Kernels>(self, energy: &dyn TileMaterial<E>, precision: &'static str) -> Vec<Judgement> {
+        let f = self.case.deformation.map(E::splat);
+        let wide = |values: &[E]| values.iter().map(|&x| x.into()).collect::<Vec<f64>>();
         let judge = |backend| {
-            let plain = Batch::new(energy).with_backend(backend);
-            let clamped = plain.with_filter(Filter::Clamp);
-            let zero = narrow(0.0);
-            let (mut psi, mut stress) = ([zero], [zero; 9]);
-            let (mut stress_beside, mut tangent, mut projected) = ([zero; 9], [zero; 81], [zero; 81]);
-            let of_energy = status(plain.energies(&f, &mut psi));
-            let of_stress = status(plain.stresses(&f, &mut stress));
-            let of_clamped = status(clamped.tangents(&f, &mut stress_beside, &mut projected));
-            let of_plain = status(plain.tangents(&f, &mut stress_beside, &mut tangent));
+            let [plain, clamped] = [Filter::None, Filter::Clamp]
+                .map(|filter| Answers::of(Batch::new(energy).with_backend(backend).with_filter(filter), &f));
+            let ([of_energy, of_stress, of_plain], [_, _, of_clamped]) =
+                (plain.statuses[0], clamped.statuses[0]);
             let results = [
-                (Quantity::Energy, of_energy, wide(&psi)),
-                (Quantity::Stress, of_stress, wide(&stress)),
-                (Quantity::Stress, of_plain, wide(&stress_beside)),
-                (Quantity::Tangent, of_plain, wide(&tangent)),
-                (Quantity::Projected, of_clamped, wide(&projected)),
+                (Quantity::Energy, of_energy, wide(&plain.energies)),
+                (Quantity::Stress, of_stress, wide(&plain.stresses)),
+                (Quantity::Stress, of_plain, wide(&plain.beside)),
+                (Quantity::Tangent, of_plain, wide(&plain.tangents)),
+                (Quantity::Projected, of_clamped, wide(&clamped.tangents)),
             ];
-            self.verdicts(precision, E::UNIT_ROUNDOFF, |x| widen(narrow(x)).is_finite(), results)
+            self.verdicts(precision, E::UNIT_ROUNDOFF, |x| E::splat(x).is_finite(), results)
         };
         Backend::available().flat_map(judge).collect()
     }

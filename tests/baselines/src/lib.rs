@@ -30,6 +30,10 @@
 //! 2011. \[TSIF05\] Teran, Sifakis, Irving, Fedkiw, *Robust quasistatic finite elements and flesh
 //! simulation*, 2005.
 
+use ::nalgebra::RealField;
+use num_dual::{DualNum, DualNumFloat};
+use piola::Real;
+
 pub mod automatic;
 pub mod clamped;
 pub mod coincidences;
@@ -45,3 +49,13 @@ pub mod stability;
 pub mod svd_gradients;
 #[cfg(test)]
 mod testing;
+
+/// A format that every method computes in, whatever its library asks for: `f64` or `f32`.
+pub trait LibraryNumber:
+    Real<Mask = bool> + RealField + ::faer::traits::RealField + DualNumFloat + DualNum<Self>
+{
+}
+
+impl LibraryNumber for f64 {}
+
+impl LibraryNumber for f32 {}

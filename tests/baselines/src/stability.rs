@@ -5,18 +5,16 @@
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
-use std::path::Path;
 
-use piola::Inversion;
 use piola::material::Response;
-use piola::point::{Filter, Matrix3, Tangent, project};
-use piola::point::{Svd, decompose};
+use piola::point::{Filter, Matrix3, Tangent, decompose, project};
+use piola::{Inversion, Real};
 use piola_tests::cases::{Case, Quantity};
 use piola_tests::compiled;
-use piola_tests::energies::{self, Format as Judged, Subject};
+use piola_tests::energies::{self, Format, Subject};
 
 use crate::svd_gradients::{self, Regularization};
-use crate::{eigen, quotients};
+use crate::{LibraryNumber, eigen, quotients};
 
 /// The bound that every result of ours keeps, in units of u (‖X‖ + sens).
 pub const BOUND: f64 = 30.0;
@@ -47,37 +45,26 @@ enum Method {
     SvdGradients,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Format {
-    F64,
-    F32,
-}
-
-impl fmt::Display for Format {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::F64 => "f64",
-            Self::F32 => "f32",
-        })
-    }
-}
-
 /// The errors of all columns at one case; `None` where the exact result leaves the format.
 type Row = [Option<f64>; COLUMNS.len()];
+
+/// Rows by energy, by format, `f64` before `f32`, and by family.
+type Rows<'a> = BTreeMap<(&'a str, bool), BTreeMap<&'a str, Vec<Row>>>;
+
+fn name_of_format(is_single: bool) -> &'static str {
+    if is_single { "f32" } else { "f64" }
+}
 
 /// The document that `STABILITY.md` is: all methods at the reference cases, those of ordinary F excepted.
 ///
 /// # Errors
 /// Where the cases cannot be read, or one does not fit its material; says which and why.
 pub fn document() -> Result<String, String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reference");
-    let mut cases = Case::read(&folder.join("cases.json"))?;
-    cases.extend(Case::read(&folder.join("cases-more.json"))?);
-    report(&cases)
+    report(&Case::own(&["cases", "cases-more"])?)
 }
 
 fn report(cases: &[Case]) -> Result<String, String> {
-    let mut rows: BTreeMap<(&str, Format), BTreeMap<&str, Vec<Row>>> = BTreeMap::new();
+    let mut rows = Rows::new();
     for case in cases {
         let Some(energy) = energies::find(&case.material) else {
             return Err(format!("{}: {} is not in the catalogue", case.id, case.material));
@@ -87,8 +74,12 @@ fn report(cases: &[Case]) -> Result<String, String> {
         let subject = energy
             .subject(&values, Inversion::Refuse)
             .map_err(|error| format!("{}: {} {error}", case.id, case.material))?;
-        for (format, row) in Measure(case).all(&subject) {
-            rows.entry((energy.name, format)).or_default().entry(&case.tag).or_default().push(row);
+        let mut add = |is_single, row| {
+            rows.entry((energy.name, is_single)).or_default().entry(&case.tag).or_default().push(row);
+        };
+        add(false, row::<f64>(case, &subject));
+        if case.f32_exact {
+            add(true, row::<f32>(case, &subject));
         }
     }
     let mut text = String::from(INTRODUCTION);
@@ -122,21 +113,21 @@ table was made without fused operations, on baseline x86-64; `-C target-cpu=nati
 [SZLSB11] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 ";
 
-fn render(rows: &BTreeMap<(&str, Format), BTreeMap<&str, Vec<Row>>>, text: &mut String) -> fmt::Result {
-    for format in [Format::F64, Format::F32] {
-        writeln!(text, "\n## Summary, {format}\n")?;
+fn render(rows: &Rows<'_>, text: &mut String) -> fmt::Result {
+    for is_single in [false, true] {
+        writeln!(text, "\n## Summary, {}\n", name_of_format(is_single))?;
         writeln!(text, "Worst error of all families and, for K and S, number of results within {BOUND}.\n")?;
         header(text, "material")?;
         let mut all = Vec::new();
-        for ((material, _), families) in rows.iter().filter(|(key, _)| key.1 == format) {
+        for ((material, _), families) in rows.iter().filter(|(key, _)| key.1 == is_single) {
             let of_material: Vec<Row> = families.values().flatten().copied().collect();
             summary(text, material, &of_material)?;
             all.extend(of_material);
         }
         summary(text, "**all**", &all)?;
     }
-    for ((material, format), families) in rows {
-        writeln!(text, "\n## {material}, {format}\n")?;
+    for (&(material, is_single), families) in rows {
+        writeln!(text, "\n## {material}, {}\n", name_of_format(is_single))?;
         header(text, "family")?;
         for (family, rows) in families {
             write!(text, "| {family} | {} |", rows.len())?;
@@ -206,86 +197,46 @@ fn superscript(digit: char) -> char {
     digit.to_digit(10).map_or(digit, |digit| SUPERSCRIPTS[digit as usize])
 }
 
-/// All methods at one case, in every format that can hold its deformation gradient.
-struct Measure<'a>(&'a Case);
-
-/// A projection of 9×9 matrices.
-type Clamp<R> = fn(&[[R; 9]; 9]) -> Option<[[R; 9]; 9]>;
-
-impl Measure<'_> {
-    fn all(&self, subject: &Subject) -> Vec<(Format, Row)> {
-        let mut rows = vec![(Format::F64, self.row::<f64>(subject, eigen::clamp))];
-        if self.0.f32_exact {
-            rows.push((Format::F32, self.row::<f32>(subject, eigen::clamp)));
+/// The errors of all methods at one case.
+fn row<R: Format + LibraryNumber>(case: &Case, subject: &Subject) -> Row {
+    let (material, F) = (<R as Format>::of(subject), case.F::<R>());
+    COLUMNS.map(|(method, quantity)| {
+        let fits = |value: f64| Real::is_finite(<R as Real>::splat(value));
+        if !case.reference(quantity).into_iter().all(fits) {
+            return None;
         }
-        rows
-    }
-
-    fn row<R: Judged>(&self, subject: &Subject, clamp: Clamp<R>) -> Row {
-        let material = R::of(subject);
-        let deformation: Matrix3<R> =
-            std::array::from_fn(|i| std::array::from_fn(|j| R::splat(self.0.deformation[3 * i + j])));
-        COLUMNS.map(|(method, quantity)| {
-            let fits = |value: f64| R::splat(value).is_finite();
-            if !self.0.reference(quantity).into_iter().all(fits) {
-                return None;
-            }
-            let result = match quantity {
-                Quantity::Energy => Some(vec![compiled::evaluate_energy(material, &deformation).energy]),
-                Quantity::Stress => Some(
-                    compiled::evaluate_stress(material, &deformation).stress.into_iter().flatten().collect(),
-                ),
-                Quantity::Tangent => Some(method.tangent(material, &deformation).concat()),
-                Quantity::Projected => {
-                    method.projected(material, &deformation, clamp).map(|matrix| matrix.concat())
-                }
-            };
-            let result = result.map(|values| values.into_iter().map(R::widen).collect::<Vec<_>>());
-            // No result is as bad as one that is not a number.
-            let error = |values: Vec<f64>| self.0.error(quantity, &values, 0.0, R::UNIT_ROUNDOFF);
-            Some(result.map_or(f64::INFINITY, error))
-        })
-    }
+        let result = match quantity {
+            Quantity::Energy => Some(vec![compiled::evaluate_energy(material, &F).energy]),
+            Quantity::Stress => Some(compiled::evaluate_stress(material, &F).stress.concat()),
+            Quantity::Tangent => method.tangent(material, &F, Filter::None).map(|matrix| matrix.concat()),
+            Quantity::Projected => method.tangent(material, &F, Filter::Clamp).map(|matrix| matrix.concat()),
+        };
+        let result = result.map(|values| values.into_iter().map(R::widen).collect::<Vec<_>>());
+        // No result is as bad as one that is not a number.
+        let error = |values: Vec<f64>| case.error(quantity, &values, 0.0, R::UNIT_ROUNDOFF);
+        Some(result.map_or(f64::INFINITY, error))
+    })
 }
 
 impl Method {
-    /// dP/dF.
-    fn tangent<R: Judged>(self, material: &dyn Response<R>, F: &Matrix3<R>) -> [[R; 9]; 9] {
-        match self {
-            Self::SvdGradients => by_svd_gradients(material, F),
-            Self::Ours | Self::Naive | Self::Lhopital => self.blocks(material, F, Filter::None),
-        }
-    }
-
-    /// dP/dF made semidefinite; `None` where the method fails.
-    fn projected<R: Judged>(
+    /// dP/dF, filtered; `None` where the method fails.
+    fn tangent<R: Format + LibraryNumber>(
         self,
         material: &dyn Response<R>,
         F: &Matrix3<R>,
-        clamp: Clamp<R>,
+        filter: Filter,
     ) -> Option<[[R; 9]; 9]> {
-        match self {
-            Self::SvdGradients => clamp(&by_svd_gradients(material, F)),
-            Self::Ours | Self::Naive | Self::Lhopital => Some(self.blocks(material, F, Filter::Clamp)),
-        }
-    }
-
-    /// Computes dP/dF from flips and twists.
-    fn blocks<R: Judged>(self, material: &dyn Response<R>, F: &Matrix3<R>, filter: Filter) -> [[R; 9]; 9] {
-        let Svd { U, stretches, V } = decompose(material, F);
+        let svd = decompose(material, F);
         let blocks = match self {
-            Self::Naive => quotients::naive(material, stretches),
-            Self::Lhopital => quotients::lhopital(material, stretches, SWITCH),
-            Self::Ours | Self::SvdGradients => {
-                return compiled::evaluate(material, F, filter).tangent.to_matrix();
+            Self::Ours => return Some(compiled::evaluate(material, F, filter).tangent.to_matrix()),
+            Self::SvdGradients => {
+                let tangent = svd_gradients::tangent(material, &svd, Regularization::default());
+                return if filter == Filter::None { Some(tangent) } else { eigen::clamp(&tangent) };
             }
+            Self::Naive => quotients::naive(material, svd.stretches),
+            Self::Lhopital => quotients::lhopital(material, svd.stretches, SWITCH),
         };
         let (blocks, _) = project(&blocks, filter);
-        Tangent { U, V, blocks }.to_matrix()
+        Some(Tangent { U: svd.U, V: svd.V, blocks }.to_matrix())
     }
-}
-
-/// dP/dF by \[SZLSB11\], with its regularisation.
-fn by_svd_gradients<R: Judged>(material: &dyn Response<R>, F: &Matrix3<R>) -> [[R; 9]; 9] {
-    svd_gradients::tangent(material, &decompose(material, F), Regularization::default())
 }

@@ -26,9 +26,25 @@ pub(crate) fn exact<R: Real>(
 
 /// ‖found − expected‖ / ‖expected‖, Frobenius norms.
 pub(crate) fn error<R: Real + Into<f64>, const N: usize>(found: &[[R; N]; N], expected: &[[R; N]; N]) -> f64 {
-    let squares = |entry: &dyn Fn(usize, usize) -> f64| -> f64 {
-        (0..N * N).map(|k| entry(k / N, k % N).powi(2)).sum()
-    };
-    let difference = squares(&|i, j| found[i][j].into() - expected[i][j].into());
-    (difference / squares(&|i, j| expected[i][j].into())).sqrt()
+    distance(found, expected) / norm(expected)
+}
+
+/// ‖ΔP‖ and ‖ΔdP/dF‖ in units of u ‖dP/dF‖, as at rest P is zero and known to rounding of the moduli.
+pub(crate) fn errors_of<R: Real + Into<f64>>(
+    (stress, tangent): (Matrix3<R>, [[R; 9]; 9]),
+    material: &impl Material,
+    deformation: &Matrix3<R>,
+) -> [f64; 2] {
+    let (exact_stress, exact_tangent) = exact(material, deformation);
+    let distances = [distance(&stress, &exact_stress), distance(&tangent, &exact_tangent)];
+    distances.map(|distance| distance / norm(&exact_tangent) / R::UNIT_ROUNDOFF)
+}
+
+fn distance<R: Real + Into<f64>, const N: usize>(a: &[[R; N]; N], b: &[[R; N]; N]) -> f64 {
+    let squares = a.as_flattened().iter().zip(b.as_flattened()).map(|(&x, &y)| (x.into() - y.into()).powi(2));
+    squares.sum::<f64>().sqrt()
+}
+
+fn norm<R: Real + Into<f64>, const N: usize>(matrix: &[[R; N]; N]) -> f64 {
+    distance(matrix, &[[R::splat(0.0); N]; N])
 }

@@ -32,6 +32,10 @@ const RISE: f64 = 1e-12;
 /// Maximum number of bodies that are not back for which the seeds are named.
 const NAMED: usize = 5;
 
+/// Titles of the columns behind the first one.
+const HEADER: &str = "body | energy | start inside out | recovered | frames, median (most) | elsewhere |
+|---|---|---|---:|---:|---:|---|";
+
 #[derive(Parser)]
 struct Options {
     /// Number of random starts of each kind, from seed 1.
@@ -60,11 +64,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             Newton::Full => "full Newton",
         };
         writeln!(page, "## Scrambled, {name}\n")?;
-        writeln!(
-            page,
-            "| A | body | energy | start inside out | recovered | frames, median (most) | elsewhere |"
-        )?;
-        writeln!(page, "|---|---|---|---:|---:|---:|---|")?;
+        writeln!(page, "| A | {HEADER}")?;
         for &amplitude in &options.amplitude {
             for body in [Body::HORSE, Body::DINOSAUR] {
                 for material in &MATERIALS[..4] {
@@ -77,11 +77,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             }
         }
         writeln!(page, "\n## One start each, {name}\n")?;
-        writeln!(
-            page,
-            "| scene | body | energy | start inside out | recovered | frames, median (most) | elsewhere |"
-        )?;
-        writeln!(page, "|---|---|---|---:|---:|---:|---|")?;
+        writeln!(page, "| scene | {HEADER}")?;
         for (scene, bodies) in [
             (&INSIDE_OUT, &[Body::HORSE, Body::DINOSAUR][..]),
             (&POINT, &[Body::HORSE, Body::DINOSAUR]),

@@ -5,7 +5,9 @@
 
 use piola::__private::random::Random;
 
-use super::polynomial::Function;
+use super::polynomial::Function::{
+    self, Asinh, Atan, Cbrt, Cos, Cosh, Erf, Exp, ExpM1, Ln, Ln1p, Sigmoid, Sin, Sinh, Softplus, Sqrt, Tanh,
+};
 
 /// An invariant by its name in declarations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,10 +25,10 @@ pub enum Invariant {
 pub enum Expression {
     /// A number that is exact in decimal digits, numerator over denominator.
     Number(i32, i32),
-    /// A parameter that is a number.
-    Parameter(usize),
+    /// A parameter that is a number, by its name.
+    Parameter(String),
     /// The current entry of a parameter that is a list, inside of a sum over it.
-    Entry(usize),
+    Entry(String),
     /// An invariant.
     Invariant(Invariant),
     /// I1b − 3 or I2b − 3 as the base of a real power: a sum of squares, though it is printed as a
@@ -57,6 +59,7 @@ pub enum Expression {
 }
 
 use Expression as E;
+use Invariant::{I1, I1b, I2, I2b, J};
 
 /// A parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,7 +175,7 @@ impl Declaration {
             false => format!(", {name}: f64"),
         };
         let parameters: String = self.parameters.iter().map(parameter).collect();
-        let terms: Vec<_> = self.terms.iter().map(|term| self.text(term)).collect();
+        let terms: Vec<_> = self.terms.iter().map(text).collect();
         format!("pub fn Random([l1, l2, l3]: [f64; 3]{parameters}) -> f64 {{ {} }}", terms.join(" + "))
     }
 
@@ -184,62 +187,35 @@ impl Declaration {
         format!("#[material({})]\n{}\n{values}", self.arguments(), self.item())
     }
 
-    fn text(&self, expression: &Expression) -> String {
-        let of = |inner: &Expression| self.text(inner);
-        let name = |k: usize| &self.parameters[k].name;
-        match expression {
-            E::Number(numerator, denominator) => {
-                format!("{:?}", f64::from(*numerator) / f64::from(*denominator))
-            }
-            E::Parameter(k) => name(*k).clone(),
-            E::Entry(k) => format!("{}[p]", name(*k)),
-            E::Invariant(invariant) => format!("{invariant:?}"),
-            E::Excess(invariant) => format!("({invariant:?} - 3.0)"),
-            E::Stretch(k) => ["a", "b"][*k].to_owned(),
-            E::Add(a, b) => format!("({} + {})", of(a), of(b)),
-            E::Sub(a, b) => format!("({} - {})", of(a), of(b)),
-            E::Mul(a, b) => format!("({} * {})", of(a), of(b)),
-            E::Div(a, b) => format!("({} / {})", of(a), of(b)),
-            E::Whole(a, n) => format!("{}.powi({n})", of(a)),
-            E::Real(a, r) => format!("{}.powf({})", of(a), of(r)),
-            E::Of(function, a) => format!("{}.{}()", of(a), function.name()),
-            E::OverStretches(body) => format!("sum(|a| {})", of(body)),
-            E::OverPairs(body) => format!("sum(|a, b| {})", of(body)),
-            E::OverLists(body) => format!("sum(|p| {})", of(body)),
-        }
-    }
-
     /// Removes the parameters that no term names.
     fn with_used_parameters(mut self) -> Self {
-        let mut places = vec![None; self.parameters.len()];
-        self.terms.iter_mut().for_each(|term| {
-            each_parameter(term, &mut |k| places[*k] = Some(0));
-        });
-        let mut parameters = Vec::new();
-        for (parameter, place) in self.parameters.into_iter().zip(&mut places) {
-            if let Some(place) = place {
-                *place = parameters.len();
-                parameters.push(parameter);
-            }
-        }
-        self.terms.iter_mut().for_each(|term| {
-            each_parameter(term, &mut |k| *k = places[*k].unwrap_or(*k));
-        });
-        Self { parameters, ..self }
+        let terms: String = self.terms.iter().map(text).collect();
+        self.parameters.retain(|parameter| terms.contains(&parameter.name));
+        self
     }
 }
 
-fn each_parameter(expression: &mut Expression, show: &mut impl FnMut(&mut usize)) {
+/// An expression as it is printed.
+fn text(expression: &Expression) -> String {
     match expression {
-        E::Parameter(k) | E::Entry(k) => show(k),
-        E::Number(..) | E::Invariant(_) | E::Excess(_) | E::Stretch(_) => {}
-        E::Add(a, b) | E::Sub(a, b) | E::Mul(a, b) | E::Div(a, b) | E::Real(a, b) => {
-            each_parameter(a, show);
-            each_parameter(b, show);
+        E::Number(numerator, denominator) => {
+            format!("{:?}", f64::from(*numerator) / f64::from(*denominator))
         }
-        E::Whole(a, _) | E::Of(_, a) | E::OverStretches(a) | E::OverPairs(a) | E::OverLists(a) => {
-            each_parameter(a, show);
-        }
+        E::Parameter(name) => name.clone(),
+        E::Entry(name) => format!("{name}[p]"),
+        E::Invariant(invariant) => format!("{invariant:?}"),
+        E::Excess(invariant) => format!("({invariant:?} - 3.0)"),
+        E::Stretch(k) => ["a", "b"][*k].to_owned(),
+        E::Add(a, b) => format!("({} + {})", text(a), text(b)),
+        E::Sub(a, b) => format!("({} - {})", text(a), text(b)),
+        E::Mul(a, b) => format!("({} * {})", text(a), text(b)),
+        E::Div(a, b) => format!("({} / {})", text(a), text(b)),
+        E::Whole(a, n) => format!("{}.powi({n})", text(a)),
+        E::Real(a, r) => format!("{}.powf({})", text(a), text(r)),
+        E::Of(function, a) => format!("{}.{}()", text(a), function.name()),
+        E::OverStretches(body) => format!("sum(|a| {})", text(body)),
+        E::OverPairs(body) => format!("sum(|a, b| {})", text(body)),
+        E::OverLists(body) => format!("sum(|p| {})", text(body)),
     }
 }
 
@@ -261,19 +237,7 @@ struct Maker {
 }
 
 /// Functions whose derivatives are known everywhere.
-const SMOOTH: [Function; 11] = [
-    Function::Exp,
-    Function::Sinh,
-    Function::Cosh,
-    Function::Tanh,
-    Function::Asinh,
-    Function::Sin,
-    Function::Cos,
-    Function::Atan,
-    Function::Erf,
-    Function::ExpM1,
-    Function::Softplus,
-];
+const SMOOTH: [Function; 11] = [Exp, Sinh, Cosh, Tanh, Asinh, Sin, Cos, Atan, Erf, ExpM1, Softplus];
 
 impl Maker {
     fn one_of<T: Copy>(&mut self, all: &[T]) -> T {
@@ -298,7 +262,7 @@ impl Maker {
         }
     }
 
-    fn parameter(&mut self, meaning: Meaning, is_list: bool) -> usize {
+    fn parameter(&mut self, meaning: Meaning, is_list: bool) -> String {
         let k = self.parameters.len();
         let letter = match meaning {
             Meaning::Modulus => "mu",
@@ -312,8 +276,10 @@ impl Maker {
         };
         let count = if is_list { 2 } else { 1 };
         let values = (0..count).map(|_| self.value(meaning)).collect();
-        self.parameters.push(Parameter { name: format!("{letter}{k}"), values, is_list, above });
-        k
+        // No name is a part of another one.
+        let name = format!("{letter}{k:02}");
+        self.parameters.push(Parameter { name: name.clone(), values, is_list, above });
+        name
     }
 
     fn factor(&mut self, meaning: Meaning) -> Expression {
@@ -338,7 +304,7 @@ impl Maker {
         let (mu, alpha) = (self.parameter(Meaning::Modulus, true), self.parameter(Meaning::Exponent, true));
         let (mu, alpha) = (E::Entry(mu), E::Entry(alpha));
         let body = match self.random.below(if self.domain == Domain::Positive { 4 } else { 2 }) {
-            0 => real(E::Invariant(Invariant::I1), alpha.clone()),
+            0 => real(E::Invariant(I1), alpha.clone()),
             1 => {
                 let base = self.positive(false);
                 real(base, alpha.clone())
@@ -347,14 +313,13 @@ impl Maker {
             _ => {
                 let powers = E::OverStretches(Box::new(real(E::Stretch(0), alpha.clone())));
                 let third = div(mul(E::Number(-1, 1), alpha.clone()), E::Number(3, 1));
-                mul(real(E::Invariant(Invariant::J), third), powers)
+                mul(real(E::Invariant(J), third), powers)
             }
         };
         E::OverLists(Box::new(mul(div(mu, alpha), body)))
     }
 
     fn invariant(&mut self) -> Invariant {
-        use Invariant::{I1, I1b, I2, I2b, J};
         match self.domain {
             Domain::Positive => self.one_of(&[I1, I2, J, I1b, I2b]),
             Domain::Whole => self.one_of(&[I1, I2, J]),
@@ -366,12 +331,12 @@ impl Maker {
         match self.random.below(7) {
             0 | 1 => {
                 let invariant = self.invariant();
-                let at_rest = if invariant == Invariant::J { 1 } else { 3 };
+                let at_rest = if invariant == J { 1 } else { 3 };
                 let rate = self.factor(Meaning::Rate);
                 mul(rate, sub(E::Invariant(invariant), E::Number(at_rest, 1)))
             }
             2 => div(E::Invariant(self.invariant()), E::Number(4, 1)),
-            3 if self.domain == Domain::Positive => of(Function::Ln, E::Invariant(Invariant::J)),
+            3 if self.domain == Domain::Positive => of(Ln, E::Invariant(J)),
             4 => mul(E::Number(1, 2), self.over_stretches()),
             5 => mul(E::Number(1, 4), self.over_pairs()),
             _ if depth > 0 => self.shape(depth - 1),
@@ -383,19 +348,19 @@ impl Maker {
     fn positive(&mut self, may_be_excess: bool) -> Expression {
         let is_positive = self.domain == Domain::Positive;
         match self.random.below(7) {
-            0 if may_be_excess && is_positive => E::Excess(self.one_of(&[Invariant::I1b, Invariant::I2b])),
+            0 if may_be_excess && is_positive => E::Excess(self.one_of(&[I1b, I2b])),
             0 | 1 if is_positive => E::Invariant(self.invariant()),
-            2 => E::OverStretches(Box::new(of(Function::Cosh, E::Stretch(0)))),
-            3 => of(Function::Cosh, sub(E::Invariant(self.invariant()), E::Number(1, 1))),
+            2 => E::OverStretches(Box::new(of(Cosh, E::Stretch(0)))),
+            3 => of(Cosh, sub(E::Invariant(self.invariant()), E::Number(1, 1))),
             4 => {
                 let inner = self.quantity(0);
                 add(E::Number(1, 1), whole(inner, 2))
             }
             5 => {
                 let inner = self.quantity(0);
-                add(E::Number(1, 1), of(Function::Exp, inner))
+                add(E::Number(1, 1), of(Exp, inner))
             }
-            _ => add(E::Invariant(Invariant::I1), E::Number(1, 2)),
+            _ => add(E::Invariant(I1), E::Number(1, 2)),
         }
     }
 
@@ -410,13 +375,7 @@ impl Maker {
                 whole(self.quantity(depth.saturating_sub(1)), n)
             }
             3 => {
-                let function = self.one_of(&[
-                    Function::Ln,
-                    Function::Sqrt,
-                    Function::Cbrt,
-                    Function::Ln1p,
-                    Function::Sigmoid,
-                ]);
+                let function = self.one_of(&[Ln, Sqrt, Cbrt, Ln1p, Sigmoid]);
                 let base = self.positive(false);
                 of(function, base)
             }
@@ -467,14 +426,11 @@ impl Maker {
                 let function = self.one_of(&SMOOTH);
                 of(function, mul(self.factor(Meaning::Rate), whole(stretch(), 2)))
             }
-            6 => whole(of(Function::Ln, stretch()), self.one_of(&[1, 2, 4])),
+            6 => whole(of(Ln, stretch()), self.one_of(&[1, 2, 4])),
             7 => real(stretch(), self.factor(Meaning::Exponent)),
-            8 => of(self.one_of(&SMOOTH), of(Function::Ln, stretch())),
-            9 => of(
-                self.one_of(&[Function::Sqrt, Function::Cbrt, Function::Ln1p, Function::Sigmoid]),
-                stretch(),
-            ),
-            _ => mul(stretch(), of(Function::Ln, stretch())),
+            8 => of(self.one_of(&SMOOTH), of(Ln, stretch())),
+            9 => of(self.one_of(&[Sqrt, Cbrt, Ln1p, Sigmoid]), stretch()),
+            _ => mul(stretch(), of(Ln, stretch())),
         };
         E::OverStretches(Box::new(body))
     }
@@ -489,10 +445,10 @@ impl Maker {
             1 => whole(sub(a, b), self.one_of(&[2, 4])),
             2 => of(self.one_of(&SMOOTH), product),
             3 => of(self.one_of(&SMOOTH), add(a, b)),
-            4 => of(self.one_of(&[Function::Cosh, Function::Cos]), sub(a, b)),
-            5 => whole(of(Function::Ln, div(a, b)), 2),
+            4 => of(self.one_of(&[Cosh, Cos]), sub(a, b)),
+            5 => whole(of(Ln, div(a, b)), 2),
             6 => real(product, self.factor(Meaning::Exponent)),
-            _ => of(Function::Ln, add(a, b)),
+            _ => of(Ln, add(a, b)),
         };
         E::OverPairs(Box::new(body))
     }
@@ -502,22 +458,13 @@ impl Maker {
         let quantity = self.stationary();
         let shape = match self.random.below(6) {
             0 => quantity,
-            1 => of(
-                self.one_of(&[
-                    Function::ExpM1,
-                    Function::Sinh,
-                    Function::Atan,
-                    Function::Tanh,
-                    Function::Erf,
-                ]),
-                quantity,
-            ),
+            1 => of(self.one_of(&[ExpM1, Sinh, Atan, Tanh, Erf]), quantity),
             2 => whole(quantity, self.one_of(&[2, 3])),
-            3 => of(Function::Ln, add(E::Number(1, 1), whole(quantity, 2))),
+            3 => of(Ln, add(E::Number(1, 1), whole(quantity, 2))),
             4 => div(quantity, add(E::Number(2, 1), E::OverStretches(Box::new(whole(E::Stretch(0), 2))))),
             _ => match self.domain {
                 Domain::Positive => {
-                    let base = E::Excess(self.one_of(&[Invariant::I1b, Invariant::I2b]));
+                    let base = E::Excess(self.one_of(&[I1b, I2b]));
                     let power = match self.random.once_in(2) {
                         true => E::Parameter(self.parameter(Meaning::ExponentAboveOne, false)),
                         false => E::Number(5, 4),
@@ -535,24 +482,21 @@ impl Maker {
     fn stationary(&mut self) -> Expression {
         let stretch = || E::Stretch(0);
         let strain = || sub(stretch(), E::Number(1, 1));
-        let volume = || E::Invariant(Invariant::J);
+        let volume = || E::Invariant(J);
         match self.random.below(if self.domain == Domain::Positive { 10 } else { 4 }) {
             0 => E::OverStretches(Box::new(whole(strain(), 2))),
             1 => whole(sub(volume(), E::Number(1, 1)), 2),
             2 => E::OverStretches(Box::new(whole(sub(whole(stretch(), 2), E::Number(1, 1)), 2))),
             3 => E::OverPairs(Box::new(whole(sub(E::Stretch(0), E::Stretch(1)), 2))),
-            4 => sub(E::Invariant(Invariant::I1b), E::Number(3, 1)),
-            5 => sub(E::Invariant(Invariant::I2b), E::Number(3, 1)),
-            6 => whole(of(Function::Ln, volume()), 2),
-            7 => E::OverStretches(Box::new(whole(of(Function::Ln, stretch()), 2))),
+            4 => sub(E::Invariant(I1b), E::Number(3, 1)),
+            5 => sub(E::Invariant(I2b), E::Number(3, 1)),
+            6 => whole(of(Ln, volume()), 2),
+            7 => E::OverStretches(Box::new(whole(of(Ln, stretch()), 2))),
             8 => {
                 let square = whole(volume(), 2);
-                sub(div(sub(square, E::Number(1, 1)), E::Number(2, 1)), of(Function::Ln, volume()))
+                sub(div(sub(square, E::Number(1, 1)), E::Number(2, 1)), of(Ln, volume()))
             }
-            _ => sub(
-                sub(E::Invariant(Invariant::I1), E::Number(3, 1)),
-                mul(E::Number(2, 1), of(Function::Ln, volume())),
-            ),
+            _ => sub(sub(E::Invariant(I1), E::Number(3, 1)), mul(E::Number(2, 1), of(Ln, volume()))),
         }
     }
 }

@@ -243,16 +243,17 @@ struct Evaluator<'a> {
 impl Evaluator<'_> {
     fn value(&mut self, expression: &Expression) -> Quantity {
         use Expression as E;
-        let parameter = |k: usize, entry: usize| {
-            Quantity::constant(Number::splat(self.declaration.parameters[k].values[entry]))
+        let parameter = |name: &str, entry: usize| {
+            let found = self.declaration.parameters.iter().find(|parameter| parameter.name == name);
+            Quantity::constant(Number::splat(found.map_or(f64::NAN, |parameter| parameter.values[entry])))
         };
         match expression {
             E::Number(numerator, denominator) => {
                 let [numerator, denominator] = [numerator, denominator].map(|&n| Number::splat(f64::from(n)));
                 Quantity::constant(numerator / denominator).rounded()
             }
-            E::Parameter(k) => parameter(*k, 0),
-            E::Entry(k) => parameter(*k, self.entry),
+            E::Parameter(name) => parameter(name, 0),
+            E::Entry(name) => parameter(name, self.entry),
             E::Invariant(invariant) => self.invariant(*invariant),
             E::Excess(invariant) => {
                 let value = self.invariant(*invariant) + Quantity::constant(Number::splat(-3.0));

@@ -115,52 +115,45 @@ impl<R: Real, const N: usize> Mul for Polynomial<R, N> {
     }
 }
 
-/// A function of one variable.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(missing_docs, reason = "each is named like the method of `f64`")]
-pub enum Function {
-    Ln,
-    Exp,
-    Sqrt,
-    Cbrt,
-    Sinh,
-    Cosh,
-    Tanh,
-    Asinh,
-    Sin,
-    Cos,
-    Atan,
-    Erf,
-    ExpM1,
-    Ln1p,
-    Softplus,
-    Sigmoid,
+/// Declares functions of [`Real`] by their methods.
+macro_rules! functions {
+    ($($Function:ident $method:ident,)*) => {
+        /// A function of one variable.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[expect(missing_docs, reason = "each is named like the method of `f64`")]
+        pub enum Function {
+            $($Function,)*
+        }
+
+        impl Function {
+            /// All of them.
+            pub const ALL: &[Self] = &[$(Self::$Function,)*];
+
+            /// Its name as a method.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$Function => stringify!($method),)*
+                }
+            }
+
+            /// φ at x.
+            #[must_use]
+            pub fn of<R: Real>(self, x: R) -> R {
+                match self {
+                    $(Self::$Function => x.$method(),)*
+                }
+            }
+        }
+    };
+}
+
+functions! {
+    Ln ln, Exp exp, Sqrt sqrt, Cbrt cbrt, Sinh sinh, Cosh cosh, Tanh tanh, Asinh asinh, Sin sin, Cos cos,
+    Atan atan, Erf erf, ExpM1 exp_m1, Ln1p ln_1p, Softplus softplus, Sigmoid sigmoid,
 }
 
 impl Function {
-    /// Its name as a method.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ln => "ln",
-            Self::Exp => "exp",
-            Self::Sqrt => "sqrt",
-            Self::Cbrt => "cbrt",
-            Self::Sinh => "sinh",
-            Self::Cosh => "cosh",
-            Self::Tanh => "tanh",
-            Self::Asinh => "asinh",
-            Self::Sin => "sin",
-            Self::Cos => "cos",
-            Self::Atan => "atan",
-            Self::Erf => "erf",
-            Self::ExpM1 => "exp_m1",
-            Self::Ln1p => "ln_1p",
-            Self::Softplus => "softplus",
-            Self::Sigmoid => "sigmoid",
-        }
-    }
-
     /// φ, φ′, φ″/2, φ‴/6 at x.
     #[must_use]
     pub fn taylor<R: Real>(self, x: R) -> [R; 4] {

@@ -5,38 +5,12 @@
 
 use piola::batch::{Batch, Layout, TileMaterial};
 use piola::lanes::Backend;
-use piola_tests::answers::Answers;
+use piola_tests::answers::{Answers, COUNT, HUGE, deformations};
 use piola_tests::declarations::{Sample, slices};
 use piola_tests::is_full;
 
-/// More than two tiles, and not a whole number of lines.
-const COUNT: usize = 150;
-
-/// A deformation gradient out of the range of the invariants.
-const HUGE: usize = 41;
-
-/// Deformation gradients from gentle to inside out, a rank-deficient one and a huge one.
-fn deformations() -> Vec<[f64; 9]> {
-    let mut all: Vec<[f64; 9]> = (0..COUNT)
-        .map(|p| {
-            let turn = 0.7 * p as f64;
-            let shear = 0.4 * turn.sin();
-            let last = if p % 7 == 3 { -0.5 } else { 0.5 + (0.3 * turn.cos()).abs() };
-            [1.0 + 0.3 * turn.cos(), shear, 0.1, -0.2 * shear, 1.1, shear, 0.05, 0.2, last]
-        })
-        .collect();
-    all[40] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
-    all[HUGE] = [1e60, 0.0, 0.0, 0.0, 1e60, 0.0, 0.0, 0.0, 1e60];
-    all
-}
-
 fn answers(energy: &dyn TileMaterial<f64>, backend: Backend, all: &[[f64; 9]]) -> Answers<f64> {
     Answers::of(Batch::new(energy).with_backend(backend), all.as_flattened())
-}
-
-/// As bits, so that NaN equals itself.
-fn bits(numbers: &[f64]) -> Vec<u64> {
-    numbers.iter().map(|x| x.to_bits()).collect()
 }
 
 pub(crate) fn judge(sample: &Sample) {
@@ -71,15 +45,7 @@ fn points_get_what_they_would_get_alone(
         for (refused, survey) in refused.iter_mut().zip(&alone.surveys) {
             *refused += survey.refused;
         }
-        assert_eq!(together.statuses[p..p + count], alone.statuses, "{what}, point {p}");
-        for (together, alone) in [
-            (&together.energies[p..][..count], &alone.energies),
-            (&together.stresses[9 * p..][..9 * count], &alone.stresses),
-            (&together.beside[9 * p..][..9 * count], &alone.beside),
-            (&together.tangents[81 * p..][..81 * count], &alone.tangents),
-        ] {
-            assert_eq!(bits(together), bits(alone), "{what}, point {p}");
-        }
+        together.check(what, p, &alone);
         p += count;
     }
     assert_eq!(together.surveys.each_ref().map(|survey| survey.refused), refused, "{what}");

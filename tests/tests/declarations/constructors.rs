@@ -1,18 +1,13 @@
 //! What constructors refuse, and with which message.
 
 use piola::Inversion;
-use piola_materials::CATALOGUE;
 use piola_tests::declarations::{Sample, slices, values};
-use piola_tests::declared::declarations;
-use piola_tests::energies::ENERGIES;
 
 const EXTEND: Inversion = Inversion::Extend { epsilon: 0.5 };
 
 /// Trials that are not about each energy.
-pub(crate) const TRIALS: [(&str, fn()); 2] = [
-    ("constructors::compiled_ones_refuse_what_is_inadmissible", compiled_ones_refuse_what_is_inadmissible),
-    ("the_catalogue_is_complete_and_sorted", the_catalogue_is_complete_and_sorted),
-];
+pub(crate) const TRIALS: [(&str, fn()); 1] =
+    [("constructors::compiled_ones_refuse_what_is_inadmissible", compiled_ones_refuse_what_is_inadmissible)];
 
 /// What must be refused is, and what a material is made of is what it returns.
 pub(crate) fn judge(sample: &Sample) {
@@ -34,27 +29,7 @@ pub(crate) fn judge(sample: &Sample) {
     }
 }
 
-fn the_catalogue_is_complete_and_sorted() {
-    let declared = declarations().expect("the catalogue's sources");
-    for declaration in &declared {
-        let name = declaration.name.to_string();
-        assert!(
-            ENERGIES.iter().any(|energy| energy.description().name == *name),
-            "{name} is not in the catalogue"
-        );
-    }
-    assert_eq!(declared.len(), ENERGIES.len());
-    assert!(ENERGIES.is_sorted_by_key(|energy| energy.name), "energies stand in the order of their names");
-    assert!(CATALOGUE.is_sorted_by_key(|entry| entry.name), "entries stand in the order of their names");
-    for energy in ENERGIES.iter() {
-        let (name, description) = (energy.name, energy.description());
-        assert!(!description.summary.is_empty() && !description.formula.is_empty(), "{name} is documented");
-        for parameter in description.parameters.iter() {
-            assert!(!parameter.doc.is_empty(), "{name}: {} is documented", parameter.name);
-        }
-    }
-}
-
+/// What no remark of a text says: messages about the energies of the catalogue, and by name.
 fn compiled_ones_refuse_what_is_inadmissible() {
     let message = |name: &str, values: &[&[f64]], inversion| {
         // Of the compiled constructor: the lists of the catalogue have a few lengths only.
@@ -64,18 +39,8 @@ fn compiled_ones_refuse_what_is_inadmissible() {
     let check =
         |found: String, expected: &str| assert!(found.contains(expected), "{found}\nlacks {expected}");
     let plain = Inversion::Refuse;
-    check(
-        message("st_venant_kirchhoff", &[&[f64::NAN], &[1.0]], plain),
-        "`mu` is NaN; it must be a finite number",
-    );
-    check(
-        message("ogden", &[&[1.0, 1.0], &[2.0, f64::INFINITY], &[1.0]], plain),
-        "`alpha[1]` is inf; it must",
-    );
-    check(message("st_venant_kirchhoff", &[&[-1.0], &[1.0]], plain), "`mu > 0` must hold, but mu = -1");
     check(message("st_venant_kirchhoff", &[&[1.0], &[-1.0]], plain), "bulk modulus is");
     check(message("st_venant_kirchhoff", &[&[1.0]], plain), "2 parameters are expected: `mu`, `lambda`");
-    check(message("st_venant_kirchhoff", &[&[1.0], &[1.0, 2.0]], plain), "`lambda` must be one number");
     check(
         message("st_venant_kirchhoff", &[&[1.0], &[1.0]], EXTEND),
         "StVenantKirchhoff has no extension beyond its domain: it is defined for every deformation gradient already",
@@ -84,16 +49,8 @@ fn compiled_ones_refuse_what_is_inadmissible() {
         message("mooney_rivlin", &[&[1.0], &[1.0], &[1.0]], EXTEND),
         "do not push a collapsed point open; use `Inversion::Refuse`",
     );
-    check(
-        message("ogden", &[&[1.0, 1.0], &[2.0, 0.0], &[1.0]], plain),
-        "`alpha[p] != 0` must hold, but alpha[1] = 0",
-    );
     check(message("ogden", &[&[1.0, 1.0], &[2.0], &[1.0]], plain), "`alpha` must have 2 entries");
     check(message("ogden", &[&[1.0; 4], &[2.0; 4], &[1.0]], plain), "have 1, 2, 3 entries by name, not 4");
-    check(
-        message("ogden", &[&[2.0, 1.0], &[2.0, -1.0], &[1.0]], EXTEND),
-        "`mu[p] * alpha[p] > 0` must hold, but mu[1] = 1, alpha[1] = -1",
-    );
     for epsilon in [-0.1, 0.0, 1.0, 1.5, f64::INFINITY, f64::NAN] {
         let found = message("neo_hookean", &[&[1.0], &[1.0]], Inversion::Extend { epsilon });
         check(found, &format!("threshold epsilon is {epsilon}; it must satisfy 0 < epsilon < 1"));

@@ -1,4 +1,4 @@
-//! Every energy is printed as C, which a C compiler reads without a warning.
+//! Every energy is printed as C, which compilers of C and C++ read without a warning.
 
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -7,14 +7,15 @@ use piola_declare::emit::{Emission, EmitError, PointFunction, Target};
 use piola_tests::declarations::{Sample, slices};
 use piola_tests::is_full;
 
-const STRICT: [&str; 7] =
-    ["-fsyntax-only", "-xc", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
+/// Compilers with the language and its standard. The text is compiled alone, so that no function is called:
+/// clang warns of these more often than gcc.
+const COMPILERS: [[&str; 3]; 3] =
+    [["cc", "-xc", "-std=c99"], ["clang", "-xc", "-std=c99"], ["c++", "-xc++", "-std=c++17"]];
 
-/// `tests/emit.rs` judges those of the catalogue.
+const STRICT: [&str; 6] = ["-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
+
+/// Judges all functions by all compilers that there are, or, unless all is judged, two functions by one.
 pub(crate) fn judge(sample: &Sample) {
-    if sample.is_of_catalogue {
-        return;
-    }
     let Some(values) = sample.values().into_iter().next() else { return };
     for inversion in sample.judged.inversions(0.3) {
         let mut emission = Emission::new(Target::C).with_prefix("energy");
@@ -30,9 +31,20 @@ pub(crate) fn judge(sample: &Sample) {
             }
             Err(error) => panic!("{inversion:?}: {error}"),
         };
-        let mut compiler =
-            Command::new("cc").args(STRICT).arg("-").stdin(Stdio::piped()).spawn().expect("a C compiler");
-        compiler.stdin.take().expect("its input").write_all(text.as_bytes()).expect("read by the compiler");
-        assert!(compiler.wait().expect("a C compiler").success(), "{text}");
+        for &[compiler, language, standard] in &COMPILERS[..if is_full() { 3 } else { 1 }] {
+            let mut command = Command::new(compiler);
+            command.args(STRICT).args([language, standard, "-"]).stdin(Stdio::piped());
+            let Ok(mut running) = command.spawn() else {
+                assert_ne!(compiler, "cc", "a C compiler is needed");
+                continue;
+            };
+            running
+                .stdin
+                .take()
+                .expect("its input")
+                .write_all(text.as_bytes())
+                .expect("read by the compiler");
+            assert!(running.wait().expect("the compiler").success(), "{compiler}: {text}");
+        }
     }
 }

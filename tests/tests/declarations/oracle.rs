@@ -6,25 +6,14 @@ use piola::Real;
 use piola::material::{Blocks, MaterialError};
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::algebra::interpret::{Estimate, Point, evaluate};
-use piola_codegen::model::{Model, Variant, model};
+use piola_codegen::model::{Model, Variant};
 use piola_codegen::read::domain::Volume;
-use piola_codegen::read::parse::{Declaration, parse};
 use piola_tests::declarations::{Sample, slices};
+use piola_tests::declared::understood;
 use piola_tests::energies::{Format, Subject};
 
-/// The declaration of a text, and its expressions.
-pub(crate) fn understood(text: &str) -> (Declaration, Model) {
-    let mut all = piola_codegen::declarations(text).expect("Rust");
-    let (Some((arguments, item)), true) = (all.pop(), all.is_empty()) else {
-        panic!("one declaration: {text}")
-    };
-    let declaration = parse(arguments, item).unwrap_or_else(|error| panic!("{error}: {text}"));
-    let model = model(&declaration).unwrap_or_else(|error| panic!("{error}: {text}"));
-    (declaration, model)
-}
-
 pub(crate) fn judge(sample: &Sample) {
-    let (declaration, model) = understood(&sample.text.source);
+    let (declaration, model) = understood(&sample.text.source).expect("one declaration");
     crate::powers::judge(sample, &model);
     crate::printed::judge(sample, &model);
     // What a function that is a parameter computes is unknown to the interpreter; the contract judges it.

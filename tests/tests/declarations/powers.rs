@@ -8,8 +8,7 @@ use piola_codegen::algebra::interpret::{Estimate, Point, evaluate};
 use piola_codegen::model::Model;
 use piola_declare::Energy;
 use piola_tests::declarations::{Sample, Text, Values, find, slices, values};
-
-use crate::oracle::understood;
+use piola_tests::declared::understood;
 
 /// Trials that are not about each energy.
 pub(crate) const TRIALS: [(&str, fn()); 3] = [
@@ -66,7 +65,7 @@ fn results(model: &Model) -> Vec<Id> {
 /// Compares a series with its terms written out, if a remark says its exponents.
 pub(crate) fn judge(sample: &Sample, lists: &Model) {
     let Some(exponents) = sample.text.remarks("exponents").next().map(values) else { return };
-    let (_, written) = understood(&written(&sample.text, &exponents));
+    let (_, written) = understood(&written(&sample.text, &exponents)).expect("one declaration");
     assert_eq!(lists.plain.has_pole, written.plain.has_pole);
     assert_eq!(lists.invariants.is_some(), written.invariants.is_some());
     assert_eq!(results(lists).len(), results(&written).len());

@@ -1,7 +1,7 @@
 //! Dependencies between the modules of a crate: paths are followed through re-exports to where an item is
 //! defined.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use quote::ToTokens;
 use syn::{Item, UseTree, Visibility};
@@ -29,9 +29,8 @@ pub struct Graph<'a> {
     /// Under this name the crate may call itself.
     own_name: &'a str,
     children: HashMap<(usize, String), usize>,
-    defined: HashMap<(usize, String), ()>,
+    defined: HashSet<(usize, String)>,
     brought_in: HashMap<(usize, String), Vec<String>>,
-    globs: HashMap<usize, Vec<Vec<String>>>,
 }
 
 impl<'a> Graph<'a> {
@@ -42,9 +41,8 @@ impl<'a> Graph<'a> {
             modules: &of.modules,
             own_name: &of.name,
             children: HashMap::new(),
-            defined: HashMap::new(),
+            defined: HashSet::new(),
             brought_in: HashMap::new(),
-            globs: HashMap::new(),
         };
         for (index, module) in of.modules.iter().enumerate() {
             if let (Some(parent), Some(name)) = (module.parent, module.path.last()) {
@@ -54,7 +52,7 @@ impl<'a> Graph<'a> {
                 if let Item::Use(item) = item {
                     graph.bring_in(index, &[], &item.tree);
                 } else if let Some((_, name, _)) = name_of(item) {
-                    graph.defined.insert((index, name), ());
+                    graph.defined.insert((index, name));
                 }
             }
         }
@@ -66,7 +64,8 @@ impl<'a> Graph<'a> {
         match tree {
             UseTree::Path(path) => self.bring_in(module, &joined(&path.ident.to_string()), &path.tree),
             UseTree::Group(group) => group.items.iter().for_each(|tree| self.bring_in(module, prefix, tree)),
-            UseTree::Glob(_) => self.globs.entry(module).or_default().push(prefix.to_vec()),
+            // Nothing is looked for behind one: only `__private` of piola has any of its own items.
+            UseTree::Glob(_) => {}
             UseTree::Name(name) if name.ident == "self" => {
                 if let Some(last) = prefix.last() {
                     self.brought_in.insert((module, last.clone()), prefix.to_vec());
@@ -111,7 +110,7 @@ impl<'a> Graph<'a> {
             "super" => (self.modules[from].parent?, &segments[1..]),
             _ if self.children.contains_key(&key)
                 || self.brought_in.contains_key(&key)
-                || (depth > 0 && self.defined.contains_key(&key)) =>
+                || (depth > 0 && self.defined.contains(&key)) =>
             {
                 (from, segments)
             }
@@ -123,20 +122,14 @@ impl<'a> Graph<'a> {
                 at = self.modules[at].parent?;
             } else if let Some(&child) = self.children.get(&key) {
                 at = child;
-            } else if self.defined.contains_key(&key) || name == "self" || name == "*" {
+            } else if self.defined.contains(&key) || name == "self" || name == "*" {
                 return Some(at);
             } else if let Some(target) = self.brought_in.get(&key).filter(|_| depth < 16) {
                 let whole: Vec<String> = target.iter().chain(behind).cloned().collect();
                 // What comes from another crate belongs to nobody here.
                 return self.resolve(at, &whole, depth + 1);
             } else {
-                let through = |glob: &Vec<String>| {
-                    let whole: Vec<String> = glob.iter().chain(rest).cloned().collect();
-                    let found = self.resolve(at, &whole, depth + 1)?;
-                    self.defined.contains_key(&(found, rest.last()?.clone())).then_some(found)
-                };
-                let globs = self.globs.get(&at).filter(|_| depth < 16);
-                return globs.and_then(|globs| globs.iter().find_map(through)).or(Some(at));
+                return Some(at);
             }
             rest = behind;
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use piola_tidy::{Module, crates, files, forbid};
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::visit::{self, Visit};
 use syn::{Attribute, Block, ImplItemFn, Item, ItemFn, ReturnType, Signature, TraitItemFn, Visibility};
@@ -23,18 +23,11 @@ fn what_panics_says_so_and_returns_no_result() {
     let mut judged = 0;
     for one in crates().iter().filter(|one| one.is_published) {
         for module in &one.modules {
-            for item in &module.items {
-                let mut functions = Functions::default();
-                functions.visit_item(item);
-                judged += functions.found.len();
-                let guilty = functions.found.iter().filter(|function| {
-                    !panics(function.body.clone()).is_empty()
-                        && (!function.says_so || function.returns_result)
-                });
-                found.extend(guilty.map(|function| {
-                    let line = function.signature.ident.span().start().line;
-                    format!("{}:{line}: {}", module.file.display(), function.signature.ident)
-                }));
+            for Function { name, body, says_so, returns_result, .. } in functions(module) {
+                judged += 1;
+                if !panics(body).is_empty() && (!says_so || returns_result) {
+                    found.push(format!("{}:{}: {name}", module.file.display(), name.span().start().line));
+                }
             }
         }
     }
@@ -57,19 +50,13 @@ fn what_returns_a_result_is_tried_with_hostile_arguments() {
         |name: &'static str| crates.iter().filter(move |one| one.name == name).flat_map(|one| &one.modules);
     let is_batch = |module: &&Module| module.path.first().is_some_and(|floor| floor == "batch");
     for module in of("piola").filter(is_batch).chain(of("piola_bodies")) {
-        for item in &module.items {
-            let mut functions = Functions::default();
-            functions.visit_item(item);
-            for function in
-                functions.found.iter().filter(|function| function.is_public && function.returns_result)
-            {
-                judged += 1;
-                let name = function.signature.ident.to_string();
-                // Constructors are distinguished by the name of the type.
-                let called = if name == "new" { function.owner.clone().unwrap_or(name) } else { name };
-                if !tried.contains(&called) {
-                    found.push(format!("{}: {called}", module.file.display()));
-                }
+        let returning = functions(module).into_iter().filter(|one| one.is_public && one.returns_result);
+        for Function { name, owner, .. } in returning {
+            judged += 1;
+            // Constructors are distinguished by the name of the type.
+            let called = owner.filter(|_| name == "new").unwrap_or_else(|| name.to_string());
+            if !tried.contains(&called) {
+                found.push(format!("{}: {called}", module.file.display()));
             }
         }
     }
@@ -79,7 +66,7 @@ fn what_returns_a_result_is_tried_with_hostile_arguments() {
 
 /// A function of an item, with the facts that these tests need.
 struct Function {
-    signature: Signature,
+    name: Ident,
     body: TokenStream,
     /// The type that it is a method of.
     owner: Option<String>,
@@ -88,7 +75,16 @@ struct Function {
     returns_result: bool,
 }
 
-/// The functions of an item and its methods.
+/// The functions and methods of a module.
+fn functions(module: &Module) -> Vec<Function> {
+    let mut functions = Functions::default();
+    for item in &module.items {
+        (functions.owner, functions.is_of_trait) = (None, false);
+        functions.visit_item(item);
+    }
+    functions.found
+}
+
 #[derive(Default)]
 struct Functions {
     found: Vec<Function>,
@@ -113,7 +109,7 @@ impl Functions {
             }
         };
         self.found.push(Function {
-            signature: signature.clone(),
+            name: signature.ident.clone(),
             body: body.to_token_stream(),
             owner: self.owner.clone(),
             is_public: matches!(visibility, Some(Visibility::Public(_))),

@@ -8,6 +8,7 @@ use num_dual::{DualNum, DualNumFloat};
 
 use super::Potential;
 pub use crate::invariants::{NeoHookean, StVenantKirchhoff};
+pub use crate::polar::RotatedLinear;
 
 /// Σₚ μₚ/αₚ (λ1^αₚ + λ2^αₚ + λ3^αₚ − 3) − (Σₚ μₚ) ln J + κ/2 (J − 1)².
 #[derive(Clone, Copy, Debug)]
@@ -18,15 +19,6 @@ pub struct Ogden<const N: usize> {
     pub alpha: [f64; N],
     /// Volumetric modulus κ, Pa.
     pub kappa: f64,
-}
-
-/// μ Σ (λi − 1)² + λ/2 (λ1 + λ2 + λ3 − 3)².
-#[derive(Clone, Copy, Debug)]
-pub struct RotatedLinear {
-    /// Shear modulus μ, Pa.
-    pub mu: f64,
-    /// First Lamé parameter λ, Pa.
-    pub lambda: f64,
 }
 
 /// μ Σ (ln λi)² + λ/2 (ln J)².
@@ -74,6 +66,7 @@ impl<const N: usize> Potential for Ogden<N> {
     }
 }
 
+/// μ Σ (λi − 1)² + λ/2 (λ1 + λ2 + λ3 − 3)².
 impl Potential for RotatedLinear {
     #[inline(always)]
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {

@@ -26,17 +26,6 @@ pub struct NeoHookean {
     pub lambda: f64,
 }
 
-/// c10 (I1 − 3) + c01 (I2 − 3) − 2 (c10 + 2 c01) ln J + κ/2 (J − 1)², the coupled Mooney–Rivlin solid.
-#[derive(Clone, Copy, Debug)]
-pub struct MooneyRivlin {
-    /// Modulus C10, Pa.
-    pub c10: f64,
-    /// Modulus C01, Pa.
-    pub c01: f64,
-    /// Volumetric modulus κ, Pa.
-    pub kappa: f64,
-}
-
 /// ψ = μ/4 (II − 2 I + 3) + λ/8 (I − 3)².
 impl InvariantEnergy for StVenantKirchhoff {
     #[inline(always)]
@@ -63,25 +52,6 @@ impl InvariantEnergy for NeoHookean {
         Derivatives {
             gradient: [R::splat(self.mu / 2.0), zero, slope * inverse],
             hessian: [[zero; 3], [zero; 3], [zero, zero, psi_III_III]],
-        }
-    }
-}
-
-/// ψ = c10 (I − 3) + c01 ((I² − II)/2 − 3) − (c10 + 2 c01) ln III + κ/2 (√III − 1)².
-impl InvariantEnergy for MooneyRivlin {
-    #[inline(always)]
-    fn derivatives<R: Real>(&self, [I, _, III]: [R; 3]) -> Derivatives<R> {
-        let zero = R::splat(0.0);
-        let c01 = R::splat(self.c01);
-        let half = R::splat(self.kappa / 2.0);
-        let log = R::splat(self.c10 + 2.0 * self.c01);
-        let inverse = R::splat(1.0) / III;
-        let inverse_root = inverse * III.sqrt();
-        let psi_III = half.mul_add(R::splat(1.0) - inverse_root, -(log * inverse));
-        let psi_III_III = (half * R::splat(0.5)).mul_add(inverse_root, log * inverse) * inverse;
-        Derivatives {
-            gradient: [I.mul_add(c01, R::splat(self.c10)), R::splat(-self.c01 / 2.0), psi_III],
-            hessian: [[c01, zero, zero], [zero; 3], [zero, zero, psi_III_III]],
         }
     }
 }

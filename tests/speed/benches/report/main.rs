@@ -25,6 +25,7 @@ use piola_tests::cases::Case;
 mod charts;
 mod data;
 mod growth;
+mod markdown;
 mod page;
 mod point;
 mod steps;
@@ -105,7 +106,8 @@ fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>
         growth: Vec::new(),
     };
     if asked(Section::Point) {
-        let cases = cases()?;
+        // Those whose energies take part.
+        let cases = Case::own(&["cases", "cases-ordinary"])?;
         let progress = bar("point", point::count(&cases));
         report.rows = point::rows(&cases, effort(arguments.quick), &progress)?;
         progress.finish_and_clear();
@@ -139,14 +141,6 @@ fn commit() -> Option<String> {
 fn effort(is_quick: bool) -> Effort {
     let (repeats, at_most) = if is_quick { (5, 2) } else { (41, 100) };
     Effort { repeats, at_least: Duration::from_micros(30), at_most: Duration::from_millis(at_most) }
-}
-
-/// The cases of `tests/reference` whose energies take part.
-fn cases() -> Result<Vec<Case>, String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../reference");
-    let mut cases = Case::read(&folder.join("cases.json"))?;
-    cases.extend(Case::read(&folder.join("cases-ordinary.json"))?);
-    Ok(cases)
 }
 
 fn bar(section: &'static str, length: u64) -> ProgressBar {

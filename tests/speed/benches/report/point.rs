@@ -3,22 +3,25 @@
 //! Each family of cases is a contest of its own: all methods get its deformation gradients in one run, in
 //! turns, and what they leave behind is judged.
 
+use std::any::type_name;
 use std::collections::{BTreeMap, BTreeSet};
 use std::hint::black_box;
 
 use indicatif::ProgressBar;
+use piola::Real;
+use piola::batch::Kernels;
 use piola_speed::{Effort, Times, front, time_all_in_turns};
 use piola_tests::cases::{Case, Quantity};
 
 use crate::data::PointRow;
 
 mod contestant;
+mod energies;
 mod methods;
-mod subject;
 
 use contestant::{Contestant, Number, Output, POINTS, Points};
+use energies::{ENERGIES, contestants};
 pub(crate) use methods::{OURS, OURS_AS_A_SCALAR};
-use subject::Subject;
 
 /// The family of F = I + 0.3 X, entries of X uniform in [−1, 1).
 pub(crate) const ORDINARY: &str = "ordinary";
@@ -57,29 +60,34 @@ impl Work {
 /// Where a case does not fit its material.
 pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Result<Vec<PointRow>, String> {
     let mut rows = Vec::new();
-    subject::for_each!(Subject => {
-        progress.set_message(Subject::NAME);
-        contests::<Subject, f64>(cases, effort, progress, &mut rows)?;
-        contests::<Subject, f32>(cases, effort, progress, &mut rows)?;
-    });
+    for (name, in_catalogue) in ENERGIES {
+        progress.set_message(name);
+        let cases = of_energy(in_catalogue, cases);
+        contests::<f64>(name, &cases, effort, progress, &mut rows)?;
+        contests::<f32>(name, &cases, effort, progress, &mut rows)?;
+    }
     Ok(rows)
 }
 
 /// Number of contests: the steps of the progress bar.
 pub(crate) fn count(cases: &[Case]) -> u64 {
-    let mut count = 0;
-    subject::for_each!(Subject => {
-        count += Work::ALL.len() * (families::<Subject, f64>(cases).len() + families::<Subject, f32>(cases).len());
-    });
-    count as u64
+    let of_one = |(_, in_catalogue)| {
+        let cases = of_energy(in_catalogue, cases);
+        families::<f64>(&cases).len() + families::<f32>(&cases).len()
+    };
+    (Work::ALL.len() * ENERGIES.into_iter().map(of_one).sum::<usize>()) as u64
 }
 
-/// The cases of a subject that a format can hold, by family.
-fn families<S: Subject, E: Number>(cases: &[Case]) -> BTreeMap<&str, Vec<&Case>> {
+fn of_energy<'a>(in_catalogue: &str, cases: &'a [Case]) -> Vec<&'a Case> {
+    cases.iter().filter(|case| case.material == in_catalogue).collect()
+}
+
+/// The cases that a format can hold, by family.
+fn families<'a, E: Kernels>(cases: &[&'a Case]) -> BTreeMap<&'a str, Vec<&'a Case>> {
     let mut families: BTreeMap<&str, Vec<&Case>> = BTreeMap::new();
-    for case in cases.iter().filter(|case| case.material == S::IN_CATALOGUE) {
-        let fits = |quantity| case.reference(quantity).into_iter().all(|x| E::fits(x));
-        let is_exact = E::IS_DOUBLE || case.f32_exact;
+    for case in cases {
+        let fits = |quantity| case.reference(quantity).into_iter().all(|x| E::splat(x).is_finite());
+        let is_exact = E::UNIT_ROUNDOFF == f64::UNIT_ROUNDOFF || case.f32_exact;
         if is_exact && [Quantity::Stress, Quantity::Tangent, Quantity::Projected].into_iter().all(fits) {
             families.entry(&case.tag).or_default().push(case);
         }
@@ -87,36 +95,38 @@ fn families<S: Subject, E: Number>(cases: &[Case]) -> BTreeMap<&str, Vec<&Case>>
     families
 }
 
-fn contests<S: Subject, E: Number>(
-    cases: &[Case],
+fn contests<E: Number>(
+    energy: &'static str,
+    cases: &[&Case],
     effort: Effort,
     progress: &ProgressBar,
     rows: &mut Vec<PointRow>,
 ) -> Result<(), String> {
     for work in Work::ALL {
         let mut of_work = Vec::new();
-        for (family, cases) in families::<S, E>(cases) {
-            of_work.extend(contest::<S, E>(work, family, &cases, effort)?);
+        for (family, cases) in families::<E>(cases) {
+            of_work.extend(contest::<E>(work, energy, family, &cases, effort)?);
             progress.inc(1);
         }
         let together = all_hard(&of_work);
         of_work.extend(together);
-        mark_fronts(&mut of_work, E::ROUNDOFF);
+        mark_fronts(&mut of_work, E::UNIT_ROUNDOFF);
         rows.extend(of_work);
     }
     Ok(())
 }
 
 /// Deformation gradients of one energy: point i is that of case i mod the number of cases.
-struct Group<'a, E: Number> {
+struct Group<'a, E> {
     cases: Vec<&'a Case>,
     points: Points<E>,
     contestants: Vec<Contestant<E>>,
 }
 
 /// The rows of one family.
-fn contest<S: Subject, E: Number>(
+fn contest<E: Number>(
     work: Work,
+    energy: &'static str,
     family: &str,
     cases: &[&Case],
     effort: Effort,
@@ -125,11 +135,10 @@ fn contest<S: Subject, E: Number>(
     // Ordinary cases share one energy and go side by side; each hard case has parameters of its own.
     let size = if family == ORDINARY { cases.len() } else { 1 };
     for cases in cases.chunks(size) {
-        let subject = S::of_case(cases[0])?;
         groups.push(Group {
             cases: cases.to_vec(),
             points: Points::new(|point| cases[point % cases.len()].deformation),
-            contestants: methods::all(&subject, work),
+            contestants: contestants(cases[0], work)?,
         });
     }
     let labels: Vec<_> = groups[0].contestants.iter().map(|contestant| contestant.label.clone()).collect();
@@ -150,8 +159,8 @@ fn contest<S: Subject, E: Number>(
         errors.sort_by(f64::total_cmp);
         PointRow {
             work: work.name(),
-            material: S::NAME,
-            precision: E::NAME,
+            material: energy,
+            precision: type_name::<E>(),
             method: label.method,
             setting: label.setting,
             ns_per_element: times.least,
@@ -167,12 +176,12 @@ fn contest<S: Subject, E: Number>(
 }
 
 /// ‖X − X*‖/(‖X*‖ + sens).
-fn judge<E: Number>(case: &Case, quantity: Quantity, values: &[f64]) -> f64 {
-    case.error(quantity, values, 0.0, E::ROUNDOFF) * E::ROUNDOFF
+fn judge<E: Real>(case: &Case, quantity: Quantity, values: &[f64]) -> f64 {
+    case.error(quantity, values, 0.0, E::UNIT_ROUNDOFF) * E::UNIT_ROUNDOFF
 }
 
 /// The times of the contestants, each over all groups.
-fn in_turns<E: Number>(groups: &mut [Group<'_, E>], effort: Effort) -> Vec<Times> {
+fn in_turns<E: Kernels>(groups: &mut [Group<'_, E>], effort: Effort) -> Vec<Times> {
     let count = groups[0].contestants.len();
     let points = POINTS * groups.len();
     let mut by_method: Vec<Vec<(&Points<E>, &mut Contestant<E>)>> = (0..count).map(|_| Vec::new()).collect();

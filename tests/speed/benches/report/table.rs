@@ -6,7 +6,6 @@
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
 use std::error::Error;
-use std::fmt::Write;
 use std::hint::black_box;
 
 use piola::batch::{Batch, Kernels, Layout, TileMaterial};
@@ -18,6 +17,8 @@ use piola_speed::{
     Arrays, Decompositions, Effort, IN_CACHE, LAMBDA, MU, Task, Times, deformation_gradients, ogden,
     processor, time,
 };
+
+use crate::markdown::{header, row};
 
 mod typed;
 
@@ -53,9 +54,7 @@ pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Result<(), Box<dyn 
 }
 
 fn print_energy<M: Declared + 'static>(name: &str, material: &M, effort: Effort) {
-    let mut titles = vec!["how"];
-    titles.extend(COLUMNS.map(|(title, ..)| title));
-    let mut table = header(&titles);
+    let mut table = header(&["how"], &COLUMNS.map(|(title, ..)| title));
     for backend in vectors() {
         for layout in [Layout::Points, Layout::Lines] {
             row(&mut table, &bulk::<f64>(material, backend, layout, effort));
@@ -138,7 +137,7 @@ fn each_point(effort: Effort, mut call: impl FnMut(&Matrix3<f64>)) -> Times {
 }
 
 fn decompositions(effort: Effort) -> String {
-    let mut table = header(&["how", "`svd`", "`svd_signed_by_determinant`"]);
+    let mut table = header(&["how"], &["`svd`", "`svd_signed_by_determinant`"]);
     for backend in vectors() {
         row(&mut table, &decomposition::<f64>(backend, effort));
         row(&mut table, &decomposition::<f32>(backend, effort));
@@ -164,15 +163,4 @@ fn matrices(count: usize) -> Vec<Matrix3<f64>> {
 /// `least (median)`.
 fn cell(Times { least, median }: Times) -> String {
     format!("{least:.1} ({median:.1})")
-}
-
-/// A row of a table.
-fn row(table: &mut String, cells: &[String]) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(table, "| {} |", cells.join(" | "));
-}
-
-/// The first two rows of a table.
-fn header(titles: &[&str]) -> String {
-    format!("| {} |\n|---|{}\n", titles.join(" | "), "---:|".repeat(titles.len() - 1))
 }

@@ -5,87 +5,16 @@
 use piola::Real;
 use piola::batch::{Batch, Kernels, Layout, TileMaterial};
 use piola::lanes::{Backend, Kernel, Lanes, Scalar};
-use piola::material::Blocks;
-use piola::point::{Filter, Matrix3, Svd};
-use piola_baselines::automatic::{self, Potential};
-use piola_baselines::{decompositions, eigen};
+use piola::point::{Filter, Matrix3};
+use piola_baselines::LibraryNumber;
 
 /// Points of a group: a tile of a batch.
 pub(crate) const POINTS: usize = 64;
 
-/// `f64` or `f32`, with what the libraries of the baselines are generic over in ways of their own.
-pub(crate) trait Number: Kernels + Real<Mask = bool> {
-    const NAME: &'static str;
-    const IS_DOUBLE: bool;
-    const ROUNDOFF: f64;
+/// `f64` or `f32`: a format of batches, and of the libraries of the baselines.
+pub(crate) trait Number: Kernels + LibraryNumber {}
 
-    fn widen(self) -> f64;
-
-    /// True if the nearest number of the format is finite.
-    fn fits(x: f64) -> bool;
-
-    /// [`eigen::clamp`]; NaN where it fails.
-    fn clamp(K: &[[Self; 9]; 9]) -> [[Self; 9]; 9];
-
-    /// [`decompositions::nalgebra`].
-    fn decompose_by_nalgebra(F: &Matrix3<Self>) -> Option<Svd<Self>>;
-
-    /// [`decompositions::faer`].
-    fn decompose_by_faer(F: &Matrix3<Self>) -> Option<Svd<Self>>;
-
-    /// [`automatic::through_stretches`].
-    fn through_stretches(potential: &impl Potential, svd: &Svd<Self>) -> Blocks<Self>;
-
-    /// [`automatic::through_decomposition`].
-    fn through_decomposition(
-        potential: &impl Potential,
-        F: &Matrix3<Self>,
-    ) -> (Matrix3<Self>, [[Self; 9]; 9]);
-}
-
-macro_rules! number {
-    ($Number:ident, $is_double:literal) => {
-        impl Number for $Number {
-            const NAME: &'static str = stringify!($Number);
-            const IS_DOUBLE: bool = $is_double;
-            const ROUNDOFF: f64 = <$Number as Real>::UNIT_ROUNDOFF;
-
-            fn widen(self) -> f64 {
-                f64::from(self)
-            }
-
-            fn fits(x: f64) -> bool {
-                (x as $Number).is_finite()
-            }
-
-            fn clamp(K: &[[Self; 9]; 9]) -> [[Self; 9]; 9] {
-                eigen::clamp(K).unwrap_or([[$Number::NAN; 9]; 9])
-            }
-
-            fn decompose_by_nalgebra(F: &Matrix3<Self>) -> Option<Svd<Self>> {
-                decompositions::nalgebra(F)
-            }
-
-            fn decompose_by_faer(F: &Matrix3<Self>) -> Option<Svd<Self>> {
-                decompositions::faer(F)
-            }
-
-            fn through_stretches(potential: &impl Potential, svd: &Svd<Self>) -> Blocks<Self> {
-                automatic::through_stretches(potential, svd)
-            }
-
-            fn through_decomposition(
-                potential: &impl Potential,
-                F: &Matrix3<Self>,
-            ) -> (Matrix3<Self>, [[Self; 9]; 9]) {
-                automatic::through_decomposition(potential, F)
-            }
-        }
-    };
-}
-
-number!(f64, true);
-number!(f32, false);
+impl<E: Kernels + LibraryNumber> Number for E {}
 
 /// Deformation gradients, one by one and in lines.
 pub(crate) struct Points<E> {
@@ -93,7 +22,7 @@ pub(crate) struct Points<E> {
     pub(crate) lines: Vec<E>,
 }
 
-impl<E: Number> Points<E> {
+impl<E: Kernels> Points<E> {
     pub(crate) fn new(deformation: impl Fn(usize) -> [f64; 9]) -> Self {
         let mut F = vec![[[E::default(); 3]; 3]; POINTS];
         let mut lines = vec![E::default(); 9 * POINTS];
@@ -113,7 +42,7 @@ pub(crate) struct Output<E> {
     pub(crate) K: Vec<E>,
 }
 
-impl<E: Number> Output<E> {
+impl<E: Kernels> Output<E> {
     pub(crate) fn new() -> Self {
         Self { P: vec![E::default(); 9 * POINTS], K: vec![E::default(); 81 * POINTS] }
     }
@@ -126,8 +55,8 @@ impl<E: Number> Output<E> {
 
     /// P and dP/dF of a point.
     pub(crate) fn of_point(&self, point: usize, layout: Layout) -> ([f64; 9], [f64; 81]) {
-        let P = std::array::from_fn(|k| self.P[layout.index::<E>(point, 9, k)].widen());
-        (P, std::array::from_fn(|k| self.K[layout.index::<E>(point, 81, k)].widen()))
+        let P = std::array::from_fn(|k| self.P[layout.index::<E>(point, 9, k)].into());
+        (P, std::array::from_fn(|k| self.K[layout.index::<E>(point, 81, k)].into()))
     }
 }
 
@@ -166,7 +95,7 @@ pub(crate) struct Contestant<E> {
     pub(crate) run: Box<Run<E>>,
 }
 
-impl<E: Number> Contestant<E> {
+impl<E: Kernels> Contestant<E> {
     /// A batch of a material.
     pub(crate) fn batch(label: Label, material: impl TileMaterial<E> + 'static, filter: Filter) -> Self {
         let run = move |points: &Points<E>, output: &mut Output<E>| {
@@ -208,13 +137,21 @@ pub(crate) trait OnLanes {
     fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]);
 }
 
+/// A point alone is a register of one.
+impl<T: OnLanes, E: Kernels> AtPoint<E> for T {
+    #[inline(always)]
+    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+        OnLanes::evaluate(self, F)
+    }
+}
+
 struct OneByOne<'a, T, E> {
     method: &'a T,
     F: &'a [Matrix3<E>],
     output: &'a mut Output<E>,
 }
 
-impl<T: AtPoint<E>, E: Number> Kernel<E> for OneByOne<'_, T, E> {
+impl<T: AtPoint<E>, E: Kernels> Kernel<E> for OneByOne<'_, T, E> {
     type Output = ();
 
     #[inline(always)]
@@ -234,7 +171,7 @@ struct SideBySide<'a, T, E> {
     output: &'a mut Output<E>,
 }
 
-impl<T: OnLanes, E: Number> Kernel<E> for SideBySide<'_, T, E> {
+impl<T: OnLanes, E: Kernels> Kernel<E> for SideBySide<'_, T, E> {
     type Output = ();
 
     #[inline(always)]

@@ -5,18 +5,17 @@
 use piola::material::Blocks;
 use piola::point::{Filter, Matrix3, Svd, Tangent, decompose, evaluate_dense, project, stress, svd};
 use piola::{Material, Real};
-use piola_baselines::automatic::Potential;
+use piola_baselines::automatic::{self, Potential};
 use piola_baselines::clamped::Clamped;
 use piola_baselines::direct::{self, DirectEnergy};
 use piola_baselines::invariants::{self, InvariantEnergy};
 use piola_baselines::polar;
 use piola_baselines::quotients::{Naive, Switched};
 use piola_baselines::svd_gradients::{self, Regularization};
-use piola_baselines::{coincidences, decompositions, differences};
+use piola_baselines::{coincidences, decompositions, differences, eigen};
 
 use super::Work;
 use super::contestant::{AtPoint, Contestant, Label, Number, OnLanes};
-use super::subject::Subject;
 
 /// The product on lanes.
 pub(crate) const OURS: &str = "piola";
@@ -40,9 +39,12 @@ pub(crate) const JACOBI: &str = "Jacobi SVD";
 pub(crate) const NALGEBRA: &str = "nalgebra SVD";
 pub(crate) const FAER: &str = "faer SVD";
 
-/// All that take part for an energy.
-pub(crate) fn all<S: Subject, E: Number>(subject: &S, work: Work) -> Vec<Contestant<E>> {
-    let (material, potential) = (subject.material(), subject.potential());
+/// The methods for any energy, given as it is declared and as a potential of hyper-dual numbers.
+pub(crate) fn all<E: Number>(
+    material: impl Material + Copy + 'static,
+    potential: impl Potential + Copy + 'static,
+    work: Work,
+) -> Vec<Contestant<E>> {
     let filter = match work {
         Work::Tangent => Filter::None,
         Work::Projected => Filter::Clamp,
@@ -78,15 +80,14 @@ pub(crate) fn all<S: Subject, E: Number>(subject: &S, work: Work) -> Vec<Contest
         DualStretches { material, potential, filter },
     ));
     all.push(entries(Label::new(DUAL_DECOMPOSITION), DualDecomposition(potential), work));
-    let by_nalgebra = Decomposed { material, filter, decompose: E::decompose_by_nalgebra };
+    let by_nalgebra = Decomposed { material, filter, decompose: decompositions::nalgebra };
     all.push(Contestant::one_by_one(Label::new(NALGEBRA), by_nalgebra));
-    let by_faer = Decomposed { material, filter, decompose: E::decompose_by_faer };
+    let by_faer = Decomposed { material, filter, decompose: decompositions::faer };
     all.push(Contestant::one_by_one(Label::new(FAER), by_faer));
     for sweeps in 2..=7 {
         let label = Label::set(JACOBI, sweeps);
         all.push(Contestant::on_lanes(label, Jacobi { material, filter, sweeps }));
     }
-    all.extend(subject.special(work));
     all
 }
 
@@ -128,7 +129,7 @@ impl<T: AtPoint<E>, E: Number> AtPoint<E> for Projected<T> {
     #[inline(always)]
     fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
         let (P, K) = self.0.evaluate(F);
-        (P, E::clamp(&K))
+        (P, eigen::clamp(&K).unwrap_or([[Real::splat(f64::NAN); 9]; 9]))
     }
 }
 
@@ -196,7 +197,7 @@ impl<M: Material, T: Potential, E: Number> AtPoint<E> for DualStretches<M, T> {
     #[inline(always)]
     fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
         let svd = decompose(&self.material, F);
-        from_blocks(&svd, E::through_stretches(&self.potential, &svd), self.filter)
+        from_blocks(&svd, automatic::through_stretches(&self.potential, &svd), self.filter)
     }
 }
 
@@ -205,7 +206,7 @@ struct DualDecomposition<T>(T);
 impl<T: Potential, E: Number> AtPoint<E> for DualDecomposition<T> {
     #[inline(always)]
     fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
-        E::through_decomposition(&self.0, F)
+        automatic::through_decomposition(&self.0, F)
     }
 }
 
@@ -220,8 +221,7 @@ impl<M: Material, E: Number> AtPoint<E> for Decomposed<M, E> {
     #[inline(always)]
     fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
         let Some(svd) = (self.decompose)(F) else {
-            let nan = E::splat(f64::NAN);
-            return ([[nan; 3]; 3], [[nan; 9]; 9]);
+            return ([[Real::splat(f64::NAN); 3]; 3], [[Real::splat(f64::NAN); 9]; 9]);
         };
         from_blocks(&svd, self.material.blocks(svd.stretches), self.filter)
     }
@@ -259,25 +259,11 @@ impl<T: DirectEnergy> OnLanes for Direct<T> {
     }
 }
 
-impl<T: DirectEnergy, E: Number> AtPoint<E> for Direct<T> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
-        direct::evaluate(&self.0, F)
-    }
-}
-
 struct Polar(polar::RotatedLinear);
 
 impl OnLanes for Polar {
     #[inline(always)]
     fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]) {
-        self.0.evaluate(F)
-    }
-}
-
-impl<E: Number> AtPoint<E> for Polar {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
         self.0.evaluate(F)
     }
 }

@@ -13,14 +13,15 @@ use piola_declare::Energy;
 use piola_materials::{CATALOGUE, DECLARATIONS, Entry, Visitor};
 use piola_speed::{Arrays, Effort, IN_CACHE, Task, Times, time_in_turns};
 
-use super::{cell, header, matrices, row};
+use super::{cell, matrices};
+use crate::markdown::{header, row};
 
 const NAMES: [&str; 5] = ["st_venant_kirchhoff", "neo_hookean", "ogden", "gent", "arruda_boyce"];
 const POINTS: usize = 64;
 
 /// P, and P with dP/dF, f64: in cache on the back ends with vectors, and point by point.
 pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
-    let mut table = header(&["energy", "kernel", "instructions", "compiled", "typed", "typed / compiled"]);
+    let mut table = header(&["energy", "kernel", "instructions"], &["compiled", "typed", "typed / compiled"]);
     for entry in CATALOGUE.iter().filter(|entry| NAMES.contains(&entry.name)) {
         let values = entry.typical();
         let declaration = DECLARATIONS.iter().find(|known| known.name == entry.name);

@@ -2,9 +2,7 @@
 //! and in bodies.
 //!
 //! Two compiled types stand for all: one of numbers and lists, which lanes hold side by side, and one of
-//! functions. Other energies are judged by `tests/tests/declarations`.
-
-#![expect(non_snake_case, reason = "F, P as in the literature")]
+//! functions; and an interpreted one.
 
 use piola::batch::{Batch, TileMaterial};
 use piola::lanes::{Backend, Lanes, Lanes2};
@@ -14,72 +12,24 @@ use piola::{Inversion, Material, Spline};
 use piola_bodies::mesh::{Group, TetMesh, tetrahedral_box};
 use piola_bodies::system::{Body, BodyError, ElasticResponse, NodalStiffness, Part};
 use piola_materials::{Gent, NeoHookean, Ogden, StretchSpline};
+use piola_tests::answers::{Answers, COUNT, deformations};
+use piola_tests::energies::find;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 const EXTEND: Inversion = Inversion::Extend { epsilon: 0.25 };
 
-/// More than two tiles, and not a whole number of lines.
-const COUNT: usize = 150;
-
-/// Deformation gradients from gentle to inside out, one that is rank-deficient and one out of the invariants'
-/// range.
-fn deformations() -> Vec<[f64; 9]> {
-    let mut all: Vec<[f64; 9]> = (0..COUNT)
-        .map(|p| {
-            let turn = 0.7 * p as f64;
-            let shear = 0.4 * turn.sin();
-            let last = if p % 7 == 3 { -0.5 } else { 0.5 + (0.3 * turn.cos()).abs() };
-            [1.0 + 0.3 * turn.cos(), shear, 0.1, -0.2 * shear, 1.1, shear, 0.05, 0.2, last]
-        })
-        .collect();
-    all[40] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
-    all[41] = [1e60, 0.0, 0.0, 0.0, 1e60, 0.0, 0.0, 0.0, 1e60];
-    all
-}
-
-/// Results of a batch at points: energies, stresses, tangents.
-#[derive(Debug, PartialEq)]
-struct Answers {
-    energies: Vec<f64>,
-    stresses: Vec<f64>,
-    tangents: Vec<f64>,
-}
-
-fn answers(
-    energy: &dyn TileMaterial<f64>,
-    backend: Backend,
-    all: &[[f64; 9]],
-) -> Result<Answers, Box<dyn std::error::Error>> {
-    let (batch, F) = (Batch::new(energy).with_backend(backend), all.as_flattened());
-    let n = all.len();
-    let (mut energies, mut stresses) = (vec![0.0; n], vec![0.0; 9 * n]);
-    let (mut beside, mut tangents) = (vec![0.0; 9 * n], vec![0.0; 81 * n]);
-    batch.energies(F, &mut energies)?;
-    batch.stresses(F, &mut stresses)?;
-    batch.tangents(F, &mut beside, &mut tangents)?;
-    Ok(Answers { energies, stresses, tangents })
-}
-
-/// As bits, so that NaN equals itself.
-fn bits(numbers: &[f64]) -> Vec<u64> {
-    numbers.iter().map(|x| x.to_bits()).collect()
-}
-
+/// Fails unless each of the points gets the bits that it would get alone, on every back end.
 fn check_each<M: Graded>(materials: &[M]) -> Outcome {
     let all = deformations();
     let each = PerPoint::new(materials)?;
     for backend in Backend::available() {
-        let together = answers(&each, backend, &all)?;
+        let answers = |material: &dyn TileMaterial<f64>, points: &[[f64; 9]]| {
+            Answers::of(Batch::new(material).with_backend(backend), points.as_flattened())
+        };
+        let together = answers(&each, &all);
         for (p, material) in materials.iter().enumerate() {
-            let alone = answers(material, backend, &all[p..=p])?;
-            assert_eq!(bits(&together.energies[p..=p]), bits(&alone.energies), "point {p}, {backend}");
-            assert_eq!(bits(&together.stresses[9 * p..][..9]), bits(&alone.stresses), "point {p}, {backend}");
-            assert_eq!(
-                bits(&together.tangents[81 * p..][..81]),
-                bits(&alone.tangents),
-                "point {p}, {backend}"
-            );
+            together.check(&backend.to_string(), p, &answers(material, &all[p..=p]));
         }
     }
     Ok(())
@@ -112,6 +62,18 @@ fn each_point_of_a_batch_may_have_functions_of_its_own() -> Outcome {
     let three = [drawn(0)?, drawn(1)?, drawn(2)?];
     check_each(&(0..COUNT).map(|p| three[p / 40 % 3].clone()).collect::<Vec<_>>())?;
     check_each(&(0..COUNT).map(|p| three[p * p % 3].clone()).collect::<Vec<_>>())
+}
+
+/// Materials that differ in numbers, in the lengths of lists, or altogether.
+#[test]
+fn each_point_of_a_batch_may_have_interpreted_lists_of_its_own() -> Outcome {
+    let energy = &find("ogden").expect("in the catalogue").energy;
+    let term = |k: usize| [1e5 * (1.0 + k as f64 / 50.0)];
+    let terms = |k: usize| vec![1e5; 1 + k % 2];
+    let alike = |k: usize| energy.material(&[&term(k), &[2.0], &[1e6]], Inversion::Refuse);
+    let mixed = |k: usize| energy.material(&[&terms(k), &terms(k), &[1e6]], Inversion::Refuse);
+    check_each(&(0..COUNT).map(alike).collect::<Result<Vec<_>, _>>()?)?;
+    check_each(&(0..COUNT).map(mixed).collect::<Result<Vec<_>, _>>()?)
 }
 
 #[test]
@@ -203,41 +165,28 @@ type Four = Lanes2<Lanes2<f64>>;
 /// Stretches of four points, one of them inverted.
 const STRETCHES: [[f64; 4]; 3] = [[1.5, 1.2, 1.0, 1.1], [1.1, 1.2, 1.0, 0.9], [0.8, 0.7, 1.0, -0.3]];
 
-/// Energy, gradient, gradient at strains and blocks, as bits: what is NaN for one must be so for the other.
-fn bits_of_lanes<R>(
-    energy: R,
-    gradients: [[R; 3]; 2],
-    blocks: Blocks<R>,
-    split: impl Fn(R) -> [f64; 4],
-) -> Vec<[u64; 4]> {
-    let Blocks { gradient, hessian, flip, twist } = blocks;
-    let all = [energy].into_iter().chain(gradients.into_iter().flatten()).chain(gradient).chain(hessian);
-    all.chain(flip).chain(twist).map(|number| split(number).map(f64::to_bits)).collect()
-}
-
-fn split(numbers: Four) -> [f64; 4] {
-    let mut lanes = [0.0; 4];
-    numbers.store(&mut lanes);
-    lanes
+/// Energy, gradients, gradient at strains and blocks on each lane, as bits, so that NaN equals itself; and which
+/// lanes are admitted.
+fn results(material: &impl Material, stretches: [Four; 3], strains: [Four; 3]) -> (Vec<[u64; 4]>, u64) {
+    let Blocks { gradient, hessian, flip, twist } = material.blocks(stretches);
+    let gradients = [material.gradient(stretches), material.gradient_at_strains(strains), gradient];
+    let all = [material.energy(stretches)].into_iter().chain(gradients.into_iter().flatten());
+    let bits = |numbers: Four| {
+        let mut lanes = [0.0; 4];
+        numbers.store(&mut lanes);
+        lanes.map(f64::to_bits)
+    };
+    let all = all.chain(hessian).chain(flip).chain(twist).map(bits);
+    (all.collect(), Four::bits(material.admits(stretches)))
 }
 
 #[track_caller]
 fn check_lanes<M: Graded>(materials: [M; 4]) {
     let [stretches, strains] = [0.0, 1.0].map(|shift| STRETCHES.map(|l| Four::load(&l.map(|x| x - shift))));
-    let each = |materials: &[M]| {
-        let material = M::on_lanes(|lane| &materials[lane.min(3)]);
-        let gradients = [material.gradient(stretches), material.gradient_at_strains(strains)];
-        let results = bits_of_lanes(material.energy(stretches), gradients, material.blocks(stretches), split);
-        (results, Four::bits(material.admits(stretches)))
-    };
-    let uniform = |material: &M| {
-        let gradients = [material.gradient(stretches), material.gradient_at_strains(strains)];
-        let results = bits_of_lanes(material.energy(stretches), gradients, material.blocks(stretches), split);
-        (results, Four::bits(material.admits(stretches)))
-    };
-    let (found, admitted) = each(&materials);
+    let together = M::on_lanes(|lane| &materials[lane.min(3)]);
+    let (found, admitted) = results(&together, stretches, strains);
     for (lane, material) in materials.iter().enumerate() {
-        let (alone, alone_admitted) = uniform(material);
+        let (alone, alone_admitted) = results(material, stretches, strains);
         for (k, (found, alone)) in found.iter().zip(&alone).enumerate() {
             assert_eq!(found[lane], alone[lane], "number {k} of material {lane}");
         }
