@@ -25,35 +25,76 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A source with the two functions, without bodies, for each function in its calls of `twins!`.
+/// A source with the functions of its calls of `functions!` as C has them, without bodies.
 fn expand(source: &str) -> Result<String, String> {
-    let mut calls = source.split("\ntwins!(\n    E = ");
+    let mut calls = source.split("\nfunctions! {\n");
     let mut text = calls.next().unwrap_or_default().to_owned();
     for call in calls {
-        let parse = || {
-            let (call, rest) = call.split_once("\n);\n")?;
-            let (head, functions) = call.split_once("\";\n")?;
-            let (types, difference) = head.split_once(": \"")?;
-            let (first_type, second_type) = types.split_once(", ")?;
-            let mut both = String::new();
-            for function in functions.split_inclusive("\n}\n") {
-                let (documentation, function) = function.split_once("\nfn ")?;
-                let (first, function) = function.split_once(", ")?;
-                let (second, function) = function.split_once('(')?;
-                let (arguments, _) = function.split_once("\n) {")?;
-                let of_second = format!("\n/// `{first}`{difference}");
-                for (documentation, name, of) in
-                    [(documentation, first, first_type), (&of_second, second, second_type)]
-                {
-                    let arguments = arguments.replace(" E,", &format!(" {of},"));
-                    both += &format!(
-                        "{documentation}\n#[unsafe(no_mangle)]\npub unsafe extern \"C\" fn {name}({arguments}\n) -> Code {{}}\n"
-                    );
-                }
-            }
-            Some(both + rest)
-        };
-        text += &parse().ok_or("a call of `twins!` has another form than in src/twins.rs")?;
+        let expanded = expand_call(call);
+        text += &expanded.ok_or("a call of `functions!` has another form than in src/functions.rs")?;
     }
     Ok(text)
+}
+
+fn expand_call(call: &str) -> Option<String> {
+    let (call, rest) = call.split_once("\n}\n}\n")?;
+    // Two types of numbers, and how the second one differs.
+    let (types, functions) = match call.strip_prefix("    E = ") {
+        Some(call) => {
+            let (head, functions) = call.split_once("\";\n")?;
+            let (types, difference) = head.split_once(": \"")?;
+            (Some((types.split_once(", ")?, difference)), functions)
+        }
+        None => (None, call),
+    };
+    let mut text = String::new();
+    for function in format!("\n{functions}\n}\n").split_inclusive("\n}\n") {
+        let Some((documentation, function)) = function.split_once("\nfn ") else { continue };
+        let (names, arguments) = function.split_once('(')?;
+        let (arguments, _) = arguments.split_once(") {\n")?;
+        let mut declare = |documentation: &str, name: &str, number: &str| {
+            let arguments = arguments.split(',').map(|argument| in_c(argument.trim(), number));
+            let arguments = arguments.collect::<Option<Vec<_>>>()?.concat();
+            text += &format!(
+                "{documentation}\n#[unsafe(no_mangle)]\npub extern \"C\" fn {name}({arguments}) -> Code {{}}\n"
+            );
+            Some(())
+        };
+        match types {
+            None => declare(documentation, names, "")?,
+            Some(((first_type, second_type), difference)) => {
+                let (first, second) = names.split_once(", ")?;
+                declare(documentation, first, first_type)?;
+                declare(&format!("\n/// `{first}`{difference}"), second, second_type)?;
+            }
+        }
+    }
+    Some(text + rest)
+}
+
+/// An argument, or two, of a function of C, whose numbers `E` are of a type.
+fn in_c(argument: &str, number: &str) -> Option<String> {
+    let Some((name, kind)) = argument.split_once(": ") else { return argument.is_empty().then(String::new) };
+    let inside = |start: &str, end: &str| {
+        let inside = kind.strip_prefix(start)?.strip_suffix(end)?;
+        Some(if inside == "E" { number } else { inside })
+    };
+    let array = |inside, pointer| format!("{name}: *{pointer} {inside}, {name}_length: usize, ");
+    Some(if let Some(inside) = inside("&mut [", "]") {
+        array(inside, "mut")
+    } else if let Some(inside) = inside("&[", "]") {
+        array(inside, "const")
+    } else if kind == "&str" || kind == "Option<&str>" {
+        format!("{name}: *const c_char, ")
+    } else if let Some(inside) = inside("&", "") {
+        format!("{name}: *const {inside}, ")
+    } else if kind == "Options" {
+        format!("{name}: *const Options, ")
+    } else if let Some(inside) = inside("Out<", ">") {
+        format!("{name}: *mut {inside}, ")
+    } else if let Some(inside) = inside("New<", ">") {
+        format!("{name}: *mut *mut {inside}, ")
+    } else {
+        format!("{name}: {kind}, ")
+    })
 }
