@@ -415,7 +415,7 @@ void piola_energy_free(struct piola_energy *energy);
 // them, and the point.
 enum piola_code piola_material_new(const struct piola_energy *energy,
                                    const struct piola_parameter *parameters,
-                                   size_t parameter_count,
+                                   size_t parameters_length,
                                    double extension,
                                    size_t points,
                                    struct piola_material **material);

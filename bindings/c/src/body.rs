@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use piola_bodies::mesh::{Group, TetMesh};
 
-use crate::error::{Code, Failure, guard};
-use crate::lent::{Arrays, plain};
+use crate::error::{Code, Failure};
+use crate::functions::functions;
+use crate::lent::plain;
 use crate::material::Material;
 use crate::options::Survey;
 use crate::{handle, lent};
@@ -24,6 +25,7 @@ pub struct Part {
 }
 plain!(Part);
 
+functions! {
 /// Makes a body of nodes at `positions`, three numbers each, m, and tetrahedra, `corners` with four nodes
 /// each, from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0.
 ///
@@ -32,64 +34,34 @@ plain!(Part);
 ///
 /// Errors: PIOLA_CODE_BODY for an invalid body: nodes without tetrahedron, volumes and densities that are not
 /// positive, a material with values for another number of tetrahedra; the message numbers tetrahedra from 1.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_body_new(
-    positions: *const f64,
-    positions_length: usize,
-    corners: *const usize,
-    corners_length: usize,
-    part_of: *const usize,
-    part_of_length: usize,
-    parts: *const Part,
-    parts_length: usize,
-    body: *mut *mut Body,
-) -> Code {
-    guard(|| {
-        let mut arrays = Arrays::new();
-        // SAFETY: arrays as long as stated, handles, and room for a handle.
-        unsafe {
-            let positions =
-                lent::vectors("positions", arrays.input("positions", positions, positions_length)?)?;
-            let corners = lent::corners("corners", arrays.input("corners", corners, corners_length)?)?;
-            let part_of = arrays.input("part_of", part_of, part_of_length)?;
-            let parts = arrays.input("parts", parts, parts_length)?;
-            handle::give("body", body, || {
-                let mut mesh = TetMesh::new(positions.to_vec(), corners.to_vec());
-                mesh.groups = groups(part_of, corners.len(), parts.len())?;
-                let part = |(k, part): (usize, &Part)| {
-                    let material = lent::value("parts[].material", part.material)?.for_body()?;
-                    let group = mesh.groups.get(k).map(|group| group.name.clone());
-                    Ok(piola_bodies::system::Part { group, material, density: part.density })
-                };
-                let parts: Result<Vec<_>, Failure> = parts.iter().enumerate().map(part).collect();
-                Ok(Body(Arc::new(piola_bodies::system::Body::from_parts(&mesh, parts?)?)))
-            })
-        }
+fn piola_body_new(positions: &[f64], corners: &[usize], part_of: &[usize], parts: &[Part], body: New<Body>) {
+    let (positions, corners) = (lent::rows("positions", positions)?, lent::rows("corners", corners)?);
+    body.give(|| {
+        let mut mesh = TetMesh::new(positions.to_vec(), corners.to_vec());
+        mesh.groups = groups(part_of, corners.len(), parts.len())?;
+        let part = |(k, part): (usize, &Part)| {
+            // SAFETY: a handle, as the header requires.
+            let material = unsafe { lent::value("parts[].material", part.material) }?.for_body()?;
+            let group = mesh.groups.get(k).map(|group| group.name.clone());
+            Ok(piola_bodies::system::Part { group, material, density: part.density })
+        };
+        let parts: Result<Vec<_>, Failure> = parts.iter().enumerate().map(part).collect();
+        Ok(Body(Arc::new(piola_bodies::system::Body::from_parts(&mesh, parts?)?)))
     })
 }
 
 /// Lumped masses of the nodes, kg, one number each.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_body_masses(
-    body: *const Body,
-    masses: *mut f64,
-    masses_length: usize,
-) -> Code {
-    guard(|| {
-        // SAFETY: a handle, and an array as long as stated.
-        let (body, masses) =
-            unsafe { (lent::value("body", body)?, Arrays::new().output("masses", masses, masses_length)?) };
-        lent::demand_length("masses", masses.len(), 1, body.0.masses().len())?;
-        masses.copy_from_slice(body.0.masses());
-        Ok(())
-    })
+fn piola_body_masses(body: &Body, masses: &mut [f64]) {
+    lent::demand_length("masses", masses.len(), 1, body.0.masses().len())?;
+    masses.copy_from_slice(body.0.masses());
+    Ok(())
+}
 }
 
 /// Frees a body, or does nothing with null. Simulations of it stay.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_body_free(body: *mut Body) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(body) }
+pub unsafe extern "C" fn piola_body_free(body: Option<Box<Body>>) {
+    handle::free(body);
 }
 
 /// The parts as groups of a mesh; none where one part has all tetrahedra.

@@ -2,9 +2,7 @@
 
 use piola::batch::{CsrPlaces, Layout, Tetrahedra};
 
-use crate::error::{Failure, guard};
-use crate::lent::Arrays;
-use crate::twins::twins;
+use crate::functions::functions;
 use crate::{handle, lent};
 
 /// The places of the stiffnesses of tetrahedra in a sparse matrix of compressed rows. Immutable: threads may
@@ -14,7 +12,7 @@ pub struct Csr(CsrPlaces);
 /// Marks a node without unknowns, instead of its first unknown: PIOLA_NO_UNKNOWN of the header.
 pub(crate) const NO_UNKNOWN: usize = usize::MAX;
 
-twins!(
+functions! {
     E = i32, i64: " for a matrix with indices of 64 bits.";
 
 /// Finds the places of the stiffnesses of tetrahedra in a sparse matrix: row r has the columns
@@ -29,73 +27,41 @@ twins!(
 /// nodes that do not exist.
 fn piola_csr_new_i32, piola_csr_new_i64(
     nodes: usize,
-    corners: *const usize,
-    corners_length: usize,
-    unknowns: *const usize,
-    unknowns_length: usize,
-    row_starts: *const E,
-    row_starts_length: usize,
-    columns: *const E,
-    columns_length: usize,
-    csr: *mut *mut Csr,
+    corners: &[usize],
+    unknowns: &[usize],
+    row_starts: &[E],
+    columns: &[E],
+    csr: New<Csr>,
 ) {
-    guard(|| {
-        let mut arrays = Arrays::new();
-        // SAFETY: the requirements of the header on its caller.
-        unsafe {
-            let corners = lent::corners("corners", arrays.input("corners", corners, corners_length)?)?;
-            let unknowns = arrays.input("unknowns", unknowns, unknowns_length)?;
-            let row_starts = arrays.input("row_starts", row_starts, row_starts_length)?;
-            let columns = arrays.input::<E>("columns", columns, columns_length)?;
-            if !unknowns.is_empty() {
-                lent::demand_length("unknowns", unknowns.len(), 1, nodes)?;
-            }
-            handle::give("csr", csr, || {
-                let tetrahedra = Tetrahedra::new(nodes, corners)?;
-                let unknown = |node: usize| match unknowns.get(node) {
-                    Some(&unknown) => (unknown != NO_UNKNOWN).then_some(unknown),
-                    None => Some(node.saturating_mul(3)),
-                };
-                Ok(Csr(CsrPlaces::new(tetrahedra, unknown, row_starts, columns)?))
-            })
-        }
+    let corners = lent::rows("corners", corners)?;
+    if !unknowns.is_empty() {
+        lent::demand_length("unknowns", unknowns.len(), 1, nodes)?;
+    }
+    csr.give(|| {
+        let tetrahedra = Tetrahedra::new(nodes, corners)?;
+        let unknown = |node: usize| match unknowns.get(node) {
+            Some(&unknown) => (unknown != NO_UNKNOWN).then_some(unknown),
+            None => Some(node.saturating_mul(3)),
+        };
+        Ok(Csr(CsrPlaces::new(tetrahedra, unknown, row_starts, columns)?))
     })
 }
-);
+}
 
-twins!(
+functions! {
     E = f64, f32: " in single precision.";
 
 /// Adds the stiffnesses of all tetrahedra, 144 numbers each from `piola_stiffnesses` in this layout, one of
 /// `piola_layout`, to the values of the matrix, one for each of its columns. The sums are taken in the order
 /// of the tetrahedra, on the thread of the caller.
-fn piola_csr_add, piola_csr_add_f32(
-    csr: *const Csr,
-    layout: i32,
-    stiffnesses: *const E,
-    stiffnesses_length: usize,
-    values: *mut E,
-    values_length: usize,
-) {
-    guard(|| {
-        let mut arrays = Arrays::new();
-        // SAFETY: the requirements of the header on its caller.
-        let (csr, stiffnesses, values) = unsafe {
-            (
-                lent::value("csr", csr)?,
-                arrays.input("stiffnesses", stiffnesses, stiffnesses_length)?,
-                arrays.output::<E>("values", values, values_length)?,
-            )
-        };
-        let layout = lent::choice("layout", layout, [Layout::Points, Layout::Lines])?;
-        csr.0.add(stiffnesses, layout, values).map_err(Failure::from)
-    })
+fn piola_csr_add, piola_csr_add_f32(csr: &Csr, layout: i32, stiffnesses: &[E], values: &mut [E]) {
+    let layout = lent::choice("layout", layout, [Layout::Points, Layout::Lines])?;
+    Ok(csr.0.add(stiffnesses, layout, values)?)
 }
-);
+}
 
 /// Frees what `piola_csr_new_i32` has made, or does nothing with null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_csr_free(csr: *mut Csr) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(csr) }
+pub unsafe extern "C" fn piola_csr_free(csr: Option<Box<Csr>>) {
+    handle::free(csr);
 }

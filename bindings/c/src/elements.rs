@@ -3,13 +3,12 @@
 use piola::batch::{REST, Tetrahedra};
 use piola_bodies::mesh::TetMesh;
 
-use crate::batch::{call, call_with};
-use crate::error::{Code, guard};
-use crate::lent::{self, Arrays};
+use crate::functions::functions;
+use crate::lent;
 use crate::material::Material;
-use crate::options::{Options, Survey};
-use crate::twins::twins;
+use crate::options::Survey;
 
+functions! {
 /// Shapes of tetrahedra at rest: ten numbers each, the inverse of Dm row by row, 1/m, and the volume, m³, the
 /// input of `piola_stiffnesses`. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
 ///
@@ -18,38 +17,18 @@ use crate::twins::twins;
 ///
 /// Errors: PIOLA_CODE_BODY for nodes that do not exist or belong to no tetrahedron, and volumes that are not
 /// positive beyond rounding; tetrahedra are numbered from 1 in the message.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_rest_shapes(
-    positions: *const f64,
-    positions_length: usize,
-    corners: *const usize,
-    corners_length: usize,
-    rest: *mut f64,
-    rest_length: usize,
-) -> Code {
-    guard(|| {
-        let mut arrays = Arrays::new();
-        // SAFETY: arrays as long as stated.
-        let (positions, corners, rest) = unsafe {
-            (
-                arrays.input("positions", positions, positions_length)?,
-                arrays.input("corners", corners, corners_length)?,
-                arrays.output("rest", rest, rest_length)?,
-            )
-        };
-        let (positions, corners) =
-            (lent::vectors("positions", positions)?, lent::corners("corners", corners)?);
-        lent::demand_length("rest", rest.len(), REST, corners.len())?;
-        let shapes = TetMesh::new(positions.to_vec(), corners.to_vec()).rest_shapes()?;
-        for (shape, rest) in shapes.iter().zip(rest.as_chunks_mut::<REST>().0) {
-            rest[..9].copy_from_slice(shape.inverse.as_flattened());
-            rest[9] = shape.volume;
-        }
-        Ok(())
-    })
+fn piola_rest_shapes(positions: &[f64], corners: &[usize], rest: &mut [f64]) {
+    let (positions, corners) = (lent::rows("positions", positions)?, lent::rows("corners", corners)?);
+    lent::demand_length("rest", rest.len(), REST, corners.len())?;
+    let shapes = TetMesh::new(positions.to_vec(), corners.to_vec()).rest_shapes()?;
+    for (shape, rest) in shapes.iter().zip(rest.as_chunks_mut().0) {
+        *rest = shape.components();
+    }
+    Ok(())
+}
 }
 
-twins!(
+functions! {
     E = f64, f32: " in single precision.";
 
 /// Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and filtered
@@ -61,28 +40,15 @@ twins!(
 ///
 /// The filter acts on dP/dF and is pulled back to the nodes.
 fn piola_stiffnesses, piola_stiffnesses_f32(
-    material: *const Material,
-    options: *const Options,
-    F: *const E,
-    F_length: usize,
-    rest: *const E,
-    rest_length: usize,
-    gradients: *mut E,
-    gradients_length: usize,
-    stiffnesses: *mut E,
-    stiffnesses_length: usize,
-    survey: *mut Survey,
+    material: &Material,
+    options: Options,
+    F: &[E],
+    rest: &[E],
+    gradients: &mut [E],
+    stiffnesses: &mut [E],
+    survey: Out<Survey>,
 ) {
-    let (inputs, outputs) = (
-        [("F", F, F_length), ("rest", rest, rest_length)],
-        [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
-    );
-    // SAFETY: the requirements of the header on its caller.
-    unsafe {
-        call(material, options, inputs, outputs, survey, |batch, [F, rest], [gradients, stiffnesses]| {
-            Ok(batch.stiffnesses(F, rest, gradients, stiffnesses)?)
-        })
-    }
+    survey.write(options.batch(material)?.stiffnesses(F, rest, gradients, stiffnesses)?.into())
 }
 
 /// Gradients and stiffnesses as from `piola_stiffnesses`, with the nodes at `positions`, three numbers for
@@ -93,43 +59,18 @@ fn piola_stiffnesses, piola_stiffnesses_f32(
 ///
 /// Errors: PIOLA_CODE_VALUE for nodes that do not exist.
 fn piola_stiffnesses_at, piola_stiffnesses_at_f32(
-    material: *const Material,
-    options: *const Options,
-    positions: *const E,
-    positions_length: usize,
-    corners: *const usize,
-    corners_length: usize,
-    rest: *const E,
-    rest_length: usize,
-    gradients: *mut E,
-    gradients_length: usize,
-    stiffnesses: *mut E,
-    stiffnesses_length: usize,
-    survey: *mut Survey,
+    material: &Material,
+    options: Options,
+    positions: &[E],
+    corners: &[usize],
+    rest: &[E],
+    gradients: &mut [E],
+    stiffnesses: &mut [E],
+    survey: Out<Survey>,
 ) {
-    let (inputs, outputs) = (
-        [("positions", positions, positions_length), ("rest", rest, rest_length)],
-        [("gradients", gradients, gradients_length), ("stiffnesses", stiffnesses, stiffnesses_length)],
-    );
-    guard(|| {
-        let mut arrays = Arrays::new();
-        // SAFETY: the requirements of the header on its caller.
-        unsafe {
-            let corners = lent::corners("corners", arrays.input("corners", corners, corners_length)?)?;
-            call_with(
-                arrays,
-                material,
-                options,
-                inputs,
-                outputs,
-                survey,
-                |batch, [positions, rest], [gradients, stiffnesses]| {
-                    let positions = lent::vectors("positions", positions)?;
-                    let tetrahedra = Tetrahedra::new(positions.len(), corners)?;
-                    Ok(batch.stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses)?)
-                },
-            )
-        }
-    })
+    let (positions, corners) = (lent::rows("positions", positions)?, lent::rows("corners", corners)?);
+    let tetrahedra = Tetrahedra::new(positions.len(), corners)?;
+    let batch = options.batch(material)?;
+    survey.write(batch.stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses)?.into())
 }
-);
+}

@@ -7,7 +7,8 @@ use piola::material::{Description, Unit};
 use piola_materials::DECLARATIONS;
 use piola_scenes::material::MaterialSpec;
 
-use crate::error::{Code, Failure, c_string, guard};
+use crate::error::{Code, Failure, c_string};
+use crate::functions::functions;
 use crate::{handle, lent};
 
 /// An elastic energy without values for its parameters. Immutable: threads may share it.
@@ -136,45 +137,35 @@ impl Texts {
     }
 }
 
+functions! {
 /// The names of the energies of the catalogue, one after the other.
 ///
 /// Writes the name number `index`, from 0, and returns PIOLA_CODE_OK; beyond the last one it writes null and
 /// returns PIOLA_CODE_VALUE. Names are valid for ever.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_catalogue_name(index: usize, name: *mut *const c_char) -> Code {
+fn piola_catalogue_name(index: usize, name: Out<*const c_char>) {
     static NAMES: OnceLock<Vec<CString>> = OnceLock::new();
-    guard(|| {
-        let names =
-            NAMES.get_or_init(|| DECLARATIONS.iter().map(|declaration| c_string(declaration.name)).collect());
-        let found = names.get(index).map_or(std::ptr::null(), |name| name.as_ptr());
-        // SAFETY: there is room for a pointer.
-        unsafe { lent::report("name", name, found) }?;
-        if found.is_null() {
-            let count = names.len();
-            let message = format_args!("there is no energy {index} (from 0) in a catalogue of {count}");
-            return Err(Failure::new(Code::Value, message));
-        }
-        Ok(())
-    })
+    let names =
+        NAMES.get_or_init(|| DECLARATIONS.iter().map(|declaration| c_string(declaration.name)).collect());
+    let found = names.get(index);
+    name.write(found.map_or(std::ptr::null(), |name| name.as_ptr()))?;
+    if found.is_none() {
+        let count = names.len();
+        let message = format_args!("there is no energy {index} (from 0) in a catalogue of {count}");
+        return Err(Failure::new(Code::Value, message));
+    }
+    Ok(())
 }
 
 /// An energy of the catalogue by its name, such as "neo_hookean"; ignores case, spaces, `_` and `-`.
 ///
 /// Errors: PIOLA_CODE_MATERIAL for a name that is not in the catalogue; the message lists those that are.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_energy_named(name: *const c_char, energy: *mut *mut Energy) -> Code {
-    guard(|| {
-        // SAFETY: a text, and room for a handle.
-        unsafe {
-            let name = lent::text("name", name)?;
-            handle::give("energy", energy, || {
-                let spec = MaterialSpec::new(name);
-                let known = DECLARATIONS.iter().map(|declaration| declaration.name);
-                let name = known.into_iter().find(|known| spec.is(known)).unwrap_or(name);
-                let description = Texts::new(name, spec.description()?);
-                Ok(Energy { spec, description })
-            })
-        }
+fn piola_energy_named(name: &str, energy: New<Energy>) {
+    energy.give(|| {
+        let spec = MaterialSpec::new(name);
+        let known = DECLARATIONS.iter().map(|declaration| declaration.name);
+        let name = known.into_iter().find(|known| spec.is(known)).unwrap_or(name);
+        let description = Texts::new(name, spec.description()?);
+        Ok(Energy { spec, description })
     })
 }
 
@@ -182,47 +173,26 @@ pub unsafe extern "C" fn piola_energy_named(name: *const c_char, energy: *mut *m
 /// milliseconds to seconds, and computes what the same declaration compiled by Rust does, to the last bit.
 ///
 /// Errors: PIOLA_CODE_ENERGY for mistakes; the message lists all of them, each with its line.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_energy_declared(
-    text: *const c_char,
-    notation: i32,
-    energy: *mut *mut Energy,
-) -> Code {
-    guard(|| {
-        let notation = lent::choice("notation", notation, [Notation::Rust, Notation::Formula])?;
-        // SAFETY: a text, and room for a handle.
-        unsafe {
-            let text = lent::text("text", text)?;
-            handle::give("energy", energy, || {
-                let declared = match notation {
-                    Notation::Rust => piola_declare::Energy::from_rust(text),
-                    Notation::Formula => piola_declare::Energy::from_formula(text),
-                }?;
-                let description = Texts::new(&declared.description().name, declared.description());
-                Ok(Energy { spec: MaterialSpec::declared(declared), description })
-            })
-        }
+fn piola_energy_declared(text: &str, notation: i32, energy: New<Energy>) {
+    let notation = lent::choice("notation", notation, [Notation::Rust, Notation::Formula])?;
+    energy.give(|| {
+        let declared = match notation {
+            Notation::Rust => piola_declare::Energy::from_rust(text),
+            Notation::Formula => piola_declare::Energy::from_formula(text),
+        }?;
+        let description = Texts::new(&declared.description().name, declared.description());
+        Ok(Energy { spec: MaterialSpec::declared(declared), description })
     })
 }
 
 /// The description of an energy, valid as long as its handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_energy_describe(
-    energy: *const Energy,
-    description: *mut *const EnergyDescription,
-) -> Code {
-    guard(|| {
-        // SAFETY: a handle, and room for a pointer.
-        unsafe {
-            let found = &lent::value("energy", energy)?.description.description;
-            lent::report("description", description, found)
-        }
-    })
+fn piola_energy_describe(energy: &Energy, description: Out<*const EnergyDescription>) {
+    description.write(&energy.description.description)
+}
 }
 
 /// Frees an energy, or does nothing with null. Materials made of it stay.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_energy_free(energy: *mut Energy) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(energy) }
+pub unsafe extern "C" fn piola_energy_free(energy: Option<Box<Energy>>) {
+    handle::free(energy);
 }

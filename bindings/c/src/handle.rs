@@ -5,38 +5,31 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 use crate::error::{Code, Failure};
 use crate::lent;
 
-/// Hands a value to the caller.
-///
-/// # Safety
-/// `to` is null, which is an error, or there is room for a pointer.
-pub(crate) unsafe fn give<T>(
-    name: &str,
-    to: *mut *mut T,
-    make: impl FnOnce() -> Result<T, Failure>,
-) -> Result<(), Failure> {
-    if to.is_null() {
-        return Err(Failure::new(Code::Pointer, format_args!("`{name}` is null")));
+/// Place of a new handle.
+pub(crate) struct New<T>(lent::Out<*mut T>);
+
+impl<T> New<T> {
+    /// # Safety
+    /// As for [`Out::new`](lent::Out::new).
+    pub(crate) unsafe fn new(name: &'static str, to: *mut *mut T) -> Self {
+        // SAFETY: that of this function.
+        Self(unsafe { lent::Out::new(name, to) })
     }
-    // SAFETY: that of this function. A call that fails leaves null behind, which may be freed.
-    unsafe { lent::report(name, to, std::ptr::null_mut()) }?;
-    let handle = Box::into_raw(Box::new(make()?));
-    // SAFETY: as before.
-    unsafe { lent::report(name, to, handle) }
+
+    /// Hands a value to the caller. A call that fails leaves null behind, which may be freed.
+    pub(crate) fn give(self, make: impl FnOnce() -> Result<T, Failure>) -> Result<(), Failure> {
+        self.0.demand()?;
+        self.0.write(std::ptr::null_mut())?;
+        self.0.write(Box::into_raw(Box::new(make()?)))
+    }
 }
 
-/// Takes a value back and drops it. Does nothing with null.
-///
-/// # Safety
-/// `handle` is null, or comes from [`give`] and is not used any more.
-pub(crate) unsafe fn free<T>(handle: *mut T) {
-    if !handle.is_null() {
-        // SAFETY: it was made by `Box::into_raw`, and belongs to nobody else.
-        let value = unsafe { Box::from_raw(handle) };
-        crate::error::guard(|| {
-            drop(value);
-            Ok(())
-        });
-    }
+/// Drops a value that the caller gives back, which comes from [`New::give`].
+pub(crate) fn free<T>(value: Option<Box<T>>) {
+    crate::error::guard(|| {
+        drop(value);
+        Ok(())
+    });
 }
 
 /// Waits for other calls that use this handle.

@@ -143,6 +143,18 @@ pub(crate) unsafe fn text<'call>(name: &str, text: *const c_char) -> Result<&'ca
     text.to_str().map_err(|error| Failure::new(Code::Text, format_args!("`{name}` is not UTF-8: {error}")))
 }
 
+/// A text; `None` behind a null pointer.
+///
+/// # Safety
+/// As of [`text`].
+pub(crate) unsafe fn optional_text<'call>(
+    name: &str,
+    text: *const c_char,
+) -> Result<Option<&'call str>, Failure> {
+    // SAFETY: that of this function.
+    if text.is_null() { Ok(None) } else { unsafe { self::text(name, text) }.map(Some) }
+}
+
 /// A value behind a pointer; `None` behind a null pointer.
 ///
 /// # Safety
@@ -178,40 +190,45 @@ pub(crate) unsafe fn value_mut<'call, T>(name: &str, value: *mut T) -> Result<&'
     unsafe { value.as_mut() }.ok_or_else(|| null(name))
 }
 
-/// Writes a result to the pointer of the caller, unless it is null.
-///
-/// # Safety
-/// `to` is null, or there is room for a value, which nobody else uses during the call.
-#[inline]
-pub(crate) unsafe fn report<T>(name: &str, to: *mut T, result: T) -> Result<(), Failure> {
-    if !to.is_null() {
-        range(name, to, 1)?;
-        // SAFETY: aligned, and the caller vouches for the memory; the old bytes are not a value to be
-        // dropped.
-        unsafe { to.write(result) };
+/// Place of a result, which may be null.
+pub(crate) struct Out<T> {
+    name: &'static str,
+    to: *mut T,
+}
+
+impl<T> Out<T> {
+    /// # Safety
+    /// `to` is null, or there is room for a value, which nobody else uses during the call.
+    #[inline]
+    pub(crate) unsafe fn new(name: &'static str, to: *mut T) -> Self {
+        Self { name, to }
     }
-    Ok(())
+
+    /// Fails if the place is null.
+    pub(crate) fn demand(&self) -> Result<(), Failure> {
+        if self.to.is_null() { Err(null(self.name)) } else { Ok(()) }
+    }
+
+    /// Writes a result, unless the place is null.
+    #[inline]
+    pub(crate) fn write(&self, result: T) -> Result<(), Failure> {
+        if !self.to.is_null() {
+            range(self.name, self.to, 1)?;
+            // SAFETY: aligned, and the caller vouches for the memory; the old bytes are not a value to be
+            // dropped.
+            unsafe { self.to.write(result) };
+        }
+        Ok(())
+    }
 }
 
-/// Three numbers for each node.
-pub(crate) fn vectors<'a, E>(slice: &'static str, numbers: &'a [E]) -> Result<&'a [[E; 3]], Failure> {
-    demand_length(slice, numbers.len(), 3, numbers.len() / 3)?;
-    Ok(numbers.as_chunks().0)
-}
-
-/// Three numbers for each node, to be written.
-pub(crate) fn vectors_mut<'a, E>(
+/// Rows of N numbers: vectors of nodes, or nodes of tetrahedra.
+pub(crate) fn rows<'a, T, const N: usize>(
     slice: &'static str,
-    numbers: &'a mut [E],
-) -> Result<&'a mut [[E; 3]], Failure> {
-    demand_length(slice, numbers.len(), 3, numbers.len() / 3)?;
-    Ok(numbers.as_chunks_mut().0)
-}
-
-/// Four nodes for each tetrahedron.
-pub(crate) fn corners<'a>(slice: &'static str, nodes: &'a [usize]) -> Result<&'a [[usize; 4]], Failure> {
-    demand_length(slice, nodes.len(), 4, nodes.len() / 4)?;
-    Ok(nodes.as_chunks().0)
+    numbers: &'a [T],
+) -> Result<&'a [[T; N]], Failure> {
+    demand_length(slice, numbers.len(), N, numbers.len() / N)?;
+    Ok(numbers.as_chunks().0)
 }
 
 /// Checks that an array has this number of components for each point.

@@ -10,7 +10,8 @@ use piola::material::{Moduli, PerPoint};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
 
 use crate::energy::Energy;
-use crate::error::{Code, Failure, guard};
+use crate::error::{Code, Failure};
+use crate::functions::functions;
 use crate::lent::{Arrays, Plain, plain};
 use crate::{handle, lent};
 
@@ -36,6 +37,7 @@ pub struct Parameter {
 }
 plain!(Parameter);
 
+functions! {
 /// Makes a material of an energy and values for all of its parameters, in any order.
 ///
 /// `points` is 0 for one material that is the same for any number of points. Otherwise it has exactly
@@ -55,51 +57,31 @@ plain!(Parameter);
 ///
 /// Errors: PIOLA_CODE_MATERIAL for unknown and missing parameters and values out of range; the message names
 /// them, and the point.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_material_new(
-    energy: *const Energy,
-    parameters: *const Parameter,
-    parameter_count: usize,
+fn piola_material_new(
+    energy: &Energy,
+    parameters: &[Parameter],
     extension: f64,
     points: usize,
-    material: *mut *mut Material,
-) -> Code {
-    guard(|| {
-        let mut arrays = Arrays::new();
-        // SAFETY: a handle, an array, and room for a handle.
-        unsafe {
-            let energy = lent::value("energy", energy)?;
-            let parameters = arrays.input("parameters", parameters, parameter_count)?;
-            let given = |parameter| Given::new(parameter, points);
-            let given = parameters.iter().map(given).collect::<Result<Vec<_>, _>>()?;
-            handle::give("material", material, || Material::new(&energy.spec, &given, extension, points))
-        }
-    })
+    material: New<Material>,
+) {
+    // SAFETY: texts and values, as the header requires.
+    let given = |parameter| unsafe { Given::new(parameter, points) };
+    let given = parameters.iter().map(given).collect::<Result<Vec<_>, _>>()?;
+    material.give(|| Material::new(&energy.spec, &given, extension, points))
 }
 
 /// Moduli at rest, Pa: the shear modulus μ and Lamé's λ. Each pointer may be null. For a material with values
 /// for each point they are those of the first.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_material_moduli(
-    material: *const Material,
-    mu: *mut f64,
-    lambda: *mut f64,
-) -> Code {
-    guard(|| {
-        // SAFETY: a handle, and room for numbers.
-        unsafe {
-            let moduli = lent::value("material", material)?.moduli;
-            lent::report("mu", mu, moduli.mu)?;
-            lent::report("lambda", lambda, moduli.lambda)
-        }
-    })
+fn piola_material_moduli(material: &Material, mu: Out<f64>, lambda: Out<f64>) {
+    mu.write(material.moduli.mu)?;
+    lambda.write(material.moduli.lambda)
+}
 }
 
 /// Frees a material, or does nothing with null. Bodies made of it stay.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_material_free(material: *mut Material) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(material) }
+pub unsafe extern "C" fn piola_material_free(material: Option<Box<Material>>) {
+    handle::free(material);
 }
 
 /// A parameter as given, its lengths checked.

@@ -2,6 +2,7 @@
 
 use piola::batch::{Batch, Layout};
 use piola::lanes::Backend;
+use piola::point::Filter as PointFilter;
 use piola::{StatusCell, Survey as PointSurvey};
 
 use crate::error::{Code, Failure};
@@ -105,20 +106,46 @@ impl From<PointSurvey> for Survey {
     }
 }
 
-/// The batch of a material with the options behind a pointer, or with the defaults if that is null.
+/// The filters in the order of [`Filter`].
+const FILTERS: [PointFilter; 3] = [PointFilter::None, PointFilter::Clamp, PointFilter::Absolute];
+
+/// Options of a call, read and checked.
+#[derive(Default)]
+pub(crate) struct Chosen<'call> {
+    filter: PointFilter,
+    layout: Layout,
+    backend: Option<Backend>,
+    threads: bool,
+    streams: bool,
+    statuses: &'call [StatusCell],
+}
+
+impl<'call> Chosen<'call> {
+    /// The batch of a material with these options.
+    #[inline]
+    pub(crate) fn batch<E: Precision>(&self, material: &'call Material) -> Result<Batch<'call, E>, Failure> {
+        let batch = Batch::new(E::tiles(material)?)
+            .with_filter(self.filter)
+            .with_layout(self.layout)
+            .with_threads(self.threads)
+            .with_streams(self.streams)
+            .with_statuses(self.statuses);
+        Ok(self.backend.map_or(batch, |backend| batch.with_backend(backend)))
+    }
+}
+
+/// The options behind a pointer, or the defaults if that is null.
 ///
 /// # Safety
 /// `options` is null, or points to as many bytes as its first field gives, and to its number of statuses.
 #[inline]
-pub(crate) unsafe fn batch<'call, E: Precision>(
+pub(crate) unsafe fn read<'call>(
     options: *const Options,
-    material: &'call Material,
     arrays: &mut Arrays<'call>,
-) -> Result<Batch<'call, E>, Failure> {
-    let batch = Batch::new(E::tiles(material)?);
+) -> Result<Chosen<'call>, Failure> {
     // SAFETY: that of this function; a size is all that is read.
     let Some(&size) = (unsafe { lent::optional("options", options.cast::<usize>()) })? else {
-        return Ok(batch);
+        return Ok(Chosen::default());
     };
     let expected = size_of::<Options>();
     if size != expected {
@@ -127,26 +154,17 @@ pub(crate) unsafe fn batch<'call, E: Precision>(
     }
     // SAFETY: the caller vouches for the bytes, which are numbers and a pointer.
     let options = *unsafe { lent::value("options", options) }?;
-    let layout = lent::choice("options->layout", options.layout, [Layout::Points, Layout::Lines])?;
-    let is_portable = lent::choice("options->instructions", options.instructions, [false, true])?;
-    let threads = lent::choice("options->threads", options.threads, [false, true])?;
-    let streams = lent::choice("options->streams", options.streams, [false, true])?;
     // SAFETY: that of this function.
     let statuses = unsafe { arrays.output("options->statuses", options.statuses, options.statuses_length) }?;
     let statuses: *const [u8] = statuses;
-    // SAFETY: a cell is one byte, and nobody else uses these during the call.
-    let statuses = unsafe { &*(statuses as *const [StatusCell]) };
-    let batch = batch
-        .with_filter(filter("options->filter", options.filter)?)
-        .with_layout(layout)
-        .with_threads(threads)
-        .with_streams(streams)
-        .with_statuses(statuses);
-    Ok(if is_portable { batch.with_backend(Backend::portable()) } else { batch })
-}
-
-/// The filter that a number of C stands for.
-pub(crate) fn filter(name: &str, number: i32) -> Result<piola::point::Filter, Failure> {
-    use piola::point::Filter::{Absolute, Clamp, None};
-    lent::choice(name, number, [None, Clamp, Absolute])
+    let is_portable = lent::choice("options->instructions", options.instructions, [false, true])?;
+    Ok(Chosen {
+        filter: lent::choice("options->filter", options.filter, FILTERS)?,
+        layout: lent::choice("options->layout", options.layout, [Layout::Points, Layout::Lines])?,
+        backend: is_portable.then(Backend::portable),
+        threads: lent::choice("options->threads", options.threads, [false, true])?,
+        streams: lent::choice("options->streams", options.streams, [false, true])?,
+        // SAFETY: a cell is one byte, and nobody else uses these during the call.
+        statuses: unsafe { &*(statuses as *const [StatusCell]) },
+    })
 }

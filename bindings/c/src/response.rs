@@ -5,8 +5,7 @@ use std::sync::{Arc, Mutex};
 use piola_bodies::system::ElasticResponse;
 
 use crate::body::{Body, of_tetrahedra};
-use crate::error::{Code, guard};
-use crate::lent::Arrays;
+use crate::functions::functions;
 use crate::options::Survey;
 use crate::{handle, lent};
 
@@ -16,18 +15,11 @@ pub struct Response {
     response: Mutex<ElasticResponse>,
 }
 
+functions! {
 /// Makes the memory to evaluate the energy of a body, which it keeps.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_response_new(body: *const Body, response: *mut *mut Response) -> Code {
-    guard(|| {
-        // SAFETY: a handle, and room for another.
-        unsafe {
-            let body = lent::value("body", body)?.0.clone();
-            handle::give("response", response, || {
-                Ok(Response { response: Mutex::new(ElasticResponse::new(&body)), body })
-            })
-        }
-    })
+fn piola_response_new(body: &Body, response: New<Response>) {
+    let body = body.0.clone();
+    response.give(|| Ok(Response { response: Mutex::new(ElasticResponse::new(&body)), body }))
 }
 
 /// Energy of deformation, J, with the nodes at `positions`, three numbers each, m, and its gradient, N, three
@@ -36,39 +28,29 @@ pub unsafe extern "C" fn piola_response_new(body: *const Body, response: *mut *m
 ///
 /// The survey, which may be null, counts tetrahedra; energy and gradient are valid if none is refused or
 /// nonfinite. Shared among threads.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_response_evaluate(
-    response: *const Response,
-    positions: *const f64,
-    positions_length: usize,
-    energy: *mut f64,
-    gradient: *mut f64,
-    gradient_length: usize,
-    survey: *mut Survey,
-) -> Code {
-    guard(|| {
-        let mut arrays = Arrays::new();
-        // SAFETY: a handle, arrays as long as stated, and room for results.
-        unsafe {
-            let Response { body, response } = lent::value("response", response)?;
-            let positions =
-                lent::vectors("positions", arrays.input("positions", positions, positions_length)?)?;
-            let gradient =
-                lent::vectors_mut("gradient", arrays.output("gradient", gradient, gradient_length)?)?;
-            let mut response = handle::wait(response)?;
-            let (found, mut counts) = response.energy(body, positions)?;
-            if !gradient.is_empty() {
-                counts = response.gradient_here(body, gradient)?;
-            }
-            lent::report("energy", energy, found)?;
-            lent::report("survey", survey, of_tetrahedra(counts, body))
-        }
-    })
+fn piola_response_evaluate(
+    response: &Response,
+    positions: &[f64],
+    energy: Out<f64>,
+    gradient: &mut [f64],
+    survey: Out<Survey>,
+) {
+    let Response { body, response } = response;
+    let positions = lent::rows("positions", positions)?;
+    lent::demand_length("gradient", gradient.len(), 3, gradient.len() / 3)?;
+    let gradient = gradient.as_chunks_mut().0;
+    let mut response = handle::wait(response)?;
+    let (found, mut counts) = response.energy(body, positions)?;
+    if !gradient.is_empty() {
+        counts = response.gradient_here(body, gradient)?;
+    }
+    energy.write(found)?;
+    survey.write(of_tetrahedra(counts, body))
+}
 }
 
 /// Frees a response, or does nothing with null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_response_free(response: *mut Response) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(response) }
+pub unsafe extern "C" fn piola_response_free(response: Option<Box<Response>>) {
+    handle::free(response);
 }

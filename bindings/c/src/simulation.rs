@@ -1,6 +1,5 @@
 //! Bodies in motion.
 
-use std::ffi::c_char;
 use std::sync::{Arc, Mutex};
 
 use piola_bodies::mesh::Anchor;
@@ -8,8 +7,9 @@ use piola_bodies::step::{Convergence as Reason, Simulation as Stepped, Simulatio
 use piola_bodies::system::Pins;
 
 use crate::body::Body;
-use crate::error::{Code, Failure, guard};
-use crate::lent::{Arrays, plain};
+use crate::error::{Code, Failure};
+use crate::functions::functions;
+use crate::lent::{Out, plain};
 use crate::term::{Callbacks, Term};
 use crate::{handle, lent};
 
@@ -124,6 +124,7 @@ impl From<piola_bodies::step::StepReport> for StepReport {
     }
 }
 
+functions! {
 /// Makes a simulation of a body at rest, with the nodes `pins` held, from 0 and in any order.
 ///
 /// `settings` is a text in JSON, null for the defaults. Keys that are left out have the first of their
@@ -137,187 +138,93 @@ impl From<piola_bodies::step::StepReport> for StepReport {
 ///   - `linear`: `"automatic"`, `"cholesky"`, and others: see `LinearSolver` of the crate `piola`.
 ///
 /// Errors: PIOLA_CODE_VALUE for a node that does not exist and for other settings.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_new(
-    body: *const Body,
-    pins: *const usize,
-    pins_length: usize,
-    settings: *const c_char,
-    simulation: *mut *mut Simulation,
-) -> Code {
-    guard(|| {
-        // SAFETY: handles, an array as long as stated, a text or null.
-        unsafe {
-            let body = lent::value("body", body)?;
-            let pins = Pins::at(Arrays::new().input("pins", pins, pins_length)?.iter().copied());
-            let settings = read_settings(settings)?;
-            handle::give("simulation", simulation, || {
-                let simulation = Stepped::new((*body.0).clone(), &pins, settings)?;
-                Ok(Simulation(Mutex::new(State { simulation, terms: Vec::new() })))
-            })
-        }
+fn piola_simulation_new(body: &Body, pins: &[usize], settings: Option<&str>, simulation: New<Simulation>) {
+    let (pins, settings) = (Pins::at(pins.iter().copied()), read_settings(settings)?);
+    simulation.give(|| {
+        let simulation = Stepped::new((*body.0).clone(), &pins, settings)?;
+        Ok(Simulation(Mutex::new(State { simulation, terms: Vec::new() })))
     })
 }
 
 /// Replaces the settings from the next step on; those that are left out become the defaults.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_set_settings(
-    simulation: *const Simulation,
-    settings: *const c_char,
-) -> Code {
-    // SAFETY: a handle, and a text or null.
-    unsafe { change(simulation, |state| Ok(state.simulation.set_settings(read_settings(settings)?)?)) }
+fn piola_simulation_set_settings(simulation: &Simulation, settings: Option<&str>) {
+    Ok(handle::enter(&simulation.0)?.simulation.set_settings(read_settings(settings)?)?)
 }
 
 /// Reads vectors of the nodes, one of `piola_quantity`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_read(
-    simulation: *const Simulation,
-    quantity: i32,
-    numbers: *mut f64,
-    numbers_length: usize,
-) -> Code {
-    // SAFETY: a handle, and arrays as long as stated.
-    unsafe {
-        change(simulation, |State { simulation, .. }| {
-            let numbers = Arrays::new().output("numbers", numbers, numbers_length)?;
-            let reactions;
-            let vectors = match quantity_of(quantity)? {
-                Quantity::Positions => simulation.positions(),
-                Quantity::Velocities => simulation.velocities(),
-                Quantity::Accelerations => simulation.accelerations(),
-                Quantity::Forces if simulation.forces().is_empty() => {
-                    lent::demand_length("numbers", numbers.len(), 3, simulation.positions().len())?;
-                    numbers.fill(0.0);
-                    return Ok(());
-                }
-                Quantity::Forces => simulation.forces(),
-                Quantity::Reactions => {
-                    reactions = simulation.reactions()?;
-                    &reactions
-                }
-            };
-            lent::demand_length("numbers", numbers.len(), 3, vectors.len())?;
-            numbers.copy_from_slice(vectors.as_flattened());
-            Ok(())
-        })
-    }
+fn piola_simulation_read(simulation: &Simulation, quantity: i32, numbers: &mut [f64]) {
+    let simulation = &mut handle::enter(&simulation.0)?.simulation;
+    let reactions;
+    let vectors = match quantity_of(quantity)? {
+        Quantity::Positions => simulation.positions(),
+        Quantity::Velocities => simulation.velocities(),
+        Quantity::Accelerations => simulation.accelerations(),
+        Quantity::Forces if simulation.forces().is_empty() => {
+            lent::demand_length("numbers", numbers.len(), 3, simulation.positions().len())?;
+            numbers.fill(0.0);
+            return Ok(());
+        }
+        Quantity::Forces => simulation.forces(),
+        Quantity::Reactions => {
+            reactions = simulation.reactions()?;
+            &reactions
+        }
+    };
+    lent::demand_length("numbers", numbers.len(), 3, vectors.len())?;
+    numbers.copy_from_slice(vectors.as_flattened());
+    Ok(())
 }
 
 /// Writes vectors of the nodes, one of `piola_quantity`, all of which must be finite. The body may be
 /// deformed, collapsed or inverted in any way.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_write(
-    simulation: *const Simulation,
-    quantity: i32,
-    numbers: *const f64,
-    numbers_length: usize,
-) -> Code {
-    // SAFETY: a handle, and arrays as long as stated.
-    unsafe {
-        change(simulation, |State { simulation, .. }| {
-            let numbers = Arrays::new().input("numbers", numbers, numbers_length)?;
-            let vectors = lent::vectors("numbers", numbers)?;
-            match quantity_of(quantity)? {
-                Quantity::Positions => simulation.set_positions(vectors)?,
-                Quantity::Velocities => simulation.set_velocities(vectors)?,
-                Quantity::Accelerations => simulation.set_accelerations(vectors)?,
-                Quantity::Forces => simulation.set_forces(vectors)?,
-                Quantity::Reactions => {
-                    return Err(Failure::new(
-                        Code::Value,
-                        "reactions follow from the state, and cannot be written",
-                    ));
-                }
-            }
-            Ok(())
-        })
+fn piola_simulation_write(simulation: &Simulation, quantity: i32, numbers: &[f64]) {
+    let simulation = &mut handle::enter(&simulation.0)?.simulation;
+    let vectors = lent::rows("numbers", numbers)?;
+    match quantity_of(quantity)? {
+        Quantity::Positions => simulation.set_positions(vectors)?,
+        Quantity::Velocities => simulation.set_velocities(vectors)?,
+        Quantity::Accelerations => simulation.set_accelerations(vectors)?,
+        Quantity::Forces => simulation.set_forces(vectors)?,
+        Quantity::Reactions => {
+            return Err(Failure::new(Code::Value, "reactions follow from the state, and cannot be written"));
+        }
     }
+    Ok(())
 }
 
 /// Replaces the set of pinned nodes. A node that was not pinned before is held where it is.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_set_pins(
-    simulation: *const Simulation,
-    pins: *const usize,
-    pins_length: usize,
-) -> Code {
-    // SAFETY: a handle, and arrays as long as stated.
-    unsafe {
-        change(simulation, |State { simulation, .. }| {
-            let pins = Arrays::new().input("pins", pins, pins_length)?;
-            Ok(simulation.set_pins(&Pins::at(pins.iter().copied()))?)
-        })
-    }
+fn piola_simulation_set_pins(simulation: &Simulation, pins: &[usize]) {
+    Ok(handle::enter(&simulation.0)?.simulation.set_pins(&Pins::at(pins.iter().copied()))?)
 }
 
 /// Prescribes the positions of pinned nodes after the next step and from then on: three numbers for each of
 /// `nodes`, m. They move evenly through the step.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_prescribe(
-    simulation: *const Simulation,
-    nodes: *const usize,
-    nodes_length: usize,
-    positions: *const f64,
-    positions_length: usize,
-) -> Code {
-    // SAFETY: a handle, and arrays as long as stated.
-    unsafe {
-        change(simulation, |State { simulation, .. }| {
-            let mut arrays = Arrays::new();
-            let nodes = arrays.input("nodes", nodes, nodes_length)?;
-            let positions = arrays.input("positions", positions, positions_length)?;
-            lent::demand_length("positions", positions.len(), 3, nodes.len())?;
-            let positions = lent::vectors("positions", positions)?;
-            Ok(nodes
-                .iter()
-                .zip(positions)
-                .try_for_each(|(&node, &position)| simulation.prescribe(node, position))?)
-        })
-    }
+fn piola_simulation_prescribe(simulation: &Simulation, nodes: &[usize], positions: &[f64]) {
+    let simulation = &mut handle::enter(&simulation.0)?.simulation;
+    lent::demand_length("positions", positions.len(), 3, nodes.len())?;
+    let positions = lent::rows("positions", positions)?;
+    Ok(nodes.iter().zip(positions).try_for_each(|(&node, &position)| simulation.prescribe(node, position))?)
 }
 
 /// Replaces all springs.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_set_springs(
-    simulation: *const Simulation,
-    springs: *const Spring,
-    springs_length: usize,
-) -> Code {
-    // SAFETY: a handle, and arrays as long as stated.
-    unsafe {
-        change(simulation, |State { simulation, .. }| {
-            let springs = Arrays::new().input("springs", springs, springs_length)?;
-            let spring = |&Spring { nodes, weights, target, stiffness }: &Spring| {
-                piola_bodies::step::Spring { anchor: Anchor { nodes, weights }, target, stiffness }
-            };
-            Ok(simulation.set_springs(&springs.iter().map(spring).collect::<Vec<_>>())?)
-        })
-    }
+fn piola_simulation_set_springs(simulation: &Simulation, springs: &[Spring]) {
+    let spring = |&Spring { nodes, weights, target, stiffness }: &Spring| {
+        piola_bodies::step::Spring { anchor: Anchor { nodes, weights }, target, stiffness }
+    };
+    Ok(handle::enter(&simulation.0)?.simulation.set_springs(&springs.iter().map(spring).collect::<Vec<_>>())?)
 }
 
 /// Replaces all terms of the energy except for deformation, gravity and springs.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_set_terms(
-    simulation: *const Simulation,
-    terms: *const Term,
-    terms_length: usize,
-) -> Code {
-    // SAFETY: a handle, and arrays as long as stated.
-    unsafe {
-        change(simulation, |State { simulation, terms: kept }| {
-            let terms = Arrays::new().input("terms", terms, terms_length)?;
-            let terms = terms
-                .iter()
-                .map(|&term| Callbacks::new(term).map(Arc::new))
-                .collect::<Result<Vec<_>, _>>()?;
-            simulation.set_terms(
-                terms.iter().map(|term| term.clone() as Arc<dyn piola_bodies::step::Term>).collect(),
-            );
-            *kept = terms;
-            Ok(())
-        })
-    }
+fn piola_simulation_set_terms(simulation: &Simulation, terms: &[Term]) {
+    let mut state = handle::enter(&simulation.0)?;
+    // SAFETY: functions that do what the header requires.
+    let callbacks = |&term: &Term| unsafe { Callbacks::new(term) }.map(Arc::new);
+    let terms = terms.iter().map(callbacks).collect::<Result<Vec<_>, _>>()?;
+    state
+        .simulation
+        .set_terms(terms.iter().map(|term| term.clone() as Arc<dyn piola_bodies::step::Term>).collect());
+    state.terms = terms;
+    Ok(())
 }
 
 /// Advances by `dt`, s; the report may be null. Shared among threads, with the same bits for any number of
@@ -326,69 +233,37 @@ pub unsafe extern "C" fn piola_simulation_set_terms(
 /// Errors: PIOLA_CODE_STEP if there is no admissible next state: the state before is untouched, and a shorter
 /// step may succeed. PIOLA_CODE_CALLBACK if a function of a term has failed: likewise, unless it was the last
 /// one of the step, for the energy in the report.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_step(
-    simulation: *const Simulation,
-    dt: f64,
-    report: *mut StepReport,
-) -> Code {
-    // SAFETY: a handle, and room for a report or null.
-    unsafe { advance(simulation, report, |simulation| simulation.step(dt)) }
+fn piola_simulation_step(simulation: &Simulation, dt: f64, report: Out<StepReport>) {
+    advance(simulation, &report, |simulation| simulation.step(dt))
 }
 
 /// Moves the body towards a minimum of its energy with gravity, forces, springs and terms, within the limits
 /// of the settings. Then it is at rest. Otherwise like `piola_simulation_step`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_equilibrate(
-    simulation: *const Simulation,
-    report: *mut StepReport,
-) -> Code {
-    // SAFETY: a handle, and room for a report or null.
-    unsafe { advance(simulation, report, Stepped::equilibrate) }
+fn piola_simulation_equilibrate(simulation: &Simulation, report: Out<StepReport>) {
+    advance(simulation, &report, Stepped::equilibrate)
+}
 }
 
 /// Frees a simulation, or does nothing with null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_free(simulation: *mut Simulation) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(simulation) }
+pub unsafe extern "C" fn piola_simulation_free(simulation: Option<Box<Simulation>>) {
+    handle::free(simulation);
 }
 
-/// Changes a simulation that no other call uses.
-///
-/// # Safety
-/// `simulation` is null or a handle.
-unsafe fn change(
-    simulation: *const Simulation,
-    change: impl FnOnce(&mut State) -> Result<(), Failure>,
-) -> Code {
-    guard(|| {
-        // SAFETY: that of this function.
-        let simulation = unsafe { lent::value("simulation", simulation) }?;
-        change(&mut *handle::enter(&simulation.0)?)
-    })
-}
-
-/// # Safety
-/// `simulation` is null or a handle; `report` is null, or there is room for one.
-unsafe fn advance(
-    simulation: *const Simulation,
-    report: *mut StepReport,
+fn advance(
+    simulation: &Simulation,
+    report: &Out<StepReport>,
     advance: impl FnOnce(&mut Stepped) -> Result<piola_bodies::step::StepReport, StepError>,
-) -> Code {
-    // SAFETY: that of this function.
-    unsafe {
-        change(simulation, |State { simulation, terms }| {
-            let result = advance(simulation);
-            for (index, term) in terms.iter().enumerate() {
-                if let Some(returned) = term.take_returned() {
-                    let message = format_args!("a function of term {index} (from 0) has returned {returned}");
-                    return Err(Failure::new(Code::Callback, message));
-                }
-            }
-            lent::report("report", report, result?.into())
-        })
+) -> Result<(), Failure> {
+    let State { simulation, terms } = &mut *handle::enter(&simulation.0)?;
+    let result = advance(simulation);
+    for (index, term) in terms.iter().enumerate() {
+        if let Some(returned) = term.take_returned() {
+            let message = format_args!("a function of term {index} (from 0) has returned {returned}");
+            return Err(Failure::new(Code::Callback, message));
+        }
     }
+    report.write(result?.into())
 }
 
 fn quantity_of(quantity: i32) -> Result<Quantity, Failure> {
@@ -396,12 +271,6 @@ fn quantity_of(quantity: i32) -> Result<Quantity, Failure> {
     lent::choice("quantity", quantity, [Positions, Velocities, Accelerations, Forces, Reactions])
 }
 
-/// # Safety
-/// `settings` is null or a text.
-unsafe fn read_settings(settings: *const c_char) -> Result<SimulationSettings, Failure> {
-    if settings.is_null() {
-        return Ok(SimulationSettings::default());
-    }
-    // SAFETY: that of this function.
-    Ok(serde_json::from_str(unsafe { lent::text("settings", settings) }?)?)
+fn read_settings(settings: Option<&str>) -> Result<SimulationSettings, Failure> {
+    Ok(settings.map(serde_json::from_str).transpose()?.unwrap_or_default())
 }

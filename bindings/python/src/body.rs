@@ -16,7 +16,7 @@ use crate::arrays::{from_rows, indices, kind, numbers, read_only, rows};
 use crate::errors::{BodyError, DomainError, of_body, type_error};
 use crate::evaluate::filter;
 use crate::material::Material;
-use crate::threads::on_threads;
+use crate::threads::with_locked;
 
 /// An elastic body: tetrahedra with a material and a density.
 ///
@@ -48,41 +48,23 @@ struct Blocks {
 }
 
 impl Blocks {
-    /// Both triangles of a symmetric matrix.
+    /// Both blocks of each pair of nodes, of which the matrix has one.
     fn new(matrix: &NodalStiffness, nodes: usize) -> Self {
-        let mut starts = vec![0; nodes + 1];
-        for (row, column, _) in matrix.blocks() {
-            starts[row + 1] += 1;
-            starts[column + 1] += i64::from(row != column);
-        }
-        for row in 0..nodes {
-            starts[row + 1] += starts[row];
-        }
-        let count = starts[nodes] as usize;
-        let mut next = starts.clone();
-        let mut both = Self { starts, columns: vec![0; count], blocks: vec![[[0.0; 3]; 3]; count] };
-        // A row is given its columns in order: those that are stored as later ones of rows before it, and its
-        // diagonal; then those of the rows after it.
+        let mut rows = vec![Vec::new(); nodes];
         for (row, column, block) in matrix.blocks() {
-            both.put(&mut next, column, row, block);
-        }
-        for row in 0..nodes {
-            let mut place = both.starts[row] as usize;
-            while place < count && both.columns[place] < row as i64 {
-                let (column, block) = (both.columns[place] as usize, both.blocks[place]);
-                both.put(&mut next, column, row, &block);
-                place += 1;
+            rows[row].push((column, *block));
+            if row != column {
+                rows[column].push((row, std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]))));
             }
         }
+        let mut both = Self { starts: vec![0], ..Self::default() };
+        for mut row in rows {
+            row.sort_unstable_by_key(|&(column, _)| column);
+            both.columns.extend(row.iter().map(|&(column, _)| column as i64));
+            both.blocks.extend(row.iter().map(|&(_, block)| block));
+            both.starts.push(both.columns.len() as i64);
+        }
         both
-    }
-
-    /// Puts the transpose of a block at the next place of a row.
-    fn put(&mut self, next: &mut [i64], row: usize, column: usize, block: &[[f64; 3]; 3]) {
-        let place = next[row] as usize;
-        self.columns[place] = column as i64;
-        self.blocks[place] = std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]));
-        next[row] += 1;
     }
 }
 
@@ -106,12 +88,7 @@ impl Body {
         py: Python<'_>,
         compute: impl FnOnce(&system::Body, &mut Memory) -> Result<(T, Survey), LengthError> + Send,
     ) -> PyResult<T> {
-        let evaluated = py.detach(|| {
-            // Locked before the pool is entered: a thread of it that waits may take up another call
-            // meanwhile.
-            let memory = &mut *self.memory();
-            on_threads(|| compute(&self.body, memory))
-        })?;
+        let evaluated = with_locked(py, &self.memory, |memory| compute(&self.body, memory))?;
         let (value, survey) = evaluated.map_err(of_body)?;
         let Some(first) = survey.first else { return Ok(value) };
         let Survey { refused, nonfinite, .. } = survey;
@@ -161,35 +138,27 @@ impl Body {
                 "there are {materials} materials and {densities} densities"
             )));
         }
-        let part_of: Option<Vec<[usize; 1]>> = parts.map(|parts| indices("parts", parts)).transpose()?;
-        match &part_of {
-            None if materials.len() != 1 => {
+        let part_of: Vec<[usize; 1]> = match parts {
+            Some(parts) => indices("parts", parts)?,
+            None if materials.len() == 1 => vec![[0]; mesh.tets.len()],
+            None => {
                 return Err(BodyError::new_err(
                     "several materials need `parts`, the material of each tetrahedron",
                 ));
             }
-            Some(part_of) if part_of.len() != mesh.tets.len() => {
-                let (parts, tets) = (part_of.len(), mesh.tets.len());
-                return Err(BodyError::new_err(format!(
-                    "parts has {parts} entries; it must have one for each of {tets}"
-                )));
-            }
-            _ => {}
-        }
-        let tets_of = |part: usize| match &part_of {
-            None => (0..mesh.tets.len()).collect::<Vec<_>>(),
-            Some(part_of) => (0..mesh.tets.len()).filter(|&tet| part_of[tet][0] == part).collect(),
         };
-        let groups: Vec<_> = (0..materials.len())
-            .map(|part| Group {
-                name: part.to_string(),
-                dimension: 3,
-                tets: tets_of(part),
-                ..Group::default()
-            })
-            .collect();
-        let order = groups.iter().flat_map(|group| group.tets.iter().copied()).collect();
-        mesh.groups = groups;
+        if part_of.len() != mesh.tets.len() {
+            let (parts, tets) = (part_of.len(), mesh.tets.len());
+            return Err(BodyError::new_err(format!(
+                "parts has {parts} entries; it must have one for each of {tets}"
+            )));
+        }
+        let group = |part: usize| {
+            let tets = (0..part_of.len()).filter(|&tet| part_of[tet] == [part]).collect();
+            Group { name: part.to_string(), dimension: 3, tets, ..Group::default() }
+        };
+        mesh.groups = (0..materials.len()).map(group).collect();
+        let order = mesh.groups.iter().flat_map(|group| group.tets.iter().copied()).collect();
         let part = |(part, (material, density)): (usize, (&Py<Material>, f64))| {
             let material = material.get().elements(mesh.groups[part].tets.len())?;
             Ok(Part { group: Some(part.to_string()), material, density })

@@ -2,6 +2,8 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
+use std::fmt::Display;
+
 use numpy::{IntoPyArray, PyArrayMethods};
 use piola::contract::{Notation, Settings, check};
 use piola::point::{stress, svd};
@@ -10,7 +12,7 @@ use piola_laboratory::curve::{Mode, ModeError, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, StressUnitError, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
-use piola_laboratory::stability::{Path, Report, SurveySettings, survey};
+use piola_laboratory::stability::{Report, SurveySettings, survey};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -42,21 +44,18 @@ impl Material {
         let (mode, controls) = (self::mode(mode)?, numbers("controls", controls)?);
         let specimen = self.uniform()?.specimen().map_err(of_material)?;
         let points = py.detach(|| sweep(&*specimen, mode, volume(incompressible), &controls));
-        let stress: Vec<f64> =
-            points.iter().map(|point| point.as_ref().map_or(f64::NAN, |point| point.stress)).collect();
-        let stretches: Vec<[f64; 3]> = points
-            .iter()
-            .map(|point| point.as_ref().map_or([f64::NAN; 3], |point| point.stretches))
-            .collect();
-        let reasons: Vec<Option<String>> =
-            points.iter().map(|point| point.as_ref().err().map(ToString::to_string)).collect();
-        let arguments = (
-            mode.name(),
-            controls.into_pyarray(py),
-            stress.into_pyarray(py),
-            from_rows(py, &stretches)?,
-            reasons,
-        );
+        let (mut stress, mut stretches, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
+        for point in points {
+            let (at, of, reason) = match point {
+                Ok(point) => (point.stress, point.stretches, None),
+                Err(reason) => (f64::NAN, [f64::NAN; 3], Some(reason.to_string())),
+            };
+            stress.push(at);
+            stretches.push(of);
+            reasons.push(reason);
+        }
+        let (controls, stress) = (controls.into_pyarray(py), stress.into_pyarray(py));
+        let arguments = (mode.name(), controls, stress, from_rows(py, &stretches)?, reasons);
         py.import("piola.results")?.call_method1("Curve", arguments)
     }
 
@@ -131,21 +130,20 @@ impl Material {
     ) -> PyResult<Bound<'py, PyAny>> {
         let specimen = self.uniform()?.specimen().map_err(of_material)?;
         let settings = SurveySettings::default().with_range(smallest, largest).with_resolution(resolution);
-        let report =
-            py.detach(|| survey(&*specimen, &settings)).map_err(|error| value_error(error.to_string()))?;
+        let report = py.detach(|| survey(&*specimen, &settings)).map_err(value_error)?;
         let text = report.to_string();
         let Report { points, admitted, findings, walks, .. } = report;
         let kept = PyDict::new(py);
         for finding in &findings {
-            kept.set_item(criterion(finding.criterion), finding.kept)?;
+            kept.set_item(word(finding.criterion), finding.kept)?;
         }
         let paths = PyList::empty(py);
         for walk in &walks {
             let lost = PyDict::new(py);
             for (found, lost_at) in Criterion::ALL.into_iter().zip(walk.lost) {
-                lost.set_item(criterion(found), lost_at)?;
+                lost.set_item(word(found), lost_at)?;
             }
-            let arguments = (path(walk.path), walk.to, walk.reached, lost);
+            let arguments = (word(walk.path), walk.to, walk.reached, lost);
             paths.append(py.import("piola.results")?.call_method1("Walk", arguments)?)?;
         }
         py.import("piola.results")?.call_method1("Stability", (points, admitted, kept, paths, text))
@@ -239,7 +237,7 @@ fn volume(incompressible: bool) -> Volume {
 }
 
 fn mode(name: &str) -> PyResult<Mode> {
-    name.parse().map_err(|error: ModeError| value_error(error.to_string()))
+    name.parse().map_err(value_error::<ModeError>)
 }
 
 fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
@@ -253,29 +251,16 @@ fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
     Ok(Measurements { points })
 }
 
-fn criterion(criterion: Criterion) -> &'static str {
-    match criterion {
-        Criterion::BakerEricksen => "baker_ericksen",
-        Criterion::Hill => "hill",
-        Criterion::StrongEllipticity => "strong_ellipticity",
-    }
-}
-
-fn path(path: Path) -> &'static str {
-    match path {
-        Path::Uniaxial => "uniaxial",
-        Path::Equibiaxial => "equibiaxial",
-        Path::PureShear => "pure_shear",
-        Path::Confined => "confined",
-        Path::Hydrostatic => "hydrostatic",
-    }
+/// The word of Python for a name, such as "pure_shear".
+fn word(name: impl Display) -> String {
+    name.to_string().to_lowercase().replace([' ', '–'], "_")
 }
 
 /// Treloar's measurements of vulcanised rubber, 1944, in the form that `Material.fit` takes: control and
 /// stress, Pa.
 #[pyfunction]
 pub(crate) fn treloar(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
-    by_mode(py, &Measurements::read(TRELOAR_1944).map_err(|error| value_error(error.to_string()))?)
+    by_mode(py, &Measurements::read(TRELOAR_1944).map_err(value_error)?)
 }
 
 /// Measurements from the text of a table, in the form that `Material.fit` takes.
@@ -300,13 +285,12 @@ pub(crate) fn measurements<'py>(
     mode: Option<&str>,
     unit: Option<&str>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let refused = |error: &dyn std::error::Error| value_error(error.to_string());
     let mut options = ReadOptions::default();
     options.strain = strain.map(Into::into);
     options.stress = stress.map(Into::into);
-    options.test = mode.map(str::parse).transpose().map_err(|error: ModeError| refused(&error))?;
-    options.unit = unit.map(str::parse).transpose().map_err(|error: StressUnitError| refused(&error))?;
-    let reading = Measurements::read_with(text, &options).map_err(|error| refused(&error))?;
+    options.test = mode.map(self::mode).transpose()?;
+    options.unit = unit.map(str::parse).transpose().map_err(value_error::<StressUnitError>)?;
+    let reading = Measurements::read_with(text, &options).map_err(value_error)?;
     by_mode(py, &reading.measurements)
 }
 

@@ -5,7 +5,6 @@
 use std::process::ExitCode;
 
 use piola::Inversion;
-use piola::material::Form;
 use piola_declare::Energy;
 use piola_declare::emit::{Emission, PointFunction, Precision, Target};
 use piola_wgpu::device::{Device, NoAdapter};
@@ -80,7 +79,7 @@ fn bar(arguments: &[&str]) -> Result<(), Error> {
     let device = Device::open()?;
     let mesh = mesh::bar(cells);
     let start = std::time::Instant::now();
-    let elements = Elements::new(&device, (&text, function.name()), &fields(&energy, &values), &mesh)?;
+    let elements = Elements::new(&device, (&text, function.name()), &mesh)?;
     // The first time the driver compiles, and fills memory with zeros.
     elements.compute()?;
     let ready = start.elapsed().as_secs_f64();
@@ -122,14 +121,4 @@ fn values(energy: &Energy, words: &[&str]) -> Result<Vec<Vec<f64>>, Error> {
         found.map(|(_, list)| list.clone()).ok_or_else(|| format!("{name} has no value: add {name}=…").into())
     };
     names.iter().map(value).collect()
-}
-
-/// Parameters as they lie in the structure of the emitted text: whole exponents are a part of its functions.
-fn fields(energy: &Energy, values: &[Vec<f64>]) -> Vec<f32> {
-    let parameters = energy.description().parameters.iter().zip(values);
-    let fields =
-        parameters.filter(|(parameter, _)| !matches!(parameter.form, Form::Exponent | Form::Exponents));
-    let fields: Vec<f32> = fields.flat_map(|(_, list)| list).map(|&value| value as f32).collect();
-    // A structure without a field has one that is not used.
-    if fields.is_empty() { vec![0.0] } else { fields }
 }

@@ -44,13 +44,12 @@ pub type Results = (Vec<[f32; 12]>, Vec<[f32; ENTRIES]>);
 pub fn shader(energy: &str, function: &str) -> String {
     format!(
         "{energy}
-@group(0) @binding(0) var<storage, read> parameters: {PREFIX}_parameters;
-@group(0) @binding(1) var<storage, read> positions: array<f32>;
-@group(0) @binding(2) var<storage, read> corners: array<vec4<u32>>;
-@group(0) @binding(3) var<storage, read> rests: array<f32>;
-@group(0) @binding(4) var<storage, read_write> gradients: array<f32>;
-@group(0) @binding(5) var<storage, read_write> stiffnesses: array<f32>;
-@group(0) @binding(6) var<storage, read_write> statuses: array<u32>;
+@group(0) @binding(0) var<storage, read> positions: array<f32>;
+@group(0) @binding(1) var<storage, read> corners: array<vec4<u32>>;
+@group(0) @binding(2) var<storage, read> rests: array<f32>;
+@group(0) @binding(3) var<storage, read_write> gradients: array<f32>;
+@group(0) @binding(4) var<storage, read_write> stiffnesses: array<f32>;
+@group(0) @binding(5) var<storage, read_write> statuses: array<u32>;
 
 @compute @workgroup_size({LINE})
 fn elements(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {{
@@ -66,7 +65,7 @@ fn elements(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_i
     }}
     var gradient: array<f32, 12>;
     var K: array<f32, {ENTRIES}>;
-    statuses[element] = {PREFIX}_{function}(parameters, x, rest, &gradient, &K);
+    statuses[element] = {PREFIX}_{function}({PREFIX}_example(), x, rest, &gradient, &K);
     for (var k = 0u; k < 12u; k++) {{
         gradients[(12u * group.x + k) * {LINE}u + lane] = gradient[k];
     }}
@@ -79,24 +78,19 @@ fn elements(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_i
 }
 
 impl<'a> Elements<'a> {
-    /// The elements of a mesh, with the text of an energy, its parameters as fields of that text, and the
+    /// The elements of a mesh, with the text of an energy, whose parameters are those of its example, and the
     /// function that is called: `tetrahedron` or `projected_tetrahedron`.
     ///
     /// # Errors
     /// The device does not compile the text, or the nodes are too many for it.
-    pub fn new(
-        device: &'a Device,
-        (energy, function): (&str, &str),
-        parameters: &[f32],
-        mesh: &Mesh,
-    ) -> Result<Self, Error> {
+    pub fn new(device: &'a Device, (energy, function): (&str, &str), mesh: &Mesh) -> Result<Self, Error> {
         let limits = &device.limits;
         let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         if size_of_val(&mesh.positions[..]) as u64 > largest {
             return Err(format!("{} nodes are too many for {}", mesh.positions.len(), device.name).into());
         }
         let program = device.programs(&shader(energy, function), &["elements"])?.remove(0);
-        let (parameters, positions) = (device.filled(parameters), device.filled(&mesh.positions));
+        let positions = device.filled(&mesh.positions);
         let lines = largest / (4 * ENTRIES * LINE) as u64;
         let lines = lines.min(limits.max_compute_workgroups_per_dimension.into()) as usize;
         let parts = mesh.corners.chunks(lines * LINE).zip(mesh.rest.chunks(lines * LINE));
@@ -111,7 +105,7 @@ impl<'a> Elements<'a> {
             let [gradients, stiffnesses, statuses] =
                 [12, ENTRIES, 1].map(|components| device.empty((4 * components * LINE * lines) as u64));
             let (corners, rest) = (device.filled(&corners), device.filled(&rest));
-            let all = [&parameters, &positions, &corners, &rest, &gradients, &stiffnesses, &statuses];
+            let all = [&positions, &corners, &rest, &gradients, &stiffnesses, &statuses];
             let bindings = device.bind(&program, &all.map(Some));
             Chunk { lines: lines as u32, bindings, gradients, stiffnesses, statuses }
         });

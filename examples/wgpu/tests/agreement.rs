@@ -81,14 +81,13 @@ fn check(formula: &str, values: &[&[f64]]) {
     let energy = Energy::from_formula(formula).expect("a formula");
     let material = energy.material(values, Inversion::Refuse).expect("admissible parameters");
     let emission = Emission::new(Target::Wgsl).with_precision(Precision::F32).with_prefix(PREFIX);
-    let parameters: Vec<f32> = values.concat().into_iter().map(|value| value as f32).collect();
     // The last line of 64 elements is not full.
     let mesh = bar([11, 4, 3]);
     for (function, filter) in FUNCTIONS {
         let emission = emission.clone().with_functions([function]);
         let text = energy.emit(values, Inversion::Refuse, &emission).expect("an energy that can be printed");
         let function = function.name();
-        let elements = Elements::new(&device, (&text, function), &parameters, &mesh).expect("a program");
+        let elements = Elements::new(&device, (&text, function), &mesh).expect("a program");
         elements.compute().expect("a device");
         let statuses = elements.statuses().expect("a device");
         let is_filtered = |&status: &u32| status == 8 && filter != Filter::None;
