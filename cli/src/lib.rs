@@ -11,7 +11,6 @@ mod declare;
 mod emit;
 pub mod error;
 mod materials;
-mod overlap;
 mod picture;
 pub mod render;
 mod signals;

@@ -183,25 +183,6 @@ fn files_of_the_viewer_that_are_none() {
 }
 
 #[test]
-fn files_that_are_named_twice() {
-    let files = [
-        good_mesh(),
-        ("data.csv", "mode,stretch,nominal_stress_MPa\nuniaxial,2,0.5\n".into()),
-        ("file.node", String::new()),
-        ("file.ele", String::new()),
-    ];
-    let twice = |arguments: &[&str], guilty: &[&str]| check(&files, arguments, guilty);
-    twice(&["view", "--mesh", "cage.msh", "--save", "cage.msh"], &["--mesh", "--save"]);
-    twice(&["view", "--mesh", "file.node", "--save", "file.ele"], &["--mesh", "--save"]);
-    let arguments = ["view", "--mesh", "cage.msh", "--surface", "data.csv", "--save", "data.csv"];
-    twice(&arguments, &["--surface", "--save"]);
-    twice(&["curve", "gent", "--data", "data.csv", "--svg", "data.csv"], &["--data", "--svg"]);
-    twice(&["fit", "gent", "--data", "data.csv", "--svg", "./data.csv"], &["--data", "--svg"]);
-    // Loading a state and saving the next one there is what a state is for.
-    twice(&["view", "--load", "data.csv", "--save", "data.csv"], &["data.csv", "not a saved state"]);
-}
-
-#[test]
 fn what_a_bench_cannot_do() {
     let data = |text: &str| [("rubber.csv", text.to_owned())];
     check(&[], &["curve", "ruber"], &["`ruber`", "piola materials"]);

@@ -64,7 +64,6 @@ const MAX_STRETCH: f64 = 1e6;
 impl Curve {
     /// Computes test curves as tables, and draws them if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
-        self.data.keep(self.svg.as_ref())?;
         if self.material.material.as_deref() == Some(ranking::ALL) {
             return self.rank();
         }

@@ -8,7 +8,6 @@ use piola_laboratory::data::{
 };
 
 use crate::error::Error;
-use crate::overlap::refuse_overlaps;
 
 /// Contents of files, below the help of each command that reads measurements.
 pub(super) const HELP: &str = "\
@@ -60,12 +59,6 @@ pub(super) struct Measured {
 }
 
 impl Data {
-    /// Refuses to draw over the measured points.
-    pub(super) fn keep(&self, svg: Option<&PathBuf>) -> Result<(), Error> {
-        let data = self.files.iter().filter(|file| !is_treloar(file)).map(|file| ("--data", file.clone()));
-        refuse_overlaps(data, svg.map(|svg| ("--svg", svg.clone())))
-    }
-
     /// The files in sentences.
     pub(super) fn names(&self) -> String {
         self.files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")

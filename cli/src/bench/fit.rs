@@ -56,7 +56,6 @@ pub(crate) struct Fit {
 impl Fit {
     /// Fits the parameters, and draws the result if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
-        self.data.keep(self.svg.as_ref())?;
         let Measured { points: data, notes } = self.data.read()?.unwrap_or_default();
         let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);
         let volume = match self.compressible || is_volumetric && !self.incompressible {
