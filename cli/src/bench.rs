@@ -112,7 +112,7 @@ fn draw(
     curves: &[chart::Curve],
     data: Option<(&Measurements, &Agreement)>,
 ) -> Result<(), Error> {
-    let svg = chart::draw(title, &options.replace("--param ", ""), curves, data).map_err(Error::bench)?;
+    let svg = chart::draw(title, &options.replace("--param ", ""), curves, data).map_err(Error::usage)?;
     Ok(write_whole(file, svg.as_bytes())?)
 }
 

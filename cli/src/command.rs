@@ -160,7 +160,14 @@ impl Choice {
     fn only_files(mut self) -> Result<Option<Files>, Error> {
         let (mesh, surface) = (self.scene.mesh.take(), self.surface.take());
         let files = mesh.map(|mesh| Files { mesh, surface });
-        if self == Self::parse_from(["piola"]) { Ok(files) } else { Err(Error::ScenesOwn) }
+        let has_other_options = self != Self::parse_from(["piola"]);
+        match has_other_options {
+            true => Err(Error::usage(
+                "the file contains its scene and options; leave out all options except --load, --mesh and --surface of its \
+                 body, --port and --save",
+            )),
+            false => Ok(files),
+        }
     }
 
     /// The scene with the overrides.

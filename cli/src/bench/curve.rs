@@ -144,7 +144,9 @@ impl Curve {
             (self.rows.is_some(), "--rows"),
         ] {
             if is_given {
-                return Err(Error::RankedWith(option));
+                return Err(Error::Usage(format!(
+                    "`piola curve all` cannot use {option}: it fits all parameters to all points, at constant volume"
+                )));
             }
         }
         ranking::run(&self.data, self.svg.as_deref())
