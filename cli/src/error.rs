@@ -130,7 +130,7 @@ impl Error {
                  program"
                     .into()
             }
-            SceneError::Pin { .. } => "; choose a place with --pin".into(),
+            SceneError::Pin(_) => "; choose a place with --pin".into(),
             SceneError::Folder { source, .. } if source.kind() == io::ErrorKind::AlreadyExists => {
                 "; name a new one with --out, or continue the run in it with --resume".into()
             }

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use clap::Args;
 use piola::Inversion;
 
-use crate::error::Error;
+use crate::error::{Error, list};
 use crate::material::MaterialSpec;
 use crate::scene::{Amplitude, Body, SCENES, Scene, Start};
 use crate::settings::{Files, Settings};
@@ -135,11 +135,15 @@ fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>)
             amplitude: other_amplitude.unwrap_or(amplitude),
         }),
         (start, None, None) => Ok(start),
-        (_, seed, _) => Err(Error::NotScrambled {
-            option: if seed.is_some() { "--seed" } else { "--amplitude" },
-            scene: scene.name,
-            known: SCENES.iter().filter(is_random).map(|scene| scene.name).collect(),
-        }),
+        (_, seed, _) => {
+            let option = if seed.is_some() { "--seed" } else { "--amplitude" };
+            let known: Vec<_> = SCENES.iter().filter(is_random).map(|scene| scene.name).collect();
+            Err(Error::Option(format!(
+                "the scene `{}` does not use {option}: only {} displace nodes at random",
+                scene.name,
+                list(&known)
+            )))
+        }
     }
 }
 

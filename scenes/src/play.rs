@@ -1,5 +1,6 @@
 //! A scene in motion.
 
+use piola::__private::message::quoted;
 use piola::batch::TileMaterial;
 use piola::material::{Moduli, Text};
 use piola_bodies::mesh::Anchor;
@@ -8,7 +9,7 @@ use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simul
 use piola_bodies::system::{Body, Part, Pins};
 
 use crate::clock::Clock;
-use crate::error::Error;
+use crate::error::{Error, list};
 use crate::geometry::{Geometry, NOTHING_PULLED};
 use crate::material::{self, MaterialSpec, Parameters};
 use crate::output::{Newton, StepCounts};
@@ -350,25 +351,29 @@ pub fn step_settings(settings: &Settings) -> step::SimulationSettings {
 /// The nodes that the settings pin, or else those that the scene pins.
 ///
 /// # Errors
-/// [`Error::Pin`], [`Error::UnknownPin`].
+/// [`Error::Pin`].
 pub fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
     if settings.pins.is_empty() {
         let Some(pinned) = settings.scene.pinned else { return Ok(Pins::none()) };
         let region = region::within(mesh.bounds(), pinned);
-        let pin = format!("of the scene {}", settings.scene.name);
-        return Pins::in_box(mesh, region).map_err(|error| Error::Pin { pin, source: error.into() });
+        return Pins::in_box(mesh, region).map_err(|error| {
+            Error::Pin(format!("the pin of the scene {} holds nothing: {error}", settings.scene.name))
+        });
     }
     settings.pins.iter().try_fold(Pins::none(), |all, pin| {
         // What could be a box may also be the name of a group; then the user who named it means the group.
         let pins = match (mesh.group(pin), region::parse(pin)) {
             (None, Ok(region)) => Pins::in_box(mesh, region),
             (Some(_), _) => Pins::of_group(mesh, pin),
-            (None, Err(source)) => {
-                let groups = mesh.groups.iter().map(|group| group.name.clone()).collect();
-                return Err(Error::UnknownPin { pin: pin.clone(), groups, source });
+            (None, Err(error)) => {
+                let groups: Vec<_> = mesh.groups.iter().map(|group| &group.name).collect();
+                let (pin, groups) = (quoted(pin), list(&groups));
+                return Err(Error::Pin(format!(
+                    "`{pin}` is neither a group of the mesh (it has {groups}) nor a box; {error}"
+                )));
             }
         };
-        let pins = pins.map_err(|error| Error::Pin { pin: format!("`{pin}`"), source: error.into() })?;
+        let pins = pins.map_err(|error| Error::Pin(format!("the pin `{pin}` holds nothing: {error}")))?;
         Ok(all.and(&pins))
     })
 }

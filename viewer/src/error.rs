@@ -1,6 +1,5 @@
 //! Errors of the viewer.
 
-use std::io;
 use std::path::PathBuf;
 
 use piola_scenes::error::Error as SceneError;
@@ -13,14 +12,6 @@ pub enum Error {
     /// A scene cannot start or continue.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A file cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Error of the system.
-        source: io::Error,
-    },
     /// A file is not a saved state.
     #[error("{}: is not a saved state: {source}", path.display())]
     NotState {

@@ -1,14 +1,13 @@
 //! Files with the state of a body in motion.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::moment::Moment;
-use piola_scenes::output::{seal, unseal, write_whole};
+use piola_scenes::output::{read_text, seal, unseal, write_whole};
 use piola_scenes::settings::Files;
 use serde::{Deserialize, Serialize};
 
@@ -80,16 +79,9 @@ impl State {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`Error::Unreadable`], or like [`State::parse`].
+    /// [`SceneError::Unreadable`], or like [`State::parse`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let mut text = String::new();
-        let read = File::open(path).and_then(|file| file.take(MAX_LENGTH + 1).read_to_string(&mut text));
-        let read = read.and_then(|length| match length as u64 > MAX_LENGTH {
-            true => Err(io::Error::new(ErrorKind::FileTooLarge, "it is longer than 256 MiB")),
-            false => Ok(()),
-        });
-        read.map_err(|source| Error::Unreadable { path: path.into(), source })?;
-        Self::parse(&text, path)
+        Self::parse(&read_text(path, MAX_LENGTH)?, path)
     }
 
     /// Parses the text of a file; `path` is for messages. Whether the state fits its scene is checked where a

@@ -10,6 +10,7 @@ use piola_declare::{Energy, FormulaOptions};
 
 use crate::error::Error;
 use crate::material::MaterialSpec;
+use crate::output::read_text;
 
 use super::Given;
 use super::value::modulus;
@@ -49,7 +50,7 @@ impl Formula {
     /// The material of the formula with these parameters, if a formula is given.
     ///
     /// # Errors
-    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::WithoutUnit`].
+    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::Option`].
     pub fn spec(&self, parameters: &[Given]) -> Result<Option<MaterialSpec>, Error> {
         let Some(formula) = &self.energy else { return Ok(None) };
         let names = parameters.iter().map(|given| (given.name.clone(), given.documentation()));
@@ -74,12 +75,13 @@ fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
         let known = energy.description().parameters.iter().find(|known| known.name == given.name);
         if let Some(unit @ (Unit::Pascal | Unit::PerPascal)) = known.and_then(|known| known.unit) {
             let values = given.values.iter().map(|&value| number(value)).collect::<Vec<_>>().join(",");
-            let parameter = given.name.clone();
-            return Err(Error::WithoutUnit {
-                given: quoted(&format!("{parameter}={values}")),
-                parameter,
-                unit,
-            });
+            let (name, sign) = (quoted(&given.name), if unit == Unit::PerPascal { "/" } else { "" });
+            let value = quoted(&format!("{}={values}", given.name));
+            return Err(Error::Option(format!(
+                "the parameter `{name}` is {}, because other values have units, but its own value has none; write it with \
+                 its unit, such as `{value}{sign}MPa`, or `{value}{sign}Pa`",
+                in_words(unit)
+            )));
         }
     }
     Ok(())
@@ -88,7 +90,7 @@ fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
 /// The material of a declaration in Rust, if a name is that of a file.
 ///
 /// # Errors
-/// [`Error::UnreadableDeclaration`], [`Error::Declaration`].
+/// [`Error::Unreadable`], [`Error::Declaration`].
 pub fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
     if !is_file(name) {
         return Ok(None);
@@ -103,16 +105,24 @@ fn is_file(name: &str) -> bool {
 
 /// The energy that a file of Rust declares.
 fn read(path: &Path) -> Result<Energy, Error> {
-    let unreadable = |source| Error::UnreadableDeclaration { path: path.to_owned(), source };
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    let text = read_text(path, u64::MAX)?;
     let named = |mistakes: piola_declare::Mistakes| mistakes.with_name(path.display().to_string());
     Energy::from_rust(&text).map_err(|mistakes| Error::Declaration(named(mistakes)))
+}
+
+/// A kind of unit in sentences.
+fn in_words(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Pascal => "in Pa",
+        Unit::PerPascal => "in 1/Pa",
+        _ => "without a unit",
+    }
 }
 
 /// Adds values of parameters to a material.
 ///
 /// # Errors
-/// [`Error::UnitOfParameter`] for a value in a unit that its parameter does not have.
+/// [`Error::Option`] for a value in a unit that its parameter does not have.
 pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpec, Error> {
     let known = &spec.description()?.parameters;
     for given in &parameters {
@@ -120,7 +130,12 @@ pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<Materia
         if let (Some(unit), Some(declared)) = (given.unit, declared)
             && unit != declared
         {
-            return Err(Error::UnitOfParameter { parameter: given.name.clone(), unit, declared });
+            return Err(Error::Option(format!(
+                "the parameter `{}` is {}, but its value is given {}; write another unit after it, or none",
+                quoted(&given.name),
+                in_words(declared),
+                in_words(unit)
+            )));
         }
     }
     Ok(parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values)))

@@ -3,7 +3,7 @@
 //! Files are written during the run, so that an interruption leaves a shorter run. Nothing that was there
 //! before is replaced: a run begins in a folder that does not exist yet.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
@@ -20,49 +20,32 @@ pub struct Folder {
     path: PathBuf,
     /// Folders that did not exist before, innermost first.
     created: Vec<PathBuf>,
-    /// The folder, locked until the program ends; `None` on systems that lock no folders.
-    _lock: Option<File>,
 }
 
 impl Folder {
     /// Creates a folder for the files of a run.
     ///
     /// # Errors
-    /// [`Error::Folder`] if it exists or cannot be created, [`Error::Busy`].
+    /// [`Error::Folder`] if it exists or cannot be created.
     pub fn create(path: &Path) -> Result<Self, Error> {
         let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created: Vec<_> = path.ancestors().take_while(is_new).map(PathBuf::from).collect();
         let parents = path.parent().map_or(Ok(()), fs::create_dir_all);
-        match parents.and_then(|()| fs::create_dir(path)) {
-            Ok(()) => Self::locked(path, created),
-            Err(source) => {
-                remove_folders(created.get(1..).unwrap_or_default());
-                let exists = || io::Error::new(io::ErrorKind::AlreadyExists, "it exists already");
-                Err(Error::Folder {
-                    path: path.into(),
-                    source: if path.is_dir() { exists() } else { source },
-                })
-            }
-        }
+        parents.and_then(|()| fs::create_dir(path)).map_err(|source| {
+            let exists = || io::Error::new(io::ErrorKind::AlreadyExists, "it exists already");
+            Error::Folder { path: path.into(), source: if path.is_dir() { exists() } else { source } }
+        })?;
+        Ok(Self { path: path.into(), created })
     }
 
     /// Opens the folder of a run to continue it.
     ///
     /// # Errors
-    /// [`Error::NothingToResume`] if the folder has no state of a run, [`Error::Busy`] if another program writes
-    /// there.
+    /// [`Error::NothingToResume`] if the folder has no state of a run.
     pub fn reopen(path: &Path) -> Result<Self, Error> {
         match path.join(STATE_FILE).is_file() {
-            true => Self::locked(path, Vec::new()),
+            true => Ok(Self { path: path.into(), created: Vec::new() }),
             false => Err(Error::NothingToResume { folder: path.into() }),
-        }
-    }
-
-    fn locked(path: &Path, created: Vec<PathBuf>) -> Result<Self, Error> {
-        let lock = File::open(path).ok();
-        match lock.as_ref().map(File::try_lock) {
-            Some(Err(TryLockError::WouldBlock)) => Err(Error::Busy { folder: path.into() }),
-            _ => Ok(Self { path: path.into(), created, _lock: lock }),
         }
     }
 
@@ -102,7 +85,7 @@ impl Folder {
     pub fn abandon(self) {
         if let [folder, around @ ..] = &self.created[..] {
             let _ = fs::remove_dir_all(folder);
-            remove_folders(around);
+            around.iter().for_each(|folder| drop(fs::remove_dir(folder)));
         }
     }
 }
@@ -117,11 +100,4 @@ pub fn new_folder(base: &Path) -> PathBuf {
     };
     let mut folders = std::iter::once(base.to_owned()).chain((2..).map(numbered));
     folders.find(|folder| fs::symlink_metadata(folder).is_err()).unwrap_or_else(|| base.to_owned())
-}
-
-/// Removes folders that are empty.
-fn remove_folders(innermost_first: &[PathBuf]) {
-    for folder in innermost_first {
-        let _ = fs::remove_dir(folder);
-    }
 }

@@ -9,9 +9,9 @@ use crate::error::Error;
 /// Number of bytes at the begin of a file that show its kind: of a chart, a state, source text in C.
 const KIND: usize = 3;
 
-/// Writes a file that replaces an earlier one of the same name only once it is complete and on the disk, and only
-/// if both are of one kind: a mesh or measurements are never meant to become a chart.
+/// Writes a file that replaces an earlier one of the same name only once it is complete and on the disk.
 ///
+/// The earlier one must be of the same kind: a mesh or measurements are never meant to become a chart.
 /// A replaced file keeps its permissions. A symbolic link stays, and the file that it leads to is replaced. A
 /// device, a pipe or a file descriptor, such as /dev/stdout, is written into.
 ///
@@ -34,6 +34,21 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
         }
     };
     written.map_err(|source| Error::Write { path: path.into(), source })
+}
+
+/// The text of a file with a length, in bytes, of `longest` at most.
+///
+/// # Errors
+/// [`Error::Unreadable`].
+pub fn read_text(path: &Path, longest: u64) -> Result<String, Error> {
+    let mut text = String::new();
+    let read =
+        File::open(path).and_then(|file| file.take(longest.saturating_add(1)).read_to_string(&mut text));
+    let read = read.and_then(|length| match length as u64 > longest {
+        true => Err(io::Error::other(format!("it is longer than {} MiB", longest >> 20))),
+        false => Ok(text),
+    });
+    read.map_err(|source| Error::Unreadable { path: path.into(), source })
 }
 
 /// Checks that a file is empty or begins as the new one does.
