@@ -137,7 +137,7 @@ impl Curve {
     /// Ranks all rubbers by their agreement with the data.
     fn rank(self) -> Result<String, Error> {
         for (is_given, option) in [
-            (!self.material.parameters.is_empty(), "--param"),
+            (!self.material.formula.parameters.is_empty(), "--param"),
             (!self.at.is_empty(), "--at"),
             (self.from.is_some(), "--from"),
             (self.to.is_some(), "--to"),

@@ -12,10 +12,9 @@ use crate::error::Error;
 use crate::material::MaterialSpec;
 use crate::output::read_text;
 
-use super::Given;
-use super::value::modulus;
+use super::value::{Given, modulus, parameter};
 
-/// Options of a formula.
+/// An energy that is declared by its formula, and values of the parameters of any material.
 #[derive(Clone, Debug, Default, PartialEq, Args)]
 pub struct Formula {
     /// Energy as a formula, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`, instead of a material.
@@ -34,6 +33,11 @@ pub struct Formula {
     /// Add K/2 (J - 1)^2 to the formula, which resists changes of volume; K in Pa, or with a unit of stress.
     #[arg(long, value_name = "K", requires = "energy", allow_negative_numbers = true, value_parser = modulus)]
     kappa: Option<f64>,
+
+    /// Value of a parameter, in SI units or with a unit of stress after it, such as MPa or psi, or /MPa for
+    /// one by a stress; lists as NAME=V,V,V.
+    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
+    pub parameters: Vec<Given>,
 }
 
 /// The name of the parameter that `--kappa` adds.
@@ -47,25 +51,41 @@ impl Formula {
         Self { free_rest: self.free_rest || self.energy.is_some(), ..self }
     }
 
-    /// The material of the formula with these parameters, if a formula is given.
+    /// The material of the formula, or else of the file with this name, or else the one that `listed` finds by
+    /// its name; with the parameters that are given.
     ///
     /// # Errors
-    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::Option`].
-    pub fn spec(&self, parameters: &[Given]) -> Result<Option<MaterialSpec>, Error> {
-        let Some(formula) = &self.energy else { return Ok(None) };
-        let names = parameters.iter().map(|given| (given.name.clone(), given.documentation()));
+    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::Option`],
+    /// [`Error::Unreadable`], and those of `listed`.
+    pub fn material(
+        self,
+        name: Option<&str>,
+        listed: impl FnOnce(Option<&str>) -> Result<MaterialSpec, Error>,
+    ) -> Result<MaterialSpec, Error> {
+        let material = match (&self.energy, name) {
+            (Some(formula), _) => self.declared(formula)?,
+            (None, name) => match name.map(in_file).transpose()?.flatten() {
+                Some(material) => material,
+                None => listed(name)?,
+            },
+        };
+        with_values(material, self.parameters)
+    }
+
+    fn declared(&self, formula: &str) -> Result<MaterialSpec, Error> {
+        let names = self.parameters.iter().map(|given| (given.name.clone(), given.documentation()));
         let options = FormulaOptions::default()
             .with_parameters(Some(names.collect()))
             .with_free_rest(self.free_rest)
             .with_forms("--param NAME=VALUE", "--free-rest");
         let options = if self.kappa.is_some() { options.with_bulk(BULK) } else { options };
         let energy = Energy::from_formula_with(formula, &options).map_err(Error::Declaration)?;
-        check_units(&energy, parameters)?;
+        check_units(&energy, &self.parameters)?;
         let spec = MaterialSpec::declared(energy);
-        Ok(Some(match self.kappa {
+        Ok(match self.kappa {
             Some(kappa) => spec.with_parameter(BULK, [kappa]),
             None => spec,
-        }))
+        })
     }
 }
 
