@@ -11,9 +11,6 @@ use crate::error::Error;
 
 use super::{STATE_FILE, whole};
 
-#[cfg(test)]
-mod tests;
-
 /// A folder that is being filled with the files of a run.
 #[derive(Debug)]
 pub struct Folder {
@@ -100,4 +97,36 @@ pub fn new_folder(base: &Path) -> PathBuf {
     };
     let mut folders = std::iter::once(base.to_owned()).chain((2..).map(numbered));
     folders.find(|folder| fs::symlink_metadata(folder).is_err()).unwrap_or_else(|| base.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use super::*;
+    use crate::output::frame_file;
+
+    /// Names of what is in a folder.
+    fn names(folder: &Path) -> io::Result<Vec<String>> {
+        let names = fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
+        let mut names = names.collect::<io::Result<Vec<_>>>()?;
+        names.sort();
+        Ok(names)
+    }
+
+    #[test]
+    fn files_are_in_their_place_at_once_and_go_if_nothing_came_of_them()
+    -> Result<(), Box<dyn std::error::Error>> {
+        let scratch = tempfile::tempdir()?;
+        let target = scratch.path().join("a/b");
+        let folder = Folder::create(&target)?;
+        folder.write(&frame_file(0), |file| file.write_all(b"one"))?;
+        folder.replace("summary.json", |file| file.write_all(b"two"))?;
+        let failed = folder.write(&frame_file(1), |_| Err(io::Error::other("a full disk")));
+        assert!(failed.is_err_and(|error| error.to_string().contains("frame_0001.ply: a full disk")));
+        assert_eq!(names(&target)?, ["frame_0000.ply", "summary.json"]);
+        folder.abandon();
+        assert_eq!(names(scratch.path())?, [""; 0]);
+        Ok(())
+    }
 }
