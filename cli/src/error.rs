@@ -7,7 +7,6 @@ use piola::contract::Violations;
 use piola::material::MaterialError;
 use piola_bodies::mesh::ReadError;
 use piola_scenes::error::Error as SceneError;
-use piola_viewer::error::Error as ViewerError;
 
 /// Error that ends the command without success.
 #[derive(Debug, thiserror::Error)]
@@ -16,15 +15,6 @@ pub enum Error {
     /// A scene cannot start or continue.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A viewer cannot take or write a file.
-    #[error(transparent)]
-    Viewer(ViewerError),
-    /// The command cannot use its options or measured points, for this reason and with this remedy.
-    #[error("{0}")]
-    Usage(
-        /// Reason and remedy.
-        String,
-    ),
     /// The page cannot be served at the port.
     #[error("cannot serve the page at port {port}: {source}; name another one with --port, or 0 for any")]
     Port {
@@ -51,19 +41,10 @@ pub enum Error {
     },
 }
 
-impl From<ViewerError> for Error {
-    fn from(error: ViewerError) -> Self {
-        match error {
-            ViewerError::Scene(error) => Self::Scene(error),
-            error => Self::Viewer(error),
-        }
-    }
-}
-
 impl Error {
     /// An error of options, or of the laboratory about what they choose.
     pub(crate) fn usage(reason: impl Display) -> Self {
-        Self::Usage(reason.to_string())
+        SceneError::Usage(reason.to_string()).into()
     }
 
     /// An error of the system in some action.

@@ -25,9 +25,9 @@ pub enum Error {
         /// The names that exist.
         known: Vec<&'static str>,
     },
-    /// Options do not fit the scene or the material, for this reason and with this remedy.
+    /// The program cannot do what it is told, for this reason and with this remedy.
     #[error("{0}")]
-    Option(
+    Usage(
         /// Reason and remedy.
         String,
     ),
@@ -38,6 +38,14 @@ pub enum Error {
         path: PathBuf,
         /// Error of the system.
         source: io::Error,
+    },
+    /// A file is not a saved state.
+    #[error("{}: is not a saved state: {reason}", path.display())]
+    NotState {
+        /// The file.
+        path: PathBuf,
+        /// Reason.
+        reason: String,
     },
     /// An energy has mistakes.
     #[error("{0}")]

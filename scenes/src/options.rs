@@ -129,7 +129,7 @@ fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>)
         (_, seed, _) => {
             let option = if seed.is_some() { "--seed" } else { "--amplitude" };
             let known: Vec<_> = SCENES.iter().filter(is_random).map(|scene| scene.name).collect();
-            Err(Error::Option(format!(
+            Err(Error::Usage(format!(
                 "the scene `{}` does not use {option}: only {} displace nodes at random",
                 scene.name,
                 list(&known)

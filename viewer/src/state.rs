@@ -4,14 +4,12 @@ use std::collections::BTreeMap;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-use piola_scenes::error::Error as SceneError;
+use piola_scenes::error::Error;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::moment::Moment;
 use piola_scenes::output::{read_text, seal, unseal, write_whole};
 use piola_scenes::settings::Files;
 use serde::{Deserialize, Serialize};
-
-use crate::error::Error;
 
 /// The longest file that is written or read, in bytes: a state of two million nodes.
 const MAX_LENGTH: u64 = 256 << 20;
@@ -64,22 +62,20 @@ impl State {
     /// Writes the file, which replaces an earlier one of the same name only once it is complete.
     ///
     /// # Errors
-    /// [`Error::Scene`].
+    /// [`Error::Write`].
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        let failed = |source| SceneError::Write { path: path.into(), source };
+        let failed = |source| Error::Write { path: path.into(), source };
         let text = seal(self).map_err(|error| failed(error.into()))?;
         if text.len() as u64 > MAX_LENGTH {
-            return Err(
-                failed(io::Error::new(ErrorKind::FileTooLarge, "it would be longer than 256 MiB")).into()
-            );
+            return Err(failed(io::Error::new(ErrorKind::FileTooLarge, "it would be longer than 256 MiB")));
         }
-        Ok(write_whole(path, &text)?)
+        write_whole(path, &text)
     }
 
     /// Reads a file.
     ///
     /// # Errors
-    /// [`SceneError::Unreadable`], or like [`State::parse`].
+    /// [`Error::Unreadable`], or like [`State::parse`].
     pub fn read(path: &Path) -> Result<Self, Error> {
         Self::parse(&read_text(path, MAX_LENGTH)?, path)
     }
@@ -90,6 +86,6 @@ impl State {
     /// # Errors
     /// [`Error::NotState`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, Error> {
-        unseal(text).map_err(|source| Error::NotState { path: path.into(), source })
+        unseal(text).map_err(|error| Error::NotState { path: path.into(), reason: error.to_string() })
     }
 }

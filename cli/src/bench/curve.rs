@@ -144,7 +144,7 @@ impl Curve {
             (self.rows.is_some(), "--rows"),
         ] {
             if is_given {
-                return Err(Error::Usage(format!(
+                return Err(Error::usage(format!(
                     "`piola curve all` cannot use {option}: it fits all parameters to all points, at constant volume"
                 )));
             }

@@ -73,7 +73,7 @@ impl Data {
             ("--stress", self.stresses.len()),
         ] {
             if files == 0 && given > 0 {
-                return Err(Error::Usage(format!(
+                return Err(Error::usage(format!(
                     "{option} applies to measured points: add --data FILE, or leave it out; units of parameters are written \
                      after them"
                 )));
@@ -95,7 +95,7 @@ impl Data {
     fn file(&self, index: usize, file: &Path) -> Result<(Measurements, String), Error> {
         let path = file.display();
         let unreadable =
-            |error| Error::Usage(format!("{path} cannot be read: {error}; give a file, or `treloar`"));
+            |error| Error::usage(format!("{path} cannot be read: {error}; give a file, or `treloar`"));
         let bytes = match is_treloar(file) {
             true => TRELOAR_1944.into(),
             false => std::fs::read(file).map_err(unreadable)?,
@@ -111,7 +111,7 @@ impl Data {
         let reading =
             Measurements::read_with(&decoded(&bytes), &options).map_err(|source| match source.fault {
                 Fault::NoMode if given > 0 => unpaired("--mode", given, files),
-                fault => Error::Usage(format!("{path}:{}: {fault}", source.line)),
+                fault => Error::usage(format!("{path}:{}: {fault}", source.line)),
             })?;
         let (mut points, mut note) = (reading.measurements.clone(), reading.to_string());
         if !self.tests.is_empty() {
@@ -121,7 +121,7 @@ impl Data {
             if points.modes().next().is_none() {
                 let known: Vec<_> = reading.measurements.modes().map(|mode| mode.name()).collect();
                 let known = known.join(", ");
-                return Err(Error::Usage(format!(
+                return Err(Error::usage(format!(
                     "{path}: has points of {known} alone, and none of the tests of --mode"
                 )));
             }
@@ -144,7 +144,7 @@ impl Data {
 
 /// The error of an option that is given neither once for all files nor once for each.
 fn unpaired(option: &str, given: usize, files: usize) -> Error {
-    Error::Usage(format!(
+    Error::usage(format!(
         "{given} values of {option} and {files} of --data: give one for all files, or one for each in their order"
     ))
 }

@@ -80,7 +80,7 @@ impl Fit {
             .with_restarts(self.starts)
             .with_seed(self.seed);
         let fit = fit::fit_parameters(&*candidate, &data, &settings).map_err(|error| {
-            Error::Usage(format!("{material} cannot be fitted: {error}{}", remedy(&error)))
+            Error::usage(format!("{material} cannot be fitted: {error}{}", remedy(&error)))
         })?;
         let names: Vec<_> =
             candidate.description().parameters.iter().map(|parameter| parameter.name.clone()).collect();

@@ -42,7 +42,7 @@ pub(super) fn run(data: &Data, svg: Option<&Path>) -> Result<String, Error> {
         )
     })?;
     if data.modes().any(|mode| mode == Mode::Volumetric) {
-        return Err(Error::Usage(format!(
+        return Err(Error::usage(format!(
             "{files}: `piola curve all` fits solids that keep their volume; leave the volumetric test out"
         )));
     }

@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use piola_scenes::error::Error;
 use piola_scenes::output::seal;
 use piola_scenes::settings::Files;
 use piola_scenes::unit::Unit;
-use piola_viewer::error::Error;
 use piola_viewer::protocol::Act;
 use piola_viewer::session::Session;
 use piola_viewer::state::State;

@@ -55,7 +55,7 @@ impl Formula {
     /// its name; with the parameters that are given.
     ///
     /// # Errors
-    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::Option`],
+    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::Usage`],
     /// [`Error::Unreadable`], and those of `listed`.
     pub fn material(
         self,
@@ -97,7 +97,7 @@ fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
             let values = given.values.iter().map(|&value| number(value)).collect::<Vec<_>>().join(",");
             let (name, sign) = (quoted(&given.name), if unit == Unit::PerPascal { "/" } else { "" });
             let value = quoted(&format!("{}={values}", given.name));
-            return Err(Error::Option(format!(
+            return Err(Error::Usage(format!(
                 "the parameter `{name}` is {}, because other values have units, but its own value has none; write it with \
                  its unit, such as `{value}{sign}MPa`, or `{value}{sign}Pa`",
                 in_words(unit)
@@ -142,7 +142,7 @@ fn in_words(unit: Unit) -> &'static str {
 /// Adds values of parameters to a material.
 ///
 /// # Errors
-/// [`Error::Option`] for a value in a unit that its parameter does not have.
+/// [`Error::Usage`] for a value in a unit that its parameter does not have.
 pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpec, Error> {
     let known = &spec.description()?.parameters;
     for given in &parameters {
@@ -150,7 +150,7 @@ pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<Materia
         if let (Some(unit), Some(declared)) = (given.unit, declared)
             && unit != declared
         {
-            return Err(Error::Option(format!(
+            return Err(Error::Usage(format!(
                 "the parameter `{}` is {}, but its value is given {}; write another unit after it, or none",
                 quoted(&given.name),
                 in_words(declared),
