@@ -106,31 +106,6 @@ impl Error {
             SceneError::Read(ReadError::OtherElements { .. }) => {
                 ", or leave the others out with --only-tetrahedra".into()
             }
-            SceneError::OtherBody { .. } => {
-                "; give the mesh that it was saved with by --mesh (and --surface), or none for a body of the \
-                 program"
-                    .into()
-            }
-            SceneError::Pin(_) => "; choose a place with --pin".into(),
-            SceneError::Folder { source, .. } if source.kind() == io::ErrorKind::AlreadyExists => {
-                "; name a new one with --out, or continue the run in it with --resume".into()
-            }
-            SceneError::Folder { .. } => "; name another one with --out".into(),
-            SceneError::NothingToResume { .. } => {
-                "; leave out --resume, or name another one with --out".into()
-            }
-            SceneError::Resume { .. } => {
-                "; give the options that it was begun with, or leave out --resume to begin anew".into()
-            }
-            SceneError::StartOutsideDomain { refusal: None, .. } => {
-                "; leave out --inversion refuse, or choose a scene that starts elsewhere".into()
-            }
-            SceneError::StartOutsideDomain { others, .. } => {
-                format!(
-                    "; choose a scene that starts elsewhere, such as `stretch`, or another --material: {}",
-                    others.join(", ")
-                )
-            }
             SceneError::Step { .. } => "; nothing was written".into(),
             _ => String::new(),
         }

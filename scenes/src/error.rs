@@ -39,14 +39,6 @@ pub enum Error {
         /// Error of the system.
         source: io::Error,
     },
-    /// A file is not a saved state.
-    #[error("{}: is not a saved state: {reason}", path.display())]
-    NotState {
-        /// The file.
-        path: PathBuf,
-        /// Reason.
-        reason: String,
-    },
     /// An energy has mistakes.
     #[error("{0}")]
     Declaration(Mistakes),
@@ -94,29 +86,6 @@ pub enum Error {
         /// Requirement that the value breaks.
         requirement: &'static str,
     },
-    /// The body starts outside of the domain of its material.
-    #[error(
-        "the scene `{scene}` starts where `{material}` is not defined: its domain is {domain}{}",
-        refusal.as_ref().map(|reason| format!(", and it cannot be extended: {reason}")).unwrap_or_default()
-    )]
-    StartOutsideDomain {
-        /// Name of the scene.
-        scene: &'static str,
-        /// Name of the material.
-        material: Text,
-        /// Domain of the material.
-        domain: Text,
-        /// Reason why the material cannot be extended beyond its domain; `None` for one that can be.
-        refusal: Option<Text>,
-        /// Names of the materials that can start there, with typical parameters.
-        others: Vec<&'static str>,
-    },
-    /// A pin is neither a group of the mesh nor a box, or holds no node.
-    #[error("{0}")]
-    Pin(
-        /// The pin and the reason.
-        String,
-    ),
     /// The file of a mesh or a surface cannot be read or is malformed.
     #[error(transparent)]
     Read(#[from] ReadError),
@@ -134,28 +103,6 @@ pub enum Error {
     /// The solver refuses a setting, a position or a velocity.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// Files cannot be written to the folder; a new run is not begun in one that exists.
-    #[error("cannot write to the folder {}: {source}", path.display())]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-        /// Error of the system.
-        source: io::Error,
-    },
-    /// No run to continue.
-    #[error("the folder {} contains no run to continue", folder.display())]
-    NothingToResume {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// The run in the folder cannot continue with these settings.
-    #[error("the run in {} cannot continue: {reason}", folder.display())]
-    Resume {
-        /// The folder.
-        folder: PathBuf,
-        /// Reason.
-        reason: String,
-    },
     /// A signal has ended the run before its first step.
     #[error("the run was interrupted before its first step; nothing was written")]
     Interrupted,
@@ -173,18 +120,6 @@ pub enum Error {
     /// The equilibrium of a body that has not recovered cannot be examined.
     #[error("the equilibrium at the end cannot be examined: {0}")]
     Equilibrium(#[from] NewtonError),
-    /// A moment belongs to another body.
-    #[error("the state belongs to another body than {body}")]
-    OtherBody {
-        /// The body with which it should continue, or the file of its mesh.
-        body: String,
-    },
-    /// No steps lead to such a moment.
-    #[error("the state cannot be resumed: {0}")]
-    Unsound(
-        /// Reason.
-        &'static str,
-    ),
     /// A time step failed.
     #[error("the step to frame {frame} failed: {}", explained(source))]
     Step {

@@ -76,7 +76,7 @@ impl Play {
     /// Checks that the material is defined at the positions of the body.
     ///
     /// # Errors
-    /// [`Error::StartOutsideDomain`], with the materials that could start there.
+    /// [`Error::Usage`], with the materials that could start there.
     pub fn check_start(&mut self, settings: &Settings, geometry: &Geometry) -> Result<(), Error> {
         let has_energy = |simulation: &mut Simulation| simulation.energies().elastic.is_finite();
         if has_energy(&mut self.simulation) {
@@ -88,13 +88,21 @@ impl Play {
             let other = typical.and_then(|other| at_start(settings, geometry, other.elements));
             other.is_ok_and(|mut simulation| has_energy(&mut simulation))
         };
-        Err(Error::StartOutsideDomain {
-            scene: settings.scene.name,
-            material: self.material.clone(),
-            domain: description.domain.clone(),
-            refusal: description.refusal.clone().filter(|_| !description.extends),
-            others: material::names().filter(can_start).collect(),
-        })
+        let (scene, name, domain) = (settings.scene.name, &self.material, &description.domain);
+        let reason =
+            format!("the scene `{scene}` starts where `{name}` is not defined: its domain is {domain}");
+        Err(Error::Usage(match description.refusal.as_ref().filter(|_| !description.extends) {
+            None => {
+                format!("{reason}; leave out --inversion refuse, or choose a scene that starts elsewhere")
+            }
+            Some(refusal) => {
+                let others = material::names().filter(can_start).collect::<Vec<_>>().join(", ");
+                format!(
+                    "{reason}, and it cannot be extended: {refusal}; choose a scene that starts elsewhere, such as \
+                     `stretch`, or another --material: {others}"
+                )
+            }
+        }))
     }
 
     /// The body and its state.
@@ -351,13 +359,16 @@ pub fn step_settings(settings: &Settings) -> step::SimulationSettings {
 /// The nodes that the settings pin, or else those that the scene pins.
 ///
 /// # Errors
-/// [`Error::Pin`].
+/// [`Error::Usage`].
 pub fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
     if settings.pins.is_empty() {
         let Some(pinned) = settings.scene.pinned else { return Ok(Pins::none()) };
         let region = region::within(mesh.bounds(), pinned);
         return Pins::in_box(mesh, region).map_err(|error| {
-            Error::Pin(format!("the pin of the scene {} holds nothing: {error}", settings.scene.name))
+            let scene = settings.scene.name;
+            Error::Usage(format!(
+                "the pin of the scene {scene} holds nothing: {error}; choose a place with --pin"
+            ))
         });
     }
     settings.pins.iter().try_fold(Pins::none(), |all, pin| {
@@ -368,12 +379,14 @@ pub fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
             (None, Err(error)) => {
                 let groups: Vec<_> = mesh.groups.iter().map(|group| &group.name).collect();
                 let (pin, groups) = (quoted(pin), list(&groups));
-                return Err(Error::Pin(format!(
+                return Err(Error::Usage(format!(
                     "`{pin}` is neither a group of the mesh (it has {groups}) nor a box; {error}"
                 )));
             }
         };
-        let pins = pins.map_err(|error| Error::Pin(format!("the pin `{pin}` holds nothing: {error}")))?;
+        let pins = pins.map_err(|error| {
+            Error::Usage(format!("the pin `{pin}` holds nothing: {error}; choose a place with --pin"))
+        })?;
         Ok(all.and(&pins))
     })
 }

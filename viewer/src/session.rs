@@ -45,7 +45,7 @@ impl Session {
     /// A session before the first step of its scene.
     ///
     /// # Errors
-    /// An error of the settings, of the body, or [`Error::StartOutsideDomain`].
+    /// An error of the settings or of the body, or of a material that is not defined at the start.
     pub fn new(settings: Settings) -> Result<Self, Error> {
         let material = settings.material.explicit()?;
         let settings = settings.with_material(material);
@@ -58,8 +58,7 @@ impl Session {
     /// Continues from a saved state, to the last bit.
     ///
     /// # Errors
-    /// Like [`Session::new`], and [`Error::Unsound`] or [`Error::OtherBody`] if the state does not
-    /// fit the body.
+    /// Like [`Session::new`], and those of [`Moment::resume`].
     pub fn resume(state: State) -> Result<Self, Error> {
         let geometry = Geometry::load(state.moment.settings())?;
         let play = play_of(&state, &geometry)?;
@@ -237,10 +236,10 @@ impl Session {
 fn play_of(state: &State, geometry: &Geometry) -> Result<Play, Error> {
     let play = state.moment.resume(geometry)?;
     if state.pulls.len() > MAX_PULLS {
-        return Err(Error::Unsound("it has more than 64 pulls"));
+        return Err(Error::Usage("the state cannot be resumed: it has more than 64 pulls".into()));
     }
     if state.pulls.keys().any(|&number| number >= MAX_DRAG) {
-        return Err(Error::Unsound("the number of a pull is 2^62 or more"));
+        return Err(Error::Usage("the state cannot be resumed: the number of a pull is 2^62 or more".into()));
     }
     for drag in state.pulls.values() {
         anchor_for(geometry, drag.vertex, drag.target)?;

@@ -84,8 +84,9 @@ impl State {
     /// session resumes it.
     ///
     /// # Errors
-    /// [`Error::NotState`].
+    /// [`Error::Usage`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, Error> {
-        unseal(text).map_err(|error| Error::NotState { path: path.into(), reason: error.to_string() })
+        unseal(text)
+            .map_err(|error| Error::Usage(format!("{}: is not a saved state: {error}", path.display())))
     }
 }

@@ -23,14 +23,20 @@ impl Folder {
     /// Creates a folder for the files of a run.
     ///
     /// # Errors
-    /// [`Error::Folder`] if it exists or cannot be created.
+    /// [`Error::Usage`] if it exists or cannot be created.
     pub fn create(path: &Path) -> Result<Self, Error> {
         let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created: Vec<_> = path.ancestors().take_while(is_new).map(PathBuf::from).collect();
         let parents = path.parent().map_or(Ok(()), fs::create_dir_all);
-        parents.and_then(|()| fs::create_dir(path)).map_err(|source| {
-            let exists = || io::Error::new(io::ErrorKind::AlreadyExists, "it exists already");
-            Error::Folder { path: path.into(), source: if path.is_dir() { exists() } else { source } }
+        parents.and_then(|()| fs::create_dir(path)).map_err(|error| {
+            let reason = match path.is_dir() {
+                true => {
+                    "it exists already; name a new one with --out, or continue the run in it with --resume"
+                        .into()
+                }
+                false => format!("{error}; name another one with --out"),
+            };
+            Error::Usage(format!("cannot write to the folder {}: {reason}", path.display()))
         })?;
         Ok(Self { path: path.into(), created })
     }
@@ -38,11 +44,14 @@ impl Folder {
     /// Opens the folder of a run to continue it.
     ///
     /// # Errors
-    /// [`Error::NothingToResume`] if the folder has no state of a run.
+    /// [`Error::Usage`] if the folder has no state of a run.
     pub fn reopen(path: &Path) -> Result<Self, Error> {
         match path.join(STATE_FILE).is_file() {
             true => Ok(Self { path: path.into(), created: Vec::new() }),
-            false => Err(Error::NothingToResume { folder: path.into() }),
+            false => Err(Error::Usage(format!(
+                "the folder {} contains no run to continue; leave out --resume, or name another one with --out",
+                path.display()
+            ))),
         }
     }
 

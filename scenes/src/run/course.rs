@@ -94,9 +94,14 @@ impl<'a> Course<'a> {
 
     /// A run that continues from its last state, in this folder.
     pub(super) fn resume(mut setup: Setup<'a>, folder: Folder) -> Result<Self, Error> {
-        let target = folder.path().to_owned();
-        let refused = |reason| Error::Resume { folder: target.clone(), reason };
-        let text = read_text(&target.join(STATE_FILE), MAX_LENGTH)?;
+        let refused = |reason| {
+            Error::Usage(format!(
+                "the run in {} cannot continue: {reason}; give the options that it was begun with, or leave out --resume \
+                 to begin anew",
+                folder.path().display()
+            ))
+        };
+        let text = read_text(&folder.path().join(STATE_FILE), MAX_LENGTH)?;
         let vtu = setup.cages_of.is_some();
         let saved = Saved::read(text.trim_end_matches('\n'), setup.settings, vtu).map_err(refused)?;
         setup.play = saved.moment.resume(&setup.geometry)?;
