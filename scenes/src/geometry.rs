@@ -266,26 +266,6 @@ mod tests {
     }
 
     #[test]
-    fn sizes_that_may_be_in_another_unit_are_named() {
-        let warned = |size: f64| {
-            let geometry = Geometry::new(
-                tetrahedral_box([1; 3], [size, 0.5 * size, 0.5 * size])?,
-                "box",
-                &Surface::default(),
-                "none",
-            )?;
-            Ok::<_, Box<dyn error::Error>>(geometry.warnings().first().cloned())
-        };
-        assert_eq!([1e-4, 1.0, 20.0].map(|size| warned(size).expect("a box")), [const { None }; 3]);
-        for (size, shown) in [(100.0, "100"), (20.1, "20.1"), (9e-5, "0.00009")] {
-            let text = format!(
-                "the body is {shown} m long; is that meant? --unit names the unit of the mesh, such as --unit mm"
-            );
-            assert_eq!(warned(size).expect("a box"), Some(text));
-        }
-    }
-
-    #[test]
     fn bodies_of_absurd_size_are_refused() {
         let scaled = |scale: f64, away: f64| {
             let mut mesh = tetrahedral_box([1; 3], [scale; 3]).expect("a box");

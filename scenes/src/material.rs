@@ -459,14 +459,10 @@ mod tests {
     }
 
     #[test]
-    fn a_material_answers_to_both_its_names() {
-        let energy = MaterialSpec::new("st_venant_kirchhoff");
-        assert!(energy.is("StVenantKirchhoff") && energy.is("St Venant-Kirchhoff") && !energy.is("hencky"));
-    }
-
-    #[test]
     fn spelling_of_names_is_forgiven() {
         assert!(same_name("Saint Venant–Kirchhoff", "saint-venant_kirchhoff"));
+        let energy = MaterialSpec::new("st_venant_kirchhoff");
+        assert!(energy.is("StVenantKirchhoff") && energy.is("St Venant-Kirchhoff") && !energy.is("hencky"));
         assert!(!same_name("neo-Hookean", "stable neo-Hookean"));
     }
 }

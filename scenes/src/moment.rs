@@ -69,8 +69,8 @@ impl Moment {
     /// The scene in motion again, by the body that [`Geometry::load`] makes of the settings.
     ///
     /// # Errors
-    /// [`Error::Usage`] if it is another one or the clock is wrong, [`Error::Setup`] unless there is one finite
-    /// position, velocity and acceleration for each node, and those of [`Play::new`].
+    /// [`Error::Usage`] if it is another one or the clock is wrong, [`Error::Setup`] unless there is one
+    /// finite position, velocity and acceleration for each node, and those of [`Play::new`].
     pub fn resume(&self, geometry: &Geometry) -> Result<Play, Error> {
         if !self.clock.is_sound() || self.clock.dt() != self.settings.dt {
             return Err(Error::Usage("the state cannot be resumed: its clock is wrong".into()));

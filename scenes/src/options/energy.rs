@@ -51,8 +51,8 @@ impl Formula {
         Self { free_rest: self.free_rest || self.energy.is_some(), ..self }
     }
 
-    /// The material of the formula, or else of the file with this name, or else the one that `listed` finds by
-    /// its name; with the parameters that are given.
+    /// The material of the formula, or else of the file with this name, or else the one that `listed` finds
+    /// by its name; with the parameters that are given.
     ///
     /// # Errors
     /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::Usage`],
