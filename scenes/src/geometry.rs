@@ -56,11 +56,7 @@ impl Geometry {
                 settings.unit.convert(&mut surface.positions);
                 Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
             }
-            None => {
-                check_body(&mesh, &mesh_name)?;
-                let surface = boundary(&mesh);
-                Self::new(mesh, &mesh_name, &surface, &mesh_name)
-            }
+            None => Self::bare(mesh, &mesh_name),
         }
     }
 
@@ -76,11 +72,15 @@ impl Geometry {
                 Self::new(mesh, file.name, &surface, skin.name)
             }
             Shape::Box { cells, size } => {
-                let mesh = usable(body.name, tetrahedral_box(cells, size))?;
-                let surface = boundary(&mesh);
-                Self::new(mesh, body.name, &surface, body.name)
+                Self::bare(usable(body.name, tetrahedral_box(cells, size))?, body.name)
             }
         }
+    }
+
+    /// Tetrahedra that are drawn by their boundary.
+    fn bare(mesh: TetMesh, name: &str) -> Result<Self, Error> {
+        let surface = boundary(&mesh);
+        Self::new(mesh, name, &surface, name)
     }
 
     /// Properties of the mesh that are rarely intended, in sentences. A body can be made of it.

@@ -1,5 +1,7 @@
 //! A moment of a scene in motion, to continue from.
 
+use std::path::Path;
+
 use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
 
@@ -76,10 +78,12 @@ impl Moment {
             return Err(Error::Usage("the state cannot be resumed: its clock is wrong".into()));
         }
         if self.body != geometry.checksum() {
+            let Settings { files, body, .. } = &self.settings;
+            let name = files.as_ref().map_or(Path::new(body.name), |files| &files.mesh);
             return Err(Error::Usage(format!(
                 "the state belongs to another body than {}; give the mesh that it was saved with by --mesh (and \
                  --surface), or none for a body of the program",
-                self.settings.body_name()
+                name.display()
             )));
         }
         let mut play = Play::new(&self.settings, geometry)?;

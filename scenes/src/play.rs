@@ -19,6 +19,8 @@ use crate::settings::Settings;
 
 mod start;
 
+pub use start::start_positions;
+
 /// Stiffness of all springs of a pull together, relative to a cube of the body's material and height.
 const DRAG_STIFFNESS: f64 = 10.0;
 
@@ -323,12 +325,6 @@ fn at_start(
     let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
     simulation.set_positions(&start_positions(settings, geometry, &pins))?;
     Ok(simulation)
-}
-
-/// Positions of the nodes before the first step, m; pinned ones are at rest.
-#[must_use]
-pub fn start_positions(settings: &Settings, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
-    start::positions(settings.start, geometry, pins)
 }
 
 /// Stiffness, N/m, of a cube of the body's height. `young` is the small-strain Young's modulus of the body,
