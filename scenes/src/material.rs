@@ -71,7 +71,7 @@ pub struct MaterialSpec {
     /// Small-strain moduli [μ, λ] from which the parameters follow if none is given.
     #[serde(rename = "moduli")]
     lame: Option<[f64; 2]>,
-    inversion: Option<StoredInversion>,
+    inversion: Option<Inversion>,
 }
 
 impl MaterialSpec {
@@ -135,18 +135,14 @@ impl MaterialSpec {
     /// Chooses the behaviour outside of the domain; otherwise a material that can be extended is, below
     /// [`EXTENSION`].
     #[must_use]
-    pub fn with_inversion(mut self, inversion: Inversion) -> Self {
-        self.inversion = Some(match inversion {
-            Inversion::Refuse => StoredInversion::Refuse,
-            Inversion::Extend { epsilon } => StoredInversion::Extend(epsilon),
-        });
-        self
+    pub fn with_inversion(self, inversion: Inversion) -> Self {
+        Self { inversion: Some(inversion), ..self }
     }
 
     /// The stretch below which the material is extended, if one has been chosen.
     pub(crate) fn extended_below(&self) -> Option<f64> {
         match self.inversion {
-            Some(StoredInversion::Extend(epsilon)) => Some(epsilon),
+            Some(Inversion::Extend { epsilon }) => Some(epsilon),
             _ => None,
         }
     }
@@ -290,12 +286,11 @@ impl MaterialSpec {
             }
             _ => self.values(&name, energy.description())?,
         };
-        let inversion = match self.inversion {
-            Some(StoredInversion::Extend(epsilon)) => Inversion::Extend { epsilon },
-            None if energy.description().extends => Inversion::Extend { epsilon: EXTENSION },
-            _ => Inversion::Refuse,
+        let usual = match energy.description().extends {
+            true => Inversion::Extend { epsilon: EXTENSION },
+            false => Inversion::Refuse,
         };
-        make(energy, &values, inversion).map_err(refused)
+        make(energy, &values, self.inversion.unwrap_or(usual)).map_err(refused)
     }
 
     /// The values in the order of the declaration.
@@ -318,14 +313,6 @@ impl MaterialSpec {
             Err(Error::MissingParameters { material, missing })
         }
     }
-}
-
-/// An inversion in files: `"refuse"` or `{"extend": STRETCH}`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum StoredInversion {
-    Refuse,
-    Extend(f64),
 }
 
 /// Values by the names of the parameters.
