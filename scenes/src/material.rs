@@ -68,9 +68,8 @@ pub struct MaterialSpec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     energy: Option<Energy>,
     parameters: Vec<(String, Vec<f64>)>,
-    /// Small-strain moduli [μ, λ] from which the parameters follow if none is given.
-    #[serde(rename = "moduli")]
-    lame: Option<[f64; 2]>,
+    /// Small-strain moduli from which the parameters follow if none is given.
+    moduli: Option<Moduli>,
     inversion: Option<Inversion>,
 }
 
@@ -78,7 +77,13 @@ impl MaterialSpec {
     /// The material of a name, with no parameters yet; ignores case, spaces, `_` and `-`.
     #[must_use]
     pub fn new(material: &str) -> Self {
-        Self { material: material.into(), energy: None, parameters: Vec::new(), lame: None, inversion: None }
+        Self {
+            material: material.into(),
+            energy: None,
+            parameters: Vec::new(),
+            moduli: None,
+            inversion: None,
+        }
     }
 
     /// Material of an energy that was declared at run time, with no parameters yet except for the typical
@@ -120,7 +125,7 @@ impl MaterialSpec {
     pub fn matching(material: &str, moduli: Moduli) -> Self {
         match same_name(material, "Ogden") {
             true => ogden(moduli),
-            false => Self { lame: Some([moduli.mu, moduli.lambda]), ..Self::new(material) },
+            false => Self { moduli: Some(moduli), ..Self::new(material) },
         }
     }
 
@@ -163,7 +168,7 @@ impl MaterialSpec {
     pub fn explicit(&self) -> Result<Self, Error> {
         let parameters = self.build()?.parameters.into_iter();
         let parameters = parameters.map(|(name, values)| (name.to_string(), values)).collect();
-        Ok(Self { parameters, lame: None, ..self.clone() })
+        Ok(Self { parameters, moduli: None, ..self.clone() })
     }
 
     /// True if it is the material with this name in the catalogue, in any spelling.
@@ -277,10 +282,9 @@ impl MaterialSpec {
             Error::Inadmissible { material: name.clone(), source }
         };
         let matched;
-        let values = match self.lame {
-            Some([mu, lambda]) if self.parameters.is_empty() => {
+        let values = match self.moduli {
+            Some(wanted) if self.parameters.is_empty() => {
                 let moduli = |values: &[&[f64]]| Ok(Moduli::of(&energy.material(values, Inversion::Refuse)?));
-                let wanted = Moduli { mu, lambda };
                 matched = piola_materials::matching(energy.description(), moduli, wanted).map_err(refused)?;
                 matched.iter().map(Vec::as_slice).collect()
             }
