@@ -131,9 +131,7 @@ impl Curve {
         }
         Ok(text)
     }
-}
 
-impl Curve {
     /// Ranks all rubbers by their agreement with the data.
     fn rank(self) -> Result<String, Error> {
         for (is_given, option) in [

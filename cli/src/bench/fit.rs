@@ -53,15 +53,6 @@ pub(crate) struct Fit {
     svg: Option<PathBuf>,
 }
 
-/// The option that helps where parameters cannot be fitted.
-fn remedy(error: &FitError) -> &'static str {
-    match error {
-        FitError::Start(_) => " (--param gives others)",
-        FitError::TooFewPoints { .. } => " (--hold)",
-        _ => "",
-    }
-}
-
 impl Fit {
     /// Fits the parameters, and draws the result if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
@@ -138,5 +129,14 @@ impl Fit {
             draw(file, &title, &options(&fit.values), &curves, Some((&data, &fit.agreement)))?;
         }
         Ok(text)
+    }
+}
+
+/// The option that helps where parameters cannot be fitted.
+fn remedy(error: &FitError) -> &'static str {
+    match error {
+        FitError::Start(_) => " (--param gives others)",
+        FitError::TooFewPoints { .. } => " (--hold)",
+        _ => "",
     }
 }
