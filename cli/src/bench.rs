@@ -16,7 +16,7 @@ use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::data::{Agreement, Measurements};
 use piola_scenes::material::MaterialSpec;
-use piola_scenes::options::{Formula, Given, in_file, parameter, with_values};
+use piola_scenes::options::Formula;
 use piola_scenes::output::write_whole;
 
 use crate::error::Error;
@@ -28,17 +28,13 @@ pub(crate) use fit::Fit;
 /// A material of the catalogue, or one that is declared on the command line.
 #[derive(Debug, Args)]
 pub(crate) struct Material {
-    /// The material, as listed by `piola materials`, or a file of Rust that declares one.
+    /// The material, as listed by `piola materials`, or a file of Rust that declares one; parameters without
+    /// --param have the typical values of either.
     #[arg(value_name = "NAME|FILE.rs", required_unless_present = "energy")]
     material: Option<String>,
 
     #[command(flatten)]
     formula: Formula,
-
-    /// Value of a parameter, in SI units or with a unit of stress after it, such as MPa or psi, or /MPa for
-    /// one by a stress; lists as NAME=V,V,V [default: the typical one of `piola materials`, or of the file].
-    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
-    parameters: Vec<Given>,
 }
 
 impl Material {
@@ -52,15 +48,8 @@ impl Material {
 
     /// Specification of the material with these parameters, the others having typical values.
     pub(crate) fn spec(self) -> Result<MaterialSpec, Error> {
-        let name = self.material.unwrap_or_default();
-        let material = match self.formula.spec(&self.parameters)? {
-            Some(material) => material,
-            None => match in_file(&name)? {
-                Some(material) => material,
-                None => MaterialSpec::typical(&name)?,
-            },
-        };
-        Ok(with_values(material, self.parameters)?)
+        let listed = |name: Option<&str>| MaterialSpec::typical(name.unwrap_or_default());
+        Ok(self.formula.material(self.material.as_deref(), listed)?)
     }
 }
 
@@ -112,7 +101,7 @@ fn draw(
     curves: &[chart::Curve],
     data: Option<(&Measurements, &Agreement)>,
 ) -> Result<(), Error> {
-    let svg = chart::draw(title, &options.replace("--param ", ""), curves, data).map_err(Error::bench)?;
+    let svg = chart::draw(title, &options.replace("--param ", ""), curves, data).map_err(Error::usage)?;
     Ok(write_whole(file, svg.as_bytes())?)
 }
 

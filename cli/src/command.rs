@@ -15,7 +15,6 @@ use crate::contract::Contract;
 use crate::declare::Declare;
 use crate::emit::Emit;
 use crate::error::Error;
-use crate::overlap::refuse_overlaps;
 use crate::view::Viewer;
 
 /// Elastic bodies that collapse, invert and recover.
@@ -145,7 +144,6 @@ impl Run {
 impl View {
     /// The viewer of the scene or of the saved state.
     pub(crate) fn start(self) -> Result<Viewer, Error> {
-        self.refuse_overlaps()?;
         let session = match &self.load {
             None => Session::new(self.choice.settings()?)?,
             Some(path) => {
@@ -155,23 +153,6 @@ impl View {
         };
         Viewer::start(session, self.port, self.save)
     }
-
-    /// Refuses to write over files that are read. A state may be saved to the file that it was loaded from.
-    fn refuse_overlaps(&self) -> Result<(), Error> {
-        let Choice { scene: SceneOptions { mesh, .. }, surface, .. } = &self.choice;
-        // TetGen's files are two, either of which may be named.
-        let is_tetgen = |mesh: &&PathBuf| mesh.extension().is_some_and(|end| end == "node" || end == "ele");
-        let tetgen = mesh.as_ref().filter(is_tetgen);
-        let beside = |extension| tetgen.map(|mesh| mesh.with_extension(extension));
-        let named = |option, file: &Option<PathBuf>| file.clone().map(|file| (option, file));
-        let inputs = [
-            named("--mesh", mesh),
-            named("--mesh", &beside("node")),
-            named("--mesh", &beside("ele")),
-            named("--surface", surface),
-        ];
-        refuse_overlaps(inputs.into_iter().flatten(), named("--save", &self.save))
-    }
 }
 
 impl Choice {
@@ -179,7 +160,14 @@ impl Choice {
     fn only_files(mut self) -> Result<Option<Files>, Error> {
         let (mesh, surface) = (self.scene.mesh.take(), self.surface.take());
         let files = mesh.map(|mesh| Files { mesh, surface });
-        if self == Self::parse_from(["piola"]) { Ok(files) } else { Err(Error::ScenesOwn) }
+        let has_other_options = self != Self::parse_from(["piola"]);
+        match has_other_options {
+            true => Err(Error::usage(
+                "the file contains its scene and options; leave out all options except --load, --mesh and --surface of its \
+                 body, --port and --save",
+            )),
+            false => Ok(files),
+        }
     }
 
     /// The scene with the overrides.

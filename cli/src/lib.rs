@@ -11,7 +11,6 @@ mod declare;
 mod emit;
 pub mod error;
 mod materials;
-mod overlap;
 mod picture;
 pub mod render;
 mod signals;
@@ -67,7 +66,7 @@ pub fn main() -> ExitCode {
 /// Runs a scene; the count of its steps goes to standard error, or nowhere if that is not a terminal.
 fn play(arguments: Run) -> Result<ExitCode, Error> {
     let (settings, output) = arguments.settings()?;
-    let signals = Signals::listen().map_err(Error::Signals)?;
+    let signals = Signals::listen().map_err(Error::system("listen to signals"))?;
     let is_shown = io::stderr().is_terminal();
     let result = run(&settings, &output, &mut |frame| {
         if is_shown {
@@ -120,7 +119,7 @@ fn serve(arguments: View) -> Result<(), Error> {
 fn say(text: impl Display) -> Result<ExitCode, Error> {
     let mut out = io::stdout().lock();
     let said = writeln!(out, "{}", text.to_string().trim_end_matches('\n')).and_then(|()| out.flush());
-    heard(said).map(|()| ExitCode::SUCCESS).map_err(Error::StandardOutput)
+    heard(said).map(|()| ExitCode::SUCCESS).map_err(Error::system("write to standard output"))
 }
 
 /// Ignores the error of a closed reader, such as `head`.

@@ -59,7 +59,7 @@ impl Viewer {
     /// button is pressed, the state is written to a file, or without one kept in memory.
     ///
     /// # Errors
-    /// [`Error::Port`], [`Error::Thread`] or [`Error::Random`].
+    /// [`Error::Port`] or [`Error::System`].
     pub fn start(session: Session, port: u16, save: Option<PathBuf>) -> Result<Self, Error> {
         let no_port = |source| Error::Port { port, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(no_port)?;
@@ -78,7 +78,7 @@ impl Viewer {
         let patience = Patience::default();
         let server = Server { listener, door, patience, topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {
-            thread::Builder::new().name(name.into()).spawn(work).map_err(Error::Thread)
+            thread::Builder::new().name(name.into()).spawn(work).map_err(Error::system("start a thread"))
         };
         // The driver ends when the server and all its connections have.
         start("driver", Box::new(move || driver::run(driver, &taken)))?;

@@ -40,10 +40,6 @@ fn run(scratch: &Path, out: &str) -> Command {
     command
 }
 
-fn start(scratch: &Path) -> Child {
-    run(scratch, "out").spawn().expect("the command starts")
-}
-
 #[track_caller]
 fn complete(command: &mut Command) {
     let output = command.stderr(Stdio::piped()).output().expect("the command starts");
@@ -91,15 +87,22 @@ impl Whole {
         Self(files(&scratch.path().join("out")))
     }
 
-    /// Checks the folder of a run that was killed.
+    /// Sends a signal to a run after some time, and checks its folder, which is that of a shorter run with a
+    /// summary, or of one without if it was killed; true if the signal has come before the end.
     #[track_caller]
-    fn check(&self, scratch: &Path, context: &str) {
+    fn strike(&self, scratch: &Path, after: Duration, signal: &str) -> bool {
+        let came = kill(run(scratch, "out").spawn().expect("the command starts"), after, signal);
         let now = files(&scratch.join("out"));
-        assert!(is_beginning(&now, &self.0), "{context}: {:?}", now.keys());
-        if let Some(text) = now.get("summary.json") {
-            let summary: serde_json::Value = serde_json::from_slice(text).expect("JSON");
-            assert_eq!(summary["frames"], frames(&now).len() - 1, "{context}");
+        let context = format!("{signal} after {after:?}: {:?}", now.keys());
+        assert!(is_beginning(&now, &self.0), "{context}");
+        match now.get("summary.json") {
+            Some(text) => {
+                let summary: serde_json::Value = serde_json::from_slice(text).expect("JSON");
+                assert_eq!(summary["frames"], frames(&now).len() - 1, "{context}");
+            }
+            None => assert!(signal == "KILL" || frames(&now).is_empty(), "{context}"),
         }
+        came
     }
 
     /// Lets a run go on that was cut off, if it had saved a state.
@@ -130,12 +133,10 @@ fn killed_at_any_moment() {
         let signal = ["KILL", "INT", "TERM"][number % 3];
         let scratch = scratch();
         let after = duration.mul_f64(random.uniform(0.0, 1.1));
-        let came = kill(start(scratch.path()), after, signal);
+        let came = whole.strike(scratch.path(), after, signal);
         *counts.entry((signal, came)).or_insert(0) += 1;
-        let context = format!("kill {number} by {signal} after {after:?}");
-        whole.check(scratch.path(), &context);
         if number % SEQUELS == 0 {
-            whole.go_on(scratch.path(), &context);
+            whole.go_on(scratch.path(), &format!("kill {number} by {signal} after {after:?}"));
         }
     }
     println!("{counts:?}");
@@ -152,14 +153,9 @@ fn interrupted_at_every_moment() {
         true => 500,
         false => 2000,
     };
-    for turn in 1.. {
-        let scratch = scratch();
-        let came = kill(start(scratch.path()), turn * Duration::from_millis(pause), "INT");
-        whole.check(scratch.path(), &format!("interrupted at moment {turn}"));
-        let files = files(&scratch.path().join("out"));
-        let has_begun = !frames(&files).is_empty();
-        assert_eq!(files.contains_key("summary.json"), has_begun, "{:?}", files.keys());
-        if !came {
+    let moments = (1..).map(|turn| turn * Duration::from_millis(pause));
+    for moment in moments {
+        if !whole.strike(scratch().path(), moment, "INT") {
             break;
         }
     }

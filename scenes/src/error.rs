@@ -4,14 +4,12 @@ use std::io;
 use std::path::PathBuf;
 
 use piola::__private::message::{number, quoted};
-use piola::material::{MaterialError, Text, Unit};
+use piola::material::{MaterialError, Text};
 use piola_bodies::mesh::ReadError;
 use piola_bodies::step::{NewtonError, SetupError, StepError};
-use piola_bodies::system::{BodyError, PinError};
+use piola_bodies::system::BodyError;
 use piola_declare::emit::EmitError;
 use piola_declare::{Mistakes, nearest};
-
-use crate::region::RegionError;
 
 /// Error that prevents a scene from starting or continuing.
 #[derive(Debug, thiserror::Error)]
@@ -27,19 +25,15 @@ pub enum Error {
         /// The names that exist.
         known: Vec<&'static str>,
     },
-    /// An option for random starts is given for a scene with another start.
-    #[error("the scene `{scene}` does not use {option}: only {} displace nodes at random", list(known))]
-    NotScrambled {
-        /// The option, such as `--seed`.
-        option: &'static str,
-        /// The scene.
-        scene: &'static str,
-        /// The scenes that start at random.
-        known: Vec<&'static str>,
-    },
-    /// A file that is to declare an energy cannot be read.
+    /// The program cannot do what it is told, for this reason and with this remedy.
+    #[error("{0}")]
+    Usage(
+        /// Reason and remedy.
+        String,
+    ),
+    /// A file of an energy or a state cannot be read.
     #[error("{}: cannot be read: {source}", path.display())]
-    UnreadableDeclaration {
+    Unreadable {
         /// The file.
         path: PathBuf,
         /// Error of the system.
@@ -48,29 +42,6 @@ pub enum Error {
     /// An energy has mistakes.
     #[error("{0}")]
     Declaration(Mistakes),
-    /// A value of a parameter is given in a unit that the parameter does not have.
-    #[error("the parameter `{}` is {}, but its value is given {}; write another unit after it, or none",
-        quoted(parameter), in_words(*declared), in_words(*unit))]
-    UnitOfParameter {
-        /// The parameter.
-        parameter: String,
-        /// The kind of unit that is given.
-        unit: Unit,
-        /// The kind of unit that the parameter has.
-        declared: Unit,
-    },
-    /// A value of a parameter of a formula has no unit, while the units of other values imply one.
-    #[error("the parameter `{}` is {}, because other values have units, but its own value has none; write it with its unit, \
-        such as `{given}{}MPa`, or `{given}{}Pa`",
-        quoted(parameter), in_words(*unit), division(*unit), division(*unit))]
-    WithoutUnit {
-        /// The parameter.
-        parameter: String,
-        /// Its name and value as given, such as `mu=0.4`.
-        given: String,
-        /// The kind of unit that the formula implies.
-        unit: Unit,
-    },
     /// An energy cannot be printed in another language.
     #[error(transparent)]
     Emit(#[from] EmitError),
@@ -115,41 +86,6 @@ pub enum Error {
         /// Requirement that the value breaks.
         requirement: &'static str,
     },
-    /// The body starts outside of the domain of its material.
-    #[error(
-        "the scene `{scene}` starts where `{material}` is not defined: its domain is {domain}{}",
-        refusal.as_ref().map(|reason| format!(", and it cannot be extended: {reason}")).unwrap_or_default()
-    )]
-    StartOutsideDomain {
-        /// Name of the scene.
-        scene: &'static str,
-        /// Name of the material.
-        material: Text,
-        /// Domain of the material.
-        domain: Text,
-        /// Reason why the material cannot be extended beyond its domain; `None` for one that can be.
-        refusal: Option<Text>,
-        /// Names of the materials that can start there, with typical parameters.
-        others: Vec<&'static str>,
-    },
-    /// A pin is neither a group of the mesh nor a box.
-    #[error("`{}` is neither a group of the mesh (it has {}) nor a box; {source}", quoted(pin), list(groups))]
-    UnknownPin {
-        /// The text as given.
-        pin: String,
-        /// The groups of the mesh.
-        groups: Vec<String>,
-        /// Reason why it is not a box.
-        source: RegionError,
-    },
-    /// A pin does not hold any node.
-    #[error("the pin {pin} holds nothing: {source}")]
-    Pin {
-        /// The pin.
-        pin: String,
-        /// Reason.
-        source: Box<PinError>,
-    },
     /// The file of a mesh or a surface cannot be read or is malformed.
     #[error(transparent)]
     Read(#[from] ReadError),
@@ -167,34 +103,6 @@ pub enum Error {
     /// The solver refuses a setting, a position or a velocity.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// Files cannot be written to the folder; a new run is not begun in one that exists.
-    #[error("cannot write to the folder {}: {source}", path.display())]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-        /// Error of the system.
-        source: io::Error,
-    },
-    /// Another run is writing to the folder.
-    #[error("another run is writing to the folder {}; wait until it has ended", folder.display())]
-    Busy {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// No run to continue.
-    #[error("the folder {} contains no run to continue", folder.display())]
-    NothingToResume {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// The run in the folder cannot continue with these settings.
-    #[error("the run in {} cannot continue: {reason}", folder.display())]
-    Resume {
-        /// The folder.
-        folder: PathBuf,
-        /// Reason.
-        reason: String,
-    },
     /// A signal has ended the run before its first step.
     #[error("the run was interrupted before its first step; nothing was written")]
     Interrupted,
@@ -212,18 +120,6 @@ pub enum Error {
     /// The equilibrium of a body that has not recovered cannot be examined.
     #[error("the equilibrium at the end cannot be examined: {0}")]
     Equilibrium(#[from] NewtonError),
-    /// A moment belongs to another body.
-    #[error("the state belongs to another body than {body}")]
-    OtherBody {
-        /// The body with which it should continue, or the file of its mesh.
-        body: String,
-    },
-    /// No steps lead to such a moment.
-    #[error("the state cannot be resumed: {0}")]
-    Unsound(
-        /// Reason.
-        &'static str,
-    ),
     /// A time step failed.
     #[error("the step to frame {frame} failed: {}", explained(source))]
     Step {
@@ -250,15 +146,6 @@ fn explained(error: &StepError) -> String {
     }
 }
 
-/// A kind of unit in sentences.
-fn in_words(unit: Unit) -> &'static str {
-    match unit {
-        Unit::Pascal => "in Pa",
-        Unit::PerPascal => "in 1/Pa",
-        _ => "without a unit",
-    }
-}
-
 /// "it", after a question if a name is similar to a known one, with or without an index.
 fn near_or_it(name: &str, known: &[Text]) -> String {
     let known = || known.iter().map(|known| &**known);
@@ -267,13 +154,8 @@ fn near_or_it(name: &str, known: &[Text]) -> String {
     near.map_or_else(|| "it".to_owned(), |near| format!("did you mean `{}`? It", quoted(near)))
 }
 
-/// The sign between a value and the stress that its unit is made of.
-fn division(unit: Unit) -> &'static str {
-    if unit == Unit::PerPascal { "/" } else { "" }
-}
-
 /// Names in backquotes with commas, or "none".
-fn list(names: &[impl AsRef<str>]) -> String {
+pub(crate) fn list(names: &[impl AsRef<str>]) -> String {
     match names {
         [] => "none".into(),
         names => {

@@ -56,11 +56,7 @@ impl Geometry {
                 settings.unit.convert(&mut surface.positions);
                 Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
             }
-            None => {
-                check_body(&mesh, &mesh_name)?;
-                let surface = boundary(&mesh);
-                Self::new(mesh, &mesh_name, &surface, &mesh_name)
-            }
+            None => Self::bare(mesh, &mesh_name),
         }
     }
 
@@ -76,11 +72,15 @@ impl Geometry {
                 Self::new(mesh, file.name, &surface, skin.name)
             }
             Shape::Box { cells, size } => {
-                let mesh = usable(body.name, tetrahedral_box(cells, size))?;
-                let surface = boundary(&mesh);
-                Self::new(mesh, body.name, &surface, body.name)
+                Self::bare(usable(body.name, tetrahedral_box(cells, size))?, body.name)
             }
         }
+    }
+
+    /// Tetrahedra that are drawn by their boundary.
+    fn bare(mesh: TetMesh, name: &str) -> Result<Self, Error> {
+        let surface = boundary(&mesh);
+        Self::new(mesh, name, &surface, name)
     }
 
     /// Properties of the mesh that are rarely intended, in sentences. A body can be made of it.
@@ -263,26 +263,6 @@ mod tests {
         );
         assert_eq!(warnings.len(), 2);
         Ok(())
-    }
-
-    #[test]
-    fn sizes_that_may_be_in_another_unit_are_named() {
-        let warned = |size: f64| {
-            let geometry = Geometry::new(
-                tetrahedral_box([1; 3], [size, 0.5 * size, 0.5 * size])?,
-                "box",
-                &Surface::default(),
-                "none",
-            )?;
-            Ok::<_, Box<dyn error::Error>>(geometry.warnings().first().cloned())
-        };
-        assert_eq!([1e-4, 1.0, 20.0].map(|size| warned(size).expect("a box")), [const { None }; 3]);
-        for (size, shown) in [(100.0, "100"), (20.1, "20.1"), (9e-5, "0.00009")] {
-            let text = format!(
-                "the body is {shown} m long; is that meant? --unit names the unit of the mesh, such as --unit mm"
-            );
-            assert_eq!(warned(size).expect("a box"), Some(text));
-        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! A moment of a scene in motion, to continue from.
 
+use std::path::Path;
+
 use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
 
@@ -69,15 +71,20 @@ impl Moment {
     /// The scene in motion again, by the body that [`Geometry::load`] makes of the settings.
     ///
     /// # Errors
-    /// [`Error::OtherBody`] if it is another one, [`Error::Unsound`] if the clock is wrong, [`Error::Setup`]
-    /// unless there is one finite position, velocity and acceleration for each node, and those of
-    /// [`Play::new`].
+    /// [`Error::Usage`] if it is another one or the clock is wrong, [`Error::Setup`] unless there is one
+    /// finite position, velocity and acceleration for each node, and those of [`Play::new`].
     pub fn resume(&self, geometry: &Geometry) -> Result<Play, Error> {
         if !self.clock.is_sound() || self.clock.dt() != self.settings.dt {
-            return Err(Error::Unsound("its clock is wrong"));
+            return Err(Error::Usage("the state cannot be resumed: its clock is wrong".into()));
         }
         if self.body != geometry.checksum() {
-            return Err(Error::OtherBody { body: self.settings.body_name() });
+            let Settings { files, body, .. } = &self.settings;
+            let name = files.as_ref().map_or(Path::new(body.name), |files| &files.mesh);
+            return Err(Error::Usage(format!(
+                "the state belongs to another body than {}; give the mesh that it was saved with by --mesh (and \
+                 --surface), or none for a body of the program",
+                name.display()
+            )));
         }
         let mut play = Play::new(&self.settings, geometry)?;
         play.resume(self.clock, &self.positions, &self.velocities)?;

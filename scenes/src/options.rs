@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use clap::Args;
 use piola::Inversion;
 
-use crate::error::Error;
+use crate::error::{Error, list};
 use crate::material::MaterialSpec;
 use crate::scene::{Amplitude, Body, SCENES, Scene, Start};
 use crate::settings::{Files, Settings};
@@ -28,19 +28,14 @@ pub struct SceneOptions {
     pub scene: String,
 
     /// Material, as listed by `piola materials`, or a file of Rust that declares one [default: the scene's].
-    /// A listed one gets the stiffness of the scene's material without --param.
+    /// A listed one other than the scene's has the stiffness of the scene's without --param, and needs all of
+    /// its parameters with it.
     #[arg(long, value_name = "NAME|FILE.rs")]
     pub material: Option<String>,
 
     #[command(flatten)]
     #[expect(missing_docs, reason = "clap would print it")]
     pub formula: Formula,
-
-    /// Value of a parameter of the material, in SI units or with a unit of stress after it, such as MPa or
-    /// psi, or /MPa for one by a stress; lists as NAME=V,V,V. For another material than the scene's, give all
-    /// or none.
-    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
-    pub parameters: Vec<Given>,
 
     /// Behaviour beyond the domain of a material: `refuse` takes shorter steps, a number is the stretch below
     /// which the energy is extended by polynomials [default: 0.1 if it can be extended].
@@ -100,15 +95,11 @@ impl SceneOptions {
     pub fn settings(self, surface: Option<PathBuf>) -> Result<Settings, Error> {
         let scene = Scene::find(&self.scene)?;
         let mut settings = Settings::new(scene);
-        if let Some(material) = self.formula.spec(&self.parameters)? {
-            settings.material = material;
-        } else if let Some(name) = self.material.filter(|name| !settings.material.is(name)) {
-            settings.material = match in_file(&name)? {
-                Some(material) => material,
-                None => MaterialSpec::matching(&name, settings.material.build()?.moduli),
-            };
-        }
-        settings.material = with_values(settings.material, self.parameters)?;
+        let of_scene = settings.material;
+        settings.material = self.formula.material(self.material.as_deref(), |name| match name {
+            Some(name) if !of_scene.is(name) => Ok(MaterialSpec::matching(name, of_scene.build()?.moduli)),
+            _ => Ok(of_scene),
+        })?;
         if let Some(inversion) = self.inversion {
             settings.material = settings.material.with_inversion(inversion);
         }
@@ -135,11 +126,15 @@ fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>)
             amplitude: other_amplitude.unwrap_or(amplitude),
         }),
         (start, None, None) => Ok(start),
-        (_, seed, _) => Err(Error::NotScrambled {
-            option: if seed.is_some() { "--seed" } else { "--amplitude" },
-            scene: scene.name,
-            known: SCENES.iter().filter(is_random).map(|scene| scene.name).collect(),
-        }),
+        (_, seed, _) => {
+            let option = if seed.is_some() { "--seed" } else { "--amplitude" };
+            let known: Vec<_> = SCENES.iter().filter(is_random).map(|scene| scene.name).collect();
+            Err(Error::Usage(format!(
+                "the scene `{}` does not use {option}: only {} displace nodes at random",
+                scene.name,
+                list(&known)
+            )))
+        }
     }
 }
 

@@ -14,7 +14,7 @@ pub use ply::{read_vertices, write_ply};
 pub use sealed::{SealError, seal, unseal};
 pub use summary::{Ended, FinalPlace, FinalState, Newton, StepCounts, Summary, TensileReading};
 pub use vtu::{Field, write_pvd, write_vtu};
-pub use whole::write_whole;
+pub use whole::{read_text, write_whole};
 
 /// Name of the file with the surface in a frame.
 #[must_use]

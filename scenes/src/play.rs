@@ -1,5 +1,6 @@
 //! A scene in motion.
 
+use piola::__private::message::quoted;
 use piola::batch::TileMaterial;
 use piola::material::{Moduli, Text};
 use piola_bodies::mesh::Anchor;
@@ -8,7 +9,7 @@ use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simul
 use piola_bodies::system::{Body, Part, Pins};
 
 use crate::clock::Clock;
-use crate::error::Error;
+use crate::error::{Error, list};
 use crate::geometry::{Geometry, NOTHING_PULLED};
 use crate::material::{self, MaterialSpec, Parameters};
 use crate::output::{Newton, StepCounts};
@@ -17,6 +18,8 @@ use crate::scene::Pull;
 use crate::settings::Settings;
 
 mod start;
+
+pub use start::start_positions;
 
 /// Stiffness of all springs of a pull together, relative to a cube of the body's material and height.
 const DRAG_STIFFNESS: f64 = 10.0;
@@ -75,7 +78,7 @@ impl Play {
     /// Checks that the material is defined at the positions of the body.
     ///
     /// # Errors
-    /// [`Error::StartOutsideDomain`], with the materials that could start there.
+    /// [`Error::Usage`], with the materials that could start there.
     pub fn check_start(&mut self, settings: &Settings, geometry: &Geometry) -> Result<(), Error> {
         let has_energy = |simulation: &mut Simulation| simulation.energies().elastic.is_finite();
         if has_energy(&mut self.simulation) {
@@ -87,13 +90,21 @@ impl Play {
             let other = typical.and_then(|other| at_start(settings, geometry, other.elements));
             other.is_ok_and(|mut simulation| has_energy(&mut simulation))
         };
-        Err(Error::StartOutsideDomain {
-            scene: settings.scene.name,
-            material: self.material.clone(),
-            domain: description.domain.clone(),
-            refusal: description.refusal.clone().filter(|_| !description.extends),
-            others: material::names().filter(can_start).collect(),
-        })
+        let (scene, name, domain) = (settings.scene.name, &self.material, &description.domain);
+        let reason =
+            format!("the scene `{scene}` starts where `{name}` is not defined: its domain is {domain}");
+        Err(Error::Usage(match description.refusal.as_ref().filter(|_| !description.extends) {
+            None => {
+                format!("{reason}; leave out --inversion refuse, or choose a scene that starts elsewhere")
+            }
+            Some(refusal) => {
+                let others = material::names().filter(can_start).collect::<Vec<_>>().join(", ");
+                format!(
+                    "{reason}, and it cannot be extended: {refusal}; choose a scene that starts elsewhere, such as \
+                     `stretch`, or another --material: {others}"
+                )
+            }
+        }))
     }
 
     /// The body and its state.
@@ -316,12 +327,6 @@ fn at_start(
     Ok(simulation)
 }
 
-/// Positions of the nodes before the first step, m; pinned ones are at rest.
-#[must_use]
-pub fn start_positions(settings: &Settings, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
-    start::positions(settings.start, geometry, pins)
-}
-
 /// Stiffness, N/m, of a cube of the body's height. `young` is the small-strain Young's modulus of the body,
 /// Pa.
 fn stiffness(young: f64, bounds: Bounds) -> f64 {
@@ -350,25 +355,34 @@ pub fn step_settings(settings: &Settings) -> step::SimulationSettings {
 /// The nodes that the settings pin, or else those that the scene pins.
 ///
 /// # Errors
-/// [`Error::Pin`], [`Error::UnknownPin`].
+/// [`Error::Usage`].
 pub fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
     if settings.pins.is_empty() {
         let Some(pinned) = settings.scene.pinned else { return Ok(Pins::none()) };
         let region = region::within(mesh.bounds(), pinned);
-        let pin = format!("of the scene {}", settings.scene.name);
-        return Pins::in_box(mesh, region).map_err(|error| Error::Pin { pin, source: error.into() });
+        return Pins::in_box(mesh, region).map_err(|error| {
+            let scene = settings.scene.name;
+            Error::Usage(format!(
+                "the pin of the scene {scene} holds nothing: {error}; choose a place with --pin"
+            ))
+        });
     }
     settings.pins.iter().try_fold(Pins::none(), |all, pin| {
         // What could be a box may also be the name of a group; then the user who named it means the group.
         let pins = match (mesh.group(pin), region::parse(pin)) {
             (None, Ok(region)) => Pins::in_box(mesh, region),
             (Some(_), _) => Pins::of_group(mesh, pin),
-            (None, Err(source)) => {
-                let groups = mesh.groups.iter().map(|group| group.name.clone()).collect();
-                return Err(Error::UnknownPin { pin: pin.clone(), groups, source });
+            (None, Err(error)) => {
+                let groups: Vec<_> = mesh.groups.iter().map(|group| &group.name).collect();
+                let (pin, groups) = (quoted(pin), list(&groups));
+                return Err(Error::Usage(format!(
+                    "`{pin}` is neither a group of the mesh (it has {groups}) nor a box; {error}"
+                )));
             }
         };
-        let pins = pins.map_err(|error| Error::Pin { pin: format!("`{pin}`"), source: error.into() })?;
+        let pins = pins.map_err(|error| {
+            Error::Usage(format!("the pin `{pin}` holds nothing: {error}; choose a place with --pin"))
+        })?;
         Ok(all.and(&pins))
     })
 }

@@ -142,12 +142,6 @@ impl Settings {
         with_threads: threads = usize;
     }
 
-    /// Name of the body, or that of its mesh's file.
-    #[must_use]
-    pub fn body_name(&self) -> String {
-        self.files.as_ref().map_or(self.body.name.into(), |files| files.mesh.display().to_string())
-    }
-
     /// Checks that all values are in range, so that a simulation is meaningful and ends.
     ///
     /// # Errors

@@ -14,9 +14,8 @@ use std::time::Duration;
 
 use piola_bodies::step::StepReport;
 use piola_declare::Energy;
-use piola_scenes::error::Error as SceneError;
+use piola_scenes::error::Error;
 
-use crate::error::Error;
 use crate::protocol::{Act, Run};
 use crate::session::Session;
 use crate::show::{self, Frame, FrameStats};
@@ -38,7 +37,7 @@ pub trait Host {
     ///
     /// # Errors
     /// The error of [`Session::step`].
-    fn step(&self, session: &mut Session) -> Result<StepReport, SceneError> {
+    fn step(&self, session: &mut Session) -> Result<StepReport, Error> {
         session.step()
     }
 }
@@ -84,7 +83,7 @@ impl Answer {
     /// The answer that an act is refused, for this reason.
     pub(crate) fn refusal(act: &Act, error: Error) -> Self {
         let (reason, mistakes) = match error {
-            Error::Scene(SceneError::Declaration(mistakes)) => (mistakes.to_string(), mistakes.list),
+            Error::Declaration(mistakes) => (mistakes.to_string(), mistakes.list),
             error => (for_page(&error), Vec::new()),
         };
         Self::Refused(show::refused(act, &reason, &mistakes))
@@ -269,7 +268,7 @@ impl<H: Host> Driver<H> {
 /// Message of an error for a page: the name of a file and the kind of a system error, without any path.
 fn for_page(error: &Error) -> String {
     match error {
-        Error::Scene(SceneError::Write { path, source }) => {
+        Error::Write { path, source } => {
             format!("cannot write {}: {}", name_of(path), source.kind())
         }
         error => error.to_string(),

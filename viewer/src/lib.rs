@@ -10,7 +10,6 @@
 
 pub mod conversation;
 pub mod driver;
-pub mod error;
 pub mod protocol;
 pub mod session;
 mod show;

@@ -8,14 +8,13 @@ use std::collections::BTreeMap;
 use piola_bodies::mesh::Anchor;
 use piola_bodies::step::StepReport;
 use piola_declare::Energy;
-use piola_scenes::error::Error as SceneError;
+use piola_scenes::error::Error;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::moment::Moment;
 use piola_scenes::play::Play;
 use piola_scenes::settings::Settings;
 
-use crate::error::Error;
 use crate::protocol::Act;
 use crate::state::{Drag, MAX_DRAG, State};
 use crate::typed;
@@ -46,7 +45,7 @@ impl Session {
     /// A session before the first step of its scene.
     ///
     /// # Errors
-    /// [`Error::Scene`] if the settings are out of range or do not fit the body.
+    /// An error of the settings or of the body, or of a material that is not defined at the start.
     pub fn new(settings: Settings) -> Result<Self, Error> {
         let material = settings.material.explicit()?;
         let settings = settings.with_material(material);
@@ -59,8 +58,7 @@ impl Session {
     /// Continues from a saved state, to the last bit.
     ///
     /// # Errors
-    /// Like [`Session::new`], and [`SceneError::Unsound`] or [`SceneError::OtherBody`] if the state does not
-    /// fit the body.
+    /// Like [`Session::new`], and those of [`Moment::resume`].
     pub fn resume(state: State) -> Result<Self, Error> {
         let geometry = Geometry::load(state.moment.settings())?;
         let play = play_of(&state, &geometry)?;
@@ -113,8 +111,8 @@ impl Session {
     /// Makes the next step, in the rayon pool of the caller.
     ///
     /// # Errors
-    /// [`SceneError::Step`]; the state before the step is then untouched.
-    pub fn step(&mut self) -> Result<StepReport, SceneError> {
+    /// [`Error::Step`]; the state before the step is then untouched.
+    pub fn step(&mut self) -> Result<StepReport, Error> {
         let way = SPEED * self.geometry.mesh.bounds().size()[1] * self.settings.dt;
         let mut pulls = self.pulls.clone();
         for drag in pulls.values_mut() {
@@ -133,10 +131,10 @@ impl Session {
     /// Executes an act of a page, before the next step.
     ///
     /// # Errors
-    /// [`Error::Scene`], [`Error::LongText`] or [`Error::NothingSaved`]; the state is then as before.
+    /// The reason why the act is refused; the state is then as before.
     pub fn apply(&mut self, act: &Act) -> Result<(), Error> {
         match act {
-            &Act::Pull { drag, vertex, target } => Ok(self.pull(drag, vertex, target)?),
+            &Act::Pull { drag, vertex, target } => self.pull(drag, vertex, target),
             Act::Release { drag } => {
                 self.pulls.remove(drag);
                 Ok(())
@@ -171,7 +169,8 @@ impl Session {
                 Ok(())
             }
             Act::Restore {} => {
-                let state = self.saved.take().ok_or(Error::NothingSaved)?;
+                let state =
+                    self.saved.take().ok_or_else(|| Error::Usage("no state has been saved yet".into()))?;
                 let result = self.go_to(&state);
                 self.saved = Some(state);
                 result
@@ -182,27 +181,27 @@ impl Session {
     /// Replaces the material by an energy with these values, as [`Act::Energy`] does by its text.
     ///
     /// # Errors
-    /// [`Error::Scene`]; the state is then as before.
+    /// An error of the material; the state is then as before.
     pub fn declare(&mut self, energy: Energy, parameters: &BTreeMap<String, Vec<f64>>) -> Result<(), Error> {
         let material = typed::material(energy, parameters, &self.settings.material, self.play.moduli())?;
         self.change(self.settings.clone().with_material(material))
     }
 
-    fn pull(&mut self, number: u64, vertex: usize, target: [f64; 3]) -> Result<(), SceneError> {
+    fn pull(&mut self, number: u64, vertex: usize, target: [f64; 3]) -> Result<(), Error> {
         let anchor = anchor_for(&self.geometry, vertex, target)?;
         // One that holds already moves on; a new one begins where the vertex is.
         let holds = self.pulls.get(&number).filter(|drag| drag.vertex == vertex).map(|drag| drag.place);
         let place = holds.unwrap_or_else(|| anchor.position(self.play.simulation().positions()));
         if self.pulls.len() >= MAX_PULLS && !self.pulls.contains_key(&number) {
             let (quantity, value) = ("the number of pulls", (MAX_PULLS + 1) as f64);
-            return Err(SceneError::OutOfRange { quantity, value, requirement: "at most 64" });
+            return Err(Error::OutOfRange { quantity, value, requirement: "at most 64" });
         }
         self.pulls.insert(number, Drag { vertex, target, place });
         Ok(())
     }
 
     /// The material of that name, with the parameters that it had at the start, or else typical ones.
-    fn material(&self, name: &str, as_stiff: bool) -> Result<MaterialSpec, SceneError> {
+    fn material(&self, name: &str, as_stiff: bool) -> Result<MaterialSpec, Error> {
         if self.material_at_start.is(name) {
             return Ok(self.material_at_start.clone());
         }
@@ -237,10 +236,10 @@ impl Session {
 fn play_of(state: &State, geometry: &Geometry) -> Result<Play, Error> {
     let play = state.moment.resume(geometry)?;
     if state.pulls.len() > MAX_PULLS {
-        return Err(SceneError::Unsound("it has more than 64 pulls").into());
+        return Err(Error::Usage("the state cannot be resumed: it has more than 64 pulls".into()));
     }
     if state.pulls.keys().any(|&number| number >= MAX_DRAG) {
-        return Err(SceneError::Unsound("the number of a pull is 2^62 or more").into());
+        return Err(Error::Usage("the state cannot be resumed: the number of a pull is 2^62 or more".into()));
     }
     for drag in state.pulls.values() {
         anchor_for(geometry, drag.vertex, drag.target)?;
@@ -250,8 +249,8 @@ fn play_of(state: &State, geometry: &Geometry) -> Result<Play, Error> {
 }
 
 /// The point of the body that a pull holds, if the vertex exists and the target is within reach.
-fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<Anchor, SceneError> {
-    let anchor = geometry.anchor(vertex).ok_or(SceneError::OutOfRange {
+fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<Anchor, Error> {
+    let anchor = geometry.anchor(vertex).ok_or(Error::OutOfRange {
         quantity: "the vertex of a pull",
         value: vertex as f64,
         requirement: "one of the surface",
@@ -263,7 +262,7 @@ fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<An
     let is_near = |x: f64, place: f64| (x - place).abs() <= reach;
     match target.into_iter().zip(place).find(|&(x, place)| !is_near(x, place)) {
         None => Ok(anchor),
-        Some((value, _)) => Err(SceneError::OutOfRange {
+        Some((value, _)) => Err(Error::OutOfRange {
             quantity: "a coordinate of a pull's target",
             value,
             requirement: "at most a hundred body heights from where the vertex is at rest",
@@ -272,7 +271,7 @@ fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<An
 }
 
 /// The body at the start of the scene, if its material is defined there.
-fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Play, SceneError> {
+fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Play, Error> {
     let mut play = Play::new(settings, geometry)?;
     play.check_start(settings, geometry)?;
     Ok(play)

@@ -1,18 +1,15 @@
 //! Files with the state of a body in motion.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
-use piola_scenes::error::Error as SceneError;
+use piola_scenes::error::Error;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::moment::Moment;
-use piola_scenes::output::{seal, unseal, write_whole};
+use piola_scenes::output::{read_text, seal, unseal, write_whole};
 use piola_scenes::settings::Files;
 use serde::{Deserialize, Serialize};
-
-use crate::error::Error;
 
 /// The longest file that is written or read, in bytes: a state of two million nodes.
 const MAX_LENGTH: u64 = 256 << 20;
@@ -65,16 +62,14 @@ impl State {
     /// Writes the file, which replaces an earlier one of the same name only once it is complete.
     ///
     /// # Errors
-    /// [`Error::Scene`].
+    /// [`Error::Write`].
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        let failed = |source| SceneError::Write { path: path.into(), source };
+        let failed = |source| Error::Write { path: path.into(), source };
         let text = seal(self).map_err(|error| failed(error.into()))?;
         if text.len() as u64 > MAX_LENGTH {
-            return Err(
-                failed(io::Error::new(ErrorKind::FileTooLarge, "it would be longer than 256 MiB")).into()
-            );
+            return Err(failed(io::Error::new(ErrorKind::FileTooLarge, "it would be longer than 256 MiB")));
         }
-        Ok(write_whole(path, &text)?)
+        write_whole(path, &text)
     }
 
     /// Reads a file.
@@ -82,22 +77,16 @@ impl State {
     /// # Errors
     /// [`Error::Unreadable`], or like [`State::parse`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let mut text = String::new();
-        let read = File::open(path).and_then(|file| file.take(MAX_LENGTH + 1).read_to_string(&mut text));
-        let read = read.and_then(|length| match length as u64 > MAX_LENGTH {
-            true => Err(io::Error::new(ErrorKind::FileTooLarge, "it is longer than 256 MiB")),
-            false => Ok(()),
-        });
-        read.map_err(|source| Error::Unreadable { path: path.into(), source })?;
-        Self::parse(&text, path)
+        Self::parse(&read_text(path, MAX_LENGTH)?, path)
     }
 
     /// Parses the text of a file; `path` is for messages. Whether the state fits its scene is checked where a
     /// session resumes it.
     ///
     /// # Errors
-    /// [`Error::NotState`].
+    /// [`Error::Usage`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, Error> {
-        unseal(text).map_err(|source| Error::NotState { path: path.into(), source })
+        unseal(text)
+            .map_err(|error| Error::Usage(format!("{}: is not a saved state: {error}", path.display())))
     }
 }

@@ -4,10 +4,8 @@ use std::collections::BTreeMap;
 
 use piola::material::{Moduli, Parameter};
 use piola_declare::{Energy, FormulaOptions};
-use piola_scenes::error::Error as SceneError;
+use piola_scenes::error::Error;
 use piola_scenes::material::MaterialSpec;
-
-use crate::error::Error;
 
 /// The longest text, in bytes: several times the longest declaration of the catalogue.
 const MAX_TEXT: usize = 12 * 1024;
@@ -35,27 +33,31 @@ pub(crate) fn material(
     });
     let given = given.iter().map(|(name, values)| (name.as_str(), values.as_slice()));
     let spec = of_present.chain(given).fold(spec, |spec, (name, values)| spec.with_parameter(name, values));
-    Ok(begin(spec, moduli)?.explicit()?)
+    begin(spec, moduli)?.explicit()
 }
 
 /// The energy of a formula, whose names with values are parameters, or of a declaration in Rust.
 ///
 /// # Errors
-/// [`Error::LongText`] or [`SceneError::Declaration`].
+/// [`Error::Usage`] for a long text, [`Error::Declaration`].
 pub(crate) fn energy(text: &str, given: &BTreeMap<String, Vec<f64>>) -> Result<Energy, Error> {
     if text.len() > MAX_TEXT {
-        return Err(Error::LongText { bytes: text.len(), most: MAX_TEXT });
+        return Err(Error::Usage(format!(
+            "the text of an energy has at most {MAX_TEXT} bytes here, and this one has {}; put a longer one into a file, \
+             for `piola view --material FILE.rs`",
+            text.len()
+        )));
     }
     let names = given.keys().map(|name| (name.clone(), String::new()));
     let options = FormulaOptions::default().with_parameters(Some(names.collect())).with_further(true);
-    Ok(Energy::from_text_with(text, &options).map_err(SceneError::Declaration)?)
+    Energy::from_text_with(text, &options).map_err(Error::Declaration)
 }
 
 /// Gives each parameter without a value the shear modulus of the body, or 1: the combination with which the
 /// material is about as stiff as the body was.
 ///
 /// A formula does not declare which of its parameters are moduli.
-fn begin(spec: MaterialSpec, body: Moduli) -> Result<MaterialSpec, SceneError> {
+fn begin(spec: MaterialSpec, body: Moduli) -> Result<MaterialSpec, Error> {
     let is_new = |parameter: &&Parameter| spec.values_of(&parameter.name).is_empty();
     let parameters = &spec.description()?.parameters;
     let new: Vec<_> = parameters.iter().filter(is_new).map(|parameter| parameter.name.to_string()).collect();
@@ -122,9 +124,7 @@ mod tests {
 
     #[test]
     fn mistakes_are_told_with_their_places() {
-        let Err(Error::Scene(SceneError::Declaration(mistakes))) = typed("mu/2*(I1 - 3", &[]) else {
-            panic!()
-        };
+        let Err(Error::Declaration(mistakes)) = typed("mu/2*(I1 - 3", &[]) else { panic!() };
         assert_eq!(mistakes.list[0].place.unwrap().column, 6);
         let unknown = typed("mu/2*(I1 - 3) - mu*ln(J)", &[("nu", 0.3)]).unwrap_err().to_string();
         assert!(unknown.contains("nu") && unknown.contains("mu"), "{unknown}");

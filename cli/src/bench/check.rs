@@ -56,9 +56,9 @@ impl Check {
         });
         let title = description.name.to_string() + &parameters.collect::<String>();
         let specimen = material.specimen()?;
-        let report = survey(&*specimen, &stretches).map_err(Error::bench)?;
+        let report = survey(&*specimen, &stretches).map_err(Error::usage)?;
         if let Some(path) = self.svg {
-            write_whole(&path, map(&*specimen, &stretches, &title).map_err(Error::bench)?.as_bytes())?;
+            write_whole(&path, map(&*specimen, &stretches, &title).map_err(Error::usage)?.as_bytes())?;
         }
         let warning = AtRest { moduli: report.moduli, volume: Volume::Free }.warning();
         let warning = warning.map(|warning| format!("warning: {warning}\n")).unwrap_or_default();

@@ -64,7 +64,6 @@ const MAX_STRETCH: f64 = 1e6;
 impl Curve {
     /// Computes test curves as tables, and draws them if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
-        self.data.keep(self.svg.as_ref())?;
         if self.material.material.as_deref() == Some(ranking::ALL) {
             return self.rank();
         }
@@ -132,20 +131,20 @@ impl Curve {
         }
         Ok(text)
     }
-}
 
-impl Curve {
     /// Ranks all rubbers by their agreement with the data.
     fn rank(self) -> Result<String, Error> {
         for (is_given, option) in [
-            (!self.material.parameters.is_empty(), "--param"),
+            (!self.material.formula.parameters.is_empty(), "--param"),
             (!self.at.is_empty(), "--at"),
             (self.from.is_some(), "--from"),
             (self.to.is_some(), "--to"),
             (self.rows.is_some(), "--rows"),
         ] {
             if is_given {
-                return Err(Error::RankedWith(option));
+                return Err(Error::usage(format!(
+                    "`piola curve all` cannot use {option}: it fits all parameters to all points, at constant volume"
+                )));
             }
         }
         ranking::run(&self.data, self.svg.as_deref())

@@ -8,7 +8,6 @@ use piola_laboratory::data::{
 };
 
 use crate::error::Error;
-use crate::overlap::refuse_overlaps;
 
 /// Contents of files, below the help of each command that reads measurements.
 pub(super) const HELP: &str = "\
@@ -60,12 +59,6 @@ pub(super) struct Measured {
 }
 
 impl Data {
-    /// Refuses to draw over the measured points.
-    pub(super) fn keep(&self, svg: Option<&PathBuf>) -> Result<(), Error> {
-        let data = self.files.iter().filter(|file| !is_treloar(file)).map(|file| ("--data", file.clone()));
-        refuse_overlaps(data, svg.map(|svg| ("--svg", svg.clone())))
-    }
-
     /// The files in sentences.
     pub(super) fn names(&self) -> String {
         self.files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")
@@ -80,10 +73,13 @@ impl Data {
             ("--stress", self.stresses.len()),
         ] {
             if files == 0 && given > 0 {
-                return Err(Error::WithoutData(option));
+                return Err(Error::usage(format!(
+                    "{option} applies to measured points: add --data FILE, or leave it out; units of parameters are written \
+                     after them"
+                )));
             }
             if given > 1 && given != files {
-                return Err(Error::Unpaired { option, given, files });
+                return Err(unpaired(option, given, files));
             }
         }
         let mut all = Measured::default();
@@ -97,10 +93,12 @@ impl Data {
 
     /// The points of a file, and how it was understood.
     fn file(&self, index: usize, file: &Path) -> Result<(Measurements, String), Error> {
-        let path = || file.to_owned();
+        let path = file.display();
+        let unreadable =
+            |error| Error::usage(format!("{path} cannot be read: {error}; give a file, or `treloar`"));
         let bytes = match is_treloar(file) {
             true => TRELOAR_1944.into(),
-            false => std::fs::read(file).map_err(|source| Error::UnreadableData { path: path(), source })?,
+            false => std::fs::read(file).map_err(unreadable)?,
         };
         let mut options = ReadOptions::default();
         options.test = self.of_file(&self.tests, index);
@@ -112,8 +110,8 @@ impl Data {
         let (files, given) = (self.files.len(), self.tests.len());
         let reading =
             Measurements::read_with(&decoded(&bytes), &options).map_err(|source| match source.fault {
-                Fault::NoMode if given > 0 => Error::Unpaired { option: "--mode", given, files },
-                _ => Error::Data { path: path(), source },
+                Fault::NoMode if given > 0 => unpaired("--mode", given, files),
+                fault => Error::usage(format!("{path}:{}: {fault}", source.line)),
             })?;
         let (mut points, mut note) = (reading.measurements.clone(), reading.to_string());
         if !self.tests.is_empty() {
@@ -121,8 +119,11 @@ impl Data {
             points.points.retain(|point| modes.contains(&point.mode));
             let (all, used) = (reading.measurements.points.len(), points.points.len());
             if points.modes().next().is_none() {
-                let known = reading.measurements.modes().map(|mode| mode.name()).collect();
-                return Err(Error::NoSuchTest { path: path(), known });
+                let known: Vec<_> = reading.measurements.modes().map(|mode| mode.name()).collect();
+                let known = known.join(", ");
+                return Err(Error::usage(format!(
+                    "{path}: has points of {known} alone, and none of the tests of --mode"
+                )));
             }
             if used < all {
                 note += &format!("; {used} of {all} points used, by --mode");
@@ -139,6 +140,13 @@ impl Data {
             _ => None,
         }
     }
+}
+
+/// The error of an option that is given neither once for all files nor once for each.
+fn unpaired(option: &str, given: usize, files: usize) -> Error {
+    Error::usage(format!(
+        "{given} values of {option} and {files} of --data: give one for all files, or one for each in their order"
+    ))
 }
 
 /// True if the measured points are those that the program includes.

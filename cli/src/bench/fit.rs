@@ -7,7 +7,7 @@ use piola::__private::message::number;
 use piola::Inversion;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
-use piola_laboratory::fit::{self, Candidate, FitSettings, Standing, Warning};
+use piola_laboratory::fit::{self, Candidate, FitError, FitSettings, Standing, Warning};
 use piola_scenes::error::Error as SceneError;
 
 use super::data::{Data, HELP, Measured};
@@ -56,7 +56,6 @@ pub(crate) struct Fit {
 impl Fit {
     /// Fits the parameters, and draws the result if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
-        self.data.keep(self.svg.as_ref())?;
         let Measured { points: data, notes } = self.data.read()?.unwrap_or_default();
         let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);
         let volume = match self.compressible || is_volumetric && !self.incompressible {
@@ -71,8 +70,9 @@ impl Fit {
             .with_held(self.held)
             .with_restarts(self.starts)
             .with_seed(self.seed);
-        let fit = fit::fit_parameters(&*candidate, &data, &settings)
-            .map_err(|source| Error::Fit { material: material.to_string(), source })?;
+        let fit = fit::fit_parameters(&*candidate, &data, &settings).map_err(|error| {
+            Error::usage(format!("{material} cannot be fitted: {error}{}", remedy(&error)))
+        })?;
         let names: Vec<_> =
             candidate.description().parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let options = |values: &[Vec<f64>]| {
@@ -129,5 +129,14 @@ impl Fit {
             draw(file, &title, &options(&fit.values), &curves, Some((&data, &fit.agreement)))?;
         }
         Ok(text)
+    }
+}
+
+/// The option that helps where parameters cannot be fitted.
+fn remedy(error: &FitError) -> &'static str {
+    match error {
+        FitError::Start(_) => " (--param gives others)",
+        FitError::TooFewPoints { .. } => " (--hold)",
+        _ => "",
     }
 }

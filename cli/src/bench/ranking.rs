@@ -36,9 +36,15 @@ const NOTE: &str = "fitted so that R² of all points is greatest; n parameters; 
 /// Fits every rubber and ranks them, as a table and, if wanted, as a chart.
 pub(super) fn run(data: &Data, svg: Option<&Path>) -> Result<String, Error> {
     let files = data.names();
-    let Measured { points: data, notes } = data.read()?.ok_or(Error::RankedWithoutData)?;
+    let Measured { points: data, notes } = data.read()?.ok_or_else(|| {
+        Error::usage(
+            "`piola curve all` compares energies with measured points: add --data FILE, or --data treloar",
+        )
+    })?;
     if data.modes().any(|mode| mode == Mode::Volumetric) {
-        return Err(Error::RankedByVolume { files });
+        return Err(Error::usage(format!(
+            "{files}: `piola curve all` fits solids that keep their volume; leave the volumetric test out"
+        )));
     }
     let contender = |name: &str| -> Result<Contender, SceneError> {
         let spec = MaterialSpec::typical(name)?.with_inversion(Inversion::Refuse);
@@ -49,7 +55,7 @@ pub(super) fn run(data: &Data, svg: Option<&Path>) -> Result<String, Error> {
     let ranking = rank(&contenders, &data, &FitSettings::default().with_difference(Difference::Absolute));
     let title = format!("rubbers, incompressible, fitted to {files}");
     if let Some(svg) = svg {
-        let picture = chart::rows(&title, NOTE, &ranking).map_err(Error::bench)?;
+        let picture = chart::rows(&title, NOTE, &ranking).map_err(Error::usage)?;
         write_whole(svg, picture.as_bytes())?;
     }
     Ok(format!("{title}\n{notes}\n{ranking}"))

@@ -1,6 +1,6 @@
 //! Secret token that opens the page; it is part of the printed address.
 
-use std::fmt;
+use std::{fmt, io};
 
 use data_encoding::HEXLOWER;
 use subtle::ConstantTimeEq;
@@ -15,10 +15,11 @@ impl Token {
     /// A number that nobody can guess.
     ///
     /// # Errors
-    /// [`Error::Random`].
+    /// [`Error::System`].
     pub(super) fn new() -> Result<Self, Error> {
         let mut bytes = [0; 16];
-        getrandom::fill(&mut bytes).map_err(Error::Random)?;
+        let filled = getrandom::fill(&mut bytes).map_err(|error| io::Error::other(error.to_string()));
+        filled.map_err(Error::system("make a token for the page"))?;
         Ok(Self(HEXLOWER.encode(&bytes)))
     }
 

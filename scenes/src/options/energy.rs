@@ -10,11 +10,11 @@ use piola_declare::{Energy, FormulaOptions};
 
 use crate::error::Error;
 use crate::material::MaterialSpec;
+use crate::output::read_text;
 
-use super::Given;
-use super::value::modulus;
+use super::value::{Given, modulus, parameter};
 
-/// Options of a formula.
+/// An energy that is declared by its formula, and values of the parameters of any material.
 #[derive(Clone, Debug, Default, PartialEq, Args)]
 pub struct Formula {
     /// Energy as a formula, such as `mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2`, instead of a material.
@@ -33,6 +33,11 @@ pub struct Formula {
     /// Add K/2 (J - 1)^2 to the formula, which resists changes of volume; K in Pa, or with a unit of stress.
     #[arg(long, value_name = "K", requires = "energy", allow_negative_numbers = true, value_parser = modulus)]
     kappa: Option<f64>,
+
+    /// Value of a parameter, in SI units or with a unit of stress after it, such as MPa or psi, or /MPa for
+    /// one by a stress; lists as NAME=V,V,V.
+    #[arg(long = "param", value_name = "NAME=V", value_parser = parameter)]
+    pub parameters: Vec<Given>,
 }
 
 /// The name of the parameter that `--kappa` adds.
@@ -46,25 +51,41 @@ impl Formula {
         Self { free_rest: self.free_rest || self.energy.is_some(), ..self }
     }
 
-    /// The material of the formula with these parameters, if a formula is given.
+    /// The material of the formula, or else of the file with this name, or else the one that `listed` finds
+    /// by its name; with the parameters that are given.
     ///
     /// # Errors
-    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::WithoutUnit`].
-    pub fn spec(&self, parameters: &[Given]) -> Result<Option<MaterialSpec>, Error> {
-        let Some(formula) = &self.energy else { return Ok(None) };
-        let names = parameters.iter().map(|given| (given.name.clone(), given.documentation()));
+    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::Usage`],
+    /// [`Error::Unreadable`], and those of `listed`.
+    pub fn material(
+        self,
+        name: Option<&str>,
+        listed: impl FnOnce(Option<&str>) -> Result<MaterialSpec, Error>,
+    ) -> Result<MaterialSpec, Error> {
+        let material = match (&self.energy, name) {
+            (Some(formula), _) => self.declared(formula)?,
+            (None, name) => match name.map(in_file).transpose()?.flatten() {
+                Some(material) => material,
+                None => listed(name)?,
+            },
+        };
+        with_values(material, self.parameters)
+    }
+
+    fn declared(&self, formula: &str) -> Result<MaterialSpec, Error> {
+        let names = self.parameters.iter().map(|given| (given.name.clone(), given.documentation()));
         let options = FormulaOptions::default()
             .with_parameters(Some(names.collect()))
             .with_free_rest(self.free_rest)
             .with_forms("--param NAME=VALUE", "--free-rest");
         let options = if self.kappa.is_some() { options.with_bulk(BULK) } else { options };
         let energy = Energy::from_formula_with(formula, &options).map_err(Error::Declaration)?;
-        check_units(&energy, parameters)?;
+        check_units(&energy, &self.parameters)?;
         let spec = MaterialSpec::declared(energy);
-        Ok(Some(match self.kappa {
+        Ok(match self.kappa {
             Some(kappa) => spec.with_parameter(BULK, [kappa]),
             None => spec,
-        }))
+        })
     }
 }
 
@@ -74,12 +95,13 @@ fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
         let known = energy.description().parameters.iter().find(|known| known.name == given.name);
         if let Some(unit @ (Unit::Pascal | Unit::PerPascal)) = known.and_then(|known| known.unit) {
             let values = given.values.iter().map(|&value| number(value)).collect::<Vec<_>>().join(",");
-            let parameter = given.name.clone();
-            return Err(Error::WithoutUnit {
-                given: quoted(&format!("{parameter}={values}")),
-                parameter,
-                unit,
-            });
+            let (name, sign) = (quoted(&given.name), if unit == Unit::PerPascal { "/" } else { "" });
+            let value = quoted(&format!("{}={values}", given.name));
+            return Err(Error::Usage(format!(
+                "the parameter `{name}` is {}, because other values have units, but its own value has none; write it with \
+                 its unit, such as `{value}{sign}MPa`, or `{value}{sign}Pa`",
+                in_words(unit)
+            )));
         }
     }
     Ok(())
@@ -88,7 +110,7 @@ fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
 /// The material of a declaration in Rust, if a name is that of a file.
 ///
 /// # Errors
-/// [`Error::UnreadableDeclaration`], [`Error::Declaration`].
+/// [`Error::Unreadable`], [`Error::Declaration`].
 pub fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
     if !is_file(name) {
         return Ok(None);
@@ -103,16 +125,24 @@ fn is_file(name: &str) -> bool {
 
 /// The energy that a file of Rust declares.
 fn read(path: &Path) -> Result<Energy, Error> {
-    let unreadable = |source| Error::UnreadableDeclaration { path: path.to_owned(), source };
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    let text = read_text(path, u64::MAX)?;
     let named = |mistakes: piola_declare::Mistakes| mistakes.with_name(path.display().to_string());
     Energy::from_rust(&text).map_err(|mistakes| Error::Declaration(named(mistakes)))
+}
+
+/// A kind of unit in sentences.
+fn in_words(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Pascal => "in Pa",
+        Unit::PerPascal => "in 1/Pa",
+        _ => "without a unit",
+    }
 }
 
 /// Adds values of parameters to a material.
 ///
 /// # Errors
-/// [`Error::UnitOfParameter`] for a value in a unit that its parameter does not have.
+/// [`Error::Usage`] for a value in a unit that its parameter does not have.
 pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpec, Error> {
     let known = &spec.description()?.parameters;
     for given in &parameters {
@@ -120,7 +150,12 @@ pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<Materia
         if let (Some(unit), Some(declared)) = (given.unit, declared)
             && unit != declared
         {
-            return Err(Error::UnitOfParameter { parameter: given.name.clone(), unit, declared });
+            return Err(Error::Usage(format!(
+                "the parameter `{}` is {}, but its value is given {}; write another unit after it, or none",
+                quoted(&given.name),
+                in_words(declared),
+                in_words(unit)
+            )));
         }
     }
     Ok(parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values)))

@@ -3,7 +3,7 @@
 //! Files are written during the run, so that an interruption leaves a shorter run. Nothing that was there
 //! before is replaced: a run begins in a folder that does not exist yet.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
@@ -11,58 +11,47 @@ use crate::error::Error;
 
 use super::{STATE_FILE, whole};
 
-#[cfg(test)]
-mod tests;
-
 /// A folder that is being filled with the files of a run.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
     /// Folders that did not exist before, innermost first.
     created: Vec<PathBuf>,
-    /// The folder, locked until the program ends; `None` on systems that lock no folders.
-    _lock: Option<File>,
 }
 
 impl Folder {
     /// Creates a folder for the files of a run.
     ///
     /// # Errors
-    /// [`Error::Folder`] if it exists or cannot be created, [`Error::Busy`].
+    /// [`Error::Usage`] if it exists or cannot be created.
     pub fn create(path: &Path) -> Result<Self, Error> {
         let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created: Vec<_> = path.ancestors().take_while(is_new).map(PathBuf::from).collect();
         let parents = path.parent().map_or(Ok(()), fs::create_dir_all);
-        match parents.and_then(|()| fs::create_dir(path)) {
-            Ok(()) => Self::locked(path, created),
-            Err(source) => {
-                remove_folders(created.get(1..).unwrap_or_default());
-                let exists = || io::Error::new(io::ErrorKind::AlreadyExists, "it exists already");
-                Err(Error::Folder {
-                    path: path.into(),
-                    source: if path.is_dir() { exists() } else { source },
-                })
-            }
-        }
+        parents.and_then(|()| fs::create_dir(path)).map_err(|error| {
+            let reason = match path.is_dir() {
+                true => {
+                    "it exists already; name a new one with --out, or continue the run in it with --resume"
+                        .into()
+                }
+                false => format!("{error}; name another one with --out"),
+            };
+            Error::Usage(format!("cannot write to the folder {}: {reason}", path.display()))
+        })?;
+        Ok(Self { path: path.into(), created })
     }
 
     /// Opens the folder of a run to continue it.
     ///
     /// # Errors
-    /// [`Error::NothingToResume`] if the folder has no state of a run, [`Error::Busy`] if another program writes
-    /// there.
+    /// [`Error::Usage`] if the folder has no state of a run.
     pub fn reopen(path: &Path) -> Result<Self, Error> {
         match path.join(STATE_FILE).is_file() {
-            true => Self::locked(path, Vec::new()),
-            false => Err(Error::NothingToResume { folder: path.into() }),
-        }
-    }
-
-    fn locked(path: &Path, created: Vec<PathBuf>) -> Result<Self, Error> {
-        let lock = File::open(path).ok();
-        match lock.as_ref().map(File::try_lock) {
-            Some(Err(TryLockError::WouldBlock)) => Err(Error::Busy { folder: path.into() }),
-            _ => Ok(Self { path: path.into(), created, _lock: lock }),
+            true => Ok(Self { path: path.into(), created: Vec::new() }),
+            false => Err(Error::Usage(format!(
+                "the folder {} contains no run to continue; leave out --resume, or name another one with --out",
+                path.display()
+            ))),
         }
     }
 
@@ -102,7 +91,7 @@ impl Folder {
     pub fn abandon(self) {
         if let [folder, around @ ..] = &self.created[..] {
             let _ = fs::remove_dir_all(folder);
-            remove_folders(around);
+            around.iter().for_each(|folder| drop(fs::remove_dir(folder)));
         }
     }
 }
@@ -119,9 +108,34 @@ pub fn new_folder(base: &Path) -> PathBuf {
     folders.find(|folder| fs::symlink_metadata(folder).is_err()).unwrap_or_else(|| base.to_owned())
 }
 
-/// Removes folders that are empty.
-fn remove_folders(innermost_first: &[PathBuf]) {
-    for folder in innermost_first {
-        let _ = fs::remove_dir(folder);
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use super::*;
+    use crate::output::frame_file;
+
+    /// Names of what is in a folder.
+    fn names(folder: &Path) -> io::Result<Vec<String>> {
+        let names = fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
+        let mut names = names.collect::<io::Result<Vec<_>>>()?;
+        names.sort();
+        Ok(names)
+    }
+
+    #[test]
+    fn files_are_in_their_place_at_once_and_go_if_nothing_came_of_them()
+    -> Result<(), Box<dyn std::error::Error>> {
+        let scratch = tempfile::tempdir()?;
+        let target = scratch.path().join("a/b");
+        let folder = Folder::create(&target)?;
+        folder.write(&frame_file(0), |file| file.write_all(b"one"))?;
+        folder.replace("summary.json", |file| file.write_all(b"two"))?;
+        let failed = folder.write(&frame_file(1), |_| Err(io::Error::other("a full disk")));
+        assert!(failed.is_err_and(|error| error.to_string().contains("frame_0001.ply: a full disk")));
+        assert_eq!(names(&target)?, ["frame_0000.ply", "summary.json"]);
+        folder.abandon();
+        assert_eq!(names(scratch.path())?, [""; 0]);
+        Ok(())
     }
 }

@@ -78,6 +78,21 @@ mod tests {
     }
 
     #[test]
+    fn every_bit_and_every_cut_is_noticed() {
+        let whole = seal(&[0.1, 2.0]).expect("JSON");
+        let is_taken =
+            |bytes: &[u8]| std::str::from_utf8(bytes).is_ok_and(|text| unseal::<Vec<f64>>(text).is_ok());
+        assert!(is_taken(&whole));
+        for bit in 0..8 * whole.len() {
+            let mut changed = whole.clone();
+            changed[bit / 8] ^= 1 << (bit % 8);
+            assert!(!is_taken(&changed), "bit {bit}");
+        }
+        // Nothing is missing without the line end.
+        assert!((0..whole.len() - 1).all(|length| !is_taken(&whole[..length])));
+    }
+
+    #[test]
     fn messages_are_short() {
         let name = format!("{{\"{}\":1}}", "y".repeat(1 << 20));
         let message = unseal::<Vec<f64>>(&name).expect_err("no list").to_string();

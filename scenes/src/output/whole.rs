@@ -1,13 +1,17 @@
 //! Files that appear complete or not at all.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
+/// Number of bytes at the begin of a file that show its kind: of a chart, a state, source text in C.
+const KIND: usize = 3;
+
 /// Writes a file that replaces an earlier one of the same name only once it is complete and on the disk.
 ///
+/// The earlier one must be of the same kind: a mesh or measurements are never meant to become a chart.
 /// A replaced file keeps its permissions. A symbolic link stays, and the file that it leads to is replaced. A
 /// device, a pipe or a file descriptor, such as /dev/stdout, is written into.
 ///
@@ -17,7 +21,9 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
     // A file that replaced one that is open already would reach nobody.
     let is_open = ["/dev", "/proc"].iter().any(|open| path.starts_with(open));
     let written = match fs::canonicalize(path) {
-        Ok(place) if place.is_file() && !is_open => replace(&place, true, |file| file.write_all(content)),
+        Ok(place) if place.is_file() && !is_open => {
+            check_kind(&place, content).and_then(|()| replace(&place, true, |file| file.write_all(content)))
+        }
         Err(error) if error.kind() == io::ErrorKind::NotFound && !path.is_symlink() => {
             replace(path, true, |file| file.write_all(content))
         }
@@ -28,6 +34,32 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
         }
     };
     written.map_err(|source| Error::Write { path: path.into(), source })
+}
+
+/// The text of a file with a length, in bytes, of `longest` at most.
+///
+/// # Errors
+/// [`Error::Unreadable`].
+pub fn read_text(path: &Path, longest: u64) -> Result<String, Error> {
+    let mut text = String::new();
+    let read =
+        File::open(path).and_then(|file| file.take(longest.saturating_add(1)).read_to_string(&mut text));
+    let read = read.and_then(|length| match length as u64 > longest {
+        true => Err(io::Error::other(format!("it is longer than {} MiB", longest >> 20))),
+        false => Ok(text),
+    });
+    read.map_err(|source| Error::Unreadable { path: path.into(), source })
+}
+
+/// Checks that a file is empty or begins as the new one does.
+fn check_kind(earlier: &Path, content: &[u8]) -> io::Result<()> {
+    let mut begin = Vec::new();
+    File::open(earlier)?.take(KIND as u64).read_to_end(&mut begin)?;
+    let other = "a file of another kind has this name; name another one, or remove it";
+    match content.starts_with(&begin) {
+        true => Ok(()),
+        false => Err(io::Error::new(io::ErrorKind::AlreadyExists, other)),
+    }
 }
 
 /// Writes a file next to its final place and moves it there, after it is on the disk if that is wanted.
@@ -69,14 +101,17 @@ mod tests {
     fn a_file_is_replaced_and_nothing_is_left_beside_it() -> TestResult {
         let scratch = tempfile::tempdir()?;
         let path = scratch.path().join("map.svg");
-        for content in ["one", "another"] {
+        fs::write(&path, "")?;
+        for content in ["<svg>one", "<svg>another"] {
             write_whole(&path, content.as_bytes())?;
             assert_eq!(fs::read_to_string(&path)?, content);
         }
+        let refused = write_whole(&path, b"{}").expect_err("another kind").to_string();
+        assert!(refused.contains("map.svg: a file of another kind"), "{refused}");
         assert!(replace(&path, false, |_| Err(io::Error::other("a full disk"))).is_err());
         assert_eq!(
             (fs::read_dir(scratch.path())?.count(), fs::read_to_string(&path)?),
-            (1, "another".into())
+            (1, "<svg>another".into())
         );
         assert!(write_whole(&scratch.path().join("no/map.svg"), b"").is_err());
         assert!(write_whole(scratch.path(), b"").is_err(), "a folder");
@@ -91,11 +126,11 @@ mod tests {
         let scratch = tempfile::tempdir()?;
         let [file, link, hanging, pipe] =
             ["file", "link", "hanging", "pipe"].map(|name| scratch.path().join(name));
-        fs::write(&file, "old")?;
+        fs::write(&file, "text, old")?;
         fs::set_permissions(&file, fs::Permissions::from_mode(0o600))?;
         symlink("file", &link)?;
-        write_whole(&link, b"new")?;
-        assert_eq!((fs::read_to_string(&file)?, link.is_symlink()), ("new".into(), true));
+        write_whole(&link, b"text, new")?;
+        assert_eq!((fs::read_to_string(&file)?, link.is_symlink()), ("text, new".into(), true));
         assert_eq!(fs::metadata(&file)?.permissions().mode() & 0o777, 0o600);
 
         symlink("made", &hanging)?;

@@ -6,13 +6,15 @@ use piola_bodies::system::Pins;
 use crate::geometry::Geometry;
 use crate::measure;
 use crate::scene::{Amplitude, Start};
+use crate::settings::Settings;
 
-/// Positions of the nodes in frame 0, m.
-pub(super) fn positions(start: Start, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
+/// Positions of the nodes before the first step, m; pinned ones are at rest.
+#[must_use]
+pub fn start_positions(settings: &Settings, geometry: &Geometry, pins: &Pins) -> Vec<[f64; 3]> {
     let mesh = &geometry.mesh;
     let bounds = mesh.bounds();
     let middle: [f64; 3] = std::array::from_fn(|i| 0.5 * (bounds.min[i] + bounds.max[i]));
-    let mut positions = match start {
+    let mut positions = match settings.start {
         Start::Rest => mesh.positions.clone(),
         Start::Flattened => {
             // The cage of tetrahedra reaches below the surface, and the ground lies under the surface.
@@ -50,12 +52,12 @@ mod tests {
 
     use super::*;
     use crate::scene::{Body, SCRAMBLE};
-    use crate::settings::Settings;
 
     fn scrambled(seed: u64, amplitude: Amplitude, pins: &Pins) -> (TetMesh, Vec<[f64; 3]>) {
-        let settings = Settings::new(&SCRAMBLE).with_body(Body::DINOSAUR);
+        let start = Start::Scrambled { seed, amplitude };
+        let settings = Settings::new(&SCRAMBLE).with_body(Body::DINOSAUR).with_start(start);
         let geometry = Geometry::load(&settings).expect("a body of the program");
-        let positions = positions(Start::Scrambled { seed, amplitude }, &geometry, pins);
+        let positions = start_positions(&settings, &geometry, pins);
         (geometry.mesh, positions)
     }
 

@@ -1,7 +1,6 @@
 //! A run from frame to frame.
 
-use std::fs::File;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::time::{Duration, Instant};
 
 use piola::batch::TileMaterial;
@@ -18,7 +17,7 @@ use crate::geometry::Geometry;
 use crate::measure;
 use crate::moment::Moment;
 use crate::output::{
-    Ended, FinalState, Folder, STATE_FILE, StepCounts, Summary, cage_file, frame_file, write_ply,
+    Ended, FinalState, Folder, STATE_FILE, StepCounts, Summary, cage_file, frame_file, read_text, write_ply,
 };
 use crate::play::Play;
 use crate::settings::Settings;
@@ -95,12 +94,14 @@ impl<'a> Course<'a> {
 
     /// A run that continues from its last state, in this folder.
     pub(super) fn resume(mut setup: Setup<'a>, folder: Folder) -> Result<Self, Error> {
-        let target = folder.path().to_owned();
-        let refused = |reason| Error::Resume { folder: target.clone(), reason };
-        let mut text = String::new();
-        let state = File::open(target.join(STATE_FILE));
-        let read = state.and_then(|file| file.take(MAX_LENGTH).read_to_string(&mut text));
-        read.map_err(|_| Error::NothingToResume { folder: target.clone() })?;
+        let refused = |reason| {
+            Error::Usage(format!(
+                "the run in {} cannot continue: {reason}; give the options that it was begun with, or leave out --resume \
+                 to begin anew",
+                folder.path().display()
+            ))
+        };
+        let text = read_text(&folder.path().join(STATE_FILE), MAX_LENGTH)?;
         let vtu = setup.cages_of.is_some();
         let saved = Saved::read(text.trim_end_matches('\n'), setup.settings, vtu).map_err(refused)?;
         setup.play = saved.moment.resume(&setup.geometry)?;

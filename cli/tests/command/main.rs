@@ -1,0 +1,100 @@
+//! The command `piola`, used as in a shell.
+
+mod bad_input;
+mod bench;
+mod declared;
+mod folders;
+mod runs;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// A new folder in which commands are given.
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a scratch folder"))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    #[track_caller]
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).expect("a scratch file");
+    }
+
+    #[track_caller]
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).expect(name)
+    }
+
+    /// Everything in a folder by name, with the content of files.
+    #[track_caller]
+    fn content(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+        let entries =
+            fs::read_dir(self.path(folder)).expect("a folder").map(|entry| entry.expect("an entry"));
+        let name = |entry: &fs::DirEntry| entry.file_name().into_string().expect("UTF-8");
+        entries.map(|entry| (name(&entry), fs::read(entry.path()).unwrap_or_default())).collect()
+    }
+
+    /// The summary of the run in a folder.
+    #[track_caller]
+    fn summary(&self, folder: &str) -> Value {
+        serde_json::from_str(&self.read(&format!("{folder}/summary.json"))).expect("JSON")
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
+        command.current_dir(self.0.path()).args(arguments);
+        command
+    }
+
+    fn piola(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().expect("the command starts")
+    }
+
+    /// Standard output and standard error of a command that succeeds.
+    #[track_caller]
+    fn outputs(&self, arguments: &[&str]) -> (String, String) {
+        let output = self.piola(arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", stderr(&output));
+        (String::from_utf8(output.stdout.clone()).expect("text"), stderr(&output))
+    }
+
+    /// Standard output of a command that succeeds.
+    #[track_caller]
+    fn answer(&self, arguments: &[&str]) -> String {
+        self.outputs(arguments).0
+    }
+
+    /// The message of a command that is refused with status 2, and has written nothing.
+    #[track_caller]
+    fn refusal(&self, arguments: &[&str]) -> String {
+        let before = self.content("");
+        let output = self.piola(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(output.stdout.is_empty(), "{arguments:?} wrote to standard output");
+        assert_eq!(self.content(""), before, "{arguments:?} wrote files");
+        stderr(&output)
+    }
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// Asserts that all of these words are in a text.
+#[track_caller]
+fn assert_contains(text: &str, words: &[&str]) {
+    for word in words {
+        assert!(text.contains(word), "`{word}` is not in: {text}");
+    }
+}
