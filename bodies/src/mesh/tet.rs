@@ -404,14 +404,6 @@ mod tests {
         assert_eq!(shapes[0].inverse, [[0.5, 0.0, 0.0], [0.0, 1.0 / 3.0, 0.0], [0.0, 0.0, 0.2]]);
     }
 
-    #[test]
-    fn masses_add_up_to_density_times_volume() {
-        let mesh = corner();
-        let shapes = mesh.rest_shapes().expect("a positive tetrahedron");
-        let masses = lumped_masses(&mesh, &shapes, &[8.0]);
-        assert_eq!(masses, vec![10.0; 4]);
-    }
-
     #[track_caller]
     fn check(change: impl Fn(&mut TetMesh), message: &str) {
         let mut mesh = corner();

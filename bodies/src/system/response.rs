@@ -223,48 +223,6 @@ mod tests {
     use super::*;
     use crate::system::testing::{beam, neo_hookean, shake};
 
-    /// Central differences of the energy and of its gradient.
-    #[test]
-    fn derivatives_are_those_of_the_energy() {
-        let mesh = beam(2);
-        let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
-        let mut random = Random::new(3);
-        let mut x = shake(&mut random, body.rest(), 0.01);
-        let mut response = ElasticResponse::new(&body);
-        let mut matrix = NodalStiffness::of_body(&body).expect("small");
-        let (nodes, h) = (x.len(), 1e-6);
-        let (mut gradient, mut ahead, mut behind) =
-            (vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes]);
-        let survey = response.stiffness(&body, &x, Filter::None, &mut gradient, &mut matrix);
-        assert!(survey.expect("lengths").is_clean());
-        let mut dense = vec![vec![[[0.0; 3]; 3]; nodes]; nodes];
-        for (row, column, block) in matrix.blocks() {
-            dense[column][row] = std::array::from_fn(|r| std::array::from_fn(|c| block[c][r]));
-            dense[row][column] = *block;
-        }
-        for node in 0..nodes {
-            for c in 0..3 {
-                let at = x[node][c];
-                x[node][c] = at + h;
-                let (up, _) = response.energy(&body, &x).expect("lengths");
-                response.gradient(&body, &x, &mut ahead).expect("lengths");
-                x[node][c] = at - h;
-                let (down, _) = response.energy(&body, &x).expect("lengths");
-                response.gradient(&body, &x, &mut behind).expect("lengths");
-                x[node][c] = at;
-                let slope = (up - down) / (2.0 * h);
-                assert!((slope - gradient[node][c]).abs() <= 1e-3, "{slope} for {}", gradient[node][c]);
-                for other in 0..nodes {
-                    for r in 0..3 {
-                        let expected = (ahead[other][r] - behind[other][r]) / (2.0 * h);
-                        let entry = dense[other][node][r][c];
-                        assert!((entry - expected).abs() <= 1.0, "{entry} for {expected}");
-                    }
-                }
-            }
-        }
-    }
-
     /// Blocks and differences of elements at the last evaluated positions agree with those of the plain
     /// methods.
     #[test]

@@ -7,8 +7,7 @@ use crate::hand_written::RotatedLinear;
 use crate::mesh::Anchor;
 use crate::mesh::{Bounds, TetMesh, tetrahedral_box};
 use crate::step::{
-    Damping, Filtering, NewtonError, NewtonReport, NewtonSettings, Simulation, SimulationSettings, Spring,
-    StepError,
+    Filtering, NewtonError, NewtonReport, NewtonSettings, Simulation, SimulationSettings, Spring, StepError,
 };
 use crate::system::testing::{beam, kirchhoff, rotated, scaled, shake};
 use crate::system::{Cholesky, LowerTriangle};
@@ -35,7 +34,7 @@ fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec
         rotated(),
         SimulationSettings {
             gravity: [0.0, -9.81, 0.0],
-            damping: Damping::Mass { rate: 0.5 },
+            damping: 0.5,
             newton,
             ..SimulationSettings::default()
         },
@@ -56,34 +55,22 @@ fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec
     (body, reports)
 }
 
+/// Also with a loose tolerance, which costs iterations of Newton's method and no accuracy.
 #[test]
 fn all_solvers_take_the_same_way() {
     let mesh = tetrahedral_box([8, 2, 2], [0.8, 0.2, 0.2]).expect("a box");
     let (exact, reports) = waved(LinearSolver::Cholesky, &mesh, 12);
     assert!(reports.iter().all(|report| report.linear_iterations == 0 && report.truncated == 0));
-    let (body, reports) = waved(GRADIENTS, &mesh, 12);
-    for report in reports {
-        assert!(report.linear_iterations >= report.iterations, "{report:?}");
-        assert_eq!((report.truncated, report.shift), (0, 0.0));
-    }
-    for (x, expected) in body.positions().iter().zip(exact.positions()) {
-        for c in 0..3 {
-            // Each step is minimised to 10⁻⁹ of forces that would move the beam by its length.
-            assert!((x[c] - expected[c]).abs() <= 1e-8, "{} for {}", x[c], expected[c]);
+    for tolerance in [1e-10, 0.05] {
+        let linear = LinearSolver::ConjugateGradients { tolerance, max_iterations: 2000 };
+        let (body, reports) = waved(linear, &mesh, 12);
+        for report in reports {
+            assert!(report.linear_iterations >= report.iterations, "{report:?}");
+            assert_eq!((report.truncated, report.shift), (0, 0.0));
         }
-    }
-}
-
-#[test]
-fn a_loose_tolerance_costs_newton_iterations_and_no_accuracy() {
-    let mesh = tetrahedral_box([8, 2, 2], [0.8, 0.2, 0.2]).expect("a box");
-    let (exact, _) = waved(LinearSolver::Cholesky, &mesh, 6);
-    let loose = LinearSolver::ConjugateGradients { tolerance: 0.05, max_iterations: 1000 };
-    let (body, _) = waved(loose, &mesh, 6);
-    for (x, expected) in body.positions().iter().zip(exact.positions()) {
-        for c in 0..3 {
-            // As above: Newton's tolerance is the same.
-            assert!((x[c] - expected[c]).abs() <= 1e-8, "{} for {}", x[c], expected[c]);
+        for (x, expected) in body.positions().as_flattened().iter().zip(exact.positions().as_flattened()) {
+            // Each step is minimised to 10⁻⁹ of forces that would move the beam by its length.
+            assert!((x - expected).abs() <= 1e-8, "{x} for {expected} to {tolerance}");
         }
     }
 }
@@ -268,27 +255,6 @@ fn a_body_with_every_node_pinned_has_nothing_to_solve() {
         body.step(0.1).expect("nothing to solve");
         assert_eq!((body.positions()[3], body.positions()[4]), ([0.2; 3], mesh.positions[4]));
     }
-}
-
-#[test]
-fn tolerances_and_limits_that_make_no_sense_are_refused() {
-    let mesh = beam(1);
-    let mut body = simulation(&mesh, rotated(), SimulationSettings::default());
-    let mut message = |linear| {
-        let settings = SimulationSettings {
-            newton: NewtonSettings { linear, ..Default::default() },
-            ..Default::default()
-        };
-        let error = body.set_settings(settings).expect_err("nonsense").to_string();
-        assert_eq!(body.settings(), &SimulationSettings::default(), "the settings before are still there");
-        error
-    };
-    for tolerance in [0.0, 1.0, -1e-3, f64::NAN] {
-        let rule = "the tolerance of the linear solver must be between 0 and 1";
-        assert_eq!(message(LinearSolver::ConjugateGradients { tolerance, max_iterations: 9 }), rule);
-    }
-    let rule = "conjugate gradients need at least one iteration";
-    assert_eq!(message(LinearSolver::ConjugateGradients { tolerance: 0.1, max_iterations: 0 }), rule);
 }
 
 /// A user-defined factorisation gives the bits of the built-in one, and the error of a solver ends the step.

@@ -59,21 +59,6 @@ fn elements_that_are_kept_change_no_bit() {
 }
 
 #[test]
-fn any_number_of_threads_gives_the_same_bits() {
-    let run = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| {
-            let (body, mut elastic) = shaken();
-            let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
-            stiffness.linearise(&body, &mut elastic, Filter::None);
-            stiffness.matrix().blocks().to_vec()
-        })
-    };
-    let one = run(1);
-    assert!(one == run(2) && one == run(3));
-}
-
-#[test]
 fn the_curve_keeps_neighbours_together() {
     let mesh = tetrahedral_box([7, 7, 7], [1.0; 3]).expect("a box");
     let order = along_a_curve(&mesh.positions);

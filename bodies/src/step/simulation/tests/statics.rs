@@ -2,20 +2,6 @@
 
 use super::*;
 
-#[test]
-fn a_body_at_rest_stays_at_rest() {
-    let mesh = beam(3);
-    let mut body = simulation(&mesh, rotated(), &Pins::none(), settings(NewtonSettings::single()));
-    for _ in 0..3 {
-        body.step(0.1).expect("a step");
-    }
-    for (x, rest) in body.positions().iter().zip(&mesh.positions) {
-        for c in 0..3 {
-            assert!((x[c] - rest[c]).abs() <= 1e-14);
-        }
-    }
-}
-
 /// Forces balance to the last digits, under gravity and a spring.
 #[test]
 fn statics_finds_an_equilibrium() {
