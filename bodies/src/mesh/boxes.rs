@@ -7,9 +7,8 @@
 //! \[Kuh60\] Kuhn, *Some Combinatorial Lemmas in Topology*, 1960; the same triangulation is Freudenthal's of
 //! 1942.
 
-use std::fmt;
-
 use piola::__private::message::number;
+use thiserror::Error;
 
 use super::TetMesh;
 
@@ -113,44 +112,31 @@ fn for_each_place(counts: [usize; 3], [slow, middle, fast]: [usize; 3], mut visi
 }
 
 /// Reason why a box cannot be meshed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BoxError {
     /// No cells along an axis.
+    #[error("a box of {}×{}×{} cells is empty; each axis needs at least one", cells[0], cells[1], cells[2])]
     NoCells {
         /// Number of cells along each axis.
         cells: [usize; 3],
     },
     /// A length is not a positive number.
+    #[error(
+        "a box cannot measure {} m × {} m × {} m; lengths must be positive and finite",
+        number(size[0]), number(size[1]), number(size[2])
+    )]
     Size {
         /// Lengths of the sides, m.
         size: [f64; 3],
     },
     /// Too many cells: the mesh does not fit into memory.
+    #[error("a box of {}×{}×{} cells does not fit into memory", cells[0], cells[1], cells[2])]
     TooManyCells {
         /// Number of cells along each axis.
         cells: [usize; 3],
     },
 }
-
-impl fmt::Display for BoxError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoCells { cells: [x, y, z] } => {
-                write!(f, "a box of {x}×{y}×{z} cells is empty; each axis needs at least one")
-            }
-            Self::Size { size: [x, y, z] } => {
-                let [x, y, z] = [*x, *y, *z].map(number);
-                write!(f, "a box cannot measure {x} m × {y} m × {z} m; lengths must be positive and finite")
-            }
-            Self::TooManyCells { cells: [x, y, z] } => {
-                write!(f, "a box of {x}×{y}×{z} cells does not fit into memory")
-            }
-        }
-    }
-}
-
-impl std::error::Error for BoxError {}
 
 #[cfg(test)]
 mod tests {

@@ -2,10 +2,10 @@
 //!
 //! Orientation: det [x1−x0, x2−x0, x3−x0] > 0. Lengths in metres, indices from 0.
 
-use std::fmt;
-
+use piola::__private::message::{names, quoted};
 use piola::NoSuchNode;
 use piola::batch::REST;
+use thiserror::Error;
 
 use super::elements::ElementCounts;
 
@@ -303,29 +303,44 @@ impl Bounds {
 }
 
 /// Reason why a mesh is not a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MeshError {
     /// Mesh without tetrahedra.
+    #[error("the mesh has no tetrahedra")]
     Empty,
     /// A coordinate is infinite or NaN.
+    #[error("the position of node {node} (from 0) is not finite")]
     NotFinite {
         /// The node, from 0.
         node: usize,
     },
     /// A tetrahedron uses a node that does not exist.
-    NoSuchNode(NoSuchNode),
+    #[error("{0}")]
+    NoSuchNode(#[from] NoSuchNode),
     /// A node belongs to no tetrahedron; it would have no mass.
+    #[error(
+        "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
+         `TetMesh::without_unused_nodes` removes such nodes"
+    )]
     UnusedNode {
         /// The node, from 0.
         node: usize,
     },
     /// Two tetrahedra join the same four nodes.
+    #[error(
+        "elements {} and {} join the same four nodes, which would count their volume twice; remove one of them",
+        elements[0], elements[1]
+    )]
     SameTwice {
         /// Tags of the two.
         elements: [usize; 2],
     },
     /// A tetrahedron is flat or inverted at rest.
+    #[error(
+        "element {element} has the rest volume {volume:e} m³, which is not positive beyond rounding; \
+         is it flat, or are two of its nodes swapped?"
+    )]
     NonPositiveVolume {
         /// Tag of the tetrahedron.
         element: usize,
@@ -333,6 +348,10 @@ pub enum MeshError {
         volume: f64,
     },
     /// A tetrahedron is so large or so small that its volume overflows or underflows.
+    #[error(
+        "element {element} is {length:.0e} m large, and its volume {}; are the units right?",
+        if *length > 1.0 { "overflows" } else { "underflows" }
+    )]
     VolumeOutOfRange {
         /// Tag of the tetrahedron.
         element: usize,
@@ -341,37 +360,14 @@ pub enum MeshError {
     },
 }
 
-impl fmt::Display for MeshError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty => write!(f, "the mesh has no tetrahedra"),
-            Self::NotFinite { node } => write!(f, "the position of node {node} (from 0) is not finite"),
-            Self::NoSuchNode(error) => error.fmt(f),
-            Self::UnusedNode { node } => write!(
-                f,
-                "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
-                 `TetMesh::without_unused_nodes` removes such nodes"
-            ),
-            Self::SameTwice { elements: [one, other] } => write!(
-                f,
-                "elements {one} and {other} join the same four nodes, which would count their volume twice; \
-                 remove one of them"
-            ),
-            Self::VolumeOutOfRange { element, length } => write!(
-                f,
-                "element {element} is {length:.0e} m large, and its volume {}; are the units right?",
-                if *length > 1.0 { "overflows" } else { "underflows" }
-            ),
-            Self::NonPositiveVolume { element, volume } => write!(
-                f,
-                "element {element} has the rest volume {volume:e} m³, which is not positive beyond rounding; \
-                 is it flat, or are two of its nodes swapped?"
-            ),
-        }
+/// Message that a mesh has no group of a name; `of` is the kind of groups, if not all count.
+pub(crate) fn no_such_group(name: &str, existing: &[String], of: &str) -> String {
+    let name = quoted(name);
+    match existing {
+        [] => format!("there is no group `{name}`: the mesh has no groups{of}"),
+        _ => format!("there is no group `{name}`{of}; there are: {}", names(existing)),
     }
 }
-
-crate::chained::wraps!(MeshError { NoSuchNode(NoSuchNode) });
 
 pub(crate) fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
