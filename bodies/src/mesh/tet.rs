@@ -150,10 +150,8 @@ impl TetMesh {
         twice.map(|pair| [pair[0].1, pair[1].1]).min()
     }
 
-    /// Nodes that belong to no tetrahedron, ascending: they have neither mass nor stiffness, and a mesh that
-    /// has one is not a body. [`TetMesh::without_unused_nodes`] removes them.
-    #[must_use]
-    pub fn unused_nodes(&self) -> Vec<usize> {
+    /// Nodes that belong to no tetrahedron, ascending.
+    fn unused_nodes(&self) -> Vec<usize> {
         let mut is_used = vec![false; self.positions.len()];
         for &node in self.tets.as_flattened() {
             if let Some(is_used) = is_used.get_mut(node) {
@@ -203,8 +201,9 @@ impl TetMesh {
         tets
     }
 
-    /// Removes the nodes of no tetrahedron, from groups too, and sorts the nodes of groups. Nodes behind
-    /// them get smaller numbers.
+    /// Removes nodes that belong to no tetrahedron, from groups too, and sorts the nodes of groups. Such nodes
+    /// have neither mass nor stiffness, and a mesh that has one is not a body. Later nodes get smaller
+    /// numbers.
     #[must_use]
     pub fn without_unused_nodes(self) -> Self {
         let unused = self.unused_nodes();

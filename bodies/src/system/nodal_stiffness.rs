@@ -29,7 +29,7 @@ const WAVE: usize = 64;
 
 /// Stiffness of a body as one 3×3 block for each node and each pair of nodes that share an element, N/m;
 /// pinned nodes have rows too. Zero at first, and filled by
-/// [`ElasticResponse::stiffness`](super::ElasticResponse::stiffness).
+/// [`ElasticResponse::stiffness_here`](super::ElasticResponse::stiffness_here).
 ///
 /// [`NodalStiffness::blocks`] are triplets for a sparse matrix in any format;
 /// [`LowerTriangle`](super::LowerTriangle) holds the entries for a factorisation. Takes some 250 bytes for

@@ -39,7 +39,8 @@ use super::nodal_stiffness::NodalStiffness;
 /// let mut response = ElasticResponse::new(&body);
 /// let mut gradient = vec![[0.0; 3]; x.len()];
 /// for _ in 0..8 {
-///     assert!(response.stiffness(&body, &x, Filter::None, &mut gradient, &mut stiffness)?.is_clean());
+///     response.energy(&body, &x)?;
+///     assert!(response.stiffness_here(&body, Filter::None, &mut gradient, &mut stiffness)?.is_clean());
 ///     gradient[last][1] += 1.0;
 ///     let nodes = matrix.free_nodes();
 ///     let mut step: Vec<f64> = nodes.iter().flat_map(|&node| gradient[node].map(|g| -g)).collect();
@@ -51,7 +52,8 @@ use super::nodal_stiffness::NodalStiffness;
 ///     }
 /// }
 /// // The forces of the body on the last node balance the weight.
-/// response.gradient(&body, &x, &mut gradient)?;
+/// response.energy(&body, &x)?;
+/// response.gradient_here(&body, &mut gradient)?;
 /// assert!((gradient[last][1] + 1.0).abs() < 1e-10);
 /// # Ok(())
 /// # }
@@ -82,46 +84,14 @@ impl ElasticResponse {
     /// # Errors
     /// [`LengthError`] if there are not as many positions or elements as the body had.
     pub fn energy(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<(f64, Survey), LengthError> {
-        let Evaluated { survey, .. } = self.evaluate(body, positions)?;
+        self.check("positions", positions.len())?;
+        self.check_body(body)?;
+        let Evaluated { survey, .. } = self.elastic.evaluate(body, positions);
         Ok((self.elastic.energy(), survey))
     }
 
-    /// Replaces `gradient` by the gradient of the energy in the position of each node, N: minus the forces.
-    ///
-    /// # Errors
-    /// [`LengthError`] if a slice or the body does not have the length of the body that this was made for.
-    pub fn gradient(
-        &mut self,
-        body: &Body,
-        positions: &[[f64; 3]],
-        gradient: &mut [[f64; 3]],
-    ) -> Result<Survey, LengthError> {
-        self.check("gradient", gradient.len())?;
-        let energies = self.evaluate(body, positions)?;
-        self.elastic.evaluate_gradients(body);
-        Ok(self.sum(energies, body, gradient))
-    }
-
-    /// Replaces `gradient` as [`ElasticResponse::gradient`] does, and `matrix` by the stiffness, N/m, with
-    /// the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
-    ///
-    /// # Errors
-    /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
-    /// made for.
-    pub fn stiffness(
-        &mut self,
-        body: &Body,
-        positions: &[[f64; 3]],
-        filter: Filter,
-        gradient: &mut [[f64; 3]],
-        matrix: &mut NodalStiffness,
-    ) -> Result<Survey, LengthError> {
-        self.evaluate(body, positions)?;
-        self.stiffness_here(body, filter, gradient, matrix)
-    }
-
-    /// Replaces `gradient` by the gradient of the energy, N, at the last evaluated positions: cheaper than
-    /// [`ElasticResponse::gradient`], for use after a line search.
+    /// Replaces `gradient` by the gradient of the energy in the position of each node, N, minus the forces, at
+    /// the positions where [`ElasticResponse::energy`] was computed last.
     ///
     /// # Errors
     /// [`LengthError`] if `gradient` or the body does not have the length of the body that this was made for.
@@ -133,8 +103,8 @@ impl ElasticResponse {
         Ok(self.sum(energies, body, gradient))
     }
 
-    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` as
-    /// [`ElasticResponse::stiffness`] does.
+    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` by the stiffness, N/m, with
+    /// the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
     ///
     /// # Errors
     /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
@@ -184,12 +154,6 @@ impl ElasticResponse {
         same("nodes", body.rest().len(), self.nodes, 1)
     }
 
-    fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<Evaluated, LengthError> {
-        self.check("positions", positions.len())?;
-        self.check_body(body)?;
-        Ok(self.elastic.evaluate(body, positions))
-    }
-
     /// Sums the gradients of all elements. Returns the survey of the energies or, if these are clean, of the
     /// derivatives.
     fn sum(&self, energies: Evaluated, body: &Body, gradient: &mut [[f64; 3]]) -> Survey {
@@ -223,32 +187,17 @@ mod tests {
     use super::*;
     use crate::system::testing::{beam, neo_hookean, shake};
 
-    /// Blocks and differences of elements at the last evaluated positions agree with those of the plain
-    /// methods.
     #[test]
-    fn what_is_taken_here_is_what_positions_give() {
-        let mesh = beam(3);
-        let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
+    fn differences_of_elements_add_up() {
+        let body = Body::new(&beam(3), neo_hookean(), 1000.0).expect("a body");
         let mut random = Random::new(5);
         let [before, x] = [0.01, 0.012].map(|amplitude| shake(&mut random, body.rest(), amplitude));
         let mut response = ElasticResponse::new(&body);
-        let mut matrix = NodalStiffness::of_body(&body).expect("small");
-        let mut here = matrix.clone();
-        let (mut expected, mut found) = (vec![[0.0; 3]; x.len()], vec![[f64::NAN; 3]; x.len()]);
         let (at_start, _) = response.energy(&body, &before).expect("lengths");
         response.set_base();
-        response.stiffness(&body, &x, Filter::Clamp, &mut expected, &mut matrix).expect("lengths");
         let (at_end, _) = response.energy(&body, &x).expect("lengths");
         let noise = response.difference_noise(&body).expect("the same body");
         assert!((response.difference() - (at_end - at_start)).abs() <= noise && noise < 1e-9 * at_end);
-
-        assert!(response.gradient_here(&body, &mut found).expect("lengths").is_clean());
-        assert_eq!(found, expected);
-        found.fill([f64::NAN; 3]);
-        let survey = response.stiffness_here(&body, Filter::Clamp, &mut found, &mut here);
-        assert!(survey.expect("lengths").is_clean());
-        assert!(here.blocks().eq(matrix.blocks()));
-        assert_eq!((found, here.blocks().count()), (expected, here.len()));
     }
 
     #[test]
@@ -258,10 +207,10 @@ mod tests {
         let mut response = ElasticResponse::new(&body);
         let mut gradient = vec![[0.0; 3]; 8];
         assert!(response.energy(&body, &body.rest()[1..]).is_err());
-        assert!(response.gradient(&body, body.rest(), &mut gradient[1..]).is_err());
         assert!(response.energy(&other, body.rest()).is_err());
+        assert!(response.gradient_here(&body, &mut gradient[1..]).is_err());
         let mut matrix = NodalStiffness::of_body(&other).expect("small");
-        assert!(response.stiffness(&body, body.rest(), Filter::None, &mut gradient, &mut matrix).is_err());
+        assert!(response.stiffness_here(&body, Filter::None, &mut gradient, &mut matrix).is_err());
         // As many nodes, of which another number of elements is made.
         let [five, six] = [false, true].map(|with_last| {
             let mut mesh = beam(1);
@@ -270,10 +219,11 @@ mod tests {
         });
         assert_eq!((five.rest().len(), six.rest().len()), (8, 8));
         let mut matrix = NodalStiffness::of_body(&five).expect("small");
-        let error = response.stiffness(&six, six.rest(), Filter::None, &mut gradient, &mut matrix);
+        let error = response.stiffness_here(&six, Filter::None, &mut gradient, &mut matrix);
         assert_eq!(error.expect_err("of five elements").slice, "matrix");
         let mirrored: Vec<[f64; 3]> = body.rest().iter().map(|&[x, y, z]| [-x, y, z]).collect();
-        let survey = response.gradient(&body, &mirrored, &mut gradient).expect("lengths");
+        response.energy(&body, &mirrored).expect("lengths");
+        let survey = response.gradient_here(&body, &mut gradient).expect("lengths");
         assert_eq!((survey.refused, survey.first), (body.elements().len(), Some(0)));
     }
 }

@@ -74,10 +74,8 @@ fn bodies() {
         let mut product = hostile.points(body.rest());
         let mut response = ElasticResponse::new(&body);
         let _ = response.energy(&body, &positions);
-        let _ = response.gradient(&body, &positions, &mut product);
         let _ = response.gradient_here(&body, &mut product);
         if let Ok(mut stiffness) = NodalStiffness::of_body(&body) {
-            let _ = response.stiffness(&body, &positions, Filter::Clamp, &mut product, &mut stiffness);
             let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut stiffness);
             let _ = stiffness.multiply(&positions, &mut product);
             triangle(hostile, &stiffness);
