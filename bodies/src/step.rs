@@ -31,6 +31,8 @@ mod solver;
 mod spring;
 mod staged;
 mod term;
+#[cfg(test)]
+mod testing;
 
 #[cfg(feature = "faer")]
 pub use equilibrium::{Equilibrium, Stability};

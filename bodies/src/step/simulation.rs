@@ -148,6 +148,12 @@ impl Simulation {
         Terms { springs: self.steps.springs(), others: &self.terms }
     }
 
+    /// Terms of the energy except for deformation, gravity and springs.
+    #[must_use]
+    pub fn terms(&self) -> &[Arc<dyn Term>] {
+        &self.terms
+    }
+
     /// Springs that pull at the body.
     #[must_use]
     pub fn springs(&self) -> &[Spring] {

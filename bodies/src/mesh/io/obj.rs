@@ -125,14 +125,6 @@ mod tests {
         assert!(boxes <= 3.0 * 4.0, "boxes of {boxes} in one of 4");
     }
 
-    /// With the mark in front of it the first line was not a `v`, and all indices were shifted.
-    #[test]
-    fn a_byte_order_mark_is_skipped() {
-        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-        let marked = parse_surface_obj(&format!("\u{feff}{text}"), "marked.obj").expect("a good file");
-        assert_eq!(Ok(marked), parse(text));
-    }
-
     #[test]
     fn other_encodings_are_named() -> Result<(), Box<dyn std::error::Error>> {
         let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

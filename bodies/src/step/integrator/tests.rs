@@ -1,8 +1,9 @@
 use super::*;
-use crate::mesh::{Bounds, TetMesh};
+use crate::mesh::TetMesh;
+use crate::step::testing::{distance, left_end, simulation};
 use crate::step::{NewtonSettings, Simulation, SimulationSettings};
+use crate::system::Pins;
 use crate::system::testing::{beam, neo_hookean};
-use crate::system::{Body, Pins};
 
 /// The order conditions: Σ bj = 1, Σ bj cj = 1/2, Σ bj cj² = 1/3, Σ bi aij cj = 1/6, up to the order.
 #[test]
@@ -67,10 +68,8 @@ impl Motion {
 }
 
 fn bar(mesh: &TetMesh, is_held: bool, settings: SimulationSettings) -> Simulation {
-    let end = Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] };
-    let pins = if is_held { Pins::in_box(mesh, end).expect("an end") } else { Pins::none() };
-    let body = Body::new(mesh, neo_hookean(), 1000.0).expect("a body");
-    Simulation::new(body, &pins, settings).expect("a simulation")
+    let pins = if is_held { left_end(mesh) } else { Pins::none() };
+    simulation(mesh, neo_hookean(), &pins, settings)
 }
 
 #[test]
@@ -127,9 +126,4 @@ fn moving_targets_of_springs_leave_second_order() {
         let [coarse, fine] = [40, 80].map(|steps| distance(&end(integrator, steps), &exact));
         assert!((coarse / fine).log2() > 1.9, "{integrator:?}: {coarse:e}, {fine:e}");
     }
-}
-
-/// Largest difference of a coordinate.
-fn distance(x: &[[f64; 3]], y: &[[f64; 3]]) -> f64 {
-    x.as_flattened().iter().zip(y.as_flattened()).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
 }

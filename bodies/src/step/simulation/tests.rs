@@ -2,11 +2,11 @@
 
 use piola::__private::random::Random;
 use piola::NoSuchNode;
-use piola::batch::TileMaterial;
 use piola::point::Filter;
 
 use super::*;
-use crate::mesh::{Bounds, TetMesh};
+use crate::mesh::TetMesh;
+use crate::step::testing::{distance, left_end, simulation};
 use crate::step::{Convergence, Filtering, Integrator, LinearSolver, NewtonError, NewtonSettings, StepError};
 use crate::system::LinearError;
 use crate::system::testing::{beam, kirchhoff, neo_hookean, rotated, shake};
@@ -17,19 +17,6 @@ mod statics;
 
 fn settings(newton: NewtonSettings) -> SimulationSettings {
     SimulationSettings { newton, ..SimulationSettings::default() }
-}
-
-fn simulation(
-    mesh: &TetMesh,
-    material: impl TileMaterial<f64> + 'static,
-    pins: &Pins,
-    settings: SimulationSettings,
-) -> Simulation {
-    Simulation::new(Body::new(mesh, material, 1000.0).expect("a body"), pins, settings).expect("a simulation")
-}
-
-fn left_end(mesh: &TetMesh) -> Pins {
-    Pins::in_box(mesh, Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] }).expect("the left end")
 }
 
 fn total(masses: &[f64], vectors: &[[f64; 3]]) -> [f64; 3] {

@@ -119,9 +119,6 @@ fn a_share_of_the_error_of_a_step_is_enough() {
         let iterations: usize = reports.iter().map(|report| report.newton.iterations).sum();
         (body.positions().to_vec(), iterations)
     };
-    let distance = |a: &[[f64; 3]], b: &[[f64; 3]]| {
-        a.as_flattened().iter().zip(b.as_flattened()).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
-    };
     // What the integrators differ by is the error of the first, at least.
     for (integrator, other) in
         [(Integrator::ImplicitEuler, Integrator::Sdirk2), (Integrator::Sdirk2, Integrator::Sdirk3)]
