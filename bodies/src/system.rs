@@ -8,6 +8,7 @@ mod body;
 pub(crate) mod element;
 pub(crate) mod graph;
 pub(crate) mod linear;
+pub(crate) mod lists;
 mod lower_triangle;
 pub(crate) mod memory;
 pub(crate) mod nodal_stiffness;

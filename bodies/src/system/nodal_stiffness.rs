@@ -92,7 +92,7 @@ impl NodalStiffness {
     /// # Errors
     /// [`LinearError::OutOfMemory`].
     pub fn empty() -> Result<Self, LinearError> {
-        let graph = Graph::of_upper(&[]);
+        let graph = Graph::of_upper(&[])?;
         let pattern = Arc::new(Pattern::new(&graph, &[])?);
         let shape = Shape { elements: 0, tiles: 0, graph, order: Vec::new(), gather: Vec::new() };
         let elements = ElementStiffnesses { tiles: Vec::new() };

@@ -319,7 +319,7 @@ mod tests {
             others.dedup();
             upper[row] = others;
         }
-        Graph::of_upper(&upper)
+        Graph::of_upper(&upper).expect("small")
     }
 
     #[test]
@@ -375,7 +375,8 @@ mod tests {
 
     #[test]
     fn blocks_that_do_not_exist_are_not_found() {
-        let pattern = Pattern::new(&Graph::of_upper(&[vec![2], vec![], vec![]]), &[0, 1, 2]).expect("small");
+        let graph = Graph::of_upper(&[vec![2], vec![], vec![]]).expect("small");
+        let pattern = Pattern::new(&graph, &[0, 1, 2]).expect("small");
         assert_eq!((pattern.rows(), pattern.len(), pattern.chunks()), (3, 4, 1));
         assert_eq!(pattern.block(0, 1), None);
         let (block, transposed) = pattern.block(2, 0).expect("neighbours");
