@@ -43,17 +43,6 @@ pub enum LinearError {
         /// The length that the matrix demands.
         expected: usize,
     },
-    /// There is no factor to solve with.
-    #[error("there is no factor to solve with: `factor` was not called, or has failed")]
-    NotFactored,
-    /// Column starts and row indices do not describe the lower triangle of a matrix.
-    #[error(
-        "column {column} is not the lower triangle of a symmetric pattern: rows must ascend from the diagonal"
-    )]
-    Pattern {
-        /// The first column at fault.
-        column: usize,
-    },
     /// A pin names a node that does not exist.
     #[error("{0}")]
     NoSuchNode(#[from] NoSuchNode),

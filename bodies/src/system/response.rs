@@ -18,9 +18,10 @@ use super::nodal_stiffness::NodalStiffness;
 /// its material.
 ///
 /// ```
-/// use piola_bodies::mesh::tetrahedral_box;
+/// use nalgebra::{DMatrix, DVector};
 /// use piola::point::Filter;
-/// use piola_bodies::system::{Body, Cholesky, ElasticResponse, LowerTriangle, NodalStiffness, Pins};
+/// use piola_bodies::mesh::tetrahedral_box;
+/// use piola_bodies::system::{Body, ElasticResponse, LowerTriangle, NodalStiffness, Pins};
 ///
 /// /// Rubber.
 /// #[piola::material(domain(J > 0.0))]
@@ -35,19 +36,24 @@ use super::nodal_stiffness::NodalStiffness;
 /// let pins = Pins::at((0..=last).filter(|&node| x[node][0] == 0.0));
 /// let mut stiffness = NodalStiffness::of_body(&body)?;
 /// let mut matrix = LowerTriangle::new(&stiffness, &pins)?;
-/// let mut cholesky = Cholesky::new(matrix.column_starts(), matrix.row_indices())?;
 /// let mut response = ElasticResponse::new(&body);
 /// let mut gradient = vec![[0.0; 3]; x.len()];
 /// for _ in 0..8 {
 ///     response.energy(&body, &x)?;
 ///     assert!(response.stiffness_here(&body, Filter::None, &mut gradient, &mut stiffness)?.is_clean());
 ///     gradient[last][1] += 1.0;
-///     let nodes = matrix.free_nodes();
-///     let mut step: Vec<f64> = nodes.iter().flat_map(|&node| gradient[node].map(|g| -g)).collect();
+///     // The lower triangle in compressed columns, for any solver: here a dense one.
 ///     matrix.fill(&stiffness, |_| 0.0)?;
-///     cholesky.factor(matrix.values())?;
-///     cholesky.solve(&mut step)?;
-///     for (&node, step) in matrix.free_nodes().iter().zip(step.chunks_exact(3)) {
+///     let (nodes, starts) = (matrix.free_nodes(), matrix.column_starts());
+///     let mut dense = DMatrix::zeros(3 * nodes.len(), 3 * nodes.len());
+///     for column in 0..3 * nodes.len() {
+///         for at in starts[column]..starts[column + 1] {
+///             dense[(matrix.row_indices()[at], column)] = matrix.values()[at];
+///         }
+///     }
+///     let right: Vec<f64> = nodes.iter().flat_map(|&node| gradient[node].map(|g| -g)).collect();
+///     let step = dense.cholesky().ok_or("not positive definite")?.solve(&DVector::from_vec(right));
+///     for (&node, step) in nodes.iter().zip(step.as_slice().chunks_exact(3)) {
 ///         (0..3).for_each(|c| x[node][c] += step[c]);
 ///     }
 /// }

@@ -91,7 +91,7 @@ fn simulations() {
                     let error = hostile.one_of(&[
                         None,
                         Some(LinearError::NotPositive { column: usize::MAX }),
-                        Some(LinearError::NotFactored),
+                        Some(LinearError::OutOfMemory),
                     ]);
                     simulation.set_linear_solver(Wrong { error, x: hostile.about(0.0) })
                 }
