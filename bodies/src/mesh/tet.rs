@@ -280,8 +280,7 @@ fn inverse([a, b, c]: [[f64; 3]; 3]) -> ([[f64; 3]; 3], f64, f64) {
 
 impl Bounds {
     /// The smallest box around these points; for none, an empty one with min = +∞, max = −∞.
-    #[must_use]
-    pub fn around(points: &[[f64; 3]]) -> Self {
+    pub(crate) fn around(points: &[[f64; 3]]) -> Self {
         points.iter().fold(Self { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] }, |bounds, x| Self {
             min: std::array::from_fn(|c| bounds.min[c].min(x[c])),
             max: std::array::from_fn(|c| bounds.max[c].max(x[c])),

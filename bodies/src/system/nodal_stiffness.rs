@@ -99,12 +99,6 @@ impl NodalStiffness {
         Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, elements })
     }
 
-    /// The block on the diagonal of a node; `None` if there is no such node.
-    #[must_use]
-    pub fn diagonal(&self, node: usize) -> Option<&[[f64; 3]; 3]> {
-        (node < self.matrix.pattern().rows()).then(|| self.matrix.diagonal(node))
-    }
-
     /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
     pub fn add_to_diagonal(&mut self, node: usize, stiffness: f64) {
         if node < self.matrix.pattern().rows() {
@@ -131,15 +125,8 @@ impl NodalStiffness {
     }
 
     /// Number of blocks that [`NodalStiffness::blocks`] returns.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.matrix.pattern().len()
-    }
-
-    /// True if there is no block, as for a body without elements.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// The nodes of each block, row and column, and its entries ∂²E/∂x_row∂x_column, always in the same
