@@ -130,7 +130,7 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    pub(super) fn new(number: usize, text: &'a str) -> Self {
+    fn new(number: usize, text: &'a str) -> Self {
         Self { number, text, words: text.split_ascii_whitespace() }
     }
 
