@@ -16,7 +16,6 @@
 //! assert_eq!(settings.newton.tolerance, 1e-9);
 //! ```
 
-mod damping;
 #[cfg(feature = "faer")]
 mod equilibrium;
 mod error;
@@ -32,14 +31,14 @@ mod solver;
 mod spring;
 mod staged;
 mod term;
+#[cfg(test)]
+mod testing;
 
-pub use damping::Damping;
 #[cfg(feature = "faer")]
 pub use equilibrium::{Equilibrium, Stability};
 pub use error::{SetupError, StepError};
 pub use filtering::Filtering;
 pub use integrator::Integrator;
-pub use line_search::LineSearchSettings;
 pub use newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
 pub use simulation::{AdaptiveReport, Energies, Simulation, SimulationSettings, StepReport};
 pub use solver::{LinearSolver, SparseSolver};

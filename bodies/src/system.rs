@@ -8,6 +8,7 @@ mod body;
 pub(crate) mod element;
 pub(crate) mod graph;
 pub(crate) mod linear;
+pub(crate) mod lists;
 mod lower_triangle;
 pub(crate) mod memory;
 pub(crate) mod nodal_stiffness;
@@ -18,11 +19,12 @@ pub(crate) mod stiffnesses;
 #[cfg(test)]
 pub(crate) mod testing;
 
+#[cfg(feature = "faer")]
+pub(crate) use linear::cholesky::Cholesky;
+
 pub use body::{Body, BodyError, Part};
 pub use element::Tetrahedron;
 pub use linear::LinearError;
-#[cfg(feature = "faer")]
-pub use linear::cholesky::Cholesky;
 pub use lower_triangle::LowerTriangle;
 pub use nodal_stiffness::NodalStiffness;
 pub use pins::{PinError, Pins};

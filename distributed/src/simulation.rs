@@ -65,7 +65,7 @@ impl Simulation {
         parts: &[MaterialPart],
         settings: SimulationSettings,
     ) -> Result<Self, Error> {
-        let damping = settings.damping.rate();
+        let damping = settings.damping;
         let LinearSolver::ConjugateGradients { tolerance, max_iterations } = settings.newton.linear else {
             return Err(not_divided("a linear solver other than conjugate gradients"));
         };
@@ -178,10 +178,9 @@ impl Simulation {
                 regularisation,
                 guard: if may_drift { DRIFT * regularisation } else { 0.0 },
             };
-            let SimulationSettings { newton, line_search, .. } = &self.settings;
             let mut minimisation =
                 StageMinimisation::new(objective, &mut self.system, self.limits, end, pins_move)?;
-            let newton = minimize(&mut minimisation, moves, newton, line_search)?;
+            let newton = minimize(&mut minimisation, moves, &self.settings.newton)?;
             reports.push(StageReport { newton, systems: minimisation.systems() });
             self.steps.end_stage(stage);
         }

@@ -12,7 +12,7 @@ use piola::material::Moduli;
 use piola::point::Filter;
 use piola_bodies::mesh::{Bounds, tetrahedral_box};
 use piola_bodies::step::{
-    Convergence, Damping, Filtering, Integrator, LinearSolver, NewtonSettings, Simulation, SimulationSettings,
+    Convergence, Filtering, Integrator, LinearSolver, NewtonSettings, Simulation, SimulationSettings,
 };
 use piola_bodies::system::{Body, Part, Pins};
 use piola_scenes::geometry::Geometry;
@@ -322,10 +322,8 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
     let at = |height: f64| Bounds { min: [-1.0, height - 1e-9, -1.0], max: [1.0, height + 1e-9, 1.0] };
     let (foot, top) = (Pins::in_box(&mesh, at(0.0))?, Pins::in_box(&mesh, at(1.0))?);
     // The scene's damping.
-    let settings = SimulationSettings::default()
-        .with_gravity([0.0, -9.81, 0.0])
-        .with_damping(Damping::Mass { rate: 2.0 })
-        .with_newton(newton());
+    let settings =
+        SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_damping(2.0).with_newton(newton());
     let (dt, frames) = (1.0 / 30.0, 6);
     let mut simulation = Simulation::new(body, &foot.and(&top), settings)?;
     for frame in 1..=frames {

@@ -24,7 +24,6 @@ pub use stretch::STRETCH;
 pub use twist::TWIST;
 
 use piola_bodies::mesh::Bounds;
-use piola_bodies::step::Damping;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serializer};
 
@@ -48,8 +47,8 @@ pub struct Scene {
     pub material: fn() -> MaterialSpec,
     /// Mass per rest volume, kg/m³.
     pub density: f64,
-    /// Damping of the motion.
-    pub damping: Damping,
+    /// Rate of the damping, 1/s.
+    pub damping: f64,
     /// Time step, s.
     pub dt: f64,
     /// Number of time steps.
@@ -72,7 +71,7 @@ const COMMON: Scene = Scene {
     body: Body::HORSE,
     material: || MaterialSpec::matching("rotated linear", soft_moduli()),
     density: 1000.0,
-    damping: Damping::Mass { rate: 2.0 },
+    damping: 2.0,
     dt: 1.0 / 30.0,
     frames: 300,
     pinned: None,

@@ -6,7 +6,7 @@ use piola::Inversion;
 use piola::batch::TileMaterial;
 use piola::point::svd;
 use piola_bodies::mesh::TetMesh;
-use piola_bodies::step::{Damping, Simulation, SimulationSettings, StepError};
+use piola_bodies::step::{Simulation, SimulationSettings, StepError};
 use piola_bodies::system::{Body, Part, Pins};
 use piola_tests::energies::{ENERGIES, Judged};
 use rayon::prelude::*;
@@ -31,7 +31,7 @@ fn times(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
 fn relax(material: Box<dyn TileMaterial<f64>>, start: &[[f64; 3]; 3]) -> Result<[f64; 3], StepError> {
     let mesh = TetMesh::new(REST.to_vec(), vec![[0, 1, 2, 3]]);
     let body = Body::from_parts(&mesh, vec![Part { group: None, material, density: 1.0 }]).expect("a body");
-    let settings = SimulationSettings::default().with_damping(Damping::Mass { rate: 1.0 });
+    let settings = SimulationSettings::default().with_damping(1.0);
     let mut simulation = Simulation::new(body, &Pins::none(), settings).expect("a simulation");
     let positions = REST.map(|x| times(start, x));
     simulation.set_positions(&positions).expect("finite positions");

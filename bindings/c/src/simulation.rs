@@ -131,7 +131,7 @@ functions! {
 /// values:
 ///
 /// - `gravity`: `[0, 0, 0]`, m/s²;
-/// - `damping`: `"none"`, `{"mass": {"rate": 1/s}}`;
+/// - `damping`: `0`, the rate of damping that is proportional to mass, 1/s;
 /// - `integrator`: `"implicit_euler"`, `"sdirk2"`, `"sdirk3"`;
 /// - `newton`: `{"tolerance": 1e-6, "max_iterations": 50, "filtering": …, "linear": …}`, with
 ///   - `filtering`: `"on_demand"`, `{"always": "none"}`, `{"always": "clamp"}`, `{"always": "absolute"}`,

@@ -195,7 +195,10 @@ impl Body {
     fn gradient<'py>(&self, py: Python<'py>, positions: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let x = rows("positions", positions)?;
         let mut gradient = vec![[0.0; 3]; self.body.rest().len()];
-        self.evaluate(py, |body, memory| Ok(((), memory.response.gradient(body, &x, &mut gradient)?)))?;
+        self.evaluate(py, |body, memory| {
+            memory.response.energy(body, &x)?;
+            Ok(((), memory.response.gradient_here(body, &mut gradient)?))
+        })?;
         from_rows(py, &gradient)
     }
 

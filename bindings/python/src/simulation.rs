@@ -19,8 +19,7 @@ use crate::threads::{on_threads, with_locked};
 ///
 /// pins: indices of nodes that are held.
 /// settings: `gravity=(0, -9.81, 0)`, m/s²; `integrator="implicit_euler"`, "sdirk2" or "sdirk3";
-///     `damping={"mass": {"rate": 1.0}}`; `newton={"tolerance": 1e-6, …}`;
-///     `line_search={…}`: the fields of `SimulationSettings` in Rust.
+///     `damping=1.0`, 1/s; `newton={"tolerance": 1e-6, …}`: the fields of `SimulationSettings` in Rust.
 ///
 /// Raises BodyError for pins and settings that are out of range.
 #[pyclass(frozen, module = "piola")]

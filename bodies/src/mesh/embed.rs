@@ -1,8 +1,7 @@
 //! Surfaces that follow the tetrahedra they lie in.
 
-use std::fmt;
-
 use piola::__private::message::number;
+use thiserror::Error;
 use tree::{Nearest, Tree};
 
 use super::io::Surface;
@@ -98,10 +97,13 @@ impl Embedding {
 }
 
 /// Reason why a surface cannot be embedded.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum EmbedError {
     /// A vertex is too far from every tetrahedron.
+    #[error(
+        "surface vertex {vertex} lies {distance:.3e} m outside the tetrahedral mesh; at most {tolerance:.3e} m is allowed"
+    )]
     Outside {
         /// The vertex, from 1 as in an OBJ file.
         vertex: usize,
@@ -111,40 +113,24 @@ pub enum EmbedError {
         tolerance: f64,
     },
     /// A coordinate of a vertex is infinite or NaN.
+    #[error("surface vertex {vertex} has a coordinate that is not finite")]
     NotFinite {
         /// The vertex, from 1 as in an OBJ file.
         vertex: usize,
     },
     /// The largest allowed distance is negative or NaN.
+    #[error(
+        "the largest distance of a surface vertex from the mesh is {} m; it must not be negative",
+        number(*tolerance)
+    )]
     Tolerance {
         /// The distance as given, m.
         tolerance: f64,
     },
     /// The mesh of the tetrahedra is not a body.
-    Mesh(MeshError),
+    #[error("{0}")]
+    Mesh(#[from] MeshError),
 }
-
-impl fmt::Display for EmbedError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Outside { vertex, distance, tolerance } => write!(
-                f,
-                "surface vertex {vertex} lies {distance:.3e} m outside the tetrahedral mesh; at most {tolerance:.3e} m is allowed"
-            ),
-            Self::NotFinite { vertex } => {
-                write!(f, "surface vertex {vertex} has a coordinate that is not finite")
-            }
-            Self::Tolerance { tolerance } => write!(
-                f,
-                "the largest distance of a surface vertex from the mesh is {} m; it must not be negative",
-                number(*tolerance)
-            ),
-            Self::Mesh(error) => error.fmt(f),
-        }
-    }
-}
-
-crate::chained::wraps!(EmbedError { Mesh(MeshError) });
 
 /// The tetrahedra at rest.
 struct Cage<'a> {

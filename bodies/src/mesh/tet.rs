@@ -2,10 +2,10 @@
 //!
 //! Orientation: det [x1−x0, x2−x0, x3−x0] > 0. Lengths in metres, indices from 0.
 
-use std::fmt;
-
+use piola::__private::message::{names, quoted};
 use piola::NoSuchNode;
 use piola::batch::REST;
+use thiserror::Error;
 
 use super::elements::ElementCounts;
 
@@ -150,10 +150,8 @@ impl TetMesh {
         twice.map(|pair| [pair[0].1, pair[1].1]).min()
     }
 
-    /// Nodes that belong to no tetrahedron, ascending: they have neither mass nor stiffness, and a mesh that
-    /// has one is not a body. [`TetMesh::without_unused_nodes`] removes them.
-    #[must_use]
-    pub fn unused_nodes(&self) -> Vec<usize> {
+    /// Nodes that belong to no tetrahedron, ascending.
+    fn unused_nodes(&self) -> Vec<usize> {
         let mut is_used = vec![false; self.positions.len()];
         for &node in self.tets.as_flattened() {
             if let Some(is_used) = is_used.get_mut(node) {
@@ -203,8 +201,9 @@ impl TetMesh {
         tets
     }
 
-    /// Removes the nodes of no tetrahedron, from groups too, and sorts the nodes of groups. Nodes behind
-    /// them get smaller numbers.
+    /// Removes nodes that belong to no tetrahedron, from groups too, and sorts the nodes of groups. Such nodes
+    /// have neither mass nor stiffness, and a mesh that has one is not a body. Later nodes get smaller
+    /// numbers.
     #[must_use]
     pub fn without_unused_nodes(self) -> Self {
         let unused = self.unused_nodes();
@@ -281,8 +280,7 @@ fn inverse([a, b, c]: [[f64; 3]; 3]) -> ([[f64; 3]; 3], f64, f64) {
 
 impl Bounds {
     /// The smallest box around these points; for none, an empty one with min = +∞, max = −∞.
-    #[must_use]
-    pub fn around(points: &[[f64; 3]]) -> Self {
+    pub(crate) fn around(points: &[[f64; 3]]) -> Self {
         points.iter().fold(Self { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] }, |bounds, x| Self {
             min: std::array::from_fn(|c| bounds.min[c].min(x[c])),
             max: std::array::from_fn(|c| bounds.max[c].max(x[c])),
@@ -303,29 +301,44 @@ impl Bounds {
 }
 
 /// Reason why a mesh is not a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MeshError {
     /// Mesh without tetrahedra.
+    #[error("the mesh has no tetrahedra")]
     Empty,
     /// A coordinate is infinite or NaN.
+    #[error("the position of node {node} (from 0) is not finite")]
     NotFinite {
         /// The node, from 0.
         node: usize,
     },
     /// A tetrahedron uses a node that does not exist.
-    NoSuchNode(NoSuchNode),
+    #[error("{0}")]
+    NoSuchNode(#[from] NoSuchNode),
     /// A node belongs to no tetrahedron; it would have no mass.
+    #[error(
+        "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
+         `TetMesh::without_unused_nodes` removes such nodes"
+    )]
     UnusedNode {
         /// The node, from 0.
         node: usize,
     },
     /// Two tetrahedra join the same four nodes.
+    #[error(
+        "elements {} and {} join the same four nodes, which would count their volume twice; remove one of them",
+        elements[0], elements[1]
+    )]
     SameTwice {
         /// Tags of the two.
         elements: [usize; 2],
     },
     /// A tetrahedron is flat or inverted at rest.
+    #[error(
+        "element {element} has the rest volume {volume:e} m³, which is not positive beyond rounding; \
+         is it flat, or are two of its nodes swapped?"
+    )]
     NonPositiveVolume {
         /// Tag of the tetrahedron.
         element: usize,
@@ -333,6 +346,10 @@ pub enum MeshError {
         volume: f64,
     },
     /// A tetrahedron is so large or so small that its volume overflows or underflows.
+    #[error(
+        "element {element} is {length:.0e} m large, and its volume {}; are the units right?",
+        if *length > 1.0 { "overflows" } else { "underflows" }
+    )]
     VolumeOutOfRange {
         /// Tag of the tetrahedron.
         element: usize,
@@ -341,37 +358,14 @@ pub enum MeshError {
     },
 }
 
-impl fmt::Display for MeshError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty => write!(f, "the mesh has no tetrahedra"),
-            Self::NotFinite { node } => write!(f, "the position of node {node} (from 0) is not finite"),
-            Self::NoSuchNode(error) => error.fmt(f),
-            Self::UnusedNode { node } => write!(
-                f,
-                "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
-                 `TetMesh::without_unused_nodes` removes such nodes"
-            ),
-            Self::SameTwice { elements: [one, other] } => write!(
-                f,
-                "elements {one} and {other} join the same four nodes, which would count their volume twice; \
-                 remove one of them"
-            ),
-            Self::VolumeOutOfRange { element, length } => write!(
-                f,
-                "element {element} is {length:.0e} m large, and its volume {}; are the units right?",
-                if *length > 1.0 { "overflows" } else { "underflows" }
-            ),
-            Self::NonPositiveVolume { element, volume } => write!(
-                f,
-                "element {element} has the rest volume {volume:e} m³, which is not positive beyond rounding; \
-                 is it flat, or are two of its nodes swapped?"
-            ),
-        }
+/// Message that a mesh has no group of a name; `of` is the kind of groups, if not all count.
+pub(crate) fn no_such_group(name: &str, existing: &[String], of: &str) -> String {
+    let name = quoted(name);
+    match existing {
+        [] => format!("there is no group `{name}`: the mesh has no groups{of}"),
+        _ => format!("there is no group `{name}`{of}; there are: {}", names(existing)),
     }
 }
-
-crate::chained::wraps!(MeshError { NoSuchNode(NoSuchNode) });
 
 pub(crate) fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
@@ -402,14 +396,6 @@ mod tests {
         let shapes = corner().rest_shapes().expect("a positive tetrahedron");
         assert_eq!(shapes[0].volume, 5.0);
         assert_eq!(shapes[0].inverse, [[0.5, 0.0, 0.0], [0.0, 1.0 / 3.0, 0.0], [0.0, 0.0, 0.2]]);
-    }
-
-    #[test]
-    fn masses_add_up_to_density_times_volume() {
-        let mesh = corner();
-        let shapes = mesh.rest_shapes().expect("a positive tetrahedron");
-        let masses = lumped_masses(&mesh, &shapes, &[8.0]);
-        assert_eq!(masses, vec![10.0; 4]);
     }
 
     #[track_caller]

@@ -12,38 +12,14 @@
 
 use super::term::EnergyChange;
 
-/// Settings of the line search: when to accept a step and how to shorten it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(default, deny_unknown_fields)
-)]
-#[non_exhaustive]
-pub struct LineSearchSettings {
-    /// Share δ of the decrease predicted by the slope that suffices, 0 < δ < ½.
-    pub sufficient_decrease: f64,
-    /// Factor from the length of one trial to the next, between 0 and 1.
-    pub shrink: f64,
-    /// Maximum number of trials.
-    pub max_trials: usize,
-    /// True to accept a step even if the energy increases, unless it leaves the domain: Newton's method
-    /// without a line search, for comparisons.
-    pub accepts_increase: bool,
-}
+/// Share δ of the decrease predicted by the slope that suffices, 0 < δ < ½.
+const SUFFICIENT_DECREASE: f64 = 1e-4;
 
-impl Default for LineSearchSettings {
-    fn default() -> Self {
-        Self { sufficient_decrease: 1e-4, shrink: 0.5, max_trials: 48, accepts_increase: false }
-    }
-}
+/// Factor from the length of one trial to the next.
+const SHRINK: f64 = 0.5;
 
-crate::chained::chained!(LineSearchSettings {
-    with_sufficient_decrease(sufficient_decrease: f64),
-    with_shrink(shrink: f64),
-    with_max_trials(max_trials: usize),
-    with_accepts_increase(accepts_increase: bool),
-});
+/// Maximum number of trials.
+const MAX_TRIALS: usize = 48;
 
 /// Objective along a line, relative to its start.
 pub trait Line {
@@ -83,20 +59,15 @@ pub(super) enum Outcome {
     },
 }
 
-/// Backtracks from the step `first` by shrink, shrink², … until a step is acceptable; `slope` < 0 is the
-/// derivative at the start.
-pub(super) fn backtrack<L: Line>(
-    line: &mut L,
-    first: f64,
-    slope: f64,
-    settings: &LineSearchSettings,
-) -> Result<Outcome, L::Error> {
-    let delta = settings.sufficient_decrease;
+/// Halves the step, beginning with `first`, until it is acceptable; `slope` < 0 is the derivative at the
+/// start.
+pub(super) fn backtrack<L: Line>(line: &mut L, first: f64, slope: f64) -> Result<Outcome, L::Error> {
+    let delta = SUFFICIENT_DECREASE;
     let (mut step, mut refused) = (first, 0);
     if first <= 0.0 {
         return Ok(Outcome::Failed { step, refused });
     }
-    for trials in 1..=settings.max_trials {
+    for trials in 1..=MAX_TRIALS {
         match line.change(step)? {
             None => refused += 1,
             Some(EnergyChange { difference, noise }) => {
@@ -104,14 +75,13 @@ pub(super) fn backtrack<L: Line>(
                 let noisy = difference.abs() <= noise;
                 // φ'(step) ≤ (2δ − 1) φ'(0) is equivalent to the sufficient decrease for a quadratic, without
                 // differences.
-                let is_free = settings.accepts_increase && difference.is_finite();
-                if is_free || (enough && !noisy) || (noisy && line.slope()? <= (2.0 * delta - 1.0) * slope) {
+                if (enough && !noisy) || (noisy && line.slope()? <= (2.0 * delta - 1.0) * slope) {
                     return Ok(Outcome::Accepted { step, difference, trials, refused, by_slope: noisy });
                 }
             }
         }
-        if trials < settings.max_trials {
-            step *= settings.shrink;
+        if trials < MAX_TRIALS {
+            step *= SHRINK;
         }
     }
     Ok(Outcome::Failed { step, refused })
@@ -153,7 +123,7 @@ mod tests {
     ) {
         let slope = derivative(0.0);
         let mut line = Function { value, derivative, at: 0.0, noise };
-        assert_eq!(backtrack(&mut line, 1.0, slope, &LineSearchSettings::default()), Ok(expected));
+        assert_eq!(backtrack(&mut line, 1.0, slope), Ok(expected));
     }
 
     #[test]

@@ -5,7 +5,7 @@
 use piola::point::Filter;
 
 use super::filtering::Filtering;
-use super::line_search::{Line, LineSearchSettings, Outcome, backtrack};
+use super::line_search::{Line, Outcome, backtrack};
 use super::solver::{Definiteness, Solution};
 
 mod error;
@@ -82,20 +82,18 @@ pub fn minimize<M: Minimisation>(
     minimisation: &mut M,
     pins_move: bool,
     settings: &NewtonSettings,
-    line_search: &LineSearchSettings,
 ) -> Result<NewtonReport, M::Error>
 where
     M::Error: From<NewtonError>,
 {
     let report = NewtonReport::before(settings);
-    Newton { minimisation, settings, line_search, report, moved: None }.run(pins_move)
+    Newton { minimisation, settings, report, moved: None }.run(pins_move)
 }
 
 /// State of a running minimisation.
 struct Newton<'a, M> {
     minimisation: &'a mut M,
     settings: &'a NewtonSettings,
-    line_search: &'a LineSearchSettings,
     report: NewtonReport,
     /// The largest displacement of a node in the iteration before, m.
     moved: Option<f64>,
@@ -242,7 +240,7 @@ where
         }
         let first = self.minimisation.longest_step();
         self.minimisation.set_base();
-        match backtrack(self.minimisation, first, slope, self.line_search)? {
+        match backtrack(self.minimisation, first, slope)? {
             Outcome::Accepted { step, difference, refused, by_slope, .. } => {
                 self.minimisation.accept();
                 self.report.step_lengths.push(step);

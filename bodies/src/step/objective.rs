@@ -1,6 +1,6 @@
 //! The function that a step of implicit Euler minimises, or a stage of another integrator.
 //!
-//! With M the lumped masses, D the quadratic form of the [damping](super::damping), α M, and with s, w
+//! With M the lumped masses, D the quadratic form of damping, α M, and with s, w
 //! and the lengths τ, σ of the stage, for which v = (x − s)/τ and a = (v − w)/σ:
 //!
 //! ```text

@@ -44,7 +44,11 @@ pub(super) use interface::{SolveError, Solver};
 )]
 #[non_exhaustive]
 pub enum LinearSolver {
-    /// Solver chosen by the number of elements: [`LinearSolver::for_elements`].
+    /// Solver chosen by the number of elements: `Cholesky` up to 4000 elements, beyond that and without the
+    /// feature `faer` [`ConjugateGradients`](Self::ConjugateGradients) to 10⁻³ in at most 1000 iterations.
+    ///
+    /// The limit is that of compact bodies on one thread (`cargo speed-report --only growth`); thin ones,
+    /// whose factors stay sparse, are faster with a factor beyond it.
     #[default]
     Automatic,
     /// Sparse Cholesky factorisation, with the feature `faer`.
@@ -71,14 +75,8 @@ pub enum LinearSolver {
 }
 
 impl LinearSolver {
-    /// The solver that [`LinearSolver::Automatic`] chooses: `Cholesky` up to 4000 elements, beyond that and
-    /// without the feature `faer` [`ConjugateGradients`](Self::ConjugateGradients) to 10⁻³ in at most 1000
-    /// iterations.
-    ///
-    /// The limit is that of compact bodies on one thread (`cargo speed-report --only growth`); thin ones,
-    /// whose factors stay sparse, are faster with a factor beyond it.
-    #[must_use]
-    pub fn for_elements(elements: usize) -> Self {
+    /// The solver that [`LinearSolver::Automatic`] chooses.
+    pub(super) fn for_elements(elements: usize) -> Self {
         match elements {
             #[cfg(feature = "faer")]
             ..=4000 => Self::Cholesky,

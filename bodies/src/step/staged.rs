@@ -324,23 +324,3 @@ impl Stage {
         self.lengths
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn wrong_input_is_refused() {
-        let build = |pinned: &[usize]| StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], pinned);
-        assert_eq!(
-            build(&[1]).unwrap_err(),
-            SetupError::NoSuchNode(NoSuchNode { element: None, node: 1, nodes: 1 })
-        );
-        let mut steps = build(&[]).expect("no pins");
-        let expected = Err(SetupError::Length { expected: 1, found: 2 });
-        assert_eq!(steps.set_positions(&[[0.0; 3]; 2]), expected);
-        assert_eq!(steps.set_accelerations(&[[0.0; 3]; 2]), expected);
-        assert_eq!(steps.set_velocities(&[[f64::NAN; 3]]), Err(SetupError::NotFinite { node: 0 }));
-        assert_eq!(steps.prescribe(0, [0.0; 3]), Err(SetupError::NotPinned { node: 0 }));
-    }
-}

@@ -18,7 +18,11 @@ use super::spring::Spring;
 /// give the same bits.
 ///
 /// ```
-/// use piola_bodies::step::{NodeBlocks, Term};
+/// use std::sync::Arc;
+///
+/// use piola_bodies::mesh::tetrahedral_box;
+/// use piola_bodies::step::{NodeBlocks, Simulation, SimulationSettings, Term};
+/// use piola_bodies::system::{Body, Pins};
 ///
 /// /// A plane y = 0 that pushes back with ½ k y² where a node is below it.
 /// struct Ground {
@@ -43,6 +47,22 @@ use super::spring::Spring;
 ///         }
 ///     }
 /// }
+///
+/// /// Rubber.
+/// #[piola::material(domain(J > 0.0))]
+/// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
+///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
+/// let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
+/// let mut cube = Simulation::new(body, &Pins::none(), settings)?;
+/// cube.set_terms(vec![Arc::new(Ground { stiffness: 1e4 })]);
+/// let report = cube.step(0.01)?;
+/// assert!(report.energies.terms > 0.0 && cube.positions()[0][1] > -9.81 * 1e-4);
+/// # Ok(())
+/// # }
 /// ```
 pub trait Term: Send + Sync {
     /// Energy, J; `None` outside the domain of the term, which no step will enter.

@@ -4,12 +4,13 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use piola::__private::message::{names, number, quoted};
+use piola::__private::message::number;
 use piola::batch::TileMaterial;
 use piola::batch::element::TILE;
+use thiserror::Error;
 
 use super::element::Tetrahedron;
-use crate::mesh::{MeshError, TetMesh, lumped_masses};
+use crate::mesh::{MeshError, TetMesh, lumped_masses, no_such_group};
 
 /// Material and density of a part of a mesh.
 pub struct Part {
@@ -191,17 +192,23 @@ fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
 }
 
 /// Reason why a mesh and its parts are not a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BodyError {
     /// The mesh itself is invalid.
-    Mesh(MeshError),
+    #[error("{0}")]
+    Mesh(#[from] MeshError),
     /// A density is not positive and finite.
+    #[error("the density is {} kg/m³; it must be positive and finite", number(*density))]
     Density {
         /// The density, kg/m³.
         density: f64,
     },
     /// The mass of a node overflows or underflows.
+    #[error(
+        "the mass of node {node} (from 0) {}; are the units of the mesh and of the density right?",
+        if *mass > 1.0 { "overflows" } else { "underflows" }
+    )]
     MassOutOfRange {
         /// The node, from 0.
         node: usize,
@@ -209,6 +216,9 @@ pub enum BodyError {
         mass: f64,
     },
     /// Wrong number of materials: a part needs one for all its elements, or one for each.
+    #[error(
+        "there are {materials} materials for a part of {elements} elements: give one for all, or one for each"
+    )]
     MaterialsForPoints {
         /// Number of materials.
         materials: usize,
@@ -216,6 +226,7 @@ pub enum BodyError {
         elements: usize,
     },
     /// A part names a group that the mesh does not have.
+    #[error("{}", no_such_group(name, existing, " of tetrahedra"))]
     NoSuchGroup {
         /// The missing group.
         name: String,
@@ -223,6 +234,7 @@ pub enum BodyError {
         existing: Vec<String>,
     },
     /// No part has this index.
+    #[error("there is no part {part} (from 0) of a body of {parts}")]
     NoSuchPart {
         /// The index, from 0.
         part: usize,
@@ -230,55 +242,15 @@ pub enum BodyError {
         parts: usize,
     },
     /// An element belongs to no part.
+    #[error("element {element} has no material: it belongs to no part")]
     InNoPart {
         /// Tag of the element.
         element: usize,
     },
     /// An element belongs to two parts.
+    #[error("element {element} has two materials: it belongs to two parts")]
     InTwoParts {
         /// Tag of the element.
         element: usize,
     },
 }
-
-impl fmt::Display for BodyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Mesh(error) => error.fmt(f),
-            Self::Density { density } => {
-                write!(f, "the density is {} kg/m³; it must be positive and finite", number(*density))
-            }
-            Self::MassOutOfRange { node, mass } => write!(
-                f,
-                "the mass of node {node} (from 0) {}; are the units of the mesh and of the density right?",
-                if *mass > 1.0 { "overflows" } else { "underflows" }
-            ),
-            Self::MaterialsForPoints { materials, elements } => write!(
-                f,
-                "there are {materials} materials for a part of {elements} elements: give one for all, or one for each"
-            ),
-            Self::NoSuchGroup { name, existing } if existing.is_empty() => {
-                write!(f, "there is no group `{}`: the mesh has no groups of tetrahedra", quoted(name))
-            }
-            Self::NoSuchGroup { name, existing } => {
-                write!(
-                    f,
-                    "there is no group `{}` of tetrahedra; there are: {}",
-                    quoted(name),
-                    names(existing)
-                )
-            }
-            Self::NoSuchPart { part, parts } => {
-                write!(f, "there is no part {part} (from 0) of a body of {parts}")
-            }
-            Self::InNoPart { element } => {
-                write!(f, "element {element} has no material: it belongs to no part")
-            }
-            Self::InTwoParts { element } => {
-                write!(f, "element {element} has two materials: it belongs to two parts")
-            }
-        }
-    }
-}
-
-crate::chained::wraps!(BodyError { Mesh(MeshError) });

@@ -1,15 +1,12 @@
 //! Graph of a symmetric matrix of blocks: pairs of rows with a block in common.
 
 use super::linear::LinearError;
-use super::memory::{filled, reserved};
+use super::lists::Lists;
+use super::memory::reserved;
 
 /// The neighbours of each row, without itself.
 #[derive(Clone, Debug)]
-pub(crate) struct Graph {
-    /// Start of each row among the neighbours, and the end of the last.
-    starts: Vec<usize>,
-    neighbours: Vec<u32>,
-}
+pub(crate) struct Graph(Lists<u32>);
 
 impl Graph {
     /// Nodes that share a tetrahedron or are one of the pairs, each list ascending.
@@ -24,19 +21,8 @@ impl Graph {
         u32::try_from(nodes).map_err(|_| LinearError::OutOfMemory)?;
         // A pair is an element of two nodes.
         let elements = tets.chain(pairs.iter().map(|&[a, b]| [a, b, a, b]));
-        let mut around = filled(nodes + 1, 0)?;
-        elements.clone().flatten().for_each(|node| around[node + 1] += 1);
-        for node in 0..nodes {
-            around[node + 1] += around[node];
-        }
-        let mut next = around.clone();
-        let mut corners = filled(around[nodes], [0_u32; 4])?;
-        for tet in elements {
-            for node in tet {
-                corners[next[node]] = tet.map(|node| node as u32);
-                next[node] += 1;
-            }
-        }
+        let corners = |tet: [usize; 4]| tet.map(|node| (node, tet.map(|node| node as u32)));
+        let around = Lists::new(nodes, || elements.clone().flat_map(corners))?;
         let mut starts = reserved(nodes + 1)?;
         starts.push(0);
         // About fourteen neighbours in three dimensions.
@@ -44,47 +30,32 @@ impl Graph {
         let mut list: Vec<u32> = Vec::new();
         for node in 0..nodes {
             list.clear();
-            let all = corners[around[node]..around[node + 1]].as_flattened();
+            let all = around.of(node).as_flattened();
             list.extend(all.iter().filter(|&&other| other as usize != node));
             list.sort_unstable();
             list.dedup();
             neighbours.extend_from_slice(&list);
             starts.push(neighbours.len());
         }
-        Ok(Self { starts, neighbours })
+        Ok(Self(Lists { starts, values: neighbours }))
     }
 
     /// The graph of a matrix of which the columns above the diagonal are given, row by row.
-    pub(crate) fn of_upper(rows: &[Vec<u32>]) -> Self {
-        let mut starts = vec![0; rows.len() + 1];
-        for (row, columns) in rows.iter().enumerate() {
-            starts[row + 1] += columns.len();
-            columns.iter().for_each(|&column| starts[column as usize + 1] += 1);
-        }
-        for row in 0..rows.len() {
-            starts[row + 1] += starts[row];
-        }
-        let mut next = starts.clone();
-        let mut neighbours = vec![0; starts[rows.len()]];
-        let mut put = |at: usize, other: u32| {
-            neighbours[next[at]] = other;
-            next[at] += 1;
-        };
-        for (row, columns) in rows.iter().enumerate() {
-            for &column in columns {
-                put(row, column);
-                put(column as usize, row as u32);
-            }
-        }
-        Self { starts, neighbours }
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    pub(crate) fn of_upper(rows: &[Vec<u32>]) -> Result<Self, LinearError> {
+        let above = || (0..rows.len()).flat_map(|row| rows[row].iter().map(move |&column| (row, column)));
+        let both = |(row, column): (usize, u32)| [(row, column), (column as usize, row as u32)];
+        Ok(Self(Lists::new(rows.len(), || above().flat_map(both))?))
     }
 
     pub(crate) fn rows(&self) -> usize {
-        self.starts.len() - 1
+        self.0.len()
     }
 
     pub(crate) fn neighbours(&self, row: usize) -> &[u32] {
-        &self.neighbours[self.starts[row]..self.starts[row + 1]]
+        self.0.of(row)
     }
 }
 
@@ -104,7 +75,7 @@ mod tests {
 
     #[test]
     fn the_upper_half_says_all() {
-        let graph = Graph::of_upper(&[vec![2, 1], vec![], vec![]]);
+        let graph = Graph::of_upper(&[vec![2, 1], vec![], vec![]]).expect("small");
         assert_eq!(graph.neighbours(0), [2, 1]);
         assert_eq!((graph.neighbours(1), graph.neighbours(2)), (&[0][..], &[0][..]));
     }

@@ -4,9 +4,8 @@
 //! its unknowns; both exist with the feature `faer`. `conjugate_gradients` has two preconditioners: the
 //! blocks on the diagonal (`block_jacobi`) and `multigrid`.
 
-use std::fmt;
-
 use piola::NoSuchNode;
+use thiserror::Error;
 
 pub(crate) mod block_jacobi;
 #[cfg(feature = "faer")]
@@ -22,17 +21,20 @@ pub(crate) fn fits(slice: &'static str, found: usize, expected: usize) -> Result
 }
 
 /// Reason why a system cannot be solved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LinearError {
     /// A pivot is negative, zero or NaN.
+    #[error("the matrix is not positive definite (pivot of column {column})")]
     NotPositive {
         /// The column in which it is met.
         column: usize,
     },
     /// The matrix or its factor does not fit into memory.
+    #[error("the matrix or its factor does not fit into memory")]
     OutOfMemory,
     /// A slice does not fit the matrix.
+    #[error("`{slice}` has {found} entries; the matrix demands {expected}")]
     Length {
         /// The slice, as the method calls it.
         slice: &'static str,
@@ -41,39 +43,7 @@ pub enum LinearError {
         /// The length that the matrix demands.
         expected: usize,
     },
-    /// There is no factor to solve with.
-    NotFactored,
-    /// Column starts and row indices do not describe the lower triangle of a matrix.
-    Pattern {
-        /// The first column at fault.
-        column: usize,
-    },
     /// A pin names a node that does not exist.
-    NoSuchNode(NoSuchNode),
+    #[error("{0}")]
+    NoSuchNode(#[from] NoSuchNode),
 }
-
-impl fmt::Display for LinearError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotPositive { column } => {
-                write!(f, "the matrix is not positive definite (pivot of column {column})")
-            }
-            Self::NoSuchNode(error) => error.fmt(f),
-            Self::Length { slice, found, expected } => {
-                write!(f, "`{slice}` has {found} entries; the matrix demands {expected}")
-            }
-            Self::NotFactored => {
-                write!(f, "there is no factor to solve with: `factor` was not called, or has failed")
-            }
-            Self::Pattern { column } => {
-                write!(
-                    f,
-                    "column {column} is not the lower triangle of a symmetric pattern: rows must ascend from the diagonal"
-                )
-            }
-            Self::OutOfMemory => write!(f, "the matrix or its factor does not fit into memory"),
-        }
-    }
-}
-
-crate::chained::wraps!(LinearError { NoSuchNode(NoSuchNode) });

@@ -180,7 +180,8 @@ impl LowerTriangle {
     }
 
     /// The entries on the diagonal, N/m.
-    pub fn diagonal(&self) -> impl Iterator<Item = f64> {
+    #[cfg(feature = "faer")]
+    pub(crate) fn diagonal(&self) -> impl Iterator<Item = f64> {
         let starts = self.column_starts();
         starts[..starts.len() - 1].iter().map(|&start| self.values[start])
     }

@@ -29,7 +29,7 @@ const WAVE: usize = 64;
 
 /// Stiffness of a body as one 3×3 block for each node and each pair of nodes that share an element, N/m;
 /// pinned nodes have rows too. Zero at first, and filled by
-/// [`ElasticResponse::stiffness`](super::ElasticResponse::stiffness).
+/// [`ElasticResponse::stiffness_here`](super::ElasticResponse::stiffness_here).
 ///
 /// [`NodalStiffness::blocks`] are triplets for a sparse matrix in any format;
 /// [`LowerTriangle`](super::LowerTriangle) holds the entries for a factorisation. Takes some 250 bytes for
@@ -92,17 +92,11 @@ impl NodalStiffness {
     /// # Errors
     /// [`LinearError::OutOfMemory`].
     pub fn empty() -> Result<Self, LinearError> {
-        let graph = Graph::of_upper(&[]);
+        let graph = Graph::of_upper(&[])?;
         let pattern = Arc::new(Pattern::new(&graph, &[])?);
         let shape = Shape { elements: 0, tiles: 0, graph, order: Vec::new(), gather: Vec::new() };
         let elements = ElementStiffnesses { tiles: Vec::new() };
         Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, elements })
-    }
-
-    /// The block on the diagonal of a node; `None` if there is no such node.
-    #[must_use]
-    pub fn diagonal(&self, node: usize) -> Option<&[[f64; 3]; 3]> {
-        (node < self.matrix.pattern().rows()).then(|| self.matrix.diagonal(node))
     }
 
     /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
@@ -131,15 +125,8 @@ impl NodalStiffness {
     }
 
     /// Number of blocks that [`NodalStiffness::blocks`] returns.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.matrix.pattern().len()
-    }
-
-    /// True if there is no block, as for a body without elements.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// The nodes of each block, row and column, and its entries ∂²E/∂x_row∂x_column, always in the same

@@ -2,11 +2,10 @@
 //!
 //! Their positions and motions belong to the [simulation](crate::step::Simulation).
 
-use std::fmt;
+use piola::__private::message::quoted;
+use thiserror::Error;
 
-use piola::__private::message::{names, quoted};
-
-use crate::mesh::{Bounds, TetMesh};
+use crate::mesh::{Bounds, TetMesh, no_such_group};
 
 /// Nodes with prescribed positions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -72,10 +71,14 @@ impl Pins {
 }
 
 /// Reason why there is nothing to pin.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum PinError {
     /// No node lies in the box.
+    #[error(
+        "no node lies in the box {:?} to {:?}; the body extends from {:?} to {:?}",
+        bounds.min, bounds.max, body.min, body.max
+    )]
     EmptyBox {
         /// The box.
         bounds: Bounds,
@@ -83,6 +86,7 @@ pub enum PinError {
         body: Bounds,
     },
     /// No group has this name.
+    #[error("{}", no_such_group(name, existing, ""))]
     NoSuchGroup {
         /// The missing group.
         name: String,
@@ -90,34 +94,12 @@ pub enum PinError {
         existing: Vec<String>,
     },
     /// A group without nodes.
+    #[error("the group `{}` holds no node of a tetrahedron", quoted(name))]
     EmptyGroup {
         /// Name of the group.
         name: String,
     },
 }
-
-impl fmt::Display for PinError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::EmptyBox { bounds, body } => write!(
-                f,
-                "no node lies in the box {:?} to {:?}; the body extends from {:?} to {:?}",
-                bounds.min, bounds.max, body.min, body.max
-            ),
-            Self::NoSuchGroup { name, existing } if existing.is_empty() => {
-                write!(f, "there is no group `{}`: the mesh has no groups", quoted(name))
-            }
-            Self::NoSuchGroup { name, existing } => {
-                write!(f, "there is no group `{}`; there are: {}", quoted(name), names(existing))
-            }
-            Self::EmptyGroup { name } => {
-                write!(f, "the group `{}` holds no node of a tetrahedron", quoted(name))
-            }
-        }
-    }
-}
-
-impl std::error::Error for PinError {}
 
 #[cfg(test)]
 mod tests {

@@ -18,9 +18,10 @@ use super::nodal_stiffness::NodalStiffness;
 /// its material.
 ///
 /// ```
-/// use piola_bodies::mesh::tetrahedral_box;
+/// use nalgebra::{DMatrix, DVector};
 /// use piola::point::Filter;
-/// use piola_bodies::system::{Body, Cholesky, ElasticResponse, LowerTriangle, NodalStiffness, Pins};
+/// use piola_bodies::mesh::tetrahedral_box;
+/// use piola_bodies::system::{Body, ElasticResponse, LowerTriangle, NodalStiffness, Pins};
 ///
 /// /// Rubber.
 /// #[piola::material(domain(J > 0.0))]
@@ -35,23 +36,30 @@ use super::nodal_stiffness::NodalStiffness;
 /// let pins = Pins::at((0..=last).filter(|&node| x[node][0] == 0.0));
 /// let mut stiffness = NodalStiffness::of_body(&body)?;
 /// let mut matrix = LowerTriangle::new(&stiffness, &pins)?;
-/// let mut cholesky = Cholesky::new(matrix.column_starts(), matrix.row_indices())?;
 /// let mut response = ElasticResponse::new(&body);
 /// let mut gradient = vec![[0.0; 3]; x.len()];
 /// for _ in 0..8 {
-///     assert!(response.stiffness(&body, &x, Filter::None, &mut gradient, &mut stiffness)?.is_clean());
+///     response.energy(&body, &x)?;
+///     assert!(response.stiffness_here(&body, Filter::None, &mut gradient, &mut stiffness)?.is_clean());
 ///     gradient[last][1] += 1.0;
-///     let nodes = matrix.free_nodes();
-///     let mut step: Vec<f64> = nodes.iter().flat_map(|&node| gradient[node].map(|g| -g)).collect();
+///     // The lower triangle in compressed columns, for any solver: here a dense one.
 ///     matrix.fill(&stiffness, |_| 0.0)?;
-///     cholesky.factor(matrix.values())?;
-///     cholesky.solve(&mut step)?;
-///     for (&node, step) in matrix.free_nodes().iter().zip(step.chunks_exact(3)) {
+///     let (nodes, starts) = (matrix.free_nodes(), matrix.column_starts());
+///     let mut dense = DMatrix::zeros(3 * nodes.len(), 3 * nodes.len());
+///     for column in 0..3 * nodes.len() {
+///         for at in starts[column]..starts[column + 1] {
+///             dense[(matrix.row_indices()[at], column)] = matrix.values()[at];
+///         }
+///     }
+///     let right: Vec<f64> = nodes.iter().flat_map(|&node| gradient[node].map(|g| -g)).collect();
+///     let step = dense.cholesky().ok_or("not positive definite")?.solve(&DVector::from_vec(right));
+///     for (&node, step) in nodes.iter().zip(step.as_slice().chunks_exact(3)) {
 ///         (0..3).for_each(|c| x[node][c] += step[c]);
 ///     }
 /// }
 /// // The forces of the body on the last node balance the weight.
-/// response.gradient(&body, &x, &mut gradient)?;
+/// response.energy(&body, &x)?;
+/// response.gradient_here(&body, &mut gradient)?;
 /// assert!((gradient[last][1] + 1.0).abs() < 1e-10);
 /// # Ok(())
 /// # }
@@ -82,46 +90,14 @@ impl ElasticResponse {
     /// # Errors
     /// [`LengthError`] if there are not as many positions or elements as the body had.
     pub fn energy(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<(f64, Survey), LengthError> {
-        let Evaluated { survey, .. } = self.evaluate(body, positions)?;
+        self.check("positions", positions.len())?;
+        self.check_body(body)?;
+        let Evaluated { survey, .. } = self.elastic.evaluate(body, positions);
         Ok((self.elastic.energy(), survey))
     }
 
-    /// Replaces `gradient` by the gradient of the energy in the position of each node, N: minus the forces.
-    ///
-    /// # Errors
-    /// [`LengthError`] if a slice or the body does not have the length of the body that this was made for.
-    pub fn gradient(
-        &mut self,
-        body: &Body,
-        positions: &[[f64; 3]],
-        gradient: &mut [[f64; 3]],
-    ) -> Result<Survey, LengthError> {
-        self.check("gradient", gradient.len())?;
-        let energies = self.evaluate(body, positions)?;
-        self.elastic.evaluate_gradients(body);
-        Ok(self.sum(energies, body, gradient))
-    }
-
-    /// Replaces `gradient` as [`ElasticResponse::gradient`] does, and `matrix` by the stiffness, N/m, with
-    /// the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
-    ///
-    /// # Errors
-    /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
-    /// made for.
-    pub fn stiffness(
-        &mut self,
-        body: &Body,
-        positions: &[[f64; 3]],
-        filter: Filter,
-        gradient: &mut [[f64; 3]],
-        matrix: &mut NodalStiffness,
-    ) -> Result<Survey, LengthError> {
-        self.evaluate(body, positions)?;
-        self.stiffness_here(body, filter, gradient, matrix)
-    }
-
-    /// Replaces `gradient` by the gradient of the energy, N, at the last evaluated positions: cheaper than
-    /// [`ElasticResponse::gradient`], for use after a line search.
+    /// Replaces `gradient` by the gradient of the energy in the position of each node, N, minus the forces, at
+    /// the positions where [`ElasticResponse::energy`] was computed last.
     ///
     /// # Errors
     /// [`LengthError`] if `gradient` or the body does not have the length of the body that this was made for.
@@ -133,8 +109,8 @@ impl ElasticResponse {
         Ok(self.sum(energies, body, gradient))
     }
 
-    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` as
-    /// [`ElasticResponse::stiffness`] does.
+    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` by the stiffness, N/m, with
+    /// the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
     ///
     /// # Errors
     /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was
@@ -184,12 +160,6 @@ impl ElasticResponse {
         same("nodes", body.rest().len(), self.nodes, 1)
     }
 
-    fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<Evaluated, LengthError> {
-        self.check("positions", positions.len())?;
-        self.check_body(body)?;
-        Ok(self.elastic.evaluate(body, positions))
-    }
-
     /// Sums the gradients of all elements. Returns the survey of the energies or, if these are clean, of the
     /// derivatives.
     fn sum(&self, energies: Evaluated, body: &Body, gradient: &mut [[f64; 3]]) -> Survey {
@@ -223,74 +193,17 @@ mod tests {
     use super::*;
     use crate::system::testing::{beam, neo_hookean, shake};
 
-    /// Central differences of the energy and of its gradient.
     #[test]
-    fn derivatives_are_those_of_the_energy() {
-        let mesh = beam(2);
-        let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
-        let mut random = Random::new(3);
-        let mut x = shake(&mut random, body.rest(), 0.01);
-        let mut response = ElasticResponse::new(&body);
-        let mut matrix = NodalStiffness::of_body(&body).expect("small");
-        let (nodes, h) = (x.len(), 1e-6);
-        let (mut gradient, mut ahead, mut behind) =
-            (vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes], vec![[0.0; 3]; nodes]);
-        let survey = response.stiffness(&body, &x, Filter::None, &mut gradient, &mut matrix);
-        assert!(survey.expect("lengths").is_clean());
-        let mut dense = vec![vec![[[0.0; 3]; 3]; nodes]; nodes];
-        for (row, column, block) in matrix.blocks() {
-            dense[column][row] = std::array::from_fn(|r| std::array::from_fn(|c| block[c][r]));
-            dense[row][column] = *block;
-        }
-        for node in 0..nodes {
-            for c in 0..3 {
-                let at = x[node][c];
-                x[node][c] = at + h;
-                let (up, _) = response.energy(&body, &x).expect("lengths");
-                response.gradient(&body, &x, &mut ahead).expect("lengths");
-                x[node][c] = at - h;
-                let (down, _) = response.energy(&body, &x).expect("lengths");
-                response.gradient(&body, &x, &mut behind).expect("lengths");
-                x[node][c] = at;
-                let slope = (up - down) / (2.0 * h);
-                assert!((slope - gradient[node][c]).abs() <= 1e-3, "{slope} for {}", gradient[node][c]);
-                for other in 0..nodes {
-                    for r in 0..3 {
-                        let expected = (ahead[other][r] - behind[other][r]) / (2.0 * h);
-                        let entry = dense[other][node][r][c];
-                        assert!((entry - expected).abs() <= 1.0, "{entry} for {expected}");
-                    }
-                }
-            }
-        }
-    }
-
-    /// Blocks and differences of elements at the last evaluated positions agree with those of the plain
-    /// methods.
-    #[test]
-    fn what_is_taken_here_is_what_positions_give() {
-        let mesh = beam(3);
-        let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
+    fn differences_of_elements_add_up() {
+        let body = Body::new(&beam(3), neo_hookean(), 1000.0).expect("a body");
         let mut random = Random::new(5);
         let [before, x] = [0.01, 0.012].map(|amplitude| shake(&mut random, body.rest(), amplitude));
         let mut response = ElasticResponse::new(&body);
-        let mut matrix = NodalStiffness::of_body(&body).expect("small");
-        let mut here = matrix.clone();
-        let (mut expected, mut found) = (vec![[0.0; 3]; x.len()], vec![[f64::NAN; 3]; x.len()]);
         let (at_start, _) = response.energy(&body, &before).expect("lengths");
         response.set_base();
-        response.stiffness(&body, &x, Filter::Clamp, &mut expected, &mut matrix).expect("lengths");
         let (at_end, _) = response.energy(&body, &x).expect("lengths");
         let noise = response.difference_noise(&body).expect("the same body");
         assert!((response.difference() - (at_end - at_start)).abs() <= noise && noise < 1e-9 * at_end);
-
-        assert!(response.gradient_here(&body, &mut found).expect("lengths").is_clean());
-        assert_eq!(found, expected);
-        found.fill([f64::NAN; 3]);
-        let survey = response.stiffness_here(&body, Filter::Clamp, &mut found, &mut here);
-        assert!(survey.expect("lengths").is_clean());
-        assert!(here.blocks().eq(matrix.blocks()));
-        assert_eq!((found, here.blocks().count()), (expected, here.len()));
     }
 
     #[test]
@@ -300,10 +213,10 @@ mod tests {
         let mut response = ElasticResponse::new(&body);
         let mut gradient = vec![[0.0; 3]; 8];
         assert!(response.energy(&body, &body.rest()[1..]).is_err());
-        assert!(response.gradient(&body, body.rest(), &mut gradient[1..]).is_err());
         assert!(response.energy(&other, body.rest()).is_err());
+        assert!(response.gradient_here(&body, &mut gradient[1..]).is_err());
         let mut matrix = NodalStiffness::of_body(&other).expect("small");
-        assert!(response.stiffness(&body, body.rest(), Filter::None, &mut gradient, &mut matrix).is_err());
+        assert!(response.stiffness_here(&body, Filter::None, &mut gradient, &mut matrix).is_err());
         // As many nodes, of which another number of elements is made.
         let [five, six] = [false, true].map(|with_last| {
             let mut mesh = beam(1);
@@ -312,10 +225,11 @@ mod tests {
         });
         assert_eq!((five.rest().len(), six.rest().len()), (8, 8));
         let mut matrix = NodalStiffness::of_body(&five).expect("small");
-        let error = response.stiffness(&six, six.rest(), Filter::None, &mut gradient, &mut matrix);
+        let error = response.stiffness_here(&six, Filter::None, &mut gradient, &mut matrix);
         assert_eq!(error.expect_err("of five elements").slice, "matrix");
         let mirrored: Vec<[f64; 3]> = body.rest().iter().map(|&[x, y, z]| [-x, y, z]).collect();
-        let survey = response.gradient(&body, &mirrored, &mut gradient).expect("lengths");
+        response.energy(&body, &mirrored).expect("lengths");
+        let survey = response.gradient_here(&body, &mut gradient).expect("lengths");
         assert_eq!((survey.refused, survey.first), (body.elements().len(), Some(0)));
     }
 }

@@ -2,9 +2,7 @@
 
 use piola::point::Filter;
 use piola_bodies::mesh::{Group, TetMesh, tetrahedral_box};
-use piola_bodies::step::{
-    Damping, Filtering, Integrator, LineSearchSettings, LinearSolver, NewtonSettings, SimulationSettings,
-};
+use piola_bodies::step::{Filtering, Integrator, LinearSolver, NewtonSettings, SimulationSettings};
 use piola_bodies::system::Pins;
 
 use crate::arguments::Hostile;
@@ -67,25 +65,17 @@ impl Hostile {
             0 => Filtering::OnDemand,
             _ => Filtering::Always(self.one_of(&[Filter::None, Filter::Clamp, Filter::Absolute])),
         };
-        let damping = match self.0.below(2) {
-            0 => Damping::None,
-            _ => Damping::Mass { rate: self.about(1.0) },
-        };
         let newton = NewtonSettings::default()
             .with_linear(linear)
             .with_filtering(filtering)
             .with_tolerance(self.about(1e-6))
+            .with_error_share(self.about(0.01))
             .with_max_iterations(self.one_of(&[1, 5, 50]));
-        let line_search = LineSearchSettings::default()
-            .with_sufficient_decrease(self.about(1e-4))
-            .with_shrink(self.about(0.5))
-            .with_max_trials(self.one_of(&[0, 1, 48, 48]));
         let integrator = self.one_of(&[Integrator::ImplicitEuler, Integrator::Sdirk2, Integrator::Sdirk3]);
         SimulationSettings::default()
             .with_integrator(integrator)
             .with_gravity([self.about(0.0), self.about(-9.81), self.about(0.0)])
-            .with_damping(damping)
+            .with_damping(self.about(1.0))
             .with_newton(newton)
-            .with_line_search(line_search)
     }
 }

@@ -5,7 +5,7 @@ use std::fs::File;
 use biderman::Biderman;
 use piola::Inversion;
 use piola_bodies::mesh::Bounds;
-use piola_bodies::step::{Damping, NewtonSettings, Simulation, SimulationSettings};
+use piola_bodies::step::{NewtonSettings, Simulation, SimulationSettings};
 use piola_bodies::system::{Body, Pins};
 use piola_cli::render::{Frame, contact_sheet};
 use piola_scenes::geometry::Geometry;
@@ -22,9 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hooves = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY, GROUND, f64::INFINITY] };
     let hooves = Pins::in_box(&horse.mesh, hooves)?;
     let body = Body::new(&horse.mesh, rubber, 1000.0)?;
-    let settings = SimulationSettings::default()
-        .with_damping(Damping::Mass { rate: 2.0 })
-        .with_newton(NewtonSettings::single());
+    let settings = SimulationSettings::default().with_damping(2.0).with_newton(NewtonSettings::single());
     let mut simulation = Simulation::new(body, &hooves, settings)?;
 
     // Flat on the ground: nearly every tetrahedron is a sheet without volume.

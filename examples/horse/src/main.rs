@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use piola::material;
 use piola_bodies::mesh::{Bounds, Embedding, read_msh, read_surface_obj};
-use piola_bodies::step::{Damping, NewtonSettings, Simulation, SimulationSettings};
+use piola_bodies::step::{NewtonSettings, Simulation, SimulationSettings};
 use piola_bodies::system::{Body, Pins};
 
 // The energy density ψ(λ1, λ2, λ3), J/m³; stress and tangent follow from it. Replace it by your own, without
@@ -38,9 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let body = Body::new(&mesh, rubber()?, 1000.0)?;
     let hooves = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY, GROUND, f64::INFINITY] };
     // Implicit Euler with one Newton iteration a step.
-    let settings = SimulationSettings::default()
-        .with_damping(Damping::Mass { rate: 2.0 })
-        .with_newton(NewtonSettings::single());
+    let settings = SimulationSettings::default().with_damping(2.0).with_newton(NewtonSettings::single());
     let mut horse = Simulation::new(body, &Pins::in_box(&mesh, hooves)?, settings)?;
 
     // All other nodes onto a plane: nearly every tetrahedron is a sheet without volume.

@@ -5,7 +5,6 @@
 //! for incompressible rubberlike solids*, 1972.
 
 use piola_bodies::mesh::Bounds;
-use piola_bodies::step::Damping;
 
 use super::{Body, COMMON, Motion, Pull, Scene, Shape};
 use crate::material::MaterialSpec;
@@ -20,7 +19,7 @@ pub const STRETCH: Scene = Scene {
     about: "an upright bar of Treloar's rubber is drawn to seven times its length and held there",
     body: Body { shape: Shape::Box { cells: [3, 18, 3], size: [0.16, 1.0, 0.16] }, ..Body::BAR },
     material: treloar,
-    damping: Damping::Mass { rate: 8.0 },
+    damping: 8.0,
     frames: 240,
     pinned: Some(Bounds { max: [f64::INFINITY, 0.0, f64::INFINITY], ..EVERYWHERE }),
     pulls: &[Pull {

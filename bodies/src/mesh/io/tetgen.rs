@@ -8,6 +8,7 @@ use std::path::Path;
 
 use super::text::{Cursor, Line, Problem, ReadError, read};
 use crate::mesh::elements::{ElementCounts, TETRAHEDRON_10};
+use crate::mesh::tet::{cross, dot, subtract};
 use crate::mesh::{Group, TetMesh};
 
 /// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file next to it; `path` may be
@@ -127,10 +128,8 @@ impl Nodes {
 /// The corners of a tetrahedron of these nodes, m, in the order of positive volume, unless it is zero: TetGen
 /// guarantees no orientation.
 fn turned([a, b, c, d]: [usize; 4], nodes: &[[f64; 3]]) -> [usize; 4] {
-    let edge = |node: usize| -> [f64; 3] { std::array::from_fn(|i| nodes[node][i] - nodes[a][i]) };
-    let ([x, y, z], [u, v, w], e) = (edge(b), edge(c), edge(d));
-    let across = [y * w - z * v, z * u - x * w, x * v - y * u];
-    let volume = across[0] * e[0] + across[1] * e[1] + across[2] * e[2];
+    let edge = |node: usize| subtract(nodes[node], nodes[a]);
+    let volume = dot(cross(edge(b), edge(c)), edge(d));
     if volume < 0.0 { [a, c, b, d] } else { [a, b, c, d] }
 }
 

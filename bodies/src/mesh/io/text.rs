@@ -1,10 +1,10 @@
 //! Text files read line by line and word by word, with errors that name the line.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use piola::__private::message::{printable, quoted};
+use thiserror::Error;
 
 use crate::mesh::TetMesh;
 use crate::mesh::elements::TETRAHEDRON;
@@ -14,10 +14,11 @@ pub(super) const IN_GMSH: &str =
     "mesh it with these alone (in Gmsh, without `Recombine` and with `-order 1`)";
 
 /// Reason why a file cannot be read as a mesh or a surface.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadError {
     /// The file cannot be read.
+    #[error("{}: cannot be read: {source}", shown(path))]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -25,6 +26,7 @@ pub enum ReadError {
         source: std::io::Error,
     },
     /// The contents do not follow the format.
+    #[error("{}:{line}: {problem}", shown(path))]
     Malformed {
         /// The file.
         path: PathBuf,
@@ -34,6 +36,11 @@ pub enum ReadError {
         problem: String,
     },
     /// The volume is not made of linear tetrahedra only.
+    #[error(
+        "{}: {}",
+        shown(path),
+        mesh.left_out.clone().and(TETRAHEDRON, mesh.tets.len()).refusal(IN_GMSH)
+    )]
     OtherElements {
         /// The file.
         path: PathBuf,
@@ -63,28 +70,6 @@ impl ReadError {
         match self {
             Self::OtherElements { mesh, .. } => Ok(*mesh),
             other => Err(other),
-        }
-    }
-}
-
-impl fmt::Display for ReadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unreadable { path, source } => write!(f, "{}: cannot be read: {source}", shown(path)),
-            Self::Malformed { path, line, problem } => write!(f, "{}:{line}: {problem}", shown(path)),
-            Self::OtherElements { path, mesh } => {
-                let elements = mesh.left_out.clone().and(TETRAHEDRON, mesh.tets.len());
-                write!(f, "{}: {}", shown(path), elements.refusal(IN_GMSH))
-            }
-        }
-    }
-}
-
-impl std::error::Error for ReadError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Unreadable { source, .. } => Some(source),
-            Self::Malformed { .. } | Self::OtherElements { .. } => None,
         }
     }
 }
@@ -145,7 +130,7 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    pub(super) fn new(number: usize, text: &'a str) -> Self {
+    fn new(number: usize, text: &'a str) -> Self {
         Self { number, text, words: text.split_ascii_whitespace() }
     }
 

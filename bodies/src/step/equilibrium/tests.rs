@@ -4,14 +4,11 @@ use piola::batch::TileMaterial;
 
 use super::*;
 use crate::mesh::TetMesh;
-use crate::step::{SimulationSettings, Spring};
+use crate::step::{SimulationSettings, Spring, testing};
 use crate::system::testing::{beam, kirchhoff, neo_hookean, rotated, stiffness_product};
 
-const DENSITY: f64 = 1000.0;
-
 fn simulation(mesh: &TetMesh, material: impl TileMaterial<f64> + 'static, pins: &Pins) -> Simulation {
-    let body = Body::new(mesh, material, DENSITY).expect("a body");
-    Simulation::new(body, pins, SimulationSettings::default()).expect("a simulation")
+    testing::simulation(mesh, material, pins, SimulationSettings::default())
 }
 
 /// All eigenvalues of M⁻¹K over the free nodes, ascending, by a dense method from products with single

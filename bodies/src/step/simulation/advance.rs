@@ -28,8 +28,7 @@ const DRIFT: f64 = 1e-4;
 impl Simulation {
     /// Advances by `dt`, s.
     ///
-    /// Pinned nodes move evenly to their prescribed positions. Damping by the stiffness uses the stiffness of
-    /// the state before the step.
+    /// Pinned nodes move evenly to their prescribed positions.
     ///
     /// # Errors
     /// [`StepError`] if there is no admissible next state. The state before the step is then untouched, and a
@@ -102,7 +101,7 @@ impl Simulation {
             quadratic: Quadratic {
                 masses: self.body.masses(),
                 stage,
-                damping: self.settings.damping.rate(),
+                damping: self.settings.damping,
                 regularisation,
                 guard: if is_static && may_drift { DRIFT * regularisation } else { 0.0 },
                 gravity: self.settings.gravity,
@@ -113,8 +112,7 @@ impl Simulation {
         };
         let mut minimisation =
             StageMinimisation::new(objective, &mut self.workspace, end, displacements, survey)?;
-        let report =
-            minimize(&mut minimisation, pins_move, &self.settings.newton, &self.settings.line_search)?;
+        let report = minimize(&mut minimisation, pins_move, &self.settings.newton)?;
         Ok((report, minimisation.survey()))
     }
 }

@@ -3,7 +3,7 @@
 use crate::step::minimisation::demand_admissible;
 use crate::step::newton::NewtonError;
 
-use super::Simulation;
+use super::{Simulation, SimulationSettings};
 
 impl Simulation {
     /// Gradient of all energies at the current state, N, with damping but without inertia. The elastic
@@ -14,11 +14,11 @@ impl Simulation {
         self.elastic.evaluate_gradients(&self.body);
         self.elastic.add_gradient(&self.body, &mut total);
         self.all_terms().add_gradient(x, &mut total);
-        let (rate, gravity) = (self.settings.damping.rate(), self.settings.gravity);
+        let SimulationSettings { damping, gravity, .. } = self.settings;
         for (node, (total, mass)) in total.iter_mut().zip(self.body.masses()).enumerate() {
             for c in 0..3 {
                 let force = self.forces.get(node).map_or(0.0, |force| force[c]);
-                total[c] += mass * (rate * v[node][c] - gravity[c]) - force;
+                total[c] += mass * (damping * v[node][c] - gravity[c]) - force;
             }
         }
         total

@@ -95,35 +95,6 @@ impl Simulation {
 
     /// Replaces all [terms](Term) of the energy except for deformation, gravity and springs, from the next
     /// step on.
-    ///
-    /// ```
-    /// # use piola_bodies::step::{NodeBlocks, Term};
-    /// # struct Weight;
-    /// # impl Term for Weight {
-    /// #     fn energy(&self, x: &[[f64; 3]]) -> Option<f64> { Some(x.iter().map(|x| 10.0 * x[1]).sum()) }
-    /// #     fn add_gradient(&self, _: &[[f64; 3]], g: &mut [[f64; 3]]) { g.iter_mut().for_each(|g| g[1] += 10.0) }
-    /// #     fn add_second_derivatives(&self, _: &[[f64; 3]], _: &mut NodeBlocks) {}
-    /// # }
-    /// use std::sync::Arc;
-    /// use piola_bodies::mesh::tetrahedral_box;
-    /// use piola_bodies::step::{Simulation, SimulationSettings};
-    /// use piola_bodies::system::{Body, Pins};
-    ///
-    /// /// Rubber.
-    /// #[piola::material(domain(J > 0.0))]
-    /// fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
-    ///     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-    /// }
-    ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
-    /// let mut simulation = Simulation::new(body, &Pins::none(), SimulationSettings::default())?;
-    /// simulation.set_terms(vec![Arc::new(Weight)]);
-    /// let report = simulation.step(0.01)?;
-    /// assert!(report.energies.terms < 10.0 * 8.0 * 0.1 && simulation.velocities()[0][1] < 0.0);
-    /// # Ok(())
-    /// # }
-    /// ```
     pub fn set_terms(&mut self, terms: Vec<Arc<dyn Term>>) {
         self.terms = terms;
     }

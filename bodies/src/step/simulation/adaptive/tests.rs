@@ -1,9 +1,9 @@
 //! Tolerances that are met, motions that are hit exactly, and failures that leave nothing behind.
 
 use crate::mesh::TetMesh;
+use crate::step::testing::{distance, left_end, simulation};
 use crate::step::{Integrator, NewtonSettings, Simulation, SimulationSettings, Spring, StepError};
 use crate::system::testing::{beam, neo_hookean};
-use crate::system::{Body, Pins};
 
 /// A bar that swings from one end, stretched by its velocities.
 fn bar(mesh: &TetMesh, integrator: Integrator) -> Simulation {
@@ -11,15 +11,10 @@ fn bar(mesh: &TetMesh, integrator: Integrator) -> Simulation {
         .with_gravity([0.0, -9.81, 0.0])
         .with_integrator(integrator)
         .with_newton(NewtonSettings::default().with_tolerance(1e-10));
-    let body = Body::new(mesh, neo_hookean(), 1000.0).expect("a body");
-    let mut bar = Simulation::new(body, &Pins::at([0, 1, 2, 3]), settings).expect("a simulation");
+    let mut bar = simulation(mesh, neo_hookean(), &left_end(mesh), settings);
     bar.set_velocities(&mesh.positions.iter().map(|&[x, y, _]| [2.0 * x, x * y, x]).collect::<Vec<_>>())
         .expect("finite");
     bar
-}
-
-fn distance(x: &[[f64; 3]], y: &[[f64; 3]]) -> f64 {
-    x.as_flattened().iter().zip(y.as_flattened()).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
 }
 
 const DURATION: f64 = 0.1;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::aggregation::Aggregates;
 use super::division::{Division, Numbers, ROWS, diagonals};
-use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, graph_of};
+use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, columns_of, graph_of};
 use crate::system::graph::Graph;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::parts::for_each_part;
@@ -78,7 +78,7 @@ impl<const N: usize> Level<N> {
             largest: 0.0,
             roughest: (0..included.len()).map(anything).collect(),
             prolongation: Rows::new(),
-            columns: Columns::new(&Rows::<f32, N, 6>::new(), 0),
+            columns: columns_of(&Rows::<f32, N, 6>::new(), 0)?,
             x: zeros(owned),
             residual: zeros(owned),
             step: zeros(included.len()),
@@ -91,7 +91,7 @@ impl<const N: usize> Level<N> {
         let mut numbers = Numbers::new(division.first(aggregates.len()), aggregates.len());
         let (mut tentative, motions) = orthonormal(&aggregates, motions);
         extend(&mut tentative, &mut numbers, division);
-        let whole = WholeRows::new(matrix.pattern());
+        let whole = WholeRows::new(matrix.pattern())?;
         let product = whole.multiply(matrix, included, &tentative, numbers.len());
         let mut prolongation = sum(product, owned, &mut numbers, division);
         let damping = scale * MARGIN * 4.0 / (3.0 * f64::from(level.largest));
@@ -114,14 +114,16 @@ impl<const N: usize> Level<N> {
         });
         extend(&mut prolongation, &mut numbers, division);
         let product = whole.multiply(matrix, included, &prolongation, numbers.len());
-        let columns = Columns::new(&prolongation, numbers.len());
+        let columns = columns_of(&prolongation, numbers.len())?;
         let upper = coarse_rows(&prolongation, &columns, &product);
         drop(product);
         level.prolongation = prolongation.map(|entry| entry as f32).add(owned, &Parts::new());
-        level.columns =
-            if division.copies() == 0 { columns } else { Columns::new(&level.prolongation, numbers.len()) };
+        level.columns = match division.copies() {
+            0 => columns,
+            _ => columns_of(&level.prolongation, numbers.len())?,
+        };
 
-        let graph = graph_of(&upper);
+        let graph = graph_of(&upper)?;
         let order: Vec<u32> = (0..graph.rows() as u32).collect();
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
         let mut coarse = SymmetricBlocks::new(pattern.clone())?;
@@ -220,8 +222,8 @@ impl<const N: usize> Level<N> {
         for_each_part(coarse, ROWS / 16, |first, coarse| {
             for (coarse, column) in coarse.iter_mut().zip(first..) {
                 let mut sum = [0.0; 6];
-                for (row, index) in columns.column(column) {
-                    let (block, residual) = (prolongation.block(index), &residual[row]);
+                for &(row, index) in columns.of(column) {
+                    let (block, residual) = (prolongation.block(index as usize), &residual[row as usize]);
                     for k in 0..N {
                         for c in 0..6 {
                             sum[c] += block[k][c] * residual[k];

@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use crate::system::graph::Graph;
+use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
+use crate::system::lists::Lists;
 use crate::system::parts::for_each_part;
 
 /// Number of rows in a chunk, which one thread computes.
@@ -181,37 +183,18 @@ impl<E: Copy, const R: usize, const C: usize> Sum<E, R, C> {
 }
 
 /// All blocks of each row of a symmetric matrix: column, index, and true if the block is transposed.
-pub(super) struct WholeRows {
-    starts: Vec<usize>,
-    blocks: Vec<(u32, u32, bool)>,
-}
+pub(super) struct WholeRows(Lists<(u32, u32, bool)>);
 
 impl WholeRows {
-    pub(super) fn new(pattern: &Pattern) -> Self {
+    pub(super) fn new(pattern: &Pattern) -> Result<Self, LinearError> {
         let rows = pattern.rows();
-        let mut starts = vec![0; rows + 1];
-        let stored =
-            || (0..rows).flat_map(|row| pattern.upper(row).map(move |(block, column)| (row, block, column)));
-        for (row, _, column) in stored() {
-            starts[row + 1] += 1;
-            if column != row {
-                starts[column + 1] += 1;
-            }
-        }
-        for row in 0..rows {
-            starts[row + 1] += starts[row];
-        }
-        let mut next = starts.clone();
-        let mut blocks = vec![(0, 0, false); starts[rows]];
-        for (row, block, column) in stored() {
-            blocks[next[row]] = (column as u32, block as u32, false);
-            next[row] += 1;
-            if column != row {
-                blocks[next[column]] = (row as u32, block as u32, true);
-                next[column] += 1;
-            }
-        }
-        Self { starts, blocks }
+        let stored = || (0..rows).flat_map(|row| pattern.upper(row).map(move |stored| (row, stored)));
+        let both = |(row, (block, column)): (usize, (usize, usize))| {
+            let here = (row, (column as u32, block as u32, false));
+            let there = (column, (row as u32, block as u32, true));
+            [here].into_iter().chain((column != row).then_some(there))
+        };
+        Ok(Self(Lists::new(rows, || stored().flat_map(both))?))
     }
 
     /// Product of the `included` rows of a symmetric matrix with another matrix.
@@ -226,7 +209,7 @@ impl WholeRows {
             if !included[row] {
                 return;
             }
-            for &(other, block, transposed) in &self.blocks[self.starts[row]..self.starts[row + 1]] {
+            for &(other, block, transposed) in self.0.of(row) {
                 let block = &matrix.blocks()[block as usize];
                 let block = if transposed {
                     std::array::from_fn(|r| std::array::from_fn(|c| block[c][r]))
@@ -245,48 +228,23 @@ impl WholeRows {
                 }
             }
         };
-        Rows::make(self.starts.len() - 1, columns, make, 0.0)
+        Rows::make(self.0.len(), columns, make, 0.0)
     }
 }
 
 /// Blocks of each column of a matrix in compressed rows: row, and index of the block.
-#[derive(Clone)]
-pub(super) struct Columns {
-    starts: Vec<usize>,
-    blocks: Vec<(u32, u32)>,
-}
+pub(super) type Columns = Lists<(u32, u32)>;
 
-impl Columns {
-    pub(super) fn new<E: Copy, const R: usize, const C: usize>(
-        matrix: &Rows<E, R, C>,
-        columns: usize,
-    ) -> Self {
-        let mut starts = vec![0; columns + 1];
-        matrix.columns.iter().for_each(|&column| starts[column as usize + 1] += 1);
-        for column in 0..columns {
-            starts[column + 1] += starts[column];
-        }
-        let mut next = starts.clone();
-        let mut blocks = vec![(0, 0); matrix.columns.len()];
-        for row in 0..matrix.len() {
-            for index in matrix.starts[row]..matrix.starts[row + 1] {
-                let next = &mut next[matrix.columns[index] as usize];
-                blocks[*next] = (row as u32, index as u32);
-                *next += 1;
-            }
-        }
-        Self { starts, blocks }
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.starts.len() - 1
-    }
-
-    /// Rows and indices of the blocks of a column.
-    pub(super) fn column(&self, column: usize) -> impl Iterator<Item = (usize, usize)> {
-        let range = self.starts[column]..self.starts[column + 1];
-        self.blocks[range].iter().map(|&(row, index)| (row as usize, index as usize))
-    }
+/// The blocks of a matrix by columns.
+pub(super) fn columns_of<E: Copy, const R: usize, const C: usize>(
+    matrix: &Rows<E, R, C>,
+    columns: usize,
+) -> Result<Columns, LinearError> {
+    let of_row = |row: usize| {
+        let range = matrix.starts[row]..matrix.starts[row + 1];
+        range.map(move |index| (matrix.columns[index] as usize, (row as u32, index as u32)))
+    };
+    Lists::new(columns, || (0..matrix.len()).flat_map(of_row))
 }
 
 /// Upper half of the symmetric matrix Pᵀ (A P), row by row.
@@ -298,9 +256,9 @@ pub(super) fn coarse_rows<const N: usize, const C: usize>(
     let make = |coarse: usize, sum: &mut Sum<f64, C, C>| {
         // The block on the diagonal is first, even if nothing is added to it.
         sum.block(coarse);
-        for (row, index) in columns.column(coarse) {
-            let left = prolongation.block(index);
-            for (column, right) in product.row(row).filter(|&(column, _)| column >= coarse) {
+        for &(row, index) in columns.of(coarse) {
+            let left = prolongation.block(index as usize);
+            for (column, right) in product.row(row as usize).filter(|&(column, _)| column >= coarse) {
                 let sum = sum.block(column);
                 for k in 0..N {
                     for r in 0..C {
@@ -316,7 +274,7 @@ pub(super) fn coarse_rows<const N: usize, const C: usize>(
 }
 
 /// Graph of a symmetric matrix, from the rows of its upper half.
-pub(super) fn graph_of<E: Copy, const N: usize>(upper: &Rows<E, N, N>) -> Graph {
+pub(super) fn graph_of<E: Copy, const N: usize>(upper: &Rows<E, N, N>) -> Result<Graph, LinearError> {
     let above = |row: usize| {
         upper.row(row).map(|(column, _)| column as u32).filter(move |&column| column as usize != row)
     };
