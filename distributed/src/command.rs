@@ -10,8 +10,8 @@ use piola_scenes::options::{SceneOptions, StepOptions, in_file, parameter, scene
 use piola_scenes::output::Newton;
 use piola_scenes::settings::Settings;
 
-use crate::elastic::MaterialPart;
 use crate::error::Error;
+use crate::part::MaterialPart;
 use crate::setting::Move;
 
 /// Elastic bodies on many machines: scenes of piola with the solvers of PETSc, over MPI.

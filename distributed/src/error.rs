@@ -1,9 +1,11 @@
 //! Errors of a run.
 
+use std::cell::RefCell;
 use std::io;
 use std::path::PathBuf;
+use std::rc::Rc;
 
-use piola_bodies::step::{NewtonError, SetupError};
+use piola_bodies::step::{NewtonError, SetupError, StepError};
 use piola_bodies::system::{BodyError, LinearError};
 
 use crate::petsc::PetscError;
@@ -72,9 +74,9 @@ pub enum Error {
         /// Largest multiple of the inertia that was tried.
         shift: f64,
     },
-    /// Another failure of Newton's method, on all ranks.
+    /// Another failure of a step, on all ranks.
     #[error(transparent)]
-    Newton(#[from] NewtonError),
+    Step(StepError),
     /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
@@ -94,15 +96,52 @@ pub enum Error {
 }
 
 impl Error {
-    /// True if a shorter step cannot avoid this error: it may concern one rank alone, or concerns options.
-    #[must_use]
-    pub fn is_final(&self) -> bool {
-        !self.is_common() || matches!(self, Self::UnusedOptions { .. })
-    }
-
     /// True if all ranks have this error, so that each can end normally.
     #[must_use]
     pub fn is_common(&self) -> bool {
         !matches!(self, Self::Petsc(_) | Self::Linear(_))
+    }
+}
+
+impl From<StepError> for Error {
+    fn from(error: StepError) -> Self {
+        match error {
+            StepError::Newton(
+                NewtonError::Inadmissible { element, .. } | NewtonError::ElementNotFinite { element },
+            ) => Self::Inadmissible { element },
+            StepError::Newton(NewtonError::NotPositive { shift, .. }) => Self::NotPositive { shift },
+            other => Self::Step(other),
+        }
+    }
+}
+
+/// First error, since the last call of [`Failure::take`], of functions that cannot return it.
+#[derive(Clone, Debug, Default)]
+pub struct Failure(Rc<RefCell<Option<Error>>>);
+
+impl Failure {
+    /// Value of a result; an error is kept, unless an earlier one is.
+    pub fn note<T, E: Into<Error>>(&self, result: Result<T, E>) -> Option<T> {
+        match result {
+            Ok(value) => Some(value),
+            Err(error) => {
+                self.0.borrow_mut().get_or_insert_with(|| error.into());
+                None
+            }
+        }
+    }
+
+    /// True if an error is kept.
+    #[must_use]
+    pub fn is_noted(&self) -> bool {
+        self.0.borrow().is_some()
+    }
+
+    /// Removes the error, and returns it.
+    ///
+    /// # Errors
+    /// The first [`Error`] that was noted.
+    pub fn take(&self) -> Result<(), Error> {
+        self.0.borrow_mut().take().map_or(Ok(()), Err)
     }
 }

@@ -50,6 +50,8 @@ pub enum LinearError {
     },
     /// A pin names a node that does not exist.
     NoSuchNode(NoSuchNode),
+    /// Another failure, of which the solver or the division among machines keeps the reason.
+    External,
 }
 
 impl fmt::Display for LinearError {
@@ -72,6 +74,7 @@ impl fmt::Display for LinearError {
                 )
             }
             Self::OutOfMemory => write!(f, "the matrix or its factor does not fit into memory"),
+            Self::External => write!(f, "the solver has failed for a reason of its own"),
         }
     }
 }
