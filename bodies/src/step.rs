@@ -52,17 +52,15 @@ pub use term::{EnergyChange, NodeBlocks, Term};
 /// [`Solver`](divided::Solver) solves the linear systems.
 /// [`Simulation::divided`](Simulation::divided) takes both, and its methods are those of one machine, or have
 /// names that end in `_here`. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a
-/// divided stiffness. [`minimize`](divided::minimize) is Newton's method for any other objective, whose time
-/// steps [`StagedSteps`](divided::StagedSteps) may make. The crate in `distributed/` uses the first of these.
+/// divided stiffness. [`minimize`](divided::minimize) is Newton's method for any other objective.
+/// The crate in `distributed/` uses all but the last.
 pub mod divided {
-    pub use super::integrator::Stage;
     pub use super::line_search::Line;
     pub use super::newton::{Linearised, Minimisation, minimize};
     pub use super::objective::Objective;
     pub use super::solver::{
         Definiteness, Machine, OneMachine, Preconditioner, Solution, SolveError, Solver,
     };
-    pub use super::staged::{InStage, StagedSteps};
     pub use crate::system::linear::conjugate_gradients::{End, Iteration};
     pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Undivided};
 }

@@ -114,7 +114,7 @@ impl<M: Machine> Simulation<M> {
         let [moves, pinned] = nodes.totals(own.map(|number| number as f64));
         let (pins_move, may_drift) = (moves > 0.0, pinned < 3.0);
         let InStage { stage, springs, pins_move: displacements, end } = self.steps.in_stage();
-        let [tau, sigma] = stage.lengths();
+        let [tau, sigma] = stage.lengths;
         let is_static = tau == f64::INFINITY;
         let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
         let objective = Objective {
