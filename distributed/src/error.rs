@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use piola_bodies::step::{NewtonError, SetupError, StepError};
 use piola_bodies::system::{BodyError, LinearError};
+use piola_scenes::error::explained;
 
 use crate::petsc::PetscError;
 
@@ -59,24 +60,9 @@ pub enum Error {
     /// Invalid options, files or combinations of options.
     #[error("{0}")]
     Options(String),
-    /// Element without a finite energy at the beginning of a step.
-    #[error(
-        "element {element} is outside the domain of its material before the step, or its energy is not finite \
-         (`--inversion` continues energies beyond J > 0)"
-    )]
-    Inadmissible {
-        /// Tag of the element.
-        element: usize,
-    },
-    /// Matrix that is not positive definite with any multiple of the inertia added.
-    #[error("the matrix is not positive definite, even with {shift:e} times the inertia added")]
-    NotPositive {
-        /// Largest multiple of the inertia that was tried.
-        shift: f64,
-    },
-    /// Another failure of a step, on all ranks.
-    #[error(transparent)]
-    Step(StepError),
+    /// A step fails, on all ranks.
+    #[error("{}{}", explained(.0), remedy(.0))]
+    Step(#[from] StepError),
     /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
@@ -103,15 +89,13 @@ impl Error {
     }
 }
 
-impl From<StepError> for Error {
-    fn from(error: StepError) -> Self {
-        match error {
-            StepError::Newton(
-                NewtonError::Inadmissible { element, .. } | NewtonError::ElementNotFinite { element },
-            ) => Self::Inadmissible { element },
-            StepError::Newton(NewtonError::NotPositive { shift, .. }) => Self::NotPositive { shift },
-            other => Self::Step(other),
+/// Option that avoids an error, for a message.
+fn remedy(error: &StepError) -> &'static str {
+    match error {
+        StepError::Newton(NewtonError::Inadmissible { .. }) => {
+            " (`--inversion` continues energies beyond J > 0)"
         }
+        _ => "",
     }
 }
 

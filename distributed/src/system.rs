@@ -12,6 +12,7 @@ use std::rc::Rc;
 use piola_bodies::step::divided::{
     Definiteness, End, Iteration, Machine, Objective, Preconditioner, Solution, SolveError, Solver,
 };
+use piola_bodies::step::{NewtonError, StepError};
 use piola_bodies::system::{Body, LinearError, NodalStiffness};
 
 use crate::division::RowsOfRank;
@@ -228,7 +229,8 @@ impl LinearSystem {
             }
             let shift = if solution.shift == 0.0 { 1.0 } else { 10.0 * solution.shift };
             if shift > 1e12 {
-                return Err(Error::NotPositive { shift: 1e12 });
+                // PETSc does not name the node.
+                return Err(StepError::from(NewtonError::NotPositive { node: 0, shift: 1e12 }).into());
             }
             let added = shift - solution.shift;
             let mut matrix_free = self.matrix_free.borrow_mut();
@@ -334,8 +336,9 @@ impl Solver for LinearSystem {
     ) -> Result<Option<Solution>, SolveError> {
         let (gradient, owned) = (&gradient[..self.shares.len()], &mut direction[..self.shares.len()]);
         match self.find_direction(objective, x, gradient, owned, tolerance, definiteness) {
-            // PETSc does not name the node.
-            Err(Error::NotPositive { shift }) => Err(SolveError::NotPositive { node: 0, shift }),
+            Err(Error::Step(StepError::Newton(NewtonError::NotPositive { node, shift }))) => {
+                Err(SolveError::NotPositive { node, shift })
+            }
             // An earlier exchange may have failed, too.
             found => match self.failure.note(found) {
                 Some(solution) if !self.failure.is_noted() => Ok(solution),

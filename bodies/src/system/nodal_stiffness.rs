@@ -99,12 +99,6 @@ impl NodalStiffness {
         Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, elements })
     }
 
-    /// The block on the diagonal of a node; `None` if there is no such node.
-    #[must_use]
-    pub fn diagonal(&self, node: usize) -> Option<&[[f64; 3]; 3]> {
-        (node < self.matrix.pattern().rows()).then(|| self.matrix.diagonal(node))
-    }
-
     /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
     pub fn add_to_diagonal(&mut self, node: usize, stiffness: f64) {
         if node < self.matrix.pattern().rows() {

@@ -82,7 +82,6 @@ fn bodies() {
             triangle(hostile, &stiffness);
             preconditioner(hostile, &stiffness, &positions);
         }
-        let _ = response.difference_noise(&body);
         let _ = body.set_material(hostile.node(2), hostile.rubber());
     });
 }
