@@ -17,7 +17,7 @@ use piola_scenes::settings::Settings;
 use serde::{Deserialize, Serialize};
 
 use crate::checkpoint;
-use crate::command::{BoxOptions, RunOptions, StaticsOptions, Task};
+use crate::command::{BodyOptions, BoxOptions, RunOptions, Task};
 use crate::error::Error;
 use crate::output::{self, Summary};
 use crate::part::MaterialPart;
@@ -155,7 +155,7 @@ fn peak_memory() -> f64 {
 ///
 /// # Errors
 /// An [`Error`] of the options, the body, the solver or a file.
-pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> {
+pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.solver.settings(false)?;
     let folder = folder(&options.out, &task);
@@ -191,10 +191,10 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
 pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.newton()?;
-    let folder = folder(&options.out, &task);
+    let folder = folder(&options.body.out, &task);
     let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
     if !options.resume {
-        output::prepare(team, &folder, options.force)?;
+        output::prepare(team, &folder, options.body.force)?;
     }
     let simulation = simulation(team, &task, &setting, newton)?;
     let progress = Progress::new();
