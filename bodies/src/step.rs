@@ -20,7 +20,6 @@
 mod equilibrium;
 mod error;
 mod filtering;
-mod halving;
 mod integrator;
 mod line_search;
 mod minimisation;
@@ -45,20 +44,22 @@ pub use solver::{LinearSolver, SparseSolver};
 pub use spring::Spring;
 pub use term::{EnergyChange, NodeBlocks, Term};
 
-/// Interfaces for codes that divide a body among machines: Newton's method and time steps of a [`Simulation`]
-/// for their own elements, linear systems and sums.
+/// Interfaces for codes that divide a body among machines: a [`Simulation`] of the part of each
+/// [`Machine`](divided::Machine).
 ///
-/// [`StagedSteps`](divided::StagedSteps) holds the state of the nodes of one machine;
-/// [`minimize`](divided::minimize) minimises its stages, and [`advance_within`](divided::advance_within)
-/// chooses the lengths of steps. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a
-/// stiffness whose nodes a [`Division`](divided::Division) divides. The crate in `distributed/` uses them.
+/// A [`Division`](divided::Division) exchanges the vectors of nodes that several machines share, and a
+/// [`Solver`](divided::Solver) solves the linear systems.
+/// [`Simulation::divided`](Simulation::divided) takes both, and its methods are those of one machine, or have
+/// names that end in `_here`. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a
+/// divided stiffness. [`minimize`](divided::minimize) is Newton's method for any other objective.
+/// The crate in `distributed/` uses all but the last.
 pub mod divided {
-    pub use super::halving::{Pace, Repeatable, advance_within};
-    pub use super::integrator::Stage;
     pub use super::line_search::Line;
     pub use super::newton::{Linearised, Minimisation, minimize};
-    pub use super::solver::{Definiteness, Preconditioner, Solution};
-    pub use super::staged::{InStage, StagedSteps};
+    pub use super::objective::Objective;
+    pub use super::solver::{
+        Definiteness, Machine, OneMachine, Preconditioner, Solution, SolveError, Solver,
+    };
     pub use crate::system::linear::conjugate_gradients::{End, Iteration};
     pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Undivided};
 }

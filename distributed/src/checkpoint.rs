@@ -54,7 +54,7 @@ pub struct State {
 /// [`Error::OnRank`] with the reason of the first rank that cannot write; the previous checkpoint is then
 /// unchanged.
 pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Serialize) -> Result<(), Error> {
-    let (share, state) = (simulation.share(), simulation.state());
+    let (share, state) = (simulation.share(), simulation.part());
     let homes = Homes::new(share.totals[0] as u64, team.size());
     let rows = (0..share.owned).map(|node| {
         let mut row = [share.ids[node]; 10];
@@ -161,7 +161,7 @@ pub fn read<T: DeserializeOwned>(
         state.velocities[node] = vector(1);
         state.accelerations[node] = vector(2);
     }
-    simulation.set_state(&state.positions, &state.velocities, Some(&state.accelerations))?;
+    simulation.set_state([&state.positions, &state.velocities, &state.accelerations])?;
     Ok(header.about)
 }
 

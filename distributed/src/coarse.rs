@@ -7,7 +7,8 @@ use std::rc::Rc;
 
 use piola_bodies::step::divided::{LastLevel, LastSolver};
 
-use crate::petsc::{Failure, Krylov, Library, Matrix, PetscError, Vector};
+use crate::error::Failure;
+use crate::petsc::{Krylov, Library, Matrix, PetscError, Vector};
 use crate::team::Team;
 
 /// Default options of PETSc for the solver of the last level.

@@ -10,8 +10,8 @@ use piola_scenes::options::{SceneOptions, StepOptions, in_file, parameter, scene
 use piola_scenes::output::Newton;
 use piola_scenes::settings::Settings;
 
-use crate::elastic::MaterialPart;
 use crate::error::Error;
+use crate::part::MaterialPart;
 use crate::setting::Move;
 
 /// Elastic bodies on many machines: scenes of piola with the solvers of PETSc, over MPI.
@@ -34,7 +34,7 @@ pub enum Command {
     Box(BoxOptions),
     /// Compute the equilibrium of a body under gravity.
     #[command(after_help = scenes())]
-    Statics(Box<StaticsOptions>),
+    Statics(Box<BodyOptions>),
     /// Run a scene, or a mesh, in time steps.
     #[command(after_help = scenes())]
     Run(Box<RunOptions>),
@@ -58,11 +58,21 @@ pub struct BoxOptions {
 
 /// All quantities are in SI units; y points upwards.
 #[derive(Debug, Parser)]
-pub struct StaticsOptions {
+pub struct BodyOptions {
     #[command(flatten)]
-    choice: Choice,
+    scene: SceneOptions,
 
-    /// Folder for the result [default: out/SCENE].
+    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. NAME may
+    /// be a file of Rust. Without parameters, the material is as stiff as the scene's. May be repeated.
+    #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
+    parts: Vec<String>,
+
+    /// Displacement of nodes: BOX|GROUP=X,Y,Z@T moves them steadily by X, Y, Z in m until the time T in s,
+    /// and then holds them; in statics the whole displacement is applied at once. May be repeated.
+    #[arg(long = "move", value_name = "BOX|GROUP=X,Y,Z@T", value_parser = motion, allow_hyphen_values = true)]
+    moves: Vec<Move>,
+
+    /// Folder for the results [default: out/SCENE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -79,7 +89,8 @@ pub struct StaticsOptions {
 #[derive(Debug, Parser)]
 pub struct RunOptions {
     #[command(flatten)]
-    choice: Choice,
+    #[expect(missing_docs, reason = "clap would print it")]
+    pub body: BodyOptions,
 
     #[command(flatten)]
     steps: StepOptions,
@@ -87,14 +98,6 @@ pub struct RunOptions {
     /// Number of time steps [default: the scene's].
     #[arg(long, value_name = "N")]
     frames: Option<usize>,
-
-    /// Folder for summary.json and checkpoint.piola [default: out/SCENE].
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-
-    /// Replace results in the folder.
-    #[arg(long)]
-    pub force: bool,
 
     /// Continue from the checkpoint in the folder, on any number of ranks; needs the options of its first
     /// run, except --frames and the options of the solver.
@@ -109,10 +112,6 @@ pub struct RunOptions {
     /// Number of steps between two checkpoints; with 0, only the end is written.
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub checkpoint_every: usize,
-
-    #[command(flatten)]
-    #[expect(missing_docs, reason = "clap would print it")]
-    pub solver: SolverOptions,
 }
 
 /// Options of the solvers in a step.
@@ -141,23 +140,6 @@ pub struct SolverOptions {
     pub threads: usize,
 }
 
-/// A scene and overrides of its defaults.
-#[derive(Debug, Parser)]
-struct Choice {
-    #[command(flatten)]
-    scene: SceneOptions,
-
-    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. NAME may
-    /// be a file of Rust. Without parameters, the material is as stiff as the scene's. May be repeated.
-    #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
-    parts: Vec<String>,
-
-    /// Displacement of nodes: BOX|GROUP=X,Y,Z@T moves them steadily by X, Y, Z in m until the time T in s,
-    /// and then holds them; in statics the whole displacement is applied at once. May be repeated.
-    #[arg(long = "move", value_name = "BOX|GROUP=X,Y,Z@T", value_parser = motion, allow_hyphen_values = true)]
-    moves: Vec<Move>,
-}
-
 /// Settings of a run: scene, materials and prescribed motions.
 #[derive(Debug)]
 pub struct Task {
@@ -171,23 +153,13 @@ pub struct Task {
     pub moves: Vec<Move>,
 }
 
-impl StaticsOptions {
-    /// Settings of the run.
-    ///
-    /// # Errors
-    /// [`Error::Scene`], [`Error::Options`].
-    pub fn task(&self) -> Result<Task, Error> {
-        self.choice.task()
-    }
-}
-
 impl RunOptions {
     /// Settings of the run.
     ///
     /// # Errors
     /// [`Error::Scene`], [`Error::Options`].
     pub fn task(&self) -> Result<Task, Error> {
-        let mut task = self.choice.task()?;
+        let mut task = self.body.task()?;
         let frames = self.frames.unwrap_or(task.settings.frames);
         task.settings = self.steps.apply(task.settings).with_frames(frames);
         task.settings.check()?;
@@ -199,7 +171,7 @@ impl RunOptions {
     /// # Errors
     /// [`Error::Options`].
     pub fn newton(&self) -> Result<NewtonSettings, Error> {
-        self.solver.settings(self.steps.newton == Newton::Single)
+        self.body.solver.settings(self.steps.newton == Newton::Single)
     }
 }
 
@@ -229,8 +201,12 @@ impl SolverOptions {
     }
 }
 
-impl Choice {
-    fn task(&self) -> Result<Task, Error> {
+impl BodyOptions {
+    /// Settings of statics.
+    ///
+    /// # Errors
+    /// [`Error::Scene`], [`Error::Options`].
+    pub fn task(&self) -> Result<Task, Error> {
         let settings = self.scene.clone().settings(None)?;
         settings.check()?;
         let moves = self.moves.clone();

@@ -1,4 +1,5 @@
-//! Exchange of the rows of a multigrid level between ranks: owned rows, and copies of rows of other ranks.
+//! Exchange of nodes, and of the rows of a multigrid level, between ranks: owned rows, and copies of rows of
+//! other ranks.
 //!
 //! Vectors are exchanged by PETSc, lists of integers by [`Team::exchange`]. PETSc also solves the last level.
 //! This module does not depend on bodies.
@@ -8,8 +9,8 @@ use std::ops::Range;
 use piola_bodies::step::divided::{Division, LastLevel};
 
 use crate::coarse::Coarse;
-use crate::error::Error;
-use crate::petsc::{Failure, GhostedVector, PetscError};
+use crate::error::{Error, Failure};
+use crate::petsc::{GhostedVector, PetscError};
 use crate::team::Team;
 
 /// Largest number of rows of a level that is always the last. Large bodies have a larger last level, with
@@ -139,6 +140,14 @@ impl Division for RowsOfRank {
         self.with_vector::<N>(|vector| vector.sum(rows.as_flattened_mut()));
     }
 
+    fn copy_vectors(&mut self, rows: &mut [[f64; 3]]) {
+        self.with_vector::<3>(|vector| vector.copy(rows.as_flattened_mut()));
+    }
+
+    fn sum_vectors(&mut self, rows: &mut [[f64; 3]]) {
+        self.with_vector::<3>(|vector| vector.sum(rows.as_flattened_mut()));
+    }
+
     fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {
         let mut lists = vec![Vec::new(); self.numbers.len()];
         for (copy, list) in self.lists(&self.sent, list, &self.received) {
@@ -151,8 +160,8 @@ impl Division for RowsOfRank {
         self.lists(&self.received, list, &self.sent)
     }
 
-    fn total(&self, number: f64) -> f64 {
-        self.team.sum([number])[0]
+    fn totals<const N: usize>(&self, numbers: [f64; N]) -> [f64; N] {
+        self.team.sum(numbers)
     }
 
     fn largest(&self, number: f64) -> f64 {

@@ -1,10 +1,13 @@
 //! Errors of a run.
 
+use std::cell::RefCell;
 use std::io;
 use std::path::PathBuf;
+use std::rc::Rc;
 
-use piola_bodies::step::{NewtonError, SetupError};
+use piola_bodies::step::{NewtonError, SetupError, StepError};
 use piola_bodies::system::{BodyError, LinearError};
+use piola_scenes::error::explained;
 
 use crate::petsc::PetscError;
 
@@ -57,24 +60,9 @@ pub enum Error {
     /// Invalid options, files or combinations of options.
     #[error("{0}")]
     Options(String),
-    /// Element without a finite energy at the beginning of a step.
-    #[error(
-        "element {element} is outside the domain of its material before the step, or its energy is not finite \
-         (`--inversion` continues energies beyond J > 0)"
-    )]
-    Inadmissible {
-        /// Tag of the element.
-        element: usize,
-    },
-    /// Matrix that is not positive definite with any multiple of the inertia added.
-    #[error("the matrix is not positive definite, even with {shift:e} times the inertia added")]
-    NotPositive {
-        /// Largest multiple of the inertia that was tried.
-        shift: f64,
-    },
-    /// Another failure of Newton's method, on all ranks.
-    #[error(transparent)]
-    Newton(#[from] NewtonError),
+    /// A step fails, on all ranks.
+    #[error("{}{}", explained(.0), remedy(.0))]
+    Step(#[from] StepError),
     /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
@@ -94,15 +82,50 @@ pub enum Error {
 }
 
 impl Error {
-    /// True if a shorter step cannot avoid this error: it may concern one rank alone, or concerns options.
-    #[must_use]
-    pub fn is_final(&self) -> bool {
-        !self.is_common() || matches!(self, Self::UnusedOptions { .. })
-    }
-
     /// True if all ranks have this error, so that each can end normally.
     #[must_use]
     pub fn is_common(&self) -> bool {
         !matches!(self, Self::Petsc(_) | Self::Linear(_))
+    }
+}
+
+/// Option that avoids an error, for a message.
+fn remedy(error: &StepError) -> &'static str {
+    match error {
+        StepError::Newton(NewtonError::Inadmissible { .. }) => {
+            " (`--inversion` continues energies beyond J > 0)"
+        }
+        _ => "",
+    }
+}
+
+/// First error, since the last call of [`Failure::take`], of functions that cannot return it.
+#[derive(Clone, Debug, Default)]
+pub struct Failure(Rc<RefCell<Option<Error>>>);
+
+impl Failure {
+    /// Value of a result; an error is kept, unless an earlier one is.
+    pub fn note<T, E: Into<Error>>(&self, result: Result<T, E>) -> Option<T> {
+        match result {
+            Ok(value) => Some(value),
+            Err(error) => {
+                self.0.borrow_mut().get_or_insert_with(|| error.into());
+                None
+            }
+        }
+    }
+
+    /// True if an error is kept.
+    #[must_use]
+    pub fn is_noted(&self) -> bool {
+        self.0.borrow().is_some()
+    }
+
+    /// Removes the error, and returns it.
+    ///
+    /// # Errors
+    /// The first [`Error`] that was noted.
+    pub fn take(&self) -> Result<(), Error> {
+        self.0.borrow_mut().take().map_or(Ok(()), Err)
     }
 }

@@ -1,11 +1,10 @@
 //! Simulation of elastic bodies that are too large for one machine: piola's elements, divided among the ranks
 //! of MPI, with the solvers of PETSc.
 //!
-//! The mathematics of materials and elements is piola's: each rank evaluates its elements by piola's kernels,
-//! and the steps are those of [`piola_bodies::step`]. This crate contains the division of a mesh
-//! ([`portion`],
-//! [`share`]), the messages between ranks ([`team`], [`petsc`]), and the objective of a step as sums over
-//! ranks ([`minimisation`]).
+//! The mathematics of materials and elements, and the steps, are piola's: each rank runs a simulation of its
+//! part of the body by [`piola_bodies::step`]. This crate contains the division of a mesh ([`portion`],
+//! [`share`]), the messages between ranks ([`team`], [`division`]), and the linear systems ([`system`],
+//! [`petsc`]).
 //!
 //! Every rank calls every function, in the same order. An error on one rank is sent to all ranks, and ends
 //! them together.
@@ -16,10 +15,9 @@ pub mod checkpoint;
 pub mod coarse;
 pub mod command;
 pub mod division;
-pub mod elastic;
 pub mod error;
-pub mod minimisation;
 pub mod output;
+pub mod part;
 pub mod petsc;
 pub mod portion;
 pub mod run;

@@ -74,7 +74,7 @@ fn play(team: &Team, command: &Command) -> Result<(), Error> {
     let threads = match command {
         Command::Box(options) => options.solver.threads,
         Command::Statics(options) => options.solver.threads,
-        Command::Run(options) => options.solver.threads,
+        Command::Run(options) => options.body.solver.threads,
     };
     // This thread is one of the pool, so that a single thread does not wait for another one.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).use_current_thread().build_global();

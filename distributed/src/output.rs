@@ -6,18 +6,14 @@ use std::path::{Path, PathBuf};
 
 use piola_bodies::step::Integrator;
 use piola_scenes::material::Parameters;
-use piola_scenes::output::{Ended, Field, StepCounts, write_pvd, write_vtu, write_whole};
+use piola_scenes::output::{
+    CAGES_FILE, Ended, Field, SUMMARY_FILE, StepCounts, write_pvd, write_vtu, write_whole,
+};
 use serde::Serialize;
 
 use crate::error::Error;
 use crate::simulation::Simulation;
 use crate::team::Team;
-
-/// Name of the summary.
-pub const SUMMARY: &str = "summary.json";
-
-/// Name of the list of frames.
-pub const FRAMES: &str = "frames.pvd";
 
 /// Results of a run. The keys in JSON are the names of the fields, and have the same meaning as in `piola
 /// run`.
@@ -92,7 +88,7 @@ fn make(folder: &Path, may_replace: bool) -> Result<(), Error> {
     let failed = |source| Error::Write { path: folder.into(), source };
     fs::create_dir_all(folder).map_err(failed)?;
     let checkpoint = crate::checkpoint::file_in(folder);
-    let results = [folder.join(SUMMARY), folder.join(FRAMES), checkpoint];
+    let results = [folder.join(SUMMARY_FILE), folder.join(CAGES_FILE), checkpoint];
     match results.iter().find(|path| path.exists()) {
         Some(path) if !may_replace => Err(Error::Options(format!(
             "{} already contains results ({}): choose another folder, or replace them with --force",
@@ -112,7 +108,7 @@ pub fn write_summary(team: &Team, folder: &Path, summary: &Summary) -> Result<()
         serde_json::to_writer_pretty(&mut *bytes, summary)?;
         writeln!(bytes)
     };
-    write_once(team, folder.join(SUMMARY), write)
+    write_once(team, folder.join(SUMMARY_FILE), write)
 }
 
 /// Writes a file on the first rank.
@@ -135,7 +131,7 @@ fn write(path: PathBuf, content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) ->
 /// # Errors
 /// [`Error::OnRank`].
 pub fn write_frame(team: &Team, folder: &Path, frame: usize, simulation: &Simulation) -> Result<(), Error> {
-    let (share, state) = (simulation.share(), simulation.state());
+    let (share, state) = (simulation.share(), simulation.part());
     let piece = |rank: usize| format!("frame_{frame:04}_{rank}.vtu");
     let (x, v) = (state.positions(), state.velocities());
     let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();
@@ -186,5 +182,5 @@ fn frame_file(frame: usize) -> String {
 /// [`Error::OnRank`].
 pub fn write_frames(team: &Team, folder: &Path, last: usize, dt: f64) -> Result<(), Error> {
     let frames = (0..=last).map(|frame| (frame as f64 * dt, frame_file(frame)));
-    write_once(team, folder.join(FRAMES), |file| write_pvd(file, frames))
+    write_once(team, folder.join(CAGES_FILE), |file| write_pvd(file, frames))
 }

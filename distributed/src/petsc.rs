@@ -48,27 +48,6 @@ pub struct PetscError {
     pub message: String,
 }
 
-/// First error, since the last call of [`Failure::take`], of exchanges that cannot return an error.
-#[derive(Clone, Default)]
-pub struct Failure(Rc<RefCell<Option<PetscError>>>);
-
-impl Failure {
-    /// Keeps an error, unless an earlier one is kept.
-    pub fn note(&self, result: Result<(), PetscError>) {
-        if let Err(error) = result {
-            self.0.borrow_mut().get_or_insert(error);
-        }
-    }
-
-    /// Removes the error, and returns it.
-    ///
-    /// # Errors
-    /// The first [`PetscError`] that was noted.
-    pub fn take(&self) -> Result<(), PetscError> {
-        self.0.borrow_mut().take().map_or(Ok(()), Err)
-    }
-}
-
 /// Error for an integer that is too large for PETSc's integers.
 fn too_large(number: usize) -> PetscError {
     let bits = PetscInt::BITS;

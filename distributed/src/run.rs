@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use piola::material::Moduli;
-use piola_bodies::step::divided::Pace;
-use piola_bodies::step::{Convergence, NewtonReport, NewtonSettings, SimulationSettings};
+use piola_bodies::step::{
+    AdaptiveReport, Convergence, NewtonReport, NewtonSettings, SimulationSettings, StepReport,
+};
 use piola_scenes::clock::Clock;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;
@@ -16,14 +17,14 @@ use piola_scenes::settings::Settings;
 use serde::{Deserialize, Serialize};
 
 use crate::checkpoint;
-use crate::command::{BoxOptions, RunOptions, StaticsOptions, Task};
-use crate::elastic::MaterialPart;
+use crate::command::{BodyOptions, BoxOptions, RunOptions, Task};
 use crate::error::Error;
 use crate::output::{self, Summary};
+use crate::part::MaterialPart;
 use crate::portion::Portion;
 use crate::setting::Setting;
 use crate::share::Share;
-use crate::simulation::{Simulation, StageReport};
+use crate::simulation::Simulation;
 use crate::team::Team;
 
 /// Description of a checkpoint of a run.
@@ -63,21 +64,19 @@ impl Progress {
         }
     }
 
-    fn note(&mut self, reports: &[StageReport]) {
-        for StageReport { newton, systems } in reports {
-            self.newton_iterations += newton.iterations;
-            self.systems += systems.len();
-            self.linear_iterations += systems.iter().sum::<usize>();
-            self.relative_residual = relative_residual(newton);
-        }
+    fn note(&mut self, StepReport { newton, min_det, .. }: &StepReport, systems: &[usize]) {
+        self.min_det_f = self.min_det_f.min(*min_det);
+        self.newton_iterations += newton.iterations;
+        self.systems += systems.len();
+        self.linear_iterations += systems.iter().sum::<usize>();
+        self.relative_residual = relative_residual(newton);
     }
 
-    fn note_state(&mut self, team: &Team, simulation: &Simulation) {
+    fn note_start(&mut self, team: &Team, simulation: &Simulation) {
         let share = simulation.share();
         let rest: Vec<[f64; 3]> = share.places.iter().map(|place| place.rest).collect();
         let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();
-        let det = measure::min_det_f(&rest, simulation.state().positions(), &tets);
-        self.min_det_f = self.min_det_f.min(team.min(det));
+        self.min_det_f = team.min(measure::min_det_f(&rest, simulation.part().positions(), &tets));
     }
 }
 
@@ -103,7 +102,8 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let mut simulation = Simulation::new(team, share, &parts, settings)?;
     team.wait();
     let (set_up, clock) = (clock.elapsed(), Instant::now());
-    let StageReport { newton: report, systems } = simulation.equilibrate()?;
+    let report = simulation.equilibrate()?.newton;
+    let systems = simulation.take_systems();
     team.wait();
     let solved = clock.elapsed();
     if let Some(folder) = &options.out {
@@ -155,7 +155,7 @@ fn peak_memory() -> f64 {
 ///
 /// # Errors
 /// An [`Error`] of the options, the body, the solver or a file.
-pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> {
+pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.solver.settings(false)?;
     let folder = folder(&options.out, &task);
@@ -168,8 +168,7 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
     let clock = Instant::now();
     let report = simulation.equilibrate()?;
     let mut progress = Progress::new();
-    progress.note(std::slice::from_ref(&report));
-    progress.note_state(team, &simulation);
+    progress.note(&report, &simulation.take_systems());
     let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 1 };
     let about = course.about(None)?;
     output::write_frame(team, &folder, 1, &course.simulation)?;
@@ -192,10 +191,10 @@ pub fn statics(team: &Team, options: &StaticsOptions) -> Result<Summary, Error> 
 pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.newton()?;
-    let folder = folder(&options.out, &task);
+    let folder = folder(&options.body.out, &task);
     let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
     if !options.resume {
-        output::prepare(team, &folder, options.force)?;
+        output::prepare(team, &folder, options.body.force)?;
     }
     let simulation = simulation(team, &task, &setting, newton)?;
     let progress = Progress::new();
@@ -205,7 +204,7 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     if options.resume {
         clock = course.resume(&file)?;
     } else {
-        course.progress.note_state(team, &course.simulation);
+        course.progress.note_start(team, &course.simulation);
         if options.vtu {
             output::write_frame(team, &folder, 0, &course.simulation)?;
         }
@@ -281,7 +280,6 @@ impl Course<'_> {
         for stretch in first.into_iter().chain([last]) {
             self.advance(stretch)?;
         }
-        self.progress.note_state(self.team, &self.simulation);
         self.frame += 1;
         Ok(())
     }
@@ -290,17 +288,16 @@ impl Course<'_> {
         let Self { team: _, task, setting, simulation, progress, .. } = self;
         simulation.set_springs(&setting.springs(stretch.start, stretch.end))?;
         simulation.prescribe(|node| setting.place(&setting.share, node, stretch.end))?;
-        let (steps, reports) = match task.settings.tolerance {
+        let (steps, report) = match task.settings.tolerance {
             None => (StepCounts { taken: 1, ..StepCounts::default() }, simulation.step(stretch.length)?),
             Some(share) => {
-                let tolerance = share * setting.height();
-                let pace = simulation.advance_within(stretch.length, tolerance)?;
-                let Pace { reports, taken, refused, unresolved, .. } = pace;
-                (StepCounts { taken, refused, unresolved }, reports.into_iter().flatten().collect())
+                let report = simulation.advance_within(stretch.length, share * setting.height())?;
+                let AdaptiveReport { taken, refused, unresolved, step, .. } = report;
+                (StepCounts { taken, refused, unresolved }, step)
             }
         };
         progress.steps += steps;
-        progress.note(&reports);
+        progress.note(&report, &simulation.take_systems());
         Ok(())
     }
 
@@ -342,7 +339,7 @@ impl Course<'_> {
     fn summary(&mut self, times: &[Duration]) -> Summary {
         let team = self.team;
         let energy = self.simulation.energies().elastic;
-        let (share, state) = (self.simulation.share(), self.simulation.state());
+        let (share, state) = (self.simulation.share(), self.simulation.part());
         let distance = |node: usize| {
             let (x, rest) = (state.positions()[node], share.places[node].rest);
             (0..3).map(|c| (x[c] - rest[c]).powi(2)).sum::<f64>().sqrt()

@@ -9,12 +9,15 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use piola_bodies::step::divided::{End, Iteration, Preconditioner};
-use piola_bodies::system::NodalStiffness;
+use piola_bodies::step::divided::{
+    Definiteness, End, Iteration, Machine, Objective, Preconditioner, Solution, SolveError, Solver,
+};
+use piola_bodies::step::{NewtonError, StepError};
+use piola_bodies::system::{Body, LinearError, NodalStiffness};
 
 use crate::division::RowsOfRank;
-use crate::error::Error;
-use crate::petsc::{Failure, GhostedVector, Krylov, Matrix, Operators, PetscError, Vector};
+use crate::error::{Error, Failure};
+use crate::petsc::{GhostedVector, Krylov, Matrix, Operators, PetscError, Vector};
 use crate::share::Share;
 use crate::team::Team;
 
@@ -42,6 +45,18 @@ const PATIENCE: f64 = 2.0;
 
 /// Linear system of the free nodes: matrix, vectors and solver.
 pub struct LinearSystem {
+    team: Team,
+    nodes: RowsOfRank,
+    failure: Failure,
+    /// Relative tolerance of the first linear system, and upper bound of later tolerances.
+    tolerance: f64,
+    max_iterations: usize,
+    /// Indices of the free owned nodes.
+    free: Vec<usize>,
+    /// Mass of each owned node relative to the part of its mass that the elements of this rank have.
+    shares: Vec<f64>,
+    /// Number of iterations of each linear system.
+    systems: Vec<usize>,
     matrix_free: Rc<RefCell<MatrixFree>>,
     form: Form,
     right: Vector<3>,
@@ -89,7 +104,10 @@ impl Operators for MatrixFree {
 
     fn precondition(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) -> Result<(), PetscError> {
         self.preconditioner.apply(r, z);
-        self.failure.take()
+        self.failure.take().map_err(|error| match error {
+            Error::Petsc(error) => error,
+            other => PetscError { message: other.to_string() },
+        })
     }
 
     fn view(&self) -> (String, Option<&Krylov>) {
@@ -113,22 +131,34 @@ impl MatrixFree {
 }
 
 impl LinearSystem {
-    /// Sets up PETSc's solver for a stiffness of the nodes of a share.
+    /// Sets up PETSc's solver for the body of a share; `None` if the share has no elements. The failure keeps
+    /// errors that are not returned.
     ///
     /// # Errors
-    /// [`Error::Petsc`], also for an option with a value that PETSc does not support.
-    pub fn new(team: &Team, share: &Share, stiffness: NodalStiffness) -> Result<Self, Error> {
+    /// [`Error::Petsc`], also for an option with a value that PETSc does not support; [`Error::OnRank`].
+    pub fn new(
+        team: &Team,
+        share: &Share,
+        body: Option<&Body>,
+        (tolerance, max_iterations): (f64, usize),
+        failure: &Failure,
+    ) -> Result<Self, Error> {
         let library = team.library();
+        let stiffness = body.map_or_else(NodalStiffness::empty, NodalStiffness::of_body);
+        let stiffness = team.agree(stiffness.map_err(Error::from))?;
+        let own = body.map_or(&[][..], Body::masses);
+        let mut masses = own.to_vec();
+        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses)?;
         for (name, value) in DEFAULTS {
             library.default_option(name, value)?;
         }
-        let (nodes, failure) = (share.ids.len(), Failure::default());
-        let rows = RowsOfRank::new(team, &failure, share.owned, share.copies.clone());
+        let nodes = share.ids.len();
+        let rows = || RowsOfRank::new(team, failure, share.owned, share.copies.clone());
         let matrix_free = Rc::new(RefCell::new(MatrixFree {
             stiffness,
-            preconditioner: Preconditioner::new(share.owned, rows),
+            preconditioner: Preconditioner::new(share.owned, rows()),
             exchange: GhostedVector::new(library, 3, share.owned, &share.copies)?,
-            failure,
+            failure: failure.clone(),
             is_free: share.free_numbers.iter().map(Option::is_some).collect(),
             x: vec![[0.0; 3]; nodes],
             product: vec![[0.0; 3]; nodes],
@@ -142,103 +172,179 @@ impl LinearSystem {
             Form::Assembled(Assembled::new(team, share, &matrix_free.borrow().stiffness)?)
         };
         let vector = || Vector::new(library, share.free);
-        Ok(Self { matrix_free, form, right: vector()?, solution: vector()?, is_checked: [false; 2] })
+        Ok(Self {
+            team: team.clone(),
+            nodes: rows(),
+            failure: failure.clone(),
+            tolerance,
+            max_iterations,
+            free: (0..share.free).collect(),
+            shares: masses.iter().zip(own).take(share.owned).map(|(whole, own)| whole / own).collect(),
+            systems: Vec::new(),
+            matrix_free,
+            form,
+            right: vector()?,
+            solution: vector()?,
+            is_checked: [false; 2],
+        })
     }
 
-    /// Calls `work` with the stiffness of this rank's elements.
-    pub fn with_stiffness<T>(&mut self, work: impl FnOnce(&mut NodalStiffness) -> T) -> T {
-        work(&mut self.matrix_free.borrow_mut().stiffness)
+    /// Numbers of iterations of the linear systems since the last call, those of failed attempts included.
+    pub fn take_systems(&mut self) -> Vec<usize> {
+        std::mem::take(&mut self.systems)
     }
 
-    /// Adds `stiffness(node)`, N/m, to the diagonal of each owned node.
-    pub fn add_to_diagonal(&mut self, share: &Share, stiffness: impl Fn(usize) -> f64) {
-        let mut matrix_free = self.matrix_free.borrow_mut();
-        (0..share.owned).for_each(|node| matrix_free.stiffness.add_to_diagonal(node, stiffness(node)));
-    }
-
-    /// Adds the product of the stiffness with a displacement, m, of the nodes of the rank to `total`, N, at
-    /// the owned nodes.
-    ///
-    /// # Errors
-    /// [`PetscError`].
-    pub fn add_product(
+    /// Solves with multiples of the regularisation added to an indefinite matrix, unless definiteness is
+    /// required.
+    fn find_direction(
         &mut self,
-        displacement: &[[f64; 3]],
-        total: &mut [[f64; 3]],
-    ) -> Result<(), PetscError> {
-        let matrix_free = &mut *self.matrix_free.borrow_mut();
-        matrix_free.x.copy_from_slice(displacement);
-        matrix_free.multiply_x()?;
-        for (total, product) in total.as_flattened_mut().iter_mut().zip(matrix_free.product.as_flattened()) {
-            *total += product;
-        }
-        matrix_free.x.fill([0.0; 3]);
-        Ok(())
-    }
-
-    /// Discards the preconditioner, so that later results do not depend on earlier systems.
-    pub fn begin(&mut self) {
-        self.matrix_free.borrow_mut().preconditioner.forget();
-        if let Form::Assembled(assembled) = &mut self.form {
-            assembled.pace = None;
-        }
-    }
-
-    /// Solves for the displacement, m, that balances a gradient, N, at the free nodes; these are the first
-    /// entries of both slices. The nodes are at `x`, m, and `inertia(node)`, N/m, is the part of inertia in
-    /// the diagonal. With `may_fall_back`, the fallback solves a system whose matrix is indefinite with
-    /// PETSc's preconditioner.
-    ///
-    /// # Errors
-    /// [`Error::Petsc`], [`Error::UnusedOptions`] after the first system.
-    #[expect(clippy::too_many_arguments, reason = "a system, its nodes, and the limits of its solver")]
-    pub fn solve(
-        &mut self,
-        team: &Team,
-        share: &Share,
+        objective: &Objective<'_>,
         x: &[[f64; 3]],
-        inertia: impl Fn(usize) -> f64,
         gradient: &[[f64; 3]],
         direction: &mut [[f64; 3]],
-        (tolerance, max_iterations): (f64, usize),
-        may_fall_back: bool,
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, Error> {
+        objective.add_second_derivatives(&mut self.matrix_free.borrow_mut().stiffness);
+        let mut solution = Solution::default();
+        loop {
+            let solved = self.solve_once(objective, x, gradient, direction, tolerance, definiteness)?;
+            self.systems.push(solved.iterations);
+            solution.iterations += solved.iterations;
+            let products = gradient.iter().zip(&*direction).take(self.free.len());
+            let own = products.map(|(g, d)| g[0] * d[0] + g[1] * d[1] + g[2] * d[2]).sum();
+            let [slope] = self.team.sum([own]);
+            let descends = solved.end != End::NotFinite && slope < 0.0 && slope.is_finite();
+            if matches!(solved.end, End::Converged | End::Limit) && descends {
+                solution.truncated = solved.end == End::Limit;
+                return Ok(Some(solution));
+            }
+            if definiteness == Definiteness::Required {
+                return Ok(None);
+            }
+            // Conjugate gradients that end at negative curvature return a direction of descent.
+            if solved.end == End::NegativeCurvature && descends {
+                solution.truncated = true;
+                return Ok(Some(solution));
+            }
+            let shift = if solution.shift == 0.0 { 1.0 } else { 10.0 * solution.shift };
+            if shift > 1e12 {
+                // PETSc does not name the node.
+                return Err(StepError::from(NewtonError::NotPositive { node: 0, shift: 1e12 }).into());
+            }
+            let added = shift - solution.shift;
+            let mut matrix_free = self.matrix_free.borrow_mut();
+            for node in 0..x.len() {
+                matrix_free.stiffness.add_to_diagonal(node, added * objective.regularisation(node));
+            }
+            solution.shift = shift;
+        }
+    }
+
+    /// Solves for the displacement, m, of the owned nodes that balances a gradient, N.
+    fn solve_once(
+        &mut self,
+        objective: &Objective<'_>,
+        x: &[[f64; 3]],
+        gradient: &[[f64; 3]],
+        direction: &mut [[f64; 3]],
+        tolerance: f64,
+        definiteness: Definiteness,
     ) -> Result<Iteration, Error> {
-        let Self { matrix_free, form, right, solution, .. } = self;
+        let Self { matrix_free, form, right, solution, shares, .. } = self;
         right.with(|right| {
             right.iter_mut().zip(gradient).for_each(|(right, gradient)| *right = gradient.map(|g| -g));
         })?;
-        let mut task = Task { right, solution, tolerance, max_iterations };
+        let tolerance = tolerance.min(self.tolerance);
+        let mut task = Task { right, solution, tolerance, max_iterations: self.max_iterations };
         let mut iteration = match form {
-            Form::MatrixFree(krylov) => solve(matrix_free, krylov, &mut task, x, inertia)?,
+            Form::MatrixFree(krylov) => {
+                solve(matrix_free, krylov, &mut task, x, |node| shares[node] * objective.inertia(node))?
+            }
             Form::Assembled(assembled) => {
-                assembled.assemble(share, &matrix_free.borrow().stiffness, x)?;
-                assembled.solve(&mut task, may_fall_back)?
+                assembled.assemble(&matrix_free.borrow().stiffness, x)?;
+                assembled.solve(&mut task, definiteness == Definiteness::Optional)?
             }
         };
         direction.fill([0.0; 3]);
-        self.solution.with(|solution| direction[..share.free].copy_from_slice(solution))?;
+        self.solution.with(|solution| direction[..solution.len()].copy_from_slice(solution))?;
         let not_finite = direction.iter().flatten().filter(|x| !x.is_finite()).count();
-        if team.count(not_finite) > 0 {
+        if self.team.count(not_finite) > 0 {
             iteration.end = End::NotFinite;
         }
-        self.check_options(team)?;
+        self.check_options()?;
         Ok(iteration)
     }
 
     /// Checks for unused options of the user. Options of the last level are checked only if there are levels.
-    fn check_options(&mut self, team: &Team) -> Result<(), Error> {
+    fn check_options(&mut self) -> Result<(), Error> {
         let is_with_levels = match self.form {
             Form::MatrixFree(_) => self.matrix_free.borrow().preconditioner.levels().is_some(),
             Form::Assembled(_) => true,
         };
         if !std::mem::replace(&mut self.is_checked[usize::from(is_with_levels)], true) {
-            let mut names = team.library().unused_options()?;
+            let mut names = self.team.library().unused_options()?;
             names.retain(|name| is_with_levels || !name.starts_with("coarse_"));
             if !names.is_empty() {
                 return Err(Error::UnusedOptions { names });
             }
         }
         Ok(())
+    }
+}
+
+impl Machine for LinearSystem {
+    type Nodes = RowsOfRank;
+
+    fn nodes(&self) -> &RowsOfRank {
+        &self.nodes
+    }
+
+    fn nodes_mut(&mut self) -> &mut RowsOfRank {
+        &mut self.nodes
+    }
+
+    fn solver(&mut self) -> &mut dyn Solver {
+        self
+    }
+}
+
+impl Solver for LinearSystem {
+    fn free_nodes(&self) -> &[usize] {
+        &self.free
+    }
+
+    fn begin(&mut self) {
+        self.matrix_free.borrow_mut().preconditioner.forget();
+        if let Form::Assembled(assembled) = &mut self.form {
+            assembled.pace = None;
+        }
+    }
+
+    fn with_stiffness(&mut self, work: &mut dyn FnMut(&mut NodalStiffness)) {
+        work(&mut self.matrix_free.borrow_mut().stiffness);
+    }
+
+    fn solve(
+        &mut self,
+        objective: &Objective<'_>,
+        x: &[[f64; 3]],
+        gradient: &[[f64; 3]],
+        direction: &mut [[f64; 3]],
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, SolveError> {
+        let (gradient, owned) = (&gradient[..self.shares.len()], &mut direction[..self.shares.len()]);
+        match self.find_direction(objective, x, gradient, owned, tolerance, definiteness) {
+            Err(Error::Step(StepError::Newton(NewtonError::NotPositive { node, shift }))) => {
+                Err(SolveError::NotPositive { node, shift })
+            }
+            // An earlier exchange may have failed, too.
+            found => match self.failure.note(found) {
+                Some(solution) if !self.failure.is_noted() => Ok(solution),
+                _ => Err(LinearError::External.into()),
+            },
+        }
     }
 }
 
@@ -273,6 +379,8 @@ fn solve(
 
 /// Whole matrix of PETSc, and solvers with preconditioners of PETSc.
 struct Assembled {
+    /// Global number of each node among the free nodes; `None` for a pinned node.
+    numbers: Vec<Option<usize>>,
     matrix: Rc<RefCell<Matrix>>,
     krylov: Krylov,
     fallback: Krylov,
@@ -305,6 +413,7 @@ impl Assembled {
         drop(blocks);
         let matrix = Rc::new(RefCell::new(matrix));
         Ok(Self {
+            numbers: share.free_numbers.clone(),
             krylov: Krylov::new(library, matrix.clone(), "")?,
             fallback: Krylov::new(library, matrix.clone(), "fallback_")?,
             matrix,
@@ -315,19 +424,14 @@ impl Assembled {
     }
 
     /// Assembles the stiffness; the nodes are at `positions`, m.
-    fn assemble(
-        &mut self,
-        share: &Share,
-        stiffness: &NodalStiffness,
-        positions: &[[f64; 3]],
-    ) -> Result<(), PetscError> {
+    fn assemble(&mut self, stiffness: &NodalStiffness, positions: &[[f64; 3]]) -> Result<(), PetscError> {
         let mut rest = self.values.as_mut_slice();
         let mut put = |entries: [[f64; 3]; 3]| {
             let (here, after) = std::mem::take(&mut rest).split_at_mut(9);
             here.copy_from_slice(entries.as_flattened());
             rest = after;
         };
-        let is_free = |node: usize| share.free_numbers[node].is_some();
+        let is_free = |node: usize| self.numbers[node].is_some();
         for (row, column, entries) in stiffness.blocks() {
             if is_free(row) && is_free(column) {
                 put(*entries);

@@ -8,8 +8,8 @@ use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use common::{TestResult, checkpoint_in, command, finish, state_after};
-use piola_distributed::elastic::{Elastic, MaterialPart};
 use piola_distributed::error::Error;
+use piola_distributed::part::{self, MaterialPart};
 use piola_distributed::petsc::Library;
 use piola_distributed::portion::Portion;
 use piola_distributed::share::Share;
@@ -30,8 +30,6 @@ fn check_failure(output: &Output, expected: &str) {
 
 #[test]
 fn wrong_options_are_named_once() -> TestResult {
-    let scratch = tempfile::tempdir()?;
-    let folder = scratch.path().join("run");
     for (options, expected) in [
         ("box --elemens 6", "--elemens"),
         ("box --elements 60 -ksp_typ cg", "PETSc does not use -ksp_typ:"),
@@ -44,8 +42,7 @@ fn wrong_options_are_named_once() -> TestResult {
             "cannot continue from no-such-folder",
         ),
     ] {
-        let options = options.replace("FOLDER", folder.to_str().ok_or("UTF-8")?);
-        check_failure(&finish(command(3, words(&options)))?, expected);
+        check_failure(&finish(command(3, words(options)))?, expected);
     }
     Ok(())
 }
@@ -222,7 +219,7 @@ fn elements_are_judged_on_their_rank() -> TestResult {
     let mut portion = Portion::of_cube(&team, 4, 1.0);
     portion.elements.iter_mut().filter(|element| element[4] == tag).for_each(|element| element.swap(0, 1));
     let share = Share::of(&team, portion)?;
-    match team.agree(Elastic::new(&share, &parts)) {
+    match team.agree(part::body(&share, &parts)) {
         Err(Error::OnRank { rank, message }) => {
             assert!(message.contains(&format!("element {tag}")), "{message}");
             println!("rank {rank} has refused element {tag}");

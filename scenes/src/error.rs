@@ -131,7 +131,8 @@ pub enum Error {
 }
 
 /// A failed step in the words of scenes, which have options and no `Inversion`.
-fn explained(error: &StepError) -> String {
+#[must_use]
+pub fn explained(error: &StepError) -> String {
     match error {
         StepError::Newton(NewtonError::Inadmissible { element, stretches }) => {
             let [l1, l2, l3] = stretches.map(number);

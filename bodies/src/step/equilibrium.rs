@@ -21,6 +21,7 @@ use piola::NoSuchNode;
 use piola::point::Filter;
 
 use crate::system::assemble::Elastic;
+use crate::system::linear::multigrid::Undivided;
 use crate::system::{Body, Cholesky, LinearError, LowerTriangle, NodalStiffness, Pins, Tetrahedron};
 
 use super::integrator::Stage;
@@ -95,7 +96,7 @@ impl Equilibrium {
         let (body, positions) = (simulation.body(), simulation.positions());
         let mut elastic = Elastic::new(body);
         let survey = elastic.evaluate(body, positions);
-        demand_admissible(&survey, body, &elastic)?;
+        demand_admissible(&Undivided, &survey, body, &elastic)?;
         let stage = Stage::at_rest(positions.len());
         let quadratic = Quadratic {
             masses: body.masses(),
@@ -115,7 +116,7 @@ impl Equilibrium {
         let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
         let mut stiffness = NodalStiffness::new(body, &pairs)?;
         let tangents = stiffness.linearise(body, &mut elastic, Filter::None);
-        demand_admissible(&tangents, body, &elastic)?;
+        demand_admissible(&Undivided, &tangents, body, &elastic)?;
         let objective = Objective { body, elastic: &mut elastic, quadratic, terms, blocks: &mut blocks };
         let mut gradient = vec![[0.0; 3]; positions.len()];
         objective.gradient(positions, &mut gradient);

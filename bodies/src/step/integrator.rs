@@ -119,7 +119,7 @@ impl State {
 
 /// Stage of a step: velocities v = (x − s)/τ and accelerations a = (v − w)/σ from positions x.
 #[derive(Clone, Debug)]
-pub struct Stage {
+pub(crate) struct Stage {
     /// s, m.
     pub(crate) start: Vec<[f64; 3]>,
     /// w, m/s.
@@ -147,11 +147,7 @@ impl Stage {
     }
 
     /// Velocity, m/s, and acceleration, m/s², of a node that is at `x`, m.
-    ///
-    /// # Panics
-    /// If there is no such node.
-    #[must_use]
-    pub fn motion(&self, node: usize, x: [f64; 3]) -> [[f64; 3]; 2] {
+    pub(super) fn motion(&self, node: usize, x: [f64; 3]) -> [[f64; 3]; 2] {
         let [tau, sigma] = self.lengths;
         let v: [f64; 3] = std::array::from_fn(|c| (x[c] - self.start[node][c]) / tau);
         [v, std::array::from_fn(|c| (v[c] - self.velocities[node][c]) / sigma)]
@@ -159,8 +155,7 @@ impl Stage {
 
     /// Scale of the error in time of the step with its nodes at `x`, m: the largest τ σ |a|, or for methods
     /// of higher order τ σ times the change of a.
-    #[must_use]
-    pub fn error_scale(&self, x: &[[f64; 3]]) -> f64 {
+    pub(super) fn error_scale(&self, x: &[[f64; 3]]) -> f64 {
         let [tau, sigma] = self.lengths;
         let before = if self.is_second_order { 1.0 } else { 0.0 };
         let size = |node: usize| {

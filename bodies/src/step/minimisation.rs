@@ -1,80 +1,73 @@
-//! Newton's method for a body on one machine: its variables are the nodal positions.
+//! Newton's method for a body, or for the part of a machine: its variables are the nodal positions.
+//!
+//! The energy of a body that is divided among [machines](Machine) is the sum over their parts, and so are its
+//! derivatives. Positions and directions are known at all nodes of a part, those of other machines included.
+//! Gradients are sums over the parts at the nodes that a machine owns, and zero at copies of others. Results
+//! are sums and extrema over the machines, so that all make the same decisions: if an element of any machine
+//! refuses a point, the step is too long on all. On one machine nothing is added.
 
 use piola::NoSuchNode;
 use piola::lanes::Real;
 use piola::point::Filter;
 
+use crate::system::Body;
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
-use crate::system::{Body, LinearError, Pins};
+use crate::system::linear::multigrid::Division;
 
 use super::line_search::Line;
 use super::newton::{Linearised, Minimisation, NewtonError};
 use super::objective::{Objective, product};
-use super::solver::{Choice, Definiteness, Solution, Solver};
-use super::term::{EnergyChange, NodeBlocks};
+use super::solver::{Definiteness, Machine, Solution};
+use super::term::EnergyChange;
 
 /// Memory of Newton's method.
 #[derive(Clone)]
-pub(super) struct NewtonWorkspace {
-    solver: Box<dyn Solver>,
-    choice: Choice,
-    pins: Pins,
+pub(super) struct NewtonWorkspace<M> {
+    pub(super) machine: M,
     gradient: Vec<[f64; 3]>,
     direction: Vec<[f64; 3]>,
     trial: Vec<[f64; 3]>,
 }
 
-impl NewtonWorkspace {
-    /// Allocates the memory for a body with these pins.
-    pub(super) fn new(body: &Body, pins: &Pins, choice: Choice) -> Result<Self, LinearError> {
-        let nodes = body.rest().len();
-        Ok(Self {
-            solver: choice.set_up(body, pins, &[])?,
-            choice,
-            pins: pins.clone(),
-            gradient: vec![[0.0; 3]; nodes],
-            direction: vec![[0.0; 3]; nodes],
-            trial: vec![[0.0; 3]; nodes],
-        })
+impl<M: Machine> NewtonWorkspace<M> {
+    /// Allocates the memory for a number of nodes.
+    pub(super) fn new(machine: M, nodes: usize) -> Self {
+        let zero = || vec![[0.0; 3]; nodes];
+        Self { machine, gradient: zero(), direction: zero(), trial: zero() }
     }
 
-    /// True if the linear solver is user-defined.
-    pub(super) fn has_user_defined_solver(&self) -> bool {
-        matches!(self.choice, Choice::UserDefined(_))
+    /// Discards the direction, which is zero at pinned nodes.
+    pub(super) fn forget_direction(&mut self) {
+        self.direction.fill([0.0; 3]);
     }
 
-    /// Replaces the pins; sets up a new solver if the present one cannot handle them.
-    pub(super) fn set_pins(&mut self, body: &Body, pins: &Pins) -> Result<(), LinearError> {
-        if !self.solver.set_pins(pins) {
-            self.solver = self.choice.set_up(body, pins, &[])?;
-        }
-        self.pins = pins.clone();
-        Ok(())
-    }
-
-    /// Sets up a new solver if the blocks of the terms join nodes without a block in its matrix.
-    fn join(&mut self, body: &Body, blocks: &NodeBlocks) -> Result<(), LinearError> {
-        let is_free = |node: &usize| self.pins.nodes().binary_search(node).is_err();
-        let is_missing = |[a, b]: &[usize; 2]| is_free(a) && is_free(b) && !self.solver.joins(*a, *b);
-        if blocks.pairs().any(|pair| is_missing(&pair)) {
-            let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
-            self.solver = self.choice.set_up(body, &self.pins, &pairs)?;
-        }
-        Ok(())
+    /// Adds the gradients of all machines at the nodes that this one owns.
+    fn sum_gradient(&mut self) {
+        let (nodes, gradient) = (self.machine.nodes_mut(), &mut self.gradient);
+        nodes.sum_vectors(gradient);
+        let owned = gradient.len() - nodes.copies();
+        gradient[owned..].fill([0.0; 3]);
     }
 
     /// Norm of the gradient over the free nodes.
-    fn free_norm(&self) -> f64 {
+    fn free_norm(&mut self) -> f64 {
         let square = |g: [f64; 3]| g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-        self.solver.free_nodes().iter().map(|&node| square(self.gradient[node])).sum::<f64>().sqrt()
+        let free = self.machine.solver().free_nodes();
+        let own = free.iter().map(|&node| square(self.gradient[node])).sum::<f64>();
+        self.machine.nodes().total(own).sqrt()
+    }
+
+    /// Inner product of gradient and direction.
+    fn descent(&self) -> f64 {
+        self.machine.nodes().total(product(&self.gradient, &self.direction))
     }
 }
 
 /// The minimisation of a stage of a step.
-pub(super) struct StageMinimisation<'a> {
+pub(super) struct StageMinimisation<'a, M> {
     objective: Objective<'a>,
-    workspace: &'a mut NewtonWorkspace,
+    workspace: &'a mut NewtonWorkspace<M>,
     x: &'a mut [[f64; 3]],
     /// Displacement of each pinned node, m; zero for others.
     pins_move: &'a [[f64; 3]],
@@ -84,20 +77,20 @@ pub(super) struct StageMinimisation<'a> {
     quadratic: [f64; 2],
 }
 
-impl<'a> StageMinimisation<'a> {
+impl<'a, M: Machine> StageMinimisation<'a, M> {
     /// Starts at `x`, where the energies have been evaluated last, with this survey.
     pub(super) fn new(
         objective: Objective<'a>,
-        workspace: &'a mut NewtonWorkspace,
+        workspace: &'a mut NewtonWorkspace<M>,
         x: &'a mut [[f64; 3]],
         pins_move: &'a [[f64; 3]],
         survey: Evaluated,
     ) -> Result<Self, NewtonError> {
-        demand_admissible(&survey, objective.body, objective.elastic)?;
+        demand_admissible(workspace.machine.nodes(), &survey, objective.body, objective.elastic)?;
         if let Some(term) = objective.terms.refusing(x) {
             return Err(NewtonError::TermRefuses { term });
         }
-        workspace.solver.begin();
+        workspace.machine.solver().begin();
         Ok(Self { objective, workspace, x, pins_move, survey, quadratic: [0.0; 2] })
     }
 
@@ -107,43 +100,49 @@ impl<'a> StageMinimisation<'a> {
     }
 }
 
-impl Line for StageMinimisation<'_> {
+impl<M: Machine> Line for StageMinimisation<'_, M> {
     type Error = NewtonError;
 
     fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, NewtonError> {
-        let Self { objective, workspace: NewtonWorkspace { direction, trial, .. }, x, .. } = self;
+        let Self { objective, workspace: NewtonWorkspace { machine, direction, trial, .. }, x, .. } = self;
         for node in 0..x.len() {
             for c in 0..3 {
                 trial[node][c] = x[node][c] + step * direction[node][c];
             }
         }
-        let Some(terms) = objective.terms.change(x, trial) else { return Ok(None) };
-        if !objective.evaluate(trial).survey.is_clean() {
+        let terms = objective.terms.change(x, trial);
+        let terms = terms.filter(|_| objective.evaluate(trial).survey.is_clean());
+        let elastic = &objective.elastic;
+        // One message of all numbers.
+        let own = terms.map_or([1.0, 0.0, 0.0, 0.0, 0.0], |terms| {
+            let noise = elastic.difference_noise(objective.body);
+            [0.0, terms.difference, elastic.difference(), noise, terms.noise]
+        });
+        let [refused, terms, elastic, elastic_noise, terms_noise] = machine.nodes().totals(own);
+        if refused > 0.0 {
             return Ok(None);
         }
         let [slope, curvature] = self.quadratic;
         let (linear, quadratic) = (step * slope, 0.5 * step * step * curvature);
-        let elastic = &objective.elastic;
         // Slope and curvature are sums of products; 4u allows for the cancellation within the slope.
-        let noise = 4.0 * f64::UNIT_ROUNDOFF * (linear.abs() + quadratic)
-            + elastic.difference_noise(objective.body)
-            + terms.noise;
-        let difference = linear + quadratic + terms.difference + elastic.difference();
-        Ok(Some(EnergyChange { difference, noise }))
+        let noise = 4.0 * f64::UNIT_ROUNDOFF * (linear.abs() + quadratic) + elastic_noise + terms_noise;
+        Ok(Some(EnergyChange { difference: linear + quadratic + terms + elastic, noise }))
     }
 
     fn slope(&mut self) -> Result<f64, NewtonError> {
-        let Self { objective, workspace: NewtonWorkspace { gradient, direction, trial, .. }, .. } = self;
+        let Self { objective, workspace, .. } = self;
         objective.elastic.evaluate_gradients(objective.body);
-        objective.gradient(trial, gradient);
-        Ok(product(gradient, direction))
+        objective.gradient(&workspace.trial, &mut workspace.gradient);
+        workspace.sum_gradient();
+        Ok(workspace.descent())
     }
 }
 
-impl Minimisation for StageMinimisation<'_> {
+impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
     fn gradient(&mut self) -> Result<f64, NewtonError> {
         self.objective.elastic.evaluate_gradients(self.objective.body);
         self.objective.gradient(self.x, &mut self.workspace.gradient);
+        self.workspace.sum_gradient();
         Ok(self.workspace.free_norm())
     }
 
@@ -153,22 +152,31 @@ impl Minimisation for StageMinimisation<'_> {
         if let Some(node) = objective.blocks.missing() {
             return Err(NoSuchNode { element: None, node, nodes: x.len() }.into());
         }
-        workspace.join(objective.body, objective.blocks)?;
-        let tangents = workspace.solver.linearise(objective, filter);
-        demand_admissible(&tangents, objective.body, objective.elastic)?;
-        let NewtonWorkspace { solver, gradient, .. } = &mut **workspace;
+        workspace.machine.join(objective.body, objective.blocks)?;
+        let mut tangents = Evaluated::NONE;
+        let solver = workspace.machine.solver();
+        solver.with_stiffness(&mut |stiffness| tangents = objective.linearise(filter, stiffness));
+        demand_admissible(workspace.machine.nodes(), &tangents, objective.body, objective.elastic)?;
+        let NewtonWorkspace { machine, gradient, .. } = &mut **workspace;
         objective.gradient(x, gradient);
         if pins_move {
-            solver.add_product(objective, self.pins_move, gradient);
+            machine.solver().add_product(objective.body, self.pins_move, gradient);
+            objective.quadratic.add_product(self.pins_move, gradient);
+            objective.blocks.add_product(self.pins_move, gradient);
         }
-        let Evaluated { survey, .. } = tangents;
+        workspace.sum_gradient();
         let residual = workspace.free_norm();
-        Ok(Linearised { residual, filtered: survey.filtered, bounded: survey.bounded })
+        let counts = [tangents.survey.filtered, tangents.survey.bounded];
+        let [filtered, bounded] = workspace.machine.nodes().totals(counts.map(|count| count as f64));
+        Ok(Linearised { residual, filtered: filtered as usize, bounded: bounded as usize })
     }
 
     fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, NewtonError> {
-        let NewtonWorkspace { solver, gradient, direction, .. } = &mut *self.workspace;
-        Ok(solver.solve(&self.objective, self.x, gradient, direction, tolerance, definiteness)?)
+        let NewtonWorkspace { machine, gradient, direction, .. } = &mut *self.workspace;
+        let solver = machine.solver();
+        let solved = solver.solve(&self.objective, self.x, gradient, direction, tolerance, definiteness)?;
+        machine.nodes_mut().copy_vectors(direction);
+        Ok(solved)
     }
 
     fn move_pins(&mut self) -> Result<(), NewtonError> {
@@ -176,7 +184,8 @@ impl Minimisation for StageMinimisation<'_> {
             *x += d;
         }
         self.survey = self.objective.evaluate(self.x);
-        if let Some(element) = inadmissible(&self.survey, self.objective.body) {
+        let nodes = self.workspace.machine.nodes();
+        if let Some((element, _)) = inadmissible(nodes, &self.survey, self.objective.body) {
             return Err(NewtonError::PinsMoveTooFar { element });
         }
         match self.objective.terms.refusing(self.x) {
@@ -186,7 +195,7 @@ impl Minimisation for StageMinimisation<'_> {
     }
 
     fn descent(&self) -> f64 {
-        product(&self.workspace.gradient, &self.workspace.direction)
+        self.workspace.descent()
     }
 
     fn longest_step(&self) -> f64 {
@@ -194,10 +203,11 @@ impl Minimisation for StageMinimisation<'_> {
     }
 
     fn set_base(&mut self) {
-        let Self { objective, workspace: NewtonWorkspace { gradient, direction, .. }, .. } = self;
+        let Self { objective, workspace: NewtonWorkspace { machine, gradient, direction, .. }, .. } = self;
         objective.elastic.set_base();
         objective.quadratic_gradient(self.x, gradient);
-        self.quadratic = [product(gradient, direction), objective.quadratic_curvature(direction)];
+        let own = [product(gradient, direction), objective.quadratic_curvature(direction)];
+        self.quadratic = machine.nodes().totals(own);
     }
 
     fn accept(&mut self) {
@@ -207,36 +217,50 @@ impl Minimisation for StageMinimisation<'_> {
 
     fn reject(&mut self) -> f64 {
         self.survey = self.objective.evaluate(self.x);
-        self.objective.noise(self.x)
+        self.workspace.machine.nodes().total(self.objective.noise(self.x))
     }
 
     fn displacement(&self) -> f64 {
         let square = |d: &[f64; 3]| d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-        self.workspace.direction.iter().map(square).fold(0.0, f64::max).sqrt()
+        let own = self.workspace.direction.iter().map(square).fold(0.0, f64::max).sqrt();
+        self.workspace.machine.nodes().largest(own)
     }
 
     fn error_scale(&self) -> f64 {
-        self.objective.quadratic.stage.error_scale(self.x)
+        let own = self.objective.quadratic.stage.error_scale(self.x);
+        self.workspace.machine.nodes().largest(own)
     }
 }
 
-/// Checks that all elements were admissible at the last evaluation of the energies.
+/// Checks that all elements of all machines were admissible at the last evaluation of the energies.
 pub(super) fn demand_admissible(
+    nodes: &impl Division,
     survey: &Evaluated,
     body: &Body,
     elastic: &Elastic,
 ) -> Result<(), NewtonError> {
-    let Some(element) = inadmissible(survey, body) else { return Ok(()) };
-    if survey.survey.refused == 0 {
+    let Some((element, is_here)) = inadmissible(nodes, survey, body) else { return Ok(()) };
+    let mut own = [0.0; 5];
+    if is_here {
+        let mut all = body.elements().iter().zip(elastic.stretches());
+        let found = all.find(|(other, _)| other.tag == element);
+        let [l1, l2, l3] = found.map_or([f64::NAN; 3], |(_, stretches)| stretches);
+        own = [1.0, survey.survey.refused as f64, l1, l2, l3];
+    }
+    let [machines, refused, stretches @ ..] = nodes.totals(own);
+    if refused == 0.0 {
         return Err(NewtonError::ElementNotFinite { element });
     }
-    let mut all = body.elements().iter().zip(elastic.stretches());
-    let stretches =
-        all.find(|(other, _)| other.tag == element).map_or([f64::NAN; 3], |(_, stretches)| stretches);
-    Err(NewtonError::Inadmissible { element, stretches })
+    Err(NewtonError::Inadmissible { element, stretches: stretches.map(|stretch| stretch / machines) })
 }
 
-/// Tag of the first element without a valid energy, if any.
-fn inadmissible(evaluated: &Evaluated, body: &Body) -> Option<usize> {
-    evaluated.survey.first.map(|element| body.elements()[element].tag)
+/// Tag of the first element without a valid energy on any machine, and true if it is on this one.
+fn inadmissible(nodes: &impl Division, evaluated: &Evaluated, body: &Body) -> Option<(usize, bool)> {
+    let own = evaluated.survey.first.map(|element| body.elements()[element].tag);
+    let number = own.map_or(f64::INFINITY, |tag| tag as f64);
+    let first = -nodes.largest(-number);
+    match own {
+        Some(tag) if number == first => Some((tag, true)),
+        _ => first.is_finite().then_some((first as usize, false)),
+    }
 }

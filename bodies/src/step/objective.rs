@@ -150,8 +150,8 @@ impl<'a> Terms<'a> {
     }
 }
 
-/// The objective, with memory for its elastic part.
-pub(crate) struct Objective<'a> {
+/// Objective of a stage of a step, or the part of a machine, with memory for its elastic part.
+pub struct Objective<'a> {
     pub(crate) body: &'a Body,
     pub(crate) elastic: &'a mut Elastic,
     pub(crate) quadratic: Quadratic<'a>,
@@ -188,6 +188,31 @@ impl Objective<'_> {
     pub(super) fn noise(&self, x: &[[f64; 3]]) -> f64 {
         let of_terms = self.terms.change(x, x).map_or(0.0, |change| change.noise);
         self.elastic.difference_noise(self.body) + of_terms
+    }
+
+    /// Adds the second derivatives, except for those of the elements, to a stiffness.
+    pub fn add_second_derivatives(&self, stiffness: &mut NodalStiffness) {
+        self.quadratic.add_to(stiffness.matrix_mut());
+        self.blocks.add_to_blocks(stiffness.matrix_mut());
+    }
+
+    /// Part of inertia and damping in the diagonal of a node, N/m.
+    ///
+    /// # Panics
+    /// If there is no such node.
+    #[must_use]
+    pub fn inertia(&self, node: usize) -> f64 {
+        self.quadratic.guarded_diagonal(node)
+    }
+
+    /// Addition to the diagonal of a node, N/m, of which a solver adds multiples until the matrix is positive
+    /// definite.
+    ///
+    /// # Panics
+    /// If there is no such node.
+    #[must_use]
+    pub fn regularisation(&self, node: usize) -> f64 {
+        self.quadratic.regularisation(node)
     }
 
     /// Curvature dᵀ H d of inertia and damping.

@@ -8,12 +8,14 @@ use piola::batch::TileMaterial;
 
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
+use crate::system::linear::LinearError;
+use crate::system::linear::multigrid::Division;
 use crate::system::{Body, Pins};
 
 use super::error::SetupError;
 use super::minimisation::NewtonWorkspace;
 use super::objective::Terms;
-use super::solver::Choice;
+use super::solver::{Choice, Machine, OneMachine};
 use super::spring::Spring;
 use super::staged::StagedSteps;
 use super::term::{NodeBlocks, Term};
@@ -46,8 +48,11 @@ use settings::check_settings;
 /// A clone continues with the same bits and is independent of the original: to try a step, or for ensembles.
 /// It takes as much memory again, except for the materials and the symbolic factorisation, which are shared;
 /// to undo steps later it is enough to keep positions and velocities.
+///
+/// With another [`Machine`](super::divided::Machine) it is the part of a machine, of a body that is divided
+/// among machines.
 #[derive(Clone)]
-pub struct Simulation {
+pub struct Simulation<M: Machine = OneMachine> {
     body: Body,
     settings: SimulationSettings,
     /// State of the nodes, pins and springs.
@@ -58,14 +63,14 @@ pub struct Simulation {
     /// Given force on each node, N; empty without any.
     forces: Vec<[f64; 3]>,
     elastic: Elastic,
-    workspace: NewtonWorkspace,
+    workspace: NewtonWorkspace<M>,
     /// Diagonal that a unit of regularisation adds for each mass in statics, 1/s².
     static_regularisation: f64,
     /// Survey of the elastic energies at `positions`, if these were evaluated last.
     evaluated: Option<Evaluated>,
 }
 
-impl fmt::Debug for Simulation {
+impl<M: Machine> fmt::Debug for Simulation<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Simulation")
             .field("body", &self.body)
@@ -81,10 +86,47 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`], [`SetupError::Linear`].
     pub fn new(body: Body, pins: &Pins, settings: SimulationSettings) -> Result<Self, SetupError> {
+        let choice = Choice::Setting(settings.newton.linear);
+        Self::on(|body| OneMachine::new(body, pins, choice), body, pins, settings)
+    }
+
+    /// The given force on each node, N; empty without any.
+    #[must_use]
+    pub fn forces(&self) -> &[[f64; 3]] {
+        &self.forces
+    }
+
+    /// Terms of the energy except for deformation, gravity and springs.
+    #[must_use]
+    pub fn terms(&self) -> &[Arc<dyn Term>] {
+        &self.terms
+    }
+}
+
+impl<M: Machine> Simulation<M> {
+    /// Simulation of a divided body, on a machine that has this part; `None` if it has no elements. Pins
+    /// include copies of nodes of other machines.
+    ///
+    /// # Errors
+    /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`]: on this machine alone.
+    pub fn divided(
+        machine: M,
+        body: Option<Body>,
+        pins: &Pins,
+        settings: SimulationSettings,
+    ) -> Result<Self, SetupError> {
+        Self::on(|_| Ok(machine), body.unwrap_or_else(Body::empty), pins, settings)
+    }
+
+    fn on(
+        machine: impl FnOnce(&Body) -> Result<M, LinearError>,
+        body: Body,
+        pins: &Pins,
+        settings: SimulationSettings,
+    ) -> Result<Self, SetupError> {
         let steps = StagedSteps::new(settings.integrator, body.rest(), pins.nodes())?;
         check_settings(&settings)?;
-        let choice = Choice::Setting(settings.newton.linear);
-        let workspace = NewtonWorkspace::new(&body, pins, choice)?;
+        let workspace = NewtonWorkspace::new(machine(&body)?, body.rest().len());
         Ok(Self {
             settings,
             steps,
@@ -92,9 +134,9 @@ impl Simulation {
             blocks: NodeBlocks::default(),
             forces: Vec::new(),
             elastic: Elastic::new(&body),
-            workspace,
-            static_regularisation: static_regularisation(&body),
+            static_regularisation: static_regularisation(&body, workspace.machine.nodes()),
             evaluated: None,
+            workspace,
             body,
         })
     }
@@ -131,10 +173,9 @@ impl Simulation {
         self.steps.pinned()
     }
 
-    /// The given force on each node, N; empty without any.
-    #[must_use]
-    pub fn forces(&self) -> &[[f64; 3]] {
-        &self.forces
+    /// Machine that simulates the body or its part.
+    pub fn machine(&mut self) -> &mut M {
+        &mut self.workspace.machine
     }
 
     /// Survey of the elastic energies at the current positions, evaluated if necessary.
@@ -146,12 +187,6 @@ impl Simulation {
     /// Springs and other terms.
     pub(super) fn all_terms(&self) -> Terms<'_> {
         Terms { springs: self.steps.springs(), others: &self.terms }
-    }
-
-    /// Terms of the energy except for deformation, gravity and springs.
-    #[must_use]
-    pub fn terms(&self) -> &[Arc<dyn Term>] {
-        &self.terms
     }
 
     /// Springs that pull at the body.
@@ -169,12 +204,14 @@ impl Simulation {
 
 /// Small diagonal for each unit of mass, 1/s²: a ten-thousandth of the stiffness of elements over the mass of
 /// the body.
-fn static_regularisation(body: &Body) -> f64 {
+fn static_regularisation(body: &Body, nodes: &impl Division) -> f64 {
     let stiffness = |(material, elements): (&dyn TileMaterial<f64>, Range<usize>)| -> f64 {
         let lengths = body.elements()[elements].iter().map(|element| element.shape.volume.cbrt());
         material.rest_stiffness().abs() * lengths.sum::<f64>()
     };
-    1e-4 * body.materials().map(stiffness).sum::<f64>() / body.masses().iter().sum::<f64>()
+    let own = [body.materials().map(stiffness).sum(), body.masses().iter().sum()];
+    let [stiffness, mass] = nodes.totals(own);
+    1e-4 * stiffness / mass
 }
 
 #[cfg(all(test, feature = "faer"))]

@@ -6,22 +6,23 @@
 mod assembled;
 mod conjugate;
 mod interface;
+mod one_machine;
 mod preconditioner;
 mod user_defined;
-
-use std::sync::Arc;
 
 use crate::system::linear::LinearError;
 use crate::system::{Body, Pins};
 
 use assembled::Assembled;
 use conjugate::Conjugate;
+use interface::OwnSolver;
 
 pub use preconditioner::Preconditioner;
 pub use user_defined::SparseSolver;
 
-pub use interface::{Definiteness, Solution};
-pub(super) use interface::{SolveError, Solver};
+pub use interface::{Definiteness, Machine, Solution, SolveError, Solver};
+pub(super) use one_machine::Choice;
+pub use one_machine::OneMachine;
 
 /// Solver of the linear systems A p = b of Newton's method, b being minus the gradient.
 ///
@@ -108,7 +109,7 @@ impl LinearSolver {
         body: &Body,
         pins: &Pins,
         pairs: &[[usize; 2]],
-    ) -> Result<Box<dyn Solver>, LinearError> {
+    ) -> Result<Box<dyn OwnSolver>, LinearError> {
         Ok(match self {
             Self::Automatic => return Self::for_elements(body.elements().len()).set_up(body, pins, pairs),
             #[cfg(feature = "faer")]
@@ -119,44 +120,6 @@ impl LinearSolver {
                 Box::new(Conjugate::new(body, pins, pairs, tolerance, max_iterations)?)
             }
         })
-    }
-}
-
-/// Solver of a simulation: one of the settings, or a user-defined one.
-#[derive(Clone)]
-pub(crate) enum Choice {
-    Setting(LinearSolver),
-    UserDefined(Arc<dyn SetUp>),
-}
-
-impl Choice {
-    /// Sets the solver up for the pairs of nodes of a body's elements, and for these.
-    pub(crate) fn set_up(
-        &self,
-        body: &Body,
-        pins: &Pins,
-        pairs: &[[usize; 2]],
-    ) -> Result<Box<dyn Solver>, LinearError> {
-        match self {
-            Self::Setting(solver) => solver.set_up(body, pins, pairs),
-            Self::UserDefined(solver) => solver.set_up(body, pins, pairs),
-        }
-    }
-}
-
-/// A [`SparseSolver`] of any type, before it is set up.
-pub(crate) trait SetUp: Send + Sync {
-    fn set_up(&self, body: &Body, pins: &Pins, pairs: &[[usize; 2]]) -> Result<Box<dyn Solver>, LinearError>;
-}
-
-impl<S: SparseSolver> SetUp for S {
-    fn set_up(&self, body: &Body, pins: &Pins, pairs: &[[usize; 2]]) -> Result<Box<dyn Solver>, LinearError> {
-        let analysed = Assembled::new(body, pins, pairs, |matrix| {
-            let mut solver = self.clone();
-            solver.analyse(matrix.column_starts(), matrix.row_indices())?;
-            Ok(solver)
-        })?;
-        Ok(Box::new(analysed))
     }
 }
 

@@ -9,8 +9,8 @@ use super::error::SetupError;
 use super::integrator::{Integrator, Method, Stage, Stages, State, on_the_way};
 use super::spring::Spring;
 
-/// State of nodes, and the stages by which an [`Integrator`] advances it, for any minimiser: the one of
-/// [`Simulation`](super::Simulation), or of a body divided among machines.
+/// State of the nodes of a body, or of the part of a machine, and the stages by which an [`Integrator`]
+/// advances it.
 ///
 /// A step is [begun](StagedSteps::begin), its stages are minimised one by one, and it is
 /// [finished](StagedSteps::finish); a step that is begun again instead leaves the state as it was. The
@@ -21,29 +21,8 @@ use super::spring::Spring;
 /// ```
 ///
 /// for the s, w, τ and σ of its [`Stage`].
-///
-/// ```
-/// use piola_bodies::step::Integrator;
-/// use piola_bodies::step::divided::StagedSteps;
-///
-/// // Free fall: M a = M g, for any mass.
-/// let (g, dt) = (-9.81, 0.1);
-/// let mut steps = StagedSteps::new(Integrator::Sdirk2, &[[0.0; 3]], &[])?;
-/// for stage in 0..steps.begin(dt) {
-///     steps.begin_stage(stage);
-///     let [tau, sigma] = steps.stage().lengths();
-///     // The acceleration is linear in the position, with the slope 1/(τ σ).
-///     let [_, a] = steps.stage().motion(0, [0.0; 3]);
-///     steps.in_stage().end[0][1] = tau * sigma * (g - a[1]);
-///     steps.end_stage(stage);
-/// }
-/// steps.finish();
-/// assert!((steps.positions()[0][1] - 0.5 * g * dt * dt).abs() < 1e-15);
-/// assert!((steps.velocities()[0][1] - g * dt).abs() < 1e-15);
-/// # Ok::<(), piola_bodies::step::SetupError>(())
-/// ```
 #[derive(Clone, Debug)]
-pub struct StagedSteps {
+pub(super) struct StagedSteps {
     integrator: Integrator,
     method: Method,
     dt: f64,
@@ -65,7 +44,11 @@ impl StagedSteps {
     ///
     /// # Errors
     /// [`SetupError::NoSuchNode`].
-    pub fn new(integrator: Integrator, positions: &[[f64; 3]], pinned: &[usize]) -> Result<Self, SetupError> {
+    pub(super) fn new(
+        integrator: Integrator,
+        positions: &[[f64; 3]],
+        pinned: &[usize],
+    ) -> Result<Self, SetupError> {
         let nodes = positions.len();
         if let Some(&node) = pinned.iter().find(|&&node| node >= nodes) {
             return Err(NoSuchNode { element: None, node, nodes }.into());
@@ -102,21 +85,18 @@ impl StagedSteps {
     }
 
     /// Position of each node after the last step, m.
-    #[must_use]
-    pub fn positions(&self) -> &[[f64; 3]] {
+    pub(super) fn positions(&self) -> &[[f64; 3]] {
         &self.state.x
     }
 
     /// Velocity of each node after the last step, m/s.
-    #[must_use]
-    pub fn velocities(&self) -> &[[f64; 3]] {
+    pub(super) fn velocities(&self) -> &[[f64; 3]] {
         &self.state.v
     }
 
     /// Acceleration of each node, m/s², as in
     /// [`Simulation::accelerations`](super::Simulation::accelerations).
-    #[must_use]
-    pub fn accelerations(&self) -> &[[f64; 3]] {
+    pub(super) fn accelerations(&self) -> &[[f64; 3]] {
         &self.state.a
     }
 
@@ -124,7 +104,7 @@ impl StagedSteps {
     ///
     /// # Errors
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
-    pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
+    pub(super) fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(positions)?;
         self.state.x.copy_from_slice(positions);
         self.targets.copy_from_slice(positions);
@@ -135,7 +115,7 @@ impl StagedSteps {
     ///
     /// # Errors
     /// The errors of [`StagedSteps::set_positions`].
-    pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
+    pub(super) fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(velocities)?;
         self.state.v.copy_from_slice(velocities);
         Ok(())
@@ -145,15 +125,14 @@ impl StagedSteps {
     ///
     /// # Errors
     /// The errors of [`StagedSteps::set_positions`].
-    pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
+    pub(super) fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
         self.check_nodal(accelerations)?;
         self.state.a.copy_from_slice(accelerations);
         Ok(())
     }
 
     /// Indices of the pinned nodes, ascending.
-    #[must_use]
-    pub fn pinned(&self) -> &[usize] {
+    pub(super) fn pinned(&self) -> &[usize] {
         &self.pinned
     }
 
@@ -173,7 +152,7 @@ impl StagedSteps {
     ///
     /// # Errors
     /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
-    pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
+    pub(super) fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
         if self.pinned.binary_search(&node).is_err() {
             return Err(SetupError::NotPinned { node });
         }
@@ -185,8 +164,7 @@ impl StagedSteps {
     }
 
     /// The springs.
-    #[must_use]
-    pub fn springs(&self) -> &Vec<Spring> {
+    pub(super) fn springs(&self) -> &Vec<Spring> {
         &self.springs
     }
 
@@ -196,7 +174,7 @@ impl StagedSteps {
     /// # Errors
     /// [`SetupError::Spring`] if its stiffness is negative or a component is not finite,
     /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
-    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
+    pub(super) fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
         springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
         let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
             Some(old) if old.anchor == spring.anchor => self.targets_before[index],
@@ -209,7 +187,7 @@ impl StagedSteps {
     }
 
     /// Begins a step of `dt`, s, infinite for statics. Returns the number of its stages.
-    pub fn begin(&mut self, dt: f64) -> usize {
+    pub(super) fn begin(&mut self, dt: f64) -> usize {
         let is_static = dt == f64::INFINITY;
         let integrator = if is_static { Integrator::ImplicitEuler } else { self.integrator };
         self.method = integrator.method();
@@ -223,7 +201,7 @@ impl StagedSteps {
     ///
     /// # Panics
     /// If there is no such stage.
-    pub fn begin_stage(&mut self, stage: usize) -> bool {
+    pub(super) fn begin_stage(&mut self, stage: usize) -> bool {
         self.stages.begin(&self.method, stage, self.dt, &self.state);
         let share = self.method.share(stage);
         self.stages.pull(&self.springs, &self.targets_before, share);
@@ -239,14 +217,8 @@ impl StagedSteps {
         is_moving
     }
 
-    /// The stage begun last.
-    #[must_use]
-    pub fn stage(&self) -> &Stage {
-        &self.stages.current
-    }
-
     /// The stage begun last, as the input of its minimisation.
-    pub fn in_stage(&mut self) -> InStage<'_> {
+    pub(super) fn in_stage(&mut self) -> InStage<'_> {
         let Stages { current: stage, springs, .. } = &self.stages;
         InStage { stage, springs, pins_move: &self.pins_move, end: &mut self.next.x }
     }
@@ -255,14 +227,14 @@ impl StagedSteps {
     ///
     /// # Panics
     /// If there is no such stage.
-    pub fn end_stage(&mut self, stage: usize) {
+    pub(super) fn end_stage(&mut self, stage: usize) {
         if stage + 1 < self.method.stages() {
             self.stages.end(stage, &self.next.x);
         }
     }
 
     /// Ends the step, at the end of its last stage.
-    pub fn finish(&mut self) {
+    pub(super) fn finish(&mut self) {
         self.stages.finish(&mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
         for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
@@ -306,21 +278,13 @@ impl StagedSteps {
 
 /// Stage of a step as the input of its minimisation.
 #[derive(Debug)]
-pub struct InStage<'a> {
+pub(super) struct InStage<'a> {
     /// The stage.
-    pub stage: &'a Stage,
+    pub(super) stage: &'a Stage,
     /// The springs, with their targets in the stage.
-    pub springs: &'a Vec<Spring>,
+    pub(super) springs: &'a Vec<Spring>,
     /// Displacement of each pinned node, m; zero for others.
-    pub pins_move: &'a [[f64; 3]],
+    pub(super) pins_move: &'a [[f64; 3]],
     /// Positions of the nodes, m: the start of the minimisation, to be replaced by the minimum.
-    pub end: &'a mut [[f64; 3]],
-}
-
-impl Stage {
-    /// τ and σ, s.
-    #[must_use]
-    pub fn lengths(&self) -> [f64; 2] {
-        self.lengths
-    }
+    pub(super) end: &'a mut [[f64; 3]],
 }

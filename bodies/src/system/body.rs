@@ -94,6 +94,11 @@ impl Body {
         Ok(Self { rest: mesh.positions.clone(), masses, elements, runs })
     }
 
+    /// Body without nodes: the part of a machine that has no elements of a divided body.
+    pub(crate) fn empty() -> Self {
+        Self { rest: Vec::new(), masses: Vec::new(), elements: Vec::new(), runs: Vec::new() }
+    }
+
     /// Replaces the material of a part, numbered as in [`Body::from_parts`]; [`Body::new`] makes a body of
     /// one part.
     ///

@@ -46,4 +46,7 @@ pub enum LinearError {
     /// A pin names a node that does not exist.
     #[error("{0}")]
     NoSuchNode(#[from] NoSuchNode),
+    /// Another failure, of which the solver or the division among machines keeps the reason.
+    #[error("the solver has failed for a reason of its own")]
+    External,
 }

@@ -133,28 +133,6 @@ impl ElasticResponse {
         Ok(self.sum(energies, body, gradient))
     }
 
-    /// Makes the energies evaluated last the base of [`ElasticResponse::difference`].
-    pub fn set_base(&mut self) {
-        self.elastic.set_base();
-    }
-
-    /// Energy evaluated last minus the energy of the base, J: a sum of differences of elements, which keeps
-    /// digits that a difference of sums loses.
-    #[must_use]
-    pub fn difference(&self) -> f64 {
-        self.elastic.difference()
-    }
-
-    /// Bound for the rounding error of [`ElasticResponse::difference`], J, of the body for which this memory
-    /// was made.
-    ///
-    /// # Errors
-    /// [`LengthError`] for another body.
-    pub fn difference_noise(&self, body: &Body) -> Result<f64, LengthError> {
-        self.check_body(body)?;
-        Ok(self.elastic.difference_noise(body))
-    }
-
     fn check_body(&self, body: &Body) -> Result<(), LengthError> {
         same("elements", body.elements().len(), self.elements, 1)?;
         same("nodes", body.rest().len(), self.nodes, 1)
@@ -188,23 +166,8 @@ pub(super) fn same(
 
 #[cfg(test)]
 mod tests {
-    use piola::__private::random::Random;
-
     use super::*;
-    use crate::system::testing::{beam, neo_hookean, shake};
-
-    #[test]
-    fn differences_of_elements_add_up() {
-        let body = Body::new(&beam(3), neo_hookean(), 1000.0).expect("a body");
-        let mut random = Random::new(5);
-        let [before, x] = [0.01, 0.012].map(|amplitude| shake(&mut random, body.rest(), amplitude));
-        let mut response = ElasticResponse::new(&body);
-        let (at_start, _) = response.energy(&body, &before).expect("lengths");
-        response.set_base();
-        let (at_end, _) = response.energy(&body, &x).expect("lengths");
-        let noise = response.difference_noise(&body).expect("the same body");
-        assert!((response.difference() - (at_end - at_start)).abs() <= noise && noise < 1e-9 * at_end);
-    }
+    use crate::system::testing::{beam, neo_hookean};
 
     #[test]
     fn lengths_and_bodies_must_fit_and_refused_elements_are_counted() {

@@ -1,8 +1,7 @@
 //! Bodies, their responses, matrices and factors.
 
 use piola::point::Filter;
-use piola_bodies::step::Integrator;
-use piola_bodies::step::divided::{Preconditioner, StagedSteps, Undivided};
+use piola_bodies::step::divided::{Preconditioner, Undivided};
 use piola_bodies::system::{Body, ElasticResponse, LowerTriangle, NodalStiffness, Part};
 
 use crate::arguments::{Hostile, check};
@@ -57,16 +56,6 @@ fn bodies() {
             let _ = stiffness.multiply(&positions, &mut product);
             triangle(hostile, &stiffness);
             preconditioner(hostile, &stiffness, &positions);
-        }
-        let _ = response.difference_noise(&body);
-        let pinned = [hostile.node(body.rest().len()), 1];
-        if let Ok(mut steps) = StagedSteps::new(Integrator::Sdirk2, body.rest(), &pinned) {
-            let _ = steps.set_positions(&positions);
-            let _ = steps.set_velocities(&product);
-            let _ = steps.set_accelerations(&positions);
-            let _ = steps.prescribe(1, hostile.point());
-            let _ = steps.begin(hostile.number());
-            let _ = steps.begin_stage(0);
         }
         let _ = body.set_material(hostile.node(2), hostile.rubber());
     });

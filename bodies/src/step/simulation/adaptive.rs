@@ -1,10 +1,33 @@
-//! Steps of a simulation whose length follows from their error.
+//! Adaptive steps, whose length follows from their error.
+//!
+//! A step of length h with the result x₁ is made again as two of h/2, with x₂. For a method of order p the
+//! error of x₁ is near C hᵖ⁺¹, and the error of x₂ is 2ᵖ times smaller, therefore about
+//!
+//! ```text
+//! max |x₂ − x₁| / (2ᵖ − 1)
+//! ```
+//!
+//! If that is no more than the tolerance allows in the time h, x₂ is the state after h. Otherwise h is
+//! halved, and the first of the two halves is already the x₁ of the next attempt. A step that fails is halved
+//! too.
+//!
+//! Bodies that are suddenly pulled or let go move less smoothly than a third order demands: p is at most 2.
 
 use crate::step::error::StepError;
-use crate::step::halving::{self, Pace, Repeatable};
+use crate::step::integrator::State;
+use crate::step::newton::NewtonError;
+use crate::step::solver::Machine;
 use crate::step::staged::StagedSteps;
+use crate::system::LinearError;
+use crate::system::linear::multigrid::Division;
 
 use super::{Simulation, StepReport};
+
+/// Number of halvings after which a step is taken regardless of its error.
+const MAX_HALVINGS: u32 = 12;
+
+/// Share of its allowance below which an error lets the next step be twice as long.
+const GROWS_BELOW: f64 = 0.1;
 
 /// Report of [`Simulation::advance_within`].
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +52,9 @@ pub struct AdaptiveReport {
 /// Tolerance of each minimisation, as a share of the error of the step: it saves a tenth to a third of the
 /// iterations compared with a tolerance of 10⁻⁶, with the same steps.
 const ENOUGH: f64 = 0.03;
+
+/// Failure that shorter steps cannot avoid.
+const EXTERNAL: StepError = StepError::Newton(NewtonError::Linear(LinearError::External));
 
 impl Simulation {
     /// Advances by a time span, s, with adaptive steps that keep the error of positions below `tolerance`,
@@ -66,46 +92,144 @@ impl Simulation {
     /// [`StepError`] if a step of the shortest length fails, or neither the time nor the tolerance is
     /// positive and finite. The state before is then untouched.
     pub fn advance_within(&mut self, duration: f64, tolerance: f64) -> Result<AdaptiveReport, StepError> {
+        rayon::scope(|_| self.advance_within_here(duration, tolerance))
+    }
+}
+
+impl<M: Machine> Simulation<M> {
+    /// Advances as [`Simulation::advance_within`] does, as in [`Simulation::step_here`].
+    ///
+    /// # Errors
+    /// Those of [`Simulation::advance_within`], on all machines.
+    pub fn advance_within_here(
+        &mut self,
+        duration: f64,
+        tolerance: f64,
+    ) -> Result<AdaptiveReport, StepError> {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             return Err(StepError::Tolerance { tolerance });
         }
         let newton = self.settings.newton;
         self.settings.newton.error_share = newton.error_share.max(ENOUGH);
-        let pace = halving::advance_within(&mut Course(self), duration, tolerance * duration);
+        let whole = self.steps.clone();
+        let mut course = Course { body: self, whole, duration, report: None };
+        let made = course.run(tolerance * duration);
+        let Course { whole, .. } = course;
         self.settings.newton = newton;
-        let Pace { reports, taken, refused, unresolved, shortest, error } = pace?;
-        let mut sum: Option<StepReport> = None;
-        for report in reports {
-            let newton = report.newton.after(sum.map(|sum| sum.newton));
-            sum = Some(StepReport { newton, ..report });
+        if made.is_err() {
+            self.steps = whole;
+            self.evaluated = None;
         }
-        let Some(step) = sum else { return Err(StepError::TimeStep { dt: duration }) };
-        Ok(AdaptiveReport { step, taken, refused, unresolved, shortest, error })
+        made?.ok_or(StepError::TimeStep { dt: duration })
     }
 }
 
-/// A simulation whose steps are tried.
-struct Course<'a>(&'a mut Simulation);
+/// Time span of the integration.
+struct Course<'a, M: Machine> {
+    body: &'a mut Simulation<M>,
+    /// State at the start, with the prescribed motion of the nodes until the end.
+    whole: StagedSteps,
+    duration: f64,
+    /// Report of all steps together, those of refused attempts included.
+    report: Option<StepReport>,
+}
 
-impl Repeatable for Course<'_> {
-    type Report = StepReport;
-    type Error = StepError;
-
-    fn steps(&self) -> &StagedSteps {
-        &self.0.steps
+impl<M: Machine> Course<'_, M> {
+    /// Makes the steps; the report is `None` if there were none.
+    fn run(&mut self, allowed: f64) -> Result<Option<AdaptiveReport>, StepError> {
+        let weight = 2.0_f64.powi(self.whole.integrator().order().min(2)) - 1.0;
+        let parts = 1_u32 << MAX_HALVINGS;
+        let (mut taken, mut refused, mut unresolved, mut error) = (0, 0, 0, 0.0);
+        let mut shortest = parts;
+        let (mut at, mut length) = (0, parts);
+        // The state after a whole step from here, where an earlier attempt has found it.
+        let mut whole: Option<State> = None;
+        loop {
+            let before = self.state();
+            let attempt = self.attempt(at, length, whole.take());
+            let is_shortest = length == 1;
+            match attempt {
+                Ok(Attempt { distance, first_half }) => {
+                    let estimate = distance / weight;
+                    let share = f64::from(length) / f64::from(parts);
+                    if estimate <= allowed * share || is_shortest {
+                        at += length;
+                        taken += 1;
+                        unresolved += usize::from(estimate > allowed * share);
+                        error += estimate;
+                        shortest = shortest.min(length);
+                        if at == parts {
+                            let shortest = self.duration * (f64::from(shortest) / f64::from(parts));
+                            let report =
+                                |step| AdaptiveReport { step, taken, refused, unresolved, shortest, error };
+                            return Ok(self.report.take().map(report));
+                        }
+                        // A longer step ends where one of its length would, counted from the start.
+                        if estimate <= GROWS_BELOW * allowed * share && at % (2 * length) == 0 {
+                            length *= 2;
+                        }
+                        continue;
+                    }
+                    whole = Some(first_half);
+                }
+                // What an external solver reports may be an error of one machine alone.
+                Err(error) if is_shortest || error == EXTERNAL => return Err(error),
+                Err(_) => {}
+            }
+            refused += 1;
+            self.restore(&before);
+            length /= 2;
+        }
     }
 
-    fn steps_mut(&mut self) -> &mut StagedSteps {
-        &mut self.0.steps
+    /// Makes a step of `length` parts from `at` as two halves, and compares it with that made as a whole.
+    fn attempt(&mut self, at: u32, length: u32, whole: Option<State>) -> Result<Attempt, StepError> {
+        let parts = f64::from(1_u32 << MAX_HALVINGS);
+        let (start, end) = (f64::from(at) / parts, f64::from(at + length) / parts);
+        let middle = 0.5 * (start + end);
+        let whole = match whole {
+            Some(whole) => whole,
+            None => {
+                let before = self.state();
+                self.step_between(start, end)?;
+                let whole = self.state();
+                self.restore(&before);
+                whole
+            }
+        };
+        self.step_between(start, middle)?;
+        let first_half = self.state();
+        self.step_between(middle, end)?;
+        let pairs = self.body.positions().as_flattened().iter().zip(whole.x.as_flattened());
+        let own = pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        let distance = self.body.workspace.machine.nodes().largest(own);
+        Ok(Attempt { distance, first_half })
     }
 
-    fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
-        self.0.step(dt)
+    /// Makes one step between two shares of the whole time.
+    fn step_between(&mut self, start: f64, end: f64) -> Result<(), StepError> {
+        self.body.steps.drive(&self.whole, start, end);
+        let report = self.body.step_here((end - start) * self.duration)?;
+        let newton = report.newton.after(self.report.take().map(|before| before.newton));
+        self.report = Some(StepReport { newton, ..report });
+        Ok(())
     }
 
-    fn forget(&mut self) {
-        self.0.evaluated = None;
+    fn state(&self) -> State {
+        self.body.steps.state.clone()
     }
+
+    fn restore(&mut self, state: &State) {
+        self.body.steps.state.clone_from(state);
+        self.body.evaluated = None;
+    }
+}
+
+/// A step that was made as two halves.
+struct Attempt {
+    /// Largest distance along an axis between a node after the two halves and after the whole step, m.
+    distance: f64,
+    first_half: State,
 }
 
 #[cfg(test)]

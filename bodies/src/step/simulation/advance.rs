@@ -4,8 +4,10 @@ use crate::step::error::StepError;
 use crate::step::minimisation::StageMinimisation;
 use crate::step::newton::{NewtonError, NewtonReport, minimize};
 use crate::step::objective::{Objective, Quadratic, Terms};
+use crate::step::solver::Machine;
 use crate::step::staged::InStage;
 use crate::system::element::Evaluated;
+use crate::system::linear::multigrid::Division;
 
 use super::{Energies, Simulation};
 
@@ -34,13 +36,9 @@ impl Simulation {
     /// [`StepError`] if there is no admissible next state. The state before the step is then untouched, and a
     /// shorter step may succeed.
     pub fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
-        let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
-        let [tau, sigma] = self.settings.integrator.method().lengths(dt);
-        let has_inertia = (heaviest / tau / sigma).is_finite() && tau * sigma >= f64::MIN_POSITIVE;
-        if !(dt > 0.0 && dt.is_finite() && has_inertia) {
-            return Err(StepError::TimeStep { dt });
-        }
-        self.advance(dt)
+        // As a whole on rayon's threads: a caller outside of the pool would otherwise wait for one at each of
+        // the hundreds of parallel loops.
+        rayon::scope(|_| self.step_here(dt))
     }
 
     /// Moves the body towards a minimum of its energy with gravity and springs, without inertia and damping,
@@ -53,18 +51,37 @@ impl Simulation {
     /// # Errors
     /// [`StepError::Newton`] if there is no admissible next state. The state before is then untouched.
     pub fn equilibrate(&mut self) -> Result<StepReport, StepError> {
+        rayon::scope(|_| self.equilibrate_here())
+    }
+}
+
+impl<M: Machine> Simulation<M> {
+    /// Advances as [`Simulation::step`] does, on the thread of the caller and those of its loops; for a body
+    /// that is divided among machines.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::step`], on all machines.
+    pub fn step_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
+        let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
+        let heaviest = self.workspace.machine.nodes().largest(heaviest);
+        let [tau, sigma] = self.settings.integrator.method().lengths(dt);
+        let has_inertia = (heaviest / tau / sigma).is_finite() && tau * sigma >= f64::MIN_POSITIVE;
+        if !(dt > 0.0 && dt.is_finite() && has_inertia) {
+            return Err(StepError::TimeStep { dt });
+        }
+        self.advance(dt)
+    }
+
+    /// Moves the body as [`Simulation::equilibrate`] does, as in [`Simulation::step_here`].
+    ///
+    /// # Errors
+    /// Those of [`Simulation::equilibrate`], on all machines.
+    pub fn equilibrate_here(&mut self) -> Result<StepReport, StepError> {
         self.advance(f64::INFINITY)
     }
 
     /// A step of any length, infinity included.
-    ///
-    /// Runs as a whole on rayon's threads: a caller outside of the pool would otherwise wait for one at each
-    /// of the hundreds of parallel loops.
     fn advance(&mut self, dt: f64) -> Result<StepReport, StepError> {
-        rayon::scope(|_| self.advance_here(dt))
-    }
-
-    fn advance_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let mut survey = self.survey();
         self.evaluated = None;
         let mut newton: Option<NewtonReport> = None;
@@ -78,7 +95,7 @@ impl Simulation {
         self.evaluated = Some(survey);
         Ok(StepReport {
             newton: newton.unwrap_or_else(|| NewtonReport::before(&self.settings.newton)),
-            min_det: survey.min_det,
+            min_det: -self.workspace.machine.nodes().largest(-survey.min_det),
             energies: self.energies_of(self.elastic.energy()),
         })
     }
@@ -90,9 +107,13 @@ impl Simulation {
         survey: Evaluated,
     ) -> Result<(NewtonReport, Evaluated), NewtonError> {
         let pins_move = self.steps.begin_stage(stage);
-        let may_drift = self.pinned().len() < 3;
+        let nodes = self.workspace.machine.nodes();
+        let is_own = |node: &&usize| **node < self.body.rest().len() - nodes.copies();
+        let own = [usize::from(pins_move), self.pinned().iter().filter(is_own).count()];
+        let [moves, pinned] = nodes.totals(own.map(|number| number as f64));
+        let (pins_move, may_drift) = (moves > 0.0, pinned < 3.0);
         let InStage { stage, springs, pins_move: displacements, end } = self.steps.in_stage();
-        let [tau, sigma] = stage.lengths();
+        let [tau, sigma] = stage.lengths;
         let is_static = tau == f64::INFINITY;
         let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
         let objective = Objective {

@@ -2,6 +2,7 @@
 
 use crate::step::minimisation::demand_admissible;
 use crate::step::newton::NewtonError;
+use crate::step::solver::Machine;
 
 use super::{Simulation, SimulationSettings};
 
@@ -34,7 +35,7 @@ impl Simulation {
     /// at the current positions.
     pub fn reactions(&mut self) -> Result<Vec<[f64; 3]>, NewtonError> {
         let survey = self.survey();
-        demand_admissible(&survey, &self.body, &self.elastic)?;
+        demand_admissible(self.workspace.machine.nodes(), &survey, &self.body, &self.elastic)?;
         let forces = self.balance();
         let reaction = |&node: &usize| {
             std::array::from_fn(|c| {

@@ -6,16 +6,15 @@ use piola::NoSuchNode;
 use piola::batch::TileMaterial;
 
 use crate::step::error::SetupError;
-use crate::step::minimisation::NewtonWorkspace;
-use crate::step::solver::{Choice, SparseSolver};
+use crate::step::solver::{Choice, Machine, OneMachine, SparseSolver};
 use crate::step::spring::Spring;
 use crate::step::term::Term;
-use crate::system::{BodyError, Pins};
+use crate::system::{BodyError, LinearError, Pins};
 
 use super::settings::check_settings;
 use super::{Simulation, SimulationSettings, static_regularisation};
 
-impl Simulation {
+impl<M: Machine> Simulation<M> {
     /// Sets the position of each node, m, for any deformation, even collapsed. Pins hold their nodes there.
     ///
     /// # Errors
@@ -47,6 +46,29 @@ impl Simulation {
         self.steps.set_accelerations(accelerations)
     }
 
+    /// Prescribes the position of a pinned node, m, after the next step and from then on.
+    ///
+    /// # Errors
+    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
+    pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
+        self.steps.prescribe(node, position)
+    }
+
+    /// Replaces all springs.
+    ///
+    /// If a spring has the same index and anchor as one before, its target moves evenly in the course of the
+    /// next step. Implicit Euler depends on the end of a step only, other integrators also on what is
+    /// between.
+    ///
+    /// # Errors
+    /// [`SetupError::Spring`] if its stiffness is negative or a number is not finite,
+    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
+    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
+        self.steps.set_springs(springs)
+    }
+}
+
+impl Simulation {
     /// Replaces the set of pinned nodes. A node that was not pinned before is held where it is.
     ///
     /// Pinning nodes that were free when the linear solver was set up costs only the next factorisation;
@@ -59,7 +81,8 @@ impl Simulation {
         if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
             return Err(NoSuchNode { element: None, node, nodes }.into());
         }
-        self.workspace.set_pins(&self.body, pins)?;
+        self.workspace.machine.set_pins(&self.body, pins)?;
+        self.workspace.forget_direction();
         self.steps.set_pinned(pins.nodes());
         Ok(())
     }
@@ -75,7 +98,7 @@ impl Simulation {
         material: impl TileMaterial<f64> + 'static,
     ) -> Result<(), BodyError> {
         self.body.set_material(part, material)?;
-        self.static_regularisation = static_regularisation(&self.body);
+        self.static_regularisation = static_regularisation(&self.body, self.workspace.machine.nodes());
         self.evaluated = None;
         Ok(())
     }
@@ -99,27 +122,6 @@ impl Simulation {
         self.terms = terms;
     }
 
-    /// Prescribes the position of a pinned node, m, after the next step and from then on.
-    ///
-    /// # Errors
-    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
-    pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
-        self.steps.prescribe(node, position)
-    }
-
-    /// Replaces all springs.
-    ///
-    /// If a spring has the same index and anchor as one before, its target moves evenly in the course of the
-    /// next step. Implicit Euler depends on the end of a step only, other integrators also on what is
-    /// between.
-    ///
-    /// # Errors
-    /// [`SetupError::Spring`] if its stiffness is negative or a number is not finite,
-    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
-    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
-        self.steps.set_springs(springs)
-    }
-
     /// Replaces the settings from the next step on. Another linear solver, or another tolerance of it, is set
     /// up as by [`Simulation::new`].
     ///
@@ -128,10 +130,8 @@ impl Simulation {
     pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
         check_settings(&settings)?;
         let (new, old) = (&settings.newton, &self.settings.newton);
-        if new.linear != old.linear || self.workspace.has_user_defined_solver() {
-            let choice = Choice::Setting(new.linear);
-            self.workspace =
-                NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;
+        if new.linear != old.linear || self.workspace.machine.has_user_defined_solver() {
+            self.set_choice(Choice::Setting(new.linear))?;
         }
         self.steps.set_integrator(settings.integrator);
         self.settings = settings;
@@ -144,8 +144,13 @@ impl Simulation {
     /// # Errors
     /// [`SetupError::Linear`] with the error of the solver for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
-        let choice = Choice::UserDefined(Arc::new(solver));
-        self.workspace = NewtonWorkspace::new(&self.body, &Pins::at(self.pinned().iter().copied()), choice)?;
+        Ok(self.set_choice(Choice::UserDefined(Arc::new(solver)))?)
+    }
+
+    fn set_choice(&mut self, choice: Choice) -> Result<(), LinearError> {
+        let pins = Pins::at(self.pinned().iter().copied());
+        self.workspace.machine = OneMachine::new(&self.body, &pins, choice)?;
+        self.workspace.forget_direction();
         Ok(())
     }
 }

@@ -1,5 +1,8 @@
 //! Energies of a body in motion.
 
+use crate::step::solver::Machine;
+use crate::system::linear::multigrid::Division;
+
 use super::Simulation;
 
 /// Energies of a body, J.
@@ -29,7 +32,7 @@ impl Energies {
     }
 }
 
-impl Simulation {
+impl<M: Machine> Simulation<M> {
     /// Energies of the current state; the elastic one is NaN if an element is outside its domain.
     #[must_use]
     pub fn energies(&mut self) -> Energies {
@@ -50,6 +53,9 @@ impl Simulation {
         }
         energies.springs += self.springs().iter().map(|spring| spring.energy(x)).sum::<f64>();
         energies.terms += self.all_terms().energy_of_others(x);
-        energies
+        let Energies { elastic, kinetic, gravity, springs, forces, terms } = energies;
+        let own = [elastic, kinetic, gravity, springs, forces, terms];
+        let [elastic, kinetic, gravity, springs, forces, terms] = self.workspace.machine.nodes().totals(own);
+        Energies { elastic, kinetic, gravity, springs, forces, terms }
     }
 }

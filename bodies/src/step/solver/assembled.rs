@@ -1,13 +1,10 @@
 //! Second derivatives as a sparse matrix, for a factorisation or a user-defined solver.
 
-use piola::point::Filter;
-
 use crate::step::objective::Objective;
-use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::{Body, LowerTriangle, NodalStiffness, Pins};
 
-use super::interface::{Definiteness, Solution, SolveError, Solver};
+use super::interface::{Definiteness, OwnSolver, Solution, SolveError, Solver};
 use super::user_defined::SparseSolver;
 
 /// The largest tolerance that a solver receives.
@@ -52,11 +49,7 @@ impl<S> Assembled<S> {
     }
 }
 
-impl<S: SparseSolver> Solver for Assembled<S> {
-    fn free_nodes(&self) -> &[usize] {
-        &self.free
-    }
-
+impl<S: SparseSolver> OwnSolver for Assembled<S> {
     fn set_pins(&mut self, pins: &Pins) -> bool {
         let nodes = self.matrix.free_nodes();
         let is_pinned = |node: &usize| pins.nodes().binary_search(node).is_ok();
@@ -76,15 +69,22 @@ impl<S: SparseSolver> Solver for Assembled<S> {
         self.stiffness.matrix().pattern().block(a, b).is_some()
     }
 
-    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated {
-        objective.linearise(filter, &mut self.stiffness)
+    fn boxed_clone(&self) -> Box<dyn OwnSolver> {
+        Box::new(self.clone())
+    }
+}
+
+impl<S: SparseSolver> Solver for Assembled<S> {
+    fn free_nodes(&self) -> &[usize] {
+        &self.free
     }
 
-    fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        let elements = self.stiffness.elements();
-        elements.add_product(objective.body, displacement, total);
-        objective.quadratic.add_product(displacement, total);
-        objective.blocks.add_product(displacement, total);
+    fn with_stiffness(&mut self, work: &mut dyn FnMut(&mut NodalStiffness)) {
+        work(&mut self.stiffness);
+    }
+
+    fn add_product(&mut self, body: &Body, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        self.stiffness.elements().add_product(body, displacement, total);
     }
 
     fn solve(
@@ -136,9 +136,5 @@ impl<S: SparseSolver> Solver for Assembled<S> {
             direction[node] = [unknown[0], unknown[1], unknown[2]];
         }
         Ok(Some(Solution { shift, iterations, ..Solution::default() }))
-    }
-
-    fn boxed_clone(&self) -> Box<dyn Solver> {
-        Box::new(self.clone())
     }
 }

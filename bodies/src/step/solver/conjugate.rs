@@ -1,9 +1,6 @@
 //! Conjugate gradients on the assembled matrix.
 
-use piola::point::Filter;
-
 use crate::step::objective::Objective;
-use crate::system::element::Evaluated;
 use crate::system::linear::LinearError;
 use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
 use crate::system::linear::multigrid::Undivided;
@@ -11,7 +8,7 @@ use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::{Body, Pins};
 
-use super::interface::{Definiteness, Solution, SolveError, Solver};
+use super::interface::{Definiteness, OwnSolver, Solution, SolveError, Solver};
 use super::preconditioner::Preconditioner;
 
 /// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).
@@ -65,11 +62,7 @@ impl Conjugate {
     }
 }
 
-impl Solver for Conjugate {
-    fn free_nodes(&self) -> &[usize] {
-        &self.nodes.free
-    }
-
+impl OwnSolver for Conjugate {
     fn joins(&self, a: usize, b: usize) -> bool {
         self.stiffness.matrix().pattern().block(a, b).is_some()
     }
@@ -79,24 +72,22 @@ impl Solver for Conjugate {
         true
     }
 
+    fn boxed_clone(&self) -> Box<dyn OwnSolver> {
+        Box::new(self.clone())
+    }
+}
+
+impl Solver for Conjugate {
+    fn free_nodes(&self) -> &[usize] {
+        &self.nodes.free
+    }
+
     fn begin(&mut self) {
         self.preconditioner.forget();
     }
 
-    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated {
-        objective.linearise(filter, &mut self.stiffness)
-    }
-
-    fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        let mut product = vec![[0.0; 3]; total.len()];
-        self.stiffness.matrix_mut().multiply(displacement, &mut product);
-        for (total, product) in total.iter_mut().zip(product) {
-            for c in 0..3 {
-                total[c] += product[c];
-            }
-        }
-        objective.quadratic.add_product(displacement, total);
-        objective.blocks.add_product(displacement, total);
+    fn with_stiffness(&mut self, work: &mut dyn FnMut(&mut NodalStiffness)) {
+        work(&mut self.stiffness);
     }
 
     fn solve(
@@ -109,13 +100,11 @@ impl Solver for Conjugate {
         definiteness: Definiteness,
     ) -> Result<Option<Solution>, SolveError> {
         let Self { stiffness, nodes, preconditioner, conjugate_gradients, .. } = self;
-        objective.quadratic.add_to(stiffness.matrix_mut());
-        objective.blocks.add_to_blocks(stiffness.matrix_mut());
+        objective.add_second_derivatives(stiffness);
         let tolerance = tolerance.min(self.tolerance);
         let mut given_up = 0;
         loop {
-            preconditioner
-                .take(stiffness, &nodes.is_free, x, |node| objective.quadratic.guarded_diagonal(node))?;
+            preconditioner.take(stiffness, &nodes.is_free, x, |node| objective.inertia(node))?;
             for (direction, gradient) in direction.iter_mut().zip(gradient) {
                 *direction = gradient.map(|g| -g);
             }
@@ -137,10 +126,6 @@ impl Solver for Conjugate {
             }
             return Ok(solution);
         }
-    }
-
-    fn boxed_clone(&self) -> Box<dyn Solver> {
-        Box::new(self.clone())
     }
 }
 

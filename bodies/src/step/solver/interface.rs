@@ -1,12 +1,11 @@
 //! Interface of the linear solvers to Newton's method.
 
-use piola::point::Filter;
-
 use crate::step::objective::Objective;
-use crate::system::Pins;
-use crate::system::element::Evaluated;
+use crate::step::term::NodeBlocks;
 use crate::system::linear::LinearError;
 use crate::system::linear::conjugate_gradients::{End, Iteration};
+use crate::system::linear::multigrid::Division;
+use crate::system::{Body, NodalStiffness, Pins};
 
 /// Requirement on the matrix of a linear system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,31 +27,63 @@ pub struct Solution {
     pub truncated: bool,
 }
 
-/// A solver of the linear systems of a simulation, with all its memory.
-pub(crate) trait Solver: Send + Sync {
-    /// The nodes that are not pinned, in the order of the unknowns.
+/// Machine that simulates a body or, of a body that is divided among machines, its part.
+///
+/// All machines must call all functions of their simulations, in the same order.
+pub trait Machine {
+    /// Division of the nodes.
+    type Nodes: Division;
+
+    /// Division of the nodes.
+    fn nodes(&self) -> &Self::Nodes;
+
+    /// Division of the nodes, for exchanges.
+    fn nodes_mut(&mut self) -> &mut Self::Nodes;
+
+    /// Solver of the linear systems.
+    fn solver(&mut self) -> &mut dyn Solver;
+
+    /// Sets up a new solver if the blocks of terms join nodes without a block in its matrix.
+    ///
+    /// # Errors
+    /// [`LinearError`].
+    fn join(&mut self, body: &Body, blocks: &NodeBlocks) -> Result<(), LinearError> {
+        let _ = (body, blocks);
+        Ok(())
+    }
+}
+
+/// Solver of the linear systems of a simulation, with all its memory.
+pub trait Solver {
+    /// Nodes that are not pinned, in the order of the unknowns.
     fn free_nodes(&self) -> &[usize];
-
-    /// True if the matrix has a block for two free nodes.
-    fn joins(&self, a: usize, b: usize) -> bool;
-
-    /// Replaces the pins; returns false if a new solver has to be set up for them.
-    fn set_pins(&mut self, pins: &Pins) -> bool;
 
     /// Discards information from earlier systems, before the first one of a step: a step depends only on the
     /// state before it.
     fn begin(&mut self) {}
 
-    /// Evaluates gradients and filtered second derivatives where the energies were evaluated last.
-    fn linearise(&mut self, objective: &mut Objective<'_>, filter: Filter) -> Evaluated;
+    /// Calls `work` with the stiffness of the elements, which it replaces once before each system.
+    fn with_stiffness(&mut self, work: &mut dyn FnMut(&mut NodalStiffness));
 
-    /// Adds the product of the second derivatives with a displacement of few nodes.
-    fn add_product(&mut self, objective: &Objective<'_>, displacement: &[[f64; 3]], total: &mut [[f64; 3]]);
+    /// Adds the product of the stiffness of a body with a displacement of few nodes to `total`.
+    fn add_product(&mut self, _: &Body, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        let mut product = vec![[0.0; 3]; total.len()];
+        self.with_stiffness(&mut |stiffness| stiffness.matrix_mut().multiply(displacement, &mut product));
+        for (total, product) in total.iter_mut().zip(product) {
+            for c in 0..3 {
+                total[c] += product[c];
+            }
+        }
+    }
 
-    /// Solves for the direction at `x`, zero at pinned nodes, once after each linearisation. Returns `None`
-    /// if the matrix is indefinite and definiteness is required.
+    /// Solves for the direction at `x`, zero at pinned nodes, once after each linearisation; a machine finds
+    /// the direction of the nodes that it owns. Returns `None` if the matrix is indefinite and definiteness
+    /// is required.
     ///
     /// `tolerance` takes effect if it is tighter than the solver's own.
+    ///
+    /// # Errors
+    /// [`SolveError`], on all machines.
     fn solve(
         &mut self,
         objective: &Objective<'_>,
@@ -62,12 +93,21 @@ pub(crate) trait Solver: Send + Sync {
         tolerance: f64,
         definiteness: Definiteness,
     ) -> Result<Option<Solution>, SolveError>;
-
-    /// A copy with memory of its own.
-    fn boxed_clone(&self) -> Box<dyn Solver>;
 }
 
-impl Clone for Box<dyn Solver> {
+/// Solver of a body on one machine.
+pub(crate) trait OwnSolver: Solver + Send + Sync {
+    /// True if the matrix has a block for two free nodes.
+    fn joins(&self, a: usize, b: usize) -> bool;
+
+    /// Replaces the pins; returns false if a new solver has to be set up for them.
+    fn set_pins(&mut self, pins: &Pins) -> bool;
+
+    /// A copy with memory of its own.
+    fn boxed_clone(&self) -> Box<dyn OwnSolver>;
+}
+
+impl Clone for Box<dyn OwnSolver> {
     fn clone(&self) -> Self {
         self.as_ref().boxed_clone()
     }
@@ -92,16 +132,17 @@ impl Solution {
 
 /// Reason why a linear system has no solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum SolveError {
-    /// The matrix is not positive definite even with this multiple of inertia added.
+pub enum SolveError {
+    /// The matrix is not positive definite with any multiple of inertia added.
     NotPositive {
         /// The node in whose unknowns a pivot fails.
         node: usize,
+        /// The largest multiple of inertia that was tried.
         shift: f64,
     },
     /// The solution is infinite or NaN.
     NotFinite,
-    /// The factorisation fails for another reason.
+    /// The solver fails for another reason.
     Linear(LinearError),
 }
 

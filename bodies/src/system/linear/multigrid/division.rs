@@ -37,6 +37,12 @@ pub trait Division: Sized {
     /// Adds all copies of each owned row to the row.
     fn sum<const N: usize>(&mut self, rows: &mut [[f32; N]]);
 
+    /// Replaces the copies by the vectors of their owners, in full precision.
+    fn copy_vectors(&mut self, rows: &mut [[f64; 3]]);
+
+    /// Adds all copies of each owned row to the row, in full precision.
+    fn sum_vectors(&mut self, rows: &mut [[f64; 3]]);
+
     /// List, for each copy, that its owner writes for the row.
     fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>>;
 
@@ -44,8 +50,13 @@ pub trait Division: Sized {
     /// `list` is the number of the copy among the copies of the machine.
     fn lists_for_owners(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<(usize, Vec<u64>)>;
 
+    /// Sum of each number over all machines.
+    fn totals<const N: usize>(&self, numbers: [f64; N]) -> [f64; N];
+
     /// Sum over all machines.
-    fn total(&self, number: f64) -> f64;
+    fn total(&self, number: f64) -> f64 {
+        self.totals([number])[0]
+    }
 
     /// Maximum over all machines.
     fn largest(&self, number: f64) -> f64;
@@ -92,6 +103,10 @@ impl Division for Undivided {
 
     fn sum<const N: usize>(&mut self, _: &mut [[f32; N]]) {}
 
+    fn copy_vectors(&mut self, _: &mut [[f64; 3]]) {}
+
+    fn sum_vectors(&mut self, _: &mut [[f64; 3]]) {}
+
     fn lists_for_copies(&mut self, _: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {
         Vec::new()
     }
@@ -100,8 +115,8 @@ impl Division for Undivided {
         Vec::new()
     }
 
-    fn total(&self, number: f64) -> f64 {
-        number
+    fn totals<const N: usize>(&self, numbers: [f64; N]) -> [f64; N] {
+        numbers
     }
 
     fn largest(&self, number: f64) -> f64 {

@@ -105,6 +105,22 @@ impl Division for Machine {
         }
     }
 
+    fn copy_vectors(&mut self, rows: &mut [[f64; 3]]) {
+        let owned = rows.len() - self.copies.len();
+        let lists = self.lists_for_copies(|row, list| list.extend(rows[row].map(f64::to_bits)));
+        for (row, list) in rows[owned..].iter_mut().zip(lists) {
+            *row = std::array::from_fn(|c| f64::from_bits(list[c]));
+        }
+    }
+
+    fn sum_vectors(&mut self, rows: &mut [[f64; 3]]) {
+        let owned = rows.len() - self.copies.len();
+        let lists = self.lists_for_owners(|copy, list| list.extend(rows[owned + copy].map(f64::to_bits)));
+        for (row, list) in lists {
+            (0..3).for_each(|c| rows[row][c] += f64::from_bits(list[c]));
+        }
+    }
+
     fn lists_for_copies(&mut self, mut list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {
         let all = self.lists(self.own().enumerate().map(|(row, number)| (number, made(&mut list, row))));
         let list = |copy: &u64| all.iter().find(|(row, _)| row == copy).expect("of its owner").1.clone();
@@ -119,9 +135,9 @@ impl Division for Machine {
         mine.map(|(row, list)| ((row - own.start) as usize, list)).collect()
     }
 
-    fn total(&self, number: f64) -> f64 {
-        let all = self.board.exchange(self.number, vec![number.to_bits()]);
-        all.iter().map(|list| f64::from_bits(list[0])).sum()
+    fn totals<const N: usize>(&self, numbers: [f64; N]) -> [f64; N] {
+        let all = self.board.exchange(self.number, numbers.map(f64::to_bits).to_vec());
+        std::array::from_fn(|at| all.iter().map(|list| f64::from_bits(list[at])).sum())
     }
 
     fn largest(&self, number: f64) -> f64 {
@@ -246,16 +262,10 @@ fn residuals(part: &Part, number: &[usize], board: &Arc<Board>, machine: usize) 
     let mut matrix = matrix.clone();
     let (mut x, mut product) = (vec![[0.0; 3]; nodes.len()], vec![[0.0; 3]; nodes.len()]);
     let mut norms = Vec::new();
-    let bits = |row: [f64; 3]| row.map(f64::to_bits);
     for _ in 0..12 {
-        let lists = rows.lists_for_copies(|row, list| list.extend(bits(x[row])));
-        for (x, list) in x[*owned..].iter_mut().zip(lists) {
-            *x = std::array::from_fn(|c| f64::from_bits(list[c]));
-        }
+        rows.copy_vectors(&mut x);
         matrix.multiply(&x, &mut product);
-        for (row, list) in rows.lists_for_owners(|copy, list| list.extend(bits(product[owned + copy]))) {
-            (0..3).for_each(|c| product[row][c] += f64::from_bits(list[c]));
-        }
+        rows.sum_vectors(&mut product);
         let residual: Vec<[f64; 3]> = (0..*owned)
             .map(|row| std::array::from_fn(|c| f64::from(is_free[row]) * (b[row][c] - product[row][c])))
             .collect();
