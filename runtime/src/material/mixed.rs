@@ -98,7 +98,7 @@ macro_rules! each_lane {
 }
 
 macro_rules! mixed_responses {
-    ([] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
+    ([] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* } properties $_properties:tt) => {
         impl<M: Material + PartialEq> Material for Mixed<'_, M> {
             $(
                 #[inline(always)]
