@@ -4,16 +4,16 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use piola::__private::interpreter::{ParameterValues, Program, Programs, Value};
-use piola::__private::{
-    Values, check_parameters, defined_at_rest, extends, same_length, stable_at_rest, stress_free_at_rest,
-};
+use piola::__private::{Condition, Values, at_rest, check_parameters, extends, inside_at_rest, same_length};
 use piola::interpreter::Interpreted;
 use piola::material::{Description, Form, MaterialError, Text};
 use piola::{Inversion, Spline, Univariate};
+use piola_codegen::emit::condition::named;
+use piola_codegen::emit::condition_text;
 use piola_codegen::model::Model;
 use piola_codegen::read::parse::{Declaration, Entries};
 
-use crate::condition::Condition;
+use crate::condition::condition;
 use crate::lower::lower;
 
 /// Checks of the values of an energy's parameters.
@@ -28,8 +28,9 @@ pub(crate) struct Constructor {
     admissible: Vec<Condition>,
     /// Conditions under which an extension restores; `None` without an extension.
     extend: Option<Vec<Condition>>,
-    /// Bounds of the domain that parameters decide at rest.
-    at_rest: Vec<(Program, Condition)>,
+    /// Bounds of the domain that parameters decide at rest, as conditions and with the parameters that they
+    /// name.
+    at_rest: Vec<(Program, Text, Vec<usize>)>,
     pub(crate) is_prestressed: bool,
     has_functions: bool,
 }
@@ -38,12 +39,13 @@ impl Constructor {
     /// The checks of a declaration; `None` if a program needs more registers than there are.
     pub(crate) fn new(declaration: &Declaration, model: &mut Model) -> Option<Self> {
         let options = &declaration.options;
-        let conditions = |all: &[syn::Expr]| all.iter().map(|one| Condition::new(declaration, one)).collect();
-        let bounds: Vec<_> = declaration.bounds().cloned().collect();
+        let conditions = |all: &[syn::Expr]| all.iter().map(|one| condition(declaration, one)).collect();
         let mut at_rest = Vec::new();
         for (k, value) in model.bounds_at_rest.clone() {
             let program = lower(declaration, &model.program(&[value]))?;
-            at_rest.extend(bounds.get(k).map(|bound| (program, Condition::new(declaration, bound))));
+            let bound = declaration.bounds().nth(k);
+            let named = |bound| (program, Text::from(condition_text(bound)), named(declaration, bound));
+            at_rest.extend(bound.map(named));
         }
         let stated = declaration.lengths.iter().map(|entries| match entries {
             Entries::Known(syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(length), .. })) => {
@@ -128,43 +130,33 @@ impl Constructor {
         values: ParameterValues,
         inversion: Inversion,
     ) -> Result<Interpreted, MaterialError> {
-        let numbers = values.all().iter().map(|value| match value {
-            Value::Numbers(numbers) => &numbers[..],
-            Value::Function(_) => &[],
-        });
-        check_parameters(&description.parameters, numbers)?;
-        for condition in &self.admissible {
-            if let Some(given) = condition.violation(&values) {
-                return Err(MaterialError::Violated { condition: condition.text.clone(), given });
-            }
-        }
+        let numbers: Vec<_> = values.all().iter().map(numbers).collect();
+        let parameters = &description.parameters;
+        check_parameters(parameters, &numbers, &self.admissible)?;
         let material = Interpreted::new(programs.clone(), values.clone(), Inversion::Refuse);
-        for (program, condition) in &self.at_rest {
-            let inside = material.compute(program, &[], 0)[0] > 0.0;
-            if !inside {
-                let (condition, given) = (condition.text.clone(), condition.numbers(&values));
-                return Err(MaterialError::RestOutside { condition, given });
+        for (program, condition, names) in &self.at_rest {
+            let bound = material.compute(program, &[], 0)[0];
+            inside_at_rest(parameters, &numbers, bound, condition.clone(), names)?;
+        }
+        let material = at_rest(material, self.is_prestressed, self.has_functions)?;
+        match (inversion, &self.extend) {
+            (Inversion::Refuse, _) => Ok(material),
+            (Inversion::Extend { .. }, None) => {
+                let (material, reason) = (description.name.clone(), description.refusal.clone());
+                Err(MaterialError::NoExtension { material, reason })
+            }
+            (Inversion::Extend { .. }, Some(conditions)) => {
+                extends(parameters, &numbers, inversion, conditions)?;
+                Ok(Interpreted::new(programs.clone(), values, inversion))
             }
         }
-        let material = match (self.is_prestressed, self.has_functions) {
-            (true, false) => material,
-            (true, true) => defined_at_rest(material)?,
-            (false, false) => stable_at_rest(material)?,
-            (false, true) => {
-                defined_at_rest(material).and_then(stable_at_rest).and_then(stress_free_at_rest)?
-            }
-        };
-        let Inversion::Extend { .. } = inversion else { return Ok(material) };
-        let Some(conditions) = &self.extend else {
-            let (material, reason) = (description.name.clone(), description.refusal.clone());
-            return Err(MaterialError::NoExtension { material, reason });
-        };
-        extends(inversion)?;
-        for condition in conditions {
-            if let Some(given) = condition.violation(&values) {
-                return Err(MaterialError::DoesNotRestore { condition: condition.text.clone(), given });
-            }
-        }
-        Ok(Interpreted::new(programs.clone(), values, inversion))
+    }
+}
+
+/// The numbers of a value; none of a function.
+pub(crate) fn numbers(value: &Value) -> &[f64] {
+    match value {
+        Value::Numbers(numbers) => numbers,
+        Value::Function(_) => &[],
     }
 }

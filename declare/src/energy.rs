@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use piola::__private::interpreter::{ByInvariants, Calls, ParameterValues, Programs, Value, Variant, Volume};
-use piola::__private::record;
+use piola::__private::{Condition, record};
 use piola::contract::Notation;
 use piola::interpreter::Interpreted;
 #[cfg(doc)]
@@ -24,9 +24,8 @@ use piola_codegen::read;
 use piola_codegen::read::notation::plain_name;
 use piola_codegen::read::parse::{Declaration, Kind};
 
-use crate::condition::Condition;
 use crate::constructor::Constructor;
-use crate::fit::Fit;
+use crate::fit::{self, Fit};
 use crate::lower::{lower, lower_within};
 
 /// An elastic energy, compiled from text.
@@ -170,12 +169,7 @@ impl Energy {
     /// [`with_values`](Self::with_values): [`Fittable::values`].
     #[must_use]
     pub fn values(&self, material: &Interpreted) -> Vec<Vec<f64>> {
-        let values = material.values().all().iter();
-        let list = |value: &Value| match value {
-            Value::Numbers(numbers) => numbers.clone(),
-            Value::Function(function) => function.values(),
-        };
-        values.map(list).collect()
+        fit::values(material)
     }
 
     /// A material of this energy with other values, and without extension: [`Fittable::with_values`].
@@ -356,13 +350,6 @@ fn description(declaration: &Declaration, units: &[Option<read::unit::Unit>], te
         values: typical.values.iter().map(|(_, values)| Cow::Owned(values.numbers.clone())).collect(),
         source: typical.source.value().into(),
     });
-    let refusal = match &options.refuse {
-        Some(reason) => Some(reason.value().into()),
-        None if options.domain.is_empty() => {
-            Some(Text::Borrowed("it is defined for every deformation gradient already"))
-        }
-        None => None,
-    };
     Description {
         name: declaration.name.to_string().into(),
         summary: summary.into(),
@@ -370,7 +357,7 @@ fn description(declaration: &Declaration, units: &[Option<read::unit::Unit>], te
         parameters: parameters.collect(),
         domain: [domain, defined].join(" ").trim_end().to_owned().into(),
         extends: options.extend.is_some(),
-        refusal,
+        refusal: options.refusal().map(Text::from),
         admissible: options.admissible.iter().map(|condition| condition_text(condition).into()).collect(),
         moduli: moduli.map(Text::from),
         typical,

@@ -10,6 +10,7 @@ use piola_codegen::emit::condition_text;
 use piola_codegen::model::{self, Model};
 use piola_codegen::read::parse::Declaration;
 
+use crate::constructor::numbers;
 use crate::lower::lower;
 
 /// Programs for fits of an energy.
@@ -88,22 +89,16 @@ impl Condition {
 
     fn constraints(&self, material: &Interpreted, arguments: &[f64]) -> Vec<Constraint> {
         let value = |material: &Interpreted, entry: usize| material.compute(&self.value, arguments, entry)[0];
-        let constraint = |entry: Option<usize>, gradient: Vec<f64>| Constraint {
-            limit: self.limit.clone(),
-            value: value(material, entry.unwrap_or_default()),
-            gradient,
+        let Some(list) = self.list else {
+            let slopes = self.slopes.each(material, arguments, &|material| [value(material, 0)]);
+            let gradient = slopes.into_iter().map(|[slope]| slope).collect();
+            return vec![Constraint { limit: self.limit.clone(), value: value(material, 0), gradient }];
         };
-        match self.list {
-            None => {
-                let slopes = self.slopes.each(material, arguments, &|material| [value(material, 0)]);
-                vec![constraint(None, slopes.into_iter().map(|[slope]| slope).collect())]
-            }
-            Some(list) => {
-                let entries = 0..length(material.values(), list);
-                let of_entry = |entry| constraint(Some(entry), self.slopes.of_entry(material, entry));
-                entries.map(of_entry).collect()
-            }
-        }
+        let of_entry = |entry| {
+            let (limit, slopes) = (self.limit.clone(), self.slopes.of_entry(material, entry));
+            Constraint::of_entry(limit, value(material, entry), values(material), &slopes)
+        };
+        (0..length(material.values(), list)).map(of_entry).collect()
     }
 }
 
@@ -161,23 +156,24 @@ impl Slopes {
         slopes.concat()
     }
 
-    /// The derivatives of one result, a condition on the entry of lists, by each number: by other entries
-    /// they are zero.
-    fn of_entry(&self, material: &Interpreted, entry: usize) -> Vec<f64> {
-        let values = material.values();
-        let zeros = |value: &Value| match value {
-            Value::Numbers(numbers) => vec![0.0; numbers.len()],
-            Value::Function(function) => vec![0.0; function.values().len()],
+    /// The derivatives of one result, a condition on the entry of lists, each with its parameter and place.
+    fn of_entry(&self, material: &Interpreted, entry: usize) -> Vec<(usize, usize, f64)> {
+        let of_program = |(list, parameters, program): &(Option<usize>, Vec<usize>, Program)| {
+            let place = if list.is_some() { entry } else { 0 };
+            let slopes = parameters.iter().zip(material.compute(program, &[], entry));
+            slopes.map(|(&k, slope)| (k, place, slope)).collect::<Vec<_>>()
         };
-        let mut slopes: Vec<Vec<f64>> = values.all().iter().map(zeros).collect();
-        for (list, parameters, program) in &self.programs {
-            let computed = material.compute(program, &[], entry);
-            for (&k, slope) in parameters.iter().zip(computed) {
-                slopes[k][if list.is_some() { entry } else { 0 }] = slope;
-            }
-        }
-        slopes.concat()
+        self.programs.iter().flat_map(of_program).collect()
     }
+}
+
+/// Values of the parameters, one list for each, in the form that a fit changes.
+pub(crate) fn values(material: &Interpreted) -> Vec<Vec<f64>> {
+    let list = |value: &Value| match value {
+        Value::Numbers(numbers) => numbers.clone(),
+        Value::Function(function) => function.values(),
+    };
+    material.values().all().iter().map(list).collect()
 }
 
 /// The material with another value of a parameter, which is not checked.
@@ -188,8 +184,5 @@ fn with(material: &Interpreted, parameter: usize, value: Value) -> Interpreted {
 }
 
 fn length(values: &ParameterValues, parameter: usize) -> usize {
-    match values.all().get(parameter) {
-        Some(Value::Numbers(numbers)) => numbers.len(),
-        _ => 0,
-    }
+    values.all().get(parameter).map_or(0, |value| numbers(value).len())
 }

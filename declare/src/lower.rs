@@ -157,10 +157,10 @@ fn constants(declaration: &Declaration, parts: &[&Ordered]) -> BTreeSet<Name> {
     let mut constants = BTreeSet::new();
     let is_whole = |k: usize| declaration.parameters[k].is_whole;
     for (part, ordered) in parts.iter().enumerate() {
-        let mut add = |value: Value, op: &Op| {
+        for (value, op) in ordered.operations() {
             let mut operands = op.operands().into_iter();
             let mut are_constant = || operands.all(|operand| constants.contains(&Name::Value(part, operand)));
-            let is_constant = match *op {
+            let is_constant = match op {
                 Op::Literal(_) | Op::Epsilon => true,
                 Op::Parameter(k) | Op::Entry(k) => !is_whole(k),
                 Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) => are_constant(),
@@ -169,12 +169,6 @@ fn constants(declaration: &Declaration, parts: &[&Ordered]) -> BTreeSet<Name> {
             };
             if is_constant {
                 constants.insert(Name::Value(part, value));
-            }
-        };
-        for statement in &ordered.statements {
-            match statement {
-                Statement::Let(value, op) => add(*value, op),
-                Statement::Loop { body, .. } => body.iter().for_each(|(value, op)| add(*value, op)),
             }
         }
     }

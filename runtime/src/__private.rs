@@ -11,6 +11,7 @@ pub use crate::batch::material::{Arguments, Properties};
 #[cfg(feature = "batch")]
 pub use crate::kernels::rows::Rows;
 pub use crate::lanes::Mask;
+pub use crate::material::condition::{Condition, Term};
 pub use crate::material::constructor::*;
 pub use crate::material::differences::by_values;
 pub use crate::material::parameter::PerLane;

@@ -17,6 +17,7 @@
 
 use crate::lanes::{Mask, Real, Scalar};
 
+pub(crate) mod condition;
 pub(crate) mod constructor;
 mod description;
 pub(crate) mod differences;

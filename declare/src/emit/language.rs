@@ -107,15 +107,36 @@ pub(super) fn language(target: Target, precision: Precision, prefix: &str) -> Bo
 pub(super) struct Needs<'a>(pub(super) Vec<&'a RecordedOperation>);
 
 impl Needs<'_> {
-    fn calls(&self, function: Function) -> bool {
-        self.0.iter().any(|one| matches!(one, RecordedOperation::Call(called, _) if *called == function))
+    /// True if a part of the primitives is needed, named like its function; `all` always is.
+    fn part(&self, part: &str) -> bool {
+        let unary = |operator: Unary| {
+            self.any(|one| matches!(one, RecordedOperation::Unary(used, _) if *used == operator))
+        };
+        let binary = |operator: Binary| {
+            self.any(|one| matches!(one, RecordedOperation::Binary(used, ..) if *used == operator))
+        };
+        let calls = |function: Function| {
+            self.any(|one| matches!(one, RecordedOperation::Call(used, _) if *used == function))
+        };
+        match part {
+            "all" => true,
+            "copysign" => binary(Binary::CopySign),
+            "scale" => binary(Binary::Scale),
+            "leading_power" => unary(Unary::LeadingPower),
+            "reciprocal_of_power" => unary(Unary::ReciprocalOfPower),
+            "split" => calls(Function::Split),
+            "product_error" => calls(Function::ProductError),
+            _ => false,
+        }
     }
 
-    fn unary(&self, operator: Unary) -> bool {
-        self.0.iter().any(|one| matches!(one, RecordedOperation::Unary(used, _) if *used == operator))
+    fn any(&self, is_meant: impl Fn(&RecordedOperation) -> bool) -> bool {
+        self.0.iter().any(|one| is_meant(one))
     }
+}
 
-    fn binary(&self, operator: Binary) -> bool {
-        self.0.iter().any(|one| matches!(one, RecordedOperation::Binary(used, ..) if *used == operator))
-    }
+/// The needed parts of a file, each of which follows a line `//@` with its name.
+fn parts(file: &str, is_needed: impl Fn(&str) -> bool) -> String {
+    let parts = file.split("//@ ").filter_map(|part| part.split_once('\n'));
+    parts.filter(|(name, _)| is_needed(name)).map(|(_, text)| text).collect()
 }

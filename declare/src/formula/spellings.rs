@@ -2,88 +2,46 @@
 //!
 //! A name with a value is a parameter in any spelling; the table has all other names.
 
-/// A name or a function, with the Rust that it stands for.
-struct Spelling {
-    /// An expression, or the method of a function.
-    rust: &'static str,
-    #[cfg_attr(not(test), expect(dead_code, reason = "a test writes it into the documentation"))]
-    meaning: &'static str,
-    /// Spellings without underscores.
-    spellings: &'static [&'static str],
-}
+/// A name or a function: the Rust that it stands for, which is the method of a function; its meaning, which
+/// the documentation has; its spellings without underscores.
+type Spelling = (&'static str, &'static str, &'static str);
 
 /// Names, which may have underscores anywhere: `I_1` is `I1`.
 const NAMES: [Spelling; 13] = [
-    Spelling {
-        rust: "l1",
-        meaning: "principal stretch λ1",
-        spellings: &["l1", "λ1", "lambda1", "lam1", "lmbda1"],
-    },
-    Spelling {
-        rust: "l2",
-        meaning: "principal stretch λ2",
-        spellings: &["l2", "λ2", "lambda2", "lam2", "lmbda2"],
-    },
-    Spelling {
-        rust: "l3",
-        meaning: "principal stretch λ3",
-        spellings: &["l3", "λ3", "lambda3", "lam3", "lmbda3"],
-    },
-    Spelling { rust: "J", meaning: "J = λ1λ2λ3", spellings: &["J", "detF"] },
-    Spelling { rust: "I1", meaning: "I1 = Σλ²", spellings: &["I1", "trC", "IC", "Ic", "I1C"] },
-    Spelling { rust: "I2", meaning: "I2 = λ1²λ2² + λ2²λ3² + λ3²λ1²", spellings: &["I2", "I2C"] },
-    Spelling {
-        rust: "I1b",
-        meaning: "J^(−2/3) I1",
-        spellings: &["I1b", "I1bar", "Ibar1", "barI1", "Ib1", "I1iso", "Ī1", "I\u{304}1", "I\u{305}1"],
-    },
-    Spelling {
-        rust: "I2b",
-        meaning: "J^(−4/3) I2",
-        spellings: &["I2b", "I2bar", "Ibar2", "barI2", "Ib2", "I2iso", "Ī2", "I\u{304}2", "I\u{305}2"],
-    },
-    Spelling {
-        rust: "(l1 / J.cbrt())",
-        meaning: "J^(−1/3) λ1",
-        spellings: &["l1bar", "lambdabar1", "lambda1bar", "λbar1", "λ\u{304}1", "λ\u{305}1"],
-    },
-    Spelling {
-        rust: "(l2 / J.cbrt())",
-        meaning: "J^(−1/3) λ2",
-        spellings: &["l2bar", "lambdabar2", "lambda2bar", "λbar2", "λ\u{304}2", "λ\u{305}2"],
-    },
-    Spelling {
-        rust: "(l3 / J.cbrt())",
-        meaning: "J^(−1/3) λ3",
-        spellings: &["l3bar", "lambdabar3", "lambda3bar", "λbar3", "λ\u{304}3", "λ\u{305}3"],
-    },
-    Spelling { rust: "(J.ln())", meaning: "ln(J)", spellings: &["lnJ", "logJ"] },
-    Spelling { rust: "PI", meaning: "π", spellings: &["pi", "π", "PI", "Pi"] },
+    ("l1", "principal stretch λ1", "l1 λ1 lambda1 lam1 lmbda1"),
+    ("l2", "principal stretch λ2", "l2 λ2 lambda2 lam2 lmbda2"),
+    ("l3", "principal stretch λ3", "l3 λ3 lambda3 lam3 lmbda3"),
+    ("J", "J = λ1λ2λ3", "J detF"),
+    ("I1", "I1 = Σλ²", "I1 trC IC Ic I1C"),
+    ("I2", "I2 = λ1²λ2² + λ2²λ3² + λ3²λ1²", "I2 I2C"),
+    ("I1b", "J^(−2/3) I1", "I1b I1bar Ibar1 barI1 Ib1 I1iso Ī1 I\u{304}1 I\u{305}1"),
+    ("I2b", "J^(−4/3) I2", "I2b I2bar Ibar2 barI2 Ib2 I2iso Ī2 I\u{304}2 I\u{305}2"),
+    ("(l1 / J.cbrt())", "J^(−1/3) λ1", "l1bar lambdabar1 lambda1bar λbar1 λ\u{304}1 λ\u{305}1"),
+    ("(l2 / J.cbrt())", "J^(−1/3) λ2", "l2bar lambdabar2 lambda2bar λbar2 λ\u{304}2 λ\u{305}2"),
+    ("(l3 / J.cbrt())", "J^(−1/3) λ3", "l3bar lambdabar3 lambda3bar λbar3 λ\u{304}3 λ\u{305}3"),
+    ("(J.ln())", "ln(J)", "lnJ logJ"),
+    ("PI", "π", "pi π PI Pi"),
 ];
 
 /// Functions of one argument.
 const FUNCTIONS: [Spelling; 17] = [
-    Spelling { rust: "ln", meaning: "natural logarithm", spellings: &["ln", "log", "Log"] },
-    Spelling { rust: "log10", meaning: "decimal logarithm", spellings: &["log10"] },
-    Spelling { rust: "exp", meaning: "exponential", spellings: &["exp", "Exp"] },
-    Spelling { rust: "sqrt", meaning: "square root", spellings: &["sqrt", "Sqrt"] },
-    Spelling { rust: "cbrt", meaning: "cube root", spellings: &["cbrt"] },
-    Spelling { rust: "sinh", meaning: "hyperbolic sine", spellings: &["sinh"] },
-    Spelling { rust: "cosh", meaning: "hyperbolic cosine", spellings: &["cosh"] },
-    Spelling { rust: "tanh", meaning: "hyperbolic tangent", spellings: &["tanh"] },
-    Spelling {
-        rust: "asinh",
-        meaning: "inverse hyperbolic sine",
-        spellings: &["asinh", "arsinh", "arcsinh"],
-    },
-    Spelling { rust: "sin", meaning: "sine", spellings: &["sin"] },
-    Spelling { rust: "cos", meaning: "cosine", spellings: &["cos"] },
-    Spelling { rust: "atan", meaning: "arc tangent", spellings: &["atan", "arctan", "arctg"] },
-    Spelling { rust: "erf", meaning: "error function", spellings: &["erf"] },
-    Spelling { rust: "ln_1p", meaning: "ln(1 + x)", spellings: &["ln_1p", "ln1p", "log1p"] },
-    Spelling { rust: "exp_m1", meaning: "exp(x) − 1", spellings: &["exp_m1", "expm1"] },
-    Spelling { rust: "softplus", meaning: "ln(1 + exp(x))", spellings: &["softplus"] },
-    Spelling { rust: "sigmoid", meaning: "1/(1 + exp(−x))", spellings: &["sigmoid", "logistic", "expit"] },
+    ("ln", "natural logarithm", "ln log Log"),
+    ("log10", "decimal logarithm", "log10"),
+    ("exp", "exponential", "exp Exp"),
+    ("sqrt", "square root", "sqrt Sqrt"),
+    ("cbrt", "cube root", "cbrt"),
+    ("sinh", "hyperbolic sine", "sinh"),
+    ("cosh", "hyperbolic cosine", "cosh"),
+    ("tanh", "hyperbolic tangent", "tanh"),
+    ("asinh", "inverse hyperbolic sine", "asinh arsinh arcsinh"),
+    ("sin", "sine", "sin"),
+    ("cos", "cosine", "cos"),
+    ("atan", "arc tangent", "atan arctan arctg"),
+    ("erf", "error function", "erf"),
+    ("ln_1p", "ln(1 + x)", "ln_1p ln1p log1p"),
+    ("exp_m1", "exp(x) − 1", "exp_m1 expm1"),
+    ("softplus", "ln(1 + exp(x))", "softplus"),
+    ("sigmoid", "1/(1 + exp(−x))", "sigmoid logistic expit"),
 ];
 
 /// Functions of two arguments: powers.
@@ -141,7 +99,8 @@ pub(super) fn function(name: &str) -> Option<&'static str> {
 }
 
 fn find(table: &[Spelling], name: &str) -> Option<&'static str> {
-    table.iter().find(|spelling| spelling.spellings.contains(&name)).map(|spelling| spelling.rust)
+    let is_meant = |spellings: &str| spellings.split(' ').any(|spelling| spelling == name);
+    table.iter().find(|(.., spellings)| is_meant(spellings)).map(|&(rust, ..)| rust)
 }
 
 /// True if a function is a power of its first argument by its second.
@@ -290,11 +249,12 @@ mod tests {
         let code = |names: &[&str]| names.iter().map(quoted).collect::<Vec<_>>().join(", ");
         let mut text = "| spelling | meaning |\n|---|---|\n".to_owned();
         let mut row = |spelling: String, meaning: &str| text += &format!("| {spelling} | {meaning} |\n");
-        for Spelling { meaning, spellings, .. } in &NAMES {
-            row(code(spellings), meaning);
+        let all = |spellings: &'static str| code(&spellings.split(' ').collect::<Vec<_>>());
+        for (_, meaning, spellings) in NAMES {
+            row(all(spellings), meaning);
         }
-        for Spelling { meaning, spellings, .. } in &FUNCTIONS {
-            row(code(spellings), &format!("{meaning}, a function"));
+        for (_, meaning, spellings) in FUNCTIONS {
+            row(all(spellings), &format!("{meaning}, a function"));
         }
         row(format!("`x^n`, `x**n`, {}", POWERS.map(|name| format!("`{name}(x, n)`")).join(", ")), "power");
         row("`.*`, `./`, `.^`".to_owned(), "`*`, `/`, `^`");
@@ -330,7 +290,8 @@ mod tests {
 
     #[test]
     fn no_spelling_has_two_meanings() {
-        let mut all: Vec<_> = NAMES.iter().chain(&FUNCTIONS).flat_map(|one| one.spellings).copied().collect();
+        let mut all: Vec<_> =
+            NAMES.iter().chain(&FUNCTIONS).flat_map(|(.., spellings)| spellings.split(' ')).collect();
         all.extend(
             POWERS.iter().chain(TENSOR_FUNCTIONS.iter().flat_map(|(names, _)| *names)).chain(&MODULES),
         );

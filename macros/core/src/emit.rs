@@ -14,6 +14,7 @@ use fittable::fittable;
 use material::material;
 use serde::serde;
 
+pub mod condition;
 mod constructor;
 mod declared;
 pub mod documentation;

@@ -3,7 +3,6 @@
 
 pub mod diagnostics;
 pub mod domain;
-pub(crate) mod literals;
 pub mod notation;
 pub mod parse;
 pub mod resolve;

@@ -1,38 +1,31 @@
 //! Properties of derivatives that are read off their operations: poles of twists, quotients without gaps,
 //! shared powers. The tests of `piola-tests` judge the values, for the whole catalogue.
 
-use std::fs;
-use std::path::Path;
-
-use piola_codegen::algebra::expr::Id;
+use catalogue::{Declared, catalogue};
 use piola_codegen::algebra::interpret::{Point, evaluate};
-use piola_codegen::declarations;
 use piola_codegen::model::{Model, model};
 use piola_codegen::read::parse::parse;
-use piola_codegen::schedule::{Op, Statement};
+use piola_codegen::schedule::{Op, Program};
 use proc_macro2::TokenStream;
 use quote::quote;
+
+#[path = "shared/catalogue.rs"]
+mod catalogue;
 
 fn compile(name: &str, arguments: &TokenStream, item: &TokenStream) -> Model {
     parse(arguments.clone(), item.clone()).and_then(|d| model(&d)).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 /// The energies of the catalogue, with the names of their files.
-fn catalogue() -> Vec<(String, Model)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../materials/src");
-    let files = fs::read_dir(folder).expect("the catalogue").map(|entry| entry.expect("an entry").path());
-    let models = files.flat_map(|path| {
-        let name = path.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let source = fs::read_to_string(&path).expect("a file of the catalogue");
-        let all = declarations(&source).expect("Rust").into_iter();
-        all.map(move |(arguments, item)| (name.clone(), compile(&name, &arguments, &item)))
-    });
-    models.collect()
+fn models() -> Vec<(String, Model)> {
+    let model = |name: &str, (arguments, item): Declared| (name.to_owned(), compile(name, &arguments, &item));
+    let files = catalogue().into_iter();
+    files.flat_map(|(name, all)| all.into_iter().map(move |one| model(&name, one))).collect()
 }
 
-fn energy(name: &str) -> Model {
-    let found = catalogue().into_iter().find(|(other, _)| other == name);
-    found.unwrap_or_else(|| panic!("{name} is not in the catalogue")).1
+/// Number of operations of a kind.
+fn count(program: &Program, is_meant: fn(Op) -> bool) -> usize {
+    program.operations().filter(|&(_, op)| is_meant(op)).count()
 }
 
 /// Where one stretch is far below the other, the plain quotient is exact. ψ1 is a product of a factor that
@@ -64,7 +57,7 @@ fn twists_have_poles_exactly_where_the_stress_jumps() {
     // Functions of single stretches that are neither symmetric nor odd, and their products.
     let products = "x.powf(a) * y.ln() * z.ln() + y.powf(a) * z.ln() * x.ln() + z.powf(a) * x.ln() * y.ln()";
     assert!(!plain(&format!("a * (I1 - 3.0) + {products}"), quote!(domain(J > 0.0), prestressed)));
-    for (name, model) in catalogue() {
+    for (name, model) in models() {
         let jumps = ["fixed_corotated", "rotated_linear"].contains(&name.as_str());
         assert!(model.plain.has_pole || !jumps, "{name}");
         let even = ["fung", "gent", "hencky", "mooney_rivlin", "neo_hookean", "ogden", "st_venant_kirchhoff"];
@@ -77,18 +70,11 @@ fn twists_have_poles_exactly_where_the_stress_jumps() {
 /// The seam's promise, read off the operations themselves.
 #[test]
 fn nothing_is_divided_by_a_difference_of_stretches() {
-    for (name, mut model) in catalogue() {
+    for (name, mut model) in models() {
         for variant in [Some(model.plain.clone()), model.extended.clone()].into_iter().flatten() {
             let roots = [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat();
             let program = model.program(&roots);
-            let operations: Vec<_> = program
-                .statements
-                .iter()
-                .flat_map(|statement| match statement {
-                    Statement::Let(value, op) => vec![(*value, *op)],
-                    Statement::Loop { body, .. } => body.clone(),
-                })
-                .collect();
+            let operations: Vec<_> = program.operations().collect();
             let of = |value| operations.iter().find(|(v, _)| *v == value).map(|(_, op)| *op);
             for (_, op) in &operations {
                 if let Op::Div(_, denominator) = op {
@@ -101,27 +87,6 @@ fn nothing_is_divided_by_a_difference_of_stretches() {
     }
 }
 
-#[test]
-fn ogden_needs_three_powers_for_each_term_and_energy_alone_no_quotient() {
-    let mut model = energy("ogden");
-    let variant = model.plain.clone();
-    let mut count = |roots: &[Id]| {
-        let program = model.program(roots);
-        let (mut powers, mut quotients) = (0, 0);
-        for statement in &program.statements {
-            if let Statement::Loop { body, .. } = statement {
-                powers += body.iter().filter(|(_, op)| matches!(op, Op::Power(..))).count();
-                quotients += body.iter().filter(|(_, op)| matches!(op, Op::PowerQuotient { .. })).count();
-            }
-        }
-        (powers, quotients)
-    };
-    assert_eq!(count(&[variant.energy]), (3, 0));
-    assert_eq!(count(&variant.gradient), (3, 0));
-    let all = [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat();
-    assert_eq!(count(&all), (3, 3));
-}
-
 /// I1b is even in each pair of stretches: the twist quotient of a power of it has no quotient of powers, and
 /// no power of a mirrored I1b.
 #[test]
@@ -132,13 +97,8 @@ fn twists_of_isochoric_powers_need_one_power() {
     let mut model = compile("power of I1b", &quote!(domain(J > 0.0)), &item);
     let twist = model.plain.twist;
     let program = model.program(&twist);
-    let operations = program.statements.iter().filter_map(|statement| match statement {
-        Statement::Let(_, op) => Some(*op),
-        Statement::Loop { .. } => None,
-    });
-    let count = |is: fn(&Op) -> bool| operations.clone().filter(is).count();
-    assert_eq!(count(|op| matches!(op, Op::Power(..))), 1);
-    assert_eq!(count(|op| matches!(op, Op::PowerQuotient { .. })), 0);
+    assert_eq!(count(&program, |op| matches!(op, Op::Power(..))), 1);
+    assert_eq!(count(&program, |op| matches!(op, Op::PowerQuotient { .. })), 0);
 }
 
 /// Far outside its domain an exponential overflows, which does not reveal its parity: the pole must stay.
@@ -166,13 +126,9 @@ fn literal_exponents_are_real_powers_unless_they_are_simple_fractions() {
     let variant = model.plain.clone();
     let roots = [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat();
     let program = model.program(&roots);
-    let count = |matches: fn(&Op) -> bool| {
-        let is_match = |statement: &&Statement| matches!(statement, Statement::Let(_, op) if matches(op));
-        program.statements.iter().filter(is_match).count()
-    };
-    assert_eq!(count(|op| matches!(op, Op::Power(..))), 3);
-    assert_eq!(count(|op| matches!(op, Op::PowerQuotient { .. })), 3);
-    assert_eq!(count(|op| matches!(op, Op::Sqrt(_))), 3);
+    assert_eq!(count(&program, |op| matches!(op, Op::Power(..))), 3);
+    assert_eq!(count(&program, |op| matches!(op, Op::PowerQuotient { .. })), 3);
+    assert_eq!(count(&program, |op| matches!(op, Op::Sqrt(_))), 3);
 }
 
 /// Multiplying out all of it would take 4⁴ · 4⁴ terms.

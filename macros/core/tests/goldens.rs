@@ -5,25 +5,19 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use catalogue::{Declared, catalogue};
 use piola_codegen::schedule::count::{LEGEND, table};
-use piola_codegen::{analyse, declarations, expand};
-use proc_macro2::TokenStream;
+use piola_codegen::{analyse, expand};
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// The sources of the catalogue, which this crate reads as text.
-fn catalogue() -> PathBuf {
-    root().join("../../materials/src")
-}
+#[path = "shared/catalogue.rs"]
+mod catalogue;
 
 /// Compares with the file `tests/goldens/{name}`, or writes it.
 #[track_caller]
 fn check(name: &str, actual: &str) {
-    let path = root().join("tests/goldens").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens").join(name);
     if std::env::var_os("PIOLA_BLESS").is_some() {
         fs::write(path, actual).expect("a golden is written");
         return;
@@ -50,25 +44,18 @@ fn check(name: &str, actual: &str) {
 /// Compares the expansion of the only declaration of a file of the catalogue.
 #[track_caller]
 fn check_expansion(material: &str) {
-    let source =
-        fs::read_to_string(catalogue().join(format!("{material}.rs"))).expect("a file of the catalogue");
-    let (arguments, item) = declarations(&source).expect("Rust").pop().expect("a declaration");
-    check(&format!("{material}.expanded"), &expansion(arguments, item));
+    let found = catalogue().into_iter().find(|(name, _)| name == material);
+    let declared = found.and_then(|(_, mut all)| all.pop()).expect("a declaration");
+    check(&format!("{material}.expanded"), &expansion(declared));
 }
 
-fn expansion(arguments: TokenStream, item: TokenStream) -> String {
+fn expansion((arguments, item): Declared) -> String {
     prettyplease::unparse(&syn::parse2(expand(arguments, item)).expect("an expansion is Rust"))
 }
 
 /// All declarations of the catalogue, in the order of their files.
-fn all() -> impl Iterator<Item = (TokenStream, TokenStream)> {
-    let folder = fs::read_dir(catalogue()).expect("the catalogue");
-    let mut paths: Vec<_> = folder.map(|entry| entry.expect("an entry").path()).collect();
-    paths.sort();
-    paths.into_iter().flat_map(|path| {
-        let source = fs::read_to_string(path).expect("a file of the catalogue");
-        declarations(&source).expect("Rust")
-    })
+fn all() -> impl Iterator<Item = Declared> {
+    catalogue().into_iter().flat_map(|(_, declared)| declared)
 }
 
 #[test]
@@ -95,8 +82,8 @@ fn results_take_the_operations_committed() {
 #[test]
 fn rustdoc_shows_the_formulas_committed() {
     let mut text = "# Formulas of the catalogue\n".to_owned();
-    for (arguments, item) in all() {
-        let expansion = expansion(arguments, item);
+    for declared in all() {
+        let expansion = expansion(declared);
         let (_, shown) = expansion.split_once("/// **Derivatives**").expect("a section");
         let (shown, rest) = shown.split_once("/// **Operations**").expect("the next section");
         let lines: Vec<_> = shown.lines().map(|line| line.trim_start_matches("///").trim_start()).collect();

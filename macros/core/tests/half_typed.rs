@@ -1,21 +1,11 @@
 //! Declarations in the states in which an editor passes them while they are typed: never a panic, always a
 //! material or a mistake.
 
-use std::fs;
-use std::path::Path;
-
+use catalogue::catalogue;
 use proc_macro2::{Group, TokenStream, TokenTree};
 
-/// All declarations of the catalogue.
-fn declarations() -> Vec<(TokenStream, TokenStream)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../materials/src");
-    let files = fs::read_dir(&folder).expect("the catalogue's sources");
-    let sources = files.map(|file| fs::read_to_string(file.expect("a file").path()).expect("a source"));
-    let found: Vec<_> =
-        sources.flat_map(|source| piola_codegen::declarations(&source).expect("a Rust source")).collect();
-    assert!(found.len() > 30, "{} declarations", found.len());
-    found
-}
+#[path = "shared/catalogue.rs"]
+mod catalogue;
 
 /// The tokens whose numbers, counted from `next` on, `keeps` accepts. A group is one token, and so is each
 /// inside it.
@@ -64,7 +54,9 @@ fn expand(arguments: &TokenStream, item: &TokenStream, keeps: impl Fn(usize) -> 
 
 /// Calls `expand` for each declaration and each of its tokens.
 fn for_each_token(expand: impl Fn(&TokenStream, &TokenStream, usize)) {
-    for (arguments, item) in declarations() {
+    let declarations: Vec<_> = catalogue().into_iter().flat_map(|(_, declared)| declared).collect();
+    assert!(declarations.len() > 30, "{} declarations", declarations.len());
+    for (arguments, item) in declarations {
         for k in 0..count(&arguments) + count(&item) {
             expand(&arguments, &item, k);
         }

@@ -2,39 +2,47 @@
 
 use std::borrow::Cow;
 
-use super::{Argument, Declared, Inversion, Material, MaterialError, Moduli, Parameter};
+use super::condition::{Condition, argument, number};
+use super::{Argument, Declared, Inversion, Material, MaterialError, Moduli, Parameter, Text};
 
 /// The largest exponent that is a parameter: that of `.powi(…)` in a declaration.
 const LARGEST_WHOLE: u32 = 64;
 
-/// Checks the numbers of a material's parameters, one slice for each, which is empty for a function.
+/// Checks that numbers are finite and, if they are exponents, whole and not too large, and that they satisfy
+/// the conditions of `admissible(…)`. There is one slice of values for each parameter, empty for a function.
 ///
 /// # Errors
-/// Like [`check_parameters`].
-pub fn check_numbers<M: Declared>(values: &[&[f64]]) -> Result<(), MaterialError> {
-    check_parameters(&M::DESCRIPTION.parameters, values.iter().copied())
-}
-
-/// Checks that numbers are finite and, if they are exponents, whole and not too large.
-///
-/// # Errors
-/// [`MaterialError::NotFinite`], [`MaterialError::NotWhole`] with the first that is not.
-pub fn check_parameters<'a>(
+/// [`MaterialError::NotFinite`], [`MaterialError::NotWhole`], [`MaterialError::Violated`] with the first that
+/// is not.
+pub fn check_parameters(
     parameters: &[Parameter],
-    values: impl Iterator<Item = &'a [f64]>,
+    values: &[&[f64]],
+    admissible: &[Condition],
 ) -> Result<(), MaterialError> {
-    let numbers = parameters.iter().zip(values);
-    let mut numbers =
-        numbers.flat_map(|(parameter, list)| list.iter().enumerate().map(move |one| (parameter, one)));
-    numbers.try_for_each(|(parameter, (index, &value))| match parameter.is_whole() {
-        true => whole_number(parameter, index, value).map(|_| ()),
-        false if value.is_finite() => Ok(()),
-        false => Err(MaterialError::NotFinite { given: argument(parameter, index, value) }),
-    })
+    let lists = parameters.iter().zip(values);
+    let numbers =
+        lists.flat_map(|(parameter, list)| list.iter().enumerate().map(move |one| (parameter, one)));
+    for (parameter, (index, &value)) in numbers {
+        if parameter.is_whole() {
+            whole_number(parameter, index, value)?;
+        } else if !value.is_finite() {
+            return Err(MaterialError::NotFinite { given: argument(parameter, index, value) });
+        }
+    }
+    match violated(parameters, values, admissible) {
+        None => Ok(()),
+        Some((condition, given)) => Err(MaterialError::Violated { condition, given }),
+    }
 }
 
-fn argument(parameter: &Parameter, index: usize, value: f64) -> Argument {
-    Argument { parameter: parameter.name.clone(), index: parameter.is_list().then_some(index), value }
+/// The first condition that does not hold, and the parameters that it names.
+fn violated(
+    parameters: &[Parameter],
+    values: &[&[f64]],
+    conditions: &[Condition],
+) -> Option<(Text, Vec<Argument>)> {
+    let given = |condition: &Condition| condition.violation(parameters, values);
+    conditions.iter().find_map(|condition| Some((condition.text.clone(), given(condition)?)))
 }
 
 /// Checks that a list has as many entries as the first of those that are read with it, each given by its name
@@ -51,48 +59,24 @@ pub fn same_length(list: (&str, usize), first: (&str, usize)) -> Result<(), Mate
     Err(MaterialError::Shape { expected })
 }
 
-/// Name of a parameter, its place if it is an entry of a list, and its value: the fields of [`Argument`].
-type Named = (&'static str, Option<usize>, f64);
-
-fn named(given: &[Named]) -> Vec<Argument> {
-    let argument =
-        |&(parameter, index, value): &Named| Argument { parameter: parameter.into(), index, value };
-    given.iter().map(argument).collect()
-}
-
-/// Checks a condition of `admissible(…)`.
+/// Checks that a material with these parameters can be extended, if that is requested.
 ///
 /// # Errors
-/// [`MaterialError::Violated`] unless it holds.
-pub fn admissible(holds: bool, condition: &'static str, given: &[Named]) -> Result<(), MaterialError> {
-    if holds {
-        Ok(())
-    } else {
-        Err(MaterialError::Violated { condition: condition.into(), given: named(given) })
+/// [`MaterialError::Threshold`] unless 0 < ε < 1, [`MaterialError::DoesNotRestore`] unless the conditions of
+/// `extend(…)` hold.
+pub fn extends(
+    parameters: &[Parameter],
+    values: &[&[f64]],
+    inversion: Inversion,
+    restoring: &[Condition],
+) -> Result<(), MaterialError> {
+    let Inversion::Extend { epsilon } = inversion else { return Ok(()) };
+    if !(epsilon > 0.0 && epsilon < 1.0) {
+        return Err(MaterialError::Threshold { epsilon });
     }
-}
-
-/// Checks a condition of `extend(…)`.
-///
-/// # Errors
-/// [`MaterialError::DoesNotRestore`] unless it holds.
-pub fn restoring(holds: bool, condition: &'static str, given: &[Named]) -> Result<(), MaterialError> {
-    if holds {
-        Ok(())
-    } else {
-        Err(MaterialError::DoesNotRestore { condition: condition.into(), given: named(given) })
-    }
-}
-
-/// True if a material is to be extended.
-///
-/// # Errors
-/// [`MaterialError::Threshold`] unless 0 < ε < 1.
-pub fn extends(inversion: Inversion) -> Result<bool, MaterialError> {
-    match inversion {
-        Inversion::Refuse => Ok(false),
-        Inversion::Extend { epsilon } if epsilon > 0.0 && epsilon < 1.0 => Ok(true),
-        Inversion::Extend { epsilon } => Err(MaterialError::Threshold { epsilon }),
+    match violated(parameters, values, restoring) {
+        None => Ok(()),
+        Some((condition, given)) => Err(MaterialError::DoesNotRestore { condition, given }),
     }
 }
 
@@ -115,24 +99,47 @@ pub fn unextended<M: Declared>(material: M, inversion: Inversion) -> Result<M, M
     }
 }
 
-/// Checks that a bound of the domain, which is positive inside of it, is so at rest.
+/// Checks that a bound of the domain, which is positive inside of it, is so at rest. The condition names
+/// parameters by their places.
 ///
 /// # Errors
-/// [`MaterialError::RestOutside`].
-pub fn inside_at_rest(bound: f64, condition: &'static str, given: &[Named]) -> Result<(), MaterialError> {
+/// [`MaterialError::RestOutside`] with the numbers among these parameters.
+pub fn inside_at_rest(
+    parameters: &[Parameter],
+    values: &[&[f64]],
+    bound: f64,
+    condition: impl Into<Text>,
+    names: &[usize],
+) -> Result<(), MaterialError> {
     if bound > 0.0 {
-        Ok(())
-    } else {
-        Err(MaterialError::RestOutside { condition: condition.into(), given: named(given) })
+        return Ok(());
     }
+    let named = names.iter().filter_map(|&k| Some((parameters.get(k)?, number(values, k, 0))));
+    let numbers = named.filter(|(parameter, _)| !parameter.is_list());
+    let given = numbers.map(|(parameter, value)| argument(parameter, 0, value)).collect();
+    Err(MaterialError::RestOutside { condition: condition.into(), given })
 }
 
-/// A material that is defined where all stretches are 1.
+/// A material whose rest state is as declared: stable, unless it is prestressed. Where its functions are
+/// defined, and what cancels their stress, no declaration can promise.
 ///
 /// # Errors
-/// [`MaterialError::UndefinedRest`].
-pub fn defined_at_rest<M: Material>(material: M) -> Result<M, MaterialError> {
-    if material.admits([1.0f64; 3]) { Ok(material) } else { Err(MaterialError::UndefinedRest) }
+/// [`MaterialError::UndefinedRest`], [`MaterialError::UnstableRest`], [`MaterialError::StressedRest`].
+pub fn at_rest<M: Material>(
+    material: M,
+    is_prestressed: bool,
+    has_functions: bool,
+) -> Result<M, MaterialError> {
+    if has_functions && !material.admits([1.0f64; 3]) {
+        return Err(MaterialError::UndefinedRest);
+    }
+    if !is_prestressed {
+        stable_at_rest(&material)?;
+        if has_functions {
+            stress_free_at_rest(&material)?;
+        }
+    }
+    Ok(material)
 }
 
 /// True if the sign of a tiny stretch decides about the domain, for example if a function of a stretch ends
@@ -143,27 +150,21 @@ pub fn sign_decides(material: &impl Material) -> bool {
     material.admits([1.0, 1.0, tiny]) != material.admits([1.0, 1.0, -tiny])
 }
 
-/// A material whose shear modulus at rest is positive and whose bulk modulus is not negative.
-///
-/// # Errors
-/// [`MaterialError::UnstableRest`].
-pub fn stable_at_rest<M: Material>(material: M) -> Result<M, MaterialError> {
-    let moduli = Moduli::of(&material);
+/// Checks that the shear modulus at rest is positive and the bulk modulus not negative.
+fn stable_at_rest(material: &impl Material) -> Result<(), MaterialError> {
+    let moduli = Moduli::of(material);
     if moduli.mu > 0.0 && moduli.bulk() >= 0.0 && moduli.bulk().is_finite() {
-        return Ok(material);
+        return Ok(());
     }
     Err(MaterialError::UnstableRest { moduli })
 }
 
-/// A material without stress at rest, to rounding.
-///
-/// # Errors
-/// [`MaterialError::StressedRest`].
-pub fn stress_free_at_rest<M: Material>(material: M) -> Result<M, MaterialError> {
-    let moduli = Moduli::of(&material);
+/// Checks that there is no stress at rest, to rounding.
+fn stress_free_at_rest(material: &impl Material) -> Result<(), MaterialError> {
+    let moduli = Moduli::of(material);
     let [stress, ..] = material.gradient([1.0f64; 3]);
     if stress.abs() <= 1e-9 * (2.0 * moduli.mu + moduli.lambda.abs()) {
-        return Ok(material);
+        return Ok(());
     }
     Err(MaterialError::StressedRest { stress })
 }

@@ -8,7 +8,8 @@ use crate::lanes::{Backend, Real, Scalar};
 /// Passes every response of a [`Material`] to a macro, so that code that forwards them all forwards a new one
 /// too.
 ///
-/// Linear responses add up where energies do; the others are masks of a domain.
+/// Linear responses add up where energies do; the others are masks of a domain, and properties that do not
+/// depend on the deformation.
 macro_rules! with_responses {
     ($callback:ident $($context:tt)*) => {
         $callback! {
@@ -24,6 +25,14 @@ macro_rules! with_responses {
                 derivatives_by_invariants -> [R; 9],
             }
             domain { admits, admits_invariants }
+            properties {
+                has_invariants -> bool,
+                has_second_invariant -> bool,
+                curvature_by_invariants -> Curvature,
+                has_energy_by_invariants -> bool,
+                has_pole -> bool,
+                ends_at_zero_volume -> bool,
+            }
         }
     };
 }
@@ -73,7 +82,10 @@ pub struct RawTile<'a, E> {
 }
 
 macro_rules! declare_response {
-    ([] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
+    (
+        [] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }
+        properties { $($property:ident -> $Property:ty,)* }
+    ) => {
         /// Responses of a material for one type of real number: implemented for every [`Material`].
         ///
         /// The functions of [`point`](crate::point) take this trait, and so they take a `dyn`
@@ -93,18 +105,10 @@ macro_rules! declare_response {
                 #[doc = concat!("Forwards to [`Material::", stringify!($domain), "`].")]
                 fn $domain(&self, at: [R; 3]) -> R::Mask;
             )*
-            /// Forwards to [`Material::has_invariants`].
-            fn has_invariants(&self) -> bool;
-            /// Forwards to [`Material::has_second_invariant`].
-            fn has_second_invariant(&self) -> bool;
-            /// Forwards to [`Material::curvature_by_invariants`].
-            fn curvature_by_invariants(&self) -> Curvature;
-            /// Forwards to [`Material::has_energy_by_invariants`].
-            fn has_energy_by_invariants(&self) -> bool;
-            /// Forwards to [`Material::has_pole`].
-            fn has_pole(&self) -> bool;
-            /// Forwards to [`Material::ends_at_zero_volume`].
-            fn ends_at_zero_volume(&self) -> bool;
+            $(
+                #[doc = concat!("Forwards to [`Material::", stringify!($property), "`].")]
+                fn $property(&self) -> $Property;
+            )*
         }
 
         impl<M: Material, R: Real> Response<R> for M {
@@ -120,37 +124,22 @@ macro_rules! declare_response {
                     Material::$domain(self, at)
                 }
             )*
-            #[inline]
-            fn has_invariants(&self) -> bool {
-                Material::has_invariants(self)
-            }
-            #[inline]
-            fn has_second_invariant(&self) -> bool {
-                Material::has_second_invariant(self)
-            }
-            #[inline]
-            fn curvature_by_invariants(&self) -> Curvature {
-                Material::curvature_by_invariants(self)
-            }
-            #[inline]
-            fn has_energy_by_invariants(&self) -> bool {
-                Material::has_energy_by_invariants(self)
-            }
-            #[inline]
-            fn has_pole(&self) -> bool {
-                Material::has_pole(self)
-            }
-            #[inline]
-            fn ends_at_zero_volume(&self) -> bool {
-                Material::ends_at_zero_volume(self)
-            }
+            $(
+                #[inline]
+                fn $property(&self) -> $Property {
+                    Material::$property(self)
+                }
+            )*
         }
     };
 }
 with_responses!(declare_response);
 
 macro_rules! forward_to_pointee {
-    ([$($head:tt)*] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }) => {
+    (
+        [$($head:tt)*] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }
+        properties { $($property:ident -> $Property:ty,)* }
+    ) => {
         $($head)* {
             $(
                 #[inline(always)]
@@ -164,22 +153,12 @@ macro_rules! forward_to_pointee {
                     (**self).$domain(at)
                 }
             )*
-            #[inline(always)]
-            fn has_invariants(&self) -> bool {
-                (**self).has_invariants()
-            }
-            #[inline(always)]
-            fn has_second_invariant(&self) -> bool {
-                (**self).has_second_invariant()
-            }
-            #[inline(always)]
-            fn curvature_by_invariants(&self) -> Curvature {
-                (**self).curvature_by_invariants()
-            }
-            #[inline(always)]
-            fn has_energy_by_invariants(&self) -> bool {
-                (**self).has_energy_by_invariants()
-            }
+            $(
+                #[inline(always)]
+                fn $property(&self) -> $Property {
+                    (**self).$property()
+                }
+            )*
             const RESPONDS_TOGETHER: bool = M::RESPONDS_TOGETHER;
             fn respond_together<'m, E: Scalar>(
                 material: impl Fn(usize) -> &'m Self + Copy,
@@ -190,12 +169,6 @@ macro_rules! forward_to_pointee {
                 Self: 'm,
             {
                 M::respond_together(|point| &**material(point), response, tile)
-            }
-            fn has_pole(&self) -> bool {
-                (**self).has_pole()
-            }
-            fn ends_at_zero_volume(&self) -> bool {
-                (**self).ends_at_zero_volume()
             }
             fn inversion(&self) -> Inversion {
                 (**self).inversion()

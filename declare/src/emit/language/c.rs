@@ -258,52 +258,7 @@ impl Language for C {
         // FNV-1a.
         let sum =
             text.bytes().fold(0x811c_9dc5_u32, |sum, byte| (sum ^ u32::from(byte)).wrapping_mul(0x0100_0193));
-        let exact = if self.is_single {
-            "FLT_EVAL_METHOD == 0"
-        } else {
-            "FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD < 2"
-        };
-        let head = match self.dialect {
-            Dialect::C => format!(
-                "#include <float.h>
-#include <math.h>
-#include <string.h>
-#if defined(__FAST_MATH__) || !({exact})
-#error \"compile without -ffast-math, and with arithmetic in the format itself (-msse2 -mfpmath=sse)\"
-#endif
-"
-            ),
-            Dialect::Cuda => format!(
-                "#if !defined(__CUDACC_RTC__) && !defined(__HIPCC_RTC__) && !defined(WP_NO_CRT)
-#include <math.h>
-#include <string.h>
-#endif
-#if defined(__FAST_MATH__) || (defined(__USE_FAST_MATH__) && __USE_FAST_MATH__)
-#error \"compile without -ffast-math and --use_fast_math\"
-#endif
-#if defined(__CUDACC__) || defined(__HIPCC__)
-#define {upper}_DEVICE __host__ __device__
-#else
-#define {upper}_DEVICE
-#endif
-"
-            ),
-            Dialect::OpenCl => format!(
-                "#ifdef __FAST_RELAXED_MATH__
-#error \"build without -cl-fast-relaxed-math\"
-#endif
-{}#pragma OPENCL FP_CONTRACT OFF
-",
-                if self.is_single {
-                    ""
-                } else {
-                    "#if __OPENCL_C_VERSION__ < 120
-#pragma OPENCL EXTENSION cl_khr_fp64 : enable
-#endif
-"
-                }
-            ),
-        };
+        let head = self.head();
         // CUDA's compiler at run time defines no `__GNUC__`, but has its attributes.
         let (has_attributes, device) = match self.dialect {
             Dialect::C | Dialect::OpenCl => ("defined(__GNUC__)", String::new()),

@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use piola::__private::record::Recording;
+use piola::__private::{Condition, Term};
 use piola::material::Form;
 
 use super::body::Body;
 use super::{Printer, safe};
-use crate::condition::{Condition, Term};
 use crate::emit::Precision;
 use crate::emit::language::Argument;
 
@@ -84,18 +84,32 @@ impl Printer<'_> {
                     None => self.language.number_in_condition(f64::NAN),
                 }
             }
-            Term::Negative(term) => format!("(-{})", self.term(term, places, entry)),
-            Term::Arithmetic(operator, sides) => {
-                let [a, b] = sides.each_ref().map(|side| self.term(side, places, entry));
-                format!("({a} {operator} {b})")
-            }
-            Term::Call(function, arguments) => {
-                let terms: Vec<_> = arguments.iter().map(|one| self.term(one, places, entry)).collect();
-                let [first, last] =
-                    [terms.first(), terms.last()].map(|term| term.map_or("0.0", String::as_str));
-                let call = self.language.call_in_condition(function.name, first, last);
-                call.unwrap_or_else(|| (function.in_c)(first, last))
+            Term::Call(name, operands) => {
+                let operands: Vec<_> = operands.iter().map(|one| self.term(one, places, entry)).collect();
+                match (&**name, &operands[..]) {
+                    ("-", [a]) => format!("(-{a})"),
+                    ("+" | "-" | "*" | "/", [a, b]) => format!("({a} {name} {b})"),
+                    // Of one operand, the second is the first once more.
+                    (name, [a, ..]) => {
+                        let b = &operands[operands.len() - 1];
+                        self.language.call_in_condition(name, a, b).unwrap_or_else(|| in_c(name, a, b))
+                    }
+                    (_, []) => self.language.number_in_condition(f64::NAN),
+                }
             }
         }
+    }
+}
+
+/// A call of a method in C.
+fn in_c(name: &str, a: &str, b: &str) -> String {
+    match name {
+        "powi" | "powf" => format!("pow({a}, {b})"),
+        "log" => format!("(log({a}) / log({b}))"),
+        "recip" => format!("(1.0 / {a})"),
+        "ln" => format!("log({a})"),
+        "ln_1p" => format!("log1p({a})"),
+        "exp_m1" => format!("expm1({a})"),
+        name => format!("{name}({a})"),
     }
 }

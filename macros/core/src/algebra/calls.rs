@@ -40,7 +40,6 @@ mod tests {
     use quote::quote;
 
     use super::calls;
-    use crate::algebra::expr::Node;
     use crate::analyse;
 
     /// The function and the list of each call, by their places among the parameters m, f, g.
@@ -56,17 +55,5 @@ mod tests {
         let mut found = found(body);
         found.sort_unstable();
         assert_eq!(found, [(1, None), (1, Some(0)), (2, None), (2, None)]);
-    }
-
-    #[test]
-    fn an_energy_without_functions_calls_none() {
-        let item = quote!(
-            fn E([x, y, z]: [f64; 3], m: f64) -> f64 {
-                m * (I1 - 2.0 * J - 1.0)
-            }
-        );
-        let (_, model) = analyse(quote!(), item, None).expect("an energy");
-        assert!(calls(&model.graph, model.energy).is_empty());
-        assert!(!matches!(model.graph.node(model.energy), Node::Function(..)));
     }
 }

@@ -1,15 +1,16 @@
 //! The inherent methods of a material: `new`, which checks its parameters, the choice of an extension, and
 //! getters of the parameters.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use syn::{Expr, Ident};
 
+use super::condition::{Condition, Term, named};
+use super::declared::{option, text};
 use super::writer::{Writer, free_name};
 use super::{condition_text, doc, generics, naming};
 use crate::model::Model;
-use crate::read::literals::typed;
-use crate::read::parse::{Declaration, Entries, Kind, Parameter, identifiers, indexed_list};
+use crate::read::parse::{Declaration, Entries, Kind, Parameter};
 
 /// The inherent methods.
 pub(super) fn constructor(declaration: &Declaration, model: &mut Model) -> TokenStream {
@@ -51,22 +52,12 @@ fn new(declaration: &Declaration, model: &mut Model) -> TokenStream {
         if lengths.is_empty() { "" } else { ", or the lists of one sum are not equally long" },
     );
     let new_doc = doc(&new_doc);
-    let numbers = declaration.parameters.iter().map(|parameter| {
-        let name = &parameter.name;
-        match parameter.kind {
-            Kind::Number if parameter.is_whole => quote!(&[f64::from(#name)]),
-            Kind::Number => quote!(&[#name]),
-            Kind::List(_) if parameter.is_whole => {
-                quote!(&#name.iter().copied().map(f64::from).collect::<__p::Vec<_>>())
-            }
-            Kind::List(_) => quote!(&#name),
-            Kind::Function(_) => quote!(&[]),
-        }
-    });
     let has_numbers = declaration.parameters.iter().any(|parameter| !parameter.is_function());
-    let finite = has_numbers.then(|| quote!(__p::check_numbers::<Self>(&[#(#numbers),*])?;));
-    let admissible =
-        options.admissible.iter().map(|condition| check(declaration, condition, &quote!(admissible)));
+    let checked = has_numbers.then(|| {
+        let (parameters, numbers) = (parameters(), numbers(declaration, None));
+        let admissible = conditions(declaration, &options.admissible);
+        quote!(__p::check_parameters(#parameters, #numbers, #admissible)?;)
+    });
     let inversion = options.extend.is_some().then(|| quote!(inversion: __p::Inversion::Refuse,));
     let material = quote!(Self { #(#names,)* #inversion });
     let made = free_name(declaration, &["material", "made"]);
@@ -75,23 +66,14 @@ fn new(declaration: &Declaration, model: &mut Model) -> TokenStream {
         None => (None, material),
         Some(inside) => (Some(quote!(let #made = #material; #inside)), made.into_token_stream()),
     };
-    // Where a function is defined, and what cancels its stress, no declaration can promise.
-    let checked = match (options.prestressed, declaration.has_functions()) {
-        (true, false) => quote!(Ok(#material)),
-        (true, true) => quote!(__p::defined_at_rest(#material)),
-        (false, false) => quote!(__p::stable_at_rest(#material)),
-        (false, true) => quote! {
-            __p::defined_at_rest(#material).and_then(__p::stable_at_rest).and_then(__p::stress_free_at_rest)
-        },
-    };
+    let (is_prestressed, has_functions) = (options.prestressed, declaration.has_functions());
     quote! {
         #new_doc
         #visibility fn new(#(#names: #types),*) -> __p::Result<Self, __p::MaterialError> {
             #(#lengths)*
-            #finite
-            #(#admissible)*
-            #inside
             #checked
+            #inside
+            __p::at_rest(#material, #is_prestressed, #has_functions)
         }
     }
 }
@@ -106,21 +88,12 @@ fn inside_at_rest(declaration: &Declaration, model: &mut Model, material: &Ident
     let program = model.program(&values);
     let (statements, outputs) = Writer::new(declaration).with_material(material.clone()).program(&program);
     let conditions: Vec<_> = declaration.bounds().collect();
+    let (parameters, numbers) = (parameters(), numbers(declaration, Some(material)));
     let checks = places.into_iter().zip(outputs).filter_map(|(k, value)| {
         let condition = conditions.get(k)?;
-        let text = condition_text(condition);
-        let names = identifiers(condition.to_token_stream());
-        let numbers = declaration
-            .parameters
-            .iter()
-            .filter(|parameter| matches!(parameter.kind, Kind::Number) && names.contains(&parameter.name));
-        let given = numbers.map(|parameter| {
-            let (name, text) = (&parameter.name, parameter.name.to_string());
-            let value = quote!(#material.#name);
-            let value = if parameter.is_whole { quote!(f64::from(#value)) } else { value };
-            quote!((#text, None, #value))
-        });
-        Some(quote!(__p::inside_at_rest(#value, #text, &[#(#given),*])?;))
+        let (text, names) = (condition_text(condition), named(declaration, condition));
+        let names = names.into_iter().map(Literal::usize_unsuffixed);
+        Some(quote!(__p::inside_at_rest(#parameters, #numbers, #value, #text, &[#(#names),*])?;))
     });
     Some(quote! {
         #[allow(unused_imports, clippy::all)]
@@ -146,16 +119,14 @@ fn same_length(declaration: &Declaration, parameter: &Parameter) -> Option<Token
 /// The choice of an extension, which restores only under the given conditions.
 fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream {
     let visibility = &declaration.visibility;
-    let read: Vec<_> =
-        conditions.iter().flat_map(|condition| identifiers(condition.to_token_stream())).collect();
-    let parameters = declaration.parameters.iter().filter(|parameter| read.contains(&parameter.name));
-    let names = parameters.map(|parameter| {
-        let name = &parameter.name;
-        if declaration.is_vector(parameter) { quote!(ref #name) } else { quote!(#name) }
-    });
-    let names: Vec<_> = names.collect();
-    let parameters = (!names.is_empty()).then(|| quote!(let Self { #(#names,)* .. } = self;));
-    let restores = conditions.iter().map(|condition| check(declaration, condition, &quote!(restoring)));
+    let arguments = match conditions {
+        [] => quote!(&[], &[], inversion, &[]),
+        conditions => {
+            let (parameters, numbers) = (parameters(), numbers(declaration, Some(&format_ident!("self"))));
+            let conditions = self::conditions(declaration, conditions);
+            quote!(#parameters, #numbers, inversion, #conditions)
+        }
+    };
     quote! {
         /// Replaces the behaviour outside the domain.
         ///
@@ -165,12 +136,75 @@ fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream
             mut self,
             inversion: __p::Inversion,
         ) -> __p::Result<Self, __p::MaterialError> {
-            if __p::extends(inversion)? {
-                #parameters
-                #(#restores)*
-            }
+            __p::extends(#arguments)?;
             self.inversion = inversion;
             Ok(self)
+        }
+    }
+}
+
+/// The parameters of the description.
+fn parameters() -> TokenStream {
+    quote!(&<Self as __p::Declared>::DESCRIPTION.parameters)
+}
+
+/// The numbers of each parameter as a slice, which is empty for a function: those of a material, or variables
+/// of their names.
+fn numbers(declaration: &Declaration, material: Option<&Ident>) -> TokenStream {
+    let of = material.map(|material| quote!(#material.));
+    let numbers = declaration.parameters.iter().map(|parameter| {
+        let name = &parameter.name;
+        match parameter.kind {
+            Kind::Number if parameter.is_whole => quote!(&[f64::from(#of #name)]),
+            Kind::Number => quote!(&[#of #name]),
+            Kind::List(_) if parameter.is_whole => {
+                quote!(&#of #name.iter().copied().map(f64::from).collect::<__p::Vec<_>>())
+            }
+            Kind::List(_) => quote!(&#of #name),
+            Kind::Function(_) => quote!(&[]),
+        }
+    });
+    quote!(&[#(#numbers),*])
+}
+
+/// Conditions as data.
+fn conditions(declaration: &Declaration, conditions: &[Expr]) -> TokenStream {
+    if conditions.is_empty() {
+        return quote!(&[]);
+    }
+    let conditions = conditions.iter().map(|condition| {
+        let Condition { text: condition, sides, comparison, list, names } =
+            Condition::new(declaration, condition, &term);
+        let names = names.into_iter().map(Literal::usize_unsuffixed);
+        let [text, names] = [text(condition), text(quote!(&[#(#names),*]))];
+        let list = option(list.map(Literal::usize_unsuffixed).map(Literal::into_token_stream));
+        quote! {
+            __p::Condition {
+                text: #text,
+                sides: [#(#sides),*],
+                comparison: #comparison,
+                list: #list,
+                names: #names,
+            }
+        }
+    });
+    quote!(const { &[#(#conditions),*] })
+}
+
+fn term(term: Term<TokenStream>) -> TokenStream {
+    match term {
+        Term::Number(number) if number.is_finite() => {
+            let number = Literal::f64_unsuffixed(number);
+            quote!(__p::Term::Number(#number))
+        }
+        Term::Number(_) => quote!(__p::Term::Number(::core::primitive::f64::NAN)),
+        Term::Parameter(k) => {
+            let k = Literal::usize_unsuffixed(k);
+            quote!(__p::Term::Parameter(#k))
+        }
+        Term::Call(name, operands) => {
+            let [name, operands] = [text(name), text(quote!(&[#(#operands),*]))];
+            quote!(__p::Term::Call(#name, #operands))
         }
     }
 }
@@ -219,28 +253,5 @@ fn getter(declaration: &Declaration, parameter: &Parameter) -> TokenStream {
         #visibility fn #name(&self) -> #ty {
             #value
         }
-    }
-}
-
-/// Returns an error unless a condition holds, for every entry if it names one.
-fn check(declaration: &Declaration, condition: &Expr, check: &TokenStream) -> TokenStream {
-    let text = condition_text(condition);
-    let list = indexed_list(condition);
-    let names = identifiers(condition.to_token_stream());
-    let given =
-        declaration.parameters.iter().filter(|parameter| names.contains(&parameter.name)).map(|parameter| {
-            let (name, text) = (&parameter.name, parameter.name.to_string());
-            match &list {
-                Some((_, index)) if parameter.length().is_some() => {
-                    quote!((#text, Some(#index), #name[#index]))
-                }
-                _ => quote!((#text, None, #name)),
-            }
-        });
-    let test = typed(condition);
-    let test = quote!(__p::#check(#test, #text, &[#(#given),*])?;);
-    match &list {
-        Some((list, index)) => quote!(for #index in 0..#list.len() { #test }),
-        None => test,
     }
 }

@@ -34,13 +34,7 @@ pub(super) fn declared(declaration: &Declaration, units: &[Option<Unit>], texts:
     });
     let typical = option(declaration.options.typical.as_ref().map(typical));
     let extends = declaration.options.extend.is_some();
-    let refusal = option(match &declaration.options.refuse {
-        Some(reason) => Some(text(reason)),
-        None if declaration.options.domain.is_empty() => {
-            Some(text("it is defined for every deformation gradient already"))
-        }
-        None => None,
-    });
+    let refusal = option(declaration.options.refusal().map(text));
     let admissible = declaration.options.admissible.iter().map(|condition| text(condition_text(condition)));
 
     let values =
@@ -113,12 +107,12 @@ fn typical(typical: &Typical) -> TokenStream {
     quote!(__p::Typical { values: __p::Borrowed(&[#(#lists),*]), source: #source })
 }
 
-/// A text of the description.
-fn text(text: impl ToTokens) -> TokenStream {
+/// A text or a list of the description.
+pub(super) fn text(text: impl ToTokens) -> TokenStream {
     quote!(__p::Borrowed(#text))
 }
 
-fn option(value: Option<TokenStream>) -> TokenStream {
+pub(super) fn option(value: Option<TokenStream>) -> TokenStream {
     match value {
         Some(value) => quote!(Some(#value)),
         None => quote!(None),

@@ -165,39 +165,6 @@ mod tests {
     use quote::quote;
 
     #[test]
-    fn a_type_shows_its_formulas() {
-        let item = quote! {
-            /// Rubber.
-            fn E([l1, l2, l3]: [f64; 3], /** Shear modulus, Pa. */ mu: f64) -> f64 {
-                mu / 2.0 * (I1 - 3.0) - mu * J.ln()
-            }
-        };
-        let (declaration, mut model) =
-            crate::analyse(quote!(domain(J > 0.0), admissible(mu > 0.0), extend, fit), item, None).unwrap();
-        let texts = super::Texts::of(&declaration, &mut model);
-        let documentation = super::page(&declaration, &mut model, &texts);
-        let lines: Vec<_> = documentation.lines().collect();
-        for line in [
-            "ψ = 1/2 μ (I1 − 3) − μ ln J",
-            "* `mu`: Shear modulus, Pa.",
-            "They satisfy `mu > 0`.",
-            "**Domain**: `J > 0`. It can be continued beyond J > 0.",
-            "**Small strain**: μ = μ, λ = 0.",
-            "ψ₁ = μ λ₁ − μ/λ₁",
-            "ψ₁₁ = μ + μ/λ₁²",
-            "ψ₁₂ = 0",
-            "D⁻₁₂ = μ + μ/(λ₁ λ₂)",
-            "D⁺₁₂ = μ − μ/(λ₁ λ₂)",
-            "∂ψ/∂I1 = 1/2 μ",
-            "∂ψ/∂J = −μ/J",
-            "| energy | 11 (1 ln) |",
-            "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each.",
-        ] {
-            assert!(lines.contains(&line), "{line}\n{documentation}");
-        }
-    }
-
-    #[test]
     fn sums_that_lose_digits_are_named_once() {
         let item = quote! {
             /// Rubber.

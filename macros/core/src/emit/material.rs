@@ -47,18 +47,8 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     }
     let value = value_parameter(declaration);
     let kept = value.as_ref().map(|value| quote!(#value: __p::ParameterValue));
-    let per_lane = value.as_ref().map(|_| quote!(__p::PerLane));
     let lengths = &declaration.generics;
-    let gathered = declaration.parameters.iter().map(|parameter| {
-        let name = &parameter.name;
-        match parameter.kind {
-            Kind::List(_) => quote! {
-                #name: ::core::array::from_fn(|k| __p::PerLane::gather(|lane| material(lane).#name[k]))
-            },
-            _ => quote!(#name: __p::PerLane::gather(|lane| material(lane).#name)),
-        }
-    });
-    let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: material(0).inversion,));
+    let (on_lanes, gathered) = per_lane(declaration);
     // What is not inlined into the function of a back end is not compiled for its instructions.
     quote! {
         #[allow(unused_variables, clippy::all)]
@@ -69,17 +59,34 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
         }
 
         impl #bounds __p::Graded for #name #arguments {
-            type OnLanes<'lanes> = #name<#(#lengths,)* #per_lane>;
+            type OnLanes<'lanes> = #on_lanes;
 
             #[inline(always)]
             fn on_lanes<'lanes>(material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy) -> Self::OnLanes<'lanes>
             where
                 Self: 'lanes,
             {
-                #name { #(#gathered,)* #inversion }
+                #gathered
             }
         }
     }
+}
+
+/// The type with a value of each parameter for each lane, and the value of this type.
+fn per_lane(declaration: &Declaration) -> (TokenStream, TokenStream) {
+    let (name, lengths) = (&declaration.name, &declaration.generics);
+    let value = value_parameter(declaration).map(|_| quote!(__p::PerLane));
+    let gathered = declaration.parameters.iter().map(|parameter| {
+        let name = &parameter.name;
+        match parameter.kind {
+            Kind::List(_) => quote! {
+                #name: ::core::array::from_fn(|k| __p::PerLane::gather(|lane| material(lane).#name[k]))
+            },
+            _ => quote!(#name: __p::PerLane::gather(|lane| material(lane).#name)),
+        }
+    });
+    let inversion = declaration.options.extend.is_some().then(|| quote!(inversion: material(0).inversion,));
+    (quote!(#name<#(#lengths,)* #value>), quote!(#name { #(#gathered,)* #inversion }))
 }
 
 /// Properties of a material that do not depend on the deformation: its pole, the end of its domain, its

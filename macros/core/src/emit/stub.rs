@@ -94,9 +94,66 @@ fn inert_type(function: &Function) -> TokenStream {
     let name = &signature.ident;
     let generics = lengths(signature);
     let (types, methods) = parameters(signature, &generics);
-    let (methods, results): (Vec<_>, Vec<_>) = methods.into_iter().unzip();
-    let replacements: Vec<_> = methods.iter().map(|name| format_ident!("with_{name}")).collect();
-    let unreachable = quote!(::core::unreachable!("this material does not compile"));
+    let replacements = methods.iter().map(|(name, _)| format_ident!("with_{name}"));
+    let made = quote!(::core::result::Result<Self, ::piola::material::MaterialError>);
+    let of_type = [
+        quote!(fn new(#(_: #types),*) -> #made),
+        quote!(fn with_inversion(self, inversion: ::piola::Inversion) -> #made),
+    ];
+    let replacements = replacements.map(|method| quote!(fn #method<AnyValue>(self, _: AnyValue) -> #made));
+    let getters = methods.iter().map(|(method, result)| quote!(fn #method(&self) -> #result));
+    let of_type = of_type.into_iter().chain(replacements).chain(getters);
+    let of_type = inert_functions(of_type.map(|function| quote!(#visibility #function)));
+    let stretches = quote!(&self, stretches: [AnyReal; 3]);
+    let material = inert_functions([
+        quote!(fn energy<AnyReal: ::piola::Real>(#stretches) -> AnyReal),
+        quote!(fn gradient<AnyReal: ::piola::Real>(#stretches) -> [AnyReal; 3]),
+        quote!(fn blocks<AnyReal: ::piola::Real>(#stretches) -> ::piola::material::Blocks<AnyReal>),
+        quote!(fn admits<AnyReal: ::piola::Real>(#stretches) -> AnyReal::Mask),
+        quote!(fn has_pole(&self) -> bool),
+        quote!(fn ends_at_zero_volume(&self) -> bool),
+    ]);
+    let graded = inert_functions([quote! {
+        fn on_lanes<'lanes>(material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy) -> Self
+        where
+            Self: 'lanes
+    }]);
+    let declared =
+        inert_functions([quote!(fn from_values(values: &[&[f64]], inversion: ::piola::Inversion) -> #made)]);
+    let fittable = inert_functions([
+        quote!(fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>>),
+        quote!(fn gradient_by_parameters(&self, stretches: [f64; 3]) -> ::std::vec::Vec<[f64; 3]>),
+        quote!(fn constraints(&self) -> ::std::vec::Vec<::piola::material::Constraint>),
+    ]);
+    let empty = quote!(::std::borrow::Cow::Borrowed(""));
+    let description = quote! {
+        const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
+            name: #empty,
+            summary: #empty,
+            formula: #empty,
+            parameters: ::std::borrow::Cow::Borrowed(&[]),
+            domain: #empty,
+            extends: false,
+            refusal: ::core::option::Option::None,
+            admissible: ::std::borrow::Cow::Borrowed(&[]),
+            moduli: [#empty, #empty],
+            typical: ::core::option::Option::None,
+        };
+    };
+    let of_traits = [
+        (quote!(Material), material),
+        (quote!(material::Graded), quote!(type OnLanes<'lanes> = Self; #graded)),
+        (quote!(material::Declared), quote!(#description #declared)),
+        (quote!(material::Fittable), fittable),
+    ];
+    let implementations = of_traits.map(|(interface, items)| {
+        quote! {
+            #[allow(unused_variables)]
+            impl<#(const #generics: usize),*> ::piola::#interface for #name<#(#generics),*> {
+                #items
+            }
+        }
+    });
     quote! {
         #(#attributes)*
         #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,92 +162,15 @@ fn inert_type(function: &Function) -> TokenStream {
 
         #[allow(missing_docs, dead_code, non_snake_case, unused_variables, clippy::too_many_arguments)]
         impl<#(const #generics: usize),*> #name<#(#generics),*> {
-            #visibility fn new(#(_: #types),*) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
-                #unreachable
-            }
-            #visibility fn with_inversion(
-                self,
-                inversion: ::piola::Inversion,
-            ) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
-                #unreachable
-            }
-            #(#visibility fn #replacements<AnyValue>(
-                self,
-                _: AnyValue,
-            ) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
-                #unreachable
-            })*
-            #(#visibility fn #methods(&self) -> #results {
-                #unreachable
-            })*
+            #of_type
         }
 
-        #[allow(unused_variables)]
-        impl<#(const #generics: usize),*> ::piola::Material for #name<#(#generics),*> {
-            fn energy<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> AnyReal {
-                #unreachable
-            }
-            fn gradient<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> [AnyReal; 3] {
-                #unreachable
-            }
-            fn blocks<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> ::piola::material::Blocks<AnyReal> {
-                #unreachable
-            }
-            fn admits<AnyReal: ::piola::Real>(&self, stretches: [AnyReal; 3]) -> AnyReal::Mask {
-                #unreachable
-            }
-            fn has_pole(&self) -> bool {
-                #unreachable
-            }
-            fn ends_at_zero_volume(&self) -> bool {
-                #unreachable
-            }
-        }
-
-        #[allow(unused_variables)]
-        impl<#(const #generics: usize),*> ::piola::material::Graded for #name<#(#generics),*> {
-            type OnLanes<'lanes> = Self;
-            fn on_lanes<'lanes>(material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy) -> Self
-            where
-                Self: 'lanes,
-            {
-                #unreachable
-            }
-        }
-
-        #[allow(unused_variables)]
-        impl<#(const #generics: usize),*> ::piola::material::Declared for #name<#(#generics),*> {
-            const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
-                name: ::std::borrow::Cow::Borrowed(""),
-                summary: ::std::borrow::Cow::Borrowed(""),
-                formula: ::std::borrow::Cow::Borrowed(""),
-                parameters: ::std::borrow::Cow::Borrowed(&[]),
-                domain: ::std::borrow::Cow::Borrowed(""),
-                extends: false,
-                refusal: ::core::option::Option::None,
-                admissible: ::std::borrow::Cow::Borrowed(&[]),
-                moduli: [::std::borrow::Cow::Borrowed(""), ::std::borrow::Cow::Borrowed("")],
-                typical: ::core::option::Option::None,
-            };
-            fn from_values(
-                values: &[&[f64]],
-                inversion: ::piola::Inversion,
-            ) -> ::core::result::Result<Self, ::piola::material::MaterialError> {
-                #unreachable
-            }
-        }
-
-        #[allow(unused_variables)]
-        impl<#(const #generics: usize),*> ::piola::material::Fittable for #name<#(#generics),*> {
-            fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>> {
-                #unreachable
-            }
-            fn gradient_by_parameters(&self, stretches: [f64; 3]) -> ::std::vec::Vec<[f64; 3]> {
-                #unreachable
-            }
-            fn constraints(&self) -> ::std::vec::Vec<::piola::material::Constraint> {
-                #unreachable
-            }
-        }
+        #(#implementations)*
     }
+}
+
+/// Functions that no program calls, given without their bodies.
+fn inert_functions(functions: impl IntoIterator<Item = TokenStream>) -> TokenStream {
+    let inert = |function| quote!(#function { ::core::unreachable!("this material does not compile") });
+    functions.into_iter().map(inert).collect()
 }

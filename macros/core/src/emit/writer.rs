@@ -1,6 +1,6 @@
 //! Programs as Rust statements.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Literal, Punct, Spacing, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use rustc_hash::FxHashMap;
 use syn::Ident;
@@ -115,27 +115,19 @@ impl<'a> Writer<'a> {
     fn expression(&self, op: &Op, names: &Names) -> TokenStream {
         let n = |value: Value| names.argument(value);
         let o = |value: Value| names.operand(value);
+        let binary = |a: Value, operator: char, b: Value| {
+            let (a, operator, b) = (o(a), Punct::new(operator, Spacing::Alone), o(b));
+            quote!(#a #operator #b)
+        };
         match *op {
             Op::Neg(a) => {
                 let a = o(a);
                 quote!(-#a)
             }
-            Op::Add(a, b) => {
-                let (a, b) = (o(a), o(b));
-                quote!(#a + #b)
-            }
-            Op::Sub(a, b) => {
-                let (a, b) = (o(a), o(b));
-                quote!(#a - #b)
-            }
-            Op::Mul(a, b) => {
-                let (a, b) = (o(a), o(b));
-                quote!(#a * #b)
-            }
-            Op::Div(a, b) => {
-                let (a, b) = (o(a), o(b));
-                quote!(#a / #b)
-            }
+            Op::Add(a, b) => binary(a, '+', b),
+            Op::Sub(a, b) => binary(a, '-', b),
+            Op::Mul(a, b) => binary(a, '*', b),
+            Op::Div(a, b) => binary(a, '/', b),
             Op::MulAdd(a, b, c) => {
                 let (a, b, c) = (o(a), n(b), n(c));
                 quote!(#a.mul_add(#b, #c))

@@ -11,6 +11,7 @@ use crate::algebra::rational::Rational;
 use crate::read::diagnostics::Diagnostics;
 use crate::read::parse::{Declaration, identifiers, indexed_list, is_f64};
 use crate::read::spelling::taken;
+pub(crate) use names::constant;
 use sums::Index;
 
 mod calls;
@@ -102,7 +103,7 @@ enum Scope {
     Isochoric,
     /// I1, I2, J and the parameters, with strains in the places of λ1, λ2, λ3.
     Invariants,
-    /// The parameters alone, in a condition that is emitted as it is written except for its literals.
+    /// The parameters alone, in a condition that the constructor evaluates.
     Parameters,
 }
 

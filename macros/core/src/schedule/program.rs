@@ -197,3 +197,13 @@ pub struct Program {
     /// One value for each root.
     pub outputs: Vec<Value>,
 }
+
+impl Program {
+    /// All operations in order, those of loops among them.
+    pub fn operations(&self) -> impl Iterator<Item = (Value, Op)> {
+        self.statements.iter().flat_map(|statement| match statement {
+            Statement::Let(value, op) => vec![(*value, *op)],
+            Statement::Loop { body, .. } => body.clone(),
+        })
+    }
+}

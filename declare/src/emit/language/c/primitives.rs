@@ -1,174 +1,86 @@
-//! Functions of C that programs are made of, written by hand.
+//! Functions of C that programs are made of, from the file `primitives.c`.
 
-use piola::__private::record::{Binary, Function, Unary};
+use super::{C, Dialect};
+use crate::emit::language::{Language, Needs, parts};
 
-use super::{C, Dialect, Needs};
+/// Parts of the file.
+const TEXT: &str = include_str!("../primitives.c");
 
 impl C {
+    /// What comes before the macros and functions: headers, and errors for options that change arithmetic.
+    pub(super) fn head(&self) -> String {
+        let (of_dialect, of_double) = match self.dialect {
+            Dialect::C => ("head of c", None),
+            Dialect::Cuda => ("head of cuda", None),
+            Dialect::OpenCl => ("head of opencl", (!self.is_single).then_some("head of opencl in double")),
+        };
+        self.filled(&parts(TEXT, |part| part == of_dialect || Some(part) == of_double))
+    }
+
     pub(super) fn functions_of(&self, needs: &Needs<'_>) -> String {
-        let Self { prefix, upper, dialect, .. } = self;
-        let (number, end, suffix) = (self.number(), self.end(), self.suffix());
-        let function = self.function(number);
-        let (bits, signed) = match (dialect, self.is_single) {
+        let (dialect, is_single) = (self.dialect, self.is_single);
+        let has_bits = ["scale", "split", "leading_power", "reciprocal_of_power"];
+        let has_bits = dialect == Dialect::Cuda || has_bits.into_iter().any(|part| needs.part(part));
+        let is_in_double = is_single && dialect != Dialect::OpenCl;
+        self.filled(&parts(TEXT, |part| match part {
+            "bits of opencl" => dialect == Dialect::OpenCl,
+            "bits" => dialect != Dialect::OpenCl && has_bits,
+            "copysign" => dialect == Dialect::Cuda && needs.part(part),
+            "product_error in double" => is_in_double && needs.part("product_error"),
+            "product_error by halves" => !is_in_double && needs.part("product_error"),
+            part => needs.part(part),
+        }))
+    }
+
+    /// A part with the words of the dialect and the numbers of the format.
+    fn filled(&self, part: &str) -> String {
+        let is_of_opencl = self.dialect == Dialect::OpenCl;
+        let (bits, signed) = match (is_of_opencl, self.is_single) {
             (_, true) => ("unsigned", "int"),
-            (Dialect::OpenCl, false) => ("ulong", "long"),
-            (_, false) => ("unsigned long long", "long long"),
-        };
-        let (mantissa, bias, infinity) = match self.is_single {
-            true => (23, 127, "0x7f800000u"),
-            false => (
-                52,
-                1023,
-                if *dialect == Dialect::OpenCl { "0x7ff0000000000000UL" } else { "0x7ff0000000000000ull" },
-            ),
-        };
-        // ¾/u, √½, the smallest normal number, and 1/u with its exponent.
-        let (rounding, half_root, smallest, lift, digits) = match self.is_single {
-            true => ("12582912.0f", "0x3f3504f3", "1.17549435e-38f", "16777216.0f", 24),
-            false => (
-                "6755399441055744.0",
-                "0x3fe6a09e667f3bcd",
-                "2.2250738585072014e-308",
-                "9007199254740992.0",
-                53,
-            ),
+            (true, false) => ("ulong", "long"),
+            (false, false) => ("unsigned long long", "long long"),
         };
         let fast = if self.is_single { "FP_FAST_FMAF" } else { "FP_FAST_FMA" };
-        let has_fast = match dialect {
+        let has_fast = match self.dialect {
             // A device has no such macro, and clang has only that of the processor.
             Dialect::Cuda => format!(
                 "defined({fast}) || defined(__FMA__) || defined(__CUDA_ARCH__) || defined(__HIP_DEVICE_COMPILE__)"
             ),
             Dialect::C | Dialect::OpenCl => format!("defined({fast}) || defined(__FMA__)"),
         };
-        let mut text = format!(
-            "#if {has_fast}
-#define {upper}_MUL_ADD(a, b, c) fma{suffix}(a, b, c)
-#else
-#define {upper}_MUL_ADD(a, b, c) ((a) * (b) + (c))
-#endif
-
-"
-        );
-        let (scales, splits) = (needs.binary(Binary::Scale), needs.calls(Function::Split));
-        let copies_sign = *dialect == Dialect::Cuda && needs.binary(Binary::CopySign);
-        let has_power = needs.unary(Unary::LeadingPower);
-        let has_reciprocal = needs.unary(Unary::ReciprocalOfPower);
-        let of_bits = format!("{}_of_bits({bits} bits)", function);
-        let to_bits = format!("{}_to_bits({number} x)", self.function(bits));
-        if *dialect == Dialect::OpenCl {
-            text += &format!(
-                "{of_bits} {{ return as_{number}(bits); }}\n\n{to_bits} {{ return as_{}(x); }}\n\n",
-                if self.is_single { "uint" } else { "ulong" }
-            );
-        } else if *dialect == Dialect::Cuda || scales || splits || has_power || has_reciprocal {
-            text += &format!(
-                "{of_bits} {{
-    {number} x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}}
-
-{to_bits} {{
-    {bits} bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}}
-
-"
-            );
-        }
-        if copies_sign {
-            text += &format!(
-                "/* |x| with the sign of y. */
-{function}_copysign({number} x, {number} y) {{
-    const {bits} sign = ({bits})1 << {};
-    return {prefix}_of_bits(({prefix}_to_bits(x) & ~sign) | ({prefix}_to_bits(y) & sign));
-}}
-
-",
-                if self.is_single { 31 } else { 63 }
-            );
-        }
-        if scales {
-            text += &format!(
-                "/* x 2^e, rounded once; two factors, since 2^e itself may be out of range. */
-{function}_scale({number} x, {number} e) {{
-    const {number} first = (e * 0.5{end} + {rounding}) - {rounding};
-    const {bits} low = {prefix}_to_bits(first + ({rounding} + {bias}.0{end}));
-    const {bits} high = {prefix}_to_bits((e - first) + ({rounding} + {bias}.0{end}));
-    return x * {prefix}_of_bits(low << {mantissa}) * {prefix}_of_bits(high << {mantissa});
-}}
-
-"
-            );
-        }
-        if has_power {
-            text += &format!(
-                "/* The power of two in |x|. */
-{function}_leading_power({number} x) {{
-    return {prefix}_of_bits({prefix}_to_bits(x) & {infinity});
-}}
-
-"
-            );
-        }
-        if has_reciprocal {
-            text += &format!(
-                "/* 1/x for a power of two. */
-{function}_reciprocal_of_power({number} x) {{
-    return {prefix}_of_bits((({bits}){} << {mantissa}) - {prefix}_to_bits(x));
-}}
-
-",
-                2 * bias
-            );
-        }
-        if splits {
-            let [nan, infinite] =
-                [f64::NAN, f64::INFINITY].map(|value| super::Language::literal(self, value));
-            text += &format!(
-                "/* x = m 2^e with sqrt(1/2) <= m < sqrt(2). */
-{function}_split({number} x, {number} *e) {{
-    const int is_tiny = x < {smallest};
-    const {number} lifted = is_tiny ? x * {lift} : x;
-    const {signed} bits = ({signed}){prefix}_to_bits(lifted);
-    const {signed} exponent = ({signed})(({bits})bits - ({bits}){half_root}) >> {mantissa};
-    const {number} found = ({number})exponent - (is_tiny ? {digits}.0{end} : 0.0{end});
-    const {number} limit = x < 0.0{end} ? {nan} : -{infinite};
-    *e = x < {infinite} ? (0.0{end} < x ? found : limit) : x;
-    return {prefix}_of_bits(({bits})bits - (({bits})exponent << {mantissa}));
-}}
-
-"
-            );
-        }
-        if needs.calls(Function::ProductError) {
-            let without = match (self.is_single, dialect) {
-                (true, Dialect::C | Dialect::Cuda) => {
-                    "    return (float)((double)a * (double)b - (double)(a * b));\n".to_owned()
-                }
-                _ => format!(
-                    "    const {number} a_big = {splitter} * a, b_big = {splitter} * b;
-    const {number} ah = a_big - (a_big - a), bh = b_big - (b_big - b);
-    const {number} al = a - ah, bl = b - bh;
-    return al * bl - (((a * b - ah * bh) - al * bh) - ah * bl);
-",
-                    splitter = if self.is_single { "4097.0f" } else { "134217729.0" }
-                ),
-            };
-            text += &format!(
-                "/* The rounding error of a b. */
-{function}_product_error({number} a, {number} b) {{
-#if {has_fast}
-    return fma{suffix}(a, b, -(a * b));
-#else
-{without}#endif
-}}
-
-"
-            );
-        }
-        text
+        let of_format = |single: &'static str, double: &'static str| match self.is_single {
+            true => single.to_owned(),
+            false => double.to_owned(),
+        };
+        let infinity_bits = if is_of_opencl { "0x7ff0000000000000UL" } else { "0x7ff0000000000000ull" };
+        let words = [
+            ("{prefix}", self.prefix.clone()),
+            ("{upper}", self.upper.clone()),
+            ("{number}", self.number().to_owned()),
+            ("{bits}", bits.to_owned()),
+            ("{signed}", signed.to_owned()),
+            ("{opencl_bits}", of_format("uint", "ulong")),
+            ("{end}", self.end().to_owned()),
+            ("{suffix}", self.suffix().to_owned()),
+            ("{function}", self.function(self.number())),
+            ("{function_to_bits}", self.function(bits)),
+            ("{has_fast}", has_fast),
+            ("{exact}", of_format("FLT_EVAL_METHOD == 0", "FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD < 2")),
+            ("{nan}", self.literal(f64::NAN)),
+            ("{infinity}", self.literal(f64::INFINITY)),
+            ("{infinity_bits}", of_format("0x7f800000u", infinity_bits)),
+            ("{sign_place}", of_format("31", "63")),
+            ("{mantissa}", of_format("23", "52")),
+            ("{digits}", of_format("24", "53")),
+            ("{bias}", of_format("127", "1023")),
+            ("{twice_bias}", of_format("254", "2046")),
+            // ¾/u, √½, the smallest normal number, 1/u, and what splits a number into halves of its digits.
+            ("{rounding}", of_format("12582912.0f", "6755399441055744.0")),
+            ("{half_root}", of_format("0x3f3504f3", "0x3fe6a09e667f3bcd")),
+            ("{smallest}", of_format("1.17549435e-38f", "2.2250738585072014e-308")),
+            ("{lift}", of_format("16777216.0f", "9007199254740992.0")),
+            ("{splitter}", of_format("4097.0f", "134217729.0")),
+        ];
+        words.iter().fold(part.to_owned(), |text, (word, meaning)| text.replace(word, meaning))
     }
 }

@@ -47,6 +47,13 @@ const FORMS: [(&str, &str); 8] = [
 ];
 
 impl Options {
+    /// Reason why there is no extension, if one is stated or evident.
+    #[must_use]
+    pub fn refusal(&self) -> Option<String> {
+        let needless = || "it is defined for every deformation gradient already".to_owned();
+        self.refuse.as_ref().map(LitStr::value).or_else(|| self.domain.is_empty().then(needless))
+    }
+
     /// Reads all valid arguments and reports the rest.
     pub(super) fn read(arguments: TokenStream, diagnostics: &mut Diagnostics) -> Self {
         let mut options = Self::default();

@@ -13,46 +13,17 @@ use crate::read::notation::Notation;
 use crate::read::spelling::taken;
 use crate::read::unit::Unit;
 
-/// Members of every material, which a method for a parameter of the same name would hide.
-const MEMBERS: [&str; 33] = [
-    // Of the type and of the traits of the language.
-    "new",
-    "with_inversion",
-    "clone",
-    // Of `Material`.
-    "energy",
-    "gradient",
-    "gradient_at_strains",
-    "blocks",
-    "energy_and_blocks",
-    "admits",
-    "has_invariants",
-    "has_second_invariant",
-    "curvature_by_invariants",
-    "has_energy_by_invariants",
-    "energy_by_invariants",
-    "gradient_by_invariants",
-    "derivatives_by_invariants",
-    "admits_invariants",
-    "has_pole",
-    "ends_at_zero_volume",
-    "inversion",
-    "stated_moduli",
-    "RESPONDS_TOGETHER",
-    "respond_together",
-    // Of `Declared`.
-    "DESCRIPTION",
-    "from_values",
-    "moduli",
-    // Of `Fittable`.
-    "values",
-    "with_values",
-    "gradient_by_parameters",
-    "constraints",
-    "domain_constraints",
-    // Of `Graded`.
-    "on_lanes",
-    "shares_lanes",
+/// Members of every material, which a method for a parameter of the same name would hide: those of the type and
+/// of the traits of the language, of `Material`, of `Declared`, of `Fittable` and of `Graded`.
+const MEMBERS: [&str; 5] = [
+    "new with_inversion clone",
+    "energy gradient gradient_at_strains blocks energy_and_blocks admits has_invariants has_second_invariant \
+     curvature_by_invariants has_energy_by_invariants energy_by_invariants gradient_by_invariants \
+     derivatives_by_invariants admits_invariants has_pole ends_at_zero_volume inversion stated_moduli \
+     RESPONDS_TOGETHER respond_together",
+    "DESCRIPTION from_values moduli",
+    "values with_values gradient_by_parameters constraints domain_constraints",
+    "on_lanes shares_lanes",
 ];
 
 /// Values that are patterns everywhere, so that no argument can have their name.
@@ -339,17 +310,13 @@ impl Mistake {
 /// True if a parameter's type may be a function: any path but Rust's primitive types and likely typos of
 /// `f64`.
 pub(crate) fn may_be_function(ty: &Type) -> bool {
-    const NEVER: [&str; 16] = [
-        "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "i128", "isize", "bool",
-        "char", "str", "String",
-    ];
     let Type::Path(path) = ty else { return false };
     path.path.get_ident().is_none_or(|name| {
         let name = name.to_string();
         let is_float = name
             .strip_prefix(['f', 'F'])
             .is_some_and(|digits| digits.bytes().all(|digit| digit.is_ascii_digit()));
-        !is_float && !NEVER.contains(&name.as_str())
+        !is_float && name != "String" && !TYPES.contains(&name.as_str())
     })
 }
 
@@ -417,7 +384,7 @@ pub fn is_reserved(name: &Ident) -> bool {
     let text = name.to_string();
     let text = text.as_str();
     WORDS.contains(&text)
-        || MEMBERS.contains(&text)
+        || MEMBERS.iter().any(|group| group.split(' ').any(|member| member == text))
         || PATTERNS.contains(&text)
         || text == "sum"
         || is_raw(name)

@@ -1,13 +1,12 @@
 //! Calls: methods of numbers, and functions that are parameters.
 
 use quote::ToTokens;
-use syn::{Expr, ExprCall, ExprMethodCall, Ident};
+use syn::{Expr, ExprCall, ExprMethodCall, Ident, UnOp};
 
 use super::tensors::{self, Tensor};
 use super::{Resolver, Scope, paper_notation};
 use crate::algebra::expr::{Elementary, Exponent, Id, Node};
 use crate::algebra::rational::Rational;
-use crate::read::literals::is_number;
 use crate::read::parse::{Kind, identifiers};
 use crate::read::spelling::{list, nearest};
 
@@ -72,7 +71,7 @@ impl Resolver<'_> {
         }
         let graph = &mut *self.graph;
         if let Some(function) = Elementary::named(&name) {
-            // Conditions are emitted as they are written.
+            // The constructor has the functions of `f64`.
             if self.scope == Scope::Parameters
                 && matches!(function, Elementary::Erf | Elementary::Sigmoid | Elementary::Softplus)
             {
@@ -322,4 +321,15 @@ impl Resolver<'_> {
 fn form(name: &str) -> Option<String> {
     let method = METHODS.into_iter().find(|(known, _)| *known == name).map(|(_, form)| form.to_owned());
     method.or_else(|| Elementary::named(name).map(|function| format!(".{}()", function.name())))
+}
+
+/// True if an exponent is a literal with or without a sign.
+fn is_number(exponent: &Expr) -> bool {
+    match exponent {
+        Expr::Lit(_) => true,
+        Expr::Unary(unary) => matches!(unary.op, UnOp::Neg(_)) && is_number(&unary.expr),
+        Expr::Paren(inner) => is_number(&inner.expr),
+        Expr::Group(inner) => is_number(&inner.expr),
+        _ => false,
+    }
 }

@@ -22,6 +22,14 @@ const CONSTANTS: [(&str, f64); 8] = [
     ("FRAC_2_SQRT_PI", consts::FRAC_2_SQRT_PI),
 ];
 
+/// A constant of `std::f64::consts` by its path.
+pub(crate) fn constant(path: &Path) -> Option<f64> {
+    let mut words = path.segments.iter().rev().map(|word| &word.ident);
+    let (name, module) = (words.next()?, words.next()?);
+    let is_meant = |(constant, _): &&(&str, f64)| module == "consts" && name == constant;
+    CONSTANTS.iter().find(is_meant).map(|&(_, value)| value)
+}
+
 impl Resolver<'_> {
     pub(super) fn name(&mut self, name: &Ident) -> Id {
         let text = name.to_string();
@@ -188,8 +196,7 @@ impl Resolver<'_> {
         if ["NAN", "INFINITY", "NEG_INFINITY"].contains(&last.as_str()) {
             return self.mistake(path, "the numbers of an energy are finite: write one");
         }
-        let is_constant = path.segments.iter().rev().nth(1).is_some_and(|module| module.ident == "consts");
-        if let Some((_, value)) = CONSTANTS.iter().find(|(name, _)| is_constant && *name == last) {
+        if let Some(value) = constant(path) {
             return self.graph.leaf(Node::Float(value.to_bits()));
         }
         self.mistake(

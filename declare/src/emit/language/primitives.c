@@ -1,0 +1,113 @@
+//@ head of c
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#if defined(__FAST_MATH__) || !({exact})
+#error "compile without -ffast-math, and with arithmetic in the format itself (-msse2 -mfpmath=sse)"
+#endif
+//@ head of cuda
+#if !defined(__CUDACC_RTC__) && !defined(__HIPCC_RTC__) && !defined(WP_NO_CRT)
+#include <math.h>
+#include <string.h>
+#endif
+#if defined(__FAST_MATH__) || (defined(__USE_FAST_MATH__) && __USE_FAST_MATH__)
+#error "compile without -ffast-math and --use_fast_math"
+#endif
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define {upper}_DEVICE __host__ __device__
+#else
+#define {upper}_DEVICE
+#endif
+//@ head of opencl
+#ifdef __FAST_RELAXED_MATH__
+#error "build without -cl-fast-relaxed-math"
+#endif
+//@ head of opencl in double
+#if __OPENCL_C_VERSION__ < 120
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#endif
+//@ head of opencl
+#pragma OPENCL FP_CONTRACT OFF
+//@ all
+#if {has_fast}
+#define {upper}_MUL_ADD(a, b, c) fma{suffix}(a, b, c)
+#else
+#define {upper}_MUL_ADD(a, b, c) ((a) * (b) + (c))
+#endif
+
+//@ bits of opencl
+{function}_of_bits({bits} bits) { return as_{number}(bits); }
+
+{function_to_bits}_to_bits({number} x) { return as_{opencl_bits}(x); }
+
+//@ bits
+{function}_of_bits({bits} bits) {
+    {number} x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+{function_to_bits}_to_bits({number} x) {
+    {bits} bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+//@ copysign
+/* |x| with the sign of y. */
+{function}_copysign({number} x, {number} y) {
+    const {bits} sign = ({bits})1 << {sign_place};
+    return {prefix}_of_bits(({prefix}_to_bits(x) & ~sign) | ({prefix}_to_bits(y) & sign));
+}
+
+//@ scale
+/* x 2^e, rounded once; two factors, since 2^e itself may be out of range. */
+{function}_scale({number} x, {number} e) {
+    const {number} first = (e * 0.5{end} + {rounding}) - {rounding};
+    const {bits} low = {prefix}_to_bits(first + ({rounding} + {bias}.0{end}));
+    const {bits} high = {prefix}_to_bits((e - first) + ({rounding} + {bias}.0{end}));
+    return x * {prefix}_of_bits(low << {mantissa}) * {prefix}_of_bits(high << {mantissa});
+}
+
+//@ leading_power
+/* The power of two in |x|. */
+{function}_leading_power({number} x) {
+    return {prefix}_of_bits({prefix}_to_bits(x) & {infinity_bits});
+}
+
+//@ reciprocal_of_power
+/* 1/x for a power of two. */
+{function}_reciprocal_of_power({number} x) {
+    return {prefix}_of_bits((({bits}){twice_bias} << {mantissa}) - {prefix}_to_bits(x));
+}
+
+//@ split
+/* x = m 2^e with sqrt(1/2) <= m < sqrt(2). */
+{function}_split({number} x, {number} *e) {
+    const int is_tiny = x < {smallest};
+    const {number} lifted = is_tiny ? x * {lift} : x;
+    const {signed} bits = ({signed}){prefix}_to_bits(lifted);
+    const {signed} exponent = ({signed})(({bits})bits - ({bits}){half_root}) >> {mantissa};
+    const {number} found = ({number})exponent - (is_tiny ? {digits}.0{end} : 0.0{end});
+    const {number} limit = x < 0.0{end} ? {nan} : -{infinity};
+    *e = x < {infinity} ? (0.0{end} < x ? found : limit) : x;
+    return {prefix}_of_bits(({bits})bits - (({bits})exponent << {mantissa}));
+}
+
+//@ product_error
+/* The rounding error of a b. */
+{function}_product_error({number} a, {number} b) {
+#if {has_fast}
+    return fma{suffix}(a, b, -(a * b));
+#else
+//@ product_error in double
+    return (float)((double)a * (double)b - (double)(a * b));
+//@ product_error by halves
+    const {number} a_big = {splitter} * a, b_big = {splitter} * b;
+    const {number} ah = a_big - (a_big - a), bh = b_big - (b_big - b);
+    const {number} al = a - ah, bl = b - bh;
+    return al * bl - (((a * b - ah * bh) - al * bh) - ah * bl);
+//@ product_error
+#endif
+}
+
