@@ -2,6 +2,8 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
+use std::fmt::Display;
+
 use numpy::{IntoPyArray, PyArrayMethods};
 use piola::contract::{Notation, Settings, check};
 use piola::point::{stress, svd};
@@ -10,7 +12,7 @@ use piola_laboratory::curve::{Mode, ModeError, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, StressUnitError, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
-use piola_laboratory::stability::{Path, Report, SurveySettings, survey};
+use piola_laboratory::stability::{Report, SurveySettings, survey};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -137,15 +139,15 @@ impl Material {
         let Report { points, admitted, findings, walks, .. } = report;
         let kept = PyDict::new(py);
         for finding in &findings {
-            kept.set_item(criterion(finding.criterion), finding.kept)?;
+            kept.set_item(key(finding.criterion), finding.kept)?;
         }
         let paths = PyList::empty(py);
         for walk in &walks {
             let lost = PyDict::new(py);
             for (found, lost_at) in Criterion::ALL.into_iter().zip(walk.lost) {
-                lost.set_item(criterion(found), lost_at)?;
+                lost.set_item(key(found), lost_at)?;
             }
-            let arguments = (path(walk.path), walk.to, walk.reached, lost);
+            let arguments = (key(walk.path), walk.to, walk.reached, lost);
             paths.append(py.import("piola.results")?.call_method1("Walk", arguments)?)?;
         }
         py.import("piola.results")?.call_method1("Stability", (points, admitted, kept, paths, text))
@@ -253,22 +255,9 @@ fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
     Ok(Measurements { points })
 }
 
-fn criterion(criterion: Criterion) -> &'static str {
-    match criterion {
-        Criterion::BakerEricksen => "baker_ericksen",
-        Criterion::Hill => "hill",
-        Criterion::StrongEllipticity => "strong_ellipticity",
-    }
-}
-
-fn path(path: Path) -> &'static str {
-    match path {
-        Path::Uniaxial => "uniaxial",
-        Path::Equibiaxial => "equibiaxial",
-        Path::PureShear => "pure_shear",
-        Path::Confined => "confined",
-        Path::Hydrostatic => "hydrostatic",
-    }
+/// A name of a report as a key of a dictionary, such as "strong_ellipticity".
+fn key(name: impl Display) -> String {
+    name.to_string().to_lowercase().replace([' ', '–'], "_")
 }
 
 /// Treloar's measurements of vulcanised rubber, 1944, in the form that `Material.fit` takes: control and
