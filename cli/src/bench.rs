@@ -13,7 +13,7 @@ use piola::__private::message::number;
 use piola::material::Moduli;
 use piola_laboratory::AtRest;
 use piola_laboratory::chart;
-use piola_laboratory::curve::{Mode, Volume};
+use piola_laboratory::curve::Volume;
 use piola_laboratory::data::{Agreement, Measurements};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::options::Formula;
@@ -78,12 +78,6 @@ fn rounded(value: f64) -> f64 {
 fn spaced(from: f64, to: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1).max(1) as f64;
     (0..count).map(|k| from + (to - from) * (k as f64 / last)).collect()
-}
-
-/// The least and the greatest control that was measured in a mode, rest included.
-fn measured_range(data: &Measurements, mode: Mode) -> [f64; 2] {
-    let controls = data.of(mode).map(|point| point.control);
-    controls.fold([mode.rest(); 2], |[least, greatest], control| [least.min(control), greatest.max(control)])
 }
 
 fn titled(material: &str, volume: Volume) -> String {

@@ -124,13 +124,14 @@ impl fmt::Display for Mode {
 impl FromStr for Mode {
     type Err = ModeError;
 
-    /// Parses a name in any case, with spaces or `-` for `_`: the [name](Mode::name), or another common one,
-    /// such as `UT`, `tension`, `compression`, `ET`, `EB`, `biaxial`, `PS`, `planar`, `hydrostatic`. `shear`
-    /// alone could be either of two tests and is refused.
+    /// Parses a name in any case, with spaces or `-` for `_`: the [name](Mode::name), or another common one:
+    /// `UT`, `tension`, `compression`, `uniaxial tension`, `uniaxial compression`; `ET`, `EB`, `BT`, `biaxial`,
+    /// `biaxial tension`; `PS`, `planar`, `planar tension`; `SS`; `hydrostatic`. `shear` alone could be either
+    /// of two tests and is refused.
     fn from_str(text: &str) -> Result<Self, ModeError> {
         let words = text.to_lowercase();
         let words = words.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-        let name = words.filter(|word| !matches!(*word, "test" | "data")).collect::<Vec<_>>().join("_");
+        let name = words.collect::<Vec<_>>().join("_");
         let mode = NAMES.into_iter().find(|(mode, others)| mode.name() == name || others.contains(&&*name));
         mode.map(|(mode, _)| mode).ok_or_else(|| ModeError(text.trim().into()))
     }
@@ -138,42 +139,11 @@ impl FromStr for Mode {
 
 /// Other names of each mode.
 const NAMES: [(Mode, &[&str]); 5] = [
-    (
-        Mode::Uniaxial,
-        &[
-            "ut",
-            "uc",
-            "ua",
-            "uniaxial_tension",
-            "uniaxial_compression",
-            "tension",
-            "tensile",
-            "compression",
-            "simple_tension",
-        ],
-    ),
-    (
-        Mode::Equibiaxial,
-        &[
-            "et",
-            "eb",
-            "bt",
-            "ebt",
-            "biaxial",
-            "biaxial_tension",
-            "equi_biaxial",
-            "equibiaxial_tension",
-            "equi_biaxial_tension",
-            "biaxial_compression",
-            "equibiaxial_compression",
-        ],
-    ),
-    (
-        Mode::PureShear,
-        &["ps", "pt", "planar", "planar_tension", "planar_compression", "planar_shear", "plane_tension"],
-    ),
+    (Mode::Uniaxial, &["ut", "tension", "compression", "uniaxial_tension", "uniaxial_compression"]),
+    (Mode::Equibiaxial, &["et", "eb", "bt", "biaxial", "equi_biaxial", "biaxial_tension"]),
+    (Mode::PureShear, &["ps", "planar", "planar_tension"]),
     (Mode::SimpleShear, &["ss"]),
-    (Mode::Volumetric, &["vol", "volumetric_compression", "hydrostatic", "hydrostatic_compression", "bulk"]),
+    (Mode::Volumetric, &["hydrostatic"]),
 ];
 
 /// An unknown name of a test.

@@ -14,8 +14,8 @@
 //! # Files of test machines and spreadsheets
 //!
 //! * Columns are separated by tabs, semicolons, commas or spaces: the first of these in the last line.
-//!   Decimals have a point, or a comma where another mark separates columns. Lines above the header are
-//!   skipped; a row of units may stand below it.
+//!   Decimals have a point, or in the whole file a comma where another mark separates columns; thousands have
+//!   no mark. Lines above the header are skipped; a row of units may stand below it.
 //! * A header in plain form is one of these names, in letters of any case:
 //!
 //! | quantity | header | becomes |
@@ -36,13 +36,13 @@
 //!   stress` are positive in compression.
 //! * A file with another header, without a header, or with several stresses or strains is refused with the
 //!   list of its columns. [`ReadOptions`] names the columns of the strain and the stress by their headers or
-//!   numbers and, where these do not say it, what they hold: [`ColumnChoice`].
+//!   numbers and, where these do not say it, what they hold.
 //! * [`ReadOptions`] also has the test and the unit for a file that names none. [`Reading`] describes in a
 //!   line what was used and what was left out.
 //!
-//! Ambiguous data are errors: stretches that are all above 8, or some above 20, without a unit (percent?),
-//! stresses of another sign than their strain (strains under `stretch`? compression with positive numbers?),
-//! a stress of an unnamed kind next to a true strain, numbers with commas and points.
+//! Numbers are what their header names; the description has their range. A test whose specimen would do work
+//! while it is deformed, Σ strain · stress < 0, is an error (strains under `stretch`? compression with positive
+//! numbers?), and so is a compression with larger stretches than at rest.
 //!
 //! Stretches and volumes are from 10⁻⁶ to 10⁶, shears up to 10⁶, stresses 0 or from 10⁻¹⁰⁰ to 10¹⁰⁰ Pa in
 //! size: far beyond measurements, and well inside of the range of squares and quotients.
@@ -53,7 +53,6 @@ mod fault;
 mod heading;
 mod measured;
 mod options;
-mod plausible;
 mod reader;
 mod table;
 mod unit;
@@ -62,7 +61,7 @@ pub use encoding::decoded;
 pub use fault::{DataError, Fault};
 pub(crate) use measured::short;
 pub use measured::{Agreement, Measured, Measurements, PointError};
-pub use options::{ColumnChoice, ReadOptions, Test};
+pub use options::{ReadOptions, Test};
 pub use reader::Reading;
 pub use unit::{StressUnit, StressUnitError};
 

@@ -13,10 +13,7 @@
 
 mod display;
 
-use std::num::NonZeroUsize;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use rayon::prelude::*;
 
 use crate::curve::{Mode, Volume};
 use crate::data::Measurements;
@@ -102,33 +99,14 @@ impl Place {
 #[must_use]
 pub fn rank(contenders: &[Contender], data: &Measurements, settings: &FitSettings) -> Ranking {
     let settings = settings.clone().with_volume(Volume::Kept);
-    let next = AtomicUsize::new(0);
-    let results = Mutex::new(Vec::with_capacity(contenders.len()));
-    let work = || {
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(contender) = contenders.get(index) else { break };
-            let result = place(contender, data, &settings);
-            if let Ok(mut results) = results.lock() {
-                results.push((index, result));
-            }
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 1..thread::available_parallelism().map_or(1, NonZeroUsize::get) {
-            // Without further threads this one does all.
-            let _ = thread::Builder::new().spawn_scoped(scope, work);
-        }
-        work();
-    });
-    let mut results = results.into_inner().unwrap_or_default();
-    results.sort_by_key(|&(index, _)| index);
+    let fitted = |contender| place(contender, data, &settings);
+    let results: Vec<_> = contenders.par_iter().map(fitted).collect();
 
     let mut ranking = Ranking { places: Vec::new(), failures: Vec::new() };
-    for (index, result) in results {
+    for (contender, result) in contenders.iter().zip(results) {
         match result {
             Ok(place) => ranking.places.push(place),
-            Err(error) => ranking.failures.push((contenders[index].name.clone(), error)),
+            Err(error) => ranking.failures.push((contender.name.clone(), error)),
         }
     }
     let determination = |place: &Place| place.fit.agreement.total.unwrap_or(f64::NEG_INFINITY);
@@ -142,9 +120,7 @@ fn place(contender: &Contender, data: &Measurements, settings: &FitSettings) -> 
     let fitted = contender.candidate.with_values(&fit.values).map_err(TrialError::Inadmissible)?;
     let mut lost: [Option<Loss>; 3] = [None; 3];
     for mode in data.modes() {
-        let controls = data.of(mode).map(|point| point.control);
-        let ends = controls.fold([mode.rest(); 2], |[least, most], x| [least.min(x), most.max(x)]);
-        for end in ends {
+        for end in data.range(mode) {
             let losses = constant_volume::lost(&*fitted, mode, end);
             for (first, control) in lost.iter_mut().zip(losses) {
                 let loss = control.map(|control| Loss { mode, control });

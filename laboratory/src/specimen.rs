@@ -2,7 +2,7 @@
 
 use piola::Material;
 use piola::lanes::Mask;
-use piola::material::Blocks;
+use piola::material::{Blocks, Moduli};
 
 /// A piece of any material, along whose principal axes forces are read.
 ///
@@ -10,9 +10,6 @@ use piola::material::Blocks;
 pub trait Specimen: Send + Sync {
     /// ψ1, ψ2, ψ3 at the stretches 1 + si, Pa: [`Material::gradient_at_strains`].
     fn gradient_at_strains(&self, strains: [f64; 3]) -> [f64; 3];
-
-    /// ψ11, ψ22, ψ33, ψ12, ψ13, ψ23, Pa.
-    fn hessian(&self, stretches: [f64; 3]) -> [f64; 6];
 
     /// Gradient, Hessian and quotients, Pa: [`Material::blocks`].
     fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64>;
@@ -24,10 +21,6 @@ pub trait Specimen: Send + Sync {
 impl<M: Material> Specimen for M {
     fn gradient_at_strains(&self, strains: [f64; 3]) -> [f64; 3] {
         Material::gradient_at_strains(self, strains)
-    }
-
-    fn hessian(&self, stretches: [f64; 3]) -> [f64; 6] {
-        Material::blocks(self, stretches).hessian
     }
 
     fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64> {
@@ -83,7 +76,13 @@ pub(crate) fn gradient(specimen: &dyn Specimen, strains: [f64; 3]) -> Option<[f6
 /// ψij along the axes of a test, 3×3, Pa.
 pub(crate) fn hessian(specimen: &dyn Specimen, strains: [f64; 3]) -> [[f64; 3]; 3] {
     let ordered = Ordered::new(strains);
-    let [h11, h22, h33, h12, h13, h23] = specimen.hessian(stretches(ordered.numbers));
+    let [h11, h22, h33, h12, h13, h23] = specimen.blocks(stretches(ordered.numbers)).hessian;
     let rows = [[h11, h12, h13], [h12, h22, h23], [h13, h23, h33]];
     ordered.back(rows.map(|row| ordered.back(row)))
+}
+
+/// μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
+pub(crate) fn moduli(specimen: &dyn Specimen) -> Moduli {
+    let [h11, _, _, h12, ..] = specimen.blocks([1.0; 3]).hessian;
+    Moduli { mu: 0.5 * (h11 - h12), lambda: h12 }
 }

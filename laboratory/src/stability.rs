@@ -39,7 +39,7 @@ pub mod wave;
 use piola::__private::message::number;
 use piola::material::Moduli;
 
-use crate::Specimen;
+use crate::specimen::{self, Specimen};
 use criteria::{Criterion, Judgement};
 
 #[cfg(feature = "charts")]
@@ -206,9 +206,9 @@ impl SurveySettings {
     }
 }
 
-/// μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
+/// The moduli at rest, of which the shear modulus is positive.
 fn at_rest(specimen: &dyn Specimen) -> Result<Moduli, SurveyError> {
-    let [h11, _, _, h12, ..] = specimen.blocks([1.0; 3]).hessian;
-    let mu: f64 = if specimen.admits([1.0; 3]) { 0.5 * (h11 - h12) } else { f64::NAN };
-    if mu > 0.0 && mu.is_finite() { Ok(Moduli { mu, lambda: h12 }) } else { Err(SurveyError::Rest { mu }) }
+    let moduli = specimen::moduli(specimen);
+    let mu = if specimen.admits([1.0; 3]) { moduli.mu } else { f64::NAN };
+    if mu > 0.0 && mu.is_finite() { Ok(moduli) } else { Err(SurveyError::Rest { mu }) }
 }

@@ -6,7 +6,7 @@ use piola::{Inversion, Material};
 use piola_declare::Energy;
 use piola_laboratory::chart::{ChartError, Curve, draw};
 use piola_laboratory::curve::{Mode, Response, ResponseError, Volume, respond};
-use piola_laboratory::data::{DataError, Measurements, TRELOAR_1944};
+use piola_laboratory::data::Measurements;
 use piola_materials::{DECLARATIONS, Gent, NeoHookean, Ogden, RotatedLinear};
 
 // Energies that the catalogue does not compile by default, from their files.
@@ -190,30 +190,6 @@ fn points_that_do_not_exist_are_said_to() -> Outcome {
     let locking = Gent::new(1.0, 5.0, 100.0)?;
     assert_eq!(respond(&locking, Mode::Uniaxial, Volume::Kept, 3.0), Err(ResponseError::OutsideDomain));
     assert_eq!(respond(&locking, Mode::Uniaxial, Volume::Free, 3.0), Err(ResponseError::NoEquilibrium));
-    Ok(())
-}
-
-#[test]
-fn ogdens_rubber_agrees_with_treloars() -> Outcome {
-    let rubber = Ogden::new([0.63e6, 0.0012e6, -0.01e6], [1.3, 5.0, -2.0], 2e7)?;
-    let agreement = Measurements::read(TRELOAR_1944)?.agreement(&rubber, Volume::Kept)?;
-    // A spreadsheet's, with the rest state among the points.
-    let expected = [(Mode::Uniaxial, 0.97591), (Mode::Equibiaxial, 0.99761), (Mode::PureShear, 0.99759)];
-    assert_eq!(agreement.modes.len(), 3);
-    assert!(agreement.total.is_some_and(|total| (total - 0.98288).abs() <= 0.5e-5), "{agreement}");
-    for ((mode, found), (wanted, expected)) in agreement.modes.into_iter().zip(expected) {
-        assert_eq!(mode, wanted);
-        // As the figures are rounded.
-        assert!(found.is_some_and(|found| (found - expected).abs() <= 0.5e-5), "{mode}: {found:?}");
-    }
-    Ok(())
-}
-
-#[test]
-fn a_specimen_without_a_stress_at_a_point_is_named() -> Result<(), DataError> {
-    let locking = Gent::new(3e5, 10.0, 2e7).expect("admissible");
-    let error = Measurements::read(TRELOAR_1944)?.agreement(&locking, Volume::Kept).expect_err("it locks");
-    assert!(error.to_string().starts_with("uniaxial at λ = 3.57: outside"), "{error}");
     Ok(())
 }
 

@@ -1,7 +1,6 @@
 //! Stability of energies of the catalogue, compared with searches and published results.
 
 use piola::__private::random::Random;
-use piola::Material;
 use piola::material::{Blocks, Moduli};
 use piola_laboratory::Specimen;
 use piola_laboratory::stability::criteria::{Criterion, Judgement};
@@ -30,9 +29,9 @@ fn modulus(blocks: &Blocks<f64>, m: [f64; 3], n: [f64; 3]) -> f64 {
     (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| dyad[i][j] * change[i][j]).sum()
 }
 
-/// The least eigenvalue of the acoustic tensor Q(N), and its vector.
-fn least_of(blocks: &Blocks<f64>, n: [f64; 3]) -> (f64, [f64; 3]) {
-    let mut q = nalgebra::Matrix3::zeros();
+/// The least eigenvalue of the acoustic tensor Q(N).
+fn least_of(blocks: &Blocks<f64>, n: [f64; 3]) -> f64 {
+    let mut q = nalgebra::Matrix3::<f64>::zeros();
     for i in 0..3 {
         let dyad: [[f64; 3]; 3] = std::array::from_fn(|k| if k == i { n } else { [0.0; 3] });
         let change = blocks.apply(&dyad);
@@ -40,10 +39,7 @@ fn least_of(blocks: &Blocks<f64>, n: [f64; 3]) -> (f64, [f64; 3]) {
             q[(k, i)] = (0..3).map(|l| change[k][l] * n[l]).sum();
         }
     }
-    let eigen = q.symmetric_eigen();
-    let least = eigen.eigenvalues.imin();
-    let vector = eigen.eigenvectors.column(least);
-    (eigen.eigenvalues[least], [vector[0], vector[1], vector[2]])
+    q.symmetric_eigenvalues().min()
 }
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
@@ -58,7 +54,7 @@ fn searched(blocks: &Blocks<f64>) -> f64 {
     let mut best = (f64::INFINITY, [0.0; 3]);
     let mut meet = |n: [f64; 3]| {
         let n = unit(n);
-        let (value, _) = least_of(blocks, n);
+        let value = least_of(blocks, n);
         if value < best.0 {
             best = (value, n);
         }
@@ -132,21 +128,6 @@ fn random_stretches(random: &mut Random) -> [f64; 3] {
     let mut stretches = std::array::from_fn(|_| random.uniform(-1.0, 1.0).exp());
     stretches.sort_by(|one: &f64, other| other.total_cmp(one));
     stretches
-}
-
-#[test]
-fn waves_of_real_materials_are_those_that_a_search_finds() -> Tested {
-    let mut random = Random::new(2);
-    let (hencky, steel) = (Hencky::new(1.0, 1.5)?, StVenantKirchhoff::new(1.0, 1.5)?);
-    for _ in 0..50 {
-        let stretches = random_stretches(&mut random);
-        for blocks in [Material::blocks(&hencky, stretches), Material::blocks(&steel, stretches)] {
-            let (found, expected) = (slowest(&blocks).modulus, searched(&blocks));
-            // As above, by the size of the largest modulus, 3 (λ + 2μ) e² of the second energy.
-            assert!((found - expected).abs() < 1e-7, "{stretches:?}: {found} {expected}");
-        }
-    }
-    Ok(())
 }
 
 #[test]

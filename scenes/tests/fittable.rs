@@ -87,7 +87,7 @@ fn difference(
 /// Σ |p ∂ψk/∂p| over all numbers and k, with the moduli for what cancels at rest: the size of what the
 /// gradient is a sum of.
 fn scale(material: &dyn Candidate, derivatives: &[[f64; 3]]) -> f64 {
-    let (values, [h11, _, _, h12, _, _]) = (material.values(), material.hessian([1.0; 3]));
+    let (values, [h11, _, _, h12, _, _]) = (material.values(), material.blocks([1.0; 3]).hessian);
     let shares = places(&values).into_iter().zip(derivatives);
     let size = |((list, place), d): ((usize, usize), &[f64; 3])| {
         let p = values[list][place];

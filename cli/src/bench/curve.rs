@@ -11,7 +11,7 @@ use piola_laboratory::data::Measured;
 use piola_scenes::error::Error as SceneError;
 
 use super::data::{self, Data};
-use super::{FINE, Material, as_options, at_rest, draw, measured_range, ranking, spaced, titled};
+use super::{FINE, Material, as_options, at_rest, draw, ranking, spaced, titled};
 use crate::error::Error;
 
 /// Stresses are in Pa.
@@ -96,7 +96,7 @@ impl Curve {
                 .copied()
                 .collect();
             let [least, greatest] = match (&data, mode) {
-                (Some(data), _) if !measured.is_empty() => measured_range(data, mode),
+                (Some(data), _) if !measured.is_empty() => data.range(mode),
                 (_, Mode::SimpleShear) => [0.0, 2.0],
                 (_, Mode::Volumetric) => [0.8, 1.2],
                 _ => [0.5, 3.0],

@@ -3,9 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use piola_laboratory::data::{
-    ColumnChoice, Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944, Test, decoded,
-};
+use piola_laboratory::data::{Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944, Test, decoded};
 
 use crate::error::Error;
 
@@ -43,11 +41,11 @@ pub(crate) struct Data {
     /// Column of the strain, by name or number, and what it holds if its header does not say it, as in
     /// `Dehnung`, `1=stretch`, `Dehnung=strain [%]`: one for all files, or one for each --data.
     #[arg(long = "strain", value_name = "COLUMN")]
-    strains: Vec<ColumnChoice>,
+    strains: Vec<String>,
 
     /// Column of the stress, as in `Spannung`, `2`, `2=true stress [MPa]`.
     #[arg(long = "stress", value_name = "COLUMN")]
-    stresses: Vec<ColumnChoice>,
+    stresses: Vec<String>,
 }
 
 /// Measured points of all files, and how these were understood.

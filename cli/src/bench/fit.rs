@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use piola::__private::message::number;
 use piola::Inversion;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
@@ -11,7 +10,7 @@ use piola_laboratory::fit::{self, Candidate, FitError, FitSettings, Standing, Wa
 use piola_scenes::error::Error as SceneError;
 
 use super::data::{Data, HELP, Measured};
-use super::{FINE, Material, as_options, at_rest, draw, measured_range, rounded, spaced, titled};
+use super::{FINE, Material, as_options, at_rest, draw, spaced, titled};
 use crate::error::Error;
 
 /// Prints the parameters in a form to be pasted, R² of each test, and why other parameters might do as well.
@@ -83,45 +82,16 @@ impl Fit {
         let mut text = format!("{title}, fitted to {} by relative differences\n", self.data.names());
         text += &notes;
         text += &format!("  {}\n", options(&fit.values));
-        for component in &fit.numbers {
-            text += &format!("  {:12} {:<14}", component.name, number(rounded(component.value)));
-            match (component.standing, component.error) {
-                (Standing::Free, Some(error)) => {
-                    text += &format!(" ± {error:.1e} ({:.1} %)\n", 100.0 * (error / component.value).abs());
-                }
-                (Standing::Free, None) => text.push('\n'),
-                (Standing::Held, _) => text += " held\n",
-                (Standing::Unidentifiable, _) => text += " held: the data do not determine it\n",
-            }
-        }
-        text += &format!("  R²           {}\n", fit.agreement);
-        text += &format!(
-            "  differences  {:.3} % (root mean square, points without stress left out)\n",
-            100.0 * fit.difference
-        );
         let fitted = names.iter().zip(&fit.values);
         let fitted = fitted.fold(spec, |spec, (name, values)| spec.with_parameter(name, values.clone()));
         text += &at_rest(fitted.build()?.moduli, volume);
-        let start = match fit.start {
-            0 => "the parameters given".into(),
-            start => format!("random start {start}"),
-        };
-        let (descents, ended, evaluations) = (fit.descents, &fit.ended, fit.evaluations);
-        text += &format!(
-            "  the best of {descents} descents, from {start}: {ended} after {evaluations} evaluations\n"
-        );
-        for warning in &fit.warnings {
-            // The table has those that the data do not determine.
-            if !matches!(warning, Warning::Unidentifiable { .. }) {
-                text += &format!("warning: {warning}\n");
-            }
-        }
+        text += &fit.to_string();
         if let Some(file) = &self.svg {
             let fitted: Box<dyn Candidate> = candidate
                 .with_values(&fit.values)
                 .map_err(|source| SceneError::Inadmissible { material, source })?;
             let curve = |mode| {
-                let [from, to] = measured_range(&data, mode);
+                let [from, to] = data.range(mode);
                 let points = sweep(&*fitted, mode, volume, &spaced(from, to, FINE));
                 chart::Curve { mode, points }
             };

@@ -77,7 +77,8 @@ fn data_say_what_they_are_or_are_told_by_options() {
         (line("read"), line("--param"), line("R²"))
     };
     let (read, options, agreement) = fit(&["whole.csv"]);
-    let expected = "whole.csv: `stretch` as stretch, `nominal_stress_MPa` as nominal stress in MPa; 25 points of uniaxial";
+    let expected = "whole.csv: `stretch` as stretch, `nominal_stress_MPa` as nominal stress in MPa; 25 points of uniaxial, \
+                    λ from 1 to 7.61";
     assert!(read.ends_with(expected), "{read}");
     for (file, columns, said) in [
         ("bare.csv", &[][..], "`stress` as nominal stress in MPa"),

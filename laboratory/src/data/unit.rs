@@ -39,12 +39,6 @@ const UNITS: [(&str, f64, &[&str]); 11] = [
 ];
 
 impl StressUnit {
-    /// The name, such as `MPa`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        self.name
-    }
-
     /// The size, Pa.
     #[must_use]
     pub fn pascals(self) -> f64 {

@@ -88,9 +88,10 @@ fn approach<'a>(problem: &Problem<'a>, start: usize) -> Option<Minimum<'a>> {
 fn search(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {
     let (problem, report) = LevenbergMarquardt::new().with_patience(PATIENCE).minimize(problem);
     let ended = match report.termination {
-        TerminationReason::ResidualsZero => Ended::Exact,
-        TerminationReason::Orthogonal => Ended::Stationary,
-        TerminationReason::Converged { .. } | TerminationReason::NoImprovementPossible(_) => Ended::Settled,
+        TerminationReason::ResidualsZero
+        | TerminationReason::Orthogonal
+        | TerminationReason::Converged { .. }
+        | TerminationReason::NoImprovementPossible(_) => Ended::Minimum,
         TerminationReason::LostPatience => Ended::Unfinished,
         _ => return None,
     };

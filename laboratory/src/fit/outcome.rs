@@ -61,12 +61,8 @@ pub enum Standing {
 /// Reason why a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ended {
-    /// The curves go through the data exactly.
-    Exact,
-    /// No change of the parameters improves the fit to first order.
-    Stationary,
-    /// Parameters and differences no longer change except by rounding.
-    Settled,
+    /// No change of the parameters improves the fit, except by rounding.
+    Minimum,
     /// The energy refuses the parameters on the way to a better fit: [`Warning::Edge`].
     Edge,
     /// The number of evaluations was exhausted before.
@@ -76,9 +72,7 @@ pub enum Ended {
 impl fmt::Display for Ended {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Exact => "the curves go through the data",
-            Self::Stationary => "no change of the parameters improves the fit",
-            Self::Settled => "the parameters no longer change except by rounding",
+            Self::Minimum => "no change of the parameters improves the fit",
             Self::Edge => "at an edge of the admissible parameters",
             Self::Unfinished => "not at a minimum yet when the evaluations were exhausted",
         })

@@ -191,9 +191,7 @@ impl<'a> Problem<'a> {
     /// Simple shear keeps the volume of every solid.
     pub(super) fn moduli_if_volume_is_imposed(&self) -> Option<Moduli> {
         let is_imposed = self.points.iter().any(|(point, _)| point.mode != Mode::SimpleShear);
-        let [h11, _, _, h12, _, _] = self.specimen().hessian([1.0; 3]);
-        let moduli = Moduli { mu: 0.5 * (h11 - h12), lambda: h12 };
-        (self.volume == Volume::Kept && is_imposed).then_some(moduli)
+        (self.volume == Volume::Kept && is_imposed).then(|| specimen::moduli(self.specimen()))
     }
 
     /// True if the stresses of another energy differ from those of this one by no more than `share` of the

@@ -1,4 +1,8 @@
-//! The outcome of a fit from its descents.
+//! The report of a fit from its descents, and its text.
+
+use std::fmt;
+
+use piola::__private::message::number;
 
 use super::candidate::Numbers;
 use super::minimum::Minimum;
@@ -28,13 +32,13 @@ pub(super) fn report(
         let place = best.problem.free.iter().position(|&other| other == number)?;
         Some(deviation? * analysis.errors.get(place)?).filter(|_| best.ended != Ended::Edge)
     };
-    let number = |(number, standing): (usize, &Option<Standing>)| Number {
+    let sought = |(number, standing): (usize, &Option<Standing>)| Number {
         name: numbers.names[number].clone(),
         value: best.problem.values[number],
         standing: standing.unwrap_or(Standing::Free),
         error: error(number),
     };
-    let fitted: Vec<_> = held.iter().enumerate().map(number).collect();
+    let fitted: Vec<_> = held.iter().enumerate().map(sought).collect();
 
     let silent = fitted.iter().filter(|number| number.standing == Standing::Unidentifiable);
     let mut warnings: Vec<_> =
@@ -70,4 +74,46 @@ fn compressible(best: &Minimum<'_>) -> Option<Warning> {
     // Prestressed energies may have moduli of which no ratio makes sense.
     let is_told = moduli.mu > 0.0 && moduli.bulk() >= 0.0 && poisson < NEARLY_INCOMPRESSIBLE;
     is_told.then_some(Warning::Compressible { poisson, bulk: RUBBER * moduli.mu })
+}
+
+impl fmt::Display for Fit {
+    /// A line for each parameter with its standard error, R², the differences, the way to the minimum, and the
+    /// warnings.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for Number { name, value, standing, error } in &self.numbers {
+            write!(f, "  {name:12} {:<14}", number(rounded(*value)))?;
+            match (standing, error) {
+                (Standing::Free, Some(error)) => {
+                    write!(f, " ± {error:.1e} ({:.1} %)", 100.0 * (error / value).abs())?;
+                }
+                (Standing::Free, None) => {}
+                (Standing::Held, _) => f.write_str(" held")?,
+                (Standing::Unidentifiable, _) => f.write_str(" held: the data do not determine it")?,
+            }
+            writeln!(f)?;
+        }
+        writeln!(f, "  R²           {}", self.agreement)?;
+        writeln!(
+            f,
+            "  differences  {:.3} % (root mean square, points without stress left out)",
+            100.0 * self.difference
+        )?;
+        let start = match self.start {
+            0 => "the parameters given".into(),
+            start => format!("random start {start}"),
+        };
+        let Self { descents, ended, evaluations, .. } = self;
+        writeln!(
+            f,
+            "  the best of {descents} descents, from {start}: {ended} after {evaluations} evaluations"
+        )?;
+        // The lines of the parameters have those that the data do not determine.
+        let others = |warning: &&Warning| !matches!(warning, Warning::Unidentifiable { .. });
+        self.warnings.iter().filter(others).try_for_each(|warning| writeln!(f, "warning: {warning}"))
+    }
+}
+
+/// A value in seven digits: rounding changes no stress that is measured.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.6e}").parse().unwrap_or(value)
 }

@@ -32,20 +32,3 @@ impl TrialError {
         given.iter().filter_map(names).collect()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn entries_of_lists_go_by_the_names_of_numbers() {
-        let given = vec![
-            Argument::entry("mu", 0, -1.0),
-            Argument::scalar("kappa", 2.0),
-            Argument::entry("alpha", 11, 0.5),
-        ];
-        let violated = TrialError::Inadmissible(MaterialError::Violated { condition: "".into(), given });
-        let names = [("mu[0]", "mu_1"), ("alpha[11]", "alpha_12")];
-        assert_eq!(violated.entries(), names.map(|(entry, number)| (entry.to_owned(), number.to_owned())));
-    }
-}

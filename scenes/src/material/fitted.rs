@@ -18,10 +18,6 @@ impl Specimen for Fitted {
         Material::gradient_at_strains(&self.material, strains)
     }
 
-    fn hessian(&self, stretches: [f64; 3]) -> [f64; 6] {
-        Specimen::hessian(&self.material, stretches)
-    }
-
     fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64> {
         Material::blocks(&self.material, stretches)
     }

@@ -1,13 +1,12 @@
 //! Fits of exponentials: one term may drown the others where a search begins, and edges are where it has to
 //! turn.
 
-use piola_laboratory::data::{Measurements, TRELOAR_1944};
 use piola_laboratory::fit::{
     Candidate, Ended, Fit, FitError, FitSettings, Standing, Warning, fit_parameters,
 };
 use piola_materials::Ogden;
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+use super::{Outcome, told, treloar};
 
 /// Rubber after Mansouri and Darijani 2014, made compressible.
 #[piola::material(domain(J > 0.0), fit)]
@@ -28,7 +27,7 @@ fn Exponentials(
 
 /// To Treloar's data.
 fn fitted(start: &dyn Candidate, settings: &FitSettings) -> Result<Fit, FitError> {
-    fit_parameters(start, &Measurements::read(TRELOAR_1944).expect("a table"), settings)
+    fit_parameters(start, &treloar(), settings)
 }
 
 /// From the start given alone.
@@ -39,12 +38,10 @@ fn alone() -> FitSettings {
 /// Names of the parameters that the data do not determine, according to the fit.
 #[track_caller]
 fn indifferent(fit: &Fit) -> Vec<&str> {
-    let mut names = Vec::new();
-    for warning in &fit.warnings {
-        if let Warning::Unidentifiable { parameter } = warning {
-            names.push(parameter.as_str());
-        }
-    }
+    let names = told(fit, |warning| match warning {
+        Warning::Unidentifiable { parameter } => Some(parameter.as_str()),
+        _ => None,
+    });
     let kept = fit.numbers.iter().filter(|number| number.standing == Standing::Unidentifiable);
     assert!(kept.map(|number| &number.name).eq(&names), "{fit:?}");
     names

@@ -1,10 +1,10 @@
 //! Other minima, and what only looks like one.
 
-use piola_laboratory::curve::{Mode, Volume, respond};
-use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
+use piola_laboratory::curve::{Mode, Volume};
+use piola_laboratory::data::Measurements;
 use piola_laboratory::fit::{Candidate, Fit, FitSettings, Warning, fit_parameters};
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+use super::{Outcome, synthetic, told, treloar};
 
 /// Rubber after Swanson 1985: two sums.
 #[piola::material(domain(J > 0.0), admissible(alpha[p] > -1.0, beta[p] > -1.0), fit)]
@@ -31,15 +31,9 @@ fn HossMarczak([l1, l2, l3]: [f64; 3], alpha: f64, beta: f64, mu: f64, b: f64, n
 }
 
 /// What a material answers in three tests, as if measured.
-fn synthetic(material: &dyn Candidate) -> Result<Measurements, Box<dyn std::error::Error>> {
-    let mut points = Vec::new();
-    for mode in [Mode::Uniaxial, Mode::Equibiaxial, Mode::PureShear] {
-        for control in [1.05, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0] {
-            let stress = respond(material, mode, Volume::Kept, control)?.stress;
-            points.push(Measured { mode, control, stress });
-        }
-    }
-    Ok(Measurements { points })
+fn measured(material: &dyn Candidate) -> Measurements {
+    let modes = [Mode::Uniaxial, Mode::Equibiaxial, Mode::PureShear];
+    synthetic(material, Volume::Kept, &modes, &[1.05, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0])
 }
 
 /// What is said of other minima.
@@ -47,14 +41,14 @@ fn others(fit: &Fit) -> Vec<&Warning> {
     let is_other = |warning: &&Warning| {
         matches!(warning, Warning::OtherMinimum { .. } | Warning::EquivalentParameters { .. })
     };
-    fit.warnings.iter().filter(is_other).collect()
+    told(fit, |warning| Some(warning).filter(is_other))
 }
 
 #[test]
 fn terms_of_each_sum_change_places_unsaid() -> Outcome {
     let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, 1e2], [-0.3, 1.4], 2e7)?;
     let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
-    let found = fit_parameters(&start, &synthetic(&truth)?, &FitSettings::default())?;
+    let found = fit_parameters(&start, &measured(&truth), &FitSettings::default())?;
     assert!(found.difference <= 1e-9 && found.descents > 10, "{found:?}");
     assert!(others(&found).is_empty(), "{:?}", others(&found));
     Ok(())
@@ -64,7 +58,7 @@ fn terms_of_each_sum_change_places_unsaid() -> Outcome {
 fn of_a_term_that_has_vanished_the_exponent_makes_no_other_minimum() -> Outcome {
     let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, 0.0], [-0.3, 1.4], 2e7)?;
     let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
-    let found = fit_parameters(&start, &synthetic(&truth)?, &FitSettings::default())?;
+    let found = fit_parameters(&start, &measured(&truth), &FitSettings::default())?;
     let [Warning::EquivalentParameters { numbers, is_runaway: false }] = others(&found)[..] else {
         panic!("{:?}", others(&found));
     };
@@ -80,7 +74,7 @@ fn what_grows_without_end_is_said_once() -> Outcome {
     let start = HossMarczak::new(2e5, 0.1, 2e5, 0.02, 2.0, 2e7)?;
     let limit = HossMarczak::new(2e5, 0.1, 2e5, 0.02, 1e9, 2e7)?;
     // Of Treloar's, n grows until 1 + b (I1 − 3)/n is rounding, and the stresses show it.
-    for data in [synthetic(&limit)?, Measurements::read(TRELOAR_1944)?] {
+    for data in [measured(&limit), treloar()] {
         let found = fit_parameters(&start, &data, &FitSettings::default())?;
         let said = others(&found);
         let endless: Vec<_> = said
