@@ -6,7 +6,7 @@ use clap::Args;
 use piola::Inversion;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
-use piola_laboratory::fit::{self, Candidate, FitError, FitSettings, Standing, Warning};
+use piola_laboratory::fit::{self, Candidate, FitError, FitSettings};
 use piola_scenes::error::Error as SceneError;
 
 use super::data::{Data, HELP, Measured};
