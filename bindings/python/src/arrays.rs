@@ -98,9 +98,7 @@ impl<'py, E: Element> Input<'py, E> {
     /// together with the parameters of a material.
     pub(crate) fn new(array: &Bound<'py, PyArrayDyn<E>>, axes: Axes, parameters: &[usize]) -> PyResult<Self> {
         let Some(points) = axes.points(array.shape()) else {
-            let wanted = if axes == Axes::Leading { "(..., 3, 3)" } else { "(3, 3, ...)" };
-            let shape = shape::text(array.shape());
-            return Err(value_error(format!("F has the shape {shape}; it must be {wanted}")));
+            return Err(wrong_shape("F", array, if axes == Axes::Leading { "(..., 3, 3)" } else { "(3, 3, ...)" }));
         };
         let array = match shape::common(points, parameters) {
             Some(common) if common == points && array.is_c_contiguous() => array.clone(),
@@ -148,8 +146,7 @@ impl<'py, E: Element> Input<'py, E> {
                     ))
                 })?;
                 if array.shape() != shape {
-                    let (shape, found) = (shape::text(&shape), shape::text(array.shape()));
-                    return Err(value_error(format!("out has the shape {found}; it must be {shape}")));
+                    return Err(wrong_shape("out", array, &shape::text(&shape)));
                 }
                 array.clone()
             }
@@ -189,8 +186,7 @@ pub(crate) fn statuses<'py>(given: &Bound<'py, PyAny>, points: &[usize]) -> PyRe
         .cast::<PyArrayDyn<u8>>()
         .map_err(|_| type_error(format!("status is {}; it must be an array of numpy.uint8", kind(given))))?;
     if array.shape() != points {
-        let (found, wanted) = (shape::text(array.shape()), shape::text(points));
-        return Err(value_error(format!("status has the shape {found}; it must be {wanted}")));
+        return Err(wrong_shape("status", array, &shape::text(points)));
     }
     Output::new(array.clone(), "status")
 }
@@ -213,8 +209,7 @@ fn broadcast<'py, E: Element>(
 pub(crate) fn rows<const N: usize>(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; N]>> {
     let numbers = Numbers::new(name, given)?.doubles()?;
     if numbers.ndim() != 2 || numbers.shape()[1] != N {
-        let found = shape::text(numbers.shape());
-        return Err(value_error(format!("{name} has the shape {found}; it must be (n, {N})")));
+        return Err(wrong_shape(name, &numbers, &format!("(n, {N})")));
     }
     Ok(numbers.to_vec()?.as_chunks().0.to_vec())
 }
@@ -223,10 +218,7 @@ pub(crate) fn rows<const N: usize>(name: &str, given: &Bound<'_, PyAny>) -> PyRe
 pub(crate) fn numbers(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = Numbers::new(name, given)?.doubles()?;
     if array.ndim() > 1 {
-        let found = shape::text(array.shape());
-        return Err(value_error(format!(
-            "{name} has the shape {found}; it must be a number or a row of numbers"
-        )));
+        return Err(wrong_shape(name, &array, "a number or a row of numbers"));
     }
     Ok(array.to_vec()?)
 }
@@ -244,8 +236,7 @@ pub(crate) fn indices<const N: usize>(name: &str, given: &Bound<'_, PyAny>) -> P
     let fits = if N == 1 { array.ndim() == 1 } else { array.ndim() == 2 && array.shape()[1] == N };
     if !fits {
         let wanted = if N == 1 { "(n,)".to_owned() } else { format!("(n, {N})") };
-        let found = shape::text(array.shape());
-        return Err(value_error(format!("{name} has the shape {found}; it must be {wanted}")));
+        return Err(wrong_shape(name, &array, &wanted));
     }
     let index = |&number: &i64| {
         usize::try_from(number)
@@ -288,6 +279,10 @@ fn no_numbers(name: &str, given: &Bound<'_, PyAny>, cause: Option<PyErr>) -> PyE
         type_error(format!("{name} is {}; it must be real numbers, or an array of them", kind(given)));
     error.set_cause(given.py(), cause);
     error
+}
+
+fn wrong_shape<E>(name: &str, array: &Bound<'_, PyArrayDyn<E>>, wanted: &str) -> PyErr {
+    value_error(format!("{name} has the shape {}; it must be {wanted}", shape::text(array.shape())))
 }
 
 /// The kind of an object, in words.

@@ -10,7 +10,7 @@ use piola_laboratory::curve::{Mode, ModeError, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, StressUnitError, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
-use piola_laboratory::stability::{Path, Report, SurveySettings, survey};
+use piola_laboratory::stability::{Report, SurveySettings, survey};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -42,21 +42,18 @@ impl Material {
         let (mode, controls) = (self::mode(mode)?, numbers("controls", controls)?);
         let specimen = self.uniform()?.specimen().map_err(of_material)?;
         let points = py.detach(|| sweep(&*specimen, mode, volume(incompressible), &controls));
-        let stress: Vec<f64> =
-            points.iter().map(|point| point.as_ref().map_or(f64::NAN, |point| point.stress)).collect();
-        let stretches: Vec<[f64; 3]> = points
-            .iter()
-            .map(|point| point.as_ref().map_or([f64::NAN; 3], |point| point.stretches))
-            .collect();
-        let reasons: Vec<Option<String>> =
-            points.iter().map(|point| point.as_ref().err().map(ToString::to_string)).collect();
-        let arguments = (
-            mode.name(),
-            controls.into_pyarray(py),
-            stress.into_pyarray(py),
-            from_rows(py, &stretches)?,
-            reasons,
-        );
+        let (mut stress, mut stretches, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
+        for point in points {
+            let (at, of, reason) = match point {
+                Ok(point) => (point.stress, point.stretches, None),
+                Err(reason) => (f64::NAN, [f64::NAN; 3], Some(reason.to_string())),
+            };
+            stress.push(at);
+            stretches.push(of);
+            reasons.push(reason);
+        }
+        let (controls, stress) = (controls.into_pyarray(py), stress.into_pyarray(py));
+        let arguments = (mode.name(), controls, stress, from_rows(py, &stretches)?, reasons);
         py.import("piola.results")?.call_method1("Curve", arguments)
     }
 
@@ -145,7 +142,7 @@ impl Material {
             for (found, lost_at) in Criterion::ALL.into_iter().zip(walk.lost) {
                 lost.set_item(criterion(found), lost_at)?;
             }
-            let arguments = (path(walk.path), walk.to, walk.reached, lost);
+            let arguments = (walk.path.to_string().replace(' ', "_"), walk.to, walk.reached, lost);
             paths.append(py.import("piola.results")?.call_method1("Walk", arguments)?)?;
         }
         py.import("piola.results")?.call_method1("Stability", (points, admitted, kept, paths, text))
@@ -258,16 +255,6 @@ fn criterion(criterion: Criterion) -> &'static str {
         Criterion::BakerEricksen => "baker_ericksen",
         Criterion::Hill => "hill",
         Criterion::StrongEllipticity => "strong_ellipticity",
-    }
-}
-
-fn path(path: Path) -> &'static str {
-    match path {
-        Path::Uniaxial => "uniaxial",
-        Path::Equibiaxial => "equibiaxial",
-        Path::PureShear => "pure_shear",
-        Path::Confined => "confined",
-        Path::Hydrostatic => "hydrostatic",
     }
 }
 

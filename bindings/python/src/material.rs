@@ -391,26 +391,18 @@ impl Material {
         format!("<piola.Material {}({})>", shown(&self.name), arguments.join(", "))
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, Option<f64>))> {
         let text =
             serde_json::to_string(slf.get().uniform()?).map_err(|error| type_error(error.to_string()))?;
-        Ok((slf.get_type().getattr("_from_text")?, (text,)))
+        Ok((slf.get_type().getattr("_from_text")?, (text, slf.get().extend())))
     }
 
     /// The material that `__reduce__` has written.
     #[staticmethod]
-    fn _from_text(text: &str) -> PyResult<Self> {
-        let spec: MaterialSpec =
-            serde_json::from_str(text).map_err(|error| MaterialError::new_err(error.to_string()))?;
-        let extend = spec_extension(&spec)?;
+    fn _from_text(text: &str, extend: Option<f64>) -> PyResult<Self> {
+        let spec = serde_json::from_str(text).map_err(|error| MaterialError::new_err(error.to_string()))?;
         Self::new(spec, extend)
     }
-}
-
-/// The threshold that a written specification holds.
-fn spec_extension(spec: &MaterialSpec) -> PyResult<Option<f64>> {
-    let value = serde_json::to_value(spec).map_err(|error| MaterialError::new_err(error.to_string()))?;
-    Ok(value["inversion"]["extend"].as_f64())
 }
 
 /// A material of an energy that a text declares.
