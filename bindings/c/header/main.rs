@@ -74,27 +74,23 @@ fn expand_call(call: &str) -> Option<String> {
 
 /// An argument, or two, of a function of C, whose numbers `E` are of a type.
 fn in_c(argument: &str, number: &str) -> Option<String> {
+    /// How a type of Rust begins and ends around T, and what C passes.
+    const FORMS: [(&str, &str, &str); 9] = [
+        ("&mut [", "]", "NAME: *mut T, NAME_length: usize, "),
+        ("&[", "]", "NAME: *const T, NAME_length: usize, "),
+        ("&str", "", "NAME: *const c_char, "),
+        ("Option<&str>", "", "NAME: *const c_char, "),
+        ("&", "", "NAME: *const T, "),
+        ("Options", "", "NAME: *const Options, "),
+        ("Out<", ">", "NAME: *mut T, "),
+        ("New<", ">", "NAME: *mut *mut T, "),
+        ("", "", "NAME: T, "),
+    ];
     let Some((name, kind)) = argument.split_once(": ") else { return argument.is_empty().then(String::new) };
-    let inside = |start: &str, end: &str| {
+    let mut forms = FORMS.into_iter().filter_map(|(start, end, form)| {
         let inside = kind.strip_prefix(start)?.strip_suffix(end)?;
-        Some(if inside == "E" { number } else { inside })
-    };
-    let array = |inside, pointer| format!("{name}: *{pointer} {inside}, {name}_length: usize, ");
-    Some(if let Some(inside) = inside("&mut [", "]") {
-        array(inside, "mut")
-    } else if let Some(inside) = inside("&[", "]") {
-        array(inside, "const")
-    } else if kind == "&str" || kind == "Option<&str>" {
-        format!("{name}: *const c_char, ")
-    } else if let Some(inside) = inside("&", "") {
-        format!("{name}: *const {inside}, ")
-    } else if kind == "Options" {
-        format!("{name}: *const Options, ")
-    } else if let Some(inside) = inside("Out<", ">") {
-        format!("{name}: *mut {inside}, ")
-    } else if let Some(inside) = inside("New<", ">") {
-        format!("{name}: *mut *mut {inside}, ")
-    } else {
-        format!("{name}: {kind}, ")
-    })
+        Some((inside, form))
+    });
+    let (inside, form) = forms.next()?;
+    Some(form.replace('T', if inside == "E" { number } else { inside }).replace("NAME", name))
 }

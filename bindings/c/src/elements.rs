@@ -21,9 +21,8 @@ fn piola_rest_shapes(positions: &[f64], corners: &[usize], rest: &mut [f64]) {
     let (positions, corners) = (lent::vectors("positions", positions)?, lent::corners("corners", corners)?);
     lent::demand_length("rest", rest.len(), REST, corners.len())?;
     let shapes = TetMesh::new(positions.to_vec(), corners.to_vec()).rest_shapes()?;
-    for (shape, rest) in shapes.iter().zip(rest.as_chunks_mut::<REST>().0) {
-        rest[..9].copy_from_slice(shape.inverse.as_flattened());
-        rest[9] = shape.volume;
+    for (shape, rest) in shapes.iter().zip(rest.as_chunks_mut().0) {
+        *rest = shape.components();
     }
     Ok(())
 }

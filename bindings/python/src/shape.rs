@@ -30,18 +30,8 @@ pub(crate) fn entries(array: &[usize], points: &[usize]) -> Vec<usize> {
 
 /// The index, along each axis, of a point that is counted in the order of C.
 pub(crate) fn index(point: usize, points: &[usize]) -> Vec<usize> {
-    let mut rest = point;
-    let mut index: Vec<_> = points
-        .iter()
-        .rev()
-        .map(|&n| {
-            let k = rest % n;
-            rest /= n;
-            k
-        })
-        .collect();
-    index.reverse();
-    index
+    let behind = |axis: usize| points[axis + 1..].iter().product::<usize>();
+    (0..points.len()).map(|axis| point / behind(axis) % points[axis]).collect()
 }
 
 /// A shape, or an index, as Python writes it.

@@ -25,8 +25,8 @@ pub fn bar(cells: [usize; 3]) -> Mesh {
         }
     }
     // A cube is cut into a tetrahedron in the middle and one at each corner that this leaves; neighbours are
-    // mirror images, whose faces fit.
-    const CUT: [[usize; 4]; 5] = [[0, 3, 5, 6], [1, 3, 0, 5], [2, 0, 3, 6], [4, 0, 6, 5], [7, 3, 5, 6]];
+    // mirror images, whose faces fit, and whose corners have the other order.
+    const CUT: [[usize; 4]; 5] = [[0, 3, 6, 5], [1, 3, 0, 5], [2, 0, 3, 6], [4, 0, 6, 5], [7, 3, 5, 6]];
     let mut mesh = Mesh { positions: Vec::new(), corners: Vec::new(), rest: Vec::new() };
     for z in 0..cells[2] {
         for y in 0..cells[1] {
@@ -36,13 +36,11 @@ pub fn bar(cells: [usize; 3]) -> Mesh {
                     let mut corners = tetrahedron.map(|corner| {
                         node([x + ((corner & 1) ^ mirror), y + (corner >> 1 & 1), z + (corner >> 2)])
                     });
-                    if determinant(edges(corners.map(|corner| at_rest[corner]))) < 0.0 {
+                    if mirror == 1 {
                         corners.swap(2, 3);
                     }
-                    let (inverse, volume) = rest_shape(edges(corners.map(|corner| at_rest[corner])));
-                    let shape = [inverse.as_flattened(), &[volume]].concat();
                     mesh.corners.push(corners.map(|corner| corner as u32));
-                    mesh.rest.push(std::array::from_fn(|k| shape[k] as f32));
+                    mesh.rest.push(rest_shape(corners.map(|corner| at_rest[corner])).map(|x| x as f32));
                 }
             }
         }
@@ -63,25 +61,13 @@ fn deformed([x, y, z]: [f64; 3], middle: [f64; 2]) -> [f64; 3] {
     [along + 0.05 * (9.0 * y).sin() * z, cos * y - sin * z, sin * y + cos * z]
 }
 
-/// Edges from corner 0, as columns.
-fn edges(corners: [[f64; 3]; 4]) -> [[f64; 3]; 3] {
-    std::array::from_fn(|a| std::array::from_fn(|k| corners[k + 1][a] - corners[0][a]))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn determinant(rows: [[f64; 3]; 3]) -> f64 {
-    let normal = cross(rows[1], rows[2]);
-    rows[0][0] * normal[0] + rows[0][1] * normal[1] + rows[0][2] * normal[2]
-}
-
-/// Dm⁻¹ and the volume from Dm.
-fn rest_shape(rows: [[f64; 3]; 3]) -> ([[f64; 3]; 3], f64) {
-    let [a, b, c] = rows;
-    let columns = [cross(b, c), cross(c, a), cross(a, b)];
-    let determinant = determinant(rows);
-    let inverse = std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i] / determinant));
-    (inverse, determinant / 6.0)
+/// Dm⁻¹ row by row and the volume, from the corners: the columns of Dm are the edges from the first one.
+fn rest_shape(corners: [[f64; 3]; 4]) -> [f64; 10] {
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    };
+    let [a, b, c] = [1, 2, 3].map(|k| [0, 1, 2].map(|i| corners[k][i] - corners[0][i]));
+    let rows = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant: f64 = (0..3).map(|i| a[i] * rows[0][i]).sum();
+    std::array::from_fn(|k| if k < 9 { rows[k / 3][k % 3] / determinant } else { determinant / 6.0 })
 }
