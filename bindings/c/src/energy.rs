@@ -148,10 +148,12 @@ fn piola_catalogue_name(index: usize, name: Out<*const c_char>) {
         NAMES.get_or_init(|| DECLARATIONS.iter().map(|declaration| c_string(declaration.name)).collect());
     let found = names.get(index);
     name.write(found.map_or(std::ptr::null(), |name| name.as_ptr()))?;
-    found.map(drop).ok_or_else(|| {
+    if found.is_none() {
         let count = names.len();
-        Failure::new(Code::Value, format_args!("there is no energy {index} (from 0) in a catalogue of {count}"))
-    })
+        let message = format_args!("there is no energy {index} (from 0) in a catalogue of {count}");
+        return Err(Failure::new(Code::Value, message));
+    }
+    Ok(())
 }
 
 /// An energy of the catalogue by its name, such as "neo_hookean"; ignores case, spaces, `_` and `-`.
