@@ -16,7 +16,7 @@ use crate::arrays::{from_rows, indices, kind, numbers, read_only, rows};
 use crate::errors::{BodyError, DomainError, of_body, type_error};
 use crate::evaluate::filter;
 use crate::material::Material;
-use crate::threads::on_threads;
+use crate::threads::with_locked;
 
 /// An elastic body: tetrahedra with a material and a density.
 ///
@@ -106,12 +106,7 @@ impl Body {
         py: Python<'_>,
         compute: impl FnOnce(&system::Body, &mut Memory) -> Result<(T, Survey), LengthError> + Send,
     ) -> PyResult<T> {
-        let evaluated = py.detach(|| {
-            // Locked before the pool is entered: a thread of it that waits may take up another call
-            // meanwhile.
-            let memory = &mut *self.memory();
-            on_threads(|| compute(&self.body, memory))
-        })?;
+        let evaluated = with_locked(py, &self.memory, |memory| compute(&self.body, memory))?;
         let (value, survey) = evaluated.map_err(of_body)?;
         let Some(first) = survey.first else { return Ok(value) };
         let Survey { refused, nonfinite, .. } = survey;

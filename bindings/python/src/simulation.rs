@@ -1,6 +1,6 @@
 //! Bodies in motion and at rest.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use piola_bodies::step::{self, SimulationSettings, StepError as Failed, StepReport};
 use piola_bodies::system::Pins;
@@ -11,7 +11,7 @@ use crate::arrays::{from_rows, indices, read_only, rows};
 use crate::body::Body;
 use crate::errors::{BodyError, StepError, of_body};
 use crate::settings::{from_keywords, to_dict};
-use crate::threads::on_threads;
+use crate::threads::{on_threads, with_locked};
 
 /// A body in motion, in implicit steps.
 ///
@@ -29,13 +29,9 @@ pub(crate) struct Simulation {
 }
 
 impl Simulation {
-    fn lock(&self) -> MutexGuard<'_, step::Simulation> {
-        self.simulation.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// The simulation, waited for without the interpreter: its holder may be in a step.
     fn with<T: Send>(&self, py: Python<'_>, act: impl FnOnce(&mut step::Simulation) -> T + Send) -> T {
-        py.detach(|| act(&mut self.lock()))
+        py.detach(|| act(&mut self.simulation.lock().unwrap_or_else(PoisonError::into_inner)))
     }
 
     fn advance<'py>(
@@ -43,12 +39,7 @@ impl Simulation {
         py: Python<'py>,
         advance: impl FnOnce(&mut step::Simulation) -> Result<StepReport, Failed> + Send,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let report = py.detach(|| {
-            // Locked before the pool is entered: a thread of it that waits may take up another call
-            // meanwhile.
-            let simulation = &mut *self.lock();
-            on_threads(|| advance(simulation))
-        })?;
+        let report = with_locked(py, &self.simulation, advance)?;
         to_dict(py, &report.map_err(|error| StepError::new_err(error.to_string()))?)
     }
 }
@@ -114,10 +105,7 @@ impl Simulation {
     ///
     /// Raises StepError if a tetrahedron is outside the domain of its material, or not finite.
     fn reactions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let reactions = py.detach(|| {
-            let simulation = &mut *self.lock();
-            on_threads(|| simulation.reactions())
-        })?;
+        let reactions = with_locked(py, &self.simulation, |simulation| simulation.reactions())?;
         from_rows(py, &reactions.map_err(|error| StepError::new_err(error.to_string()))?)
     }
 

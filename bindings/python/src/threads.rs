@@ -17,6 +17,19 @@ pub(crate) fn on_threads<T: Send>(compute: impl FnOnce() -> T + Send) -> PyResul
     Ok(pool()?.install(compute))
 }
 
+/// Computes with a value behind a lock, on the threads of the pool and without the interpreter.
+pub(crate) fn with_locked<T: Send, R: Send>(
+    py: Python<'_>,
+    value: &Mutex<T>,
+    compute: impl FnOnce(&mut T) -> R + Send,
+) -> PyResult<R> {
+    py.detach(|| {
+        // Locked before the pool is entered: a thread of it that waits may take up another call meanwhile.
+        let value = &mut *value.lock().unwrap_or_else(PoisonError::into_inner);
+        on_threads(|| compute(value))
+    })
+}
+
 fn pool() -> PyResult<Arc<ThreadPool>> {
     let mut current = POOL.lock().unwrap_or_else(PoisonError::into_inner);
     match &*current {
