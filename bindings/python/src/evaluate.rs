@@ -8,7 +8,6 @@ use piola::material::PerPoint;
 use piola::point::Filter;
 use piola::point::measures::Measure;
 use piola::{StatusCell, Survey};
-use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -28,23 +27,32 @@ const MANY: usize = 2048;
 struct Call<'a, 'py> {
     filter: Filter,
     axes: Axes,
-    /// Array for each result, if the caller gives one.
-    out: Vec<Option<Bound<'py, PyAny>>>,
+    /// Array for the result, or a tuple of arrays for several results.
+    out: Option<&'a Bound<'py, PyAny>>,
     status: Option<&'a Bound<'py, PyAny>>,
     threads: Option<bool>,
 }
 
 impl<'py> Call<'_, 'py> {
-    /// Computes a quantity of each F, and returns its results.
+    /// Computes a quantity of each F, and returns its result, or a tuple of several results.
     fn run(
         &self,
         material: &Material,
         F: &Bound<'py, PyAny>,
         quantity: Quantity,
-    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        match Numbers::new("F", F)? {
-            Numbers::Double(F) => self.run_in(material, &F, quantity),
-            Numbers::Single(F) => self.run_in(material, &F, quantity),
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let out = match (self.out, quantity.components().len()) {
+            (Some(out), 1) => vec![Some(out.clone())],
+            (Some(out), count) => several(out, count)?,
+            (None, _) => Vec::new(),
+        };
+        let mut results = match Numbers::new("F", F)? {
+            Numbers::Double(F) => self.run_in(material, &F, quantity, out)?,
+            Numbers::Single(F) => self.run_in(material, &F, quantity, out)?,
+        };
+        match results.len() {
+            1 => Ok(results.remove(0)),
+            _ => Ok(PyTuple::new(F.py(), results)?.into_any()),
         }
     }
 
@@ -53,11 +61,12 @@ impl<'py> Call<'_, 'py> {
         material: &Material,
         F: &Bound<'py, PyArrayDyn<E>>,
         quantity: Quantity,
+        out: Vec<Option<Bound<'py, PyAny>>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let input = Input::new(F, self.axes, material.shape())?;
         let mut outputs = Vec::with_capacity(3);
         for (k, components) in quantity.components().iter().enumerate() {
-            outputs.push(input.output(F.py(), components, self.out.get(k).and_then(Option::as_ref))?);
+            outputs.push(input.output(F.py(), components, out.get(k).and_then(Option::as_ref))?);
         }
         let mut status = self.status.map(|given| statuses(given, input.points())).transpose()?;
         let survey = self.survey(material, &input, quantity, &mut outputs, status.as_mut())?;
@@ -193,8 +202,7 @@ fn order(name: &str) -> PyResult<Order> {
 }
 
 /// The arrays that a caller gives for several results.
-fn several<'py>(out: Option<&Bound<'py, PyAny>>, count: usize) -> PyResult<Vec<Option<Bound<'py, PyAny>>>> {
-    let Some(out) = out else { return Ok(Vec::new()) };
+fn several<'py>(out: &Bound<'py, PyAny>, count: usize) -> PyResult<Vec<Option<Bound<'py, PyAny>>>> {
     let tuple = out.cast::<PyTuple>();
     let tuple =
         tuple.map_err(|_| type_error(format!("out is {}; it must be a tuple of arrays", kind(out))))?;
@@ -224,12 +232,12 @@ impl Material {
         &self,
         F: &Bound<'py, PyAny>,
         trailing: bool,
-        out: Option<Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out: vec![out], status, threads };
-        one(call.run(self, F, Quantity::Energy)?)
+        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out, status, threads };
+        call.run(self, F, Quantity::Energy)
     }
 
     /// First Piola stresses P = dψ/dF of deformation gradients, Pa, in the shape of F.
@@ -242,12 +250,12 @@ impl Material {
         &self,
         F: &Bound<'py, PyAny>,
         trailing: bool,
-        out: Option<Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out: vec![out], status, threads };
-        one(call.run(self, F, Quantity::Stress)?)
+        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out, status, threads };
+        call.run(self, F, Quantity::Stress)
     }
 
     /// First Piola stresses P and tangents dP/dF, Pa: entry (i, j, k, l) is dP_ij/dF_kl.
@@ -261,10 +269,8 @@ impl Material {
     /// Returns (P, dP_dF), of shapes (..., 3, 3) and (..., 3, 3, 3, 3), or (3, 3, ...) and (3, 3, 3, 3, ...).
     /// Other arguments and errors as for `energy`.
     #[pyo3(signature = (F, /, *, filter = None, trailing = false, out = None, status = None, threads = None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn tangent<'py>(
         &self,
-        py: Python<'py>,
         F: &Bound<'py, PyAny>,
         filter: Option<&str>,
         trailing: bool,
@@ -272,19 +278,16 @@ impl Material {
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (filter, out) = (self::filter(filter)?, several(out, 2)?);
-        let call = Call { filter, axes: Axes::new(trailing), out, status, threads };
-        tuple(py, call.run(self, F, Quantity::Tangent)?)
+        let call = Call { filter: self::filter(filter)?, axes: Axes::new(trailing), out, status, threads };
+        call.run(self, F, Quantity::Tangent)
     }
 
     /// Energy, stress and tangent of one decomposition: (energy, P, dP_dF), as from `energy` and `tangent`.
     ///
     ///     evaluate(F, /, *, filter=None, trailing=False, out=None, status=None, threads=None)
     #[pyo3(signature = (F, /, *, filter = None, trailing = false, out = None, status = None, threads = None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn evaluate<'py>(
         &self,
-        py: Python<'py>,
         F: &Bound<'py, PyAny>,
         filter: Option<&str>,
         trailing: bool,
@@ -292,9 +295,8 @@ impl Material {
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (filter, out) = (self::filter(filter)?, several(out, 3)?);
-        let call = Call { filter, axes: Axes::new(trailing), out, status, threads };
-        tuple(py, call.run(self, F, Quantity::All)?)
+        let call = Call { filter: self::filter(filter)?, axes: Axes::new(trailing), out, status, threads };
+        call.run(self, F, Quantity::All)
     }
 
     /// Stresses in another measure with their tangents, Pa.
@@ -317,33 +319,20 @@ impl Material {
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn measured<'py>(
         &self,
-        py: Python<'py>,
         F: &Bound<'py, PyAny>,
         measure: &str,
         tangent: bool,
         order: &str,
         trailing: bool,
-        out: Option<Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (measure, order) = (self::measure(measure)?, self::order(order)?);
-        let (filter, axes) = (Filter::None, Axes::new(trailing));
-        if tangent {
-            let call = Call { filter, axes, out: several(out.as_ref(), 2)?, status, threads };
-            tuple(py, call.run(self, F, Quantity::MeasuredTangent(measure, order))?)
-        } else {
-            let call = Call { filter, axes, out: vec![out], status, threads };
-            one(call.run(self, F, Quantity::MeasuredStress(measure, order))?)
+        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out, status, threads };
+        match tangent {
+            true => call.run(self, F, Quantity::MeasuredTangent(measure, order)),
+            false => call.run(self, F, Quantity::MeasuredStress(measure, order)),
         }
     }
-}
-
-/// The only one of the results.
-fn one(mut results: Vec<Bound<'_, PyAny>>) -> PyResult<Bound<'_, PyAny>> {
-    results.pop().ok_or_else(|| value_error("no result".to_owned()))
-}
-
-fn tuple<'py>(py: Python<'py>, results: Vec<Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyAny>> {
-    PyTuple::new(py, results)?.into_bound_py_any(py)
 }
