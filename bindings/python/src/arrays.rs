@@ -98,7 +98,8 @@ impl<'py, E: Element> Input<'py, E> {
     /// together with the parameters of a material.
     pub(crate) fn new(array: &Bound<'py, PyArrayDyn<E>>, axes: Axes, parameters: &[usize]) -> PyResult<Self> {
         let Some(points) = axes.points(array.shape()) else {
-            return Err(wrong_shape("F", array, if axes == Axes::Leading { "(..., 3, 3)" } else { "(3, 3, ...)" }));
+            let wanted = if axes == Axes::Leading { "(..., 3, 3)" } else { "(3, 3, ...)" };
+            return Err(wrong_shape("F", array, wanted));
         };
         let array = match shape::common(points, parameters) {
             Some(common) if common == points && array.is_c_contiguous() => array.clone(),

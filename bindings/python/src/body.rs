@@ -48,41 +48,23 @@ struct Blocks {
 }
 
 impl Blocks {
-    /// Both triangles of a symmetric matrix.
+    /// Both blocks of each pair of nodes, of which the matrix has one.
     fn new(matrix: &NodalStiffness, nodes: usize) -> Self {
-        let mut starts = vec![0; nodes + 1];
-        for (row, column, _) in matrix.blocks() {
-            starts[row + 1] += 1;
-            starts[column + 1] += i64::from(row != column);
-        }
-        for row in 0..nodes {
-            starts[row + 1] += starts[row];
-        }
-        let count = starts[nodes] as usize;
-        let mut next = starts.clone();
-        let mut both = Self { starts, columns: vec![0; count], blocks: vec![[[0.0; 3]; 3]; count] };
-        // A row is given its columns in order: those that are stored as later ones of rows before it, and its
-        // diagonal; then those of the rows after it.
+        let mut rows = vec![Vec::new(); nodes];
         for (row, column, block) in matrix.blocks() {
-            both.put(&mut next, column, row, block);
-        }
-        for row in 0..nodes {
-            let mut place = both.starts[row] as usize;
-            while place < count && both.columns[place] < row as i64 {
-                let (column, block) = (both.columns[place] as usize, both.blocks[place]);
-                both.put(&mut next, column, row, &block);
-                place += 1;
+            rows[row].push((column, *block));
+            if row != column {
+                rows[column].push((row, std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]))));
             }
         }
+        let mut both = Self { starts: vec![0], ..Self::default() };
+        for mut row in rows {
+            row.sort_unstable_by_key(|&(column, _)| column);
+            both.columns.extend(row.iter().map(|&(column, _)| column as i64));
+            both.blocks.extend(row.iter().map(|&(_, block)| block));
+            both.starts.push(both.columns.len() as i64);
+        }
         both
-    }
-
-    /// Puts the transpose of a block at the next place of a row.
-    fn put(&mut self, next: &mut [i64], row: usize, column: usize, block: &[[f64; 3]; 3]) {
-        let place = next[row] as usize;
-        self.columns[place] = column as i64;
-        self.blocks[place] = std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]));
-        next[row] += 1;
     }
 }
 

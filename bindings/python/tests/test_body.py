@@ -48,6 +48,16 @@ def test_energy_gradient_and_stiffness_are_derivatives(rubber, beam, rng):
     assert np.linalg.eigvalsh(clamped).min() > -1e-9 * np.abs(clamped).max()
 
 
+def test_stiffness_does_not_depend_on_the_numbers_of_nodes(rubber, beam, rng):
+    points, tets = beam
+    x, numbers = wobbly(points, rng), rng.permutation(len(points))
+    K = piola.Body(points, tets, rubber, 1000.0).stiffness(x).toarray()
+    shuffled = piola.Body(points[numbers], np.argsort(numbers)[tets], rubber, 1000.0).stiffness(x[numbers])
+    assert shuffled.has_canonical_format
+    places = (3 * numbers[:, None] + np.arange(3)).ravel()
+    assert np.allclose(shuffled.toarray(), K[places][:, places], rtol=1e-12, atol=1e-12 * np.abs(K).max())
+
+
 def test_blocks_need_no_scipy(rubber, beam, monkeypatch):
     monkeypatch.setitem(sys.modules, "scipy.sparse", None)
     points, tets = beam
