@@ -1,8 +1,8 @@
 //! Errors of Rust as exceptions of the package, which `python/piola/errors.py` declares.
 
-use piola::material::MaterialError as Refused;
+use std::fmt::Display;
+
 use piola_declare::Mistakes;
-use piola_scenes::error::Error;
 use pyo3::PyErr;
 use pyo3::import_exception;
 use pyo3::prelude::*;
@@ -15,24 +15,13 @@ import_exception!(piola.errors, FitError);
 import_exception!(piola.errors, MaterialError);
 import_exception!(piola.errors, StepError);
 
-/// A material that does not exist, or that rejects its parameters.
-pub(crate) fn of_material(error: Error) -> PyErr {
-    MaterialError::new_err(in_python(&error.to_string()))
-}
-
-/// Parameters that a material refuses.
-pub(crate) fn of_parameters(error: Refused) -> PyErr {
-    MaterialError::new_err(in_python(&error.to_string()))
-}
-
-/// A material of a point that refuses its parameters.
-pub(crate) fn of_point(index: &str, error: &Error) -> PyErr {
-    MaterialError::new_err(in_python(&format!("at index {index}: {error}")))
-}
-
-/// A message with the keywords of Python instead of the names in Rust.
-fn in_python(message: &str) -> String {
-    message.replace("Inversion::Refuse", "extend=None").replace("`lambda`", "`lambda_`")
+/// A material that does not exist, or that rejects its parameters: with the keywords of Python instead of the
+/// names in Rust.
+pub(crate) fn of_material(error: impl Display) -> PyErr {
+    let message = error.to_string();
+    MaterialError::new_err(
+        message.replace("Inversion::Refuse", "extend=None").replace("`lambda`", "`lambda_`"),
+    )
 }
 
 /// A text that does not declare an energy: its mistakes, and for each its line, its column and its length.
@@ -45,19 +34,24 @@ pub(crate) fn of_text(mistakes: Mistakes) -> PyErr {
     DeclarationError::new_err((mistakes.to_string(), places))
 }
 
+/// A step that fails, or a state without reactions.
+pub(crate) fn of_step(error: impl Display) -> PyErr {
+    StepError::new_err(error.to_string())
+}
+
 /// A mesh, pin or setting that is not valid for a body or a simulation.
-pub(crate) fn of_body(error: impl std::error::Error) -> PyErr {
+pub(crate) fn of_body(error: impl Display) -> PyErr {
     BodyError::new_err(error.to_string())
 }
 
 /// Raises an exception that carries the name of what was given.
-pub(crate) fn type_error(message: String) -> PyErr {
-    pyo3::exceptions::PyTypeError::new_err(message)
+pub(crate) fn type_error(message: impl Display) -> PyErr {
+    pyo3::exceptions::PyTypeError::new_err(message.to_string())
 }
 
 /// Raises an exception for a value out of range.
-pub(crate) fn value_error(message: String) -> PyErr {
-    pyo3::exceptions::PyValueError::new_err(message)
+pub(crate) fn value_error<T: Display>(message: T) -> PyErr {
+    pyo3::exceptions::PyValueError::new_err(message.to_string())
 }
 
 /// The type of an object, for messages.

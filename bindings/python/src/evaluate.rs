@@ -96,7 +96,7 @@ impl<'py> Call<'_, 'py> {
         let points: &dyn TileMaterial<E> = match each.as_deref() {
             None | Some([]) => E::material(material)?,
             Some(each) => {
-                single = PerPoint::new(each).map_err(|error| value_error(error.to_string()))?;
+                single = PerPoint::new(each).map_err(value_error)?;
                 &single
             }
         };
@@ -117,7 +117,7 @@ impl<'py> Call<'_, 'py> {
             (false, ..=8) => compute(),
             (false, _) => py.detach(compute),
         };
-        let survey = survey.map_err(|error| value_error(error.to_string()))?;
+        let survey = survey.map_err(value_error)?;
         for (output, components) in outputs.iter_mut().zip(quantity.numbers()) {
             let mut results = Results { entries: output.slice()?, axes, components, points: count };
             results.reorder(quantity.order());

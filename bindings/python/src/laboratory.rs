@@ -128,8 +128,7 @@ impl Material {
     ) -> PyResult<Bound<'py, PyAny>> {
         let specimen = self.uniform()?.specimen().map_err(of_material)?;
         let settings = SurveySettings::default().with_range(smallest, largest).with_resolution(resolution);
-        let report =
-            py.detach(|| survey(&*specimen, &settings)).map_err(|error| value_error(error.to_string()))?;
+        let report = py.detach(|| survey(&*specimen, &settings)).map_err(value_error)?;
         let text = report.to_string();
         let Report { points, admitted, findings, walks, .. } = report;
         let kept = PyDict::new(py);
@@ -236,7 +235,7 @@ fn volume(incompressible: bool) -> Volume {
 }
 
 fn mode(name: &str) -> PyResult<Mode> {
-    name.parse().map_err(|error: ModeError| value_error(error.to_string()))
+    name.parse().map_err(value_error::<ModeError>)
 }
 
 fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
@@ -262,7 +261,7 @@ fn criterion(criterion: Criterion) -> &'static str {
 /// stress, Pa.
 #[pyfunction]
 pub(crate) fn treloar(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
-    by_mode(py, &Measurements::read(TRELOAR_1944).map_err(|error| value_error(error.to_string()))?)
+    by_mode(py, &Measurements::read(TRELOAR_1944).map_err(value_error)?)
 }
 
 /// Measurements from the text of a table, in the form that `Material.fit` takes.
@@ -287,13 +286,12 @@ pub(crate) fn measurements<'py>(
     mode: Option<&str>,
     unit: Option<&str>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let refused = |error: &dyn std::error::Error| value_error(error.to_string());
     let mut options = ReadOptions::default();
     options.strain = strain.map(Into::into);
     options.stress = stress.map(Into::into);
-    options.test = mode.map(str::parse).transpose().map_err(|error: ModeError| refused(&error))?;
-    options.unit = unit.map(str::parse).transpose().map_err(|error: StressUnitError| refused(&error))?;
-    let reading = Measurements::read_with(text, &options).map_err(|error| refused(&error))?;
+    options.test = mode.map(self::mode).transpose()?;
+    options.unit = unit.map(str::parse).transpose().map_err(value_error::<StressUnitError>)?;
+    let reading = Measurements::read_with(text, &options).map_err(value_error)?;
     by_mode(py, &reading.measurements)
 }
 

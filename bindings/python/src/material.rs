@@ -16,7 +16,7 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyTuple};
 
 use crate::arrays::{Numbers, kind, read_only};
 use crate::description::{Description, is_name, shown};
-use crate::errors::{MaterialError, of_material, of_parameters, of_point, of_text, type_error, value_error};
+use crate::errors::{MaterialError, of_material, of_text, type_error, value_error};
 use crate::shape;
 
 /// An energy with its parameters.
@@ -108,7 +108,10 @@ impl Material {
                 ))
             })?;
         }
-        let refused = |point, error| of_point(&shape::text(&shape::index(point, &shape)), &error);
+        let refused = |point, error| {
+            let index = shape::text(&shape::index(point, &shape));
+            of_material(format!("at index {index}: {error}"))
+        };
         let mut materials = Vec::new();
         let count = shape.iter().try_fold(1, |count: usize, &length| count.checked_mul(length));
         if count.is_none_or(|count| materials.try_reserve_exact(count).is_err()) {
@@ -161,7 +164,7 @@ impl Material {
             )));
         }
         let materials: Vec<_> = self.at(&[count]).into_iter().flatten().cloned().collect();
-        Ok(Box::new(PerPoint::new(materials).map_err(|error| MaterialError::new_err(error.to_string()))?))
+        Ok(Box::new(PerPoint::new(materials).map_err(of_material)?))
     }
 
     /// The material of each of these points, to whose shape the parameters can be broadcast, if they differ.
@@ -276,7 +279,7 @@ impl Material {
     #[staticmethod]
     #[pyo3(signature = (name, /, *, young, poisson, extend = None))]
     fn matching(name: &str, young: f64, poisson: f64, extend: Option<f64>) -> PyResult<Self> {
-        let moduli = Moduli::from_young_poisson(young, poisson).map_err(of_parameters)?;
+        let moduli = Moduli::from_young_poisson(young, poisson).map_err(of_material)?;
         Self::new(MaterialSpec::matching(name, moduli), extend)
     }
 
@@ -309,7 +312,7 @@ impl Material {
         name: Option<String>,
         functions: Option<Vec<String>>,
     ) -> PyResult<String> {
-        let unknown = |error: UnknownWord| value_error(error.to_string());
+        let unknown = value_error::<UnknownWord>;
         let mut emission = Emission::new(target.parse().map_err(unknown)?);
         if let Some(precision) = precision {
             emission = emission.with_precision(precision.parse().map_err(unknown)?);
@@ -392,15 +395,14 @@ impl Material {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, Option<f64>))> {
-        let text =
-            serde_json::to_string(slf.get().uniform()?).map_err(|error| type_error(error.to_string()))?;
+        let text = serde_json::to_string(slf.get().uniform()?).map_err(type_error)?;
         Ok((slf.get_type().getattr("_from_text")?, (text, slf.get().extend())))
     }
 
     /// The material that `__reduce__` has written.
     #[staticmethod]
     fn _from_text(text: &str, extend: Option<f64>) -> PyResult<Self> {
-        let spec = serde_json::from_str(text).map_err(|error| MaterialError::new_err(error.to_string()))?;
+        let spec = serde_json::from_str(text).map_err(of_material)?;
         Self::new(spec, extend)
     }
 }
@@ -429,9 +431,7 @@ pub(crate) fn declare(
     parameters: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Material> {
     if name.is_some_and(|name| name.trim().is_empty()) {
-        return Err(value_error(
-            "the name is empty; leave it out to call the material by its formula".to_owned(),
-        ));
+        return Err(value_error("the name is empty; leave it out to call the material by its formula"));
     }
     Material::from_keywords(declared(py, text, name, free_rest, parameters)?, extend, parameters)
 }

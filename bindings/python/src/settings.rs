@@ -23,6 +23,6 @@ pub(crate) fn from_keywords<T: DeserializeOwned>(
 
 /// A report as a dictionary.
 pub(crate) fn to_dict<'py>(py: Python<'py>, report: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
-    let text = serde_json::to_string(report).map_err(|error| value_error(error.to_string()))?;
+    let text = serde_json::to_string(report).map_err(value_error)?;
     py.import("json")?.call_method1("loads", (text,))
 }

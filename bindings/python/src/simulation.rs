@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{from_rows, indices, read_only, rows};
 use crate::body::Body;
-use crate::errors::{BodyError, StepError, of_body};
+use crate::errors::{BodyError, of_body, of_step};
 use crate::settings::{from_keywords, to_dict};
 use crate::threads::{on_threads, with_locked};
 
@@ -40,7 +40,7 @@ impl Simulation {
         advance: impl FnOnce(&mut step::Simulation) -> Result<StepReport, Failed> + Send,
     ) -> PyResult<Bound<'py, PyAny>> {
         let report = with_locked(py, &self.simulation, advance)?;
-        to_dict(py, &report.map_err(|error| StepError::new_err(error.to_string()))?)
+        to_dict(py, &report.map_err(of_step)?)
     }
 }
 
@@ -106,7 +106,7 @@ impl Simulation {
     /// Raises StepError if a tetrahedron is outside the domain of its material, or not finite.
     fn reactions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let reactions = with_locked(py, &self.simulation, |simulation| simulation.reactions())?;
-        from_rows(py, &reactions.map_err(|error| StepError::new_err(error.to_string()))?)
+        from_rows(py, &reactions.map_err(of_step)?)
     }
 
     /// Sets constant forces on the nodes, N, of shape (n, 3).
