@@ -60,9 +60,8 @@ fn piola_body_masses(body: &Body, masses: &mut [f64]) {
 
 /// Frees a body, or does nothing with null. Simulations of it stay.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_body_free(body: *mut Body) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(body) }
+pub unsafe extern "C" fn piola_body_free(body: Option<Box<Body>>) {
+    handle::free(body);
 }
 
 /// The parts as groups of a mesh; none where one part has all tetrahedra.

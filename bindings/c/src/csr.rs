@@ -62,7 +62,6 @@ fn piola_csr_add, piola_csr_add_f32(csr: &Csr, layout: i32, stiffnesses: &[E], v
 
 /// Frees what `piola_csr_new_i32` has made, or does nothing with null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_csr_free(csr: *mut Csr) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(csr) }
+pub unsafe extern "C" fn piola_csr_free(csr: Option<Box<Csr>>) {
+    handle::free(csr);
 }

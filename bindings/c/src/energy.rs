@@ -193,7 +193,6 @@ fn piola_energy_describe(energy: &Energy, description: Out<*const EnergyDescript
 
 /// Frees an energy, or does nothing with null. Materials made of it stay.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_energy_free(energy: *mut Energy) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(energy) }
+pub unsafe extern "C" fn piola_energy_free(energy: Option<Box<Energy>>) {
+    handle::free(energy);
 }

@@ -24,19 +24,12 @@ impl<T> New<T> {
     }
 }
 
-/// Takes a value back and drops it. Does nothing with null.
-///
-/// # Safety
-/// `handle` is null, or comes from [`New::give`] and is not used any more.
-pub(crate) unsafe fn free<T>(handle: *mut T) {
-    if !handle.is_null() {
-        // SAFETY: it was made by `Box::into_raw`, and belongs to nobody else.
-        let value = unsafe { Box::from_raw(handle) };
-        crate::error::guard(|| {
-            drop(value);
-            Ok(())
-        });
-    }
+/// Drops a value that the caller gives back, which comes from [`New::give`].
+pub(crate) fn free<T>(value: Option<Box<T>>) {
+    crate::error::guard(|| {
+        drop(value);
+        Ok(())
+    });
 }
 
 /// Waits for other calls that use this handle.

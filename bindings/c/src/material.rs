@@ -80,9 +80,8 @@ fn piola_material_moduli(material: &Material, mu: Out<f64>, lambda: Out<f64>) {
 
 /// Frees a material, or does nothing with null. Bodies made of it stay.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_material_free(material: *mut Material) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(material) }
+pub unsafe extern "C" fn piola_material_free(material: Option<Box<Material>>) {
+    handle::free(material);
 }
 
 /// A parameter as given, its lengths checked.

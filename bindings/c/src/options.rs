@@ -2,6 +2,7 @@
 
 use piola::batch::{Batch, Layout};
 use piola::lanes::Backend;
+use piola::point::Filter as PointFilter;
 use piola::{StatusCell, Survey as PointSurvey};
 
 use crate::error::{Code, Failure};
@@ -105,10 +106,13 @@ impl From<PointSurvey> for Survey {
     }
 }
 
+/// The filters in the order of [`Filter`].
+const FILTERS: [PointFilter; 3] = [PointFilter::None, PointFilter::Clamp, PointFilter::Absolute];
+
 /// Options of a call, read and checked.
 #[derive(Default)]
 pub(crate) struct Chosen<'call> {
-    filter: piola::point::Filter,
+    filter: PointFilter,
     layout: Layout,
     backend: Option<Backend>,
     threads: bool,
@@ -155,7 +159,7 @@ pub(crate) unsafe fn read<'call>(
     let statuses: *const [u8] = statuses;
     let is_portable = lent::choice("options->instructions", options.instructions, [false, true])?;
     Ok(Chosen {
-        filter: filter("options->filter", options.filter)?,
+        filter: lent::choice("options->filter", options.filter, FILTERS)?,
         layout: lent::choice("options->layout", options.layout, [Layout::Points, Layout::Lines])?,
         backend: is_portable.then(Backend::portable),
         threads: lent::choice("options->threads", options.threads, [false, true])?,
@@ -163,10 +167,4 @@ pub(crate) unsafe fn read<'call>(
         // SAFETY: a cell is one byte, and nobody else uses these during the call.
         statuses: unsafe { &*(statuses as *const [StatusCell]) },
     })
-}
-
-/// The filter that a number of C stands for.
-pub(crate) fn filter(name: &str, number: i32) -> Result<piola::point::Filter, Failure> {
-    use piola::point::Filter::{Absolute, Clamp, None};
-    lent::choice(name, number, [None, Clamp, Absolute])
 }

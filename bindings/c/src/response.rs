@@ -50,7 +50,6 @@ fn piola_response_evaluate(
 
 /// Frees a response, or does nothing with null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_response_free(response: *mut Response) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(response) }
+pub unsafe extern "C" fn piola_response_free(response: Option<Box<Response>>) {
+    handle::free(response);
 }

@@ -246,9 +246,8 @@ fn piola_simulation_equilibrate(simulation: &Simulation, report: Out<StepReport>
 
 /// Frees a simulation, or does nothing with null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn piola_simulation_free(simulation: *mut Simulation) {
-    // SAFETY: a handle that is not used any more.
-    unsafe { handle::free(simulation) }
+pub unsafe extern "C" fn piola_simulation_free(simulation: Option<Box<Simulation>>) {
+    handle::free(simulation);
 }
 
 fn advance(

@@ -2,6 +2,8 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
+use std::fmt::Display;
+
 use numpy::{IntoPyArray, PyArrayMethods};
 use piola::contract::{Notation, Settings, check};
 use piola::point::{stress, svd};
@@ -133,15 +135,15 @@ impl Material {
         let Report { points, admitted, findings, walks, .. } = report;
         let kept = PyDict::new(py);
         for finding in &findings {
-            kept.set_item(criterion(finding.criterion), finding.kept)?;
+            kept.set_item(word(finding.criterion), finding.kept)?;
         }
         let paths = PyList::empty(py);
         for walk in &walks {
             let lost = PyDict::new(py);
             for (found, lost_at) in Criterion::ALL.into_iter().zip(walk.lost) {
-                lost.set_item(criterion(found), lost_at)?;
+                lost.set_item(word(found), lost_at)?;
             }
-            let arguments = (walk.path.to_string().replace(' ', "_"), walk.to, walk.reached, lost);
+            let arguments = (word(walk.path), walk.to, walk.reached, lost);
             paths.append(py.import("piola.results")?.call_method1("Walk", arguments)?)?;
         }
         py.import("piola.results")?.call_method1("Stability", (points, admitted, kept, paths, text))
@@ -249,12 +251,9 @@ fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
     Ok(Measurements { points })
 }
 
-fn criterion(criterion: Criterion) -> &'static str {
-    match criterion {
-        Criterion::BakerEricksen => "baker_ericksen",
-        Criterion::Hill => "hill",
-        Criterion::StrongEllipticity => "strong_ellipticity",
-    }
+/// The word of Python for a name, such as "pure_shear".
+fn word(name: impl Display) -> String {
+    name.to_string().to_lowercase().replace([' ', '–'], "_")
 }
 
 /// Treloar's measurements of vulcanised rubber, 1944, in the form that `Material.fit` takes: control and
