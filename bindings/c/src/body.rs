@@ -35,7 +35,7 @@ functions! {
 /// Errors: PIOLA_CODE_BODY for an invalid body: nodes without tetrahedron, volumes and densities that are not
 /// positive, a material with values for another number of tetrahedra; the message numbers tetrahedra from 1.
 fn piola_body_new(positions: &[f64], corners: &[usize], part_of: &[usize], parts: &[Part], body: New<Body>) {
-    let (positions, corners) = (lent::vectors("positions", positions)?, lent::corners("corners", corners)?);
+    let (positions, corners) = (lent::rows("positions", positions)?, lent::rows("corners", corners)?);
     body.give(|| {
         let mut mesh = TetMesh::new(positions.to_vec(), corners.to_vec());
         mesh.groups = groups(part_of, corners.len(), parts.len())?;

@@ -33,7 +33,7 @@ fn piola_csr_new_i32, piola_csr_new_i64(
     columns: &[E],
     csr: New<Csr>,
 ) {
-    let corners = lent::corners("corners", corners)?;
+    let corners = lent::rows("corners", corners)?;
     if !unknowns.is_empty() {
         lent::demand_length("unknowns", unknowns.len(), 1, nodes)?;
     }

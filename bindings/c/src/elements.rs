@@ -18,7 +18,7 @@ functions! {
 /// Errors: PIOLA_CODE_BODY for nodes that do not exist or belong to no tetrahedron, and volumes that are not
 /// positive beyond rounding; tetrahedra are numbered from 1 in the message.
 fn piola_rest_shapes(positions: &[f64], corners: &[usize], rest: &mut [f64]) {
-    let (positions, corners) = (lent::vectors("positions", positions)?, lent::corners("corners", corners)?);
+    let (positions, corners) = (lent::rows("positions", positions)?, lent::rows("corners", corners)?);
     lent::demand_length("rest", rest.len(), REST, corners.len())?;
     let shapes = TetMesh::new(positions.to_vec(), corners.to_vec()).rest_shapes()?;
     for (shape, rest) in shapes.iter().zip(rest.as_chunks_mut().0) {
@@ -68,7 +68,7 @@ fn piola_stiffnesses_at, piola_stiffnesses_at_f32(
     stiffnesses: &mut [E],
     survey: Out<Survey>,
 ) {
-    let (positions, corners) = (lent::vectors("positions", positions)?, lent::corners("corners", corners)?);
+    let (positions, corners) = (lent::rows("positions", positions)?, lent::rows("corners", corners)?);
     let tetrahedra = Tetrahedra::new(positions.len(), corners)?;
     let batch = options.batch(material)?;
     survey.write(batch.stiffnesses_at(tetrahedra, positions, rest, gradients, stiffnesses)?.into())

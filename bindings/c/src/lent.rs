@@ -222,25 +222,13 @@ impl<T> Out<T> {
     }
 }
 
-/// Three numbers for each node.
-pub(crate) fn vectors<'a, E>(slice: &'static str, numbers: &'a [E]) -> Result<&'a [[E; 3]], Failure> {
-    demand_length(slice, numbers.len(), 3, numbers.len() / 3)?;
-    Ok(numbers.as_chunks().0)
-}
-
-/// Three numbers for each node, to be written.
-pub(crate) fn vectors_mut<'a, E>(
+/// Rows of N numbers: vectors of nodes, or nodes of tetrahedra.
+pub(crate) fn rows<'a, T, const N: usize>(
     slice: &'static str,
-    numbers: &'a mut [E],
-) -> Result<&'a mut [[E; 3]], Failure> {
-    demand_length(slice, numbers.len(), 3, numbers.len() / 3)?;
-    Ok(numbers.as_chunks_mut().0)
-}
-
-/// Four nodes for each tetrahedron.
-pub(crate) fn corners<'a>(slice: &'static str, nodes: &'a [usize]) -> Result<&'a [[usize; 4]], Failure> {
-    demand_length(slice, nodes.len(), 4, nodes.len() / 4)?;
-    Ok(nodes.as_chunks().0)
+    numbers: &'a [T],
+) -> Result<&'a [[T; N]], Failure> {
+    demand_length(slice, numbers.len(), N, numbers.len() / N)?;
+    Ok(numbers.as_chunks().0)
 }
 
 /// Checks that an array has this number of components for each point.

@@ -36,8 +36,9 @@ fn piola_response_evaluate(
     survey: Out<Survey>,
 ) {
     let Response { body, response } = response;
-    let positions = lent::vectors("positions", positions)?;
-    let gradient = lent::vectors_mut("gradient", gradient)?;
+    let positions = lent::rows("positions", positions)?;
+    lent::demand_length("gradient", gradient.len(), 3, gradient.len() / 3)?;
+    let gradient = gradient.as_chunks_mut().0;
     let mut response = handle::wait(response)?;
     let (found, mut counts) = response.energy(body, positions)?;
     if !gradient.is_empty() {

@@ -179,7 +179,7 @@ fn piola_simulation_read(simulation: &Simulation, quantity: i32, numbers: &mut [
 /// deformed, collapsed or inverted in any way.
 fn piola_simulation_write(simulation: &Simulation, quantity: i32, numbers: &[f64]) {
     let simulation = &mut handle::enter(&simulation.0)?.simulation;
-    let vectors = lent::vectors("numbers", numbers)?;
+    let vectors = lent::rows("numbers", numbers)?;
     match quantity_of(quantity)? {
         Quantity::Positions => simulation.set_positions(vectors)?,
         Quantity::Velocities => simulation.set_velocities(vectors)?,
@@ -202,7 +202,7 @@ fn piola_simulation_set_pins(simulation: &Simulation, pins: &[usize]) {
 fn piola_simulation_prescribe(simulation: &Simulation, nodes: &[usize], positions: &[f64]) {
     let simulation = &mut handle::enter(&simulation.0)?.simulation;
     lent::demand_length("positions", positions.len(), 3, nodes.len())?;
-    let positions = lent::vectors("positions", positions)?;
+    let positions = lent::rows("positions", positions)?;
     Ok(nodes.iter().zip(positions).try_for_each(|(&node, &position)| simulation.prescribe(node, position))?)
 }
 

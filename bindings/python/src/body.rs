@@ -138,35 +138,27 @@ impl Body {
                 "there are {materials} materials and {densities} densities"
             )));
         }
-        let part_of: Option<Vec<[usize; 1]>> = parts.map(|parts| indices("parts", parts)).transpose()?;
-        match &part_of {
-            None if materials.len() != 1 => {
+        let part_of: Vec<[usize; 1]> = match parts {
+            Some(parts) => indices("parts", parts)?,
+            None if materials.len() == 1 => vec![[0]; mesh.tets.len()],
+            None => {
                 return Err(BodyError::new_err(
                     "several materials need `parts`, the material of each tetrahedron",
                 ));
             }
-            Some(part_of) if part_of.len() != mesh.tets.len() => {
-                let (parts, tets) = (part_of.len(), mesh.tets.len());
-                return Err(BodyError::new_err(format!(
-                    "parts has {parts} entries; it must have one for each of {tets}"
-                )));
-            }
-            _ => {}
-        }
-        let tets_of = |part: usize| match &part_of {
-            None => (0..mesh.tets.len()).collect::<Vec<_>>(),
-            Some(part_of) => (0..mesh.tets.len()).filter(|&tet| part_of[tet][0] == part).collect(),
         };
-        let groups: Vec<_> = (0..materials.len())
-            .map(|part| Group {
-                name: part.to_string(),
-                dimension: 3,
-                tets: tets_of(part),
-                ..Group::default()
-            })
-            .collect();
-        let order = groups.iter().flat_map(|group| group.tets.iter().copied()).collect();
-        mesh.groups = groups;
+        if part_of.len() != mesh.tets.len() {
+            let (parts, tets) = (part_of.len(), mesh.tets.len());
+            return Err(BodyError::new_err(format!(
+                "parts has {parts} entries; it must have one for each of {tets}"
+            )));
+        }
+        let group = |part: usize| {
+            let tets = (0..part_of.len()).filter(|&tet| part_of[tet] == [part]).collect();
+            Group { name: part.to_string(), dimension: 3, tets, ..Group::default() }
+        };
+        mesh.groups = (0..materials.len()).map(group).collect();
+        let order = mesh.groups.iter().flat_map(|group| group.tets.iter().copied()).collect();
         let part = |(part, (material, density)): (usize, (&Py<Material>, f64))| {
             let material = material.get().elements(mesh.groups[part].tets.len())?;
             Ok(Part { group: Some(part.to_string()), material, density })

@@ -101,7 +101,7 @@ impl<E: Number> Columns<'_, E> {
     /// Copies points to lines, the last of which is filled up with identities.
     fn to_lines(&self, points: Range<usize>, lines: &mut [E]) {
         for (k, column) in self.F.chunks_exact(self.count).enumerate() {
-            let filler = if k % 4 == 0 { E::ONE } else { E::default() };
+            let filler = E::splat(if k % 4 == 0 { 1.0 } else { 0.0 });
             for (line, from) in column[points.clone()].chunks(E::LINE).enumerate() {
                 let to = &mut lines[(9 * line + k) * E::LINE..][..E::LINE];
                 to[..from.len()].copy_from_slice(from);

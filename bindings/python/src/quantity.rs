@@ -12,25 +12,16 @@ use crate::material::Material;
 
 /// A number of an array.
 pub(crate) trait Number: Kernels + Element {
-    const ONE: Self;
-    const NAN: Self;
-
     fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>>;
 }
 
 impl Number for f64 {
-    const ONE: Self = 1.0;
-    const NAN: Self = Self::NAN;
-
     fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>> {
         Ok(&*material.double)
     }
 }
 
 impl Number for f32 {
-    const ONE: Self = 1.0;
-    const NAN: Self = Self::NAN;
-
     fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>> {
         material.single()
     }

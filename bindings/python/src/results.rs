@@ -24,7 +24,7 @@ impl<E: Number> Results<'_, E> {
     pub(crate) fn invalidate(&mut self, point: usize) {
         for component in 0..self.components {
             let position = self.position(point, component);
-            self.entries[position] = E::NAN;
+            self.entries[position] = E::splat(f64::NAN);
         }
     }
 
