@@ -4,9 +4,9 @@
 //! [`piola_error_message`](error::piola_error_message) returns the text of the error. Nothing unwinds into a
 //! caller, and nothing is computed here: no mathematics belongs into this crate.
 //!
-//! **Unsafe code** is what a border is made of. That of arrays, texts and results is in `lent`, that of handles
-//! in `handle`. The macro of `functions` applies both to the arguments of a function, whose body is safe; the
-//! reason is the requirements of the header on the caller.
+//! **Unsafe code** is what a border is made of. That of arrays, texts and results is in `lent`. The macro of
+//! `functions` applies it to the arguments of a function, whose body is safe; the reason is the requirements
+//! of the header on the caller.
 
 #![deny(unsafe_op_in_unsafe_fn)]
 #![allow(non_snake_case)] // F, P, dP_dF as in the literature, and `F_length` next to them
