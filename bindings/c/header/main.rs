@@ -48,7 +48,7 @@ fn expand_call(call: &str) -> Option<String> {
         None => (None, call),
     };
     let mut text = String::new();
-    for function in format!("\n{functions}\n}\n").split_inclusive("\n}\n") {
+    for function in format!("\n{functions}\n}}\n").split_inclusive("\n}\n") {
         let Some((documentation, function)) = function.split_once("\nfn ") else { continue };
         let (names, arguments) = function.split_once('(')?;
         let (arguments, _) = arguments.split_once(") {\n")?;

@@ -64,7 +64,7 @@ macro_rules! functions {
     };
     (@ $f:tt $arrays:ident [$($c:tt)*] [$($read:tt)*] $arg:ident: New<$Type:ty> $(, $($rest:tt)*)?) => {
         $crate::functions::functions!(@ $f $arrays [$($c)* to: *mut *mut $Type,]
-            [$($read)* $arg = $crate::handle::New::new(stringify!($arg), to);] $($($rest)*)?);
+            [$($read)* $arg = $crate::handle::New::at(stringify!($arg), to);] $($($rest)*)?);
     };
     (@ $f:tt $arrays:ident [$($c:tt)*] $read:tt $arg:ident: $Type:ty $(, $($rest:tt)*)?) => {
         $crate::functions::functions!(@ $f $arrays [$($c)* $arg: $Type,] $read $($($rest)*)?);

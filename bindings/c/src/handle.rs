@@ -11,7 +11,7 @@ pub(crate) struct New<T>(lent::Out<*mut T>);
 impl<T> New<T> {
     /// # Safety
     /// As for [`Out::new`](lent::Out::new).
-    pub(crate) unsafe fn new(name: &'static str, to: *mut *mut T) -> Self {
+    pub(crate) unsafe fn at(name: &'static str, to: *mut *mut T) -> Self {
         // SAFETY: that of this function.
         Self(unsafe { lent::Out::new(name, to) })
     }
