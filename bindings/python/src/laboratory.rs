@@ -288,7 +288,7 @@ pub(crate) fn measurements<'py>(
     let mut options = ReadOptions::default();
     options.strain = strain.map(Into::into);
     options.stress = stress.map(Into::into);
-    options.test = mode.map(self::mode).transpose()?;
+    options.test = mode.map(str::parse).transpose().map_err(value_error::<ModeError>)?;
     options.unit = unit.map(str::parse).transpose().map_err(value_error::<StressUnitError>)?;
     let reading = Measurements::read_with(text, &options).map_err(value_error)?;
     by_mode(py, &reading.measurements)
