@@ -135,15 +135,15 @@ impl Material {
         let Report { points, admitted, findings, walks, .. } = report;
         let kept = PyDict::new(py);
         for finding in &findings {
-            kept.set_item(word(finding.criterion), finding.kept)?;
+            kept.set_item(key(finding.criterion), finding.kept)?;
         }
         let paths = PyList::empty(py);
         for walk in &walks {
             let lost = PyDict::new(py);
             for (found, lost_at) in Criterion::ALL.into_iter().zip(walk.lost) {
-                lost.set_item(word(found), lost_at)?;
+                lost.set_item(key(found), lost_at)?;
             }
-            let arguments = (word(walk.path), walk.to, walk.reached, lost);
+            let arguments = (key(walk.path), walk.to, walk.reached, lost);
             paths.append(py.import("piola.results")?.call_method1("Walk", arguments)?)?;
         }
         py.import("piola.results")?.call_method1("Stability", (points, admitted, kept, paths, text))
@@ -251,8 +251,8 @@ fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
     Ok(Measurements { points })
 }
 
-/// The word of Python for a name, such as "pure_shear".
-fn word(name: impl Display) -> String {
+/// A name of a report as a key of a dictionary, such as "strong_ellipticity".
+fn key(name: impl Display) -> String {
     name.to_string().to_lowercase().replace([' ', '–'], "_")
 }
 
@@ -288,7 +288,7 @@ pub(crate) fn measurements<'py>(
     let mut options = ReadOptions::default();
     options.strain = strain.map(Into::into);
     options.stress = stress.map(Into::into);
-    options.test = mode.map(self::mode).transpose()?;
+    options.test = mode.map(str::parse).transpose().map_err(value_error::<ModeError>)?;
     options.unit = unit.map(str::parse).transpose().map_err(value_error::<StressUnitError>)?;
     let reading = Measurements::read_with(text, &options).map_err(value_error)?;
     by_mode(py, &reading.measurements)

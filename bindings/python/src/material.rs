@@ -65,6 +65,9 @@ struct Varying {
     numbers: Vec<f64>,
 }
 
+/// A function and its arguments, which make a material again.
+type Pickled<'py> = (Bound<'py, PyAny>, (String, Option<f64>));
+
 impl Varying {
     fn at(&self, point: usize) -> &[f64] {
         let entries: usize = self.given[self.points.len()..].iter().product();
@@ -394,7 +397,7 @@ impl Material {
         format!("<piola.Material {}({})>", shown(&self.name), arguments.join(", "))
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, Option<f64>))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Pickled<'py>> {
         let text = serde_json::to_string(slf.get().uniform()?).map_err(type_error)?;
         Ok((slf.get_type().getattr("_from_text")?, (text, slf.get().extend())))
     }
