@@ -46,8 +46,8 @@ pub(crate) fn to_matrix(stiffness: &StiffnessBlocks) -> [[f64; 12]; 12] {
     })
 }
 
-/// The reference is a batch, whose outputs `runtime/tests/batch` compares with points: with a decomposition and
-/// by invariants, for elements as they are and inverted ones.
+/// The reference is a batch, whose outputs `runtime/tests/batch` compares with points: with a decomposition
+/// and by invariants, for elements as they are and inverted ones.
 #[test]
 fn a_group_gives_what_a_batch_gives() {
     let (mut clean, mut filtered) = (0, 0);
