@@ -201,9 +201,10 @@ impl TetMesh {
         tets
     }
 
-    /// Removes nodes that belong to no tetrahedron, from groups too, and sorts the nodes of groups. Such nodes
-    /// have neither mass nor stiffness, and a mesh that has one is not a body. Later nodes get smaller
-    /// numbers.
+    /// Removes nodes that belong to no tetrahedron, from groups too, and sorts the nodes of groups.
+    ///
+    /// Such nodes have neither mass nor stiffness, and a mesh that has one is not a body. Later nodes get
+    /// smaller numbers.
     #[must_use]
     pub fn without_unused_nodes(self) -> Self {
         let unused = self.unused_nodes();

@@ -96,8 +96,8 @@ impl ElasticResponse {
         Ok((self.elastic.energy(), survey))
     }
 
-    /// Replaces `gradient` by the gradient of the energy in the position of each node, N, minus the forces, at
-    /// the positions where [`ElasticResponse::energy`] was computed last.
+    /// Replaces `gradient` by the gradient of the energy in the position of each node, N, minus the forces,
+    /// at the positions where [`ElasticResponse::energy`] was computed last.
     ///
     /// # Errors
     /// [`LengthError`] if `gradient` or the body does not have the length of the body that this was made for.
@@ -109,8 +109,8 @@ impl ElasticResponse {
         Ok(self.sum(energies, body, gradient))
     }
 
-    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` by the stiffness, N/m, with
-    /// the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
+    /// Replaces `gradient` as [`ElasticResponse::gradient_here`] does, and `matrix` by the stiffness, N/m,
+    /// with the filter on dP/dF of each element. The matrix comes from [`NodalStiffness::of_body`].
     ///
     /// # Errors
     /// [`LengthError`] if a slice, the matrix or the body does not have the length of the body that this was

@@ -46,8 +46,8 @@ pub(crate) fn to_matrix(stiffness: &StiffnessBlocks) -> [[f64; 12]; 12] {
     })
 }
 
-/// The reference is a batch, whose outputs `runtime/tests/batch` compares with points: with a decomposition and
-/// by invariants, for elements as they are and inverted ones.
+/// The reference is a batch, whose outputs `runtime/tests/batch` compares with points: with a decomposition
+/// and by invariants, for elements as they are and inverted ones.
 #[test]
 fn a_group_gives_what_a_batch_gives() {
     let (mut clean, mut filtered) = (0, 0);
@@ -66,10 +66,11 @@ fn a_group_gives_what_a_batch_gives() {
             }
             let mut energy = [0.0];
             let exact = Batch::new(material).energies(F.as_flattened(), &mut energy).expect("one element");
-            assert_eq!(survey(status, 0), exact);
-            if !exact.is_clean() {
+            assert_eq!(survey(status, 0).refused, exact.refused);
+            if exact.refused > 0 {
                 continue;
             }
+            assert!(survey(status, 0).is_clean() && exact.is_clean());
             clean += 1;
             let rest = element.shape.components();
             for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
