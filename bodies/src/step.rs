@@ -49,7 +49,7 @@ pub use term::{EnergyChange, NodeBlocks, Term};
 ///
 /// A [`Division`](divided::Division) exchanges the vectors of nodes that several machines share, and a
 /// [`Solver`](divided::Solver) solves the linear systems.
-/// [`Simulation::divided`](Simulation::divided) takes both, and its methods are those of one machine, or have
+/// [`Simulation::divided`] takes both, and its methods are those of one machine, or have
 /// names that end in `_here`. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a
 /// divided stiffness. [`minimize`](divided::minimize) is Newton's method for any other objective.
 /// The crate in `distributed/` uses all but the last.

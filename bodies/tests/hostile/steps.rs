@@ -114,9 +114,12 @@ fn simulations() {
             [simulation.positions(), simulation.velocities(), simulation.accelerations()].concat()
         };
         let (dt, before) = (hostile.about(0.01), state(&simulation));
-        let stepped = match hostile.0.below(6) {
-            0 | 1 => simulation.equilibrate(),
+        let stepped = match hostile.0.below(8) {
+            0 => simulation.equilibrate(),
+            1 => simulation.equilibrate_here(),
             2 => simulation.advance_within(dt, hostile.about(0.1)).map(|report| report.step),
+            3 => simulation.advance_within_here(dt, hostile.about(0.1)).map(|report| report.step),
+            4 => simulation.step_here(dt),
             _ => simulation.step(dt),
         };
         let after = state(&simulation);
