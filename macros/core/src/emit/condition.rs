@@ -22,7 +22,7 @@ pub struct Condition<T> {
     pub names: Vec<usize>,
 }
 
-/// An expression in parameters, and in the current entry of those that are lists, with its parts in some form.
+/// An expression in parameters, and in the current entry of those that are lists; its parts are in some form.
 #[derive(Debug)]
 pub enum Term<T> {
     /// A number, not negative; NaN for what the resolver rejects.

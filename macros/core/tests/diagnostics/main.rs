@@ -4,8 +4,8 @@
 //! The files `*.txt` are tables of mistakes, and of energies next to them that have none. Lines with `==` in
 //! front are a declaration; each line below is one case, which stands for the `…` of the declaration, after
 //! other arguments in `#[…]` if it has them, in which `…` are the declaration's own. After `=>` follow the
-//! tokens of the message and a part of it; a case with several mistakes has them in lines of their own. A case
-//! without is free of mistakes.
+//! tokens of the message and a part of it; a case with several mistakes has them in lines of their own. A
+//! case without is free of mistakes.
 
 mod remedies;
 

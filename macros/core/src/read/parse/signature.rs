@@ -13,8 +13,8 @@ use crate::read::notation::Notation;
 use crate::read::spelling::taken;
 use crate::read::unit::Unit;
 
-/// Members of every material, which a method for a parameter of the same name would hide: those of the type and
-/// of the traits of the language, of `Material`, of `Declared`, of `Fittable` and of `Graded`.
+/// Members of every material, which a method for a parameter of the same name would hide: those of the type
+/// and of the traits of the language, of `Material`, of `Declared`, of `Fittable` and of `Graded`.
 const MEMBERS: [&str; 5] = [
     "new with_inversion clone",
     "energy gradient gradient_at_strains blocks energy_and_blocks admits has_invariants has_second_invariant \
