@@ -8,6 +8,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Where the search begins: a shear modulus of 0.4 MPa, and a little of each.
     let start = Biderman::new(1.9e5, 1e4, 1e2, 1e2, 2e7)?;
     let data = Measurements::read(TRELOAR_1944)?;
-    print!("{}", fit_parameters(&start, &data, &FitSettings::default())?);
+    let fitted = fit_parameters(&start, &data, &FitSettings::default())?;
+
+    for number in &fitted.numbers {
+        println!("{:8} {:>10.3e}", number.name, number.value);
+    }
+    println!("R²: {}", fitted.agreement);
+    for warning in &fitted.warnings {
+        println!("warning: {warning}");
+    }
     Ok(())
 }
