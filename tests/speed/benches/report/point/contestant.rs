@@ -14,7 +14,9 @@ pub(crate) const POINTS: usize = 64;
 /// `f64` or `f32`: a format of batches, and of the libraries of the baselines.
 pub(crate) trait Number: Kernels + LibraryNumber {}
 
-impl<E: Kernels + LibraryNumber> Number for E {}
+impl Number for f64 {}
+
+impl Number for f32 {}
 
 /// Deformation gradients, one by one and in lines.
 pub(crate) struct Points<E> {
