@@ -246,6 +246,9 @@ fn what_is_missing_or_twofold_is_named() {
         &["`0.2`", "decimals of this file have a comma"],
     );
     refuse("strain;stress_Pa\n0,1;1.000,5\n", UNIAXIAL, 2, &["`1.000,5`", "thousands"]);
+    refuse("strain;stress_Pa\n1;100\n2;1,234\n", UNIAXIAL, 3, &["`1,234` may be 1234 or 1.234", "point"]);
+    refuse("strain;stress_Pa\n1,125;-12,345\n", UNIAXIAL, 2, &["`1,125` may be 1125 or 1.125"]);
+    check("strain;stress_Pa\n0,125;1,234\n", UNIAXIAL, &[(Uniaxial, 1.125, 1.234)], &["decimal commas"]);
     refuse("strain,stress_Pa\n0,1,1,2\n0,2,2,3\n", UNIAXIAL, 2, &["4 fields", "2", "semicolons"]);
     refuse("strain,stress_Pa\n\"0,1\",1\n", UNIAXIAL, 2, &["`0,1`", "not a number"]);
     refuse("strain,stress_Pa\n0.1,\n", UNIAXIAL, 2, &["`` under `stress_Pa`"]);

@@ -87,6 +87,16 @@ pub enum Fault {
         /// The mark of decimals of the file.
         decimal: char,
     },
+    /// Every comma of the numbers may be one of decimals or of thousands.
+    #[error(
+        "`{}` may be {} or {}, like every number with a comma here; write decimals with a point, and thousands without a \
+         mark",
+        quoted(found), quoted(&found.replace(',', "")), quoted(&found.replace(',', "."))
+    )]
+    Thousands {
+        /// The first such number.
+        found: String,
+    },
     /// A stretch, a shear, a volume or a stress is out of range.
     #[error("{quantity} is {}; it must be {requirement}", number(*value))]
     Range {

@@ -9,7 +9,7 @@ use super::fault::{DataError, Fault};
 use super::heading::{Heading, Quantity, Unit};
 use super::measured::{Measured, Measurements};
 use super::options::{ReadOptions, Test};
-use super::table::number;
+use super::table::{may_be_thousands, number};
 use crate::curve::Mode;
 use crate::rest::digits;
 
@@ -70,7 +70,7 @@ impl Measurements {
         let factors = [&table.used.control, &table.used.stress].map(|column| factor(column, options));
         let [control, stress] = factors;
         let factors = [control.map_err(at_header)?, stress.map_err(at_header)?];
-        let decimal = if table.has_decimal_commas() { ',' } else { '.' };
+        let decimal = table.decimal()?;
         let (mut points, mut tests) = (Vec::new(), Vec::new());
         for row in &table.rows {
             let point = table.used.point(row, decimal, factors, options);
@@ -91,11 +91,20 @@ impl Measurements {
 }
 
 impl Table<'_> {
-    /// True if a number has a comma, which is one of decimals where another mark separates columns.
-    fn has_decimal_commas(&self) -> bool {
+    /// The mark of decimals: a comma if a number has one and another mark separates columns.
+    fn decimal(&self) -> Result<char, DataError> {
         let places = [self.used.control.place, self.used.stress.place];
-        let has_comma = |row: &Row<'_>| places.iter().any(|&place| row.fields[place].contains(','));
-        self.separator != ',' && self.rows.iter().any(has_comma)
+        let numbers = self.rows.iter().flat_map(|row| places.map(|place| (row.line, row.fields[place])));
+        let with_comma: Vec<_> = numbers.filter(|(_, field)| field.contains(',')).collect();
+        match with_comma.first() {
+            Some(&(line, found)) if self.separator != ',' => {
+                match with_comma.iter().all(|(_, field)| may_be_thousands(field)) {
+                    true => Err(DataError { line, fault: Fault::Thousands { found: found.into() } }),
+                    false => Ok(','),
+                }
+            }
+            _ => Ok('.'),
+        }
     }
 }
 

@@ -26,6 +26,16 @@ pub(super) fn is_number(field: &str) -> bool {
     number(field, '.').or_else(|| number(field, ',')).is_some()
 }
 
+/// True if the comma of a number may be one of thousands, as in `1,234`.
+pub(super) fn may_be_thousands(field: &str) -> bool {
+    let Some((whole, part)) = field.trim_start_matches(['+', '-', '−']).split_once(',') else {
+        return false;
+    };
+    let are_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let has_lengths = matches!(whole.len(), 1..=3) && part.len() == 3;
+    has_lengths && !whole.starts_with('0') && are_digits(whole) && are_digits(part)
+}
+
 /// A finite number with a mark of decimals.
 pub(super) fn number(field: &str, decimal: char) -> Option<f64> {
     if !field.chars().all(|c| matches!(c, '0'..='9' | '+' | '-' | '−' | 'e' | 'E') || c == decimal) {
