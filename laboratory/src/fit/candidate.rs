@@ -57,47 +57,41 @@ impl<M: Fittable + 'static> Candidate for M {
 }
 
 /// The parameters of an energy, lists and functions value by value.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Numbers {
     /// Names such as `kappa`, `mu_1` for the first entry of a list, or `f_1` for the first value of a
     /// function.
     pub(super) names: Vec<String>,
+    /// For each, the name of the parameter that it belongs to.
+    owners: Vec<Text>,
     pub(super) values: Vec<f64>,
     /// For each, true if it is an exponent that is whole, and so cannot change by little.
     pub(super) are_whole: Vec<bool>,
-    /// The parameter that each belongs to: its name, the number of its entries, and its form.
-    parameters: Vec<(Text, usize, Form)>,
+    /// The number of entries of each parameter, and its form.
+    parameters: Vec<(usize, Form)>,
 }
 
 impl Numbers {
     pub(super) fn of(candidate: &dyn Candidate) -> Self {
-        let lists = candidate.values();
-        let parameters = candidate.description().parameters;
-        let names = parameters.iter().zip(&lists).flat_map(|(parameter, list)| {
-            (1..=list.len()).map(|entry| match parameter.is_list() {
-                true => format!("{}_{entry}", parameter.name),
-                false => parameter.name.to_string(),
-            })
-        });
-        let each = parameters.iter().zip(&lists);
-        let are_whole = each.flat_map(|(parameter, list)| vec![parameter.is_whole(); list.len()]);
-        Self {
-            names: names.collect(),
-            values: lists.concat(),
-            are_whole: are_whole.collect(),
-            parameters: parameters
-                .iter()
-                .zip(&lists)
-                .map(|(p, list)| (p.name.clone(), list.len(), p.form))
-                .collect(),
+        let mut numbers = Self::default();
+        for (parameter, list) in candidate.description().parameters.iter().zip(candidate.values()) {
+            for entry in 1..=list.len() {
+                numbers.names.push(match parameter.is_list() {
+                    true => format!("{}_{entry}", parameter.name),
+                    false => parameter.name.to_string(),
+                });
+                numbers.owners.push(parameter.name.clone());
+                numbers.are_whole.push(parameter.is_whole());
+            }
+            numbers.parameters.push((list.len(), parameter.form));
+            numbers.values.extend(list);
         }
+        numbers
     }
 
     /// True if `name` is a parameter, or a list that contains this entry.
     pub(super) fn is_named(&self, number: usize, name: &str) -> bool {
-        let owners =
-            self.parameters.iter().flat_map(|(owner, length, _)| std::iter::repeat_n(owner, *length));
-        self.names[number] == name || owners.into_iter().nth(number).is_some_and(|owner| *owner == name)
+        self.names[number] == name || self.owners[number] == name
     }
 
     /// The values as lists, one for each parameter.
@@ -108,7 +102,7 @@ impl Numbers {
             rest = after;
             list.to_vec()
         };
-        self.parameters.iter().map(|&(_, length, _)| next(length)).collect()
+        self.parameters.iter().map(|&(length, _)| next(length)).collect()
     }
 
     /// The numbers of the parameters that are not the same, each list being in an order of its own: terms of
@@ -122,7 +116,7 @@ impl Numbers {
     ) -> Vec<usize> {
         let mut begin = 0;
         let mut differing = Vec::new();
-        for &(_, length, form) in &self.parameters {
+        for &(length, form) in &self.parameters {
             let list = begin..begin + length;
             let [one, other] = [one, other].map(|values| {
                 let mut sorted = values[list.clone()].to_vec();

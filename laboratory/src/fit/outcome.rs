@@ -155,11 +155,14 @@ impl fmt::Display for Warning {
                         "one of them",
                     ),
                 };
+                let effect = match effect {
+                    ..1e-4 => "less than 0.0001 %".to_owned(),
+                    _ => format!("{effect:.4} %"),
+                };
                 write!(
                     f,
-                    "the data hardly determine {together}: {what} the fit by {}; hold {which} (`--hold {name}`, \
-                     `FitSettings::with_held`), or add data of other tests",
-                    Percent(*effect)
+                    "the data hardly determine {together}: {what} the fit by {effect}; hold {which} (`--hold {name}`, \
+                     `FitSettings::with_held`), or add data of other tests"
                 )
             }
             Self::OtherMinimum { numbers, difference, found } => {
@@ -224,15 +227,6 @@ impl fmt::Display for Warning {
             ),
             Self::Unfinished => f.write_str("this is not a minimum yet: start from these parameters"),
         }
-    }
-}
-
-/// A small percentage, printed as a bound when it is tiny.
-struct Percent(f64);
-
-impl fmt::Display for Percent {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0 < 1e-4 { f.write_str("less than 0.0001 %") } else { write!(f, "{:.4} %", self.0) }
     }
 }
 
