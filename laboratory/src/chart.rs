@@ -2,9 +2,10 @@
 //!
 //! Curves over a stretch share one panel; those over a shear or a volume have their own. A curve has a gap
 //! where the material has no stress.
-//! [`rows`] draws a [ranking](mod@crate::ranking).
+//! [`rows`] draws a [ranking](mod@crate::ranking), [`map`](fn@map) the stability of a solid.
 
 mod fine;
+mod map;
 mod panel;
 mod rows;
 
@@ -15,6 +16,7 @@ use crate::data::{Agreement, Measurements};
 use fine::Fine;
 use panel::Panel;
 
+pub use map::map;
 pub use panel::ChartError;
 pub use rows::rows;
 

@@ -6,9 +6,8 @@
 //! * [`data`]: measured curves, and the agreement of an energy with them;
 //! * [`fit`](mod@fit): the parameters with which it agrees best, and their uniqueness;
 //! * [`ranking`]: several energies compared with the same measurements, in the order of their agreement;
-//! * [`chart`]: all of these in pictures, with the feature `charts`, on by default;
-//! * [`stability`]: the stretches at which an energy keeps the inequalities of a stable solid, as a table and
-//!   as a map.
+//! * [`stability`]: the stretches at which an energy keeps the inequalities of a stable solid;
+//! * [`chart`]: all of these in pictures, with the feature `charts`, on by default.
 //!
 //! The crate uses materials only through the traits of [`piola::material`](mod@piola::material), so that your
 //! own energy works as well as one of the catalogue. There are no bodies here: each specimen is deformed

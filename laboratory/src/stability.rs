@@ -31,8 +31,6 @@
 pub mod constant_volume;
 pub mod criteria;
 mod display;
-#[cfg(feature = "charts")]
-mod map;
 mod path;
 pub mod wave;
 
@@ -42,8 +40,6 @@ use piola::material::Moduli;
 use crate::specimen::{self, Specimen};
 use criteria::{Criterion, Judgement};
 
-#[cfg(feature = "charts")]
-pub use map::{MapError, Plane, map};
 pub use path::{Path, Walk};
 
 /// Range of stretches that a survey covers.
@@ -176,7 +172,7 @@ impl Report {
 }
 
 impl SurveySettings {
-    fn check(&self) -> Result<(), SurveyError> {
+    pub(crate) fn check(&self) -> Result<(), SurveyError> {
         let Self { from, to, resolution } = *self;
         if !(STRETCHES.0 <= from && from < 1.0 && 1.0 < to && to <= STRETCHES.1) {
             return Err(SurveyError::Range { from, to });
@@ -196,7 +192,7 @@ impl SurveySettings {
     }
 
     /// `count` stretches from one end of the range to the other, in equal steps of their logarithm.
-    fn stretches(&self, count: usize) -> Vec<f64> {
+    pub(crate) fn stretches(&self, count: usize) -> Vec<f64> {
         let share = |k: usize| k as f64 / (count - 1) as f64;
         let mut stretches: Vec<f64> =
             (0..count).map(|k| self.from * (self.to / self.from).powf(share(k))).collect();

@@ -3,6 +3,7 @@
 use piola::__private::random::Random;
 use piola::material::{Blocks, Moduli};
 use piola_laboratory::Specimen;
+use piola_laboratory::chart::map;
 use piola_laboratory::stability::criteria::{Criterion, Judgement};
 use piola_laboratory::stability::wave::slowest;
 use piola_laboratory::stability::*;

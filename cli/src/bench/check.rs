@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use piola::Inversion;
 use piola_laboratory::AtRest;
+use piola_laboratory::chart;
 use piola_laboratory::curve::Volume;
-use piola_laboratory::stability::{SurveySettings, map, survey};
+use piola_laboratory::stability::{SurveySettings, survey};
 use piola_scenes::options::inversion;
 use piola_scenes::output::write_whole;
 
@@ -58,7 +59,7 @@ impl Check {
         let specimen = material.specimen()?;
         let report = survey(&*specimen, &stretches).map_err(Error::usage)?;
         if let Some(path) = self.svg {
-            write_whole(&path, map(&*specimen, &stretches, &title).map_err(Error::usage)?.as_bytes())?;
+            write_whole(&path, chart::map(&*specimen, &stretches, &title).map_err(Error::usage)?.as_bytes())?;
         }
         let warning = AtRest { moduli: report.moduli, volume: Volume::Free }.warning();
         let warning = warning.map(|warning| format!("warning: {warning}\n")).unwrap_or_default();

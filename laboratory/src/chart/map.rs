@@ -1,22 +1,20 @@
-//! Maps of the criteria in two planes through the space of stretches, as a picture.
+//! Maps of the criteria of stability in two planes through the space of stretches, as a picture.
 
-use std::fmt::Display;
 use std::ops::Range;
 
-use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::criteria::{Criterion, Judgement};
-use super::path::Path;
-use super::{SurveyError, SurveySettings};
+use super::panel::{Area, ChartError, FONT, failed, write};
 use crate::curve::lateral::{Side, release};
 use crate::specimen::{self, Specimen};
+use crate::stability::criteria::{Criterion, Judgement};
+use crate::stability::{Path, SurveySettings};
 
 /// Plane of stretches λ1, λ2, and the condition on the third.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Plane {
+#[derive(Clone, Copy)]
+enum Plane {
     /// A sheet: no stress through its thickness.
     Sheet,
     /// Plane strain: λ3 = 1.
@@ -25,8 +23,7 @@ pub enum Plane {
 
 impl Plane {
     /// The three stretches; `None` if no thickness makes a sheet free of stress.
-    #[must_use]
-    pub fn stretches(self, specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
+    fn stretches(self, specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
         match self {
             Self::Strain => Some([l1, l2, 1.0]),
             Self::Sheet => {
@@ -134,45 +131,19 @@ impl Cell {
     }
 }
 
-/// Reason why there is no map.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MapError {
-    /// The material cannot be surveyed.
-    #[error(transparent)]
-    Survey(
-        /// The reason.
-        #[from]
-        SurveyError,
-    ),
-    /// The library of charts fails.
-    #[error("a chart cannot be drawn: {reason}")]
-    Chart {
-        /// Its message.
-        reason: String,
-    },
-}
-
-fn failed(error: impl Display) -> MapError {
-    MapError::Chart { reason: error.to_string() }
-}
-
 /// Cells along each side of a plane.
 const CELLS: usize = 120;
 /// Points along a line.
 const POINTS: usize = 121;
 const SIZE: (u32, u32) = (1100, 680);
-const FONT: &str = "sans-serif";
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
-/// Map of both planes over the range of the settings, side by side under a title, as SVG.
+/// Map of the criteria in a sheet and in plane strain, side by side under a title, as SVG.
 ///
 /// The picture has 120 × 120 cells in a plane, regardless of the resolution of the box.
 ///
 /// # Errors
-/// [`MapError`] if the settings are out of range, or the library of charts fails.
-pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> Result<String, MapError> {
+/// [`ChartError`] if the settings are out of range, or the library of charts fails.
+pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> Result<String, ChartError> {
     settings.check()?;
     let mut svg = String::new();
     {
@@ -194,7 +165,7 @@ fn panel(
     settings: &SurveySettings,
     plane: Plane,
     area: &Area<'_>,
-) -> Result<(), MapError> {
+) -> Result<(), ChartError> {
     let axis = || Axis { ends: settings.from..settings.to };
     let mut chart = ChartBuilder::on(area)
         .margin(10)
@@ -273,14 +244,13 @@ fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: Plane) -> Ve
 }
 
 /// Colours and what they mean, three in a row.
-fn explain(area: &Area<'_>) -> Result<(), MapError> {
+fn explain(area: &Area<'_>) -> Result<(), ChartError> {
     for (k, cell) in Cell::ALL.into_iter().enumerate() {
         let (x, y) = (64 + 330 * (k as i32 % 3), 14 + 30 * (k as i32 / 3));
         let corners = [(x, y), (x + 24, y + 16)];
         area.draw(&Rectangle::new(corners, cell.colour().filled())).map_err(failed)?;
         area.draw(&Rectangle::new(corners, RGBColor(120, 120, 120))).map_err(failed)?;
-        let style = (FONT, 14).into_font().color(&BLACK).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw(&Text::new(cell.name(), (x + 34, y + 9), style)).map_err(failed)?;
+        write(area, cell.name(), (x + 34, y + 9), HPos::Left, 14, &BLACK)?;
     }
     Ok(())
 }

@@ -6,11 +6,13 @@ use std::ops::Range;
 use piola::__private::message::number;
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::fine::Fine;
 use super::{Curve, Group};
 use crate::curve::Mode;
 use crate::data::{Agreement, Measurements, short as determined};
+use crate::stability::SurveyError;
 
 pub(super) const FONT: &str = "sans-serif";
 pub(super) const GREY: RGBColor = RGBColor(90, 90, 90);
@@ -45,6 +47,13 @@ pub enum ChartError {
         /// The greatest number.
         to: f64,
     },
+    /// The material cannot be surveyed for a map.
+    #[error(transparent)]
+    Survey(
+        /// The reason.
+        #[from]
+        SurveyError,
+    ),
     /// The library of charts fails.
     #[error("the chart cannot be drawn: {reason}")]
     Drawing {
@@ -55,6 +64,19 @@ pub enum ChartError {
 
 pub(super) fn failed(error: impl fmt::Display) -> ChartError {
     ChartError::Drawing { reason: error.to_string() }
+}
+
+/// Writes a text at one side of a place, at its height.
+pub(super) fn write(
+    area: &Area<'_>,
+    text: &str,
+    place: (i32, i32),
+    side: HPos,
+    size: i32,
+    colour: &RGBColor,
+) -> Result<(), ChartError> {
+    let style = (FONT, size).into_font().color(colour).pos(Pos::new(side, VPos::Center));
+    area.draw(&Text::new(text.to_owned(), place, style)).map_err(failed)
 }
 
 /// The rest of an area below a title and a note of this many pixels.

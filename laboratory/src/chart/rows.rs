@@ -2,10 +2,10 @@
 //! 0.99 and 0.999 are as far apart as 0.9 and 0.99.
 
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
 use super::fine::Fine;
-use super::panel::{Area, ChartError, FONT, GREY, colour, failed, head};
+use super::panel::{Area, ChartError, GREY, colour, failed, head, write};
 use crate::ranking::{Place, Ranking};
 
 const WIDTH: i32 = 1200;
@@ -103,18 +103,6 @@ fn draw(area: &Area<'_>, place: &Place, y: i32, axis: &Axis, fine: &mut Fine) ->
 /// The mark of all points together: a bar across the row.
 fn mark(area: &Area<'_>, (x, y): (i32, i32)) -> Result<(), ChartError> {
     area.draw(&Rectangle::new([(x - 1, y - 8), (x + 1, y + 8)], BLACK.filled())).map_err(failed)
-}
-
-fn write(
-    area: &Area<'_>,
-    text: &str,
-    place: (i32, i32),
-    side: HPos,
-    size: i32,
-    colour: &RGBColor,
-) -> Result<(), ChartError> {
-    let style = (FONT, size).into_font().color(colour).pos(Pos::new(side, VPos::Center));
-    area.draw(&Text::new(text.to_owned(), place, style)).map_err(failed)
 }
 
 /// The decades of 1 − R² between the ends of the axis.
