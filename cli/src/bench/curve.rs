@@ -80,6 +80,11 @@ impl Curve {
             (_, modes) => modes,
         };
         let has_range = self.from.or(self.to).is_some() || self.rows.is_some();
+        let rows = self.rows.unwrap_or(ROWS);
+        if !(1..=MAX_ROWS).contains(&rows) {
+            let (value, requirement) = (rows as f64, "from 1 to 100000");
+            return Err(SceneError::OutOfRange { quantity: "--rows", value, requirement }.into());
+        }
 
         let title = titled(&info.name, volume);
         let names = material.description()?.parameters.iter().map(|parameter| &parameter.name);
@@ -102,11 +107,11 @@ impl Curve {
                 _ => [0.5, 3.0],
             };
             let (from, to) = (self.from.unwrap_or(least), self.to.unwrap_or(greatest));
-            let rows = self.rows.unwrap_or(ROWS);
-            check_range(mode, from, to, rows)?;
-            if let Some(&at) = self.at.iter().find(|at| !is_allowed(mode, **at)) {
-                let requirement = allowed(mode);
-                return Err(SceneError::OutOfRange { quantity: "--at", value: at, requirement }.into());
+            let at = self.at.iter().map(|at| ("--at", *at));
+            check(mode, [("--from", from), ("--to", to)].into_iter().chain(at))?;
+            if from >= to {
+                let requirement = "above --from";
+                return Err(SceneError::OutOfRange { quantity: "--to", value: to, requirement }.into());
             }
             if has_range || !self.at.is_empty() || measured.is_empty() {
                 let controls = if self.at.is_empty() { spaced(from, to, rows) } else { self.at.clone() };
@@ -151,29 +156,16 @@ impl Curve {
     }
 }
 
-/// True if a table has rows at a control.
-fn is_allowed(mode: Mode, control: f64) -> bool {
-    let least = if mode == Mode::SimpleShear { -MAX_STRETCH } else { 1.0 / MAX_STRETCH };
-    (least..=MAX_STRETCH).contains(&control)
-}
-
-/// The controls at which a table has rows, in words.
-fn allowed(mode: Mode) -> &'static str {
-    if mode == Mode::SimpleShear { "from -1e6 to 1e6" } else { "from 1e-6 to 1e6" }
-}
-
-fn check_range(mode: Mode, from: f64, to: f64, rows: usize) -> Result<(), SceneError> {
-    for (is_in_range, quantity, value, requirement) in [
-        (is_allowed(mode, from), "--from", from, allowed(mode)),
-        (is_allowed(mode, to), "--to", to, allowed(mode)),
-        (from < to, "--to", to, "above --from"),
-        ((1..=MAX_ROWS).contains(&rows), "--rows", rows as f64, "from 1 to 100000"),
-    ] {
-        if !is_in_range {
-            return Err(SceneError::OutOfRange { quantity, value, requirement });
-        }
+/// Checks that a table of a test has rows at controls, each with the option that it is of.
+fn check(mode: Mode, mut controls: impl Iterator<Item = (&'static str, f64)>) -> Result<(), SceneError> {
+    let (least, requirement) = match mode {
+        Mode::SimpleShear => (-MAX_STRETCH, "from -1e6 to 1e6"),
+        _ => (1.0 / MAX_STRETCH, "from 1e-6 to 1e6"),
+    };
+    match controls.find(|(_, control)| !(least..=MAX_STRETCH).contains(control)) {
+        Some((quantity, value)) => Err(SceneError::OutOfRange { quantity, value, requirement }),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// Decimals of the controls in a table, unless they are given one by one.
