@@ -16,12 +16,12 @@ fn file(name: &str) -> String {
 /// Options in words, as on the command line: test, unit, column of the strain, column of the stress; empty
 /// ones left out.
 fn options([test, unit, strain, stress]: [&str; 4]) -> ReadOptions {
-    let mut options = ReadOptions::default();
-    options.test = (!test.is_empty()).then(|| test.parse().expect("a test"));
-    options.unit = (!unit.is_empty()).then(|| unit.parse().expect("a unit"));
-    options.strain = (!strain.is_empty()).then(|| strain.into());
-    options.stress = (!stress.is_empty()).then(|| stress.into());
-    options
+    ReadOptions {
+        test: (!test.is_empty()).then(|| test.parse().expect("a test")),
+        unit: (!unit.is_empty()).then(|| unit.parse().expect("a unit")),
+        strain: (!strain.is_empty()).then(|| strain.into()),
+        stress: (!stress.is_empty()).then(|| stress.into()),
+    }
 }
 
 /// Reads a text; points are expected within roundings, and each of the words in the note.

@@ -285,11 +285,12 @@ pub(crate) fn measurements<'py>(
     mode: Option<&str>,
     unit: Option<&str>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let mut options = ReadOptions::default();
-    options.strain = strain.map(Into::into);
-    options.stress = stress.map(Into::into);
-    options.test = mode.map(str::parse).transpose().map_err(value_error::<ModeError>)?;
-    options.unit = unit.map(str::parse).transpose().map_err(value_error::<StressUnitError>)?;
+    let options = ReadOptions {
+        test: mode.map(str::parse).transpose().map_err(value_error::<ModeError>)?,
+        unit: unit.map(str::parse).transpose().map_err(value_error::<StressUnitError>)?,
+        strain: strain.map(Into::into),
+        stress: stress.map(Into::into),
+    };
     let reading = Measurements::read_with(text, &options).map_err(value_error)?;
     by_mode(py, &reading.measurements)
 }

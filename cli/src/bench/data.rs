@@ -98,13 +98,13 @@ impl Data {
             true => TRELOAR_1944.into(),
             false => std::fs::read(file).map_err(unreadable)?,
         };
-        let mut options = ReadOptions::default();
-        options.test = self.of_file(&self.tests, index);
-        options.unit = self.of_file(&self.units, index);
-        if !is_treloar(file) {
-            options.strain = self.of_file(&self.strains, index);
-            options.stress = self.of_file(&self.stresses, index);
-        }
+        let column = |choices: &[String]| self.of_file(choices, index).filter(|_| !is_treloar(file));
+        let options = ReadOptions {
+            test: self.of_file(&self.tests, index),
+            unit: self.of_file(&self.units, index),
+            strain: column(&self.strains),
+            stress: column(&self.stresses),
+        };
         let (files, given) = (self.files.len(), self.tests.len());
         let reading =
             Measurements::read_with(&decoded(&bytes), &options).map_err(|source| match source.fault {

@@ -3,7 +3,7 @@
 use piola::__private::message::quoted;
 
 use super::fault::{DataError, Fault};
-use super::heading::{Heading, Quantity, has_clear_unit, unit};
+use super::heading::{Heading, Quantity, Unit, has_clear_unit, unit};
 use super::options::ReadOptions;
 use super::table::{fields, is_number, separator};
 
@@ -141,7 +141,8 @@ impl Used {
         let headings: Vec<_> = names.iter().enumerate().map(heading).collect();
         let mode = headings.iter().position(|heading| heading.quantity == Quantity::Mode);
         let control = column(&headings, options.strain.as_deref(), false)?;
-        let stress = column(&headings, options.stress.as_deref(), true)?;
+        let mut stress = column(&headings, options.stress.as_deref(), true)?;
+        stress.unit = stress.unit.or(options.unit.map(Unit::Stress));
         Ok(Self { mode, control, stress })
     }
 }

@@ -30,7 +30,7 @@ pub enum Fault {
     /// The header does not determine the columns of the strain and the stress.
     #[error(
         "{problem}; the columns are {}. Write a header such as `stretch,nominal_stress_MPa`, or give the columns by name or \
-         number and what they hold: `--strain \"1=strain [%]\" --stress \"2=stress [MPa]\"` (`ReadOptions::with_strain`). \
+         number and what they hold: `--strain \"1=strain [%]\" --stress \"2=stress [MPa]\"` (`ReadOptions::strain`). \
          Divide forces by the cross-section and elongations by the length at rest",
         listed(columns)
     )]
@@ -43,7 +43,7 @@ pub enum Fault {
     /// No unit of stress is named.
     #[error(
         "`{}` names no unit of stress; write it there, as in `stress [MPa]`, or give it (`--unit MPa`, \
-         `ReadOptions::with_unit`)",
+         `ReadOptions::unit`)",
         quoted(found)
     )]
     NoUnit {
@@ -53,7 +53,7 @@ pub enum Fault {
     /// Nothing names the test.
     #[error(
         "there is no column `mode`, and nothing else names the test; add one with uniaxial, equibiaxial, pure_shear, \
-         simple_shear or volumetric in each line, or give the test (`--mode uniaxial`, `ReadOptions::with_test`)"
+         simple_shear or volumetric in each line, or give the test (`--mode uniaxial`, `ReadOptions::test`)"
     )]
     NoMode,
     /// A row has another number of fields than the header.

@@ -16,18 +16,18 @@ use crate::curve::{Mode, ModeError};
 /// use piola_laboratory::data::{Measurements, ReadOptions};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let options = ReadOptions::default()
-///     .with_strain("1=stretch")
-///     .with_stress("Spannung")
-///     .with_test(Mode::Uniaxial)
-///     .with_unit("MPa".parse()?);
+/// let options = ReadOptions {
+///     test: Some(Mode::Uniaxial.into()),
+///     unit: Some("MPa".parse()?),
+///     strain: Some("1=stretch".into()),
+///     stress: Some("Spannung".into()),
+/// };
 /// let reading = Measurements::read_with("Streckung;Spannung\n1,02;0,5\n1,05;1,1\n", &options)?;
 /// assert_eq!((reading.measurements.points[1].control, reading.measurements.points[1].stress), (1.05, 1.1e6));
 /// # Ok(())
 /// # }
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
 pub struct ReadOptions {
     /// The test of lines that name none.
     pub test: Option<Test>,
@@ -37,32 +37,6 @@ pub struct ReadOptions {
     pub strain: Option<String>,
     /// The column of the stress or the pressure.
     pub stress: Option<String>,
-}
-
-impl ReadOptions {
-    /// Options with another [`test`](Self::test).
-    #[must_use]
-    pub fn with_test(self, test: impl Into<Test>) -> Self {
-        Self { test: Some(test.into()), ..self }
-    }
-
-    /// Options with another [`unit`](Self::unit).
-    #[must_use]
-    pub fn with_unit(self, unit: StressUnit) -> Self {
-        Self { unit: Some(unit), ..self }
-    }
-
-    /// Options with another [`strain`](Self::strain).
-    #[must_use]
-    pub fn with_strain(self, column: impl Into<String>) -> Self {
-        Self { strain: Some(column.into()), ..self }
-    }
-
-    /// Options with another [`stress`](Self::stress).
-    #[must_use]
-    pub fn with_stress(self, column: impl Into<String>) -> Self {
-        Self { stress: Some(column.into()), ..self }
-    }
 }
 
 /// A test by its name in data: a mode, with a flag for compression.

@@ -67,9 +67,8 @@ impl Measurements {
         if table.used.mode.is_none() && options.test.is_none() {
             return Err(at_header(Fault::NoMode));
         }
-        let factors = [&table.used.control, &table.used.stress].map(|column| factor(column, options));
-        let [control, stress] = factors;
-        let factors = [control.map_err(at_header)?, stress.map_err(at_header)?];
+        let factor = |column| factor(column).map_err(at_header);
+        let factors = [factor(&table.used.control)?, factor(&table.used.stress)?];
         let decimal = table.decimal()?;
         let (mut points, mut tests) = (Vec::new(), Vec::new());
         for row in &table.rows {
@@ -85,7 +84,7 @@ impl Measurements {
             return Err(at_header(Fault::NoPoints));
         }
         let measurements = Measurements { points };
-        let note = note(&table, decimal, options, &measurements);
+        let note = note(&table, decimal, &measurements);
         Ok(Reading { measurements, note })
     }
 }
@@ -109,13 +108,12 @@ impl Table<'_> {
 }
 
 /// The size of a unit of a column, with the sign of compression.
-fn factor(column: &Heading, options: &ReadOptions) -> Result<f64, Fault> {
-    let size = match (column.unit, options.unit) {
-        (Some(Unit::Share(size)), _) => size,
-        (Some(Unit::Stress(unit)), _) => unit.pascals(),
-        (None, _) if !column.quantity.is_stress() => 1.0,
-        (None, Some(unit)) => unit.pascals(),
-        (None, None) => return Err(Fault::NoUnit { found: column.text.clone() }),
+fn factor(column: &Heading) -> Result<f64, Fault> {
+    let size = match column.unit {
+        Some(Unit::Share(size)) => size,
+        Some(Unit::Stress(unit)) => unit.pascals(),
+        None if column.quantity.is_stress() => return Err(Fault::NoUnit { found: column.text.clone() }),
+        None => 1.0,
     };
     Ok(if column.is_compressive { -size } else { size })
 }
@@ -203,11 +201,10 @@ fn opposed(points: &[Measured], tests: &[Test]) -> Option<(usize, Fault)> {
 }
 
 /// The column with its quantity and unit, in sentences.
-fn described(column: &Heading, options: &ReadOptions) -> String {
-    let unit = match (column.unit, options.unit) {
-        (Some(Unit::Stress(unit)), _) => format!(" in {unit}"),
-        (Some(Unit::Share(0.01)), _) => " in %".into(),
-        (None, Some(unit)) if column.quantity.is_stress() => format!(" in {unit}"),
+fn described(column: &Heading) -> String {
+    let unit = match column.unit {
+        Some(Unit::Stress(unit)) => format!(" in {unit}"),
+        Some(Unit::Share(0.01)) => " in %".into(),
         _ => String::new(),
     };
     let sign = if column.is_compressive { ", compression positive" } else { "" };
@@ -215,9 +212,9 @@ fn described(column: &Heading, options: &ReadOptions) -> String {
 }
 
 /// Describes how the file was understood.
-fn note(table: &Table<'_>, decimal: char, options: &ReadOptions, data: &Measurements) -> String {
+fn note(table: &Table<'_>, decimal: char, data: &Measurements) -> String {
     let Used { control, stress, .. } = &table.used;
-    let mut parts = vec![format!("{}, {}", described(control, options), described(stress, options))];
+    let mut parts = vec![format!("{}, {}", described(control), described(stress))];
     if stress.quantity == Quantity::TrueStress {
         parts.push("nominal stress from true stress as of an incompressible solid".into());
     }

@@ -82,7 +82,8 @@ pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
 
 /// Measured points, with the curves of a material in a chart.
 pub fn csv(_: &Path, bytes: &[u8]) -> bool {
-    let options = ReadOptions::default().with_test(Mode::Uniaxial).with_unit("MPa".parse().expect("a unit"));
+    let (test, unit) = (Some(Mode::Uniaxial.into()), Some("MPa".parse().expect("a unit")));
+    let options = ReadOptions { test, unit, ..ReadOptions::default() };
     let data = match Measurements::read_with(&decoded(bytes), &options) {
         Ok(reading) => {
             let note = reading.to_string();
