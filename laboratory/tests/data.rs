@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use piola_laboratory::curve::Mode::{self, Equibiaxial, PureShear, SimpleShear, Uniaxial, Volumetric};
-use piola_laboratory::data::{DataError, Measurements, ReadOptions, Test, decoded};
+use piola_laboratory::data::{DataError, Measurements, ReadOptions, decoded};
 
 const PSI: f64 = 6_894.757_293_168_361;
 
@@ -273,22 +273,6 @@ fn what_is_missing_or_twofold_is_named() {
     let edge =
         "mode,stretch [-],stress_MPa\nuniaxial,1e6,1e94\nsimple_shear,-1e6,0\nequibiaxial,1e-6,-1e-105\n";
     assert_eq!(Measurements::read(edge).map(|read| read.points.len()), Ok(3));
-}
-
-#[test]
-fn names_of_tests() {
-    for (mode, names) in [
-        (Uniaxial, ["UT", "tension", "Uniaxial", "uniaxial compression"]),
-        (Equibiaxial, ["ET", "EB", "Equi-Biaxial", "biaxial tension"]),
-        (PureShear, ["PS", "planar", "Planar tension", "pure shear"]),
-        (SimpleShear, ["SS", "simple shear", "Simple_Shear", "simple-shear"]),
-        (Volumetric, ["hydrostatic", "Volumetric", "VOLUMETRIC", " volumetric "]),
-    ] {
-        for name in names {
-            let expected = Test { mode, is_compression: name.contains("compression") };
-            assert_eq!(name.parse(), Ok(expected), "{name}");
-        }
-    }
 }
 
 /// A file that nobody wrote by hand takes no longer than it is.

@@ -46,7 +46,15 @@ pub struct ReadOptions {
 /// use piola_laboratory::data::Test;
 ///
 /// # fn main() -> Result<(), piola_laboratory::curve::ModeError> {
-/// assert_eq!("EB".parse::<Test>()?, Mode::Equibiaxial.into());
+/// for (mode, names) in [
+///     (Mode::Uniaxial, ["UT", "tension"]),
+///     (Mode::Equibiaxial, ["Equi-Biaxial", "biaxial tension"]),
+///     (Mode::PureShear, ["Planar tension", "pure shear"]),
+///     (Mode::SimpleShear, ["SS", "Simple_Shear"]),
+///     (Mode::Volumetric, ["hydrostatic", " volumetric "]),
+/// ] {
+///     names.map(|name| assert_eq!(name.parse(), Ok(Test::from(mode))));
+/// }
 /// assert!("uniaxial compression".parse::<Test>()?.is_compression);
 /// # Ok(())
 /// # }

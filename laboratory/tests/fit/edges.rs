@@ -205,21 +205,6 @@ fn a_fit_worse_than_the_mean_says_so() -> Outcome {
 }
 
 #[test]
-fn a_minimum_inside_is_no_edge() -> Outcome {
-    let truth = Bounded::new(9e4, 1.5e4)?;
-    let mut data = treloar();
-    for (k, point) in data.points.iter_mut().enumerate() {
-        let stress = respond(&truth, point.mode, Volume::Kept, point.control)?.stress;
-        // Errors of a percent.
-        point.stress = stress * if k % 2 == 0 { 1.01 } else { 0.99 };
-    }
-    let found = fit_parameters(&Bounded::new(2e4, 9e4)?, &data, &FitSettings::default())?;
-    assert!(edges(&found).is_empty() && found.ended != Ended::Edge, "{found:?}");
-    assert!(found.numbers.iter().all(|number| number.error.is_some()), "{found:?}");
-    Ok(())
-}
-
-#[test]
 fn entries_of_lists_at_an_edge_go_by_their_names_among_the_numbers() -> Outcome {
     let found = fit_parameters(&Powers::new([3e5], [2.0])?, &treloar(), &FitSettings::default())?;
     assert_eq!(conditions(&found), ["alpha[p] >= 1.5"]);
