@@ -32,7 +32,7 @@ pub use trial::TrialError;
 
 use candidate::Numbers;
 use minimum::Minimum;
-use problem::Problem;
+use problem::{Problem, Task};
 
 /// The measure of the difference at each measured point, whose squares are summed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -146,9 +146,10 @@ pub fn fit_parameters(
     let numbers = Numbers::of(start);
     let mut held = held(&numbers, &settings.held)?;
     let points = points(data, settings.difference)?;
+    let task = Task { start, numbers: &numbers, points: &points, volume: settings.volume };
     let problem = |held: &[Option<Standing>], values: Vec<f64>| {
         let free = (0..held.len()).filter(|&number| held[number].is_none()).collect();
-        Problem::new(start, &numbers, &points, settings.volume, free, values)
+        Problem::new(task, free, values)
     };
 
     let first = problem(&vec![None; held.len()], numbers.values.clone());

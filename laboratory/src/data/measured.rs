@@ -29,26 +29,20 @@ impl Measured {
     /// The mistake in a reading out of the range that the [module](super) states.
     pub(crate) fn fault(&self) -> Option<Fault> {
         let Self { mode, control, stress } = *self;
-        let is_shear = mode == Mode::SimpleShear;
-        let size = if is_shear { control.abs() } else { control };
-        let (quantity, value, requirement) = if !mode.allows(control)
-            || !(size <= 1e6 && (is_shear || size >= 1e-6))
-        {
-            let requirement = match is_shear {
-                true => "finite, and at most 1e6",
-                false => {
-                    "positive, at least 1e-6 and at most 1e6; a strain is written under `strain`, one in percent under \
-                     `strain [%]`"
-                }
-            };
-            (mode.quantity(), control, requirement)
-        } else if stress != 0.0 && !(1e-100..=1e100).contains(&stress.abs()) {
-            let requirement = "at most 1e100 Pa, and at least 1e-100 Pa if it is not 0: is its unit right?";
-            ("the stress in Pa", stress, requirement)
-        } else {
-            return None;
+        let (controls, requirement) = match mode {
+            Mode::SimpleShear => (-1e6..=1e6, "finite, and at most 1e6"),
+            _ => (
+                1e-6..=1e6,
+                "positive, at least 1e-6 and at most 1e6; a strain is written under `strain`, one in percent under \
+                 `strain [%]`",
+            ),
         };
-        Some(Fault::Range { quantity, value, requirement })
+        if !controls.contains(&control) {
+            return Some(Fault::Range { quantity: mode.quantity(), value: control, requirement });
+        }
+        let requirement = "at most 1e100 Pa, and at least 1e-100 Pa if it is not 0: is its unit right?";
+        let is_stress = stress == 0.0 || (1e-100..=1e100).contains(&stress.abs());
+        (!is_stress).then_some(Fault::Range { quantity: "the stress in Pa", value: stress, requirement })
     }
 }
 

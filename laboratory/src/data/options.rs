@@ -53,7 +53,9 @@ pub struct ReadOptions {
 ///     (Mode::SimpleShear, ["SS", "Simple_Shear"]),
 ///     (Mode::Volumetric, ["hydrostatic", " volumetric "]),
 /// ] {
-///     names.map(|name| assert_eq!(name.parse(), Ok(Test::from(mode))));
+///     for name in names {
+///         assert_eq!(name.parse(), Ok(Test::from(mode)));
+///     }
 /// }
 /// assert!("uniaxial compression".parse::<Test>()?.is_compression);
 /// # Ok(())

@@ -14,12 +14,19 @@ use crate::specimen::{self, Ordered};
 /// the method take a shorter step; its square is a number still.
 const REFUSED: f64 = 1e100;
 
-pub(super) struct Problem<'a> {
-    start: &'a dyn Candidate,
-    numbers: &'a Numbers,
+/// What is fitted, and to which points.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    /// The energy as given.
+    pub(super) start: &'a dyn Candidate,
+    pub(super) numbers: &'a Numbers,
     /// Points, each with the divisor of its difference.
-    points: &'a [(Measured, f64)],
-    volume: Volume,
+    pub(super) points: &'a [(Measured, f64)],
+    pub(super) volume: Volume,
+}
+
+pub(super) struct Problem<'a> {
+    task: Task<'a>,
     /// Indices of the free numbers.
     pub(super) free: Vec<usize>,
     /// All numbers, those held included.
@@ -78,16 +85,26 @@ enum Trial {
     Refused(TrialError),
 }
 
+impl Task<'_> {
+    fn attempt(&self, values: &[f64]) -> Trial {
+        let candidate = match self.start.with_values(&self.numbers.lists(values)) {
+            Ok(candidate) => candidate,
+            Err(reason) => return Trial::Refused(TrialError::Inadmissible(reason)),
+        };
+        let mut responses = Vec::with_capacity(self.points.len());
+        for &(point, _) in self.points {
+            match respond(candidate.as_ref(), point.mode, self.volume, point.control) {
+                Ok(response) => responses.push(response),
+                Err(reason) => return Trial::Refused(TrialError::Point(PointError { point, reason })),
+            }
+        }
+        Trial::Answers(candidate, responses)
+    }
+}
+
 impl<'a> Problem<'a> {
     /// Each free number is sought in units of its value here.
-    pub(super) fn new(
-        start: &'a dyn Candidate,
-        numbers: &'a Numbers,
-        points: &'a [(Measured, f64)],
-        volume: Volume,
-        free: Vec<usize>,
-        values: Vec<f64>,
-    ) -> Self {
+    pub(super) fn new(task: Task<'a>, free: Vec<usize>, values: Vec<f64>) -> Self {
         let unit = |&number: &usize| if values[number] == 0.0 { 1.0 } else { values[number].abs() };
         let units = DVector::from_iterator(free.len(), free.iter().map(unit));
         let coordinates = Coordinates {
@@ -95,23 +112,22 @@ impl<'a> Problem<'a> {
             place: DVector::from_fn(free.len(), |k, _| values[free[k]] / units[k]),
             basis: DMatrix::from_diagonal(&units),
         };
-        let trial = attempt(start, numbers, points, volume, &values);
-        Self { start, numbers, points, volume, free, values, coordinates, trial }
+        let trial = task.attempt(&values);
+        Self { task, free, values, coordinates, trial }
     }
 
     /// A new problem at the current place, all free numbers in units of their current values.
     pub(super) fn anew(&self) -> Self {
-        let (free, values) = (self.free.clone(), self.values.clone());
-        Self::new(self.start, self.numbers, self.points, self.volume, free, values)
+        Self::new(self.task, self.free.clone(), self.values.clone())
     }
 
     /// A problem whose free numbers are `origin` plus any combination of the columns of `basis`.
     pub(super) fn within(&self, origin: DVector<f64>, basis: DMatrix<f64>) -> Self {
         let values = self.with_free(&origin);
-        let trial = self.attempt(&values);
+        let trial = self.task.attempt(&values);
         let place = DVector::zeros(basis.ncols());
         let coordinates = Coordinates { origin, basis, place };
-        Self { free: self.free.clone(), values, coordinates, trial, ..*self }
+        Self { task: self.task, free: self.free.clone(), values, coordinates, trial }
     }
 
     /// A problem in which only these coordinates change.
@@ -124,10 +140,6 @@ impl<'a> Problem<'a> {
         alone.coordinates.origin -= &alone.coordinates.basis * &place;
         alone.coordinates.place = place;
         alone
-    }
-
-    fn attempt(&self, values: &[f64]) -> Trial {
-        attempt(self.start, self.numbers, self.points, self.volume, values)
     }
 
     /// All numbers, with these for the free ones.
@@ -146,7 +158,7 @@ impl<'a> Problem<'a> {
 
     /// Succeeds if there is a residual at each point with these free numbers.
     pub(super) fn accepts(&self, free: &DVector<f64>) -> Result<(), TrialError> {
-        match self.attempt(&self.with_free(free)) {
+        match self.task.attempt(&self.with_free(free)) {
             Trial::Answers(..) => Ok(()),
             Trial::Refused(refusal) => Err(refusal),
         }
@@ -170,7 +182,7 @@ impl<'a> Problem<'a> {
             Bound { limit, point, value, gradient }
         };
         let of_parameters = candidate.constraints().into_iter().map(|constraint| bound(constraint, None));
-        let of_domain = responses.iter().zip(self.points).flat_map(|(response, &(point, _))| {
+        let of_domain = responses.iter().zip(self.task.points).flat_map(|(response, &(point, _))| {
             let constraints = candidate.domain_constraints(Ordered::new(response.stretches).numbers);
             constraints.into_iter().map(move |constraint| bound(constraint, Some(point)))
         });
@@ -181,7 +193,7 @@ impl<'a> Problem<'a> {
     pub(super) fn specimen(&self) -> &dyn Candidate {
         match &self.trial {
             Trial::Answers(candidate, _) => candidate.as_ref(),
-            Trial::Refused(_) => self.start,
+            Trial::Refused(_) => self.task.start,
         }
     }
 
@@ -190,8 +202,8 @@ impl<'a> Problem<'a> {
     ///
     /// Simple shear keeps the volume of every solid.
     pub(super) fn moduli_if_volume_is_imposed(&self) -> Option<Moduli> {
-        let is_imposed = self.points.iter().any(|(point, _)| point.mode != Mode::SimpleShear);
-        (self.volume == Volume::Kept && is_imposed).then(|| specimen::moduli(self.specimen()))
+        let is_imposed = self.task.points.iter().any(|(point, _)| point.mode != Mode::SimpleShear);
+        (self.task.volume == Volume::Kept && is_imposed).then(|| specimen::moduli(self.specimen()))
     }
 
     /// True if the stresses of another energy differ from those of this one by no more than `share` of the
@@ -218,14 +230,14 @@ impl<'a> Problem<'a> {
 
     /// The number of points.
     pub(super) fn count(&self) -> usize {
-        self.points.len()
+        self.task.points.len()
     }
 
     /// ∂r/∂p of the free numbers p in their own units; `None` where the trial is refused.
     pub(super) fn slopes(&self) -> Option<DMatrix<f64>> {
         let Trial::Answers(candidate, responses) = &self.trial else { return None };
-        let mut slopes = DMatrix::zeros(self.points.len(), self.free.len());
-        for (row, (response, (_, size))) in responses.iter().zip(self.points).enumerate() {
+        let mut slopes = DMatrix::zeros(self.task.points.len(), self.free.len());
+        for (row, (response, (_, size))) in responses.iter().zip(self.task.points).enumerate() {
             let ordered = Ordered::new(response.stretches);
             let by_parameters = candidate.gradient_by_parameters(ordered.numbers);
             for (column, &number) in self.free.iter().enumerate() {
@@ -246,7 +258,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     fn set_params(&mut self, place: &DVector<f64>) {
         let Coordinates { origin, basis, .. } = &self.coordinates;
         self.values = self.with_free(&(origin + basis * place));
-        self.trial = self.attempt(&self.values);
+        self.trial = self.task.attempt(&self.values);
         self.coordinates.place.copy_from(place);
     }
 
@@ -256,36 +268,18 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
 
     fn residuals(&self) -> Option<DVector<f64>> {
         let Trial::Answers(_, responses) = &self.trial else {
-            return Some(DVector::from_element(self.points.len(), REFUSED));
+            return Some(DVector::from_element(self.task.points.len(), REFUSED));
         };
         let residual = |(response, (point, size)): (&Response, &(Measured, f64))| {
             (response.stress - point.stress) / size
         };
-        Some(DVector::from_iterator(self.points.len(), responses.iter().zip(self.points).map(residual)))
+        Some(DVector::from_iterator(
+            self.task.points.len(),
+            responses.iter().zip(self.task.points).map(residual),
+        ))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
         Some(self.slopes()? * &self.coordinates.basis)
     }
-}
-
-fn attempt(
-    start: &dyn Candidate,
-    numbers: &Numbers,
-    points: &[(Measured, f64)],
-    volume: Volume,
-    values: &[f64],
-) -> Trial {
-    let candidate = match start.with_values(&numbers.lists(values)) {
-        Ok(candidate) => candidate,
-        Err(reason) => return Trial::Refused(TrialError::Inadmissible(reason)),
-    };
-    let mut responses = Vec::with_capacity(points.len());
-    for &(point, _) in points {
-        match respond(candidate.as_ref(), point.mode, volume, point.control) {
-            Ok(response) => responses.push(response),
-            Err(reason) => return Trial::Refused(TrialError::Point(PointError { point, reason })),
-        }
-    }
-    Trial::Answers(candidate, responses)
 }
