@@ -71,7 +71,7 @@ impl Curve {
         let material = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
         let specimen = &*material.specimen()?;
-        let data::Measured { points, notes } = self.data.read()?.unwrap_or_default();
+        let data::Measured { points, notes } = self.data.read()?;
         let data = (!points.points.is_empty()).then_some(points);
         let is_asked = |mode: &Mode| self.data.tests.iter().any(|test| test.mode == *mode);
         let modes = match (&data, Mode::ALL.into_iter().filter(is_asked).collect::<Vec<_>>()) {

@@ -62,8 +62,8 @@ impl Data {
         self.files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")
     }
 
-    /// The points of all files; `None` without a file.
-    pub(super) fn read(&self) -> Result<Option<Measured>, Error> {
+    /// The points of all files.
+    pub(super) fn read(&self) -> Result<Measured, Error> {
         let files = self.files.len();
         for (option, given) in [
             ("--unit", self.units.len()),
@@ -86,7 +86,7 @@ impl Data {
             all.points.points.extend(points.points);
             all.notes += &format!("  read     {}: {note}\n", file.display());
         }
-        Ok((files > 0).then_some(all))
+        Ok(all)
     }
 
     /// The points of a file, and how it was understood.

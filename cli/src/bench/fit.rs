@@ -55,7 +55,7 @@ pub(crate) struct Fit {
 impl Fit {
     /// Fits the parameters, and draws the result if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
-        let Measured { points: data, notes } = self.data.read()?.unwrap_or_default();
+        let Measured { points: data, notes } = self.data.read()?;
         let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);
         let volume = match self.compressible || is_volumetric && !self.incompressible {
             true => Volume::Free,

@@ -35,12 +35,12 @@ const NOTE: &str = "fitted so that R² of all points is greatest; n parameters; 
 
 /// Fits every rubber and ranks them, as a table and, if wanted, as a chart.
 pub(super) fn run(data: &Data, svg: Option<&Path>) -> Result<String, Error> {
-    let files = data.names();
-    let Measured { points: data, notes } = data.read()?.ok_or_else(|| {
-        Error::usage(
+    let (files, Measured { points: data, notes }) = (data.names(), data.read()?);
+    if data.points.is_empty() {
+        return Err(Error::usage(
             "`piola curve all` compares energies with measured points: add --data FILE, or --data treloar",
-        )
-    })?;
+        ));
+    }
     if data.modes().any(|mode| mode == Mode::Volumetric) {
         return Err(Error::usage(format!(
             "{files}: `piola curve all` fits solids that keep their volume; leave the volumetric test out"
