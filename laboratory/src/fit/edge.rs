@@ -114,8 +114,7 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         if residuals.norm_squared() <= EXACT * residuals.len() as f64 {
             return None;
         }
-        let length = |column: usize| slopes.column(column).norm();
-        let scales = DVector::from_fn(slopes.ncols(), |column, _| length(column));
+        let scales = DVector::from_fn(slopes.ncols(), |column, _| slopes.column(column).norm());
         if !scales.iter().all(|&scale| scale.is_finite() && scale > 0.0) {
             return None;
         }

@@ -14,7 +14,7 @@ use crate::specimen::{self, Ordered};
 /// the method take a shorter step; its square is a number still.
 const REFUSED: f64 = 1e100;
 
-/// What is fitted, and to which points.
+/// Energy to be fitted, and the points that count.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
     /// The energy as given.

@@ -5,8 +5,6 @@
 //!
 //! \[BKW80\] Belsley, Kuh, Welsch, *Regression Diagnostics*, 1980, chapter 3.
 
-use nalgebra::DMatrix;
-
 use super::candidate::Numbers;
 use super::outcome::Warning;
 use super::problem::Problem;
@@ -59,7 +57,7 @@ pub(super) struct Analysis {
 pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
     let nothing = || Analysis { errors: Vec::new(), condition: f64::INFINITY, warnings: Vec::new() };
     let Some(mut slopes) = problem.slopes() else { return nothing() };
-    let lengths = lengths(&slopes);
+    let lengths: Vec<f64> = slopes.column_iter().map(|column| column.norm()).collect();
     if !lengths.iter().all(|&length| length.is_finite() && length > 0.0) {
         return nothing();
     }
@@ -112,9 +110,4 @@ fn warnings(mut combinations: Vec<(Vec<(String, f64)>, f64)>) -> Vec<Warning> {
     });
     let warning = |(changes, effect)| Warning::Collinear { changes, effect };
     combinations.into_iter().map(warning).collect()
-}
-
-/// The length of each column.
-fn lengths(slopes: &DMatrix<f64>) -> Vec<f64> {
-    slopes.column_iter().map(|column| column.norm()).collect()
 }
