@@ -45,39 +45,29 @@ impl Plane {
         }
     }
 
-    /// Paths in this plane with their names.
-    fn paths(self) -> &'static [(&'static str, Course)] {
+    /// Lines in this plane with their names.
+    fn lines(self) -> [(&'static str, Line); 3] {
         match self {
-            Self::Sheet => &[
-                ("uniaxial", Course::Test(Path::Uniaxial)),
-                ("equibiaxial", Course::Test(Path::Equibiaxial)),
-                ("pure shear", Course::Test(Path::PureShear)),
+            Self::Sheet => [
+                ("uniaxial", |specimen, first| second(Path::Uniaxial, specimen, first)),
+                ("equibiaxial", |specimen, first| second(Path::Equibiaxial, specimen, first)),
+                ("pure shear", |specimen, first| second(Path::PureShear, specimen, first)),
             ],
-            Self::Strain => &[
-                ("constant volume", Course::Isochoric),
-                ("equibiaxial", Course::Diagonal),
-                ("confined", Course::Test(Path::Confined)),
+            Self::Strain => [
+                ("constant volume", |_, first| Some(1.0 / first)),
+                ("equibiaxial", |_, first| Some(first)),
+                ("confined", |_, _| Some(1.0)),
             ],
         }
     }
 }
 
-/// Relation of λ2 to λ1 along a line of the picture.
-#[derive(Clone, Copy)]
-enum Course {
-    Test(Path),
-    Isochoric,
-    Diagonal,
-}
+/// λ2 by λ1 along a line of the picture; `None` where nothing makes the sides free of stress.
+type Line = fn(&dyn Specimen, f64) -> Option<f64>;
 
-impl Course {
-    fn second(self, specimen: &dyn Specimen, first: f64) -> Option<f64> {
-        match self {
-            Self::Test(path) => path.stretches(specimen, first).map(|[_, second, _]| second),
-            Self::Isochoric => Some(1.0 / first),
-            Self::Diagonal => Some(first),
-        }
-    }
+/// λ2 of a test by its λ1.
+fn second(path: Path, specimen: &dyn Specimen, first: f64) -> Option<f64> {
+    path.stretches(specimen, first).map(|[_, second, _]| second)
 }
 
 /// The criteria that a cell of the picture keeps or loses.
@@ -196,9 +186,9 @@ fn panel(
         .draw()
         .map_err(failed)?;
 
-    for (name, course) in plane.paths() {
+    for (name, second) in plane.lines() {
         let point = |first: &f64| {
-            let second = course.second(specimen, *first)?;
+            let second = second(specimen, *first)?;
             (settings.from <= second && second <= settings.to).then_some((*first, second))
         };
         let points: Vec<_> = settings.stretches(POINTS).iter().map(point).collect();
@@ -218,7 +208,7 @@ fn panel(
             let around = [(-1, 0), (1, 0), (0, -1), (0, 1)].map(|shift| (shift, WHITE));
             for ((x, y), colour) in around.into_iter().chain([((0, 0), BLACK)]) {
                 let style = (FONT, 14).into_font().color(&colour).pos(Pos::new(HPos::Right, side));
-                let text = EmptyElement::at(place) + Text::new(*name, (x - 4, y + shift), style);
+                let text = EmptyElement::at(place) + Text::new(name, (x - 4, y + shift), style);
                 chart.draw_series([text]).map_err(failed)?;
             }
         }
