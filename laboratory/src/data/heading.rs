@@ -2,28 +2,18 @@
 
 use super::unit::{StressUnit, plain};
 
-/// A quantity that a column may hold.
+/// A quantity that a column may hold, by the table of the [module](super).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
-    /// The name of a test.
     Mode,
-    /// λ; in canonical files the control of any test, γ and J included.
     Stretch,
-    /// The nominal strain λ − 1; γ of a simple shear and J − 1 of a volumetric test.
     Strain,
-    /// ln λ, and ln J of a volumetric test.
     TrueStrain,
-    /// γ of a simple shear.
     Shear,
-    /// J of a volumetric test.
     Volume,
-    /// J − 1 of a volumetric test.
     VolumeStrain,
-    /// Force by area at rest.
     Stress,
-    /// Force by area as deformed.
     TrueStress,
-    /// Minus the mean stress of a volumetric test.
     Pressure,
     /// Something else, or a header that is not in plain form.
     Other,
