@@ -279,7 +279,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
         stiffnesses: &mut [E],
     ) -> Result<Survey, LengthError> {
         let group = self.group();
-        let (nodes, points) = (tetrahedra.nodes(), tetrahedra.corners().len().next_multiple_of(group));
+        let (nodes, points) = (tetrahedra.nodes, tetrahedra.corners.len().next_multiple_of(group));
         LengthError::check("positions", 3 * positions.len(), 3, nodes, 1)?;
         LengthError::check("rest", rest.len(), REST, points, group)?;
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, 144)];

@@ -29,6 +29,7 @@ mod x86;
 
 pub use backend::{Backend, Kernel};
 pub(crate) use complement::scaled_complement;
+#[doc(hidden)] // in place of the registers of a processor
 pub use lanes2::Lanes2;
 #[doc(hidden)] // of a hidden method of `Lanes`
 pub use non_temporal::NonTemporal;

@@ -215,8 +215,8 @@ pub enum Curvature {
 
 impl Curvature {
     /// Second derivatives of a sum of energies.
-    #[must_use]
-    pub const fn and(self, other: Self) -> Self {
+    #[cfg(feature = "batch")]
+    pub(crate) const fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::All, _) | (_, Self::All) => Self::All,
             (Self::Separate, _) | (_, Self::Separate) => Self::Separate,
@@ -289,12 +289,13 @@ pub struct Moduli {
 impl Moduli {
     /// Small-strain moduli from the Hessian at F = I: μ = (ψ11 − ψ12)/2, λ = ψ12.
     #[must_use]
-    pub fn at_rest(material: &(impl Response<f64> + ?Sized)) -> Self {
+    pub(crate) fn at_rest(material: &(impl Response<f64> + ?Sized)) -> Self {
         let [h11, _, _, h12, _, _] = material.blocks([1.0f64; 3]).hessian;
         Self { mu: 0.5 * (h11 - h12), lambda: h12 }
     }
 
     /// Small-strain moduli as the material states them, or else from its Hessian at F = I.
+    #[doc(hidden)] // `Declared::moduli` for materials of any kind
     #[must_use]
     pub fn of(material: &impl Material) -> Self {
         material.stated_moduli().unwrap_or_else(|| Self::at_rest(material))

@@ -56,8 +56,8 @@ impl CsrPlaces {
             Some((start + at) as u32)
         };
         let mut places = Vec::new();
-        places.try_reserve_exact(tetrahedra.corners().len()).map_err(|_| CsrError::OutOfMemory)?;
-        for corners in tetrahedra.corners() {
+        places.try_reserve_exact(tetrahedra.corners.len()).map_err(|_| CsrError::OutOfMemory)?;
+        for corners in tetrahedra.corners {
             let unknown_of = corners.map(&unknowns);
             let mut of_element = [NONE; 144];
             for (k, place) in of_element.iter_mut().enumerate() {
