@@ -57,8 +57,8 @@ pub struct Blocks<R> {
 /// The stretches are signed: λ1 ≥ λ2 ≥ |λ3|, the sign of λ3 being that of det F. Outside the domain
 /// ([`Material::admits`]) results are meaningless and may be NaN.
 ///
-/// Methods that compute should be `#[inline(always)]`, and so should the functions that they call: see
-/// [`Kernel`](crate::lanes::Kernel).
+/// Methods that compute should be `#[inline(always)]`, and so should the functions that they call: only code
+/// that is inlined into the functions of a [`Backend`](crate::lanes::Backend) has its instructions.
 pub trait Material: Send + Sync {
     /// Energy density ψ, J/m³ of rest volume.
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::DynMaterial

@@ -64,6 +64,7 @@ pub trait Real:
     #[must_use]
     fn sqrt(self) -> Self;
     /// 1/√self to two units in the last place for a normal self > 0.
+    #[doc(hidden)] // for rotations
     #[must_use]
     #[inline(always)]
     fn reciprocal_sqrt(self) -> Self {
