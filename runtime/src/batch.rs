@@ -256,7 +256,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
         gradients: &mut [E],
         stiffnesses: &mut [E],
     ) -> Result<Survey, LengthError> {
-        let group = self.group();
+        let group = self.layout.group::<E>();
         let (nodes, points) = (tetrahedra.nodes, tetrahedra.corners.len().next_multiple_of(group));
         LengthError::check("positions", 3 * positions.len(), 3, nodes, 1)?;
         LengthError::check("rest", rest.len(), REST, points, group)?;
@@ -273,14 +273,6 @@ impl<'a, E: Kernels> Batch<'a, E> {
         })
     }
 
-    /// Number of points that the layout keeps together.
-    fn group(&self) -> usize {
-        match self.layout {
-            Layout::Points => 1,
-            Layout::Lines => E::LINE,
-        }
-    }
-
     /// Computes every tile of slices, each given with its name and the components it holds for a point.
     fn run<const I: usize, const O: usize>(
         &self,
@@ -290,7 +282,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         let properties = self.material.properties();
         let (_, first, components) = inputs[0];
-        let group = self.group();
+        let group = self.layout.group::<E>();
         let count = first.len() / components / group * group;
         let lengths = inputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components));
         let lengths =

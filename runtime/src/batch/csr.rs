@@ -91,10 +91,7 @@ impl CsrPlaces {
         layout: Layout,
         values: &mut [E],
     ) -> Result<(), LengthError> {
-        let group = match layout {
-            Layout::Points => 1,
-            Layout::Lines => E::LINE,
-        };
+        let group = layout.group::<E>();
         let points = self.places.len().next_multiple_of(group);
         LengthError::check("stiffnesses", stiffnesses.len(), 144, points, group)?;
         LengthError::check("values", values.len(), 1, self.entries, 1)?;
