@@ -10,7 +10,7 @@ use std::hint::black_box;
 use indicatif::ProgressBar;
 use piola::Real;
 use piola::batch::Kernels;
-use piola_speed::{Effort, Times, front, time_all_in_turns};
+use piola_speed::{Effort, Times, front, time_in_turns};
 use piola_tests::cases::{Case, Quantity};
 
 use crate::data::PointRow;
@@ -203,7 +203,7 @@ fn in_turns<E: Kernels>(groups: &mut [Group<'_, E>], effort: Effort) -> Vec<Time
         })
         .collect();
     let mut calls: Vec<&mut dyn FnMut()> = calls.iter_mut().map(|call| call as &mut dyn FnMut()).collect();
-    time_all_in_turns(effort, points, &mut calls)
+    time_in_turns(effort, points, &mut calls)
 }
 
 /// A row for each method that was in every hard family.

@@ -132,7 +132,7 @@ fn one_a_call(label: &str, times: [Option<Times>; 3]) -> Vec<String> {
 
 /// Times a call at each of the points.
 fn each_point(effort: Effort, mut call: impl FnMut(&Matrix3<f64>)) -> Times {
-    let gradients = matrices(IN_CACHE);
+    let gradients: Vec<_> = deformation_gradients().take(IN_CACHE).collect();
     time(effort, IN_CACHE, || gradients.iter().for_each(&mut call))
 }
 
@@ -146,18 +146,12 @@ fn decompositions(effort: Effort) -> String {
 }
 
 fn decomposition<E: Kernels>(backend: Backend, effort: Effort) -> Vec<String> {
-    let mut points = Decompositions::<E>::new();
+    let mut points = Decompositions::<E>::default();
     let mut cells = vec![format!("{}, {backend}", std::any::type_name::<E>())];
     cells.extend(
         [false, true].map(|is_signed| cell(time(effort, IN_CACHE, || points.run(backend, is_signed)))),
     );
     cells
-}
-
-/// Deformation gradients of [`Arrays`], as matrices.
-fn matrices(count: usize) -> Vec<Matrix3<f64>> {
-    let rows = |[a, b, c, d, e, f, g, h, i]: [f64; 9]| [[a, b, c], [d, e, f], [g, h, i]];
-    deformation_gradients().take(count).map(rows).collect()
 }
 
 /// `least (median)`.
