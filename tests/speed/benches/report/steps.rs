@@ -154,16 +154,8 @@ fn follow(
     let settings = SimulationSettings::default().with_newton(way.newton);
     simulation.set_settings(settings.with_integrator(way.integrator))?;
     let (h, steps) = (1.0 / RATE / way.division, (frames as f64 * way.division).round() as usize);
-    let mut row = StepRow {
-        setting: way.setting,
-        h,
-        seconds: 0.0,
-        steps,
-        newton_iterations: 0,
-        linear_iterations: 0,
-        error: f64::NAN,
-        final_error: f64::NAN,
-    };
+    let unknown = StepRow { error: f64::NAN, final_error: f64::NAN, ..StepRow::default() };
+    let mut row = StepRow { setting: way.setting, h, steps, ..unknown };
     let mut track = Track::new();
     let clock = Instant::now();
     for step in 1..=steps {
