@@ -1,6 +1,6 @@
 //! The kernels of a batch, and which numbers of a point each reads and writes.
 
-#![expect(non_snake_case, reason = "F as in the literature")]
+#![expect(non_snake_case, reason = "F, X as below")]
 
 use piola::batch::REST;
 use piola::point::{Filter, Matrix3};
@@ -125,8 +125,8 @@ pub fn deformation_gradients() -> impl Iterator<Item = Matrix3<f64>> {
 
 fn deformation(random: &mut Random) -> Matrix3<f64> {
     loop {
-        let mut entry = |i: usize, j: usize| f64::from(i == j) + 0.3 * random.uniform(-1.0, 1.0);
-        let F = [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)));
+        let X = random.matrix();
+        let F: Matrix3<f64> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| f64::from(i == j) + 0.3 * X[i][j]));
         let [a, b, c] = F;
         let determinant = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
             + a[2] * (b[0] * c[1] - b[1] * c[0]);

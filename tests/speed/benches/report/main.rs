@@ -78,8 +78,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Measures all that is asked for, then writes it and prints the path of the page: a run that fails leaves the
-/// files of the one before.
+/// Measures all that is asked for, then writes it and prints the path of the page: a run that fails leaves
+/// the files of the one before.
 fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>> {
     let asked = |section| arguments.only.is_empty() || arguments.only.contains(&section);
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
