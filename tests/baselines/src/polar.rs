@@ -130,15 +130,14 @@ mod tests {
     use piola_materials as catalogue;
 
     use super::*;
-    use crate::testing::{IDENTITY, SHEARED, convert, error, errors_of, exact};
+    use crate::testing::{IDENTITY, SHEARED, error, errors_of, exact};
 
     #[track_caller]
     fn compare<R: Real + Into<f64>>() {
         let (mu, lambda) = (1.0, 1.5);
         let material = catalogue::RotatedLinear::new(mu, lambda).expect("admissible parameters");
         for F in [SHEARED, IDENTITY] {
-            let F = convert::<R>(&F);
-            let errors = errors_of(RotatedLinear { mu, lambda }.evaluate(&F), &material, &F);
+            let errors = errors_of::<R>(|F| RotatedLinear { mu, lambda }.evaluate(F), &material, &F);
             // A few roundings of each step of the iteration.
             assert!(errors.iter().all(|&error| error <= 100.0), "{errors:?}");
         }
