@@ -19,12 +19,9 @@ pub fn root() -> PathBuf {
 }
 
 /// A library or program of the workspace, without what is compiled for tests only.
-#[derive(Debug)]
 pub struct Crate {
     /// Name by which Rust code imports it.
     pub name: String,
-    /// Folder below [`root`].
-    pub folder: PathBuf,
     /// True if it is published to a registry.
     pub is_published: bool,
     /// Its modules, the root first, parents before their children.
@@ -41,12 +38,6 @@ pub struct Module {
     pub parent: Option<usize>,
     /// Items other than modules.
     pub items: Vec<Item>,
-}
-
-impl fmt::Debug for Module {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{self}")
-    }
 }
 
 impl fmt::Display for Module {
@@ -78,7 +69,7 @@ pub fn crates() -> Vec<Crate> {
             if root().join(&file).exists() {
                 let mut modules = Vec::new();
                 load(&mut modules, Vec::new(), None, file);
-                crates.push(Crate { name, folder: folder.clone(), is_published, modules });
+                crates.push(Crate { name, is_published, modules });
             }
         }
     }
