@@ -58,10 +58,12 @@ type Track = Vec<Vec<[f64; 3]>>;
 ///
 /// # Errors
 /// Where a step fails.
-pub(crate) fn rows(is_quick: bool, progress: &ProgressBar) -> Result<Vec<StepRow>, String> {
-    let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let thread = thread.map_err(|error| error.to_string())?;
-    thread.install(|| measure(is_quick, progress)).map_err(|error| error.to_string())
+pub(crate) fn rows(
+    is_quick: bool,
+    progress: &ProgressBar,
+) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
+    let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    thread.install(|| measure(is_quick, progress))
 }
 
 fn measure(is_quick: bool, progress: &ProgressBar) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
