@@ -22,7 +22,7 @@ mod timing;
 
 pub use arrays::Arrays;
 pub use decomposition::Decompositions;
-pub use front::{RESOLUTION, beats, front};
+pub use front::{RESOLUTION, beats, is_on_front};
 pub use machine::processor;
 pub use task::{Task, deformation_gradients};
 pub use timing::{Effort, Times, time, time_in_turns};
