@@ -97,19 +97,13 @@ fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>
     if asked(Section::Point) {
         // Those whose energies take part.
         let cases = Case::own(&["cases", "cases-ordinary"])?;
-        let progress = bar("point", point::count(&cases));
-        report.rows = point::rows(&cases, effort(arguments.quick), &progress)?;
-        progress.finish_and_clear();
+        report.rows = point::rows(&cases, effort(arguments.quick), &bar("point"))?;
     }
     if asked(Section::Steps) {
-        let progress = bar("steps", 0);
-        report.steps = steps::rows(arguments.quick, &progress)?;
-        progress.finish_and_clear();
+        report.steps = steps::rows(arguments.quick, &bar("steps"))?;
     }
     if asked(Section::Growth) {
-        let progress = bar("growth", 0);
-        report.growth = growth::rows(arguments.quick, &MEMORY, &progress)?;
-        progress.finish_and_clear();
+        report.growth = growth::rows(arguments.quick, &MEMORY, &bar("growth"))?;
     }
     let charts = charts::draw(&report)?;
     for chart in &charts {
@@ -135,8 +129,9 @@ fn effort(is_quick: bool) -> Effort {
     Effort { repeats, at_least: Duration::from_micros(30), at_most: Duration::from_millis(at_most) }
 }
 
-fn bar(section: &'static str, length: u64) -> ProgressBar {
+/// Progress of a section, which sets the length; it is cleared when it is dropped.
+fn bar(section: &'static str) -> ProgressBar {
     const TEMPLATE: &str = "{prefix:7} {bar:40} {pos}/{len} {elapsed} {msg}";
     let style = ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(length).with_style(style).with_prefix(section)
+    ProgressBar::new(0).with_style(style).with_prefix(section)
 }

@@ -59,6 +59,7 @@ impl Work {
 /// # Errors
 /// Where a case does not fit its material.
 pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Result<Vec<PointRow>, String> {
+    progress.set_length(count(cases));
     let mut rows = Vec::new();
     for (name, in_catalogue) in ENERGIES {
         progress.set_message(name);
@@ -70,7 +71,7 @@ pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Re
 }
 
 /// Number of contests: the steps of the progress bar.
-pub(crate) fn count(cases: &[Case]) -> u64 {
+fn count(cases: &[Case]) -> u64 {
     let of_one = |(_, in_catalogue)| {
         let cases = of_energy(in_catalogue, cases);
         families::<f64>(&cases).len() + families::<f32>(&cases).len()

@@ -5,7 +5,6 @@
 use std::hint::black_box;
 
 use piola::batch::{Batch, Layout};
-use piola::lanes::Backend;
 use piola::material::{Declared, MaterialError};
 use piola::point::{Filter, evaluate, evaluate_stress};
 use piola::{Inversion, Material};
@@ -13,7 +12,7 @@ use piola_declare::Energy;
 use piola_materials::{CATALOGUE, DECLARATIONS, Entry, Visitor};
 use piola_speed::{Arrays, Effort, IN_CACHE, Task, deformation_gradients, time_in_turns};
 
-use super::cell;
+use super::{cell, vectors};
 use crate::markdown::{header, row};
 
 const NAMES: [&str; 5] = ["st_venant_kirchhoff", "neo_hookean", "ogden", "gent", "arruda_boyce"];
@@ -29,7 +28,7 @@ pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
         let energy = Energy::from_rust(source).expect("a declaration of the catalogue");
         let typed = energy.material(&values, Inversion::Refuse)?;
         let compiled = entry.material(&values, Inversion::Refuse)?;
-        for backend in Backend::available().filter(|&backend| backend != Backend::portable()) {
+        for backend in vectors() {
             for task in [Task::Stresses, Task::Tangents] {
                 let batches = [Batch::new(&*compiled), Batch::new(&typed)];
                 let [compiled, typed] = batches.map(|batch| batch.with_backend(backend));
