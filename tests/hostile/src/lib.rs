@@ -77,7 +77,7 @@ pub fn tetgen(scratch: &Path, bytes: &[u8]) -> bool {
 /// A surface in a cube of tetrahedra.
 pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
     let surface = write(scratch, "skin.obj", bytes);
-    play(scratch, Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: Some(surface) })
+    play(scratch, Files { surface: Some(surface), ..cube() })
 }
 
 /// Measured points, with the curves of a material in a chart.
@@ -152,7 +152,7 @@ pub fn energy(_: &Path, bytes: &[u8]) -> bool {
 pub fn state(scratch: &Path, bytes: &[u8]) -> bool {
     let Some(text) = sealed(bytes) else { return false };
     let state = match State::parse(&text, scratch) {
-        Ok(state) => state.with_files(cube()),
+        Ok(state) => state.with_files(Some(cube())),
         Err(error) => return refused(&error),
     };
     match Session::resume(state) {
@@ -164,9 +164,10 @@ pub fn state(scratch: &Path, bytes: &[u8]) -> bool {
     }
 }
 
-/// The cube that states are of.
-fn cube() -> Option<Files> {
-    Some(Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: None })
+/// A cube of tetrahedra, which states are of.
+#[must_use]
+pub fn cube() -> Files {
+    Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: None }
 }
 
 /// The text with a checksum that belongs to it, so that more than the checksum is tested: if it is JSON its
