@@ -82,8 +82,7 @@ impl Curve {
         let has_range = self.from.or(self.to).is_some() || self.rows.is_some();
 
         let title = titled(&info.name, volume);
-        let names = material.description()?.parameters.iter().map(|parameter| &parameter.name);
-        let options = as_options(names.map(|name| (&**name, info.parameters[name].as_slice())));
+        let options = as_options(&material)?;
         let (mut text, mut curves) = (format!("{title}\n  {options}\n"), Vec::new());
         text += &at_rest(info.moduli, volume);
         text += &notes;
