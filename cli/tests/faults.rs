@@ -143,24 +143,6 @@ fn killed_at_any_moment() {
     assert!(counts.keys().any(|(_, came)| *came), "no signal came before the end: {counts:?}");
 }
 
-/// A signal ends a run as a shorter one with a summary, whenever it comes: every 50 ms of a run if
-/// `PIOLA_KILLS` is set, otherwise every 500 ms with `PIOLA_FULL`, or every two seconds.
-#[test]
-fn interrupted_at_every_moment() {
-    let whole = Whole::new();
-    let pause = match is_full() {
-        _ if std::env::var_os("PIOLA_KILLS").is_some() => 50,
-        true => 500,
-        false => 2000,
-    };
-    let moments = (1..).map(|turn| turn * Duration::from_millis(pause));
-    for moment in moments {
-        if !whole.strike(scratch().path(), moment, "INT") {
-            break;
-        }
-    }
-}
-
 /// A disk that is full at some frame leaves the frames before and a summary with the reason.
 ///
 /// The disk is a small one in memory, for which the test needs namespaces of its own; on systems that allow
