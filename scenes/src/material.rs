@@ -15,7 +15,6 @@ use piola::interpreter::Interpreted;
 use piola::material::{Description, MaterialError, Moduli, Text};
 use piola_declare::Energy;
 use piola_declare::emit::Emission;
-use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
 use piola_materials::{DECLARATIONS, Declaration};
 use serde::{Deserialize, Serialize};
@@ -215,15 +214,7 @@ impl MaterialSpec {
         })
     }
 
-    /// The material as a specimen of the laboratory, for test curves and their stability.
-    ///
-    /// # Errors
-    /// Like [`MaterialSpec::build`].
-    pub fn specimen(&self) -> Result<Box<dyn Specimen>, Error> {
-        Ok(Box::new(self.interpreted()?))
-    }
-
-    /// The material as a program, also in `f32`.
+    /// The material as a program, also in `f32`, and as a specimen of the laboratory.
     ///
     /// # Errors
     /// Like [`MaterialSpec::build`].

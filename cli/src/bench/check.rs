@@ -51,10 +51,10 @@ impl Check {
             SurveySettings::default().with_range(self.from, self.to).with_resolution(self.resolution);
         let description = material.description()?;
         let title = format!("{} {}", description.name, as_options(&material)?.replace("--param ", ""));
-        let specimen = material.specimen()?;
-        let report = survey(&*specimen, &stretches).map_err(Error::usage)?;
+        let specimen = material.interpreted()?;
+        let report = survey(&specimen, &stretches).map_err(Error::usage)?;
         if let Some(path) = self.svg {
-            write_whole(&path, map(&*specimen, &stretches, &title).map_err(Error::usage)?.as_bytes())?;
+            write_whole(&path, map(&specimen, &stretches, &title).map_err(Error::usage)?.as_bytes())?;
         }
         let warning = AtRest { moduli: report.moduli, volume: Volume::Free }.warning();
         let warning = warning.map(|warning| format!("warning: {warning}\n")).unwrap_or_default();

@@ -70,7 +70,7 @@ impl Curve {
         let volume = if self.incompressible { Volume::Kept } else { Volume::Free };
         let material = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
-        let specimen = &*material.specimen()?;
+        let specimen = &material.interpreted()?;
         let data::Measured { points, notes } = self.data.read()?.unwrap_or_default();
         let data = (!points.points.is_empty()).then_some(points);
         let is_asked = |mode: &Mode| self.data.tests.iter().any(|test| test.mode == *mode);

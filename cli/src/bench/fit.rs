@@ -85,10 +85,10 @@ impl Fit {
         text += &at_rest(fitted.build()?.moduli, volume);
         text += &fit.to_string();
         if let Some(file) = &self.svg {
-            let fitted = fitted.specimen()?;
+            let fitted = fitted.interpreted()?;
             let curve = |mode| {
                 let [from, to] = data.range(mode);
-                let points = sweep(&*fitted, mode, volume, &spaced(from, to, FINE));
+                let points = sweep(&fitted, mode, volume, &spaced(from, to, FINE));
                 chart::Curve { mode, points }
             };
             let curves: Vec<_> = data.modes().map(curve).collect();

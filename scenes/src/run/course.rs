@@ -208,14 +208,9 @@ impl<'a> Course<'a> {
         let recovered = distance <= Summary::RECOVERED;
         let reading =
             self.setup.settings.scene.gauge.filter(|_| ended == Ended::Finished).and_then(|marks| {
-                let material = self.setup.settings.material.specimen();
+                let material = self.setup.settings.material.interpreted();
                 let material = material.map_err(|error| self.failures.push(error.to_string())).ok()?;
-                Some(read_specimen(
-                    &self.setup.geometry.mesh,
-                    self.setup.play.simulation(),
-                    marks,
-                    material.as_ref(),
-                ))
+                Some(read_specimen(&self.setup.geometry.mesh, self.setup.play.simulation(), marks, &material))
             });
         let (scene, end) = (self.setup.settings.scene, self.setup.play.clock().time());
         let released = scene.pulls.iter().map(|pull| pull.released).filter(|released| released.is_finite());
