@@ -17,7 +17,8 @@ use crate::geometry::Geometry;
 use crate::measure;
 use crate::moment::Moment;
 use crate::output::{
-    Ended, FinalState, Folder, STATE_FILE, StepCounts, Summary, cage_file, frame_file, read_text, write_ply,
+    Ended, FinalState, Folder, STATE_FILE, StepCounts, Summary, cage_file, frame_file, read_text, seal,
+    write_ply,
 };
 use crate::play::Play;
 use crate::settings::Settings;
@@ -193,7 +194,7 @@ impl<'a> Course<'a> {
     fn save_state(&mut self) -> Result<(), Error> {
         let moment = Moment::of(self.setup.settings, &self.setup.geometry, &self.setup.play);
         let saved = Saved::new(self.setup.cages_of.is_some(), moment, self.progress.clone());
-        self.folder.replace(STATE_FILE, |file| file.write_all(&saved.to_line()?))
+        self.folder.replace(STATE_FILE, |file| file.write_all(&seal(&saved)?))
     }
 
     /// Removes all files of a run that has made no step.
