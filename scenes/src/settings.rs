@@ -25,6 +25,7 @@ pub struct Settings {
     #[serde(with = "Scene")]
     pub scene: &'static Scene,
     /// The body, unless `files` describe another.
+    #[serde(with = "Body")]
     pub body: Body,
     /// Files of another body; their names appear only in errors of reading.
     #[serde(skip)]
