@@ -21,11 +21,6 @@ const FRAMES: usize = 1500;
 const NODES: &str = "8 3\n1 0 0 0\n2 0 0 1\n3 0 1 0\n4 0 1 1\n5 1 0 0\n6 1 0 1\n7 1 1 0\n8 1 1 1\n";
 const TETRAHEDRA: &str = "6 4\n1 1 5 7 8\n2 1 5 8 6\n3 1 3 8 7\n4 1 3 4 8\n5 1 2 6 8\n6 1 2 8 4\n";
 
-/// True if the environment asks for the long form of the tests.
-fn is_full() -> bool {
-    std::env::var_os("PIOLA_FULL").is_some()
-}
-
 type Files = BTreeMap<String, Vec<u8>>;
 
 /// The command for a run of the cube.
@@ -125,8 +120,8 @@ fn killed_at_any_moment() {
     let begun = Instant::now();
     let whole = Whole::new();
     let duration = begun.elapsed();
-    let kills = std::env::var("PIOLA_KILLS")
-        .map_or(if is_full() { KILLS } else { FEWER_KILLS }, |text| text.parse().expect("a number"));
+    let usual = if std::env::var_os("PIOLA_FULL").is_some() { KILLS } else { FEWER_KILLS };
+    let kills = std::env::var("PIOLA_KILLS").map_or(usual, |text| text.parse().expect("a number"));
     let mut random = Random::new(17);
     let mut counts = BTreeMap::new();
     for number in 0..kills {
@@ -149,7 +144,7 @@ fn killed_at_any_moment() {
 /// nobody to have them, there is nothing to fill.
 #[test]
 fn a_disk_that_fills_up() {
-    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let scratch = scratch();
     let script = "mount -t tmpfs -o size=1m none disk && { \"$0\" run horse --frames 40 --out disk/out; echo $? >code; \
                   cp -r disk/out kept; umount disk; }";
     fs::create_dir(scratch.path().join("disk")).expect("a folder");
