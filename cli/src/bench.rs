@@ -15,6 +15,7 @@ use piola_laboratory::AtRest;
 use piola_laboratory::chart;
 use piola_laboratory::curve::Volume;
 use piola_laboratory::data::{Agreement, Measurements};
+use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::options::Formula;
 use piola_scenes::output::write_whole;
@@ -62,7 +63,7 @@ pub(crate) fn at_rest(moduli: Moduli, volume: Volume) -> String {
 
 /// The values of all parameters as options of the command line, with seven digits: rounding changes no stress
 /// that is measured.
-pub(crate) fn as_options(spec: &MaterialSpec) -> Result<String, Error> {
+pub(crate) fn as_options(spec: &MaterialSpec) -> Result<String, SceneError> {
     let rounded = |&value: &f64| number(format!("{value:.6e}").parse().unwrap_or(value));
     let options = spec.description()?.parameters.iter().map(|parameter| {
         let values: Vec<_> = spec.values_of(&parameter.name).iter().map(rounded).collect();
