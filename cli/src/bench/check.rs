@@ -10,7 +10,7 @@ use piola_laboratory::stability::{SurveySettings, map, survey};
 use piola_scenes::options::inversion;
 use piola_scenes::output::write_whole;
 
-use super::Material;
+use super::{Material, as_options};
 use crate::error::Error;
 
 /// Over a box of stretches, and in uniaxial, equibiaxial, pure shear, confined and hydrostatic tests from
@@ -50,24 +50,14 @@ impl Check {
         let stretches =
             SurveySettings::default().with_range(self.from, self.to).with_resolution(self.resolution);
         let description = material.description()?;
-        let parameters = description.parameters.iter().map(|parameter| {
-            let values: Vec<_> = material.values_of(&parameter.name).iter().map(short).collect();
-            format!(" {}={}", parameter.name, values.join(","))
-        });
-        let title = description.name.to_string() + &parameters.collect::<String>();
-        let specimen = material.specimen()?;
-        let report = survey(&*specimen, &stretches).map_err(Error::usage)?;
+        let title = format!("{} {}", description.name, as_options(&material)?.replace("--param ", ""));
+        let specimen = material.interpreted()?;
+        let report = survey(&specimen, &stretches).map_err(Error::usage)?;
         if let Some(path) = self.svg {
-            write_whole(&path, map(&*specimen, &stretches, &title).map_err(Error::usage)?.as_bytes())?;
+            write_whole(&path, map(&specimen, &stretches, &title).map_err(Error::usage)?.as_bytes())?;
         }
         let warning = AtRest { moduli: report.moduli, volume: Volume::Free }.warning();
         let warning = warning.map(|warning| format!("warning: {warning}\n")).unwrap_or_default();
         Ok(format!("{title}\n  ψ = {}\n{warning}\n{report}", description.formula))
     }
-}
-
-/// The shorter of 2.04e5 and 204000, or the latter.
-fn short(number: &f64) -> String {
-    let (plain, scientific) = (number.to_string(), format!("{number:e}"));
-    if scientific.len() < plain.len() { scientific } else { plain }
 }

@@ -91,12 +91,12 @@ pub fn csv(_: &Path, bytes: &[u8]) -> bool {
         }
         Err(error) => return refused(&error),
     };
-    let specimen = MaterialSpec::typical("gent").and_then(|gent| gent.specimen()).expect("a material");
+    let specimen = MaterialSpec::typical("gent").and_then(|gent| gent.interpreted()).expect("a material");
     let curves: Vec<_> = data
         .modes()
         .map(|mode| {
             let controls: Vec<_> = data.of(mode).map(|point| point.control).collect();
-            Curve { mode, points: sweep(&*specimen, mode, Volume::Free, &controls) }
+            Curve { mode, points: sweep(&specimen, mode, Volume::Free, &controls) }
         })
         .collect();
     for response in curves.iter().flat_map(|curve| &curve.points) {
@@ -105,7 +105,7 @@ pub fn csv(_: &Path, bytes: &[u8]) -> bool {
             Err(error) => check_message(error),
         }
     }
-    let agreement = data.agreement(&*specimen, Volume::Free);
+    let agreement = data.agreement(&specimen, Volume::Free);
     let compared = agreement.as_ref().ok().map(|agreement| (&data, agreement));
     match chart::draw("gent", "typical", &curves, compared) {
         Ok(svg) => assert!(!svg.contains("NaN") && !svg.contains("\"inf"), "{svg}"),
