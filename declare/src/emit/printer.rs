@@ -10,7 +10,7 @@ use piola::__private::record::{Function, RecordedOperation, RecordedProgram, Rec
 use piola::Inversion;
 use piola::material::{Form, Parameter};
 
-use super::language::{Argument, Field, Language, Needs, language};
+use super::language::{Argument, Field, Kind, Language, Needs};
 use super::{File, PointFunction};
 use body::Body;
 
@@ -47,7 +47,7 @@ pub(super) fn print(file: &File<'_>) -> String {
 
 struct Printer<'a> {
     file: &'a File<'a>,
-    language: Box<dyn Language>,
+    language: Language,
     prefix: &'a str,
     /// The name of each parameter.
     fields: Vec<String>,
@@ -57,10 +57,10 @@ struct Printer<'a> {
 
 impl<'a> Printer<'a> {
     fn new(file: &'a File<'a>) -> Self {
-        let language = language(file.target, file.precision, &file.prefix);
+        let language = Language::new(file.target, file.precision, &file.prefix);
         let description = file.energy.description();
         let mut parameters = Vec::new();
-        let fields = fields(description.parameters.iter(), &*language);
+        let fields = fields(description.parameters.iter(), &language);
         for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&fields) {
             for k in 0..values.len() {
                 let is_list = matches!(parameter.form, Form::List | Form::Exponents);
@@ -153,7 +153,11 @@ impl<'a> Printer<'a> {
             }
         }
         let arguments: Vec<_> = (0..program.arguments).map(|k| format!("x{k}")).collect();
-        let _ = writeln!(text, "{}", self.language.head(function.name(), &arguments, function.is_pair()));
+        let mut list: Vec<_> = arguments.iter().map(String::as_str).map(Argument::Number).collect();
+        if function.is_pair() {
+            list.push(Argument::Output("second", 1));
+        }
+        let _ = writeln!(text, "{}", self.language.head(function.name(), &list, Kind::Number));
         let body = Body::new(self, program, arguments);
         *text += &body.statements();
         if function.is_pair() {
@@ -172,7 +176,7 @@ impl<'a> Printer<'a> {
         let mut list = vec![Argument::Parameters];
         list.extend(inputs.iter().map(|&(name, count)| Argument::Input(name, count)));
         list.extend(outputs.iter().map(|&(name, count)| Argument::Output(name, count)));
-        let mut text = format!("/* {comment} */\n{}\n", language.head_of_point(function.name(), &list));
+        let mut text = format!("/* {comment} */\n{}\n", language.head(function.name(), &list, Kind::Status));
         if !program.operations.iter().any(|one| matches!(one, RecordedOperation::Parameter(_))) {
             text += language.parameters_are_unused();
         }
@@ -248,7 +252,7 @@ impl Signature {
 }
 
 /// The names of all parameters as fields, each another one.
-fn fields<'p>(parameters: impl Iterator<Item = &'p Parameter>, language: &dyn Language) -> Vec<String> {
+fn fields<'p>(parameters: impl Iterator<Item = &'p Parameter>, language: &Language) -> Vec<String> {
     let mut fields: Vec<String> = Vec::new();
     for parameter in parameters {
         let mut name = String::new();
