@@ -26,7 +26,7 @@ pub(super) fn is_identifier(name: &str) -> bool {
 pub(super) fn print(file: &File<'_>) -> String {
     let printer = Printer::new(file);
     let recordings: Vec<&Recording> =
-        file.functions.iter().map(|one| &one.recording).chain([&file.rest]).collect();
+        file.functions.iter().map(|(_, recording)| recording).chain([&file.rest]).collect();
     let programs =
         recordings.iter().flat_map(|recording| recording.functions.values().chain([&recording.program]));
     let needs = Needs(programs.flat_map(|program| &program.operations).collect());
@@ -39,8 +39,8 @@ pub(super) fn print(file: &File<'_>) -> String {
         }
     }
     text += &printer.check();
-    for one in &file.functions {
-        text += &printer.point_function(one.function, &one.recording.program);
+    for (function, recording) in &file.functions {
+        text += &printer.point_function(*function, &recording.program);
     }
     printer.comment() + &printer.language.guarded(text)
 }
@@ -202,14 +202,14 @@ impl<'a> Printer<'a> {
 }
 
 /// Arguments and results of a function, and the comment above it.
-struct Signature {
+pub(super) struct Signature {
     comment: &'static str,
-    inputs: &'static [(&'static str, usize)],
+    pub(super) inputs: &'static [(&'static str, usize)],
     outputs: &'static [(&'static str, usize)],
 }
 
 impl Signature {
-    fn of(function: PointFunction) -> Self {
+    pub(super) fn of(function: PointFunction) -> Self {
         const F: &[(&str, usize)] = &[("F", 9)];
         const P: (&str, usize) = ("P", 9);
         const TANGENT: &[(&str, usize)] = &[P, ("A", 81)];

@@ -40,7 +40,9 @@ impl Printer<'_> {
         let body = Body::new(self, program, Vec::new());
         let mut results = program.results.iter().map(|&id| body.operand(id));
         let mut statements = body.statements();
-        if let (false, Some(shear), Some(bulk)) = (file.is_prestressed, results.next(), results.next()) {
+        if let (false, Some(shear), Some(bulk)) =
+            (file.energy.is_prestressed(), results.next(), results.next())
+        {
             // The constructor has the moduli by a formula, without the roundings of derivatives.
             let rounding = language.literal(if file.precision == Precision::F32 { 1e-5 } else { 1e-13 });
             let (zero, is_finite) = (language.literal(0.0), language.is_finite(&bulk));
