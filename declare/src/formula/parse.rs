@@ -37,8 +37,6 @@ const MOST_ASKED: usize = 20;
 
 /// A formula as the parts of a declaration.
 pub(super) struct Parsed {
-    pub(super) name: Ident,
-    pub(super) summary: String,
     pub(super) parameters: Vec<Parameter>,
     pub(super) body: TokenStream,
     /// Conditions of the domain.
@@ -134,8 +132,6 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
         is_list: *is_list,
     });
     Ok(Parsed {
-        name: Ident::new("Energy", Span::call_site()),
-        summary: "Energy of a formula.".to_owned(),
         parameters: parameters.collect(),
         body,
         domain,
