@@ -26,7 +26,7 @@ use piola_codegen::read::parse::{Declaration, Kind};
 
 use crate::constructor::Constructor;
 use crate::fit::{self, Fit};
-use crate::lower::{lower, lower_within};
+use crate::lower::{lower, lower_parts};
 
 /// An elastic energy, compiled from text.
 ///
@@ -250,7 +250,7 @@ impl Energy {
 pub fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs> {
     let program = |model: &mut Model, roots: &[Id]| lower(declaration, &model.program(roots));
     let within = |model: &mut Model, roots: &[Id], bounds: &[Id]| {
-        lower_within(declaration, &model.program(roots), &model.program(bounds))
+        lower_parts(declaration, &[&model.program(roots), &model.program(bounds)])
     };
     let plain = variant(declaration, model, |model| &model.plain)?;
     let extended = match model.extended.is_some() {
@@ -297,7 +297,7 @@ fn variant(
     let model::Variant { energy, gradient, has_pole, .. } = *of(model);
     let blocks = of(model).blocks();
     let bounds = model.program(&model.bounds.clone());
-    let mut within = |roots: &[Id]| lower_within(declaration, &model.program(roots), &bounds);
+    let mut within = |roots: &[Id]| lower_parts(declaration, &[&model.program(roots), &bounds]);
     Some(Variant {
         energy: within(&[energy])?,
         gradient: within(&gradient)?,
