@@ -328,7 +328,7 @@ fn recorded(
         let no = RecordedMask::splat(false);
         let dense = |filter| {
             let point = evaluate_dense(material, &matrix(arguments), filter);
-            (flat(point.stress).chain(flat(point.tangent)).collect(), bits(point.status))
+            ([point.stress.as_flattened(), point.tangent.as_flattened()].concat(), bits(point.status))
         };
         let tetrahedron = |filter| {
             let nodes = std::array::from_fn(|node| std::array::from_fn(|a| arguments[3 * node + a]));
@@ -343,7 +343,7 @@ fn recorded(
             }
             PointFunction::Stress => {
                 let point = evaluate_stress(material, &matrix(arguments));
-                (flat(point.stress).collect(), bits(point.status))
+                (point.stress.as_flattened().to_vec(), bits(point.status))
             }
             PointFunction::Tangent => dense(Filter::None),
             PointFunction::Projected => dense(Filter::Clamp),
@@ -360,8 +360,8 @@ fn recorded(
             PointFunction::Svd => {
                 let svd = svd(&matrix(arguments));
                 let is_finite = all_finite(&svd.stretches);
-                let numbers = flat(svd.U).chain(svd.stretches).chain(flat(svd.V));
-                (numbers.collect(), vec![no, no, !is_finite])
+                let numbers = [svd.U.as_flattened(), &svd.stretches, svd.V.as_flattened()].concat();
+                (numbers, vec![no, no, !is_finite])
             }
         }
     })
@@ -393,10 +393,6 @@ fn snake_case(name: &str) -> String {
         text.extend(c.to_lowercase());
     }
     text
-}
-
-fn flat<R, const N: usize, const M: usize>(rows: [[R; M]; N]) -> impl Iterator<Item = R> {
-    rows.into_iter().flatten()
 }
 
 fn matrix<R: Copy>(rows: &[R]) -> [[R; 3]; 3] {
