@@ -10,8 +10,6 @@ mod primitives;
 
 use super::{Precision, Target};
 
-pub(super) use primitives::Needs;
-
 /// Keywords of C99, C++20 and OpenCL C, and macros of headers and compilers.
 const RESERVED_IN_C: &str = "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t \
     char32_t class co_await co_return co_yield compl concept const const_cast consteval constexpr constinit continue \

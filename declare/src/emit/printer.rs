@@ -10,7 +10,7 @@ use piola::__private::record::{Function, RecordedOperation, RecordedProgram, Rec
 use piola::Inversion;
 use piola::material::{Form, Parameter};
 
-use super::language::{Argument, Field, Kind, Language, Needs};
+use super::language::{Argument, Field, Kind, Language};
 use super::{File, PointFunction};
 use body::Body;
 
@@ -27,11 +27,7 @@ pub(super) fn print(file: &File<'_>) -> String {
     let printer = Printer::new(file);
     let recordings: Vec<&Recording> =
         file.functions.iter().map(|(_, recording)| recording).chain([&file.rest]).collect();
-    let programs =
-        recordings.iter().flat_map(|recording| recording.functions.values().chain([&recording.program]));
-    let needs = Needs(programs.flat_map(|program| &program.operations).collect());
-    let mut text = printer.parameters();
-    text += &printer.language.primitives(&needs);
+    let mut text = String::new();
     let mut printed = BTreeSet::new();
     for recording in &recordings {
         for function in recording.functions.keys() {
@@ -42,6 +38,7 @@ pub(super) fn print(file: &File<'_>) -> String {
     for (function, recording) in &file.functions {
         text += &printer.point_function(*function, &recording.program);
     }
+    let text = printer.parameters() + &printer.language.primitives(&text) + &text;
     printer.comment() + &printer.language.guarded(text)
 }
 

@@ -1,32 +1,11 @@
 //! Functions that programs are made of, from the files `primitives.c` and `primitives.wgsl`.
 
-use piola::__private::record::{Binary, Function, RecordedOperation, Unary};
-
 use super::{Kind, Language};
 use crate::emit::Target;
 
 /// Parts of the files.
 const C: &str = include_str!("primitives.c");
 const WGSL: &str = include_str!("primitives.wgsl");
-
-/// Operations of the programs of a file, whose primitives it must have.
-pub(in crate::emit) struct Needs<'a>(pub(in crate::emit) Vec<&'a RecordedOperation>);
-
-impl Needs<'_> {
-    /// True if a part of the primitives is needed, named like its function; `all` always is.
-    fn part(&self, part: &str) -> bool {
-        let is_needed = |one: &RecordedOperation| match one {
-            RecordedOperation::Binary(Binary::CopySign, ..) => part == "copysign",
-            RecordedOperation::Binary(Binary::Scale, ..) => part == "scale",
-            RecordedOperation::Unary(Unary::LeadingPower, _) => part == "leading_power",
-            RecordedOperation::Unary(Unary::ReciprocalOfPower, _) => part == "reciprocal_of_power",
-            RecordedOperation::Call(Function::Split, _) => part == "split",
-            RecordedOperation::Call(Function::ProductError, _) => part == "product_error",
-            _ => false,
-        };
-        part == "all" || self.0.iter().any(|one| is_needed(one))
-    }
-}
 
 /// The needed parts of a file, each of which follows a line `//@` with its name.
 fn parts(file: &str, is_needed: impl Fn(&str) -> bool) -> String {
@@ -47,22 +26,23 @@ impl Language {
         self.filled(&parts(C, |part| part == of_target || Some(part) == of_double))
     }
 
-    /// Functions that programs are made of, those that one of them needs.
-    pub(in crate::emit) fn primitives(&self, needs: &Needs<'_>) -> String {
-        let (target, is_single) = (self.target, self.is_single);
+    /// Functions that programs are made of, those that a text calls.
+    pub(in crate::emit) fn primitives(&self, text: &str) -> String {
+        // Each part has the name of its function; `all` is always needed.
+        let is_called = |part: &str| part == "all" || text.contains(&format!("{}_{part}(", self.prefix));
+        let target = self.target;
         if target == Target::Wgsl {
-            return parts(WGSL, |part| needs.part(part)).replace("{prefix}", &self.prefix);
+            return parts(WGSL, is_called).replace("{prefix}", &self.prefix);
         }
         let has_bits = ["scale", "split", "leading_power", "reciprocal_of_power"];
-        let has_bits = target == Target::Cuda || has_bits.into_iter().any(|part| needs.part(part));
-        let is_in_double = is_single && target != Target::OpenCl;
+        let has_bits = target == Target::Cuda || has_bits.into_iter().any(is_called);
+        let is_in_double = self.is_single && target != Target::OpenCl;
         self.filled(&parts(C, |part| match part {
             "bits of opencl" => target == Target::OpenCl,
             "bits" => target != Target::OpenCl && has_bits,
-            "copysign" => target == Target::Cuda && needs.part(part),
-            "product_error in double" => is_in_double && needs.part("product_error"),
-            "product_error by halves" => !is_in_double && needs.part("product_error"),
-            part => needs.part(part),
+            "product_error in double" => is_in_double && is_called("product_error"),
+            "product_error by halves" => !is_in_double && is_called("product_error"),
+            part => is_called(part),
         }))
     }
 
