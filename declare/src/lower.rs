@@ -19,8 +19,8 @@ pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Prog
     lower_parts(declaration, &[ordered])
 }
 
-/// The program of a response, and behind it that of the bounds of its domain if there are any, whose constants
-/// and arguments are in the same registers; `None` if it needs too many of them.
+/// The program of a response, and behind it that of the bounds of its domain if there are any, whose
+/// constants and arguments are in the same registers; `None` if it needs too many of them.
 ///
 /// They are not ordered as one, because common operations could then be shared: bits of the response would
 /// depend on the domain.

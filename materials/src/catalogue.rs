@@ -41,8 +41,8 @@ pub trait Visitor: Sized {
     /// Meets the material, its type static from here on.
     fn visit<M: Declared + 'static>(self, material: M) -> Self::Output;
 
-    /// Meets a material whose derivatives with respect to its parameters are known, in the same way unless the
-    /// action needs them.
+    /// Meets a material whose derivatives with respect to its parameters are known, in the same way unless
+    /// the action needs them.
     fn visit_fittable<M: Fittable + 'static>(self, material: M) -> Self::Output {
         self.visit(material)
     }

@@ -2,8 +2,8 @@
 //!
 //! C is C99 that is C++17 as well, with dialects for graphics processors. In WGSL a number is an `f32`, and a
 //! compiler may compute as with real numbers, none of them infinite or NaN. Mesa's compiler does: (a + b) − a
-//! becomes b, a b + a c becomes a (b + c), and 0 a becomes 0. So every result of arithmetic is hidden from it:
-//! the bits are combined with bits that are zero, which the compiler cannot know. Finite numbers are
+//! becomes b, a b + a c becomes a (b + c), and 0 a becomes 0. So every result of arithmetic is hidden from
+//! it: the bits are combined with bits that are zero, which the compiler cannot know. Finite numbers are
 //! recognised by their bits.
 
 mod primitives;
@@ -386,8 +386,8 @@ fn {prefix}_example() -> {prefix}_parameters {{
         }
     }
 
-    /// The contents below the comment. In C with guards against a second reading, against another file of that
-    /// name, and against arithmetic that is not that of IEEE 754.
+    /// The contents below the comment. In C with guards against a second reading, against another file of
+    /// that name, and against arithmetic that is not that of IEEE 754.
     pub(super) fn guarded(&self, text: String) -> String {
         let Self { upper, .. } = self;
         // FNV-1a.
