@@ -39,19 +39,7 @@ pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Opti
         part: 0,
         latest: None,
         preparations: Vec::new(),
-        program: Program {
-            literals: Vec::new(),
-            arguments: Vec::new(),
-            parameters: Vec::new(),
-            entries: Vec::new(),
-            epsilon: None,
-            operations: Vec::new(),
-            preparations: 0,
-            loops: Vec::new(),
-            results: Vec::new(),
-            bounds: Vec::new(),
-            sizes: Sizes::default(),
-        },
+        program: Program::default(),
     };
     for (part, ordered) in parts.iter().enumerate() {
         lowering.part = part;
