@@ -15,6 +15,7 @@ use piola_laboratory::AtRest;
 use piola_laboratory::chart;
 use piola_laboratory::curve::Volume;
 use piola_laboratory::data::{Agreement, Measurements};
+use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::options::Formula;
 use piola_scenes::output::write_whole;
@@ -60,18 +61,15 @@ pub(crate) fn at_rest(moduli: Moduli, volume: Volume) -> String {
     format!("  at rest  {at_rest}\n{}", warning.unwrap_or_default())
 }
 
-/// The values of all parameters as options of the command line, with seven digits.
-pub(crate) fn as_options<'a>(parameters: impl Iterator<Item = (&'a str, &'a [f64])>) -> String {
-    let options = parameters.map(|(name, values)| {
-        let values: Vec<_> = values.iter().map(|&value| number(rounded(value))).collect();
-        format!("--param {name}={}", values.join(","))
+/// The values of all parameters as options of the command line, with seven digits: rounding changes no stress
+/// that is measured.
+pub(crate) fn as_options(spec: &MaterialSpec) -> Result<String, SceneError> {
+    let rounded = |&value: &f64| number(format!("{value:.6e}").parse().unwrap_or(value));
+    let options = spec.description()?.parameters.iter().map(|parameter| {
+        let values: Vec<_> = spec.values_of(&parameter.name).iter().map(rounded).collect();
+        format!("--param {}={}", parameter.name, values.join(","))
     });
-    options.collect::<Vec<_>>().join(" ")
-}
-
-/// A value in seven digits: rounding changes no stress that is measured.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.6e}").parse().unwrap_or(value)
+    Ok(options.collect::<Vec<_>>().join(" "))
 }
 
 /// Evenly spaced values, both ends among them.

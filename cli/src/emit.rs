@@ -59,8 +59,6 @@ impl Emit {
         let text = spec.emit(&emission)?;
         let Some(file) = self.output else { return Ok(text) };
         write_whole(&file, text.as_bytes())?;
-        let parameters = &spec.description()?.parameters;
-        let values = parameters.iter().map(|parameter| (&*parameter.name, spec.values_of(&parameter.name)));
-        Ok(format!("wrote {}, whose example is {}\n", file.display(), as_options(values)))
+        Ok(format!("wrote {}, whose example is {}\n", file.display(), as_options(&spec)?))
     }
 }

@@ -9,6 +9,8 @@ use piola_scenes::error::Error;
 use piola_scenes::material::MaterialSpec;
 use rayon::prelude::*;
 
+use crate::bench::as_options;
+
 /// A page for a material, or for each one of the catalogue, separated by blank lines.
 pub(crate) fn pages(name: Option<&str>) -> Result<String, Error> {
     if let Some(name) = name {
@@ -31,11 +33,7 @@ fn page(name: &str) -> Result<String, Error> {
     if !admissible.is_empty() {
         text += &format!("  admissible   {}\n", admissible.join(", "));
     }
-    let typical = parameters.iter().map(|parameter| {
-        let values: Vec<_> = material.values_of(&parameter.name).iter().map(f64::to_string).collect();
-        format!("{}={}", parameter.name, values.join(","))
-    });
-    text += &format!("  typical      {}\n", typical.collect::<Vec<_>>().join(" "));
+    text += &format!("  typical      {}\n", as_options(&material)?.replace("--param ", ""));
     let beyond = match refusal {
         _ if *extends => ", can be extended beyond".to_owned(),
         Some(reason) => format!(", not extended: {reason}"),

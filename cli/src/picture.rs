@@ -13,17 +13,15 @@ const TILES: usize = 12;
 
 /// Adds the picture to the files of a run.
 pub(crate) fn add(finished: &mut Finished, settings: &Settings) {
-    let frames: io::Result<Vec<Frame>> =
-        tiles(&finished.motion).into_iter().map(|frame| self::frame(finished, frame)).collect();
+    let frame = |number: usize| -> io::Result<Frame> {
+        let vertices = finished.surface_in(number)?;
+        Ok(Frame { number, time: number as f64 * finished.summary.dt, vertices })
+    };
+    let frames: io::Result<Vec<_>> = tiles(&finished.motion).into_iter().map(frame).collect();
     let triangles = finished.geometry.triangles.clone();
     finished.add(PICTURE_FILE, |file| {
         contact_sheet(&frames?, &triangles, &settings.body.style).write_png(file).map_err(io::Error::from)
     });
-}
-
-fn frame(finished: &Finished, number: usize) -> io::Result<Frame> {
-    let vertices = finished.surface_in(number)?;
-    Ok(Frame { number, time: number as f64 * finished.summary.dt, vertices })
 }
 
 /// Numbers of the frames for the tiles, from the mean distance that nodes have moved up to each frame.

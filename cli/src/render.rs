@@ -26,11 +26,7 @@ struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    fn vertex(&self, index: u32) -> Vector {
-        self.vertices[index as usize].into()
-    }
-
     fn corners(&self, triangle: usize) -> [Vector; 3] {
-        self.triangles[triangle].map(|vertex| self.vertex(vertex))
+        self.triangles[triangle].map(|vertex| self.vertices[vertex as usize].into())
     }
 }

@@ -20,7 +20,7 @@ impl Signals {
         let received = Arc::new(AtomicUsize::new(0));
         let is_second = Arc::new(AtomicBool::new(false));
         for signal in [SIGINT, SIGTERM] {
-            register_conditional_shutdown(signal, exit_code(signal), is_second.clone())?;
+            register_conditional_shutdown(signal, 128 + signal, is_second.clone())?;
             register(signal, is_second.clone())?;
             register_usize(signal, received.clone(), signal as usize)?;
         }
@@ -32,8 +32,4 @@ impl Signals {
         let signal = self.received.load(Ordering::Relaxed);
         u8::try_from(signal).ok().filter(|&signal| signal > 0).map(|signal| 128 + signal)
     }
-}
-
-fn exit_code(signal: i32) -> i32 {
-    128 + signal
 }

@@ -21,11 +21,6 @@ const FRAMES: usize = 1500;
 const NODES: &str = "8 3\n1 0 0 0\n2 0 0 1\n3 0 1 0\n4 0 1 1\n5 1 0 0\n6 1 0 1\n7 1 1 0\n8 1 1 1\n";
 const TETRAHEDRA: &str = "6 4\n1 1 5 7 8\n2 1 5 8 6\n3 1 3 8 7\n4 1 3 4 8\n5 1 2 6 8\n6 1 2 8 4\n";
 
-/// True if the environment asks for the long form of the tests.
-fn is_full() -> bool {
-    std::env::var_os("PIOLA_FULL").is_some()
-}
-
 type Files = BTreeMap<String, Vec<u8>>;
 
 /// The command for a run of the cube.
@@ -125,8 +120,8 @@ fn killed_at_any_moment() {
     let begun = Instant::now();
     let whole = Whole::new();
     let duration = begun.elapsed();
-    let kills = std::env::var("PIOLA_KILLS")
-        .map_or(if is_full() { KILLS } else { FEWER_KILLS }, |text| text.parse().expect("a number"));
+    let usual = if std::env::var_os("PIOLA_FULL").is_some() { KILLS } else { FEWER_KILLS };
+    let kills = std::env::var("PIOLA_KILLS").map_or(usual, |text| text.parse().expect("a number"));
     let mut random = Random::new(17);
     let mut counts = BTreeMap::new();
     for number in 0..kills {
@@ -143,31 +138,13 @@ fn killed_at_any_moment() {
     assert!(counts.keys().any(|(_, came)| *came), "no signal came before the end: {counts:?}");
 }
 
-/// A signal ends a run as a shorter one with a summary, whenever it comes: every 50 ms of a run if
-/// `PIOLA_KILLS` is set, otherwise every 500 ms with `PIOLA_FULL`, or every two seconds.
-#[test]
-fn interrupted_at_every_moment() {
-    let whole = Whole::new();
-    let pause = match is_full() {
-        _ if std::env::var_os("PIOLA_KILLS").is_some() => 50,
-        true => 500,
-        false => 2000,
-    };
-    let moments = (1..).map(|turn| turn * Duration::from_millis(pause));
-    for moment in moments {
-        if !whole.strike(scratch().path(), moment, "INT") {
-            break;
-        }
-    }
-}
-
 /// A disk that is full at some frame leaves the frames before and a summary with the reason.
 ///
 /// The disk is a small one in memory, for which the test needs namespaces of its own; on systems that allow
 /// nobody to have them, there is nothing to fill.
 #[test]
 fn a_disk_that_fills_up() {
-    let scratch = tempfile::tempdir().expect("a scratch folder");
+    let scratch = scratch();
     let script = "mount -t tmpfs -o size=1m none disk && { \"$0\" run horse --frames 40 --out disk/out; echo $? >code; \
                   cp -r disk/out kept; umount disk; }";
     fs::create_dir(scratch.path().join("disk")).expect("a folder");

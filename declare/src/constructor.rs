@@ -4,16 +4,17 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use piola::__private::interpreter::{ParameterValues, Program, Programs, Value};
-use piola::__private::{Condition, Values, at_rest, check_parameters, extends, inside_at_rest, same_length};
+use piola::__private::{
+    Condition, Term, Values, at_rest, check_parameters, extends, inside_at_rest, same_length,
+};
 use piola::interpreter::Interpreted;
 use piola::material::{Description, Form, MaterialError, Text};
 use piola::{Inversion, Spline, Univariate};
-use piola_codegen::emit::condition::named;
+use piola_codegen::emit::condition::{self, named};
 use piola_codegen::emit::condition_text;
 use piola_codegen::model::Model;
 use piola_codegen::read::parse::{Declaration, Entries};
 
-use crate::condition::condition;
 use crate::lower::lower;
 
 /// Checks of the values of an energy's parameters.
@@ -151,6 +152,17 @@ impl Constructor {
             }
         }
     }
+}
+
+/// A condition on parameters, which the constructor evaluates.
+fn condition(declaration: &Declaration, condition: &syn::Expr) -> Condition {
+    let condition::Condition { text, sides, comparison, list, names } =
+        condition::Condition::new(declaration, condition, &|term| match term {
+            condition::Term::Number(number) => Term::Number(number),
+            condition::Term::Parameter(k) => Term::Parameter(k),
+            condition::Term::Call(name, operands) => Term::Call(name.into(), operands.into()),
+        });
+    Condition { text: text.into(), sides, comparison, list, names: names.into() }
 }
 
 /// The numbers of a value; none of a function.

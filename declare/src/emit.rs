@@ -21,6 +21,7 @@ use piola::point::{Filter, evaluate_dense, evaluate_energy, evaluate_stress, svd
 use piola::{Inversion, Material, Status};
 
 use crate::energy::Energy;
+use printer::Signature;
 
 /// Languages of emitted source text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -232,12 +233,6 @@ pub enum EmitError {
     Unrecorded(#[from] UnrecordedParameter),
 }
 
-/// A function as recorded.
-struct PointProgram {
-    function: PointFunction,
-    recording: Recording,
-}
-
 /// Input of a printer: an energy with its programs and parameters.
 struct File<'a> {
     energy: &'a Energy,
@@ -247,9 +242,7 @@ struct File<'a> {
     /// Values of the parameters when the file was printed.
     values: &'a [&'a [f64]],
     inversion: Inversion,
-    functions: Vec<PointProgram>,
-    /// True if the rest state may carry a stress.
-    is_prestressed: bool,
+    functions: Vec<(PointFunction, Recording)>,
     /// Recording from parameters to the moduli at rest, and to a truth value: the rest state is inside of the
     /// domain.
     rest: Recording,
@@ -293,19 +286,9 @@ impl Energy {
             }
         };
         let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
-        let values = &values[..];
-        let material = self.with_marked_parameters(&self.material(values, inversion)?);
-        Ok(printer::print(&self.file(prefix, values, material, emission)?))
-    }
-
-    fn file<'a>(
-        &'a self,
-        prefix: String,
-        values: &'a [&'a [f64]],
-        material: Interpreted,
-        emission: &Emission,
-    ) -> Result<File<'a>, UnrecordedParameter> {
-        let format = match emission.precision {
+        let material = self.with_marked_parameters(&self.material(&values, inversion)?);
+        let Emission { target, precision, .. } = *emission;
+        let format = match precision {
             Precision::F64 => record::Format::F64,
             Precision::F32 => record::Format::F32,
         };
@@ -314,14 +297,11 @@ impl Energy {
         wanted.dedup();
         // A material keeps what it has computed of its parameters, which belongs to one recording.
         let fresh = || material.clone_with(material.values().clone());
-        let recorded =
-            |function| Ok(PointProgram { function, recording: recorded(format, function, &fresh())? });
-        let functions = wanted.into_iter().map(recorded).collect::<Result<_, UnrecordedParameter>>()?;
-        let is_prestressed = self.is_prestressed();
+        let recorded = |one| recorded(format, one, &fresh()).map(|recording| (one, recording));
+        let functions = wanted.into_iter().map(recorded).collect::<Result<Vec<_>, _>>()?;
         let rest = at_rest(format, &self.without_extension(&fresh()))?;
-        let Emission { target, precision, .. } = *emission;
-        let inversion = material.inversion();
-        Ok(File {
+        let values = &values[..];
+        Ok(printer::print(&File {
             energy: self,
             target,
             prefix,
@@ -329,9 +309,8 @@ impl Energy {
             values,
             inversion,
             functions,
-            is_prestressed,
             rest,
-        })
+        }))
     }
 }
 
@@ -341,11 +320,7 @@ fn recorded(
     function: PointFunction,
     material: &Interpreted,
 ) -> Result<Recording, UnrecordedParameter> {
-    let count = match function {
-        PointFunction::Blocks => 3,
-        PointFunction::Tetrahedron | PointFunction::ProjectedTetrahedron => 22,
-        _ => 9,
-    };
+    let count: usize = Signature::of(function).inputs.iter().map(|&(_, count)| count).sum();
     record::record(format, count, |arguments| {
         let bits = |status: Status<RecordedMask>| {
             vec![status.refused, status.bounded, status.nonfinite, status.filtered]
@@ -353,7 +328,7 @@ fn recorded(
         let no = RecordedMask::splat(false);
         let dense = |filter| {
             let point = evaluate_dense(material, &matrix(arguments), filter);
-            (flat(point.stress).chain(flat(point.tangent)).collect(), bits(point.status))
+            ([point.stress.as_flattened(), point.tangent.as_flattened()].concat(), bits(point.status))
         };
         let tetrahedron = |filter| {
             let nodes = std::array::from_fn(|node| std::array::from_fn(|a| arguments[3 * node + a]));
@@ -368,7 +343,7 @@ fn recorded(
             }
             PointFunction::Stress => {
                 let point = evaluate_stress(material, &matrix(arguments));
-                (flat(point.stress).collect(), bits(point.status))
+                (point.stress.as_flattened().to_vec(), bits(point.status))
             }
             PointFunction::Tangent => dense(Filter::None),
             PointFunction::Projected => dense(Filter::Clamp),
@@ -385,8 +360,8 @@ fn recorded(
             PointFunction::Svd => {
                 let svd = svd(&matrix(arguments));
                 let is_finite = all_finite(&svd.stretches);
-                let numbers = flat(svd.U).chain(svd.stretches).chain(flat(svd.V));
-                (numbers.collect(), vec![no, no, !is_finite])
+                let numbers = [svd.U.as_flattened(), &svd.stretches, svd.V.as_flattened()].concat();
+                (numbers, vec![no, no, !is_finite])
             }
         }
     })
@@ -418,10 +393,6 @@ fn snake_case(name: &str) -> String {
         text.extend(c.to_lowercase());
     }
     text
-}
-
-fn flat<R, const N: usize, const M: usize>(rows: [[R; M]; N]) -> impl Iterator<Item = R> {
-    rows.into_iter().flatten()
 }
 
 fn matrix<R: Copy>(rows: &[R]) -> [[R; 3]; 3] {

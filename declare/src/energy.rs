@@ -26,7 +26,7 @@ use piola_codegen::read::parse::{Declaration, Kind};
 
 use crate::constructor::Constructor;
 use crate::fit::{self, Fit};
-use crate::lower::{lower, lower_within};
+use crate::lower::{lower, lower_parts};
 
 /// An elastic energy, compiled from text.
 ///
@@ -250,12 +250,13 @@ impl Energy {
 pub fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs> {
     let program = |model: &mut Model, roots: &[Id]| lower(declaration, &model.program(roots));
     let within = |model: &mut Model, roots: &[Id], bounds: &[Id]| {
-        lower_within(declaration, &model.program(roots), &model.program(bounds))
+        lower_parts(declaration, &[&model.program(roots), &model.program(bounds)])
     };
-    let plain = variant(declaration, model, |model| &model.plain)?;
-    let extended = match model.extended.is_some() {
-        true => Some(variant(declaration, model, |model| model.extended.as_ref().unwrap_or(&model.plain))?),
-        false => None,
+    let (plain, extended) = (model.plain.clone(), model.extended.clone());
+    let plain = variant(declaration, model, &plain)?;
+    let extended = match extended {
+        Some(extended) => Some(variant(declaration, model, &extended)?),
+        None => None,
     };
     let by_invariants = match model.invariants.clone() {
         None => None,
@@ -289,19 +290,14 @@ pub fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs
     })
 }
 
-fn variant(
-    declaration: &Declaration,
-    model: &mut Model,
-    of: impl Fn(&Model) -> &model::Variant,
-) -> Option<Variant> {
-    let model::Variant { energy, gradient, has_pole, .. } = *of(model);
-    let blocks = of(model).blocks();
+fn variant(declaration: &Declaration, model: &mut Model, of: &model::Variant) -> Option<Variant> {
+    let model::Variant { energy, gradient, has_pole, .. } = *of;
     let bounds = model.program(&model.bounds.clone());
-    let mut within = |roots: &[Id]| lower_within(declaration, &model.program(roots), &bounds);
+    let mut within = |roots: &[Id]| lower_parts(declaration, &[&model.program(roots), &bounds]);
     Some(Variant {
         energy: within(&[energy])?,
         gradient: within(&gradient)?,
-        blocks: within(&blocks)?,
+        blocks: within(&of.blocks())?,
         calls: calls_of(declaration, model, energy)?,
         has_pole,
     })

@@ -94,9 +94,7 @@ impl FormulaOptions {
     pub fn with_bulk(self, name: impl Into<String>) -> Self {
         Self { bulk: Some(name.into()), ..self }
     }
-}
 
-impl FormulaOptions {
     /// The language of messages.
     fn language(&self) -> Language {
         Language::Formula { free_rest: self.free_rest_option }
@@ -165,13 +163,12 @@ impl Energy {
 impl Parsed {
     /// The declared function.
     fn item(&self) -> TokenStream {
-        let Self { name, parameters, body, .. } = self;
+        let Self { parameters, body, .. } = self;
         let parameters = parameters.iter().map(|parameter| parameter.tokens());
-        let summary = format!(" {}", self.summary);
         let [l1, l2, l3] = parse::STRETCHES.map(|stretch| Ident::new(stretch, Span::call_site()));
         quote! {
-            #[doc = #summary]
-            pub fn #name([#l1, #l2, #l3]: [f64; 3], #(#parameters),*) -> f64 {
+            #[doc = " Energy of a formula."]
+            pub fn Energy([#l1, #l2, #l3]: [f64; 3], #(#parameters),*) -> f64 {
                 #body
             }
         }

@@ -28,7 +28,6 @@
 //! The only functions that can be parameters are [`Spline`](piola::Spline)s: other types need the declaration
 //! to be compiled. There are no other derivatives of formulas than those of the compiler, and no branches.
 
-mod condition;
 mod constructor;
 pub mod emit;
 mod energy;

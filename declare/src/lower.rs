@@ -19,21 +19,12 @@ pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Prog
     lower_parts(declaration, &[ordered])
 }
 
-/// The program of a response, and behind it that of the bounds of its domain, whose constants and arguments
-/// are in the same registers; `None` if it needs too many of them.
+/// The program of a response, and behind it that of the bounds of its domain if there are any, whose
+/// constants and arguments are in the same registers; `None` if it needs too many of them.
 ///
 /// They are not ordered as one, because common operations could then be shared: bits of the response would
 /// depend on the domain.
-pub(crate) fn lower_within(
-    declaration: &Declaration,
-    response: &Ordered,
-    bounds: &Ordered,
-) -> Option<Program> {
-    lower_parts(declaration, &[response, bounds])
-}
-
-/// The parts of a program one after the other: a response, and its bounds if there are any.
-fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program> {
+pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program> {
     let constants = constants(declaration, parts);
     let mut registers = Kind::ALL.map(|_| Registers::default());
     // Two values may be one constant, so that these are enough.
@@ -48,19 +39,7 @@ fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program>
         part: 0,
         latest: None,
         preparations: Vec::new(),
-        program: Program {
-            literals: Vec::new(),
-            arguments: Vec::new(),
-            parameters: Vec::new(),
-            entries: Vec::new(),
-            epsilon: None,
-            operations: Vec::new(),
-            preparations: 0,
-            loops: Vec::new(),
-            results: Vec::new(),
-            bounds: Vec::new(),
-            sizes: Sizes::default(),
-        },
+        program: Program::default(),
     };
     for (part, ordered) in parts.iter().enumerate() {
         lowering.part = part;

@@ -68,6 +68,26 @@ impl Mistakes {
     pub fn with_name(self, name: impl Into<String>) -> Self {
         Self { name: name.into(), ..self }
     }
+
+    fn write(&self, Mistake { message, place }: &Mistake, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Quotations from the text contain no control characters.
+        f.write_str(&message.replace(|c: char| c.is_control() && c != '\n', "�"))?;
+        let Some(Place { line, column, length }) = *place else { return Ok(()) };
+        let source = self.text.lines().nth(line - 1).unwrap_or_default();
+        let margin = " ".repeat(line.to_string().len());
+        // As wide as the characters are shown; a tab is shown as four spaces.
+        let shown = |text: &str| text.replace('\t', "    ").replace(char::is_control, "�");
+        let part = |from: usize, count: usize| source.chars().skip(from).take(count).collect::<String>();
+        let width = |text: &str| unicode_width::UnicodeWidthStr::width(shown(text).as_str());
+        let before = " ".repeat(width(&part(0, column - 1)));
+        let carets = "^".repeat(width(&part(column - 1, length)).max(1));
+        write!(
+            f,
+            "\n{margin}--> {}:{line}:{column}\n{margin} |\n{line} | {}\n{margin} | {before}{carets}",
+            self.name,
+            shown(source)
+        )
+    }
 }
 
 impl Place {
@@ -106,28 +126,6 @@ impl fmt::Display for Mistakes {
             self.write(mistake, f)?;
         }
         Ok(())
-    }
-}
-
-impl Mistakes {
-    fn write(&self, Mistake { message, place }: &Mistake, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Quotations from the text contain no control characters.
-        f.write_str(&message.replace(|c: char| c.is_control() && c != '\n', "�"))?;
-        let Some(Place { line, column, length }) = *place else { return Ok(()) };
-        let source = self.text.lines().nth(line - 1).unwrap_or_default();
-        let margin = " ".repeat(line.to_string().len());
-        // As wide as the characters are shown; a tab is shown as four spaces.
-        let shown = |text: &str| text.replace('\t', "    ").replace(char::is_control, "�");
-        let part = |from: usize, count: usize| source.chars().skip(from).take(count).collect::<String>();
-        let width = |text: &str| unicode_width::UnicodeWidthStr::width(shown(text).as_str());
-        let before = " ".repeat(width(&part(0, column - 1)));
-        let carets = "^".repeat(width(&part(column - 1, length)).max(1));
-        write!(
-            f,
-            "\n{margin}--> {}:{line}:{column}\n{margin} |\n{line} | {}\n{margin} | {before}{carets}",
-            self.name,
-            shown(source)
-        )
     }
 }
 

@@ -2,6 +2,7 @@
 
 use piola::contract;
 use piola_codegen::analyse_in;
+use piola_codegen::read::diagnostics::Diagnostics;
 use piola_codegen::read::notation::Notation;
 use piola_codegen::read::parse::{Declaration, Kind};
 use proc_macro2::TokenStream;
@@ -78,18 +79,17 @@ pub(crate) fn check_size(text: &str) -> Result<(), Mistakes> {
 /// Checks that all functions are splines: other types would need Rust code.
 fn only_splines(declaration: &Declaration) -> syn::Result<()> {
     let is_spline = |ty: &Type| matches!(ty, Type::Path(path) if path.path.segments.last().is_some_and(|last| last.ident == "Spline"));
-    let others = declaration.parameters.iter().filter_map(|parameter| match &parameter.kind {
-        Kind::Function(ty) if !is_spline(ty) => Some(syn::Error::new_spanned(
-            ty,
-            "a function that is found at run time is a `Spline`: another type needs the declaration to be compiled, by \
-             `#[piola::material]`",
-        )),
-        _ => None,
-    });
-    others
-        .reduce(|mut all, other| {
-            all.combine(other);
-            all
-        })
-        .map_or(Ok(()), Err)
+    let mut mistakes = Diagnostics::default();
+    for parameter in &declaration.parameters {
+        if let Kind::Function(ty) = &parameter.kind
+            && !is_spline(ty)
+        {
+            mistakes.error(
+                ty,
+                "a function that is found at run time is a `Spline`: another type needs the declaration to be compiled, by \
+                 `#[piola::material]`",
+            );
+        }
+    }
+    mistakes.finish(Some(()))
 }

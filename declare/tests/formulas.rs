@@ -10,8 +10,7 @@ fn check_equal(formula: &str, rust: &str) {
     let energy = Energy::from_formula(formula).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let other = Energy::from_rust(rust).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     assert_eq!(energy.description().formula, other.description().formula);
-    let values: Vec<_> = energy.description().parameters.iter().map(|_| vec![2.5]).collect();
-    let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+    let values = vec![&[2.5][..]; energy.description().parameters.len()];
     let [one, other] =
         [energy, other].map(|energy| energy.material(&values, Inversion::Refuse).expect("stable at rest"));
     for at in [[1.0f64, 1.0, 1.0], [1.3, 1.1, 0.7], [2.0, 2.0, 0.1]] {
@@ -332,9 +331,7 @@ fn texts_beyond_all_limits_are_refused() {
     let long = "mu + ".repeat(20_000) + "mu";
     let deep = "(".repeat(500) + "mu" + &")".repeat(500);
     let powers = "2^".repeat(500) + "mu";
-    let signs = "-".repeat(5000) + "mu*(I1b - 3)";
     for text in [long, deep, powers] {
         assert!(Energy::from_text(&text).is_err());
     }
-    assert!(Energy::from_text(&signs).is_ok() || Energy::from_text(&signs).is_err());
 }

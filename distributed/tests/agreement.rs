@@ -75,7 +75,7 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
         run(format!("--frames {before} --newton single"))?;
         let (about, state) = checkpoint_in(&folder)?;
         let mut play = Play::new(&settings, &geometry)?;
-        play.set_step_settings(step_settings(&settings).with_newton(newton()))?;
+        play.simulation_mut().set_settings(step_settings(&settings).with_newton(newton()))?;
         play.resume(about.clock.expect("of a run"), &state.positions, &state.velocities)?;
         for _ in 0..frames {
             let report = play.step()?.newton;
@@ -117,7 +117,7 @@ fn integrators_agree() -> TestResult {
         let settings = Settings::new(&DINOSAUR).with_integrator(integrator).with_gravity(9.81);
         let geometry = Geometry::load(&settings)?;
         let mut play = Play::new(&settings, &geometry)?;
-        play.set_step_settings(step_settings(&settings).with_newton(newton()))?;
+        play.simulation_mut().set_settings(step_settings(&settings).with_newton(newton()))?;
         for _ in 0..frames {
             play.step()?;
         }
@@ -145,7 +145,7 @@ fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
     let settings = Settings::new(&DINOSAUR).with_material(spec).with_dt(0.4);
     let geometry = Geometry::load(&settings)?;
     let mut play = Play::new(&settings, &geometry)?;
-    play.set_step_settings(step_settings(&settings).with_newton(newton()))?;
+    play.simulation_mut().set_settings(step_settings(&settings).with_newton(newton()))?;
     // The pull reaches its end at 1.5 s, and is released at 2 s.
     let frames = 4;
     for _ in 0..frames {

@@ -34,21 +34,18 @@ pub struct Entry {
 }
 
 /// An action on a material whose type is known only inside.
-pub trait Visitor {
+pub trait Visitor: Sized {
     /// The result of the action.
     type Output;
 
     /// Meets the material, its type static from here on.
     fn visit<M: Declared + 'static>(self, material: M) -> Self::Output;
-}
 
-/// An action on a material whose derivatives with respect to its parameters are known.
-pub trait FittableVisitor {
-    /// The result of the action.
-    type Output;
-
-    /// Meets the material, its type static from here on.
-    fn visit<M: Fittable + 'static>(self, material: M) -> Self::Output;
+    /// Meets a material whose derivatives with respect to its parameters are known, in the same way unless
+    /// the action needs them.
+    fn visit_fittable<M: Fittable + 'static>(self, material: M) -> Self::Output {
+        self.visit(material)
+    }
 }
 
 /// Declares the energies of the crate: for each its feature, its file, its type with the lengths that its
@@ -113,31 +110,8 @@ macro_rules! catalogue {
                 let _ = (values, inversion, &visitor);
                 match self.kind {$(
                     #[cfg(feature = $feature)]
-                    Kind::$Material => {
-                        catalogue!(@visit values, inversion, visitor, $Material $($($length)+)?)
-                    }
-                )+}
-            }
-
-            /// Builds the material and shows it to the visitor, together with its derivatives with respect to
-            /// the parameters.
-            ///
-            /// `values` has one slice for each parameter of the description, in its order.
-            ///
-            /// # Errors
-            /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`];
-            /// [`NotFittable`](piola::material::MaterialError::NotFittable) if it is not declared with `fit`.
-            pub fn visit_fittable<V: FittableVisitor>(
-                &self,
-                values: &[&[f64]],
-                inversion: ::piola::Inversion,
-                visitor: V,
-            ) -> Result<V::Output, ::piola::material::MaterialError> {
-                let _ = (values, inversion, &visitor);
-                match self.kind {$(
-                    #[cfg(feature = $feature)]
                     Kind::$Material => catalogue!(
-                        @visit_fittable [$($fit)?] values, inversion, visitor, $Material $($($length)+)?
+                        @visit [$($fit)?] values, inversion, visitor, $Material $($($length)+)?
                     ),
                 )+}
             }
@@ -147,16 +121,15 @@ macro_rules! catalogue {
     (@is rubber) => { true };
     (@description $Material:ident) => { <$Material as ::piola::material::Declared>::DESCRIPTION };
     (@description $Material:ident $first:literal $($length:literal)*) => { <$Material<$first> as ::piola::material::Declared>::DESCRIPTION };
-    (@visit_fittable [fit] $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
-        Err(::piola::material::MaterialError::NotFittable { material: <$Material as ::piola::material::Declared>::DESCRIPTION.name })
-    };
-    (@visit_fittable [] $($rest:tt)+) => { catalogue!(@visit $($rest)+) };
-    (@visit $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
+    (@visit [fit] $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
         <$Material as ::piola::material::Declared>::from_values($values, $inversion).map(|material| $visitor.visit(material))
     };
-    (@visit $values:ident, $inversion:ident, $visitor:ident, $Material:ident $($length:literal)+) => {
+    (@visit [] $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
+        <$Material as ::piola::material::Declared>::from_values($values, $inversion).map(|material| $visitor.visit_fittable(material))
+    };
+    (@visit [] $values:ident, $inversion:ident, $visitor:ident, $Material:ident $($length:literal)+) => {
         match $values.first().map_or(0, |list| list.len()) {
-            $($length => <$Material<$length> as ::piola::material::Declared>::from_values($values, $inversion).map(|material| $visitor.visit(material)),)+
+            $($length => <$Material<$length> as ::piola::material::Declared>::from_values($values, $inversion).map(|material| $visitor.visit_fittable(material)),)+
             length => Err(::piola::material::MaterialError::Shape {
                 expected: format!(
                     "the lists of {} have {} entries by name, not {length}; other lengths need its type in Rust",

@@ -52,7 +52,7 @@
 mod catalogue;
 mod matching;
 
-pub use catalogue::{Declaration, Entry, FittableVisitor, Visitor, find};
+pub use catalogue::{Declaration, Entry, Visitor, find};
 pub use matching::matching;
 
 use catalogue::catalogue;

@@ -46,49 +46,45 @@ pub fn matching(
     moduli: impl Fn(&[&[f64]]) -> Result<Moduli, MaterialError>,
     wanted: Moduli,
 ) -> Result<Vec<Vec<f64>>, MaterialError> {
-    let solid = Solid { parameters: &description.parameters, moduli };
+    let moduli = |values: &[Vec<f64>]| {
+        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        moduli(&values)
+    };
     let typical = description.typical.iter().flat_map(|typical| typical.values.iter());
     let typical: Vec<Vec<f64>> = typical.map(|values| values.to_vec()).collect();
-    let values = solid.with_ratio(&typical, wanted.lambda / wanted.mu).unwrap_or(typical);
-    let factor = wanted.young() / solid.moduli(&values)?.young();
+    let ratio = wanted.lambda / wanted.mu;
+    let values = with_ratio(&description.parameters, &moduli, &typical, ratio).unwrap_or(typical);
+    let factor = wanted.young() / moduli(&values)?.young();
     let values = description.parameters.iter().zip(values).map(|(parameter, mut values)| {
         parameter.rescale(&mut values, factor);
         values
     });
     let values: Vec<_> = values.collect();
-    solid.moduli(&values)?;
+    moduli(&values)?;
     Ok(values)
 }
 
-/// A solid of any parameters.
-struct Solid<'a, F> {
-    parameters: &'a [Parameter],
-    moduli: F,
-}
-
-impl<F: Fn(&[&[f64]]) -> Result<Moduli, MaterialError>> Solid<'_, F> {
-    /// These parameters with a ratio λ/μ, if one of them alone can bring it about.
-    fn with_ratio(&self, values: &[Vec<f64>], ratio: f64) -> Option<Vec<Vec<f64>>> {
-        let before = self.moduli(values).ok()?;
-        let with = |index: usize, factor: f64| {
-            let mut values = values.to_vec();
-            self.parameters[index].rescale(&mut values[index], factor);
-            values
-        };
-        (0..values.len()).find_map(|index| {
-            let doubled = self.moduli(&with(index, 2.0)).ok()?;
-            if (doubled.mu - before.mu).abs() > ROUNDING * before.mu || doubled.lambda == before.lambda {
-                return None;
-            }
-            // The moduli are linear in the stresses.
-            let factor = 1.0 + (ratio * before.mu - before.lambda) / (doubled.lambda - before.lambda);
-            let values = with(index, factor);
-            (factor > 0.0 && self.moduli(&values).is_ok()).then_some(values)
-        })
-    }
-
-    fn moduli(&self, values: &[Vec<f64>]) -> Result<Moduli, MaterialError> {
-        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-        (self.moduli)(&values)
-    }
+/// These values of the parameters with a ratio λ/μ, if one of them alone can bring it about.
+fn with_ratio(
+    parameters: &[Parameter],
+    moduli: &impl Fn(&[Vec<f64>]) -> Result<Moduli, MaterialError>,
+    values: &[Vec<f64>],
+    ratio: f64,
+) -> Option<Vec<Vec<f64>>> {
+    let before = moduli(values).ok()?;
+    let with = |index: usize, factor: f64| {
+        let mut values = values.to_vec();
+        parameters[index].rescale(&mut values[index], factor);
+        values
+    };
+    (0..values.len()).find_map(|index| {
+        let doubled = moduli(&with(index, 2.0)).ok()?;
+        if (doubled.mu - before.mu).abs() > ROUNDING * before.mu || doubled.lambda == before.lambda {
+            return None;
+        }
+        // The moduli are linear in the stresses.
+        let factor = 1.0 + (ratio * before.mu - before.lambda) / (doubled.lambda - before.lambda);
+        let values = with(index, factor);
+        (factor > 0.0 && moduli(&values).is_ok()).then_some(values)
+    })
 }

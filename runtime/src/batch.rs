@@ -7,29 +7,7 @@
 //! through in tiles of 64: decomposition, energy, outputs, each stage with as many points side by side as the
 //! registers hold, and intermediate results stay in the inner caches.
 //!
-//! ```
-//! use piola::batch::Batch;
-//! use piola::material;
-//! use piola::point::Filter;
-//!
-//! /// Rubber.
-//! #[material(domain(J > 0.0))]
-//! fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
-//!     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-//! }
-//!
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let rubber = Rubber::new(1e6, 4e6)?;
-//! let batch = Batch::new(&rubber).with_filter(Filter::Clamp);
-//! // Nine numbers for each of a thousand points, row by row: a simple shear.
-//! let F: Vec<f64> = [1.0, 0.2, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(1000);
-//! let (mut P, mut dP_dF) = (vec![0.0; 9 * 1000], vec![0.0; 81 * 1000]);
-//! let survey = batch.tangents(&F, &mut P, &mut dP_dF)?;
-//! assert!(survey.is_clean());
-//! assert!((P[9 * 999 + 1] - 0.2e6).abs() < 1e-3);
-//! # Ok(())
-//! # }
-//! ```
+//! The [front page](crate#points-in-batches) of the crate has programs.
 //!
 //! **Matrices by columns**, as nalgebra, glam and Eigen keep them, need no conversion: F by columns is Fᵀ by
 //! rows, and for an isotropic solid ψ(Fᵀ) = ψ(F) and P(Fᵀ) = P(F)ᵀ. The results are then by columns as well,
@@ -278,8 +256,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
         gradients: &mut [E],
         stiffnesses: &mut [E],
     ) -> Result<Survey, LengthError> {
-        let group = self.group();
-        let (nodes, points) = (tetrahedra.nodes(), tetrahedra.corners().len().next_multiple_of(group));
+        let group = self.layout.group::<E>();
+        let (nodes, points) = (tetrahedra.nodes, tetrahedra.corners.len().next_multiple_of(group));
         LengthError::check("positions", 3 * positions.len(), 3, nodes, 1)?;
         LengthError::check("rest", rest.len(), REST, points, group)?;
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, 144)];
@@ -295,14 +273,6 @@ impl<'a, E: Kernels> Batch<'a, E> {
         })
     }
 
-    /// Number of points that the layout keeps together.
-    fn group(&self) -> usize {
-        match self.layout {
-            Layout::Points => 1,
-            Layout::Lines => E::LINE,
-        }
-    }
-
     /// Computes every tile of slices, each given with its name and the components it holds for a point.
     fn run<const I: usize, const O: usize>(
         &self,
@@ -312,7 +282,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         let properties = self.material.properties();
         let (_, first, components) = inputs[0];
-        let group = self.group();
+        let group = self.layout.group::<E>();
         let count = first.len() / components / group * group;
         let lengths = inputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components));
         let lengths =

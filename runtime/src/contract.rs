@@ -19,23 +19,8 @@
 //!
 //! Each [`contract!`](crate::contract!) is a module of tests, one for each rule and with its name, such as
 //! `rubber::quotients`.
-//! [`check`] judges all rules in one call, and [`check_rule`] a single one:
-//!
-//! | rule | what must hold |
-//! |---|---|
-//! | [`rest`](Rule::Rest) | no stress, no twist at F = I, [unless they are meant](Settings::stress_free_at_rest), and a positive shear modulus |
-//! | [`domain`](Rule::Domain) | results are finite where admitted, and [`Material::ends_at_zero_volume`] is right |
-//! | [`isotropy`](Rule::Isotropy) | rotations of space and of the rest shape rotate the stress, P(Q F W) = Q P(F) W, and equal stretches are interchangeable |
-//! | [`stress_slope`](Rule::StressSlope) | difference quotients of ψ approach P as h², and ψ grows by the work of P |
-//! | [`tangent_slope`](Rule::TangentSlope) | difference quotients of P approach dP/dF as h² |
-//! | [`dual_numbers`](Rule::DualNumbers) | ψ of dual numbers gives the gradient, the gradient of dual numbers the Hessian, to rounding |
-//! | [`quotients`](Rule::Quotients) | flips and twists are accurate at every gap, 10⁻¹ … 10⁻¹⁶ and 0 |
-//! | [`strains`](Rule::Strains) | the gradient at strains s is that at stretches 1 + s |
-//! | [`invariants`](Rule::Invariants) | ψ and its gradient by I1, I2, J, where there are such, are those by stretches |
-//! | [`extension`](Rule::Extension) | P and dP/dF are exact next to the threshold, across it and deep below, where ψ drives inverted material back |
-//! | [`moduli`](Rule::Moduli) | the small-strain moduli that a declaration states are those of its Hessian |
-//! | [`single_precision`](Rule::SinglePrecision) | `f32` gives what `f64` does, to the rounding of `f32` |
-//! | [`lanes`](Rule::Lanes) | every lane of every back end gives what a scalar does, regardless of its neighbours |
+//! [`check`] judges all rules in one call, and [`check_rule`] a single one. [`Rule`] describes what must
+//! hold.
 //!
 //! A material is anything that implements [`Material`], by the macro or by hand; the rules on an extension or
 //! invariants apply to materials that have them. A check returns its findings or the first [`Violation`];
@@ -78,7 +63,9 @@ use inverted::extension;
 use pairs::quotients;
 pub use rule::Rule;
 use slopes::{stress_slope, tangent_slope};
-pub use violation::{Notation, Violation, Violations};
+#[doc(hidden)] // for energies from text
+pub use violation::Notation;
+pub use violation::{Violation, Violations};
 
 use judge::Judge;
 use subject::{OnLanes, Subject};
@@ -118,6 +105,7 @@ pub struct Settings {
     /// ```
     pub stress_free_at_rest: bool,
     /// Notation of the remedies.
+    #[doc(hidden)] // for energies from text
     pub notation: Notation,
 }
 
@@ -148,7 +136,7 @@ impl fmt::Display for Finding {
 /// Findings, one for each rule that applies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// The findings, in the order of the table above.
+    /// The findings, in the order of [`Rule::ALL`].
     pub findings: Vec<Finding>,
 }
 
@@ -177,6 +165,7 @@ pub fn check(material: &impl Material, settings: &Settings) -> Result<Report, Vi
 ///
 /// # Errors
 /// [`Violations`]: the first violation of each rule that is broken.
+#[doc(hidden)] // for energies from text
 pub fn check_without_lanes(material: &impl Material, settings: &Settings) -> Result<Report, Violations> {
     report(|rule| judge_rule(rule, material, None, settings))
 }

@@ -57,8 +57,8 @@ pub struct Blocks<R> {
 /// The stretches are signed: λ1 ≥ λ2 ≥ |λ3|, the sign of λ3 being that of det F. Outside the domain
 /// ([`Material::admits`]) results are meaningless and may be NaN.
 ///
-/// Methods that compute should be `#[inline(always)]`, and so should the functions that they call: see
-/// [`Kernel`](crate::lanes::Kernel).
+/// Methods that compute should be `#[inline(always)]`, and so should the functions that they call: only code
+/// that is inlined into the functions of a [`Backend`](crate::lanes::Backend) has its instructions.
 pub trait Material: Send + Sync {
     /// Energy density ψ, J/m³ of rest volume.
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::DynMaterial
@@ -215,8 +215,8 @@ pub enum Curvature {
 
 impl Curvature {
     /// Second derivatives of a sum of energies.
-    #[must_use]
-    pub const fn and(self, other: Self) -> Self {
+    #[cfg(feature = "batch")]
+    pub(crate) const fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::All, _) | (_, Self::All) => Self::All,
             (Self::Separate, _) | (_, Self::Separate) => Self::Separate,
@@ -289,12 +289,13 @@ pub struct Moduli {
 impl Moduli {
     /// Small-strain moduli from the Hessian at F = I: μ = (ψ11 − ψ12)/2, λ = ψ12.
     #[must_use]
-    pub fn at_rest(material: &(impl Response<f64> + ?Sized)) -> Self {
+    pub(crate) fn at_rest(material: &(impl Response<f64> + ?Sized)) -> Self {
         let [h11, _, _, h12, _, _] = material.blocks([1.0f64; 3]).hessian;
         Self { mu: 0.5 * (h11 - h12), lambda: h12 }
     }
 
     /// Small-strain moduli as the material states them, or else from its Hessian at F = I.
+    #[doc(hidden)] // `Declared::moduli` for materials of any kind
     #[must_use]
     pub fn of(material: &impl Material) -> Self {
         material.stated_moduli().unwrap_or_else(|| Self::at_rest(material))

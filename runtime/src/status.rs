@@ -42,8 +42,7 @@ impl Status {
 impl<M: Mask> Status<M> {
     /// A status with nothing to report of any point.
     #[inline(always)]
-    #[must_use]
-    pub fn clean() -> Self {
+    pub(crate) fn clean() -> Self {
         let no = M::splat(false);
         Self { refused: no, bounded: no, nonfinite: no, filtered: no }
     }

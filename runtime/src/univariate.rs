@@ -68,51 +68,8 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
     /// its functions, not the functions themselves, which get the continued arguments. So with `extend` a
     /// function should admit the arguments of inverted points. The rest state must be admitted.
     ///
-    /// ```
-    /// use piola::{Real, Univariate, material};
-    ///
-    /// /// φ(x) = −limit/2 ln(1 − x/limit) for x < limit.
-    /// #[derive(Clone, Debug, PartialEq)]
-    /// struct Locking {
-    ///     limit: f64,
-    /// }
-    ///
-    /// impl Univariate for Locking {
-    ///     #[inline(always)]
-    ///     fn admits<R: Real>(&self, x: R) -> R::Mask {
-    ///         x.less(R::splat(self.limit))
-    ///     }
-    ///     #[inline(always)]
-    ///     fn value<R: Real>(&self, x: R) -> R {
-    ///         R::splat(-0.5 * self.limit) * (-(x / R::splat(self.limit))).ln_1p()
-    ///     }
-    ///     #[inline(always)]
-    ///     fn derivative<R: Real>(&self, x: R) -> R {
-    ///         R::splat(0.5 * self.limit) / (R::splat(self.limit) - x)
-    ///     }
-    ///     #[inline(always)]
-    ///     fn second_derivative<R: Real>(&self, x: R) -> R {
-    ///         let left = R::splat(self.limit) - x;
-    ///         R::splat(0.5 * self.limit) / (left * left)
-    ///     }
-    /// }
-    ///
-    /// /// Rubber whose chains lock at I1b = 3 + limit.
-    /// #[material(domain(J > 0.0))]
-    /// fn Rubber([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, f: Locking) -> f64 {
-    ///     mu * f(I1b - 3.0) + kappa / 2.0 * (J - 1.0).powi(2)
-    /// }
-    ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// use piola::Material;
-    ///
-    /// let rubber = Rubber::new(1e6, 1e9, Locking { limit: 2.0 })?;
-    /// // In tension at constant volume I1b is l² + 2/l, which is 5 at l = 2.
-    /// let tension = |l: f64| -> [f64; 3] { [l, 1.0 / l.sqrt(), 1.0 / l.sqrt()] };
-    /// assert!(rubber.admits(tension(1.99)) && !rubber.admits(tension(2.01)));
-    /// # Ok(())
-    /// # }
-    /// ```
+    /// With `x.less(R::splat(self.limit))` and `mu * f(I1b - 3.0)` in the energy, for example, chains lock at
+    /// I1b = 3 + limit; `docs/your-first-material.md` has such a function.
     #[inline(always)]
     fn admits<R: Real>(&self, x: R) -> R::Mask {
         let _ = x;

@@ -33,15 +33,7 @@ fn materials_are_written_as_their_parameters() -> Result<(), Box<dyn std::error:
 
 /// Ogden's sum, with a list of any length.
 #[material(domain(J > 0.0), admissible(mu[p] * alpha[p] > 0.0), extend, serde)]
-fn Mixed<const N: usize>(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: [f64; N],
-    /** Exponents. */
-    alpha: [f64; N],
-    /** Pa. */
-    K: f64,
-) -> f64 {
+fn Mixed<const N: usize>([l1, l2, l3]: [f64; 3], mu: [f64; N], alpha: [f64; N], K: f64) -> f64 {
     sum(|p| mu[p] / alpha[p] * (l1.powf(alpha[p]) + l2.powf(alpha[p]) + l3.powf(alpha[p]) - 3.0))
         - sum(|p| mu[p]) * J.ln()
         + K / 2.0 * (J - 1.0).powi(2)
@@ -61,13 +53,9 @@ fn Polynomial([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, k: [u32; 2], d: 
     sum(|p| c[p] * (I1 - 3.0).powi(i[p])) + sum(|p| d[p] * (I2 - 3.0).powi(k[p])) + (J - 1.0).powi(n)
 }
 
-/// Forces in each stretch.
+/// Forces in each stretch, Pa.
 #[material(serde)]
-fn Drawn(
-    [l1, l2, l3]: [f64; 3],
-    /** Force of a stretch, Pa. */
-    f: Spline,
-) -> f64 {
+fn Drawn([l1, l2, l3]: [f64; 3], f: Spline) -> f64 {
     f(l1) + f(l2) + f(l3)
 }
 

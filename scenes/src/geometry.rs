@@ -1,6 +1,6 @@
 //! The geometry of a run: tetrahedra, and the surface that is drawn instead of them.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::error;
 use std::ffi::OsStr;
 use std::ops::RangeInclusive;
@@ -212,15 +212,13 @@ fn boundary(mesh: &TetMesh) -> Surface {
         face.sort_unstable();
         face
     };
-    let (mut seen, mut shared) = (HashSet::new(), HashSet::new());
+    let mut counts = HashMap::new();
     for face in faces().map(sorted) {
-        if !seen.insert(face) {
-            shared.insert(face);
-        }
+        *counts.entry(face).or_insert(0) += 1;
     }
     let mut vertices = HashMap::new();
     let mut surface = Surface::default();
-    for face in faces().filter(|&face| !shared.contains(&sorted(face))) {
+    for face in faces().filter(|&face| counts[&sorted(face)] == 1) {
         let triangle = face.map(|node| {
             *vertices.entry(node).or_insert_with(|| {
                 surface.positions.push(mesh.positions[node]);

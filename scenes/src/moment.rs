@@ -12,7 +12,7 @@ use crate::play::Play;
 use crate::settings::{Files, Settings};
 
 /// Complete state of a scene in motion, which determines all later steps to the last bit; JSON keeps every
-/// bit of it. Only backward differences restart, without the step before.
+/// bit of it.
 ///
 /// A body from files is not part of it, nor are their names: [`with_files`](Self::with_files) supplies them
 /// again, and a checksum detects another body.

@@ -109,11 +109,11 @@ impl SceneOptions {
         settings.start = start(scene, self.seed, self.amplitude)?;
         settings.density = self.density.unwrap_or(settings.density);
         settings.gravity = self.gravity.unwrap_or(settings.gravity);
-        Ok(settings
-            .with_files(self.mesh.map(|mesh| Files { mesh, surface }))
-            .with_unit(self.unit.unwrap_or_default())
-            .with_only_tetrahedra(self.only_tetrahedra)
-            .with_pins(self.pins))
+        settings.pins = self.pins;
+        settings.files = self.mesh.map(|mesh| Files { mesh, surface });
+        settings.unit = self.unit.unwrap_or_default();
+        settings.only_tetrahedra = self.only_tetrahedra;
+        Ok(settings)
     }
 }
 

@@ -185,14 +185,6 @@ impl Play {
         self.drags = pulls;
     }
 
-    /// Replaces the settings of the solver, from the next step on.
-    ///
-    /// # Errors
-    /// [`Error::Setup`] if a setting is out of range.
-    pub fn set_step_settings(&mut self, settings: step::SimulationSettings) -> Result<(), Error> {
-        Ok(self.simulation.set_settings(settings)?)
-    }
-
     /// Counts of the time steps of the last frame.
     #[must_use]
     pub fn steps(&self) -> StepCounts {

@@ -1,4 +1,4 @@
-//! Descriptions of scenes, one file for each [`Scene`].
+//! Descriptions of scenes.
 //!
 //! Places and distances are shares of the body's bounding box and height, so that any body can take any part.
 //! y points upwards.
@@ -6,33 +6,23 @@
 //! This module is independent of the solver: [`crate::play`] turns a description into motion.
 
 mod body;
-mod dinosaur;
-mod horse;
+mod catalogue;
 mod motion;
-mod scramble;
 mod start;
-mod stretch;
-mod twist;
 
 pub use body::{Asset, Body, Shape, Style};
-pub use dinosaur::{DINOSAUR, DINOSAUR_OVERSTRETCHED};
-pub use horse::HORSE;
+pub use catalogue::{
+    DINOSAUR, DINOSAUR_OVERSTRETCHED, HORSE, INSIDE_OUT, POINT, SCENES, SCRAMBLE, STRETCH, TWIST,
+};
 pub use motion::{Motion, Pull};
-pub use scramble::{INSIDE_OUT, POINT, SCRAMBLE};
 pub use start::{Amplitude, Start};
-pub use stretch::STRETCH;
-pub use twist::TWIST;
 
 use piola_bodies::mesh::Bounds;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serializer};
 
 use crate::error::Error;
-use crate::material::{MaterialSpec, soft_moduli};
-
-/// All scenes, in the order in which they are listed.
-pub const SCENES: &[&Scene] =
-    &[&HORSE, &DINOSAUR, &DINOSAUR_OVERSTRETCHED, &TWIST, &STRETCH, &SCRAMBLE, &INSIDE_OUT, &POINT];
+use crate::material::MaterialSpec;
 
 /// A body, its material, and the loads and motions of a scene.
 #[derive(Clone, Debug)]
@@ -63,22 +53,6 @@ pub struct Scene {
     /// `None` for other bodies.
     pub gauge: Option<[f64; 2]>,
 }
-
-/// Defaults of most scenes: a free horse at rest, lightly damped, for ten seconds.
-const COMMON: Scene = Scene {
-    name: "",
-    about: "",
-    body: Body::HORSE,
-    material: || MaterialSpec::matching("rotated linear", soft_moduli()),
-    density: 1000.0,
-    damping: 2.0,
-    dt: 1.0 / 30.0,
-    frames: 300,
-    pinned: None,
-    start: Start::Rest,
-    pulls: &[],
-    gauge: None,
-};
 
 impl Scene {
     /// The scene of a name.

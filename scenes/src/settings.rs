@@ -25,6 +25,7 @@ pub struct Settings {
     #[serde(with = "Scene")]
     pub scene: &'static Scene,
     /// The body, unless `files` describe another.
+    #[serde(with = "Body")]
     pub body: Body,
     /// Files of another body; their names appear only in errors of reading.
     #[serde(skip)]
@@ -122,16 +123,12 @@ impl Settings {
         with_start: start = Start;
         /// Replaces the material.
         with_material: material = MaterialSpec;
-        /// Replaces the density, kg/m³.
-        with_density: density = f64;
         /// Replaces the acceleration downwards, m/s².
         with_gravity: gravity = f64;
         /// Replaces the time step, s.
         with_dt: dt = f64;
         /// Replaces the number of time steps.
         with_frames: frames = usize;
-        /// Pins these boxes or groups instead of those of the scene, unless there are none.
-        with_pins: pins = Vec<String>;
         /// Replaces the integrator.
         with_integrator: integrator = Integrator;
         /// Replaces the tolerance of time steps, body heights per second.

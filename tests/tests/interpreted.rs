@@ -13,10 +13,10 @@ use piola::Inversion;
 use piola::batch::{Batch, Kernels, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::lanes::Backend;
-use piola::material::{Fittable, MaterialError};
+use piola::material::{Declared, Fittable, MaterialError};
 use piola::point::Filter;
 use piola_declare::Energy;
-use piola_materials::{CATALOGUE, Entry, FittableVisitor};
+use piola_materials::{CATALOGUE, Entry, Visitor};
 use piola_tests::answers::Answers;
 use piola_tests::bits::{Family, Precision};
 use piola_tests::energies::{ENERGIES, Judged, Subject, find};
@@ -121,25 +121,23 @@ fn single_points_have_the_bits_of_the_compiled_catalogue() {
 #[test]
 fn fits_have_the_numbers_of_the_compiled_catalogue() {
     struct Slopes<'a>(&'a Energy, &'a Interpreted, [f64; 3]);
-    impl FittableVisitor for Slopes<'_> {
-        type Output = ();
-        fn visit<M: Fittable + 'static>(self, material: M) {
+    impl Visitor for Slopes<'_> {
+        /// True if the material is fittable.
+        type Output = bool;
+        fn visit<M: Declared + 'static>(self, _: M) -> bool {
+            false
+        }
+        fn visit_fittable<M: Fittable + 'static>(self, material: M) -> bool {
             check_fit(self.0, self.1, &material, self.2);
+            true
         }
     }
     for (Judged { energy, .. }, entry) in compiled() {
         let values = entry.typical();
         let interpreted = energy.material(&values, Inversion::Refuse).expect("typical parameters");
         let slopes = Slopes(energy, &interpreted, [1.2, 1.0, 0.9]);
-        match entry.visit_fittable(&values, Inversion::Refuse, slopes) {
-            Ok(()) => assert!(energy.is_fittable(), "{}", entry.name),
-            Err(error) => {
-                assert!(
-                    matches!(error, MaterialError::NotFittable { .. }) && !energy.is_fittable(),
-                    "{error}"
-                );
-            }
-        }
+        let is_fittable = entry.visit(&values, Inversion::Refuse, slopes).expect("typical parameters");
+        assert_eq!(is_fittable, energy.is_fittable(), "{}", entry.name);
     }
 }
 

@@ -84,7 +84,11 @@ impl Answer {
     pub(crate) fn refusal(act: &Act, error: Error) -> Self {
         let (reason, mistakes) = match error {
             Error::Declaration(mistakes) => (mistakes.to_string(), mistakes.list),
-            error => (for_page(&error), Vec::new()),
+            // A page gets the name of a file and the kind of a system error, without any path.
+            Error::Write { path, source } => {
+                (format!("cannot write {}: {}", name_of(&path), source.kind()), Vec::new())
+            }
+            error => (error.to_string(), Vec::new()),
         };
         Self::Refused(show::refused(act, &reason, &mistakes))
     }
@@ -262,16 +266,6 @@ impl<H: Host> Driver<H> {
             // A page that has gone needs no frame.
             let _ = looker.send(Answer::Frame(frame.clone()));
         }
-    }
-}
-
-/// Message of an error for a page: the name of a file and the kind of a system error, without any path.
-fn for_page(error: &Error) -> String {
-    match error {
-        Error::Write { path, source } => {
-            format!("cannot write {}: {}", name_of(path), source.kind())
-        }
-        error => error.to_string(),
     }
 }
 

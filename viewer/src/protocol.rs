@@ -107,27 +107,3 @@ impl Message {
         serde_json::from_str(text).map_err(|error| error.to_string())
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn nonsense_is_refused_with_its_reason() {
-        for (text, guilty) in [
-            ("", "EOF"),
-            ("look", "expected value"),
-            (r#"{"look": {}, "act": {}}"#, "expected"),
-            (r#"{"look": {"far": 1}}"#, "far"),
-            (r#"{"leap": {}}"#, "leap"),
-            (r#"{"act": {"pull": {"drag": 1, "vertex": -7, "target": [0, 1, 2]}}}"#, "-7"),
-            (r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0, 1]}}}"#, "length 3"),
-            (r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0, 1, null]}}}"#, "null"),
-            (r#"{"act": {"time_step": {"seconds": 1e999}}}"#, "out of range"),
-            (r#"{"act": {"time_step": {"seconds": NaN}}}"#, "expected"),
-        ] {
-            let reason = Message::parse(text).expect_err(text);
-            assert!(reason.contains(guilty), "{text}: {reason}");
-        }
-    }
-}

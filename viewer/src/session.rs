@@ -169,11 +169,13 @@ impl Session {
                 Ok(())
             }
             Act::Restore {} => {
-                let state =
-                    self.saved.take().ok_or_else(|| Error::Usage("no state has been saved yet".into()))?;
-                let result = self.go_to(&state);
-                self.saved = Some(state);
-                result
+                let none = || Error::Usage("no state has been saved yet".into());
+                let state = self.saved.clone().ok_or_else(none)?;
+                self.play = play_of(&state, &self.geometry)?;
+                self.settings = state.moment.settings().clone();
+                self.material_at_start = state.material_at_start;
+                self.pulls = state.pulls;
+                Ok(())
             }
         }
     }
@@ -218,16 +220,6 @@ impl Session {
         let simulation = self.play.simulation();
         play.resume(self.play.clock(), simulation.positions(), simulation.velocities())?;
         (self.play, self.settings) = (play, settings);
-        Ok(())
-    }
-
-    /// Restores a state. All or nothing.
-    fn go_to(&mut self, state: &State) -> Result<(), Error> {
-        let play = play_of(state, &self.geometry)?;
-        self.play = play;
-        self.settings = state.moment.settings().clone();
-        self.material_at_start = state.material_at_start.clone();
-        self.pulls = state.pulls.clone();
         Ok(())
     }
 }

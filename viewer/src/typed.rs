@@ -67,11 +67,10 @@ fn begin(spec: MaterialSpec, body: Moduli) -> Result<MaterialSpec, Error> {
             spec.with_parameter(name, [if is_modulus { body.mu } else { 1.0 }])
         })
     };
-    let bulk = |moduli: Moduli| moduli.lambda + 2.0 / 3.0 * moduli.mu;
     let distance = |combination: &usize| {
         let stiffness = with(*combination).build().map(|info| info.moduli);
-        let away =
-            stiffness.map(|moduli| (moduli.mu / body.mu).ln().abs() + (bulk(moduli) / bulk(body)).ln().abs());
+        let away = stiffness
+            .map(|moduli| (moduli.mu / body.mu).ln().abs() + (moduli.bulk() / body.bulk()).ln().abs());
         away.ok().filter(|away| away.is_finite()).unwrap_or(f64::MAX)
     };
     let tried = 1_usize << new.len().min(MOST_TRIED);

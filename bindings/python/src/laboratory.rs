@@ -42,8 +42,8 @@ impl Material {
         incompressible: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (mode, controls) = (self::mode(mode)?, numbers("controls", controls)?);
-        let specimen = self.uniform()?.specimen().map_err(of_material)?;
-        let points = py.detach(|| sweep(&*specimen, mode, volume(incompressible), &controls));
+        let specimen = self.uniform()?.interpreted().map_err(of_material)?;
+        let points = py.detach(|| sweep(&specimen, mode, volume(incompressible), &controls));
         let (mut stress, mut stretches, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
         for point in points {
             let (at, of, reason) = match point {
@@ -128,9 +128,9 @@ impl Material {
         largest: f64,
         resolution: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let specimen = self.uniform()?.specimen().map_err(of_material)?;
+        let specimen = self.uniform()?.interpreted().map_err(of_material)?;
         let settings = SurveySettings::default().with_range(smallest, largest).with_resolution(resolution);
-        let report = py.detach(|| survey(&*specimen, &settings)).map_err(value_error)?;
+        let report = py.detach(|| survey(&specimen, &settings)).map_err(value_error)?;
         let text = report.to_string();
         let Report { points, admitted, findings, walks, .. } = report;
         let kept = PyDict::new(py);

@@ -51,14 +51,11 @@ impl Check {
         let stretches =
             SurveySettings::default().with_range(self.from, self.to).with_resolution(self.resolution);
         let description = material.description()?;
-        let names = description.parameters.iter().map(|parameter| &*parameter.name);
-        let options = as_options(names.map(|name| (name, material.values_of(name))));
-        let title = format!("{} {}", description.name, options.replace("--param ", ""));
-        let title = title.trim_end();
-        let specimen = material.specimen()?;
-        let report = survey(&*specimen, &stretches).map_err(Error::usage)?;
+        let title = format!("{} {}", description.name, as_options(&material)?.replace("--param ", ""));
+        let specimen = material.interpreted()?;
+        let report = survey(&specimen, &stretches).map_err(Error::usage)?;
         if let Some(path) = self.svg {
-            write_whole(&path, chart::map(&*specimen, &stretches, title).map_err(Error::usage)?.as_bytes())?;
+            write_whole(&path, chart::map(&specimen, &stretches, &title).map_err(Error::usage)?.as_bytes())?;
         }
         let warning = AtRest { moduli: report.moduli, volume: Volume::Free }.warning();
         let warning = warning.map(|warning| format!("warning: {warning}\n")).unwrap_or_default();

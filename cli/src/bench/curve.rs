@@ -70,7 +70,7 @@ impl Curve {
         let volume = if self.incompressible { Volume::Kept } else { Volume::Free };
         let material = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
-        let specimen = &*material.specimen()?;
+        let specimen = &material.interpreted()?;
         let data::Measured { points, notes } = self.data.read()?;
         let data = (!points.points.is_empty()).then_some(points);
         let is_asked = |mode: &Mode| self.data.tests.iter().any(|test| test.mode == *mode);
@@ -87,8 +87,7 @@ impl Curve {
         }
 
         let title = titled(&info.name, volume);
-        let names = material.description()?.parameters.iter().map(|parameter| &parameter.name);
-        let options = as_options(names.map(|name| (&**name, info.parameters[name].as_slice())));
+        let options = as_options(&material)?;
         let (mut text, mut curves) = (format!("{title}\n  {options}\n"), Vec::new());
         text += &at_rest(info.moduli, volume);
         text += &notes;

@@ -6,8 +6,7 @@ use clap::Args;
 use piola::Inversion;
 use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
-use piola_laboratory::fit::{self, Candidate, FitError, FitSettings};
-use piola_scenes::error::Error as SceneError;
+use piola_laboratory::fit::{self, FitError, FitSettings};
 
 use super::data::{Data, HELP, Measured};
 use super::{FINE, Material, as_options, at_rest, draw, spaced, titled};
@@ -72,31 +71,28 @@ impl Fit {
         let fit = fit::fit_parameters(&*candidate, &data, &settings).map_err(|error| {
             Error::usage(format!("{material} cannot be fitted: {error}{}", remedy(&error)))
         })?;
-        let names: Vec<_> =
-            candidate.description().parameters.iter().map(|parameter| parameter.name.clone()).collect();
-        let options = |values: &[Vec<f64>]| {
-            as_options(names.iter().map(|name| &**name).zip(values.iter().map(Vec::as_slice)))
-        };
+        let parameters = candidate.description().parameters;
+        let fitted = parameters
+            .iter()
+            .zip(&fit.values)
+            .fold(spec, |spec, (parameter, values)| spec.with_parameter(&parameter.name, values.clone()));
+        let options = as_options(&fitted)?;
 
         let title = titled(&material, volume);
         let mut text = format!("{title}, fitted to {} by relative differences\n", self.data.names());
         text += &notes;
-        text += &format!("  {}\n", options(&fit.values));
-        let fitted = names.iter().zip(&fit.values);
-        let fitted = fitted.fold(spec, |spec, (name, values)| spec.with_parameter(name, values.clone()));
+        text += &format!("  {options}\n");
         text += &at_rest(fitted.build()?.moduli, volume);
         text += &fit.to_string();
         if let Some(file) = &self.svg {
-            let fitted: Box<dyn Candidate> = candidate
-                .with_values(&fit.values)
-                .map_err(|source| SceneError::Inadmissible { material, source })?;
+            let fitted = fitted.interpreted()?;
             let curve = |mode| {
                 let [from, to] = data.range(mode);
-                let points = sweep(&*fitted, mode, volume, &spaced(from, to, FINE));
+                let points = sweep(&fitted, mode, volume, &spaced(from, to, FINE));
                 chart::Curve { mode, points }
             };
             let curves: Vec<_> = data.modes().map(curve).collect();
-            draw(file, &title, &options(&fit.values), &curves, Some((&data, &fit.agreement)))?;
+            draw(file, &title, &options, &curves, Some((&data, &fit.agreement)))?;
         }
         Ok(text)
     }

@@ -73,7 +73,11 @@ fn malformed_messages_end_a_connection_and_nothing_else() {
         (Message::text("nonsense"), 1008),
         (Message::text(r#"{"act": {"pull": {"drag": 1, "vertex": 1, "target": [1e999, 0, 0]}}}"#), 1008),
         (Message::text(r#"{"act": {"pull": {"drag": 4294967296, "vertex": 1, "target": [0, 0, 0]}}}"#), 1008),
+        (Message::text(r#"{"act": {"pull": {"drag": 1, "vertex": -7, "target": [0, 1, 2]}}}"#), 1008),
+        (Message::text(r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0, 1]}}}"#), 1008),
         (Message::text(r#"{"run": {"jump": {}}}"#), 1008),
+        (Message::text(r#"{"look": {"far": 1}}"#), 1008),
+        (Message::text(r#"{"look": {}, "act": {}}"#), 1008),
         (Message::binary(vec![1, 2, 3]), 1003),
         (Message::text("a".repeat(20_000)), 1009),
     ];

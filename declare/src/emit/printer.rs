@@ -10,7 +10,7 @@ use piola::__private::record::{Function, RecordedOperation, RecordedProgram, Rec
 use piola::Inversion;
 use piola::material::{Form, Parameter};
 
-use super::language::{Argument, Field, Language, Needs, language};
+use super::language::{Argument, Field, Kind, Language};
 use super::{File, PointFunction};
 use body::Body;
 
@@ -26,12 +26,8 @@ pub(super) fn is_identifier(name: &str) -> bool {
 pub(super) fn print(file: &File<'_>) -> String {
     let printer = Printer::new(file);
     let recordings: Vec<&Recording> =
-        file.functions.iter().map(|one| &one.recording).chain([&file.rest]).collect();
-    let programs =
-        recordings.iter().flat_map(|recording| recording.functions.values().chain([&recording.program]));
-    let needs = Needs(programs.flat_map(|program| &program.operations).collect());
-    let mut text = printer.parameters();
-    text += &printer.language.primitives(&needs);
+        file.functions.iter().map(|(_, recording)| recording).chain([&file.rest]).collect();
+    let mut text = String::new();
     let mut printed = BTreeSet::new();
     for recording in &recordings {
         for function in recording.functions.keys() {
@@ -39,15 +35,16 @@ pub(super) fn print(file: &File<'_>) -> String {
         }
     }
     text += &printer.check();
-    for one in &file.functions {
-        text += &printer.point_function(one.function, &one.recording.program);
+    for (function, recording) in &file.functions {
+        text += &printer.point_function(*function, &recording.program);
     }
+    let text = printer.parameters() + &printer.language.primitives(&text) + &text;
     printer.comment() + &printer.language.guarded(text)
 }
 
 struct Printer<'a> {
     file: &'a File<'a>,
-    language: Box<dyn Language>,
+    language: Language,
     prefix: &'a str,
     /// The name of each parameter.
     fields: Vec<String>,
@@ -57,10 +54,10 @@ struct Printer<'a> {
 
 impl<'a> Printer<'a> {
     fn new(file: &'a File<'a>) -> Self {
-        let language = language(file.target, file.precision, &file.prefix);
+        let language = Language::new(file.target, file.precision, &file.prefix);
         let description = file.energy.description();
         let mut parameters = Vec::new();
-        let fields = fields(description.parameters.iter(), &*language);
+        let fields = fields(description.parameters.iter(), &language);
         for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&fields) {
             for k in 0..values.len() {
                 let is_list = matches!(parameter.form, Form::List | Form::Exponents);
@@ -153,7 +150,11 @@ impl<'a> Printer<'a> {
             }
         }
         let arguments: Vec<_> = (0..program.arguments).map(|k| format!("x{k}")).collect();
-        let _ = writeln!(text, "{}", self.language.head(function.name(), &arguments, function.is_pair()));
+        let mut list: Vec<_> = arguments.iter().map(String::as_str).map(Argument::Number).collect();
+        if function.is_pair() {
+            list.push(Argument::Output("second", 1));
+        }
+        let _ = writeln!(text, "{}", self.language.head(function.name(), &list, Kind::Number));
         let body = Body::new(self, program, arguments);
         *text += &body.statements();
         if function.is_pair() {
@@ -172,7 +173,7 @@ impl<'a> Printer<'a> {
         let mut list = vec![Argument::Parameters];
         list.extend(inputs.iter().map(|&(name, count)| Argument::Input(name, count)));
         list.extend(outputs.iter().map(|&(name, count)| Argument::Output(name, count)));
-        let mut text = format!("/* {comment} */\n{}\n", language.head_of_point(function.name(), &list));
+        let mut text = format!("/* {comment} */\n{}\n", language.head(function.name(), &list, Kind::Status));
         if !program.operations.iter().any(|one| matches!(one, RecordedOperation::Parameter(_))) {
             text += language.parameters_are_unused();
         }
@@ -198,14 +199,14 @@ impl<'a> Printer<'a> {
 }
 
 /// Arguments and results of a function, and the comment above it.
-struct Signature {
+pub(super) struct Signature {
     comment: &'static str,
-    inputs: &'static [(&'static str, usize)],
+    pub(super) inputs: &'static [(&'static str, usize)],
     outputs: &'static [(&'static str, usize)],
 }
 
 impl Signature {
-    fn of(function: PointFunction) -> Self {
+    pub(super) fn of(function: PointFunction) -> Self {
         const F: &[(&str, usize)] = &[("F", 9)];
         const P: (&str, usize) = ("P", 9);
         const TANGENT: &[(&str, usize)] = &[P, ("A", 81)];
@@ -248,7 +249,7 @@ impl Signature {
 }
 
 /// The names of all parameters as fields, each another one.
-fn fields<'p>(parameters: impl Iterator<Item = &'p Parameter>, language: &dyn Language) -> Vec<String> {
+fn fields<'p>(parameters: impl Iterator<Item = &'p Parameter>, language: &Language) -> Vec<String> {
     let mut fields: Vec<String> = Vec::new();
     for parameter in parameters {
         let mut name = String::new();

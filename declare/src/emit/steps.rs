@@ -34,8 +34,7 @@ impl Steps {
         let all = order.steps(ROOT, &all);
         let mut scopes =
             Scopes { program, parents: vec![0], defined: HashMap::new(), escaping: BTreeSet::new() };
-        scopes.define(&all, 0);
-        scopes.check(&all, 0);
+        scopes.visit(&all, 0);
         for &result in &program.results {
             scopes.uses(result, 0);
         }
@@ -223,42 +222,21 @@ struct Scopes<'a> {
 }
 
 impl Scopes<'_> {
-    fn define(&mut self, steps: &[Step], scope: usize) {
-        for step in steps {
-            match step {
-                Step::Compute(id) => _ = self.defined.insert(*id, scope),
-                Step::Branch { selections, yes, no, .. } => {
-                    for &selection in selections {
-                        self.defined.insert(selection, scope);
-                    }
-                    for inner in [yes, no] {
-                        self.parents.push(scope);
-                        self.define(inner, self.parents.len() - 1);
-                    }
-                }
-            }
-        }
-    }
-
-    fn check(&mut self, steps: &[Step], scope: usize) {
-        let mut next = scope;
-        self.check_from(steps, scope, &mut next);
-    }
-
-    /// Visits lists in the order in which [`define`](Self::define) has numbered them.
-    fn check_from(&mut self, steps: &[Step], scope: usize, last: &mut usize) {
+    /// Visits the statements of a list in their order, each of which uses what others before it have defined.
+    fn visit(&mut self, steps: &[Step], scope: usize) {
         for step in steps {
             match step {
                 Step::Compute(id) => {
                     self.program.operations[*id as usize]
                         .for_each_operand(|operand| self.uses(operand, scope));
+                    self.defined.insert(*id, scope);
                 }
                 Step::Branch { mask, selections, yes, no } => {
                     self.uses(*mask, scope);
                     for (k, inner) in [yes, no].into_iter().enumerate() {
-                        *last += 1;
-                        let here = *last;
-                        self.check_from(inner, here, last);
+                        self.parents.push(scope);
+                        let here = self.parents.len() - 1;
+                        self.visit(inner, here);
                         for &selection in selections {
                             if let RecordedOperation::Select(_, yes, no) =
                                 self.program.operations[selection as usize]
@@ -267,6 +245,7 @@ impl Scopes<'_> {
                             }
                         }
                     }
+                    self.defined.extend(selections.iter().map(|&selection| (selection, scope)));
                 }
             }
         }

@@ -49,9 +49,8 @@ impl Notation {
             text += &written;
         }
         origins.push(formula.chars().count());
-        let notation = Self { tokens: TokenStream::new(), text, origins };
-        match notation.text.parse() {
-            Ok(tokens) => Ok(Self { tokens, ..notation }),
+        match text.parse() {
+            Ok(tokens) => Ok(Self { tokens, text, origins }),
             Err(_) => Err(Mistakes::new(formula, vec![unreadable(formula)])),
         }
     }
@@ -157,20 +156,15 @@ fn unreadable(formula: &str) -> Mistake {
 
 /// A digit or sign in an exponent.
 fn raised(character: char) -> Option<char> {
-    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let digit = RAISED.iter().position(|&raised| raised == character);
-    digit.and_then(|digit| char::from_digit(digit as u32, 10)).or((character == '⁻').then_some('-'))
+    counterpart(character, "⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 }
 
 /// The character of Rust for one that papers use.
 fn lowered(character: char) -> Option<char> {
-    const LOWERED: [char; 10] = ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'];
-    let digit = LOWERED.iter().position(|&lowered| lowered == character);
-    let digit = digit.and_then(|digit| char::from_digit(digit as u32, 10));
-    digit.or(match character {
-        '−' | '–' => Some('-'),
-        '·' | '×' | '∗' | '⋅' => Some('*'),
-        '∕' | '÷' => Some('/'),
-        _ => None,
-    })
+    counterpart(character, "₀₁₂₃₄₅₆₇₈₉−–·×∗⋅∕÷", "0123456789--****//")
+}
+
+/// The character of the second text at the place that this one has in the first.
+fn counterpart(character: char, first: &str, second: &str) -> Option<char> {
+    first.chars().zip(second.chars()).find(|&(one, _)| one == character).map(|(_, other)| other)
 }

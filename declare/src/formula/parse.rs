@@ -15,6 +15,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use piola_codegen::read::diagnostics::Diagnostics;
 use piola_codegen::read::parse::{WORDS, is_reserved};
 use piola_codegen::read::spelling::{nearest, spelled_out};
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
@@ -37,8 +38,6 @@ const MOST_ASKED: usize = 20;
 
 /// A formula as the parts of a declaration.
 pub(super) struct Parsed {
-    pub(super) name: Ident,
-    pub(super) summary: String,
     pub(super) parameters: Vec<Parameter>,
     pub(super) body: TokenStream,
     /// Conditions of the domain.
@@ -134,8 +133,6 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
         is_list: *is_list,
     });
     Ok(Parsed {
-        name: Ident::new("Energy", Span::call_site()),
-        summary: "Energy of a formula.".to_owned(),
         parameters: parameters.collect(),
         body,
         domain,
@@ -438,7 +435,8 @@ impl Parser {
     /// Reports all names without a value.
     fn ask(&self, options: &FormulaOptions) -> syn::Result<()> {
         let missing = self.names.iter().filter(|(_, _, text)| !self.given.contains(text));
-        let mistakes = missing.take(MOST_ASKED).map(|(name, _, text)| {
+        let mut mistakes = Diagnostics::default();
+        for (name, _, text) in missing.take(MOST_ASKED) {
             let near = nearest(text, self.given.iter().map(String::as_str));
             let hint = match (near, &options.value, advice(text)) {
                 (Some(near), ..) => format!("did you mean `{near}`?"),
@@ -454,13 +452,9 @@ impl Parser {
                     }
                 }
             };
-            syn::Error::new(name.span(), format!("`{text}` has no value: {hint}"))
-        });
-        let all = mistakes.reduce(|mut all, other| {
-            all.combine(other);
-            all
-        });
-        all.map_or(Ok(()), Err)
+            mistakes.error(name, format!("`{text}` has no value: {hint}"));
+        }
+        mistakes.finish(Some(()))
     }
 }
 

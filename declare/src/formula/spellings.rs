@@ -47,11 +47,15 @@ const FUNCTIONS: [Spelling; 17] = [
 /// Functions of two arguments: powers.
 const POWERS: [&str; 2] = ["pow", "power"];
 
-/// Functions of tensors.
-const TENSOR_FUNCTIONS: [(&[&str], Invariant); 3] = [
-    (&["tr", "trace", "Tr"], Invariant::Trace),
-    (&["det"], Invariant::Determinant),
-    (&["inner", "ddot"], Invariant::Product),
+/// Functions of tensors, each with its meaning and its spellings.
+const TENSOR_FUNCTIONS: [(Invariant, &str, &str); 3] = [
+    (
+        Invariant::Trace,
+        "trace of a tensor: `tr(C)` is I1; `tr(E)^2` and `tr(E^2)` are accepted",
+        "tr trace Tr",
+    ),
+    (Invariant::Determinant, "determinant: `det(F)` is J, `det(C)` is J²", "det"),
+    (Invariant::Product, "product A : B of tensors: `inner(E, E)` is `tr(E^2)`", "inner ddot"),
 ];
 
 /// The products of F with its transpose that stand for C or b, without spaces.
@@ -98,9 +102,10 @@ pub(super) fn function(name: &str) -> Option<&'static str> {
     find(&FUNCTIONS, name)
 }
 
-fn find(table: &[Spelling], name: &str) -> Option<&'static str> {
+/// First column of the row of a table that has this name.
+fn find<T: Copy>(table: &[(T, &str, &str)], name: &str) -> Option<T> {
     let is_meant = |spellings: &str| spellings.split(' ').any(|spelling| spelling == name);
-    table.iter().find(|(.., spellings)| is_meant(spellings)).map(|&(rust, ..)| rust)
+    table.iter().find(|(.., spellings)| is_meant(spellings)).map(|&(meant, ..)| meant)
 }
 
 /// True if a function is a power of its first argument by its second.
@@ -110,7 +115,7 @@ pub(super) fn is_power(name: &str) -> bool {
 
 /// The function of tensors that a name stands for.
 pub(super) fn invariant(name: &str) -> Option<Invariant> {
-    TENSOR_FUNCTIONS.iter().find(|(names, _)| names.contains(&name)).map(|&(_, invariant)| invariant)
+    find(&TENSOR_FUNCTIONS, name)
 }
 
 /// True if a name is that of a module.
@@ -258,12 +263,8 @@ mod tests {
         }
         row(format!("`x^n`, `x**n`, {}", POWERS.map(|name| format!("`{name}(x, n)`")).join(", ")), "power");
         row("`.*`, `./`, `.^`".to_owned(), "`*`, `/`, `^`");
-        for (names, meaning) in [
-            (TENSOR_FUNCTIONS[0].0, "trace of a tensor: `tr(C)` is I1; `tr(E)^2` and `tr(E^2)` are accepted"),
-            (TENSOR_FUNCTIONS[1].0, "determinant: `det(F)` is J, `det(C)` is J²"),
-            (TENSOR_FUNCTIONS[2].0, "product A : B of tensors: `inner(E, E)` is `tr(E^2)`"),
-        ] {
-            row(code(names), meaning);
+        for (_, meaning, spellings) in TENSOR_FUNCTIONS {
+            row(all(spellings), meaning);
         }
         row(code(&RIGHT_AND_LEFT), "the tensor C or b, as an argument of these functions");
         row(
@@ -292,9 +293,8 @@ mod tests {
     fn no_spelling_has_two_meanings() {
         let mut all: Vec<_> =
             NAMES.iter().chain(&FUNCTIONS).flat_map(|(.., spellings)| spellings.split(' ')).collect();
-        all.extend(
-            POWERS.iter().chain(TENSOR_FUNCTIONS.iter().flat_map(|(names, _)| *names)).chain(&MODULES),
-        );
+        all.extend(TENSOR_FUNCTIONS.iter().flat_map(|(.., spellings)| spellings.split(' ')));
+        all.extend(POWERS.iter().chain(&MODULES));
         let count = all.len();
         all.sort_unstable();
         all.dedup();

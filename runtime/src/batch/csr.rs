@@ -56,8 +56,8 @@ impl CsrPlaces {
             Some((start + at) as u32)
         };
         let mut places = Vec::new();
-        places.try_reserve_exact(tetrahedra.corners().len()).map_err(|_| CsrError::OutOfMemory)?;
-        for corners in tetrahedra.corners() {
+        places.try_reserve_exact(tetrahedra.corners.len()).map_err(|_| CsrError::OutOfMemory)?;
+        for corners in tetrahedra.corners {
             let unknown_of = corners.map(&unknowns);
             let mut of_element = [NONE; 144];
             for (k, place) in of_element.iter_mut().enumerate() {
@@ -91,10 +91,7 @@ impl CsrPlaces {
         layout: Layout,
         values: &mut [E],
     ) -> Result<(), LengthError> {
-        let group = match layout {
-            Layout::Points => 1,
-            Layout::Lines => E::LINE,
-        };
+        let group = layout.group::<E>();
         let points = self.places.len().next_multiple_of(group);
         LengthError::check("stiffnesses", stiffnesses.len(), 144, points, group)?;
         LengthError::check("values", values.len(), 1, self.entries, 1)?;

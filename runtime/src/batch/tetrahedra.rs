@@ -7,8 +7,10 @@ use crate::lanes::Scalar;
 /// Nodes of linear tetrahedra, four of each, checked once for many calls.
 #[derive(Clone, Copy, Debug)]
 pub struct Tetrahedra<'a> {
-    nodes: usize,
-    corners: &'a [[usize; 4]],
+    /// Number of nodes of the mesh.
+    pub(super) nodes: usize,
+    /// The four nodes of each.
+    pub(super) corners: &'a [[usize; 4]],
 }
 
 impl<'a> Tetrahedra<'a> {
@@ -21,18 +23,6 @@ impl<'a> Tetrahedra<'a> {
             Some(at) => Err(NoSuchNode { element: Some(at / 4), node: corners.as_flattened()[at], nodes }),
             None => Ok(Self { nodes, corners }),
         }
-    }
-
-    /// The four nodes of each.
-    #[must_use]
-    pub fn corners(&self) -> &'a [[usize; 4]] {
-        self.corners
-    }
-
-    /// Number of nodes of the mesh.
-    #[must_use]
-    pub fn nodes(&self) -> usize {
-        self.nodes
     }
 
     /// Stores Ds of the tetrahedra from `start` on, one in each lane; past the last one edges of length 1

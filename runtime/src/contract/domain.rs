@@ -9,8 +9,11 @@ use crate::material::{Inversion, Moduli};
 /// [`Rule::Domain`].
 pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
     at_samples(Rule::Domain, material, settings, |judge, stretches, _| {
+        let finite = |judge: &mut Judge, component: &dyn Fn() -> String, stretches: [f64; 3], number: f64| {
+            judge.finite(component, stretches, number, || remedy(material, settings, stretches, number))
+        };
         for (k, number) in results(material, stretches).into_iter().enumerate() {
-            judge.finite(|| name(k), stretches, number, || remedy(material, settings, stretches, number))?;
+            finite(judge, &|| name(k), stretches, number)?;
         }
         let [l1, l2, _] = stretches;
         let flat = [-10, -20, -30].map(|k| l1 * 2f64.powi(k));
@@ -19,22 +22,12 @@ pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Find
             if l2 >= l3.abs() && material.admits(stretches) {
                 let energy = material.energy(stretches);
                 if energy != f64::INFINITY {
-                    judge.finite(
-                        || "energy".into(),
-                        stretches,
-                        energy,
-                        || remedy(material, settings, stretches, energy),
-                    )?;
+                    finite(judge, &|| "energy".into(), stretches, energy)?;
                 }
                 let overflows = energy > 2f64.powi(512);
                 if !overflows {
                     for (k, slope) in material.gradient(stretches).into_iter().enumerate() {
-                        judge.finite(
-                            || gradient_name(k),
-                            stretches,
-                            slope,
-                            || remedy(material, settings, stretches, slope),
-                        )?;
+                        finite(judge, &|| gradient_name(k), stretches, slope)?;
                     }
                 }
             }
@@ -95,7 +88,8 @@ pub(super) fn rest(material: &dyn Subject, settings: &Settings) -> Result<Findin
     let tolerance = 64.0 * UNIT * stiffness(&blocks);
     for k in 0..3 {
         if settings.stress_free_at_rest {
-            judge.vanishes(|| gradient_name(k), stretches, blocks.gradient[k], tolerance, STRESSED)?;
+            let (name, stress) = (|| gradient_name(k), blocks.gradient[k]);
+            judge.compare_or(name, stretches, stress, 0.0, tolerance, Some(STRESSED))?;
             judge.compare(|| pair_name("twist", k), stretches, blocks.twist[k], 0.0, tolerance)?;
         }
         let shear = blocks.hessian[0] - blocks.hessian[3];

@@ -47,20 +47,8 @@ impl Judge {
         self.compare_or(component, stretches, found, expected, tolerance, None)
     }
 
-    /// Demands |found| ≤ tolerance.
-    pub(super) fn vanishes(
-        &mut self,
-        component: impl FnOnce() -> String,
-        stretches: [f64; 3],
-        found: f64,
-        tolerance: f64,
-        remedy: &str,
-    ) -> Result<(), Violation> {
-        self.compare_or(component, stretches, found, 0.0, tolerance, Some(remedy))
-    }
-
     /// Demands |found − expected| ≤ tolerance, with advice if it fails.
-    fn compare_or(
+    pub(super) fn compare_or(
         &mut self,
         component: impl FnOnce() -> String,
         stretches: [f64; 3],

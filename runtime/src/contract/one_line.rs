@@ -2,20 +2,10 @@
 
 /// A module of tests, one for each [`Rule`](crate::contract::Rule), for one material.
 ///
-/// ```
-/// # /// Rubber.
-/// # #[piola::material(domain(J > 0.0), extend)]
-/// # pub fn Rubber([l1, l2, l3]: [f64; 3], /** Pa. */ mu: f64, /** Pa. */ lambda: f64) -> f64 {
-/// #     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-/// # }
-/// piola::contract!(rubber: Rubber::new(1e6, 5e6)?);
-/// # fn main() {}
-/// ```
-///
-/// `cargo test` then shows `rubber::rest`, `rubber::isotropy` and so on, and a failure names the wrong
-/// component, the stretches, and both values. The first word names the module; the expression is the material
-/// under test, of any type that implements [`Material`](crate::Material). It may use any name in scope at the
-/// macro, and `?` on any error.
+/// After `piola::contract!(rubber: Rubber::new(1e6, 5e6)?);` `cargo test` shows `rubber::rest`,
+/// `rubber::isotropy` and so on, and a failure names the wrong component, the stretches, and both values. The
+/// first word names the module; the expression is the material under test, of any type that implements
+/// [`Material`](crate::Material). It may use any name in scope at the macro, and `?` on any error.
 ///
 /// [`Settings`](crate::contract::Settings) other than the default ones follow by name:
 ///

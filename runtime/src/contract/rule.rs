@@ -13,12 +13,12 @@ macro_rules! rules {
         }
 
         impl Rule {
-            /// All rules, in the order of the table at the head of the module.
+            /// All rules, in the order above.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$Rule),*];
 
             /// The promise of a material that keeps the rule, in one line.
             #[must_use]
-            pub const fn promise(self) -> &'static str {
+            pub(super) const fn promise(self) -> &'static str {
                 match self {
                     $(Self::$Rule => $promise,)*
                 }

@@ -106,7 +106,7 @@ pub enum Violation {
 impl Violation {
     /// The rule that is broken.
     #[must_use]
-    pub fn rule(&self) -> Rule {
+    pub(super) fn rule(&self) -> Rule {
         match self {
             Self::Differs { rule, .. } | Self::WrongKind { rule, .. } | Self::NothingToCheck { rule } => {
                 *rule

@@ -10,7 +10,7 @@ pub type Register = u16;
 /// Operations in order, the registers that they begin with, and those that hold the results.
 ///
 /// A register may hold several values one after the other.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
     /// Constants that the declaration writes as numbers.
     pub literals: Vec<(Register, f64)>,

@@ -16,6 +16,14 @@ pub enum Layout {
 }
 
 impl Layout {
+    /// Number of points that it keeps together.
+    pub(crate) fn group<E: Scalar>(self) -> usize {
+        match self {
+            Self::Points => 1,
+            Self::Lines => E::LINE,
+        }
+    }
+
     /// Index of component k of a point in the slice.
     #[must_use]
     pub fn index<E: Scalar>(self, point: usize, numbers: usize, k: usize) -> usize {

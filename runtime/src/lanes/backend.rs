@@ -123,6 +123,7 @@ impl Backend {
     }
 
     /// Runs a kernel with the lanes of this back end.
+    #[doc(hidden)]
     #[inline]
     pub fn run<E: Scalar, K: Kernel<E>>(self, kernel: K) -> K::Output {
         match self.0 {

@@ -23,6 +23,7 @@ pub trait Real:
     type Mask: Mask;
 
     /// A logarithm with enough digits to make any power from it; see [`Real::logarithm`].
+    #[doc(hidden)] // for generated code
     type Logarithm: Copy + Debug + Send + Sync + 'static;
 
     /// Unit roundoff u: 2⁻⁵³ for `f64`, 2⁻²⁴ for `f32`.
@@ -50,6 +51,7 @@ pub trait Real:
     fn splat(value: f64) -> Self;
 
     /// `value(lane)` in each lane, rounded to the number format. A scalar is lane 0.
+    #[doc(hidden)] // for parameters that differ between lanes
     fn from_fn(value: impl Fn(usize) -> f64) -> Self;
 
     /// self · factor + addend, with one rounding where the hardware has such an instruction, else with two.
@@ -62,12 +64,14 @@ pub trait Real:
     #[must_use]
     fn sqrt(self) -> Self;
     /// 1/√self to two units in the last place for a normal self > 0.
+    #[doc(hidden)] // for rotations
     #[must_use]
     #[inline(always)]
     fn reciprocal_sqrt(self) -> Self {
         Self::splat(1.0) / self.sqrt()
     }
     /// √self to 2⁻¹² at least for a normal self > 0, by a fast instruction where there is one.
+    #[doc(hidden)] // for sizes of roundings
     #[must_use]
     #[inline(always)]
     fn rough_sqrt(self) -> Self {
@@ -129,13 +133,16 @@ pub trait Real:
     }
 
     /// ln self with extra digits, from which each power costs one exponential.
+    #[doc(hidden)] // for generated code
     fn logarithm(self) -> Self::Logarithm;
     /// x^exponent from the logarithm of x.
+    #[doc(hidden)] // for generated code
     #[must_use]
     fn power(logarithm: Self::Logarithm, exponent: Self) -> Self;
     /// ln (a/b) from the logarithms of a and b.
     ///
     /// The relative error is 2u unless a/b is within u² |ln a| of 1.
+    #[doc(hidden)] // for quotients of generated code
     #[must_use]
     fn logarithm_of_ratio(a: Self::Logarithm, b: Self::Logarithm) -> Self;
 
@@ -163,11 +170,13 @@ pub trait Real:
     /// A product as a pair: its rounded value and the exact rounding error.
     ///
     /// Exact while neither factor exceeds 2⁹⁹⁶ (`f32`: 2¹¹⁶) and the error does not underflow.
+    #[doc(hidden)] // for decompositions and invariants
     fn two_product(self, other: Self) -> (Self, Self);
 
     /// Powers of two (s, 1/s) that bring |self| into [1, 2): multiply by s, undo exactly by 1/s.
     ///
     /// (1, 1) for zero, ∞ and NaN; subnormal numbers are scaled up by the largest s that is finite.
+    #[doc(hidden)] // for decompositions
     fn power_of_two_scale(self) -> (Self, Self);
 }
 

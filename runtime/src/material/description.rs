@@ -51,6 +51,7 @@ impl Parameter {
     }
 
     /// True if its values are whole numbers, exponents from 0 to 64, by which nothing is differentiated.
+    #[doc(hidden)] // for fits
     #[must_use]
     pub fn is_whole(&self) -> bool {
         matches!(self.form, Form::Exponent | Form::Exponents)
@@ -68,6 +69,7 @@ impl Parameter {
     /// assert!(curve.rescale(&mut points, 3.0));
     /// assert_eq!(points, [0.5, -3e5, 1.0, 0.0, 2.0, 3e5]);
     /// ```
+    #[doc(hidden)] // for energies that are matched to others
     pub fn rescale(&self, values: &mut [f64], factor: f64) -> bool {
         let Some(unit) = self.unit else { return false };
         if unit == Unit::Dimensionless {
@@ -101,8 +103,7 @@ pub enum Unit {
 
 impl Unit {
     /// The exponent of Pa.
-    #[must_use]
-    pub fn pascals(self) -> i32 {
+    fn pascals(self) -> i32 {
         match self {
             Self::Pascal => 1,
             Self::PerPascal => -1,

@@ -185,12 +185,14 @@ pub struct Argument {
 
 impl Argument {
     /// A parameter that is a number.
+    #[doc(hidden)] // for tests
     #[must_use]
     pub fn scalar(parameter: impl Into<Text>, value: f64) -> Self {
         Self { parameter: parameter.into(), index: None, value }
     }
 
     /// An entry of a parameter that is a list.
+    #[doc(hidden)] // for tests
     #[must_use]
     pub fn entry(parameter: impl Into<Text>, index: usize, value: f64) -> Self {
         Self { parameter: parameter.into(), index: Some(index), value }

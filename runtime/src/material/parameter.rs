@@ -18,6 +18,7 @@ use crate::lanes::Real;
 /// Representation of a parameter in a declared material.
 pub trait ParameterValue: Copy + fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The parameter on the lanes of a real type.
+    #[doc(hidden)]
     fn on<R: Real>(&self) -> R;
 }
 
@@ -53,9 +54,11 @@ impl ParameterValue for PerLane {
 /// A material whose parameters may differ from point to point: every declared one.
 ///
 /// Parameters that are numbers have a value for each lane. Other parameters, such as functions, do not: next
-/// to each other, points that differ in these cost one evaluation for each of their materials.
+/// to each other, points that differ in these cost one evaluation for each of their materials. The methods
+/// are internals of batches.
 pub trait Graded: Material + Sized {
     /// This kind of material with parameters for each lane.
+    #[doc(hidden)]
     type OnLanes<'a>: Material
     where
         Self: 'a;
@@ -64,12 +67,14 @@ pub trait Graded: Material + Sized {
     ///
     /// All must have the same [`inversion`](Material::inversion), threshold included, as [`PerPoint`] checks:
     /// it selects the program. Each must [share lanes](Graded::shares_lanes) with the first.
+    #[doc(hidden)]
     fn on_lanes<'a>(material: impl Fn(usize) -> &'a Self + Copy) -> Self::OnLanes<'a>
     where
         Self: 'a;
 
     /// True if lanes hold this material and the other one side by side: unless they differ in parameters that
     /// are not numbers.
+    #[doc(hidden)]
     #[inline(always)]
     fn shares_lanes(&self, other: &Self) -> bool {
         let _ = other;

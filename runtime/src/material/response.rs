@@ -86,7 +86,8 @@ macro_rules! declare_response {
         [] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }
         properties { $($property:ident -> $Property:ty,)* }
     ) => {
-        /// Responses of a material for one type of real number: implemented for every [`Material`].
+        /// Responses of a material for one type of real number: implemented for every [`Material`], with the
+        /// methods of the same names.
         ///
         /// The functions of [`point`](crate::point) take this trait, and so they take a `dyn`
         /// [`DynMaterial`](crate::DynMaterial) as well. To write a material by hand, implement [`Material`].
@@ -98,15 +99,15 @@ macro_rules! declare_response {
         )]
         pub trait Response<R: Real>: Send + Sync {
             $(
-                #[doc = concat!("Forwards to [`Material::", stringify!($linear), "`].")]
+                #[doc(hidden)] // those of `Material`
                 fn $linear(&self, at: [R; 3]) -> $Linear;
             )*
             $(
-                #[doc = concat!("Forwards to [`Material::", stringify!($domain), "`].")]
+                #[doc(hidden)] // those of `Material`
                 fn $domain(&self, at: [R; 3]) -> R::Mask;
             )*
             $(
-                #[doc = concat!("Forwards to [`Material::", stringify!($property), "`].")]
+                #[doc(hidden)] // those of `Material`
                 fn $property(&self) -> $Property;
             )*
         }

@@ -179,6 +179,7 @@ impl<R: Real> Blocks<R> {
     ///
     /// # Panics
     /// If there is no such place.
+    #[doc(hidden)] // for criteria of stability
     #[inline(always)]
     #[must_use]
     pub fn pair_block(&self, pair: usize) -> (R, R) {

@@ -20,41 +20,21 @@ use hand_written::{ExtendedNeoHookean, NeoHookean, RotatedLinear, SaintVenantKir
 
 const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
 
-/// Of invariants, by Σ (λ² − 1)².
+/// Of invariants, by Σ (λ² − 1)²; moduli in Pa, as below.
 #[material]
-fn GreenSquares(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Pa. */
-    lambda: f64,
-) -> f64 {
+fn GreenSquares([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
     mu / 4.0 * sum(|l| (l * l - 1.0).powi(2)) + lambda / 8.0 * (I1 - 3.0).powi(2)
 }
 
 /// Of I1 and J.
 #[material(domain(J > 0.0))]
-fn Logarithmic(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Pa. */
-    lambda: f64,
-) -> f64 {
+fn Logarithmic([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
 }
 
 /// Of all three.
 #[material(domain(J > 0.0), extend)]
-fn Isochoric(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    c1: f64,
-    /** Pa. */
-    c2: f64,
-    /** Pa. */
-    kappa: f64,
-) -> f64 {
+fn Isochoric([l1, l2, l3]: [f64; 3], c1: f64, c2: f64, kappa: f64) -> f64 {
     c1 * (I1b - 3.0) + c2 * (I2b - 3.0) + kappa / 2.0 * (J - 1.0).powi(2)
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use clap::Args;
 use piola::__private::message::{number, quoted};
 use piola::material::Unit;
-use piola_declare::{Energy, FormulaOptions};
+use piola_declare::{Energy, FormulaOptions, Mistakes};
 
 use crate::error::Error;
 use crate::material::MaterialSpec;
@@ -112,22 +112,13 @@ fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
 /// # Errors
 /// [`Error::Unreadable`], [`Error::Declaration`].
 pub fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
-    if !is_file(name) {
+    let path = Path::new(name);
+    if path.extension().is_none_or(|extension| extension != "rs") {
         return Ok(None);
     }
-    read(Path::new(name)).map(|energy| Some(MaterialSpec::declared(energy)))
-}
-
-/// True if the name of a material is that of a file of Rust.
-fn is_file(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|extension| extension == "rs")
-}
-
-/// The energy that a file of Rust declares.
-fn read(path: &Path) -> Result<Energy, Error> {
-    let text = read_text(path, u64::MAX)?;
-    let named = |mistakes: piola_declare::Mistakes| mistakes.with_name(path.display().to_string());
-    Energy::from_rust(&text).map_err(|mistakes| Error::Declaration(named(mistakes)))
+    let energy = Energy::from_rust(&read_text(path, u64::MAX)?);
+    let named = |mistakes: Mistakes| Error::Declaration(mistakes.with_name(path.display().to_string()));
+    Ok(Some(MaterialSpec::declared(energy.map_err(named)?)))
 }
 
 /// A kind of unit in sentences.

@@ -17,7 +17,8 @@ use crate::geometry::Geometry;
 use crate::measure;
 use crate::moment::Moment;
 use crate::output::{
-    Ended, FinalState, Folder, STATE_FILE, StepCounts, Summary, cage_file, frame_file, read_text, write_ply,
+    Ended, FinalState, Folder, STATE_FILE, StepCounts, Summary, cage_file, frame_file, read_text, seal,
+    write_ply,
 };
 use crate::play::Play;
 use crate::settings::Settings;
@@ -193,7 +194,7 @@ impl<'a> Course<'a> {
     fn save_state(&mut self) -> Result<(), Error> {
         let moment = Moment::of(self.setup.settings, &self.setup.geometry, &self.setup.play);
         let saved = Saved::new(self.setup.cages_of.is_some(), moment, self.progress.clone());
-        self.folder.replace(STATE_FILE, |file| file.write_all(&saved.to_line()?))
+        self.folder.replace(STATE_FILE, |file| file.write_all(&seal(&saved)?))
     }
 
     /// Removes all files of a run that has made no step.
@@ -208,14 +209,9 @@ impl<'a> Course<'a> {
         let recovered = distance <= Summary::RECOVERED;
         let reading =
             self.setup.settings.scene.gauge.filter(|_| ended == Ended::Finished).and_then(|marks| {
-                let material = self.setup.settings.material.specimen();
+                let material = self.setup.settings.material.interpreted();
                 let material = material.map_err(|error| self.failures.push(error.to_string())).ok()?;
-                Some(read_specimen(
-                    &self.setup.geometry.mesh,
-                    self.setup.play.simulation(),
-                    marks,
-                    material.as_ref(),
-                ))
+                Some(read_specimen(&self.setup.geometry.mesh, self.setup.play.simulation(), marks, &material))
             });
         let (scene, end) = (self.setup.settings.scene, self.setup.play.clock().time());
         let released = scene.pulls.iter().map(|pull| pull.released).filter(|released| released.is_finite());

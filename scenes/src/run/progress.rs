@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::moment::Moment;
-use crate::output::{StepCounts, seal, unseal};
+use crate::output::{StepCounts, unseal};
 use crate::settings::Settings;
 
 /// Largest size of a state of a run, in bytes; a longer file is refused.
@@ -45,11 +45,6 @@ enum Format {
 impl Saved {
     pub(super) fn new(vtu: bool, moment: Moment, progress: Progress) -> Self {
         Self { format: Format::One, vtu, moment, progress }
-    }
-
-    /// The state as one line with a checksum.
-    pub(super) fn to_line(&self) -> std::io::Result<Vec<u8>> {
-        Ok(seal(self)?)
     }
 
     /// Reads a state, and checks that a run with these settings can continue from it.

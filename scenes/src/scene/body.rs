@@ -1,13 +1,12 @@
 //! The bodies that come with the program.
 
 use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serializer};
 
 use crate::error::Error;
 
-/// A body and its looks in pictures. Serialised as its name.
-#[derive(Clone, Copy, Debug, Serialize)]
-#[serde(into = "String")]
+/// A body and its looks in pictures.
+#[derive(Clone, Copy, Debug)]
 pub struct Body {
     /// Name on the command line.
     pub name: &'static str,
@@ -99,16 +98,14 @@ impl Body {
             known: Self::ALL.iter().map(|body| body.name).collect(),
         })
     }
-}
 
-impl<'de> Deserialize<'de> for Body {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Self::find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+    /// Writes the name of a body in its place.
+    pub(crate) fn serialize<S: Serializer>(body: &Self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(body.name)
     }
-}
 
-impl From<Body> for String {
-    fn from(body: Body) -> Self {
-        body.name.into()
+    /// Finds a body by its name.
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Self::find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }

@@ -14,6 +14,8 @@
 use piola::material::Blocks;
 use piola::{Material, Real};
 
+use crate::quotients::delegate;
+
 /// A material whose stretches are limited from below.
 #[derive(Clone, Copy, Debug)]
 pub struct Clamped<M> {
@@ -34,32 +36,11 @@ impl<M> Clamped<M> {
 }
 
 impl<M: Material> Material for Clamped<M> {
-    #[inline(always)]
-    fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
-        self.material.energy(self.clamp(stretches))
-    }
-
-    #[inline(always)]
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        self.material.gradient(self.clamp(stretches))
-    }
+    delegate!(material, clamp);
 
     #[inline(always)]
     fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
         self.material.blocks(self.clamp(stretches))
-    }
-
-    #[inline(always)]
-    fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
-        self.material.admits(self.clamp(stretches))
-    }
-
-    fn has_pole(&self) -> bool {
-        self.material.has_pole()
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        self.material.ends_at_zero_volume()
     }
 }
 

@@ -54,9 +54,7 @@ mod tests {
         let mut random = Random::new(4);
         (0..100).map(move |k| {
             let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-            let diagonal: Matrix3<f64> = std::array::from_fn(|i| {
-                std::array::from_fn(|j| if i == j { sign * stretches[i] } else { 0.0 })
-            });
+            let diagonal = scale_columns(&IDENTITY, stretches.map(|stretch| sign * stretch));
             convert(&to_world(&random.rotation(), &diagonal, &random.rotation()))
         })
     }

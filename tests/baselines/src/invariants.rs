@@ -165,29 +165,25 @@ mod tests {
     const BOUND: f64 = 100.0;
 
     #[track_caller]
-    fn compare<R: Real + Into<f64>>(energy: &impl InvariantEnergy, material: &impl Material) {
+    fn compare(energy: &impl InvariantEnergy, material: &impl Material) {
         // No gap between stretches is special.
         let stretched = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
         for F in [SHEARED, stretched, IDENTITY] {
-            let F = convert::<R>(&F);
-            let errors = errors_of(evaluate(energy, &svd(&F)), material, &F);
-            assert!(errors.iter().all(|&error| error <= BOUND), "{F:?}: {errors:?}");
+            let found = [
+                errors_of::<f64>(|F| evaluate(energy, &svd(F)), material, &F),
+                errors_of::<f32>(|F| evaluate(energy, &svd(F)), material, &F),
+            ];
+            assert!(found.as_flattened().iter().all(|&error| error <= BOUND), "{F:?}: {found:?}");
         }
-    }
-
-    #[track_caller]
-    fn compare_formats(energy: &impl InvariantEnergy, material: &impl Material) {
-        compare::<f64>(energy, material);
-        compare::<f32>(energy, material);
     }
 
     #[test]
     fn the_energies_are_those_of_the_catalogue() {
         let (mu, lambda) = (1.0, 1.5);
         let material = catalogue::StVenantKirchhoff::new(mu, lambda).expect("admissible parameters");
-        compare_formats(&StVenantKirchhoff { mu, lambda }, &material);
+        compare(&StVenantKirchhoff { mu, lambda }, &material);
         let material = catalogue::NeoHookean::new(mu, lambda).expect("admissible parameters");
-        compare_formats(&NeoHookean { mu, lambda }, &material);
+        compare(&NeoHookean { mu, lambda }, &material);
     }
 
     /// III is of degree six: at stretches of 10⁻⁷ its square is below the smallest `f32`, where those of the

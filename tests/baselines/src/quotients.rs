@@ -3,21 +3,24 @@
 use piola::material::{Blocks, PAIRS, Response};
 use piola::{Material, Real};
 
-/// All of a material but its blocks.
+/// All of a material but its blocks, at the stretches that it is shown.
 macro_rules! delegate {
-    ($material:tt) => {
+    ($material:tt $(, $shown:ident)?) => {
         #[inline(always)]
         fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
+            $(let stretches = self.$shown(stretches);)?
             self.$material.energy(stretches)
         }
 
         #[inline(always)]
         fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+            $(let stretches = self.$shown(stretches);)?
             self.$material.gradient(stretches)
         }
 
         #[inline(always)]
         fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
+            $(let stretches = self.$shown(stretches);)?
             self.$material.admits(stretches)
         }
 
@@ -30,6 +33,8 @@ macro_rules! delegate {
         }
     };
 }
+
+pub(crate) use delegate;
 
 /// A material with the quotients of [`naive`].
 #[derive(Clone, Copy, Debug)]

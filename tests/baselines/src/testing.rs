@@ -29,13 +29,16 @@ pub(crate) fn error<R: Real + Into<f64>, const N: usize>(found: &[[R; N]; N], ex
     distance(found, expected) / norm(expected)
 }
 
-/// ‖ΔP‖ and ‖ΔdP/dF‖ in units of u ‖dP/dF‖, as at rest P is zero and known to rounding of the moduli.
+/// ‖ΔP‖ and ‖ΔdP/dF‖ of a method in a format, in units of u ‖dP/dF‖, as at rest P is zero and known to
+/// rounding of the moduli.
 pub(crate) fn errors_of<R: Real + Into<f64>>(
-    (stress, tangent): (Matrix3<R>, [[R; 9]; 9]),
+    method: impl Fn(&Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]),
     material: &impl Material,
-    deformation: &Matrix3<R>,
+    deformation: &Matrix3<f64>,
 ) -> [f64; 2] {
-    let (exact_stress, exact_tangent) = exact(material, deformation);
+    let deformation = convert::<R>(deformation);
+    let (stress, tangent) = method(&deformation);
+    let (exact_stress, exact_tangent) = exact(material, &deformation);
     let distances = [distance(&stress, &exact_stress), distance(&tangent, &exact_tangent)];
     distances.map(|distance| distance / norm(&exact_tangent) / R::UNIT_ROUNDOFF)
 }

@@ -77,7 +77,7 @@ pub fn tetgen(scratch: &Path, bytes: &[u8]) -> bool {
 /// A surface in a cube of tetrahedra.
 pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
     let surface = write(scratch, "skin.obj", bytes);
-    play(scratch, Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: Some(surface) })
+    play(scratch, Files { surface: Some(surface), ..cube() })
 }
 
 /// Measured points, with the curves of a material in a chart.
@@ -92,12 +92,12 @@ pub fn csv(_: &Path, bytes: &[u8]) -> bool {
         }
         Err(error) => return refused(&error),
     };
-    let specimen = MaterialSpec::typical("gent").and_then(|gent| gent.specimen()).expect("a material");
+    let specimen = MaterialSpec::typical("gent").and_then(|gent| gent.interpreted()).expect("a material");
     let curves: Vec<_> = data
         .modes()
         .map(|mode| {
             let controls: Vec<_> = data.of(mode).map(|point| point.control).collect();
-            Curve { mode, points: sweep(&*specimen, mode, Volume::Free, &controls) }
+            Curve { mode, points: sweep(&specimen, mode, Volume::Free, &controls) }
         })
         .collect();
     for response in curves.iter().flat_map(|curve| &curve.points) {
@@ -106,7 +106,7 @@ pub fn csv(_: &Path, bytes: &[u8]) -> bool {
             Err(error) => check_message(error),
         }
     }
-    let agreement = data.agreement(&*specimen, Volume::Free);
+    let agreement = data.agreement(&specimen, Volume::Free);
     let compared = agreement.as_ref().ok().map(|agreement| (&data, agreement));
     match chart::draw("gent", "typical", &curves, compared) {
         Ok(svg) => assert!(!svg.contains("NaN") && !svg.contains("\"inf"), "{svg}"),
@@ -153,7 +153,7 @@ pub fn energy(_: &Path, bytes: &[u8]) -> bool {
 pub fn state(scratch: &Path, bytes: &[u8]) -> bool {
     let Some(text) = sealed(bytes) else { return false };
     let state = match State::parse(&text, scratch) {
-        Ok(state) => state.with_files(cube()),
+        Ok(state) => state.with_files(Some(cube())),
         Err(error) => return refused(&error),
     };
     match Session::resume(state) {
@@ -165,9 +165,10 @@ pub fn state(scratch: &Path, bytes: &[u8]) -> bool {
     }
 }
 
-/// The cube that states are of.
-fn cube() -> Option<Files> {
-    Some(Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: None })
+/// A cube of tetrahedra, which states are of.
+#[must_use]
+pub fn cube() -> Files {
+    Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: None }
 }
 
 /// The text with a checksum that belongs to it, so that more than the checksum is tested: if it is JSON its

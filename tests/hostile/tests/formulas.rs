@@ -16,15 +16,7 @@ const LONGEST: Duration = Duration::from_secs(2);
 
 /// A sum of as many terms as fit into a length, free of stress at rest.
 fn sum(length: usize, term: impl Fn(usize) -> String) -> String {
-    let mut text = "m*(I1 - 3 - 2*ln(J))".to_owned();
-    for k in 0.. {
-        let term = format!(" + {}", term(k));
-        if text.len() + term.len() > length {
-            return text;
-        }
-        text += &term;
-    }
-    text
+    repeated(length, "m*(I1 - 3 - 2*ln(J))", |k| format!(" + {}", term(k)), |_| String::new())
 }
 
 /// Text of a repeated pattern, with its maximum number of repetitions.

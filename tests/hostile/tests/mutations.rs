@@ -11,9 +11,9 @@ use std::time::{Duration, Instant};
 
 use piola::__private::random::Random;
 use piola_hostile::mutation::mutated;
-use piola_hostile::{FORMATS, Format, seeds};
+use piola_hostile::{FORMATS, Format, cube, seeds};
 use piola_scenes::scene::HORSE;
-use piola_scenes::settings::{Files, Settings};
+use piola_scenes::settings::Settings;
 use piola_viewer::protocol::Act;
 use piola_viewer::session::Session;
 
@@ -75,26 +75,17 @@ fn seed_of_the_viewer() {
     if std::env::var_os("PIOLA_BLESS").is_none() {
         return;
     }
-    let mut session = cube_in_motion();
-    for act in acts() {
-        session.apply(&act).expect("an act");
-        session.step().expect("a step");
-    }
-    session.state().write(&seeds("state").join("cube.json")).expect("a state");
-}
-
-fn cube_in_motion() -> Session {
-    let files = Files { mesh: seeds("msh").join("cube-4.1.msh"), surface: None };
-    Session::new(Settings::new(&HORSE).with_files(Some(files))).expect("a session")
-}
-
-fn acts() -> [Act; 6] {
-    [
+    let mut session = Session::new(Settings::new(&HORSE).with_files(Some(cube()))).expect("a session");
+    for act in [
         Act::Pull { drag: 1, vertex: 3, target: [1.0, 1.5, -0.25] },
         Act::Material { name: "gent".into(), as_stiff: true },
         Act::Parameter { name: "jm".into(), values: vec![50.0] },
         Act::TimeStep { seconds: 0.02 },
         Act::Save {},
         Act::Release { drag: 1 },
-    ]
+    ] {
+        session.apply(&act).expect("an act");
+        session.step().expect("a step");
+    }
+    session.state().write(&seeds("state").join("cube.json")).expect("a state");
 }

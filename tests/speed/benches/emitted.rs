@@ -18,7 +18,7 @@ use piola::point::{Filter, Matrix3, evaluate_dense};
 use piola::{Inversion, Material};
 use piola_declare::emit::{Emission, PointFunction, Target};
 use piola_materials::{NeoHookean, StVenantKirchhoff};
-use piola_speed::{LAMBDA, MU, deformation_gradients, ogden, processor};
+use piola_speed::{LAMBDA, MU, Times, deformation_gradients, ogden, processor};
 use piola_tests::energies::find;
 
 const POINTS: usize = 1024;
@@ -87,8 +87,9 @@ fn row(
     (compiler, flags): (&str, &str),
 ) -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
-    let points: Vec<[f64; 9]> = deformation_gradients().take(POINTS).collect();
-    let bytes: Vec<u8> = points.iter().flatten().flat_map(|x| x.to_ne_bytes()).collect();
+    let points: Vec<Matrix3<f64>> = deformation_gradients().take(POINTS).collect();
+    let numbers = points.as_flattened().as_flattened();
+    let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_ne_bytes()).collect();
     std::fs::write(folder.path().join("points"), bytes)?;
     let emission = Emission::new(Target::C)
         .with_prefix("energy")
@@ -107,8 +108,6 @@ fn row(
         return Err(String::from_utf8_lossy(&compiled.stderr).into());
     }
 
-    let points: Vec<Matrix3<f64>> =
-        points.iter().map(|F| [[F[0], F[1], F[2]], [F[3], F[4], F[5]], [F[6], F[7], F[8]]]).collect();
     let mut times: [[Vec<f64>; 2]; 2] = Default::default();
     for _ in 0..TURNS {
         for (filter, times) in [Filter::None, Filter::Clamp].into_iter().zip(&mut times[0]) {
@@ -120,19 +119,10 @@ fn row(
         }
     }
     for (k, work) in ["P + 81", "projected"].into_iter().enumerate() {
-        let [ours, theirs] = [0, 1].map(|side: usize| {
-            let times = &mut times[side][k];
-            times.sort_by(f64::total_cmp);
-            (times[0], times[times.len() / 2])
-        });
-        println!(
-            "| {name}, {work} | {:.0} ({:.0}) | {:.0} ({:.0}) | {:.2} |",
-            ours.0,
-            ours.1,
-            theirs.0,
-            theirs.1,
-            theirs.0 / ours.0
-        );
+        let [ours, theirs] = times.each_mut().map(|times| Times::of(std::mem::take(&mut times[k])));
+        let cell = |times: Times| format!("{:.0} ({:.0})", times.least, times.median);
+        let ratio = theirs.least / ours.least;
+        println!("| {name}, {work} | {} | {} | {ratio:.2} |", cell(ours), cell(theirs));
     }
     Ok(())
 }

@@ -111,13 +111,12 @@ fn kernels_in<E: Kernels>(backend: Backend, kernels: &mut Vec<(String, Call)>) {
         kernels.push((format!("{:<8} {format} {kernel:<25} {material:<17}", backend.name()), call));
     };
     for (name, is_signed) in [("svd", false), ("svd_signed_by_determinant", true)] {
-        let mut decompositions = Decompositions::<E>::new();
+        let mut decompositions = Decompositions::<E>::default();
         push(name, "", Box::new(move || decompositions.run(backend, is_signed)));
     }
     for task in Task::ALL {
         for &filter in task.filters() {
-            let count = materials::<E>().len();
-            for (name, energy) in materials::<E>().into_iter().take(count) {
+            for (name, energy) in materials::<E>() {
                 let mut arrays = Arrays::new(task, Layout::Lines, IN_CACHE);
                 let call =
                     move || arrays.run(&Batch::new(&*energy).with_backend(backend).with_filter(filter));

@@ -22,19 +22,20 @@ pub struct Decompositions<E> {
 /// would compete for the same places of the innermost cache.
 const ROW: usize = IN_CACHE + 16;
 
-impl<E: Scalar> Decompositions<E> {
-    /// The points of [`Arrays`](super::Arrays).
-    #[must_use]
-    pub fn new() -> Self {
+/// The points of [`Arrays`](super::Arrays).
+impl<E: Scalar> Default for Decompositions<E> {
+    fn default() -> Self {
         let mut F = Aligned::new(9 * ROW);
-        for (point, numbers) in deformation_gradients().take(IN_CACHE).enumerate() {
-            for (k, number) in numbers.into_iter().enumerate() {
+        for (point, gradient) in deformation_gradients().take(IN_CACHE).enumerate() {
+            for (k, &number) in gradient.as_flattened().iter().enumerate() {
                 F[k * ROW + point] = E::splat(number);
             }
         }
         Self { F, svd: Aligned::new(21 * ROW) }
     }
+}
 
+impl<E: Scalar> Decompositions<E> {
     /// Decomposes all, with [`svd_signed_by_determinant`] or [`svd()`].
     pub fn run(&mut self, backend: Backend, is_signed: bool) {
         if is_signed {
@@ -43,12 +44,6 @@ impl<E: Scalar> Decompositions<E> {
             backend.run(Decompose::<E, false>(&self.F, &mut self.svd));
         }
         black_box(&self.svd);
-    }
-}
-
-impl<E: Scalar> Default for Decompositions<E> {
-    fn default() -> Self {
-        Self::new()
     }
 }
 

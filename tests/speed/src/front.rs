@@ -6,12 +6,11 @@ pub const RESOLUTION: f64 = 0.05;
 /// A time and an error.
 type Pair = (f64, f64);
 
-/// Membership of each pair in the Pareto front: whether it is finite and no other pair [`beats`] it.
+/// True if a pair is on the Pareto front: it is finite, and no finite rival [`beats`] it.
 #[must_use]
-pub fn front(pairs: &[Pair], unit: f64) -> Vec<bool> {
+pub fn is_on_front(pair: Pair, rivals: &[Pair], unit: f64) -> bool {
     let is_finite = |(time, error): Pair| time.is_finite() && error.is_finite();
-    let is_beaten = |pair| pairs.iter().any(|&other| is_finite(other) && beats(other, pair, unit));
-    pairs.iter().map(|&pair| is_finite(pair) && !is_beaten(pair)).collect()
+    is_finite(pair) && !rivals.iter().any(|&rival| is_finite(rival) && beats(rival, pair, unit))
 }
 
 /// True if the first is faster and its error is no larger, or as fast and its error is smaller.
@@ -29,24 +28,28 @@ pub fn beats((time, error): Pair, (other_time, other_error): Pair, unit: f64) ->
 mod tests {
     use super::*;
 
+    fn front(pairs: &[Pair]) -> Vec<bool> {
+        pairs.iter().map(|&pair| is_on_front(pair, pairs, 0.1)).collect()
+    }
+
     #[test]
     fn what_is_worse_in_both_is_beaten() {
         let pairs = [(1.0, 5.0), (2.0, 3.0), (3.0, 4.0), (4.0, 1.0), (0.5, f64::INFINITY), (0.1, f64::NAN)];
-        assert_eq!(front(&pairs, 0.1), [true, true, false, true, false, false]);
+        assert_eq!(front(&pairs), [true, true, false, true, false, false]);
     }
 
     #[test]
     fn equals_do_not_beat_each_other_but_a_tie_in_one_does() {
         let pairs = [(1.0, 1.0), (1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
-        assert_eq!(front(&pairs, 0.1), [true, true, false, false]);
+        assert_eq!(front(&pairs), [true, true, false, false]);
     }
 
     #[test]
     fn what_is_hardly_longer_or_hardly_larger_is_a_tie() {
-        assert_eq!(front(&[(1.0, 1.0), (1.04, 1.0)], 0.1), [true, true]);
-        assert_eq!(front(&[(1.0, 1.0), (1.06, 1.0)], 0.1), [true, false]);
-        assert_eq!(front(&[(1.0, 1.0), (1.0, 1.09)], 0.1), [true, true]);
-        assert_eq!(front(&[(1.0, 1.0), (1.0, 1.11)], 0.1), [true, false]);
-        assert_eq!(front(&[(1.0, 1.09), (1.06, 1.0)], 0.1), [true, false]);
+        assert_eq!(front(&[(1.0, 1.0), (1.04, 1.0)]), [true, true]);
+        assert_eq!(front(&[(1.0, 1.0), (1.06, 1.0)]), [true, false]);
+        assert_eq!(front(&[(1.0, 1.0), (1.0, 1.09)]), [true, true]);
+        assert_eq!(front(&[(1.0, 1.0), (1.0, 1.11)]), [true, false]);
+        assert_eq!(front(&[(1.0, 1.09), (1.06, 1.0)]), [true, false]);
     }
 }

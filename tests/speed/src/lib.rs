@@ -22,10 +22,10 @@ mod timing;
 
 pub use arrays::Arrays;
 pub use decomposition::Decompositions;
-pub use front::{RESOLUTION, beats, front};
+pub use front::{RESOLUTION, beats, is_on_front};
 pub use machine::processor;
 pub use task::{Task, deformation_gradients};
-pub use timing::{Effort, Times, time, time_all_in_turns, time_in_turns};
+pub use timing::{Effort, Times, time, time_in_turns};
 
 /// Points whose numbers stay in the caches of a core.
 pub const IN_CACHE: usize = 128;

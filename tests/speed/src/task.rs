@@ -1,9 +1,9 @@
 //! The kernels of a batch, and which numbers of a point each reads and writes.
 
-#![expect(non_snake_case, reason = "F as in the literature")]
+#![expect(non_snake_case, reason = "F, X as below")]
 
 use piola::batch::REST;
-use piola::point::Filter;
+use piola::point::{Filter, Matrix3};
 
 use piola::__private::random::Random;
 
@@ -42,11 +42,7 @@ impl Task {
     /// Its name, with a mark where a filter acts: `tangents +C`.
     #[must_use]
     pub fn label(self, filter: Filter) -> String {
-        let mark = match filter {
-            Filter::None => "",
-            Filter::Clamp => " +C",
-            Filter::Absolute => " +A",
-        };
+        let mark = if filter == Filter::Clamp { " +C" } else { "" };
         format!("{}{mark}", self.name())
     }
 
@@ -107,13 +103,13 @@ impl Input {
     pub(super) fn draw(self, random: &mut Random) -> Vec<f64> {
         match self {
             Self::Nothing => Vec::new(),
-            Self::Deformation => deformation(random).to_vec(),
-            Self::RestShape => [&deformation(random)[..], &[random.uniform(0.5, 1.5)]].concat(),
+            Self::Deformation => deformation(random).as_flattened().to_vec(),
+            Self::RestShape => [deformation(random).as_flattened(), &[random.uniform(0.5, 1.5)]].concat(),
             Self::RestShapeAtNodes => {
                 let F = deformation(random);
                 // Ds⁻¹ of the edges between `CORNERS`.
                 let inverse = |i: usize, j: usize| if i == j { 0.25 } else { -0.25 };
-                let entry = |k: usize| (0..3).map(|m| inverse(k / 3, m) * F[3 * m + k % 3]).sum();
+                let entry = |k: usize| (0..3).map(|m| inverse(k / 3, m) * F[m][k % 3]).sum();
                 let shape = (0..9).map(entry);
                 shape.chain([random.uniform(0.5, 1.5)]).collect()
             }
@@ -121,19 +117,21 @@ impl Input {
     }
 }
 
-/// The deformation gradients of [`Arrays`](crate::Arrays), row by row, without end.
-pub fn deformation_gradients() -> impl Iterator<Item = [f64; 9]> {
+/// The deformation gradients of [`Arrays`](crate::Arrays), without end.
+pub fn deformation_gradients() -> impl Iterator<Item = Matrix3<f64>> {
     let mut random = Random::new(1);
     std::iter::repeat_with(move || deformation(&mut random))
 }
 
-fn deformation(random: &mut Random) -> [f64; 9] {
+fn deformation(random: &mut Random) -> Matrix3<f64> {
     loop {
-        let f: [f64; 9] = std::array::from_fn(|k| f64::from(k % 4 == 0) + 0.3 * random.uniform(-1.0, 1.0));
-        let determinant = f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6])
-            + f[2] * (f[3] * f[7] - f[4] * f[6]);
+        let X = random.matrix();
+        let F: Matrix3<f64> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| f64::from(i == j) + 0.3 * X[i][j]));
+        let [a, b, c] = F;
+        let determinant = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+            + a[2] * (b[0] * c[1] - b[1] * c[0]);
         if determinant > 0.0 {
-            return f;
+            return F;
         }
     }
 }

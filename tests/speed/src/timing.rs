@@ -24,23 +24,11 @@ pub struct Times {
 
 /// Times calls that each work on `points` points.
 pub fn time(effort: Effort, points: usize, mut call: impl FnMut()) -> Times {
-    let [times] = time_in_turns(effort, points, [&mut call]);
-    times
+    time_in_turns(effort, points, &mut [&mut call])[0]
 }
 
 /// Times several calls, a repeat of each in turns, so that what disturbs one disturbs the others too.
-pub fn time_in_turns<const N: usize>(
-    effort: Effort,
-    points: usize,
-    mut calls: [&mut dyn FnMut(); N],
-) -> [Times; N] {
-    let mut times = time_all_in_turns(effort, points, &mut calls).into_iter();
-    // There is one for each call.
-    [const { Times { least: f64::NAN, median: f64::NAN } }; N].map(|none| times.next().unwrap_or(none))
-}
-
-/// Times any number of calls in turns, as [`time_in_turns`] does for an array of them.
-pub fn time_all_in_turns(effort: Effort, points: usize, calls: &mut [&mut dyn FnMut()]) -> Vec<Times> {
+pub fn time_in_turns(effort: Effort, points: usize, calls: &mut [&mut dyn FnMut()]) -> Vec<Times> {
     let counts: Vec<u128> = calls
         .iter_mut()
         .map(|call| {
@@ -75,7 +63,7 @@ pub fn time_all_in_turns(effort: Effort, points: usize, calls: &mut [&mut dyn Fn
 
 impl Times {
     /// Least and median of the times of repeats, at least one.
-    fn of(mut times: Vec<f64>) -> Self {
+    pub fn of(mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);
         Self { least: times[0], median: times[times.len() / 2] }
     }

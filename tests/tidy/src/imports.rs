@@ -23,7 +23,6 @@ pub struct Edge {
 }
 
 /// The modules of a crate with the names that they define and bring in.
-#[derive(Debug)]
 pub struct Graph<'a> {
     modules: &'a [Module],
     /// Under this name the crate may call itself.

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use proc_macro2::TokenStream;
-use syn::{Attribute, Item, ItemMod, Meta};
+use syn::{Attribute, Item};
 
 pub mod imports;
 pub mod tokens;
@@ -19,12 +19,9 @@ pub fn root() -> PathBuf {
 }
 
 /// A library or program of the workspace, without what is compiled for tests only.
-#[derive(Debug)]
 pub struct Crate {
     /// Name by which Rust code imports it.
     pub name: String,
-    /// Folder below [`root`].
-    pub folder: PathBuf,
     /// True if it is published to a registry.
     pub is_published: bool,
     /// Its modules, the root first, parents before their children.
@@ -41,12 +38,6 @@ pub struct Module {
     pub parent: Option<usize>,
     /// Items other than modules.
     pub items: Vec<Item>,
-}
-
-impl fmt::Debug for Module {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{self}")
-    }
 }
 
 impl fmt::Display for Module {
@@ -78,7 +69,7 @@ pub fn crates() -> Vec<Crate> {
             if root().join(&file).exists() {
                 let mut modules = Vec::new();
                 load(&mut modules, Vec::new(), None, file);
-                crates.push(Crate { name, folder: folder.clone(), is_published, modules });
+                crates.push(Crate { name, is_published, modules });
             }
         }
     }
@@ -126,8 +117,7 @@ pub fn forbid(what: &str, places: &[String]) {
 fn load(modules: &mut Vec<Module>, path: Vec<String>, parent: Option<usize>, file: PathBuf) {
     let text = read(&file);
     let parsed = syn::parse_file(&text).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
-    let is_root = parent.is_none() || file.file_name().is_some_and(|name| name == "mod.rs");
-    let children = if is_root { file.with_file_name("") } else { file.with_extension("") };
+    let children = if parent.is_none() { file.with_file_name("") } else { file.with_extension("") };
     add(modules, path, parent, file, parsed.items, &children);
 }
 
@@ -152,29 +142,11 @@ fn add(
         };
         let name = module.ident.to_string();
         let path: Vec<String> = path.iter().cloned().chain([name.clone()]).collect();
-        let ItemMod { attrs, content, .. } = module;
-        match (content, other_path(&attrs)) {
-            (Some((_, items)), _) => {
-                add(modules, path, Some(here), file.clone(), items, &children.join(name));
-            }
-            (None, Some(other)) => load(modules, path, Some(here), file.with_file_name(other)),
-            (None, None) => {
-                let beside = children.join(format!("{name}.rs"));
-                let inside = children.join(&name).join("mod.rs");
-                let found = if root().join(&beside).exists() { beside } else { inside };
-                load(modules, path, Some(here), found);
-            }
+        match module.content {
+            Some((_, items)) => add(modules, path, Some(here), file.clone(), items, &children.join(name)),
+            None => load(modules, path, Some(here), children.join(format!("{name}.rs"))),
         }
     }
-}
-
-/// The file that `#[path = "…"]` names.
-fn other_path(attributes: &[Attribute]) -> Option<String> {
-    attributes.iter().find(|attribute| attribute.path().is_ident("path")).map(|attribute| {
-        let Meta::NameValue(pair) = &attribute.meta else { panic!("#[path = \"…\"]") };
-        let value = &pair.value;
-        quote::quote!(#value).to_string().trim_matches('"').to_owned()
-    })
 }
 
 /// True if attributes contain `#[cfg(test)]` or `#[cfg(all(test, …))]`.

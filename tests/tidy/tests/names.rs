@@ -16,9 +16,10 @@ fn no_two_public_items_of_a_crate_have_one_name() {
         let mut places: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
         for module in &one.modules {
             for item in &module.items {
-                let is_hidden = attributes_of(item)
-                    .iter()
-                    .any(|attribute| attribute.path().is_ident("doc") && contains(attribute, "hidden"));
+                let is_hidden = attributes_of(item).iter().any(|attribute| {
+                    let text = attribute.to_token_stream().to_string();
+                    attribute.path().is_ident("doc") && text.contains("hidden")
+                });
                 if let Some((kind, name, Some(Visibility::Public(_)))) = name_of(item)
                     && !is_hidden
                 {
@@ -32,8 +33,4 @@ fn no_two_public_items_of_a_crate_have_one_name() {
         }
     }
     forbid("names of more than one public item", &found);
-}
-
-fn contains(attribute: &impl ToTokens, word: &str) -> bool {
-    attribute.to_token_stream().to_string().contains(word)
 }

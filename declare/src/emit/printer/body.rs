@@ -39,8 +39,8 @@ impl<'a> Body<'a> {
         text
     }
 
-    fn language(&self) -> &dyn Language {
-        &*self.printer.language
+    fn language(&self) -> &Language {
+        &self.printer.language
     }
 
     fn write(&self, steps: &[Step], depth: usize, text: &mut String) {

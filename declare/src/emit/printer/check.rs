@@ -9,7 +9,7 @@ use piola::material::Form;
 use super::body::Body;
 use super::{Printer, safe};
 use crate::emit::Precision;
-use crate::emit::language::Argument;
+use crate::emit::language::{Argument, Kind};
 
 impl Printer<'_> {
     /// A check of the parameters, by the conditions of the declaration.
@@ -40,7 +40,9 @@ impl Printer<'_> {
         let body = Body::new(self, program, Vec::new());
         let mut results = program.results.iter().map(|&id| body.operand(id));
         let mut statements = body.statements();
-        if let (false, Some(shear), Some(bulk)) = (file.is_prestressed, results.next(), results.next()) {
+        if let (false, Some(shear), Some(bulk)) =
+            (file.energy.is_prestressed(), results.next(), results.next())
+        {
             // The constructor has the moduli by a formula, without the roundings of derivatives.
             let rounding = language.literal(if file.precision == Precision::F32 { 1e-5 } else { 1e-13 });
             let (zero, is_finite) = (language.literal(0.0), language.is_finite(&bulk));
@@ -63,7 +65,7 @@ impl Printer<'_> {
         if !self.parameters.iter().any(|place| statements.contains(place)) {
             statements.insert_str(0, language.parameters_are_unused());
         }
-        let head = language.head_of_point("check", &[Argument::Parameters]);
+        let head = language.head("check", &[Argument::Parameters], Kind::Status);
         format!("{list} */\n{head}\n{statements}    return 0u;\n}}\n\n")
     }
 
@@ -92,24 +94,11 @@ impl Printer<'_> {
                     // Of one operand, the second is the first once more.
                     (name, [a, ..]) => {
                         let b = &operands[operands.len() - 1];
-                        self.language.call_in_condition(name, a, b).unwrap_or_else(|| in_c(name, a, b))
+                        self.language.call_in_condition(name, a, b)
                     }
                     (_, []) => self.language.number_in_condition(f64::NAN),
                 }
             }
         }
-    }
-}
-
-/// A call of a method in C.
-fn in_c(name: &str, a: &str, b: &str) -> String {
-    match name {
-        "powi" | "powf" => format!("pow({a}, {b})"),
-        "log" => format!("(log({a}) / log({b}))"),
-        "recip" => format!("(1.0 / {a})"),
-        "ln" => format!("log({a})"),
-        "ln_1p" => format!("log1p({a})"),
-        "exp_m1" => format!("expm1({a})"),
-        name => format!("{name}({a})"),
     }
 }

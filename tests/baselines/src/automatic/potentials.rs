@@ -33,10 +33,7 @@ pub struct Hencky {
 impl Potential for StVenantKirchhoff {
     #[inline(always)]
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
-        let [e1, e2, e3] = stretches.map(|l| l * l - real::<T>(1.0));
-        let squares = e1 * e1 + e2 * e2 + e3 * e3;
-        let trace = e1 + e2 + e3;
-        squares * real::<T>(self.mu / 4.0) + trace * trace * real::<T>(self.lambda / 8.0)
+        quadratic(stretches.map(|l| l * l - real::<T>(1.0)), self.mu / 4.0, self.lambda / 8.0)
     }
 }
 
@@ -70,19 +67,22 @@ impl<const N: usize> Potential for Ogden<N> {
 impl Potential for RotatedLinear {
     #[inline(always)]
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
-        let [e1, e2, e3] = stretches.map(|l| l - real::<T>(1.0));
-        let trace = e1 + e2 + e3;
-        (e1 * e1 + e2 * e2 + e3 * e3) * real::<T>(self.mu) + trace * trace * real::<T>(self.lambda / 2.0)
+        quadratic(stretches.map(|l| l - real::<T>(1.0)), self.mu, self.lambda / 2.0)
     }
 }
 
 impl Potential for Hencky {
     #[inline(always)]
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
-        let [e1, e2, e3] = stretches.map(|l| l.ln());
-        let trace = e1 + e2 + e3;
-        (e1 * e1 + e2 * e2 + e3 * e3) * real::<T>(self.mu) + trace * trace * real::<T>(self.lambda / 2.0)
+        quadratic(stretches.map(|l| l.ln()), self.mu, self.lambda / 2.0)
     }
+}
+
+/// a Σ ei² + b (e1 + e2 + e3)².
+#[inline(always)]
+fn quadratic<T: DualNumFloat, D: DualNum<T> + Copy>([e1, e2, e3]: [D; 3], a: f64, b: f64) -> D {
+    let trace = e1 + e2 + e3;
+    (e1 * e1 + e2 * e2 + e3 * e3) * real::<T>(a) + trace * trace * real::<T>(b)
 }
 
 /// The number nearest to `value`.

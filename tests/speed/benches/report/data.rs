@@ -39,7 +39,7 @@ pub(crate) struct PointRow {
 }
 
 /// A way to step a body through a motion.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(crate) struct StepRow {
     pub(crate) setting: &'static str,
     /// Time step, s.

@@ -11,7 +11,7 @@
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::time::Duration;
 use std::{error, fs};
@@ -62,15 +62,6 @@ enum Section {
     Growth,
 }
 
-/// Name of the page in its folder.
-const PAGE: &str = "report.md";
-
-/// Output folder of the report.
-fn folder() -> PathBuf {
-    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    workspace.canonicalize().unwrap_or(workspace).join("target/report")
-}
-
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let made = if arguments.table {
@@ -79,11 +70,7 @@ fn main() -> ExitCode {
         make(&arguments)
     };
     match made {
-        Ok(()) if arguments.table => ExitCode::SUCCESS,
-        Ok(()) => {
-            println!("{}", folder().join(PAGE).display());
-            ExitCode::SUCCESS
-        }
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::FAILURE
@@ -91,10 +78,12 @@ fn main() -> ExitCode {
     }
 }
 
-/// Measures all that is asked for, then writes: a run that fails leaves the files of the one before.
+/// Measures all that is asked for, then writes it and prints the path of the page: a run that fails leaves
+/// the files of the one before.
 fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>> {
     let asked = |section| arguments.only.is_empty() || arguments.only.contains(&section);
-    let folder = folder();
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folder = workspace.canonicalize().unwrap_or(workspace).join("target/report");
     // Before anything is measured in vain.
     fs::create_dir_all(&folder)?;
     let mut report = Report {
@@ -108,26 +97,23 @@ fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>
     if asked(Section::Point) {
         // Those whose energies take part.
         let cases = Case::own(&["cases", "cases-ordinary"])?;
-        let progress = bar("point", point::count(&cases));
-        report.rows = point::rows(&cases, effort(arguments.quick), &progress)?;
-        progress.finish_and_clear();
+        report.rows = point::rows(&cases, effort(arguments.quick), &bar("point"))?;
     }
     if asked(Section::Steps) {
-        let progress = bar("steps", 0);
-        report.steps = steps::rows(arguments.quick, &progress)?;
-        progress.finish_and_clear();
+        report.steps = steps::rows(arguments.quick, &bar("steps"))?;
     }
     if asked(Section::Growth) {
-        let progress = bar("growth", 0);
-        report.growth = growth::rows(arguments.quick, &MEMORY, &progress)?;
-        progress.finish_and_clear();
+        report.growth = growth::rows(arguments.quick, &MEMORY, &bar("growth"))?;
     }
     let charts = charts::draw(&report)?;
     for chart in &charts {
         fs::write(folder.join(&chart.file), &chart.svg)?;
     }
     fs::write(folder.join("report.json"), serde_json::to_string_pretty(&report)?)?;
-    Ok(fs::write(folder.join(PAGE), page::tell(&report, &charts))?)
+    let page = folder.join("report.md");
+    fs::write(&page, page::tell(&report, &charts))?;
+    println!("{}", page.display());
+    Ok(())
 }
 
 /// The commit that is checked out, where there is Git and a checkout; with a mark where files differ from it.
@@ -143,8 +129,9 @@ fn effort(is_quick: bool) -> Effort {
     Effort { repeats, at_least: Duration::from_micros(30), at_most: Duration::from_millis(at_most) }
 }
 
-fn bar(section: &'static str, length: u64) -> ProgressBar {
+/// Progress of a section, which sets the length; it is cleared when it is dropped.
+fn bar(section: &'static str) -> ProgressBar {
     const TEMPLATE: &str = "{prefix:7} {bar:40} {pos}/{len} {elapsed} {msg}";
     let style = ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(length).with_style(style).with_prefix(section)
+    ProgressBar::new(0).with_style(style).with_prefix(section)
 }

@@ -10,7 +10,7 @@ use std::hint::black_box;
 use indicatif::ProgressBar;
 use piola::Real;
 use piola::batch::Kernels;
-use piola_speed::{Effort, Times, front, time_all_in_turns};
+use piola_speed::{Effort, Times, is_on_front, time_in_turns};
 use piola_tests::cases::{Case, Quantity};
 
 use crate::data::PointRow;
@@ -59,6 +59,7 @@ impl Work {
 /// # Errors
 /// Where a case does not fit its material.
 pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Result<Vec<PointRow>, String> {
+    progress.set_length(count(cases));
     let mut rows = Vec::new();
     for (name, in_catalogue) in ENERGIES {
         progress.set_message(name);
@@ -70,7 +71,7 @@ pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Re
 }
 
 /// Number of contests: the steps of the progress bar.
-pub(crate) fn count(cases: &[Case]) -> u64 {
+fn count(cases: &[Case]) -> u64 {
     let of_one = |(_, in_catalogue)| {
         let cases = of_energy(in_catalogue, cases);
         families::<f64>(&cases).len() + families::<f32>(&cases).len()
@@ -108,8 +109,7 @@ fn contests<E: Number>(
             of_work.extend(contest::<E>(work, energy, family, &cases, effort)?);
             progress.inc(1);
         }
-        let together = all_hard(&of_work);
-        of_work.extend(together);
+        of_work.extend(all_hard(&of_work));
         mark_fronts(&mut of_work, E::UNIT_ROUNDOFF);
         rows.extend(of_work);
     }
@@ -203,30 +203,30 @@ fn in_turns<E: Kernels>(groups: &mut [Group<'_, E>], effort: Effort) -> Vec<Time
         })
         .collect();
     let mut calls: Vec<&mut dyn FnMut()> = calls.iter_mut().map(|call| call as &mut dyn FnMut()).collect();
-    time_all_in_turns(effort, points, &mut calls)
+    time_in_turns(effort, points, &mut calls)
 }
 
 /// A row for each method that was in every hard family.
 fn all_hard(rows: &[PointRow]) -> Vec<PointRow> {
     let mut together: Vec<PointRow> = Vec::new();
-    let mut counts: Vec<(usize, Vec<f64>)> = Vec::new();
+    // Of each the median errors of its families.
+    let mut medians: Vec<Vec<f64>> = Vec::new();
     for row in rows.iter().filter(|row| row.family != ORDINARY) {
         let same = |other: &PointRow| (other.method, &other.setting) == (row.method, &row.setting);
         let index = together.iter().position(same).unwrap_or_else(|| {
             let zero = PointRow { ns_per_element: 0.0, worst_error: 0.0, cases: 0, ..row.clone() };
             together.push(PointRow { family: HARD.to_owned(), ..zero });
-            counts.push((0, Vec::new()));
+            medians.push(Vec::new());
             together.len() - 1
         });
-        let (sum, (families, medians)) = (&mut together[index], &mut counts[index]);
-        *families += 1;
-        medians.push(row.median_error);
+        medians[index].push(row.median_error);
+        let sum = &mut together[index];
         sum.ns_per_element += row.ns_per_element;
         sum.worst_error = sum.worst_error.max(row.worst_error);
         sum.cases += row.cases;
     }
-    for (row, (families, mut medians)) in together.iter_mut().zip(counts) {
-        row.ns_per_element /= families as f64;
+    for (row, mut medians) in together.iter_mut().zip(medians) {
+        row.ns_per_element /= medians.len() as f64;
         medians.sort_by(f64::total_cmp);
         row.median_error = medians[medians.len() / 2];
     }
@@ -241,9 +241,7 @@ fn mark_fronts(rows: &mut [PointRow], unit: f64) {
         let general = |row: &&PointRow| row.family == family && row.is_general;
         let rivals: Vec<(f64, f64)> = rows.iter().filter(general).map(pair).collect();
         for row in rows.iter_mut().filter(|row| row.family == family) {
-            // One more than the rivals: itself a second time, or a method for particular energies.
-            let all: Vec<(f64, f64)> = rivals.iter().copied().chain([pair(row)]).collect();
-            row.is_on_front = front(&all, unit)[rivals.len()];
+            row.is_on_front = is_on_front(pair(row), &rivals, unit);
         }
     }
 }

@@ -58,10 +58,12 @@ type Track = Vec<Vec<[f64; 3]>>;
 ///
 /// # Errors
 /// Where a step fails.
-pub(crate) fn rows(is_quick: bool, progress: &ProgressBar) -> Result<Vec<StepRow>, String> {
-    let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let thread = thread.map_err(|error| error.to_string())?;
-    thread.install(|| measure(is_quick, progress)).map_err(|error| error.to_string())
+pub(crate) fn rows(
+    is_quick: bool,
+    progress: &ProgressBar,
+) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
+    let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    thread.install(|| measure(is_quick, progress))
 }
 
 fn measure(is_quick: bool, progress: &ProgressBar) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
@@ -154,16 +156,8 @@ fn follow(
     let settings = SimulationSettings::default().with_newton(way.newton);
     simulation.set_settings(settings.with_integrator(way.integrator))?;
     let (h, steps) = (1.0 / RATE / way.division, (frames as f64 * way.division).round() as usize);
-    let mut row = StepRow {
-        setting: way.setting,
-        h,
-        seconds: 0.0,
-        steps,
-        newton_iterations: 0,
-        linear_iterations: 0,
-        error: f64::NAN,
-        final_error: f64::NAN,
-    };
+    let unknown = StepRow { error: f64::NAN, final_error: f64::NAN, ..StepRow::default() };
+    let mut row = StepRow { setting: way.setting, h, steps, ..unknown };
     let mut track = Track::new();
     let clock = Instant::now();
     for step in 1..=steps {

@@ -65,8 +65,16 @@ fn print_energy<M: Declared + 'static>(name: &str, material: &M, effort: Effort)
         let label = format!("a batch of {points}, f64, {}", Backend::best());
         row(&mut table, &batch::<f64>(label, &Batch::new(material), Layout::Points, points, effort));
     }
-    row(&mut table, &single(material, effort));
-    row(&mut table, &dense(material, effort));
+    // One point a call, with the 81 entries written out.
+    let stress = each_point(effort, |F| _ = black_box(evaluate_stress(material, F)));
+    let filters = [Filter::None, Filter::Clamp];
+    let tangents = filters.map(|filter| {
+        each_point(effort, |F| _ = black_box(evaluate(material, F, filter).tangent.to_matrix()))
+    });
+    let dense =
+        filters.map(|filter| each_point(effort, |F| _ = black_box(evaluate_dense(material, F, filter))));
+    row(&mut table, &one_a_call("`evaluate_stress`, `evaluate`", Some(stress), tangents));
+    row(&mut table, &one_a_call("`evaluate_dense`", None, dense));
     println!("## {name}\n\n{table}");
 }
 
@@ -105,34 +113,17 @@ fn batch<E: Kernels>(
     cells
 }
 
-/// One point a call: `evaluate_stress`, and `evaluate` with the 81 entries written out.
-fn single<M: Declared>(material: &M, effort: Effort) -> Vec<String> {
-    let tangent =
-        |filter| each_point(effort, |F| _ = black_box(evaluate(material, F, filter).tangent.to_matrix()));
-    let stress = each_point(effort, |F| _ = black_box(evaluate_stress(material, F)));
-    one_a_call(
-        "`evaluate_stress`, `evaluate`",
-        [Some(stress), Some(tangent(Filter::None)), Some(tangent(Filter::Clamp))],
-    )
-}
-
-/// One point a call: `evaluate_dense`.
-fn dense<M: Declared>(material: &M, effort: Effort) -> Vec<String> {
-    let tangent = |filter| each_point(effort, |F| _ = black_box(evaluate_dense(material, F, filter)));
-    one_a_call("`evaluate_dense`", [None, Some(tangent(Filter::None)), Some(tangent(Filter::Clamp))])
-}
-
 /// A row with the first three columns.
-fn one_a_call(label: &str, times: [Option<Times>; 3]) -> Vec<String> {
-    let mut cells = vec![format!("{label}, f64")];
-    cells.extend(times.map(|times| times.map_or("–".to_owned(), cell)));
+fn one_a_call(label: &str, stress: Option<Times>, tangents: [Times; 2]) -> Vec<String> {
+    let mut cells = vec![format!("{label}, f64"), stress.map_or("–".to_owned(), cell)];
+    cells.extend(tangents.map(cell));
     cells.resize(1 + COLUMNS.len(), "–".to_owned());
     cells
 }
 
 /// Times a call at each of the points.
 fn each_point(effort: Effort, mut call: impl FnMut(&Matrix3<f64>)) -> Times {
-    let gradients = matrices(IN_CACHE);
+    let gradients: Vec<_> = deformation_gradients().take(IN_CACHE).collect();
     time(effort, IN_CACHE, || gradients.iter().for_each(&mut call))
 }
 
@@ -146,18 +137,12 @@ fn decompositions(effort: Effort) -> String {
 }
 
 fn decomposition<E: Kernels>(backend: Backend, effort: Effort) -> Vec<String> {
-    let mut points = Decompositions::<E>::new();
+    let mut points = Decompositions::<E>::default();
     let mut cells = vec![format!("{}, {backend}", std::any::type_name::<E>())];
     cells.extend(
         [false, true].map(|is_signed| cell(time(effort, IN_CACHE, || points.run(backend, is_signed)))),
     );
     cells
-}
-
-/// Deformation gradients of [`Arrays`], as matrices.
-fn matrices(count: usize) -> Vec<Matrix3<f64>> {
-    let rows = |[a, b, c, d, e, f, g, h, i]: [f64; 9]| [[a, b, c], [d, e, f], [g, h, i]];
-    deformation_gradients().take(count).map(rows).collect()
 }
 
 /// `least (median)`.

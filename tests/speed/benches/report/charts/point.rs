@@ -66,7 +66,7 @@ pub(crate) fn best_settings<'a>(rows: &[&'a PointRow]) -> Vec<&'a PointRow> {
             None => best.push(row),
             Some(other) => {
                 let key = |row: &PointRow| (row.worst_error, row.ns_per_element);
-                if key(row).partial_cmp(&key(other)).is_some_and(|order| order.is_lt()) {
+                if key(row) < key(other) {
                     *other = row;
                 }
             }

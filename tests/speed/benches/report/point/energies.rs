@@ -30,39 +30,34 @@ pub(crate) fn contestants<E: Number>(case: &Case, work: Work) -> Result<Vec<Cont
     let refused = |error: MaterialError| misfit(&error);
     let energy = find(&case.material).ok_or_else(|| misfit(&"not in the catalogue"))?;
     let values = case.values(energy.description())?;
+    let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
     Ok(match (energy.name, &values[..]) {
-        ("st_venant_kirchhoff", [mu, lambda]) => {
-            let (mu, lambda) = (mu[0], lambda[0]);
+        ("st_venant_kirchhoff", &[&[mu], &[lambda]]) => {
             let by_hand = invariants::StVenantKirchhoff { mu, lambda };
-            let material = StVenantKirchhoff::new(mu, lambda).map_err(refused)?;
-            let mut all = methods::all(material, by_hand, work);
+            let mut all = methods::all(StVenantKirchhoff::new(mu, lambda).map_err(refused)?, by_hand, work);
             all.extend(methods::by_invariants(by_hand, work));
             all
         }
-        ("neo_hookean", [mu, lambda]) => {
-            let (mu, lambda) = (mu[0], lambda[0]);
+        ("neo_hookean", &[&[mu], &[lambda]]) => {
             let by_hand = invariants::NeoHookean { mu, lambda };
-            let material = NeoHookean::new(mu, lambda).map_err(refused)?;
-            let mut all = methods::all(material, by_hand, work);
+            let mut all = methods::all(NeoHookean::new(mu, lambda).map_err(refused)?, by_hand, work);
             all.extend(methods::by_invariants(by_hand, work));
             all
         }
-        ("rotated_linear", [mu, lambda]) => {
-            let (mu, lambda) = (mu[0], lambda[0]);
+        ("rotated_linear", &[&[mu], &[lambda]]) => {
             let by_hand = polar::RotatedLinear { mu, lambda };
             let mut all = methods::all(RotatedLinear::new(mu, lambda).map_err(refused)?, by_hand, work);
             all.push(methods::by_polar_decomposition(by_hand, work));
             all
         }
-        ("hencky", [mu, lambda]) => {
-            let (mu, lambda) = (mu[0], lambda[0]);
+        ("hencky", &[&[mu], &[lambda]]) => {
             let material = Hencky::new(mu, lambda).map_err(refused)?;
             methods::all(material, automatic::Hencky { mu, lambda }, work)
         }
-        ("ogden", [mu, alpha, kappa]) => {
+        ("ogden", &[mu, alpha, &[kappa]]) => {
             // Terms that a case does not have get a modulus of zero, and any exponent.
             let filled = |list: &[f64], with| std::array::from_fn(|p| list.get(p).copied().unwrap_or(with));
-            let (mu, alpha, kappa): ([f64; 3], _, _) = (filled(mu, 0.0), filled(alpha, 2.0), kappa[0]);
+            let (mu, alpha): ([f64; 3], _) = (filled(mu, 0.0), filled(alpha, 2.0));
             let material = Ogden::new(mu, alpha, kappa).map_err(refused)?;
             methods::all(material, automatic::Ogden { mu, alpha, kappa }, work)
         }

@@ -23,22 +23,6 @@ pub(crate) const OURS: &str = "piola";
 /// The product without lanes.
 pub(crate) const OURS_AS_A_SCALAR: &str = "piola, point by point";
 
-pub(crate) const PAPER: &str = "[SZLSB11]";
-pub(crate) const INVARIANTS: &str = "[TSIF05]";
-pub(crate) const COINCIDENCES: &str = "[GKJD09]";
-pub(crate) const NAIVE: &str = "plain quotients";
-pub(crate) const SWITCHED: &str = "l'Hôpital switch";
-pub(crate) const CLAMPED: &str = "[ITF04]";
-pub(crate) const DUAL_STRETCHES: &str = "hyper-dual ψ(λ)";
-pub(crate) const DUAL_DECOMPOSITION: &str = "hyper-dual ψ(F)";
-pub(crate) const DIFFERENCES: &str = "finite differences";
-pub(crate) const DIRECT: &str = "invariants without SVD";
-pub(crate) const DIRECT_AS_A_SCALAR: &str = "invariants without SVD, point by point";
-pub(crate) const POLAR: &str = "polar decomposition";
-pub(crate) const JACOBI: &str = "Jacobi SVD";
-pub(crate) const NALGEBRA: &str = "nalgebra SVD";
-pub(crate) const FAER: &str = "faer SVD";
-
 /// The methods for any energy, given as it is declared and as a potential of hyper-dual numbers.
 pub(crate) fn all<E: Number>(
     material: impl Material + Copy + 'static,
@@ -52,40 +36,40 @@ pub(crate) fn all<E: Number>(
     let mut all = vec![
         Contestant::batch(Label::new(OURS), material, filter),
         Contestant::one_by_one(Label::new(OURS_AS_A_SCALAR), Ours { material, filter }),
-        Contestant::batch(Label::new(NAIVE), Naive(material), filter),
+        Contestant::batch(Label::new("plain quotients"), Naive(material), filter),
     ];
     for threshold in [1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
-        let label = Label::set(SWITCHED, format_args!("{threshold:e}"));
+        let label = Label::set("l'Hôpital switch", format_args!("{threshold:e}"));
         all.push(Contestant::batch(label, Switched { material, threshold }, filter));
     }
     for limit in [0.01, 0.1, 0.5] {
-        let label = Label::set(CLAMPED, limit);
+        let label = Label::set("[ITF04]", limit);
         all.push(Contestant::batch(label, Clamped { material, limit }, filter));
     }
     for epsilon in [1e-6, 1e-8, 1e-10, 1e-12, 1e-14] {
         let regularization = Regularization { epsilon, ..Regularization::default() };
-        let label = Label::set(PAPER, format_args!("{epsilon:e}"));
+        let label = Label::set("[SZLSB11]", format_args!("{epsilon:e}"));
         all.push(entries(label, SvdGradients { material, regularization }, work));
     }
     for threshold in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
-        let label = Label::set(COINCIDENCES, format_args!("{threshold:e}"));
+        let label = Label::set("[GKJD09]", format_args!("{threshold:e}"));
         all.push(entries(label, Coincidences { material, threshold }, work));
     }
     for step in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
-        let label = Label::set(DIFFERENCES, format_args!("{step:e}"));
+        let label = Label::set("finite differences", format_args!("{step:e}"));
         all.push(entries(label, Differences { material, step }, work));
     }
     all.push(Contestant::one_by_one(
-        Label::new(DUAL_STRETCHES),
+        Label::new("hyper-dual ψ(λ)"),
         DualStretches { material, potential, filter },
     ));
-    all.push(entries(Label::new(DUAL_DECOMPOSITION), DualDecomposition(potential), work));
+    all.push(entries(Label::new("hyper-dual ψ(F)"), DualDecomposition(potential), work));
     let by_nalgebra = Decomposed { material, filter, decompose: decompositions::nalgebra };
-    all.push(Contestant::one_by_one(Label::new(NALGEBRA), by_nalgebra));
+    all.push(Contestant::one_by_one(Label::new("nalgebra SVD"), by_nalgebra));
     let by_faer = Decomposed { material, filter, decompose: decompositions::faer };
-    all.push(Contestant::one_by_one(Label::new(FAER), by_faer));
+    all.push(Contestant::one_by_one(Label::new("faer SVD"), by_faer));
     for sweeps in 2..=7 {
-        let label = Label::set(JACOBI, sweeps);
+        let label = Label::set("Jacobi SVD", sweeps);
         all.push(Contestant::on_lanes(label, Jacobi { material, filter, sweeps }));
     }
     all
@@ -96,22 +80,25 @@ pub(crate) fn by_invariants<E: Number>(
     energy: impl InvariantEnergy + DirectEnergy + Copy + Send + Sync + 'static,
     work: Work,
 ) -> Vec<Contestant<E>> {
-    let mut all = vec![entries(Label::special(INVARIANTS), Invariants(energy), work)];
+    let mut all = vec![entries(Label::special("[TSIF05]"), Invariants(energy), work)];
+    let direct = Label::special("invariants without SVD");
     match work {
         Work::Tangent => {
-            all.push(Contestant::on_lanes(Label::special(DIRECT), Direct(energy)));
-            all.push(Contestant::one_by_one(Label::special(DIRECT_AS_A_SCALAR), Direct(energy)));
+            all.push(Contestant::on_lanes(direct, Direct(energy)));
+            let point_by_point = Label::special("invariants without SVD, point by point");
+            all.push(Contestant::one_by_one(point_by_point, Direct(energy)));
         }
-        Work::Projected => all.push(entries(Label::special(DIRECT), Direct(energy), work)),
+        Work::Projected => all.push(entries(direct, Direct(energy), work)),
     }
     all
 }
 
 /// The method for the energy that somebody has written in the polar decomposition.
 pub(crate) fn by_polar_decomposition<E: Number>(energy: polar::RotatedLinear, work: Work) -> Contestant<E> {
+    let label = Label::special("polar decomposition");
     match work {
-        Work::Tangent => Contestant::on_lanes(Label::special(POLAR), Polar(energy)),
-        Work::Projected => entries(Label::special(POLAR), Polar(energy), work),
+        Work::Tangent => Contestant::on_lanes(label, Polar(energy)),
+        Work::Projected => entries(label, Polar(energy), work),
     }
 }
 

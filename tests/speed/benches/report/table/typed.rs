@@ -5,15 +5,14 @@
 use std::hint::black_box;
 
 use piola::batch::{Batch, Layout};
-use piola::lanes::Backend;
 use piola::material::{Declared, MaterialError};
 use piola::point::{Filter, evaluate, evaluate_stress};
 use piola::{Inversion, Material};
 use piola_declare::Energy;
 use piola_materials::{CATALOGUE, DECLARATIONS, Entry, Visitor};
-use piola_speed::{Arrays, Effort, IN_CACHE, Task, Times, time_in_turns};
+use piola_speed::{Arrays, Effort, IN_CACHE, Task, deformation_gradients, time_in_turns};
 
-use super::{cell, matrices};
+use super::{cell, vectors};
 use crate::markdown::{header, row};
 
 const NAMES: [&str; 5] = ["st_venant_kirchhoff", "neo_hookean", "ogden", "gent", "arruda_boyce"];
@@ -29,15 +28,18 @@ pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
         let energy = Energy::from_rust(source).expect("a declaration of the catalogue");
         let typed = energy.material(&values, Inversion::Refuse)?;
         let compiled = entry.material(&values, Inversion::Refuse)?;
-        for backend in Backend::available().filter(|&backend| backend != Backend::portable()) {
+        for backend in vectors() {
             for task in [Task::Stresses, Task::Tangents] {
                 let batches = [Batch::new(&*compiled), Batch::new(&typed)];
                 let [compiled, typed] = batches.map(|batch| batch.with_backend(backend));
                 let mut arrays = [(); 2].map(|()| Arrays::new(task, Layout::Lines, IN_CACHE));
                 let [first, second] = &mut arrays;
-                let calls: [&mut dyn FnMut(); 2] = [&mut || first.run(&compiled), &mut || second.run(&typed)];
-                let times = time_in_turns(effort, IN_CACHE, calls);
-                compare(&mut table, [entry.name, task.name(), backend.name()], times);
+                compare(
+                    &mut table,
+                    [entry.name, task.name(), backend.name()],
+                    (effort, IN_CACHE),
+                    [&mut || first.run(&compiled), &mut || second.run(&typed)],
+                );
             }
         }
         entry.visit(&values, Inversion::Refuse, PointByPoint { effort, entry, typed, table: &mut table })?;
@@ -58,30 +60,37 @@ impl<T: Material> Visitor for PointByPoint<'_, T> {
 
     fn visit<M: Declared + 'static>(self, compiled: M) {
         let Self { effort, entry, typed, table } = self;
-        let gradients = matrices(POINTS);
-        let times = time_in_turns(
-            effort,
-            POINTS,
+        let gradients: Vec<_> = deformation_gradients().take(POINTS).collect();
+        compare(
+            table,
+            [entry.name, "evaluate_stress", "a point"],
+            (effort, POINTS),
             [
                 &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&compiled, F))),
                 &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&typed, F))),
             ],
         );
-        compare(table, [entry.name, "evaluate_stress", "a point"], times);
-        let times = time_in_turns(
-            effort,
-            POINTS,
+        compare(
+            table,
+            [entry.name, "evaluate", "a point"],
+            (effort, POINTS),
             [
                 &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&compiled, F, Filter::None))),
                 &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&typed, F, Filter::None))),
             ],
         );
-        compare(table, [entry.name, "evaluate", "a point"], times);
     }
 }
 
-fn compare(table: &mut String, labels: [&str; 3], [compiled, typed]: [Times; 2]) {
+/// Adds a row: the times of calls with the compiled and with the typed energy, in turns.
+fn compare(
+    table: &mut String,
+    labels: [&str; 3],
+    (effort, points): (Effort, usize),
+    mut calls: [&mut dyn FnMut(); 2],
+) {
+    let times = time_in_turns(effort, points, &mut calls);
     let mut cells = labels.map(str::to_owned).to_vec();
-    cells.extend([cell(compiled), cell(typed), format!("{:.2}", typed.least / compiled.least)]);
+    cells.extend([cell(times[0]), cell(times[1]), format!("{:.2}", times[1].least / times[0].least)]);
     row(table, &cells);
 }

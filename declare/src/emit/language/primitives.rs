@@ -1,0 +1,99 @@
+//! Functions that programs are made of, from the files `primitives.c` and `primitives.wgsl`.
+
+use super::{Kind, Language};
+use crate::emit::Target;
+
+/// Parts of the files.
+const C: &str = include_str!("primitives.c");
+const WGSL: &str = include_str!("primitives.wgsl");
+
+/// The needed parts of a file, each of which follows a line `//@` with its name.
+fn parts(file: &str, is_needed: impl Fn(&str) -> bool) -> String {
+    let parts = file.split("//@ ").filter_map(|part| part.split_once('\n'));
+    parts.filter(|(name, _)| is_needed(name)).map(|(_, text)| text).collect()
+}
+
+impl Language {
+    /// What comes before the macros and functions of C: headers, and errors for options that change
+    /// arithmetic.
+    pub(super) fn head_of_file(&self) -> String {
+        let (of_target, of_double) = match self.target {
+            Target::C => ("head of c", None),
+            Target::Cuda => ("head of cuda", None),
+            Target::OpenCl => ("head of opencl", (!self.is_single).then_some("head of opencl in double")),
+            Target::Wgsl => return String::new(),
+        };
+        self.filled(&parts(C, |part| part == of_target || Some(part) == of_double))
+    }
+
+    /// Functions that programs are made of, those that a text calls.
+    pub(in crate::emit) fn primitives(&self, text: &str) -> String {
+        // Each part has the name of its function; `all` is always needed.
+        let is_called = |part: &str| part == "all" || text.contains(&format!("{}_{part}(", self.prefix));
+        let target = self.target;
+        if target == Target::Wgsl {
+            return parts(WGSL, is_called).replace("{prefix}", &self.prefix);
+        }
+        let has_bits = ["scale", "split", "leading_power", "reciprocal_of_power"];
+        let has_bits = target == Target::Cuda || has_bits.into_iter().any(is_called);
+        let is_in_double = self.is_single && target != Target::OpenCl;
+        self.filled(&parts(C, |part| match part {
+            "bits of opencl" => target == Target::OpenCl,
+            "bits" => target != Target::OpenCl && has_bits,
+            "product_error in double" => is_in_double && is_called("product_error"),
+            "product_error by halves" => !is_in_double && is_called("product_error"),
+            part => is_called(part),
+        }))
+    }
+
+    /// A part in C with the words of the dialect and the numbers of the format.
+    fn filled(&self, part: &str) -> String {
+        let is_of_opencl = self.target == Target::OpenCl;
+        let (bits, signed) = match (is_of_opencl, self.is_single) {
+            (_, true) => ("unsigned", "int"),
+            (true, false) => ("ulong", "long"),
+            (false, false) => ("unsigned long long", "long long"),
+        };
+        let fast = if self.is_single { "FP_FAST_FMAF" } else { "FP_FAST_FMA" };
+        // A device has no such macro, and clang has only that of the processor.
+        let is_of_cuda = self.target == Target::Cuda;
+        let on_device =
+            if is_of_cuda { " || defined(__CUDA_ARCH__) || defined(__HIP_DEVICE_COMPILE__)" } else { "" };
+        let has_fast = format!("defined({fast}) || defined(__FMA__){on_device}");
+        let number = self.type_of(Kind::Number);
+        let of_format = |single: &'static str, double: &'static str| match self.is_single {
+            true => single.to_owned(),
+            false => double.to_owned(),
+        };
+        let infinity_bits = if is_of_opencl { "0x7ff0000000000000UL" } else { "0x7ff0000000000000ull" };
+        let words = [
+            ("{prefix}", self.prefix.clone()),
+            ("{upper}", self.upper.clone()),
+            ("{number}", number.to_owned()),
+            ("{bits}", bits.to_owned()),
+            ("{signed}", signed.to_owned()),
+            ("{opencl_bits}", of_format("uint", "ulong")),
+            ("{end}", self.end().to_owned()),
+            ("{suffix}", self.suffix().to_owned()),
+            ("{function}", self.function(number)),
+            ("{function_to_bits}", self.function(bits)),
+            ("{has_fast}", has_fast),
+            ("{exact}", of_format("FLT_EVAL_METHOD == 0", "FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD < 2")),
+            ("{nan}", self.literal(f64::NAN)),
+            ("{infinity}", self.literal(f64::INFINITY)),
+            ("{infinity_bits}", of_format("0x7f800000u", infinity_bits)),
+            ("{sign_place}", of_format("31", "63")),
+            ("{mantissa}", of_format("23", "52")),
+            ("{digits}", of_format("24", "53")),
+            ("{bias}", of_format("127", "1023")),
+            ("{twice_bias}", of_format("254", "2046")),
+            // ¾/u, √½, the smallest normal number, 1/u, and what splits a number into halves of its digits.
+            ("{rounding}", of_format("12582912.0f", "6755399441055744.0")),
+            ("{half_root}", of_format("0x3f3504f3", "0x3fe6a09e667f3bcd")),
+            ("{smallest}", of_format("1.17549435e-38f", "2.2250738585072014e-308")),
+            ("{lift}", of_format("16777216.0f", "9007199254740992.0")),
+            ("{splitter}", of_format("4097.0f", "134217729.0")),
+        ];
+        words.iter().fold(part.to_owned(), |text, (word, meaning)| text.replace(word, meaning))
+    }
+}
