@@ -123,10 +123,10 @@ impl MatrixFree {
     /// Multiplies the stiffness by the vector `x` of the owned nodes.
     fn multiply_x(&mut self) -> Result<(), PetscError> {
         let Self { stiffness, exchange, x, product, .. } = self;
-        exchange.copy(x.as_flattened_mut())?;
+        exchange.copy(x.as_flattened_mut(), |x| x)?;
         // Both vectors have the length of the stiffness.
         let _ = stiffness.multiply(x, product);
-        exchange.sum(product.as_flattened_mut())
+        exchange.sum(product.as_flattened_mut(), |x| x)
     }
 }
 
@@ -148,7 +148,7 @@ impl LinearSystem {
         let stiffness = team.agree(stiffness.map_err(Error::from))?;
         let own = body.map_or(&[][..], Body::masses);
         let mut masses = own.to_vec();
-        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses)?;
+        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses, |x| x)?;
         for (name, value) in DEFAULTS {
             library.default_option(name, value)?;
         }
@@ -163,7 +163,7 @@ impl LinearSystem {
             x: vec![[0.0; 3]; nodes],
             product: vec![[0.0; 3]; nodes],
         }));
-        let form = if library.is_set_to("pc_type", SHELL)? {
+        let form = if library.option("pc_type")?.as_deref() == Some(SHELL) {
             let matrix = Matrix::of_function(library, share.free, matrix_free.clone())?;
             let mut krylov = Krylov::new(library, Rc::new(RefCell::new(matrix)), "")?;
             krylov.precondition_by(matrix_free.clone())?;

@@ -84,9 +84,6 @@ impl Krylov {
     }
 
     /// Preconditions by operators; the type of the preconditioner in options is `shell`.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn precondition_by(&mut self, operators: Shared) -> Result<(), PetscError> {
         let preconditioner = self.preconditioner()?;
         let operators = self.operators.insert(Box::new(operators));
@@ -102,9 +99,6 @@ impl Krylov {
     }
 
     /// Keeps the preconditioner for the next system, or sets up a new one.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn keep_preconditioner(&mut self, keep: bool) -> Result<(), PetscError> {
         let keep = if keep { ffi::PetscBool_PETSC_TRUE } else { ffi::PetscBool_PETSC_FALSE };
         // SAFETY: the solver exists.
@@ -112,9 +106,6 @@ impl Krylov {
     }
 
     /// Solves A x = b from x = 0 to a residual of `tolerance` times |b|.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn solve<const N: usize>(
         &mut self,
         b: &Vector<N>,
@@ -144,9 +135,6 @@ impl Krylov {
     }
 
     /// Solves A x = b to the tolerance of the options.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn apply<const N: usize>(&mut self, b: &Vector<N>, x: &mut Vector<N>) -> Result<(), PetscError> {
         // SAFETY: solver and vectors exist.
         check(unsafe { ffi::KSPSolve(self.raw, b.raw, x.raw) })

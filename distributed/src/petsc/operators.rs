@@ -12,15 +12,9 @@ use super::{Krylov, MESSAGE, PetscError, check, ffi, string};
 /// nodes of this rank.
 pub trait Operators {
     /// Replaces `product`, N, by the product of the stiffness with a displacement, m.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), PetscError>;
 
     /// Replaces `z`, m, by an approximation of A⁻¹ r.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     fn precondition(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) -> Result<(), PetscError>;
 
     /// Description of the preconditioner for `-ksp_view`, and the solver within it.
