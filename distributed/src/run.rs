@@ -42,7 +42,7 @@ pub struct About {
 }
 
 /// Measurements of a run up to now.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Progress {
     newton_iterations: usize,
     systems: usize,
@@ -54,14 +54,7 @@ struct Progress {
 
 impl Progress {
     fn new() -> Self {
-        Self {
-            newton_iterations: 0,
-            systems: 0,
-            linear_iterations: 0,
-            relative_residual: 0.0,
-            min_det_f: 1.0,
-            steps: StepCounts::default(),
-        }
+        Self { min_det_f: 1.0, ..Self::default() }
     }
 
     fn note(&mut self, StepReport { newton, min_det, .. }: &StepReport, systems: &[usize]) {
@@ -102,7 +95,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let mut simulation = Simulation::new(team, share, &parts, settings)?;
     team.wait();
     let (set_up, clock) = (clock.elapsed(), Instant::now());
-    let report = simulation.equilibrate()?.newton;
+    let report = simulation.advance(|part| part.equilibrate_here())?.newton;
     let systems = simulation.take_systems();
     team.wait();
     let solved = clock.elapsed();
@@ -163,10 +156,9 @@ pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
     output::prepare(team, &folder, options.force)?;
     let mut simulation = simulation(team, &task, &setting, newton)?;
     // In statics, prescribed motions are complete.
-    let share = setting.share.clone();
-    simulation.prescribe(|node| setting.place(&share, node, f64::INFINITY))?;
+    simulation.prescribe(|node| setting.place(node, f64::INFINITY))?;
     let clock = Instant::now();
-    let report = simulation.equilibrate()?;
+    let report = simulation.advance(|part| part.equilibrate_here())?;
     let mut progress = Progress::new();
     progress.note(&report, &simulation.take_systems());
     let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 1 };
@@ -210,7 +202,7 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
         }
     }
     let springs = setting.springs(clock.time(), clock.time());
-    course.simulation.set_springs(&springs)?;
+    course.simulation.set(|part| part.set_springs(&springs))?;
     let wanted = task.settings.frames;
     let (mut times, mut failures) = (Vec::new(), Vec::new());
     while course.frame < wanted {
@@ -286,12 +278,18 @@ impl Course<'_> {
 
     fn advance(&mut self, stretch: Stretch) -> Result<(), Error> {
         let Self { team: _, task, setting, simulation, progress, .. } = self;
-        simulation.set_springs(&setting.springs(stretch.start, stretch.end))?;
-        simulation.prescribe(|node| setting.place(&setting.share, node, stretch.end))?;
+        let springs = setting.springs(stretch.start, stretch.end);
+        simulation.set(|part| part.set_springs(&springs))?;
+        simulation.prescribe(|node| setting.place(node, stretch.end))?;
         let (steps, report) = match task.settings.tolerance {
-            None => (StepCounts { taken: 1, ..StepCounts::default() }, simulation.step(stretch.length)?),
+            None => {
+                let report = simulation.advance(|part| part.step_here(stretch.length))?;
+                (StepCounts { taken: 1, ..StepCounts::default() }, report)
+            }
             Some(share) => {
-                let report = simulation.advance_within(stretch.length, share * setting.height())?;
+                let tolerance = share * setting.height();
+                let report =
+                    simulation.advance(|part| part.advance_within_here(stretch.length, tolerance))?;
                 let AdaptiveReport { taken, refused, unresolved, step, .. } = report;
                 (StepCounts { taken, refused, unresolved }, step)
             }

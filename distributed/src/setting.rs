@@ -78,8 +78,7 @@ impl Setting {
         if moves.len() > MOST || settings.scene.pulls.len() > MOST {
             return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
         }
-        let read = if team.rank() == 0 { read(settings, groups, moves).map(Some) } else { Ok(None) };
-        let (places, elements, facts) = team.agree(read)?.unwrap_or_default();
+        let (places, elements, facts) = team.on_first(|| read(settings, groups, moves))?;
         let facts = team.from_first(facts);
         let body: BodyFacts = serde_json::from_slice(&facts)
             .map_err(|error| Error::Options(format!("the ranks run different programs: {error}")))?;
@@ -110,8 +109,8 @@ impl Setting {
 
     /// Position of a pinned node at a time, s, if it has a prescribed motion.
     #[must_use]
-    pub fn place(&self, share: &Share, node: usize, time: f64) -> Option<[f64; 3]> {
-        let Place { rest, marks, .. } = share.places[node];
+    pub fn place(&self, node: usize, time: f64) -> Option<[f64; 3]> {
+        let Place { rest, marks, .. } = self.share.places[node];
         let mut moved = None;
         for (number, motion) in self.moves.iter().enumerate() {
             if marks & move_mark(number) != 0 {
