@@ -33,9 +33,6 @@ pub struct Summary {
     pub ranks: usize,
     /// Largest number of copies, on one rank, of nodes of other ranks.
     pub copies_max: usize,
-    /// Largest number of bytes that a rank sends in a Newton iteration, in addition to the linear system: a
-    /// direction and a gradient.
-    pub bytes_per_iteration: usize,
     /// Number of completed time steps.
     pub frames: usize,
     /// Requested number of time steps.

@@ -18,6 +18,19 @@ use mpi::topology::SimpleCommunicator;
 
 use ffi::PetscInt;
 
+/// Destroys the object of PETSc of a type when its owner is dropped.
+macro_rules! destroyed {
+    ([$($generics:tt)*] $Type:ty, $destroy:path) => {
+        impl<$($generics)*> Drop for $Type {
+            fn drop(&mut self) {
+                // SAFETY: the object exists, this is its only owner, and PETSc still runs, because the owner
+                // has a handle of the library.
+                let _ = unsafe { $destroy(&mut self.raw) };
+            }
+        }
+    };
+}
+
 mod krylov;
 mod matrix;
 mod operators;

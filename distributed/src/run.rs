@@ -344,7 +344,6 @@ impl Course<'_> {
         };
         let farthest = team.max((0..share.owned).map(distance).fold(0.0, f64::max)) / self.setting.height();
         let pins = team.count(share.owned - share.free);
-        let copies = team.max((share.ids.len() - share.owned) as f64) as usize;
         let settings = &self.task.settings;
         let info = settings.material.build().ok();
         let mut sorted: Vec<f64> = times.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
@@ -359,9 +358,7 @@ impl Course<'_> {
             tets: share.totals[1],
             nodes: share.totals[0],
             ranks: team.size(),
-            copies_max: copies,
-            // A vector of three components each way.
-            bytes_per_iteration: 2 * 24 * copies,
+            copies_max: team.max((share.ids.len() - share.owned) as f64) as usize,
             frames: self.frame,
             frames_wanted: settings.frames,
             ended: Ended::Finished,

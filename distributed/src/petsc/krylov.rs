@@ -141,10 +141,4 @@ impl Krylov {
     }
 }
 
-impl Drop for Krylov {
-    fn drop(&mut self) {
-        // SAFETY: the solver exists, this is its only owner, and PETSc still runs: the matrix has a handle of
-        // the library.
-        let _ = unsafe { ffi::KSPDestroy(&mut self.raw) };
-    }
-}
+destroyed!([] Krylov, ffi::KSPDestroy);

@@ -158,9 +158,4 @@ impl Matrix {
     }
 }
 
-impl Drop for Matrix {
-    fn drop(&mut self) {
-        // SAFETY: the matrix exists, this is its only owner, and PETSc still runs.
-        let _ = unsafe { ffi::MatDestroy(&mut self.raw) };
-    }
-}
+destroyed!([] Matrix, ffi::MatDestroy);

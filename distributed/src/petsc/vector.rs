@@ -127,12 +127,7 @@ pub(super) fn with_given<T>(raw: ffi::Vec, work: impl FnOnce(&[f64]) -> T) -> Re
     Ok(done)
 }
 
-impl Drop for GhostedVector {
-    fn drop(&mut self) {
-        // SAFETY: the vector exists, this is its only owner, and PETSc still runs.
-        let _ = unsafe { ffi::VecDestroy(&mut self.raw) };
-    }
-}
+destroyed!([] GhostedVector, ffi::VecDestroy);
 
 /// Vector of unknowns, N for each row.
 pub struct Vector<const N: usize> {
@@ -159,9 +154,4 @@ impl<const N: usize> Vector<N> {
     }
 }
 
-impl<const N: usize> Drop for Vector<N> {
-    fn drop(&mut self) {
-        // SAFETY: the vector exists, this is its only owner, and PETSc still runs.
-        let _ = unsafe { ffi::VecDestroy(&mut self.raw) };
-    }
-}
+destroyed!([const N: usize] Vector<N>, ffi::VecDestroy);
