@@ -165,7 +165,7 @@ impl LinearSystem {
         }));
         let form = if library.option("pc_type")?.as_deref() == Some(SHELL) {
             let matrix = Matrix::of_function(library, share.free, matrix_free.clone())?;
-            let mut krylov = Krylov::new(library, Rc::new(RefCell::new(matrix)), "")?;
+            let mut krylov = Krylov::new(library, Rc::new(RefCell::new(matrix)), "", None)?;
             krylov.precondition_by(matrix_free.clone())?;
             Form::MatrixFree(krylov)
         } else {
@@ -405,7 +405,7 @@ impl Assembled {
             }
         }
         let entries = |[row, column]: [usize; 2]| {
-            (0..9).map(move |entry| [Some(3 * row + entry / 3), Some(3 * column + entry % 3)])
+            (0..9).map(move |entry| [3 * row + entry / 3, 3 * column + entry % 3])
         };
         let mut matrix = Matrix::new(library, 3 * share.free, 3, blocks.iter().copied().flat_map(entries))?;
         matrix.set_symmetric()?;
@@ -414,8 +414,8 @@ impl Assembled {
         let matrix = Rc::new(RefCell::new(matrix));
         Ok(Self {
             numbers: share.free_numbers.clone(),
-            krylov: Krylov::new(library, matrix.clone(), "")?,
-            fallback: Krylov::new(library, matrix.clone(), "fallback_")?,
+            krylov: Krylov::new(library, matrix.clone(), "", None)?,
+            fallback: Krylov::new(library, matrix.clone(), "fallback_", None)?,
             matrix,
             places: Vector::new(library, share.free)?,
             values,

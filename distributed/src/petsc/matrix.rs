@@ -16,15 +16,15 @@ pub struct Matrix {
 
 impl Matrix {
     /// Matrix with `rows` rows on this rank, in square blocks, with entries at these places. A place may
-    /// occur more than once, and in the rows of another rank. Places of `None` are left out.
+    /// occur more than once, and in the rows of another rank.
     pub fn new(
         library: &Library,
         rows: usize,
         block: usize,
-        places: impl Iterator<Item = [Option<usize>; 2]> + Clone,
+        places: impl Iterator<Item = [usize; 2]> + Clone,
     ) -> Result<Self, PetscError> {
         let side = |side: usize| -> Result<Vec<PetscInt>, PetscError> {
-            places.clone().map(|place| place[side].map_or(Ok(-1), int)).collect()
+            places.clone().map(|place| int(place[side])).collect()
         };
         let (mut row_numbers, mut columns) = (side(0)?, side(1)?);
         let rows = int(rows)?;
