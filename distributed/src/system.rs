@@ -95,10 +95,14 @@ struct MatrixFree {
 
 impl Operators for MatrixFree {
     fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), PetscError> {
+        let Self { stiffness, exchange, x: all, product: of_all, .. } = self;
         // The entries of pinned nodes follow, and are zero.
-        self.x[..x.len()].copy_from_slice(x);
-        self.multiply_x()?;
-        product.copy_from_slice(&self.product[..product.len()]);
+        all[..x.len()].copy_from_slice(x);
+        exchange.copy(all.as_flattened_mut(), |x| x)?;
+        // Both vectors have the length of the stiffness.
+        let _ = stiffness.multiply(all, of_all);
+        exchange.sum(of_all.as_flattened_mut(), |x| x)?;
+        product.copy_from_slice(&of_all[..product.len()]);
         Ok(())
     }
 
@@ -116,17 +120,6 @@ impl Operators for MatrixFree {
         };
         let rows: Vec<String> = rows.iter().map(ToString::to_string).collect();
         (format!("multigrid: levels of {} rows; the last is solved by", rows.join(", ")), Some(last.krylov()))
-    }
-}
-
-impl MatrixFree {
-    /// Multiplies the stiffness by the vector `x` of the owned nodes.
-    fn multiply_x(&mut self) -> Result<(), PetscError> {
-        let Self { stiffness, exchange, x, product, .. } = self;
-        exchange.copy(x.as_flattened_mut(), |x| x)?;
-        // Both vectors have the length of the stiffness.
-        let _ = stiffness.multiply(x, product);
-        exchange.sum(product.as_flattened_mut(), |x| x)
     }
 }
 
