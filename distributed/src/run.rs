@@ -154,14 +154,13 @@ pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
     let folder = folder(&options.out, &task);
     let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
     output::prepare(team, &folder, options.force)?;
-    let mut simulation = simulation(team, &task, &setting, newton)?;
+    let mut course = Course::new(team, &task, &setting, newton)?;
     // In statics, prescribed motions are complete.
-    simulation.prescribe(|node| setting.place(node, f64::INFINITY))?;
+    course.simulation.prescribe(|node| setting.place(node, f64::INFINITY))?;
     let clock = Instant::now();
-    let report = simulation.advance(|part| part.equilibrate_here())?;
-    let mut progress = Progress::new();
-    progress.note(&report, &simulation.take_systems());
-    let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 1 };
+    let report = course.simulation.advance(|part| part.equilibrate_here())?;
+    course.progress.note(&report, &course.simulation.take_systems());
+    course.frame = 1;
     let about = course.about(None)?;
     output::write_frame(team, &folder, 1, &course.simulation)?;
     checkpoint::write(team, &checkpoint::file_in(&folder), &course.simulation, &about)?;
@@ -188,9 +187,7 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     if !options.resume {
         output::prepare(team, &folder, options.body.force)?;
     }
-    let simulation = simulation(team, &task, &setting, newton)?;
-    let progress = Progress::new();
-    let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 0 };
+    let mut course = Course::new(team, &task, &setting, newton)?;
     let mut clock = Clock::new(task.settings.dt);
     let file = checkpoint::file_in(&folder);
     if options.resume {
@@ -242,19 +239,6 @@ fn folder(out: &Option<PathBuf>, task: &Task) -> PathBuf {
     out.clone().unwrap_or_else(|| Path::new("out").join(task.settings.scene.name))
 }
 
-fn simulation(
-    team: &Team,
-    task: &Task,
-    setting: &Setting,
-    newton: NewtonSettings,
-) -> Result<Simulation, Error> {
-    let settings = piola_scenes::play::step_settings(&task.settings).with_newton(newton);
-    // The elements of groups have the materials with the numbers 1, 2, …; all others have the first one.
-    let first = MaterialPart { material: task.settings.material.clone(), density: task.settings.density };
-    let materials: Vec<_> = std::iter::once(first).chain(task.materials.iter().cloned()).collect();
-    Simulation::new(team, setting.share.clone(), &materials, settings)
-}
-
 /// State of a run between its first and its last step.
 struct Course<'a> {
     team: &'a Team,
@@ -265,7 +249,21 @@ struct Course<'a> {
     frame: usize,
 }
 
-impl Course<'_> {
+impl<'a> Course<'a> {
+    fn new(
+        team: &'a Team,
+        task: &'a Task,
+        setting: &'a Setting,
+        newton: NewtonSettings,
+    ) -> Result<Self, Error> {
+        let settings = piola_scenes::play::step_settings(&task.settings).with_newton(newton);
+        // The elements of groups have the materials with the numbers 1, 2, …; all others have the first one.
+        let first = MaterialPart { material: task.settings.material.clone(), density: task.settings.density };
+        let materials: Vec<_> = std::iter::once(first).chain(task.materials.iter().cloned()).collect();
+        let simulation = Simulation::new(team, setting.share.clone(), &materials, settings)?;
+        Ok(Self { team, task, setting, simulation, progress: Progress::new(), frame: 0 })
+    }
+
     /// Advances from the frame at the clock to the next one.
     fn step(&mut self, clock: Clock) -> Result<(), Error> {
         let (first, last) = self.setting.stretches(clock);
