@@ -79,7 +79,7 @@ impl Setting {
             return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
         }
         let (places, elements, facts) = team.on_first(|| read(settings, groups, moves))?;
-        let facts = team.from_first(facts);
+        let facts = team.broadcast(0, facts);
         let body: BodyFacts = serde_json::from_slice(&facts)
             .map_err(|error| Error::Options(format!("the ranks run different programs: {error}")))?;
         let share = Share::of(team, Portion::spread(team, places, elements))?;

@@ -126,13 +126,12 @@ impl Team {
         (received, incoming)
     }
 
-    /// Bytes of rank 0, sent to all ranks.
+    /// Bytes of a rank, sent to all ranks.
     #[must_use]
-    pub fn from_first(&self, bytes: Vec<u8>) -> Vec<u8> {
-        let root = self.world().process_at_rank(0);
+    pub fn broadcast(&self, rank: usize, mut bytes: Vec<u8>) -> Vec<u8> {
+        let root = self.world().process_at_rank(rank as Rank);
         let mut length = bytes.len() as u64;
         root.broadcast_into(&mut length);
-        let mut bytes = bytes;
         bytes.resize(length as usize, 0);
         root.broadcast_into(&mut bytes[..]);
         bytes
@@ -150,16 +149,12 @@ impl Team {
         if first == u64::MAX {
             return result;
         }
-        let mut message = match &result {
+        let message = match &result {
             Err(Error::OnRank { message, .. }) => message.clone().into_bytes(),
             Err(error) => error.to_string().into_bytes(),
             Ok(_) => Vec::new(),
         };
-        let root = self.world().process_at_rank(first as Rank);
-        let mut length = message.len() as u64;
-        root.broadcast_into(&mut length);
-        message.resize(length as usize, 0);
-        root.broadcast_into(&mut message[..]);
+        let message = self.broadcast(first as usize, message);
         Err(Error::OnRank { rank: first as usize, message: String::from_utf8_lossy(&message).into_owned() })
     }
 
