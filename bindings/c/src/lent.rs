@@ -183,11 +183,9 @@ pub(crate) unsafe fn value<'call, T>(name: &str, value: *const T) -> Result<&'ca
 /// # Safety
 /// `value` is null, or points to a value that nobody else uses during the call.
 pub(crate) unsafe fn value_mut<'call, T>(name: &str, value: *mut T) -> Result<&'call mut T, Failure> {
-    if !value.is_null() {
-        range(name, value, 1)?;
-    }
-    // SAFETY: aligned, and the caller vouches for the value.
-    unsafe { value.as_mut() }.ok_or_else(|| null(name))
+    range(name, value, 1)?;
+    // SAFETY: aligned and not null, and the caller vouches for the value.
+    Ok(unsafe { &mut *value })
 }
 
 /// Place of a result, which may be null.
