@@ -145,12 +145,9 @@ pub fn read<T: DeserializeOwned>(
     let mut order: Vec<usize> = (0..share.ids.len()).collect();
     order.sort_unstable_by_key(|&node| share.ids[node]);
     let asked: Vec<u64> = order.iter().map(|&node| share.ids[node]).collect();
-    let word = |list: usize, node: usize, c: usize| {
-        let at = 24 * node + 8 * c;
-        u64::from_le_bytes(lists[list][at..at + 8].try_into().unwrap_or_default())
-    };
+    let word = |list: usize, at: usize| u64::from_le_bytes(lists[list].as_chunks::<8>().0[at]);
     let answers = homes.ask(team, &asked, |node| -> [u64; 9] {
-        std::array::from_fn(|entry| word(entry / 3, node, entry % 3))
+        std::array::from_fn(|entry| word(entry / 3, 3 * node + entry % 3))
     });
     let mut vectors: [Vec<[f64; 3]>; 3] = std::array::from_fn(|_| vec![[0.0; 3]; order.len()]);
     for (&node, row) in order.iter().zip(&answers) {

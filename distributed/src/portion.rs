@@ -81,12 +81,6 @@ pub struct Place {
 }
 
 impl Place {
-    /// Place of a node at rest, free or pinned.
-    #[must_use]
-    pub fn at_rest(rest: [f64; 3], is_pinned: bool) -> Self {
-        Self { rest, start: rest, marks: u64::from(is_pinned) }
-    }
-
     /// Row of a number, such as that of the node, and the words of the place.
     #[must_use]
     pub fn to_row(self, number: u64) -> [u64; 8] {
@@ -146,7 +140,8 @@ impl Portion {
         let coordinate = |at: u64| length * (at as f64 / cells as f64);
         let place = |node: u64| {
             let at = [node / (side * side), node / side % side, node % side];
-            Place::at_rest(at.map(coordinate), at[0] == 0)
+            let rest = at.map(coordinate);
+            Place { rest, start: rest, marks: u64::from(at[0] == 0) }
         };
         let of_cells = Homes::new(cells * cells * cells, team.size());
         // Paths from a corner of the cell to the opposite corner, along the three axes; odd orders are
