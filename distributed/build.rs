@@ -3,7 +3,10 @@
 
 #![expect(clippy::print_stderr, reason = "a build script reports errors in this way")]
 
+use std::collections::BTreeSet;
 use std::env;
+use std::fs;
+use std::io;
 use std::path::PathBuf;
 use std::process::exit;
 
@@ -15,81 +18,32 @@ const ADVICE: &str = "on Debian: apt-get install -y --no-install-recommends gcc 
 const VERSIONS: &str = "if the header at fault is one of clang's own, several versions of clang are installed: set \
                         LIBCLANG_PATH to the folder of the libclang that belongs to `clang`";
 
-/// Functions and constants that are bound.
-const NAMES: &[&str] = &[
-    "ISDestroy",
-    "ISGetIndices",
-    "ISGetLocalSize",
-    "ISRestoreIndices",
-    "KSPCreate",
-    "KSPDestroy",
-    "KSPGetConvergedReason",
-    "KSPGetIterationNumber",
-    "KSPGetPC",
-    "KSPSetFromOptions",
-    "KSPSetNormType",
-    "KSPSetOperators",
-    "KSPSetOptionsPrefix",
-    "KSPSetReusePreconditioner",
-    "KSPSetTolerances",
-    "KSPSetType",
-    "KSPSolve",
-    "KSPView",
-    "MatCreate",
-    "MatCreateShell",
-    "MatDestroy",
-    "MatNullSpaceCreate",
-    "MatNullSpaceCreateRigidBody",
-    "MatNullSpaceDestroy",
-    "MatPartitioningApply",
-    "MatPartitioningCreate",
-    "MatPartitioningDestroy",
-    "MatPartitioningSetAdjacency",
-    "MatPartitioningSetFromOptions",
-    "MatSetBlockSize",
-    "MatSetNearNullSpace",
-    "MatSetOption",
-    "MatSetPreallocationCOO",
-    "MatSetSizes",
-    "MatSetType",
-    "MatSetValuesCOO",
-    "MatShellGetContext",
-    "MatShellSetOperation",
-    "PCSetType",
-    "PCShellGetContext",
-    "PCShellSetApply",
-    "PCShellSetContext",
-    "PCShellSetName",
-    "PCShellSetView",
-    "PetscErrorMessage",
-    "PetscFinalize",
-    "PetscInitializeNoArguments",
-    "PetscOptionsGetString",
-    "PetscOptionsHasName",
-    "PetscOptionsLeftGet",
-    "PetscOptionsLeftRestore",
-    "PetscOptionsSetValue",
-    "PetscPushErrorHandler",
-    "PetscViewerASCIIPopTab",
-    "PetscViewerASCIIPrintf",
-    "PetscViewerASCIIPushTab",
-    "VecCreateGhostBlock",
-    "VecCreateMPI",
-    "VecDestroy",
-    "VecGetArray",
-    "VecGetArrayRead",
-    "VecGetLocalSize",
-    "VecGhostGetLocalForm",
-    "VecGhostRestoreLocalForm",
-    "VecGhostUpdateBegin",
-    "VecGhostUpdateEnd",
-    "VecRestoreArray",
-    "VecRestoreArrayRead",
-    "VecSetBlockSize",
-];
+/// Words after `ffi::` in the sources of the interface: the functions of PETSc among them are bound.
+fn names() -> io::Result<BTreeSet<String>> {
+    let mut files = vec![PathBuf::from("src/petsc.rs")];
+    for entry in fs::read_dir("src/petsc")? {
+        files.push(entry?.path());
+    }
+    let mut names = BTreeSet::new();
+    for file in files {
+        for rest in fs::read_to_string(file)?.split("ffi::").skip(1) {
+            let name: String = rest.chars().take_while(|&c| c.is_ascii_alphanumeric() || c == '_').collect();
+            names.insert(name);
+        }
+    }
+    // After `ffi::{` in an import.
+    names.remove("");
+    Ok(names)
+}
 
 fn main() {
-    println!("cargo:rerun-if-changed=build.rs");
+    for source in ["build.rs", "src/petsc.rs", "src/petsc"] {
+        println!("cargo:rerun-if-changed={source}");
+    }
+    let names = names().unwrap_or_else(|error| {
+        eprintln!("src/petsc: {error}");
+        exit(1);
+    });
     let library = pkg_config::Config::new().atleast_version("3.18").probe("PETSc").unwrap_or_else(|error| {
         eprintln!(
             "PETSc 3.18 or later is not installed, or pkg-config does not find it: {ADVICE}\n\n{error}"
@@ -101,7 +55,7 @@ fn main() {
         .probe("mpi-c")
         .or_else(|_| pkg_config::Config::new().cargo_metadata(false).probe("mpi"));
     let folders = library.include_paths.iter().chain(mpi.iter().flat_map(|mpi| &mpi.include_paths));
-    let bindings = NAMES
+    let bindings = names
         .iter()
         .fold(bindgen::Builder::default(), |builder, name| builder.allowlist_function(name))
         .header_contents("petsc_functions.h", "#include <petscksp.h>\n")

@@ -98,12 +98,11 @@ pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Ser
         let _ = File::open(folder.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
         Ok(())
     };
-    let is_first = team.rank() == 0;
     let written = team
-        .agree(if is_first { begin() } else { Ok(()) }.map_err(failed))
+        .on_first(|| begin().map_err(failed))
         .and_then(|()| team.agree(put().map_err(failed)))
-        .and_then(|()| team.agree(if is_first { finish() } else { Ok(()) }.map_err(failed)));
-    if written.is_err() && is_first {
+        .and_then(|()| team.on_first(|| finish().map_err(failed)));
+    if written.is_err() && team.rank() == 0 {
         // An incomplete file is of no use.
         let _ = fs::remove_file(&aside);
     }
@@ -146,22 +145,22 @@ pub fn read<T: DeserializeOwned>(
     let mut order: Vec<usize> = (0..share.ids.len()).collect();
     order.sort_unstable_by_key(|&node| share.ids[node]);
     let asked: Vec<u64> = order.iter().map(|&node| share.ids[node]).collect();
-    let word = |list: usize, node: usize, c: usize| {
-        let at = 24 * node + 8 * c;
-        u64::from_le_bytes(lists[list][at..at + 8].try_into().unwrap_or_default())
-    };
+    let word = |list: usize, at: usize| u64::from_le_bytes(lists[list].as_chunks::<8>().0[at]);
     let answers = homes.ask(team, &asked, |node| -> [u64; 9] {
-        std::array::from_fn(|entry| word(entry / 3, node, entry % 3))
+        std::array::from_fn(|entry| word(entry / 3, 3 * node + entry % 3))
     });
-    let zero = vec![[0.0; 3]; order.len()];
-    let mut state = State { positions: zero.clone(), velocities: zero.clone(), accelerations: zero };
+    let mut vectors: [Vec<[f64; 3]>; 3] = std::array::from_fn(|_| vec![[0.0; 3]; order.len()]);
     for (&node, row) in order.iter().zip(&answers) {
-        let vector = |at: usize| std::array::from_fn(|c| f64::from_bits(row[3 * at + c]));
-        state.positions[node] = vector(0);
-        state.velocities[node] = vector(1);
-        state.accelerations[node] = vector(2);
+        for (at, vectors) in vectors.iter_mut().enumerate() {
+            vectors[node] = std::array::from_fn(|c| f64::from_bits(row[3 * at + c]));
+        }
     }
-    simulation.set_state([&state.positions, &state.velocities, &state.accelerations])?;
+    let [positions, velocities, accelerations] = vectors;
+    simulation.set(|part| {
+        part.set_positions(&positions)?;
+        part.set_velocities(&velocities)?;
+        part.set_accelerations(&accelerations)
+    })?;
     Ok(header.about)
 }
 

@@ -58,10 +58,10 @@ impl Coarse {
             for r in 0..6 {
                 for c in 0..6 {
                     let place = [6 * numbers[row] + r, 6 * numbers[column] + c];
-                    places.push(place.map(Some));
+                    places.push(place);
                     values.push(block[r][c]);
                     if row != column {
-                        places.push([Some(place[1]), Some(place[0])]);
+                        places.push([place[1], place[0]]);
                         values.push(block[r][c]);
                     }
                 }
@@ -74,7 +74,7 @@ impl Coarse {
         matrix.set_motions(&orthonormal(team, library, level.motions())?)?;
         let vector = || Vector::new(library, owned);
         Ok(Self {
-            krylov: Krylov::once(library, Rc::new(RefCell::new(matrix)), kind, "coarse_")?,
+            krylov: Krylov::new(library, Rc::new(RefCell::new(matrix)), "coarse_", Some(kind))?,
             b: vector()?,
             x: vector()?,
             failure: failure.clone(),

@@ -248,17 +248,14 @@ fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error
     Ok((group.to_owned(), MaterialPart { material, density }))
 }
 
-fn numbers(text: &str) -> Result<Vec<f64>, String> {
-    let number = |value: &str| value.trim().parse().map_err(|_| format!("`{value}` is not a number"));
-    text.split(',').map(number).collect()
-}
-
 /// Reads `BOX|GROUP=X,Y,Z@T`.
 fn motion(text: &str) -> Result<Move, String> {
     let how = "write BOX=X,Y,Z@T, or GROUP=X,Y,Z@T, with T > 0";
     let (nodes, rest) = text.rsplit_once('=').ok_or(how)?;
     let (displacement, reached) = rest.split_once('@').ok_or(how)?;
-    let displacement: [f64; 3] = numbers(displacement)?.try_into().map_err(|_| how)?;
+    let number = |value: &str| value.trim().parse::<f64>().map_err(|_| format!("`{value}` is not a number"));
+    let displacement: Vec<f64> = displacement.split(',').map(number).collect::<Result<_, _>>()?;
+    let displacement: [f64; 3] = displacement.try_into().map_err(|_| how)?;
     let reached: f64 = reached.parse().map_err(|_| how)?;
     if reached > 0.0 && reached.is_finite() && displacement.iter().all(|x| x.is_finite()) {
         Ok(Move { nodes: nodes.to_owned(), displacement, reached })

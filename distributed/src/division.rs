@@ -133,19 +133,19 @@ impl Division for RowsOfRank {
     }
 
     fn copy<const N: usize>(&mut self, rows: &mut [[f32; N]]) {
-        self.with_vector::<N>(|vector| vector.copy(rows.as_flattened_mut()));
+        self.with_vector::<N>(|vector| vector.copy(rows.as_flattened_mut(), |x| x as f32));
     }
 
     fn sum<const N: usize>(&mut self, rows: &mut [[f32; N]]) {
-        self.with_vector::<N>(|vector| vector.sum(rows.as_flattened_mut()));
+        self.with_vector::<N>(|vector| vector.sum(rows.as_flattened_mut(), |x| x as f32));
     }
 
     fn copy_vectors(&mut self, rows: &mut [[f64; 3]]) {
-        self.with_vector::<3>(|vector| vector.copy(rows.as_flattened_mut()));
+        self.with_vector::<3>(|vector| vector.copy(rows.as_flattened_mut(), |x| x));
     }
 
     fn sum_vectors(&mut self, rows: &mut [[f64; 3]]) {
-        self.with_vector::<3>(|vector| vector.sum(rows.as_flattened_mut()));
+        self.with_vector::<3>(|vector| vector.sum(rows.as_flattened_mut(), |x| x));
     }
 
     fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {

@@ -33,9 +33,6 @@ pub struct Summary {
     pub ranks: usize,
     /// Largest number of copies, on one rank, of nodes of other ranks.
     pub copies_max: usize,
-    /// Largest number of bytes that a rank sends in a Newton iteration, in addition to the linear system: a
-    /// direction and a gradient.
-    pub bytes_per_iteration: usize,
     /// Number of completed time steps.
     pub frames: usize,
     /// Requested number of time steps.
@@ -80,23 +77,19 @@ pub struct Summary {
 /// # Errors
 /// [`Error::OnRank`].
 pub fn prepare(team: &Team, folder: &Path, may_replace: bool) -> Result<(), Error> {
-    let made = if team.rank() == 0 { make(folder, may_replace) } else { Ok(()) };
-    team.agree(made)
-}
-
-fn make(folder: &Path, may_replace: bool) -> Result<(), Error> {
-    let failed = |source| Error::Write { path: folder.into(), source };
-    fs::create_dir_all(folder).map_err(failed)?;
-    let checkpoint = crate::checkpoint::file_in(folder);
-    let results = [folder.join(SUMMARY_FILE), folder.join(CAGES_FILE), checkpoint];
-    match results.iter().find(|path| path.exists()) {
-        Some(path) if !may_replace => Err(Error::Options(format!(
-            "{} already contains results ({}): choose another folder, or replace them with --force",
-            folder.display(),
-            path.file_name().unwrap_or_default().display()
-        ))),
-        _ => Ok(()),
-    }
+    team.on_first(|| {
+        fs::create_dir_all(folder).map_err(|source| Error::Write { path: folder.into(), source })?;
+        let checkpoint = crate::checkpoint::file_in(folder);
+        let results = [folder.join(SUMMARY_FILE), folder.join(CAGES_FILE), checkpoint];
+        match results.iter().find(|path| path.exists()) {
+            Some(path) if !may_replace => Err(Error::Options(format!(
+                "{} already contains results ({}): choose another folder, or replace them with --force",
+                folder.display(),
+                path.file_name().unwrap_or_default().display()
+            ))),
+            _ => Ok(()),
+        }
+    })
 }
 
 /// Writes the summary.
@@ -117,7 +110,7 @@ fn write_once(
     path: PathBuf,
     content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>,
 ) -> Result<(), Error> {
-    team.agree(if team.rank() == 0 { write(path, content) } else { Ok(()) })
+    team.on_first(|| write(path, content))
 }
 
 fn write(path: PathBuf, content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> Result<(), Error> {

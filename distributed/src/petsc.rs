@@ -2,7 +2,8 @@
 //!
 //! No module outside of this one calls PETSc or contains unsafe code. Each type owns one object of PETSc,
 //! which it destroys when it is dropped; the library runs until then. All functions are collective: all ranks
-//! must call them, in the same order. This module does not depend on meshes or on materials.
+//! must call them, in the same order. A [`PetscError`] has the message of the function of PETSc that failed.
+//! This module does not depend on meshes or on materials.
 
 #![expect(unsafe_code, reason = "PETSc is a C library: this is the interface to it")]
 
@@ -17,6 +18,19 @@ use mpi::topology::SimpleCommunicator;
 
 use ffi::PetscInt;
 
+/// Destroys the object of PETSc of a type when its owner is dropped.
+macro_rules! destroyed {
+    ([$($generics:tt)*] $Type:ty, $destroy:path) => {
+        impl<$($generics)*> Drop for $Type {
+            fn drop(&mut self) {
+                // SAFETY: the object exists, this is its only owner, and PETSc still runs, because the owner
+                // has a handle of the library.
+                let _ = unsafe { $destroy(&mut self.raw) };
+            }
+        }
+    };
+}
+
 mod krylov;
 mod matrix;
 mod operators;
@@ -25,7 +39,7 @@ mod vector;
 pub use krylov::Krylov;
 pub use matrix::Matrix;
 pub use operators::Operators;
-pub use vector::{Entry, GhostedVector, Vector};
+pub use vector::{GhostedVector, Vector};
 
 #[allow(
     clippy::all,
@@ -154,11 +168,8 @@ impl Library {
         &self.0.world
     }
 
-    /// True if an option has this value.
-    ///
-    /// # Errors
-    /// [`PetscError`].
-    pub fn is_set_to(&self, name: &str, value: &str) -> Result<bool, PetscError> {
+    /// Value of an option, of at most 63 bytes; `None` for an option that is not set.
+    pub fn option(&self, name: &str) -> Result<Option<String>, PetscError> {
         let dashed = dashed(name)?;
         let (mut text, mut is_set): ([c_char; 64], _) = ([0; 64], ffi::PetscBool_PETSC_FALSE);
         // SAFETY: the name is a C string, PETSc writes a C string of at most the given number of bytes, and
@@ -168,19 +179,12 @@ impl Library {
             check(ffi::PetscOptionsGetString(null_mut(), null(), dashed.as_ptr(), to, bytes, &mut is_set))?;
             CStr::from_ptr(to)
         };
-        Ok(is_set == ffi::PetscBool_PETSC_TRUE && text.to_bytes() == value.as_bytes())
+        Ok((is_set == ffi::PetscBool_PETSC_TRUE).then(|| text.to_string_lossy().into_owned()))
     }
 
     /// Sets an option, unless the user has set it.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn default_option(&self, name: &str, value: &str) -> Result<(), PetscError> {
-        let dashed = dashed(name)?;
-        let mut is_set = ffi::PetscBool_PETSC_FALSE;
-        // SAFETY: the name is a C string, and the result goes to a variable that outlives the call.
-        check(unsafe { ffi::PetscOptionsHasName(null_mut(), null(), dashed.as_ptr(), &mut is_set) })?;
-        if is_set == ffi::PetscBool_PETSC_FALSE {
+        if self.option(name)?.is_none() {
             set_option(name, Some(value))?;
             self.0.defaults.borrow_mut().push(name.to_owned());
         }
@@ -189,9 +193,6 @@ impl Library {
 
     /// Options of the user that PETSc has not used up to now: they are misspelt, or belong to a solver that
     /// is not in use.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn unused_options(&self) -> Result<Vec<String>, PetscError> {
         let (mut count, mut names, mut values) = (0, null_mut(), null_mut());
         // SAFETY: the three results go to variables that outlive the call.

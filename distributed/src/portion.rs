@@ -81,24 +81,18 @@ pub struct Place {
 }
 
 impl Place {
-    /// Place of a node at rest, free or pinned.
+    /// Row of a number, such as that of the node, and the words of the place.
     #[must_use]
-    pub fn at_rest(rest: [f64; 3], is_pinned: bool) -> Self {
-        Self { rest, start: rest, marks: u64::from(is_pinned) }
-    }
-
-    /// Encoding of the place as words.
-    #[must_use]
-    pub fn to_words(self) -> [u64; 7] {
+    pub fn to_row(self, number: u64) -> [u64; 8] {
         let [r, s] = [self.rest, self.start].map(|x| x.map(f64::to_bits));
-        [r[0], r[1], r[2], s[0], s[1], s[2], self.marks]
+        [number, r[0], r[1], r[2], s[0], s[1], s[2], self.marks]
     }
 
-    /// Decodes the words of [`Place::to_words`].
+    /// Place in a row of [`Place::to_row`].
     #[must_use]
-    pub fn from_words(words: &[u64]) -> Self {
-        let vector = |at: usize| std::array::from_fn(|c| f64::from_bits(words[at + c]));
-        Self { rest: vector(0), start: vector(3), marks: words[6] }
+    pub fn from_row(row: &[u64]) -> Self {
+        let vector = |at: usize| std::array::from_fn(|c| f64::from_bits(row[at + c]));
+        Self { rest: vector(1), start: vector(4), marks: row[7] }
     }
 }
 
@@ -122,13 +116,7 @@ impl Portion {
     pub fn spread(team: &Team, places: Vec<Place>, elements: Vec<Element>) -> Self {
         let [nodes, count] = [places.len(), elements.len()].map(|number| team.count(number) as u64);
         let homes = Homes::new(nodes, team.size());
-        let rows = places.into_iter().enumerate().map(|(node, place)| {
-            let words = place.to_words();
-            let mut row = [0; 8];
-            row[0] = node as u64;
-            row[1..].copy_from_slice(&words);
-            row
-        });
+        let rows = places.into_iter().enumerate().map(|(node, place)| place.to_row(node as u64));
         let places = team.exchange_rows(&homes.sort(team, rows)).concat();
         let of_elements = Homes::new(count, team.size());
         let mut lists = vec![Vec::new(); team.size()];
@@ -137,7 +125,7 @@ impl Portion {
         }
         Self {
             homes,
-            places: places.iter().map(|row| Place::from_words(&row[1..])).collect(),
+            places: places.iter().map(|row| Place::from_row(row)).collect(),
             elements: team.exchange_rows(&lists).concat(),
         }
     }
@@ -152,7 +140,8 @@ impl Portion {
         let coordinate = |at: u64| length * (at as f64 / cells as f64);
         let place = |node: u64| {
             let at = [node / (side * side), node / side % side, node % side];
-            Place::at_rest(at.map(coordinate), at[0] == 0)
+            let rest = at.map(coordinate);
+            Place { rest, start: rest, marks: u64::from(at[0] == 0) }
         };
         let of_cells = Homes::new(cells * cells * cells, team.size());
         // Paths from a corner of the cell to the opposite corner, along the three axes; odd orders are
@@ -194,6 +183,6 @@ mod tests {
     #[test]
     fn places_keep_their_bits() {
         let place = Place { rest: [0.1, -0.0, 3.0], start: [f64::MAX, 1e-300, 7.0], marks: 1 << 40 | 1 };
-        assert_eq!(Place::from_words(&place.to_words()), place);
+        assert_eq!(Place::from_row(&place.to_row(7)), place);
     }
 }

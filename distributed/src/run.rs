@@ -42,7 +42,7 @@ pub struct About {
 }
 
 /// Measurements of a run up to now.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Progress {
     newton_iterations: usize,
     systems: usize,
@@ -54,14 +54,7 @@ struct Progress {
 
 impl Progress {
     fn new() -> Self {
-        Self {
-            newton_iterations: 0,
-            systems: 0,
-            linear_iterations: 0,
-            relative_residual: 0.0,
-            min_det_f: 1.0,
-            steps: StepCounts::default(),
-        }
+        Self { min_det_f: 1.0, ..Self::default() }
     }
 
     fn note(&mut self, StepReport { newton, min_det, .. }: &StepReport, systems: &[usize]) {
@@ -102,7 +95,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let mut simulation = Simulation::new(team, share, &parts, settings)?;
     team.wait();
     let (set_up, clock) = (clock.elapsed(), Instant::now());
-    let report = simulation.equilibrate()?.newton;
+    let report = simulation.advance(|part| part.equilibrate_here())?.newton;
     let systems = simulation.take_systems();
     team.wait();
     let solved = clock.elapsed();
@@ -161,15 +154,13 @@ pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
     let folder = folder(&options.out, &task);
     let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
     output::prepare(team, &folder, options.force)?;
-    let mut simulation = simulation(team, &task, &setting, newton)?;
+    let mut course = Course::new(team, &task, &setting, newton)?;
     // In statics, prescribed motions are complete.
-    let share = setting.share.clone();
-    simulation.prescribe(|node| setting.place(&share, node, f64::INFINITY))?;
+    course.simulation.prescribe(|node| setting.place(node, f64::INFINITY))?;
     let clock = Instant::now();
-    let report = simulation.equilibrate()?;
-    let mut progress = Progress::new();
-    progress.note(&report, &simulation.take_systems());
-    let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 1 };
+    let report = course.simulation.advance(|part| part.equilibrate_here())?;
+    course.progress.note(&report, &course.simulation.take_systems());
+    course.frame = 1;
     let about = course.about(None)?;
     output::write_frame(team, &folder, 1, &course.simulation)?;
     checkpoint::write(team, &checkpoint::file_in(&folder), &course.simulation, &about)?;
@@ -196,9 +187,7 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     if !options.resume {
         output::prepare(team, &folder, options.body.force)?;
     }
-    let simulation = simulation(team, &task, &setting, newton)?;
-    let progress = Progress::new();
-    let mut course = Course { team, task: &task, setting: &setting, simulation, progress, frame: 0 };
+    let mut course = Course::new(team, &task, &setting, newton)?;
     let mut clock = Clock::new(task.settings.dt);
     let file = checkpoint::file_in(&folder);
     if options.resume {
@@ -210,7 +199,7 @@ pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
         }
     }
     let springs = setting.springs(clock.time(), clock.time());
-    course.simulation.set_springs(&springs)?;
+    course.simulation.set(|part| part.set_springs(&springs))?;
     let wanted = task.settings.frames;
     let (mut times, mut failures) = (Vec::new(), Vec::new());
     while course.frame < wanted {
@@ -250,19 +239,6 @@ fn folder(out: &Option<PathBuf>, task: &Task) -> PathBuf {
     out.clone().unwrap_or_else(|| Path::new("out").join(task.settings.scene.name))
 }
 
-fn simulation(
-    team: &Team,
-    task: &Task,
-    setting: &Setting,
-    newton: NewtonSettings,
-) -> Result<Simulation, Error> {
-    let settings = piola_scenes::play::step_settings(&task.settings).with_newton(newton);
-    // The elements of groups have the materials with the numbers 1, 2, …; all others have the first one.
-    let first = MaterialPart { material: task.settings.material.clone(), density: task.settings.density };
-    let materials: Vec<_> = std::iter::once(first).chain(task.materials.iter().cloned()).collect();
-    Simulation::new(team, setting.share.clone(), &materials, settings)
-}
-
 /// State of a run between its first and its last step.
 struct Course<'a> {
     team: &'a Team,
@@ -273,7 +249,21 @@ struct Course<'a> {
     frame: usize,
 }
 
-impl Course<'_> {
+impl<'a> Course<'a> {
+    fn new(
+        team: &'a Team,
+        task: &'a Task,
+        setting: &'a Setting,
+        newton: NewtonSettings,
+    ) -> Result<Self, Error> {
+        let settings = piola_scenes::play::step_settings(&task.settings).with_newton(newton);
+        // The elements of groups have the materials with the numbers 1, 2, …; all others have the first one.
+        let first = MaterialPart { material: task.settings.material.clone(), density: task.settings.density };
+        let materials: Vec<_> = std::iter::once(first).chain(task.materials.iter().cloned()).collect();
+        let simulation = Simulation::new(team, setting.share.clone(), &materials, settings)?;
+        Ok(Self { team, task, setting, simulation, progress: Progress::new(), frame: 0 })
+    }
+
     /// Advances from the frame at the clock to the next one.
     fn step(&mut self, clock: Clock) -> Result<(), Error> {
         let (first, last) = self.setting.stretches(clock);
@@ -286,12 +276,18 @@ impl Course<'_> {
 
     fn advance(&mut self, stretch: Stretch) -> Result<(), Error> {
         let Self { team: _, task, setting, simulation, progress, .. } = self;
-        simulation.set_springs(&setting.springs(stretch.start, stretch.end))?;
-        simulation.prescribe(|node| setting.place(&setting.share, node, stretch.end))?;
+        let springs = setting.springs(stretch.start, stretch.end);
+        simulation.set(|part| part.set_springs(&springs))?;
+        simulation.prescribe(|node| setting.place(node, stretch.end))?;
         let (steps, report) = match task.settings.tolerance {
-            None => (StepCounts { taken: 1, ..StepCounts::default() }, simulation.step(stretch.length)?),
+            None => {
+                let report = simulation.advance(|part| part.step_here(stretch.length))?;
+                (StepCounts { taken: 1, ..StepCounts::default() }, report)
+            }
             Some(share) => {
-                let report = simulation.advance_within(stretch.length, share * setting.height())?;
+                let tolerance = share * setting.height();
+                let report =
+                    simulation.advance(|part| part.advance_within_here(stretch.length, tolerance))?;
                 let AdaptiveReport { taken, refused, unresolved, step, .. } = report;
                 (StepCounts { taken, refused, unresolved }, step)
             }
@@ -346,7 +342,6 @@ impl Course<'_> {
         };
         let farthest = team.max((0..share.owned).map(distance).fold(0.0, f64::max)) / self.setting.height();
         let pins = team.count(share.owned - share.free);
-        let copies = team.max((share.ids.len() - share.owned) as f64) as usize;
         let settings = &self.task.settings;
         let info = settings.material.build().ok();
         let mut sorted: Vec<f64> = times.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
@@ -361,9 +356,7 @@ impl Course<'_> {
             tets: share.totals[1],
             nodes: share.totals[0],
             ranks: team.size(),
-            copies_max: copies,
-            // A vector of three components each way.
-            bytes_per_iteration: 2 * 24 * copies,
+            copies_max: team.max((share.ids.len() - share.owned) as f64) as usize,
             frames: self.frame,
             frames_wanted: settings.frames,
             ended: Ended::Finished,

@@ -1,6 +1,6 @@
 //! Setting of a run: the body of a scene, read and divided, with pins, prescribed motions and springs.
 
-use piola_bodies::mesh::Bounds;
+use piola_bodies::mesh::{Bounds, TetMesh};
 use piola_bodies::step::Spring;
 use piola_bodies::system::Pins;
 use piola_scenes::clock::Clock;
@@ -78,9 +78,8 @@ impl Setting {
         if moves.len() > MOST || settings.scene.pulls.len() > MOST {
             return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
         }
-        let read = if team.rank() == 0 { read(settings, groups, moves).map(Some) } else { Ok(None) };
-        let (places, elements, facts) = team.agree(read)?.unwrap_or_default();
-        let facts = team.from_first(facts);
+        let (places, elements, facts) = team.on_first(|| read(settings, groups, moves))?;
+        let facts = team.broadcast(0, facts);
         let body: BodyFacts = serde_json::from_slice(&facts)
             .map_err(|error| Error::Options(format!("the ranks run different programs: {error}")))?;
         let share = Share::of(team, Portion::spread(team, places, elements))?;
@@ -110,8 +109,8 @@ impl Setting {
 
     /// Position of a pinned node at a time, s, if it has a prescribed motion.
     #[must_use]
-    pub fn place(&self, share: &Share, node: usize, time: f64) -> Option<[f64; 3]> {
-        let Place { rest, marks, .. } = share.places[node];
+    pub fn place(&self, node: usize, time: f64) -> Option<[f64; 3]> {
+        let Place { rest, marks, .. } = self.share.places[node];
         let mut moved = None;
         for (number, motion) in self.moves.iter().enumerate() {
             if marks & move_mark(number) != 0 {
@@ -162,36 +161,29 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeB
     let places = (0..mesh.positions.len())
         .map(|node| Place { rest: mesh.positions[node], start: start[node], marks: marks[node] })
         .collect();
-    let members = |name: &str| {
-        let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == name);
-        group.map(|group| group.tets.as_slice())
-    };
-    let tags: Vec<u64> = (0..mesh.tets.len()).map(|tet| mesh.tag(tet) as u64).collect();
-    let materials = materials(groups, &tags, members)?;
+    let materials = materials(groups, mesh)?;
     let elements = mesh
         .tets
         .iter()
         .enumerate()
-        .map(|(tet, &[a, b, c, d])| [a as u64, b as u64, c as u64, d as u64, tags[tet], materials[tet]]);
+        .map(|(tet, &[a, b, c, d])| [a, b, c, d, mesh.tag(tet), materials[tet]].map(|word| word as u64));
     let facts = BodyFacts { bounds: mesh.bounds(), checksum: geometry.checksum(), warnings, stiffnesses };
     let facts = serde_json::to_vec(&facts).map_err(|error| Error::Options(error.to_string()))?;
     Ok((places, elements.collect(), facts))
 }
 
-/// Number of the material of each element with these tags: 1, 2, … for the members of the groups with these
-/// names, otherwise 0.
-fn materials<'a>(
-    groups: &[String],
-    tags: &[u64],
-    members: impl Fn(&str) -> Option<&'a [usize]>,
-) -> Result<Vec<u64>, Error> {
-    let mut materials = vec![0; tags.len()];
+/// Number of the material of each element: 1, 2, … for the members of the groups with these names, otherwise
+/// 0.
+fn materials(groups: &[String], mesh: &TetMesh) -> Result<Vec<usize>, Error> {
+    let mut materials = vec![0; mesh.tets.len()];
     for (number, name) in groups.iter().enumerate() {
-        let members = members(name)
-            .ok_or_else(|| Error::Options(format!("the mesh has no group `{name}` of tetrahedra")))?;
-        for &element in members {
-            if std::mem::replace(&mut materials[element], number as u64 + 1) != 0 {
-                return Err(Error::Options(format!("element {} has two materials", tags[element])));
+        let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
+        let group =
+            group.ok_or_else(|| Error::Options(format!("the mesh has no group `{name}` of tetrahedra")))?;
+        for &element in &group.tets {
+            if std::mem::replace(&mut materials[element], number + 1) != 0 {
+                let tag = mesh.tag(element);
+                return Err(Error::Options(format!("element {tag} has two materials")));
             }
         }
     }

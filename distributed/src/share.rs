@@ -50,9 +50,7 @@ impl Share {
         let mut owner_here = owners(team, &homes, &elements)?;
 
         // Send elements to their ranks.
-        let mut touched: Vec<u64> = elements.iter().flat_map(|element| &element[..4]).copied().collect();
-        touched.sort_unstable();
-        touched.dedup();
+        let touched = nodes(&elements);
         let answers = homes.ask(team, &touched, |node| [owner_here[node]]);
         let owner: HashMap<u64, u64> =
             touched.iter().zip(&answers).map(|(&node, &[owner])| (node, owner)).collect();
@@ -66,9 +64,7 @@ impl Share {
 
         // If a rank has no element of a node, another rank that has one becomes the owner of the node.
         let first = homes.range(team.rank()).start;
-        let mut touched: Vec<u64> = elements.iter().flat_map(|element| &element[..4]).copied().collect();
-        touched.sort_unstable();
-        touched.dedup();
+        let touched = nodes(&elements);
         let of_ranks = team.exchange_rows(&homes.sort(team, touched.iter().map(|&node| [node])));
         let mut with_elements = vec![Vec::new(); places.len()];
         for (rank, nodes) in of_ranks.iter().enumerate() {
@@ -83,10 +79,7 @@ impl Share {
         // Send nodes to their owners.
         let mut lists = vec![Vec::new(); team.size()];
         for (node, place) in places.iter().enumerate() {
-            let mut row = [0; 8];
-            row[0] = first + node as u64;
-            row[1..].copy_from_slice(&place.to_words());
-            lists[owner_here[node] as usize].push(row);
+            lists[owner_here[node] as usize].push(place.to_row(first + node as u64));
         }
         let mut owned = team.exchange_rows(&lists).concat();
         owned.sort_unstable_by_key(|row| (row[7] & 1, row[0]));
@@ -108,23 +101,16 @@ impl Share {
         // Request copies from the homes of the nodes.
         let mut index: HashMap<u64, usize> =
             owned.iter().enumerate().map(|(node, row)| (row[0], node)).collect();
-        let mut copied: Vec<u64> = elements
-            .iter()
-            .flat_map(|element| &element[..4])
-            .copied()
-            .filter(|node| !index.contains_key(node))
-            .collect();
-        copied.sort_unstable();
-        copied.dedup();
+        let copied: Vec<u64> = touched.into_iter().filter(|node| !index.contains_key(node)).collect();
         let answers = homes.ask(team, &copied, |node| {
-            let mut row = [0; 9];
-            row[..2].copy_from_slice(&known[node]);
-            row[2..].copy_from_slice(&places[node].to_words());
+            let [number, free] = known[node];
+            let mut row = [free; 9];
+            row[..8].copy_from_slice(&places[node].to_row(number));
             row
         });
         index.extend(copied.iter().enumerate().map(|(copy, &node)| (node, owned.len() + copy)));
 
-        let numbers = (0..owned.len()).map(free_number).chain(answers.iter().map(|row| row[1]));
+        let numbers = (0..owned.len()).map(free_number).chain(answers.iter().map(|row| row[8]));
         let local = |element: &Element| {
             let nodes = std::array::from_fn(|corner| index[&element[corner]]);
             (nodes, element[4], element[5])
@@ -135,8 +121,8 @@ impl Share {
             free,
             places: owned
                 .iter()
-                .map(|row| Place::from_words(&row[1..]))
-                .chain(answers.iter().map(|row| Place::from_words(&row[2..])))
+                .map(|row| Place::from_row(row))
+                .chain(answers.iter().map(|row| Place::from_row(row)))
                 .collect(),
             copies: answers.iter().map(|row| row[0] as usize).collect(),
             free_numbers: numbers.map(|number| (number != PINNED).then_some(number as usize)).collect(),
@@ -150,6 +136,14 @@ impl Share {
     pub fn pinned(&self) -> Vec<usize> {
         (0..self.places.len()).filter(|&node| self.places[node].marks & 1 == 1).collect()
     }
+}
+
+/// Nodes of elements, ascending.
+fn nodes(elements: &[Element]) -> Vec<u64> {
+    let mut nodes: Vec<u64> = elements.iter().flat_map(|element| &element[..4]).copied().collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
 }
 
 /// Rank of an element with these owners of its nodes, in any order: the most frequent owner. Among equally
@@ -180,7 +174,7 @@ fn owners(team: &Team, homes: &Homes, elements: &[Element]) -> Result<Vec<u64>, 
     }
     pairs.sort_unstable();
     pairs.dedup();
-    let places = pairs.iter().map(|pair| pair.map(|node| Some(node as usize)));
+    let places = pairs.iter().map(|pair| pair.map(|node| node as usize));
     let mut graph = Matrix::new(team.library(), here, 1, places)?;
     graph.set_values(&vec![1.0; pairs.len()])?;
     Ok(graph.partition()?.into_iter().map(|rank| rank as u64).collect())

@@ -3,9 +3,7 @@
 //! Newton's method is piola's instead of PETSc's SNES, which does not support pins that move into the first
 //! system, a filter on demand, or an end below the rounding error of the energy.
 
-use piola_bodies::step::{
-    self, AdaptiveReport, Energies, LinearSolver, SimulationSettings, Spring, StepError, StepReport,
-};
+use piola_bodies::step::{self, Energies, LinearSolver, SetupError, SimulationSettings, StepError};
 use piola_bodies::system::Pins;
 
 use crate::error::{Error, Failure};
@@ -60,16 +58,15 @@ impl Simulation {
         &self.part
     }
 
-    /// Replaces positions, velocities and accelerations of the nodes of this rank, copies included.
-    /// Accelerations are the ones at the end of the previous step.
+    /// Changes the state, pins or springs of the part.
     ///
     /// # Errors
-    /// [`Error::OnRank`] unless there is one finite vector of each for each node.
-    pub fn set_state(&mut self, [x, v, a]: [&[[f64; 3]]; 3]) -> Result<(), Error> {
-        let part = &mut self.part;
-        let set = part.set_positions(x).and_then(|()| part.set_velocities(v));
-        let set = set.and_then(|()| part.set_accelerations(a));
-        self.team.agree(set.map_err(Error::from))
+    /// [`Error::OnRank`] if a rank refuses its change.
+    pub fn set(
+        &mut self,
+        change: impl FnOnce(&mut step::Simulation<LinearSystem>) -> Result<(), SetupError>,
+    ) -> Result<(), Error> {
+        self.team.agree(change(&mut self.part).map_err(Error::from))
     }
 
     /// Prescribes the positions of pinned nodes of this rank and its copies after the next step, m; `None`
@@ -78,51 +75,20 @@ impl Simulation {
     /// # Errors
     /// [`Error::OnRank`] for a position that is not finite.
     pub fn prescribe(&mut self, place: impl Fn(usize) -> Option<[f64; 3]>) -> Result<(), Error> {
-        let mut pinned = self.share.pinned().into_iter();
-        let set =
-            pinned.try_for_each(|node| place(node).map_or(Ok(()), |place| self.part.prescribe(node, place)));
-        self.team.agree(set.map_err(Error::from))
+        let mut places = self.share.pinned().into_iter().filter_map(|node| Some((node, place(node)?)));
+        self.set(|part| places.try_for_each(|(node, place)| part.prescribe(node, place)))
     }
 
-    /// Replaces the springs at owned nodes. If a spring has the index and anchor of a previous spring, its
-    /// target moves uniformly to the new one.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] for a spring that is not finite, or is attached to a node that does not exist.
-    pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), Error> {
-        self.team.agree(self.part.set_springs(springs).map_err(Error::from))
-    }
-
-    /// Advances the state by `dt`, s.
+    /// Advances the part by steps, or moves it to equilibrium.
     ///
     /// # Errors
     /// An [`Error`] of Newton's method or of PETSc.
-    pub fn step(&mut self, dt: f64) -> Result<StepReport, Error> {
-        let made = self.part.step_here(dt);
-        self.judge(made)
-    }
-
-    /// Advances the state over a time interval, s, with adaptive steps. The error of positions stays within
-    /// `tolerance`, m/s, times the interval, as in [`piola_bodies::step::Simulation::advance_within`].
-    ///
-    /// # Errors
-    /// An [`Error`] of the shortest step, or of PETSc.
-    pub fn advance_within(&mut self, duration: f64, tolerance: f64) -> Result<AdaptiveReport, Error> {
-        let made = self.part.advance_within_here(duration, tolerance);
-        self.judge(made)
-    }
-
-    /// Moves the body to equilibrium: a minimum of its energy with gravity and springs, without inertia.
-    ///
-    /// # Errors
-    /// An [`Error`] of Newton's method or of PETSc.
-    pub fn equilibrate(&mut self) -> Result<StepReport, Error> {
-        let made = self.part.equilibrate_here();
-        self.judge(made)
-    }
-
-    /// Result of a step, or the error of an exchange or a solver on the way.
-    fn judge<T>(&self, made: Result<T, StepError>) -> Result<T, Error> {
+    pub fn advance<T>(
+        &mut self,
+        advance: impl FnOnce(&mut step::Simulation<LinearSystem>) -> Result<T, StepError>,
+    ) -> Result<T, Error> {
+        let made = advance(&mut self.part);
+        // The error of an exchange or a solver on the way is the reason of the error of a step.
         self.failure.take()?;
         Ok(made?)
     }

@@ -95,10 +95,14 @@ struct MatrixFree {
 
 impl Operators for MatrixFree {
     fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), PetscError> {
+        let Self { stiffness, exchange, x: all, product: of_all, .. } = self;
         // The entries of pinned nodes follow, and are zero.
-        self.x[..x.len()].copy_from_slice(x);
-        self.multiply_x()?;
-        product.copy_from_slice(&self.product[..product.len()]);
+        all[..x.len()].copy_from_slice(x);
+        exchange.copy(all.as_flattened_mut(), |x| x)?;
+        // Both vectors have the length of the stiffness.
+        let _ = stiffness.multiply(all, of_all);
+        exchange.sum(of_all.as_flattened_mut(), |x| x)?;
+        product.copy_from_slice(&of_all[..product.len()]);
         Ok(())
     }
 
@@ -116,17 +120,6 @@ impl Operators for MatrixFree {
         };
         let rows: Vec<String> = rows.iter().map(ToString::to_string).collect();
         (format!("multigrid: levels of {} rows; the last is solved by", rows.join(", ")), Some(last.krylov()))
-    }
-}
-
-impl MatrixFree {
-    /// Multiplies the stiffness by the vector `x` of the owned nodes.
-    fn multiply_x(&mut self) -> Result<(), PetscError> {
-        let Self { stiffness, exchange, x, product, .. } = self;
-        exchange.copy(x.as_flattened_mut())?;
-        // Both vectors have the length of the stiffness.
-        let _ = stiffness.multiply(x, product);
-        exchange.sum(product.as_flattened_mut())
     }
 }
 
@@ -148,7 +141,7 @@ impl LinearSystem {
         let stiffness = team.agree(stiffness.map_err(Error::from))?;
         let own = body.map_or(&[][..], Body::masses);
         let mut masses = own.to_vec();
-        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses)?;
+        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses, |x| x)?;
         for (name, value) in DEFAULTS {
             library.default_option(name, value)?;
         }
@@ -163,9 +156,9 @@ impl LinearSystem {
             x: vec![[0.0; 3]; nodes],
             product: vec![[0.0; 3]; nodes],
         }));
-        let form = if library.is_set_to("pc_type", SHELL)? {
+        let form = if library.option("pc_type")?.as_deref() == Some(SHELL) {
             let matrix = Matrix::of_function(library, share.free, matrix_free.clone())?;
-            let mut krylov = Krylov::new(library, Rc::new(RefCell::new(matrix)), "")?;
+            let mut krylov = Krylov::new(library, Rc::new(RefCell::new(matrix)), "", None)?;
             krylov.precondition_by(matrix_free.clone())?;
             Form::MatrixFree(krylov)
         } else {
@@ -405,7 +398,7 @@ impl Assembled {
             }
         }
         let entries = |[row, column]: [usize; 2]| {
-            (0..9).map(move |entry| [Some(3 * row + entry / 3), Some(3 * column + entry % 3)])
+            (0..9).map(move |entry| [3 * row + entry / 3, 3 * column + entry % 3])
         };
         let mut matrix = Matrix::new(library, 3 * share.free, 3, blocks.iter().copied().flat_map(entries))?;
         matrix.set_symmetric()?;
@@ -414,8 +407,8 @@ impl Assembled {
         let matrix = Rc::new(RefCell::new(matrix));
         Ok(Self {
             numbers: share.free_numbers.clone(),
-            krylov: Krylov::new(library, matrix.clone(), "")?,
-            fallback: Krylov::new(library, matrix.clone(), "fallback_")?,
+            krylov: Krylov::new(library, matrix.clone(), "", None)?,
+            fallback: Krylov::new(library, matrix.clone(), "fallback_", None)?,
             matrix,
             places: Vector::new(library, share.free)?,
             values,

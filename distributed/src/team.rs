@@ -5,7 +5,7 @@
 use mpi::collective::SystemOperation;
 use mpi::datatype::{Partition, PartitionMut};
 use mpi::topology::SimpleCommunicator;
-use mpi::traits::{Communicator, CommunicatorCollectives, Equivalence, Root};
+use mpi::traits::{Communicator, CommunicatorCollectives, Root};
 use mpi::{Count, Rank};
 
 use crate::error::Error;
@@ -96,9 +96,9 @@ impl Team {
         self.world().barrier();
     }
 
-    /// Sends a list to each rank, and returns the list received from each rank.
+    /// Sends a list of integers to each rank, and returns the list received from each rank.
     #[must_use]
-    pub fn exchange<T: Equivalence + Copy + Default>(&self, outgoing: &[Vec<T>]) -> Vec<Vec<T>> {
+    pub fn exchange(&self, outgoing: &[Vec<u64>]) -> Vec<Vec<u64>> {
         let lengths = outgoing.iter().map(|list| list.len() as Count).collect();
         let (received, lengths) = self.exchange_entries(&outgoing.concat(), lengths);
         lists(&received, lengths.into_iter())
@@ -113,14 +113,10 @@ impl Team {
     }
 
     /// Sends consecutive entries to each rank; returns the entries from all ranks, and the number from each.
-    fn exchange_entries<T: Equivalence + Default + Clone>(
-        &self,
-        sent: &[T],
-        lengths: Vec<Count>,
-    ) -> (Vec<T>, Vec<Count>) {
+    fn exchange_entries(&self, sent: &[u64], lengths: Vec<Count>) -> (Vec<u64>, Vec<Count>) {
         let mut incoming = vec![0 as Count; self.size];
         self.world().all_to_all_into(&lengths[..], &mut incoming[..]);
-        let mut received = vec![T::default(); total(&incoming)];
+        let mut received = vec![0_u64; incoming.iter().map(|&length| length as usize).sum()];
         {
             let starts_of_sent = starts(&lengths);
             let from = Partition::new(sent, lengths, starts_of_sent);
@@ -130,13 +126,12 @@ impl Team {
         (received, incoming)
     }
 
-    /// Bytes of rank 0, sent to all ranks.
+    /// Bytes of a rank, sent to all ranks.
     #[must_use]
-    pub fn from_first(&self, bytes: Vec<u8>) -> Vec<u8> {
-        let root = self.world().process_at_rank(0);
+    pub fn broadcast(&self, rank: usize, mut bytes: Vec<u8>) -> Vec<u8> {
+        let root = self.world().process_at_rank(rank as Rank);
         let mut length = bytes.len() as u64;
         root.broadcast_into(&mut length);
-        let mut bytes = bytes;
         bytes.resize(length as usize, 0);
         root.broadcast_into(&mut bytes[..]);
         bytes
@@ -154,17 +149,21 @@ impl Team {
         if first == u64::MAX {
             return result;
         }
-        let mut message = match &result {
+        let message = match &result {
             Err(Error::OnRank { message, .. }) => message.clone().into_bytes(),
             Err(error) => error.to_string().into_bytes(),
             Ok(_) => Vec::new(),
         };
-        let root = self.world().process_at_rank(first as Rank);
-        let mut length = message.len() as u64;
-        root.broadcast_into(&mut length);
-        message.resize(length as usize, 0);
-        root.broadcast_into(&mut message[..]);
+        let message = self.broadcast(first as usize, message);
         Err(Error::OnRank { rank: first as usize, message: String::from_utf8_lossy(&message).into_owned() })
+    }
+
+    /// Result of rank 0, which alone does this work; an empty result on the other ranks.
+    ///
+    /// # Errors
+    /// [`Error::OnRank`] on all ranks, if rank 0 fails.
+    pub fn on_first<T: Default>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        self.agree(if self.rank == 0 { work() } else { Ok(T::default()) })
     }
 
     /// Ends all ranks at once, after an error that cannot be sent to the others.
@@ -182,10 +181,6 @@ fn lists<T: Clone>(mut entries: &[T], lengths: impl Iterator<Item = Count>) -> V
             list.to_vec()
         })
         .collect()
-}
-
-fn total(lengths: &[Count]) -> usize {
-    lengths.iter().map(|&length| length as usize).sum()
 }
 
 fn starts(lengths: &[Count]) -> Vec<Count> {

@@ -5,9 +5,7 @@
 
 mod common;
 
-use std::path::Path;
-
-use common::{TestResult, checkpoint_in, command, finish, msh, state_after};
+use common::{TestResult, checkpoint_in, command, finish, msh, state_after, words};
 use piola::material::Moduli;
 use piola::point::Filter;
 use piola_bodies::mesh::{Bounds, tetrahedral_box};
@@ -60,17 +58,11 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
     let geometry = Geometry::load(&settings)?;
     let height = geometry.mesh.bounds().size()[1];
     let scratch = tempfile::tempdir()?;
-    let begin = |folder: &Path| {
-        vec!["run", scene.name, "--material", material, "--out", folder.to_str().expect("UTF-8")]
-            .into_iter()
-            .map(str::to_owned)
-            .collect::<Vec<_>>()
-    };
     for count in ranks() {
         let folder = scratch.path().join(count.to_string());
         let run = |options: String| {
-            let words = options.split_whitespace().map(str::to_owned);
-            state_after(count, begin(&folder).into_iter().chain(words), &folder)
+            let scene = ["run", scene.name, "--material", material].map(str::to_owned);
+            state_after(count, scene.into_iter().chain(words(&options)), &folder)
         };
         run(format!("--frames {before} --newton single"))?;
         let (about, state) = checkpoint_in(&folder)?;
@@ -109,29 +101,41 @@ fn a_horse_of_three_energies_moves_equally() -> TestResult {
     check_scene(&HORSE, "Ogden", 30, 4)
 }
 
+/// Compares the final positions of a run on each number of ranks with positions on one machine, m.
+#[track_caller]
+#[expect(clippy::print_stdout, reason = "figures, shown with --nocapture")]
+fn check(ranks: &[usize], words: &[String], expected: &[[f64; 3]], most: f64) -> TestResult {
+    let scratch = tempfile::tempdir()?;
+    for &count in ranks {
+        let folder = scratch.path().join(count.to_string());
+        let found = state_after(count, words.to_vec(), &folder)?;
+        let error = distance(&found.positions, expected);
+        println!("{} on {count} ranks: {error:.1e} m", words.join(" "));
+        assert!(error <= most, "{error:e} m on {count} ranks: {words:?}");
+    }
+    Ok(())
+}
+
+/// Compares two ranks with one machine after fully solved frames of the dinosaur.
+#[track_caller]
+fn check_dinosaur(settings: &Settings, frames: usize, options: &[String]) -> TestResult {
+    let geometry = Geometry::load(settings)?;
+    let mut play = Play::new(settings, &geometry)?;
+    play.simulation_mut().set_settings(step_settings(settings).with_newton(newton()))?;
+    for _ in 0..frames {
+        play.step()?;
+    }
+    let run = words(&format!("run dinosaur --frames {frames} {SOLVED}"));
+    let most = 1e-9 * frames as f64 * geometry.mesh.bounds().size()[1];
+    check(&[2], &[run.as_slice(), options].concat(), play.simulation().positions(), most)
+}
+
 /// All integrators except implicit Euler, in the pull of the dinosaur.
 #[test]
 fn integrators_agree() -> TestResult {
     for (name, integrator) in [("sdirk2", Integrator::Sdirk2), ("sdirk3", Integrator::Sdirk3)] {
-        let frames = 5;
         let settings = Settings::new(&DINOSAUR).with_integrator(integrator).with_gravity(9.81);
-        let geometry = Geometry::load(&settings)?;
-        let mut play = Play::new(&settings, &geometry)?;
-        play.simulation_mut().set_settings(step_settings(&settings).with_newton(newton()))?;
-        for _ in 0..frames {
-            play.step()?;
-        }
-        let scratch = tempfile::tempdir()?;
-        let folder = scratch.path().join("run");
-        let options = format!(
-            "run dinosaur --gravity 9.81 --integrator {name} --frames {frames} {SOLVED} --out {}",
-            folder.display()
-        );
-        let found = state_after(2, options.split_whitespace().map(str::to_owned), &folder)?;
-        let error = distance(&found.positions, play.simulation().positions());
-        let height = geometry.mesh.bounds().size()[1];
-        println!("{name}: {:.1e} body heights", error / height);
-        assert!(error <= 1e-9 * frames as f64 * height, "{name}: {error:e} m");
+        check_dinosaur(&settings, 5, &words(&format!("--gravity 9.81 --integrator {name}")))?;
     }
     Ok(())
 }
@@ -143,28 +147,15 @@ fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
     let parameters = spec.build()?.parameters;
     let [mu, lambda] = ["mu", "lambda"].map(|name| parameters[name][0]);
     let settings = Settings::new(&DINOSAUR).with_material(spec).with_dt(0.4);
-    let geometry = Geometry::load(&settings)?;
-    let mut play = Play::new(&settings, &geometry)?;
-    play.simulation_mut().set_settings(step_settings(&settings).with_newton(newton()))?;
-    // The pull reaches its end at 1.5 s, and is released at 2 s.
-    let frames = 4;
-    for _ in 0..frames {
-        play.step()?;
-    }
-    let scratch = tempfile::tempdir()?;
-    let folder = scratch.path().join("run");
-    let options = format!("run dinosaur --dt 0.4 --frames {frames} {SOLVED} --out {}", folder.display());
-    let energy = [
+    let options = [
+        "--dt=0.4".to_owned(),
         "--energy".to_owned(),
         "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2".to_owned(),
         format!("--param=mu={mu}"),
         format!("--param=lambda={lambda}"),
     ];
-    let found = state_after(2, options.split_whitespace().map(str::to_owned).chain(energy), &folder)?;
-    let error = distance(&found.positions, play.simulation().positions()) / geometry.mesh.bounds().size()[1];
-    println!("four frames of 0.4 s: {error:.1e} body heights");
-    assert!(error <= 1e-9 * f64::from(frames), "{error:e} body heights");
-    Ok(())
+    // The pull reaches its end at 1.5 s, and is released at 2 s.
+    check_dinosaur(&settings, 4, &options)
 }
 
 /// Each program chooses steps that satisfy the tolerance. Steps are solved to different numbers of digits, so
@@ -187,10 +178,9 @@ fn steps_within_a_tolerance_agree() -> TestResult {
     let scratch = tempfile::tempdir()?;
     let folder = scratch.path().join("run");
     let options = format!(
-        "run dinosaur --dt {dt} --frames {frames} --integrator sdirk2 --tolerance {tolerance} --newton full --out {}",
-        folder.display()
+        "run dinosaur --dt {dt} --frames {frames} --integrator sdirk2 --tolerance {tolerance} --newton full"
     );
-    let found = state_after(2, options.split_whitespace().map(str::to_owned), &folder)?;
+    let found = state_after(2, words(&options), &folder)?;
     let error = distance(&found.positions, play.simulation().positions()) / geometry.mesh.bounds().size()[1];
     let summary: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("summary.json"))?)?;
     println!("{taken} steps, and {} on two ranks: {error:.1e} body heights", summary["steps"]["taken"]);
@@ -216,21 +206,8 @@ fn a_box_sags_as_on_one_machine() -> TestResult {
     let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
     let mut simulation = Simulation::new(body, &pins, settings)?;
     simulation.equilibrate()?;
-
-    let scratch = tempfile::tempdir()?;
-    for count in ranks() {
-        let folder = scratch.path().join(count.to_string());
-        let options = format!(
-            "box --elements {} --newton-tolerance 1e-12 --out {}",
-            6 * cells * cells * cells,
-            folder.display()
-        );
-        let found = state_after(count, options.split_whitespace().map(str::to_owned), &folder)?;
-        let error = distance(&found.positions, simulation.positions());
-        println!("box on {count} ranks: {error:.1e} m");
-        assert!(error <= 1e-8, "{error:e} m on {count} ranks");
-    }
-    Ok(())
+    let options = format!("box --elements {} --newton-tolerance 1e-12", mesh.tets.len());
+    check(&ranks(), &words(&options), simulation.positions(), 1e-8)
 }
 
 /// `-ksp_view` shows piola's levels and the solver of the last one. Options replace this solver and the
@@ -251,7 +228,7 @@ fn preconditioners_are_shown_and_replaced() -> TestResult {
         let folder = scratch.path().join(number.to_string());
         let sag = "box --elements 10000 --newton-tolerance 1e-10 -ksp_view";
         let options = format!("{sag} --out {} {options}", folder.display());
-        let output = finish(command(3, options.split_whitespace().map(str::to_owned)))?;
+        let output = finish(command(3, words(&options)))?;
         let text = String::from_utf8_lossy(&output.stdout);
         assert!(output.status.success(), "{options}: {}", String::from_utf8_lossy(&output.stderr));
         for shown in shown {
@@ -281,20 +258,9 @@ fn statics_end_as_on_one_machine() -> TestResult {
         simulation.prescribe(node, [x + 0.1, y, z])?;
     }
     simulation.equilibrate()?;
-    let scratch = tempfile::tempdir()?;
-    for count in ranks() {
-        let folder = scratch.path().join(count.to_string());
-        let options = format!(
-            "statics twist --gravity 9.81 --move :,1:1,:=0.1,0,0@1 --newton-tolerance 1e-12 --newton-iterations 200 \
-             --filter clamp --out {}",
-            folder.display()
-        );
-        let found = state_after(count, options.split_whitespace().map(str::to_owned), &folder)?;
-        let error = distance(&found.positions, simulation.positions());
-        println!("statics on {count} ranks: {error:.1e} m");
-        assert!(error <= 1e-8, "{error:e} m on {count} ranks");
-    }
-    Ok(())
+    let options = "statics twist --gravity 9.81 --move :,1:1,:=0.1,0,0@1 --newton-tolerance 1e-12 --newton-iterations 200 \
+                   --filter clamp";
+    check(&ranks(), &words(options), simulation.positions(), 1e-8)
 }
 
 /// A bar of two materials and densities under gravity, with damping; its top moves and its foot is held.
@@ -334,35 +300,12 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
         }
         simulation.step(dt)?;
     }
-    for count in ranks() {
-        let folder = scratch.path().join(count.to_string());
-        let words = [
-            "run",
-            "scramble",
-            "--amplitude",
-            "0",
-            "--mesh",
-            file.to_str().expect("UTF-8"),
-            "--material",
-            "neo-Hookean",
-            "--part",
-            "upper=stable neo-Hookean;density=3000",
-            "--gravity",
-            "9.81",
-            "--pin",
-            ":,:0.000001,:",
-            "--move",
-            ":,0.999999:,:=0.1,0.2,0@0.15",
-            "--frames",
-            "6",
-            "--out",
-            folder.to_str().expect("UTF-8"),
-        ];
-        let solved = SOLVED.split_whitespace();
-        let found = state_after(count, words.into_iter().chain(solved).map(str::to_owned), &folder)?;
-        let error = distance(&found.positions, simulation.positions());
-        println!("bar on {count} ranks: {error:.1e} m");
-        assert!(error <= 1e-9 * f64::from(frames), "{error:e} m on {count} ranks");
-    }
-    Ok(())
+    let material =
+        ["--mesh", file.to_str().expect("UTF-8"), "--part", "upper=stable neo-Hookean;density=3000"];
+    let options = format!(
+        "run scramble --amplitude 0 --material neo-Hookean --gravity 9.81 --pin :,:0.000001,: \
+         --move :,0.999999:,:=0.1,0.2,0@0.15 --frames {frames} {SOLVED}"
+    );
+    let words = [words(&options), material.map(str::to_owned).to_vec()].concat();
+    check(&ranks(), &words, simulation.positions(), 1e-9 * f64::from(frames))
 }

@@ -165,14 +165,4 @@ mod tests {
         assert_eq!(guard(|| Err(Failure::new(Code::Text, "one\0two"))), Code::Text);
         assert_eq!(message(), "one");
     }
-
-    #[test]
-    fn a_message_belongs_to_a_thread() {
-        assert_eq!(guard(|| Err(Failure::new(Code::Value, "here"))), Code::Value);
-        let there = std::thread::spawn(|| {
-            guard(|| Err(Failure::new(Code::Value, "there")));
-            message()
-        });
-        assert_eq!((there.join().expect("no panic"), message()), ("there".to_owned(), "here".to_owned()));
-    }
 }

@@ -19,59 +19,34 @@ pub struct Krylov {
 }
 
 impl Krylov {
-    /// Solver for a matrix, by conjugate gradients unless options with the prefix `prefix` select another
-    /// one.
+    /// Solver for a matrix by conjugate gradients or, with `once`, by a preconditioner of this kind that is
+    /// applied once, unless options with the prefix `prefix` select another one.
     ///
     /// # Errors
     /// [`PetscError`], also for an option with a value that PETSc does not support.
-    pub fn new(library: &Library, matrix: Rc<RefCell<Matrix>>, prefix: &str) -> Result<Self, PetscError> {
-        let solver = Self::of_kind(library, matrix, "cg", prefix)?;
-        // SAFETY: the solver exists.
-        unsafe {
-            check(ffi::KSPSetNormType(solver.raw, ffi::KSPNormType_KSP_NORM_UNPRECONDITIONED))?;
-            check(ffi::KSPSetFromOptions(solver.raw))?;
-        }
-        Ok(solver)
-    }
-
-    /// Solver that applies a preconditioner of this kind once, unless options with the prefix `prefix` select
-    /// another one.
-    ///
-    /// # Errors
-    /// [`PetscError`], also for an option with a value that PETSc does not support.
-    pub fn once(
+    pub fn new(
         library: &Library,
         matrix: Rc<RefCell<Matrix>>,
-        kind: &str,
         prefix: &str,
-    ) -> Result<Self, PetscError> {
-        let solver = Self::of_kind(library, matrix, "preonly", prefix)?;
-        let (kind, preconditioner) = (string(kind)?, solver.preconditioner()?);
-        // SAFETY: both objects exist, and the text is a C string, which PETSc copies.
-        unsafe {
-            check(ffi::PCSetType(preconditioner, kind.as_ptr()))?;
-            check(ffi::KSPSetFromOptions(solver.raw))?;
-        }
-        Ok(solver)
-    }
-
-    fn of_kind(
-        library: &Library,
-        matrix: Rc<RefCell<Matrix>>,
-        kind: &str,
-        prefix: &str,
+        once: Option<&str>,
     ) -> Result<Self, PetscError> {
         let mut raw = null_mut();
         // SAFETY: the result goes to a variable that outlives the call.
         check(unsafe { ffi::KSPCreate(library.comm(), &mut raw) })?;
         let mat = matrix.borrow().raw;
         let solver = Self { raw, matrix, operators: None };
-        let (kind, prefix) = (string(kind)?, string(prefix)?);
-        // SAFETY: solver and matrix exist, and both texts are C strings, which PETSc copies.
+        let kind = string(if once.is_some() { "preonly" } else { "cg" })?;
+        let (prefix, once) = (string(prefix)?, once.map(string).transpose()?);
+        // SAFETY: solver, preconditioner and matrix exist, and all texts are C strings, which PETSc copies.
         unsafe {
             check(ffi::KSPSetOptionsPrefix(raw, prefix.as_ptr()))?;
             check(ffi::KSPSetType(raw, kind.as_ptr()))?;
             check(ffi::KSPSetOperators(raw, mat, mat))?;
+            match once {
+                Some(once) => check(ffi::PCSetType(solver.preconditioner()?, once.as_ptr()))?,
+                None => check(ffi::KSPSetNormType(raw, ffi::KSPNormType_KSP_NORM_UNPRECONDITIONED))?,
+            }
+            check(ffi::KSPSetFromOptions(raw))?;
         }
         Ok(solver)
     }
@@ -84,9 +59,6 @@ impl Krylov {
     }
 
     /// Preconditions by operators; the type of the preconditioner in options is `shell`.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn precondition_by(&mut self, operators: Shared) -> Result<(), PetscError> {
         let preconditioner = self.preconditioner()?;
         let operators = self.operators.insert(Box::new(operators));
@@ -102,9 +74,6 @@ impl Krylov {
     }
 
     /// Keeps the preconditioner for the next system, or sets up a new one.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn keep_preconditioner(&mut self, keep: bool) -> Result<(), PetscError> {
         let keep = if keep { ffi::PetscBool_PETSC_TRUE } else { ffi::PetscBool_PETSC_FALSE };
         // SAFETY: the solver exists.
@@ -112,9 +81,6 @@ impl Krylov {
     }
 
     /// Solves A x = b from x = 0 to a residual of `tolerance` times |b|.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn solve<const N: usize>(
         &mut self,
         b: &Vector<N>,
@@ -144,19 +110,10 @@ impl Krylov {
     }
 
     /// Solves A x = b to the tolerance of the options.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn apply<const N: usize>(&mut self, b: &Vector<N>, x: &mut Vector<N>) -> Result<(), PetscError> {
         // SAFETY: solver and vectors exist.
         check(unsafe { ffi::KSPSolve(self.raw, b.raw, x.raw) })
     }
 }
 
-impl Drop for Krylov {
-    fn drop(&mut self) {
-        // SAFETY: the solver exists, this is its only owner, and PETSc still runs: the matrix has a handle of
-        // the library.
-        let _ = unsafe { ffi::KSPDestroy(&mut self.raw) };
-    }
-}
+destroyed!([] Krylov, ffi::KSPDestroy);

@@ -16,18 +16,15 @@ pub struct Matrix {
 
 impl Matrix {
     /// Matrix with `rows` rows on this rank, in square blocks, with entries at these places. A place may
-    /// occur more than once, and in the rows of another rank. Places of `None` are left out.
-    ///
-    /// # Errors
-    /// [`PetscError`].
+    /// occur more than once, and in the rows of another rank.
     pub fn new(
         library: &Library,
         rows: usize,
         block: usize,
-        places: impl Iterator<Item = [Option<usize>; 2]> + Clone,
+        places: impl Iterator<Item = [usize; 2]> + Clone,
     ) -> Result<Self, PetscError> {
         let side = |side: usize| -> Result<Vec<PetscInt>, PetscError> {
-            places.clone().map(|place| place[side].map_or(Ok(-1), int)).collect()
+            places.clone().map(|place| int(place[side])).collect()
         };
         let (mut row_numbers, mut columns) = (side(0)?, side(1)?);
         let rows = int(rows)?;
@@ -53,9 +50,6 @@ impl Matrix {
     }
 
     /// Matrix that is a function: the product with an operator on the free nodes of this rank.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn of_function(library: &Library, nodes: usize, operators: Shared) -> Result<Self, PetscError> {
         type Product = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> ffi::PetscErrorCode;
         let (rows, operators) = (int(3 * nodes)?, Box::new(operators));
@@ -78,9 +72,6 @@ impl Matrix {
     }
 
     /// Declares that the matrix is always symmetric.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn set_symmetric(&mut self) -> Result<(), PetscError> {
         for option in [ffi::MatOption_MAT_SYMMETRIC, ffi::MatOption_MAT_SYMMETRY_ETERNAL] {
             // SAFETY: the matrix exists, and both are options of matrices.
@@ -103,9 +94,6 @@ impl Matrix {
     }
 
     /// Sets the near null space for preconditioners to the rigid motions of nodes at these places, m.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn set_rigid_motions(&mut self, places: &Vector<3>) -> Result<(), PetscError> {
         let mut space = null_mut();
         // SAFETY: the vector exists, and the result goes to a variable that outlives the call.
@@ -114,9 +102,6 @@ impl Matrix {
     }
 
     /// Sets the near null space for preconditioners to these vectors, which must be orthonormal.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn set_motions<const N: usize>(&mut self, motions: &[Vector<N>]) -> Result<(), PetscError> {
         let vectors: Vec<ffi::Vec> = motions.iter().map(|vector| vector.raw).collect();
         let (is_constant, count) = (ffi::PetscBool_PETSC_FALSE, int(vectors.len())?);
@@ -141,9 +126,6 @@ impl Matrix {
     }
 
     /// Rank of each row of this rank, chosen by a partitioner so that few neighbours are separated.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn partition(&self) -> Result<Vec<usize>, PetscError> {
         let (mut partitioning, mut set) = (null_mut(), null_mut());
         let mut ranks = Vec::new();
@@ -176,9 +158,4 @@ impl Matrix {
     }
 }
 
-impl Drop for Matrix {
-    fn drop(&mut self) {
-        // SAFETY: the matrix exists, this is its only owner, and PETSc still runs.
-        let _ = unsafe { ffi::MatDestroy(&mut self.raw) };
-    }
-}
+destroyed!([] Matrix, ffi::MatDestroy);

@@ -4,35 +4,6 @@ use std::ptr::{null, null_mut};
 
 use super::{DECIDE, Library, PetscError, PetscInt, check, ffi, int};
 
-/// Real number in a vector that is sent as f64, the type of PETSc.
-pub trait Entry: Copy {
-    /// Nearest value of this type.
-    fn of(number: f64) -> Self;
-
-    /// Value in f64.
-    fn wide(self) -> f64;
-}
-
-impl Entry for f64 {
-    fn of(number: f64) -> Self {
-        number
-    }
-
-    fn wide(self) -> f64 {
-        self
-    }
-}
-
-impl Entry for f32 {
-    fn of(number: f64) -> Self {
-        number as Self
-    }
-
-    fn wide(self) -> f64 {
-        self.into()
-    }
-}
-
 /// Vector with some components for each row. Each rank owns some rows, and has copies of other rows.
 pub struct GhostedVector {
     _library: Library,
@@ -44,9 +15,6 @@ pub struct GhostedVector {
 impl GhostedVector {
     /// Vector with a number of owned rows on this rank and copies of the rows with the numbers `ghosts`. Rows
     /// are numbered rank after rank, and have this number of `components`.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn new(
         library: &Library,
         components: usize,
@@ -71,27 +39,31 @@ impl GhostedVector {
         Ok(Self { _library: library.clone(), raw, local, owned })
     }
 
-    /// Replaces the copies, the last rows of `all`, by the entries of their owners.
-    ///
-    /// # Errors
-    /// [`PetscError`].
-    pub fn copy<E: Entry>(&mut self, all: &mut [E]) -> Result<(), PetscError> {
+    /// Replaces the copies, the last rows of `all`, by the entries of their owners. Entries are sent in f64,
+    /// and `narrow` returns their nearest values in the type of `all`.
+    pub fn copy<E: Copy + Into<f64>>(
+        &mut self,
+        all: &mut [E],
+        narrow: impl Fn(f64) -> E,
+    ) -> Result<(), PetscError> {
         let owned = self.owned;
-        self.with_local(|entries| entries.iter_mut().zip(&all[..owned]).for_each(|(e, x)| *e = x.wide()))?;
+        self.with_local(|entries| entries.iter_mut().zip(&all[..owned]).for_each(|(e, x)| *e = (*x).into()))?;
         self.update(ffi::InsertMode_INSERT_VALUES, ffi::ScatterMode_SCATTER_FORWARD)?;
         let copies = &mut all[owned..];
-        self.with_local(|entries| copies.iter_mut().zip(&entries[owned..]).for_each(|(x, e)| *x = E::of(*e)))
+        self.with_local(|entries| copies.iter_mut().zip(&entries[owned..]).for_each(|(x, e)| *x = narrow(*e)))
     }
 
-    /// Adds the copies, the last rows of `all`, to the entries of their owners.
-    ///
-    /// # Errors
-    /// [`PetscError`].
-    pub fn sum<E: Entry>(&mut self, all: &mut [E]) -> Result<(), PetscError> {
-        self.with_local(|entries| entries.iter_mut().zip(&*all).for_each(|(e, x)| *e = x.wide()))?;
+    /// Adds the copies, the last rows of `all`, to the entries of their owners, as in
+    /// [`copy`](Self::copy).
+    pub fn sum<E: Copy + Into<f64>>(
+        &mut self,
+        all: &mut [E],
+        narrow: impl Fn(f64) -> E,
+    ) -> Result<(), PetscError> {
+        self.with_local(|entries| entries.iter_mut().zip(&*all).for_each(|(e, x)| *e = (*x).into()))?;
         self.update(ffi::InsertMode_ADD_VALUES, ffi::ScatterMode_SCATTER_REVERSE)?;
         let owned = &mut all[..self.owned];
-        self.with_local(|entries| owned.iter_mut().zip(&*entries).for_each(|(x, e)| *x = E::of(*e)))
+        self.with_local(|entries| owned.iter_mut().zip(&*entries).for_each(|(x, e)| *x = narrow(*e)))
     }
 
     fn update(&mut self, mode: ffi::InsertMode, direction: ffi::ScatterMode) -> Result<(), PetscError> {
@@ -155,12 +127,7 @@ pub(super) fn with_given<T>(raw: ffi::Vec, work: impl FnOnce(&[f64]) -> T) -> Re
     Ok(done)
 }
 
-impl Drop for GhostedVector {
-    fn drop(&mut self) {
-        // SAFETY: the vector exists, this is its only owner, and PETSc still runs.
-        let _ = unsafe { ffi::VecDestroy(&mut self.raw) };
-    }
-}
+destroyed!([] GhostedVector, ffi::VecDestroy);
 
 /// Vector of unknowns, N for each row.
 pub struct Vector<const N: usize> {
@@ -171,9 +138,6 @@ pub struct Vector<const N: usize> {
 
 impl<const N: usize> Vector<N> {
     /// Vector of zeros, with a number of rows on this rank.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn new(library: &Library, rows: usize) -> Result<Self, PetscError> {
         let mut raw = null_mut();
         // SAFETY: the result goes to a variable that outlives the call.
@@ -185,17 +149,9 @@ impl<const N: usize> Vector<N> {
     }
 
     /// Calls `work` with the entries of this rank.
-    ///
-    /// # Errors
-    /// [`PetscError`].
     pub fn with(&mut self, work: impl FnOnce(&mut [[f64; N]])) -> Result<(), PetscError> {
         with_entries(self.raw, N * self.rows, |entries| work(entries.as_chunks_mut().0))
     }
 }
 
-impl<const N: usize> Drop for Vector<N> {
-    fn drop(&mut self) {
-        // SAFETY: the vector exists, this is its only owner, and PETSc still runs.
-        let _ = unsafe { ffi::VecDestroy(&mut self.raw) };
-    }
-}
+destroyed!([const N: usize] Vector<N>, ffi::VecDestroy);

@@ -16,6 +16,11 @@ pub(crate) type TestResult = Result<(), Box<dyn Error>>;
 /// Time after which a run counts as hanging; every run of a test is shorter.
 const LIMIT: Duration = Duration::from_secs(240);
 
+/// Words of a command line without words that contain spaces.
+pub(crate) fn words(text: &str) -> Vec<String> {
+    text.split_whitespace().map(str::to_owned).collect()
+}
+
 /// Command that starts the program on a number of ranks, for any number of cores and any user.
 pub(crate) fn command(ranks: usize, words: impl IntoIterator<Item = String>) -> Command {
     let mut command = Command::new("mpirun");
@@ -43,13 +48,14 @@ pub(crate) fn finish(mut command: Command) -> Result<Output, Box<dyn Error>> {
     Ok(child.wait_with_output()?)
 }
 
-/// Runs the program, and reads the state in the checkpoint that it writes into a folder.
+/// Runs the program with results in a folder, and reads the state in the checkpoint there.
 pub(crate) fn state_after(
     ranks: usize,
     words: impl IntoIterator<Item = String>,
     folder: &Path,
 ) -> Result<State, Box<dyn Error>> {
-    let output = finish(command(ranks, words))?;
+    let out = ["--out".to_owned(), folder.display().to_string()];
+    let output = finish(command(ranks, words.into_iter().chain(out)))?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into());
     }

@@ -156,16 +156,12 @@ impl<M: Material> Material for Defective<M> {
                     blocks.twist[pair] = blocks.twist[pair] + over(other + l[2]);
                 }
             }
-            Defect::ConstantOfSinglePrecision => {
-                if R::UNIT_ROUNDOFF > 1e-10 {
-                    blocks.twist = blocks.twist.map(|twist| twist * R::splat(1.0 + 1e-4));
-                }
+            Defect::ConstantOfSinglePrecision if R::UNIT_ROUNDOFF > 1e-10 => {
+                blocks.twist = blocks.twist.map(|twist| twist * R::splat(1.0 + 1e-4));
             }
-            Defect::AnyLaneDecides => {
-                // By less than any other rule could detect.
-                if l[2].less(R::splat(0.6)).any() {
-                    blocks.hessian[0] = h11 * R::splat(1.0 + 4.0 * UNIT);
-                }
+            // By less than any other rule could detect.
+            Defect::AnyLaneDecides if l[2].less(R::splat(0.6)).any() => {
+                blocks.hessian[0] = h11 * R::splat(1.0 + 4.0 * UNIT);
             }
             Defect::LimitWhereAllAreClose => {
                 let close = (l[0] - l[2]).less(R::splat(1e-6));
