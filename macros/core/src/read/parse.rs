@@ -166,16 +166,6 @@ impl Declaration {
 /// Names with a meaning in every energy.
 pub const WORDS: [&str; 5] = ["J", "I1", "I2", "I1b", "I2b"];
 
-/// Reads the attribute's arguments and its item.
-///
-/// # Errors
-/// All mistakes of form, each at its token.
-pub fn parse(arguments: TokenStream, item: TokenStream) -> syn::Result<Declaration> {
-    let mut diagnostics = Diagnostics::default();
-    let declaration = parse_declaration(arguments, item, &mut diagnostics);
-    diagnostics.finish(declaration)
-}
-
 /// Reads the attribute's arguments and its item, and adds mistakes to the diagnostics: the rest of the
 /// declaration may have further ones in its meaning.
 pub fn parse_declaration(
