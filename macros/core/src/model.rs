@@ -358,11 +358,8 @@ fn bounds_at_rest(
         conditions.filter_map(|(condition, &id)| id.filter(|_| is_strict(condition))).collect();
     let is_parameter = |node: &Node| matches!(node, Node::Parameter(_) | Node::Entry(_) | Node::Function(..));
     let at_rest: Vec<_> = bounds.iter().map(|&bound| substitute_rest(graph, bound)).enumerate().collect();
-    let decided = at_rest.into_iter().filter(|&(_, value)| {
-        !implied.contains(&value)
-            && graph.reachable(&[value]).into_iter().any(|id| is_parameter(graph.node(id)))
-    });
-    decided.collect()
+    let is_decided = |value: Id| !implied.contains(&value) && graph.contains(value, is_parameter);
+    at_rest.into_iter().filter(|&(_, value)| is_decided(value)).collect()
 }
 
 /// λ + 2μ/3.

@@ -152,7 +152,6 @@ fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
 fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let writer = &Writer::new(declaration);
     let [l1, l2, l3] = &declaration.stretches;
-    let threshold = &writer.threshold;
     let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
                       result: &dyn Fn(&[TokenStream]) -> TokenStream| {
         let body = |model: &mut Model, roots: &[Id]| {
@@ -162,21 +161,8 @@ fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
             body
         };
         let plain = body(model, &select(&model.plain));
-        match model.extended.as_ref().map(select) {
-            None => plain,
-            Some(extended) => {
-                let extended = body(model, &extended);
-                quote! {
-                    match self.inversion {
-                        __p::Inversion::Refuse => { #plain }
-                        __p::Inversion::Extend { epsilon: #threshold } => {
-                            let #threshold = R::splat(#threshold);
-                            #extended
-                        }
-                    }
-                }
-            }
-        }
+        let extended = model.extended.as_ref().map(select);
+        writer.by_inversion(plain, extended.map(|extended| body(model, &extended)))
     };
     let energy = bodies(&|variant| vec![variant.energy], &|outputs| quote!(#(#outputs)*));
     let gradient = bodies(&|variant| variant.gradient.to_vec(), &|outputs| quote!([#(#outputs),*]));
@@ -265,19 +251,8 @@ fn admits(declaration: &Declaration, model: &mut Model, writer: &Writer<'_>) -> 
     let (plain, extended) = (model.plain.energy, model.extended.as_ref().map(|variant| variant.energy));
     let of_functions = functions::defined(declaration, model, writer, plain).map(|plain| {
         let extended = extended.and_then(|energy| functions::defined(declaration, model, writer, energy));
-        let threshold = &writer.threshold;
-        match extended.filter(|extended| extended.to_string() != plain.to_string()) {
-            None => plain,
-            Some(extended) => quote! {
-                match self.inversion {
-                    __p::Inversion::Refuse => #plain,
-                    __p::Inversion::Extend { epsilon: #threshold } => {
-                        let #threshold = R::splat(#threshold);
-                        #extended
-                    }
-                }
-            },
-        }
+        let extended = extended.filter(|extended| extended.to_string() != plain.to_string());
+        writer.by_inversion(plain, extended)
     });
     let defined = free_name(declaration, &["defined", "functions_defined"]);
     let of_functions = of_functions.map(|mask| {

@@ -61,6 +61,20 @@ impl<'a> Writer<'a> {
         Self { variables, ..self.clone() }
     }
 
+    /// The text for the material inside its domain, or else for the one that is continued beyond it.
+    pub(super) fn by_inversion(&self, plain: TokenStream, extended: Option<TokenStream>) -> TokenStream {
+        let (Some(extended), threshold) = (extended, &self.threshold) else { return plain };
+        quote! {
+            match self.inversion {
+                __p::Inversion::Refuse => { #plain }
+                __p::Inversion::Extend { epsilon: #threshold } => {
+                    let #threshold = R::splat(#threshold);
+                    #extended
+                }
+            }
+        }
+    }
+
     /// A field as a number of type `R`.
     fn field(&self, field: TokenStream) -> TokenStream {
         let material = &self.material;
@@ -275,17 +289,7 @@ impl<'a> Lines<'a> {
 
     fn new(writer: &'a Writer<'a>, program: &Program) -> Self {
         let mut reads = FxHashMap::default();
-        let mut read = |value: Value| *reads.entry(value).or_insert(0) += 1;
-        for statement in &program.statements {
-            match statement {
-                Statement::Let(_, op) => op.operands().into_iter().for_each(&mut read),
-                Statement::Loop { body, totals, .. } => {
-                    body.iter().flat_map(|(_, op)| op.operands()).for_each(&mut read);
-                    totals.iter().for_each(|&(_, term)| read(term));
-                }
-            }
-        }
-        program.outputs.iter().copied().for_each(read);
+        program.each_read(|value| *reads.entry(value).or_insert(0) += 1);
         Self { writer, statements: TokenStream::new(), names: Names::default(), reads, waiting: Vec::new() }
     }
 

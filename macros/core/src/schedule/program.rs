@@ -201,9 +201,25 @@ pub struct Program {
 impl Program {
     /// All operations in order, those of loops among them.
     pub fn operations(&self) -> impl Iterator<Item = (Value, Op)> {
-        self.statements.iter().flat_map(|statement| match statement {
-            Statement::Let(value, op) => vec![(*value, *op)],
-            Statement::Loop { body, .. } => body.clone(),
+        self.statements.iter().flat_map(|statement| {
+            let (one, body) = match statement {
+                Statement::Let(value, op) => (Some((*value, *op)), &[][..]),
+                Statement::Loop { body, .. } => (None, &body[..]),
+            };
+            one.into_iter().chain(body.iter().copied())
         })
+    }
+
+    /// Calls a function for each value that operations and totals read, and for each output.
+    pub(crate) fn each_read(&self, mut show: impl FnMut(Value)) {
+        for (_, mut op) in self.operations() {
+            op.each_operand(|value| show(*value));
+        }
+        for statement in &self.statements {
+            if let Statement::Loop { totals, .. } = statement {
+                totals.iter().for_each(|&(_, term)| show(term));
+            }
+        }
+        self.outputs.iter().copied().for_each(show);
     }
 }

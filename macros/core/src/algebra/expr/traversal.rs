@@ -126,6 +126,12 @@ impl Graph {
         roots.iter().map(|root| depths[root]).max().unwrap_or(0)
     }
 
+    /// True if an expression contains such a node, or is one.
+    #[must_use]
+    pub fn contains(&self, id: Id, is: impl Fn(&Node) -> bool) -> bool {
+        self.reachable(&[id]).into_iter().any(|id| is(self.node(id)))
+    }
+
     /// All nodes below the roots, roots included, children before parents.
     #[must_use]
     pub fn reachable(&self, roots: &[Id]) -> Vec<Id> {
