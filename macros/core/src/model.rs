@@ -174,7 +174,8 @@ pub const MOST_PARAMETERS: usize = 512;
 const DEEPEST: usize = 256;
 
 /// The model of a declaration: resolved, checked and differentiated. Its expressions, derivatives included,
-/// have at most this size; `None` for no limit except memory. If the declaration has mistakes of form, only its names are resolved and checked.
+/// have at most this size; `None` for no limit except memory. If the declaration has mistakes of form, only
+/// its names are resolved and checked.
 pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics, most: Option<usize>) -> Option<Model> {
     let parameters = declaration.parameters.len();
     if most.is_some() && parameters > MOST_PARAMETERS {

@@ -19,41 +19,27 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     let naming = naming(declaration);
     let computed = computed(declaration, model);
     let constants = constants(declaration, model);
-    if !declaration.is_plain() {
-        return quote! {
-            #[allow(unused_variables, clippy::all)]
-            #naming
-            impl #bounds ::piola::Material for #name #arguments {
-                #computed
-                #constants
-            }
-
-            impl #bounds __p::Graded for #name #arguments {
-                type OnLanes<'lanes> = &'lanes Self;
-
-                #[inline(always)]
-                fn on_lanes<'lanes>(material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy) -> Self::OnLanes<'lanes>
-                where
-                    Self: 'lanes,
-                {
-                    material(0)
-                }
-
-                fn shares_lanes(&self, other: &Self) -> bool {
-                    ::core::ptr::eq(self, other) || self == other
-                }
-            }
-        };
-    }
+    let lengths = &declaration.generics;
     let value = value_parameter(declaration);
     let kept = value.as_ref().map(|value| quote!(#value: __p::ParameterValue));
-    let lengths = &declaration.generics;
-    let (on_lanes, gathered) = per_lane(declaration);
+    let (implementation, (on_lanes, gathered), shares_lanes) = if declaration.is_plain() {
+        let implementation =
+            quote!(impl<#(const #lengths: usize,)* #kept> ::piola::Material for #name<#(#lengths,)* #value>);
+        (implementation, per_lane(declaration), None)
+    } else {
+        let shares_lanes = quote! {
+            fn shares_lanes(&self, other: &Self) -> bool {
+                ::core::ptr::eq(self, other) || self == other
+            }
+        };
+        let implementation = quote!(impl #bounds ::piola::Material for #name #arguments);
+        (implementation, (quote!(&'lanes Self), quote!(material(0))), Some(shares_lanes))
+    };
     // What is not inlined into the function of a back end is not compiled for its instructions.
     quote! {
         #[allow(unused_variables, clippy::all)]
         #naming
-        impl<#(const #lengths: usize,)* #kept> ::piola::Material for #name<#(#lengths,)* #value> {
+        #implementation {
             #computed
             #constants
         }
@@ -68,6 +54,8 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
             {
                 #gathered
             }
+
+            #shares_lanes
         }
     }
 }

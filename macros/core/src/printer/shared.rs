@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{Notation, Printer, subscript};
-use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::expr::{Graph, Id};
 use crate::read::parse::Declaration;
 
 /// Formulas and the parts that they share.
@@ -39,7 +39,7 @@ fn share(mut printer: Printer<'_>, roots: &[Id]) -> Formulas {
         return Formulas { parts: Vec::new(), formulas };
     }
     let order = printer.graph.reachable(roots);
-    let is_entry = entries(printer.graph, &order);
+    let lists = printer.graph.lists(&order);
     let mut candidates = shared(printer.graph, roots, &order);
     loop {
         printer.named.clear();
@@ -48,7 +48,7 @@ fn share(mut printer: Printer<'_>, roots: &[Id]) -> Formulas {
         for &id in &candidates {
             let text = printer.line(id);
             if text.chars().count() >= SHORTEST {
-                let name = name(parts.len() + 1, is_entry[&id]);
+                let name = name(parts.len() + 1, lists[&id].is_some());
                 printer.named.insert(id, name.clone());
                 parts.push((name, text));
             }
@@ -75,20 +75,6 @@ fn shared(graph: &Graph, roots: &[Id], order: &[Id]) -> Vec<Id> {
         *parents.entry(id).or_default() += 1;
     }
     order.iter().copied().filter(|id| parents[id] > 1).collect()
-}
-
-/// For each node, true if its value differs from term to term of a sum over lists.
-fn entries(graph: &Graph, order: &[Id]) -> HashMap<Id, bool> {
-    let mut is_entry = HashMap::new();
-    for &id in order {
-        let varies = match graph.node(id) {
-            Node::Entry(_) => true,
-            Node::Sum(..) => false,
-            _ => graph.children(id).iter().any(|child| is_entry[child]),
-        };
-        is_entry.insert(id, varies);
-    }
-    is_entry
 }
 
 fn name(number: usize, is_entry: bool) -> String {

@@ -144,10 +144,7 @@ impl Op {
             | Self::Below(a, b)
             | Self::WholePower(a, b, _)
             | Self::ElementaryQuotient(_, a, b)
-            | Self::FunctionQuotient(.., a, b) => {
-                show(a);
-                show(b);
-            }
+            | Self::FunctionQuotient(.., a, b) => [a, b].into_iter().for_each(show),
             Self::WholePowerQuotient([a, b], c, _)
             | Self::LnProduct([a, b, c])
             | Self::MulAdd(a, b, c)
@@ -155,11 +152,7 @@ impl Op {
             | Self::MulSub(a, b, c)
             | Self::WhereNegative(a, b, c)
             | Self::ShareAbove(a, b, c)
-            | Self::ShareBelow(a, b, c) => {
-                show(a);
-                show(b);
-                show(c);
-            }
+            | Self::ShareBelow(a, b, c) => [a, b, c].into_iter().for_each(show),
             Self::Pair { values, reciprocals, logarithms } => {
                 [values, reciprocals, logarithms].into_iter().flatten().for_each(show);
             }

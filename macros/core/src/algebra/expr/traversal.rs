@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Exponent, Extended, Graph, Id, Node};
+use super::{Exponent, Extended, Graph, Id, Node, ParameterIndex};
 
 impl Graph {
     /// Direct subexpressions, exponents included.
@@ -124,6 +124,23 @@ impl Graph {
             depths.insert(id, inner + 1);
         }
         roots.iter().map(|root| depths[root]).max().unwrap_or(0)
+    }
+
+    /// For each of these nodes, children before parents, a list with whose entries its value changes from term
+    /// to term of a sum.
+    #[must_use]
+    pub fn lists(&self, order: &[Id]) -> FxHashMap<Id, Option<ParameterIndex>> {
+        let mut lists: FxHashMap<Id, Option<ParameterIndex>> = FxHashMap::default();
+        for &id in order {
+            let list = match *self.node(id) {
+                Node::Entry(k) => Some(k),
+                // Entries inside a sum are none outside.
+                Node::Sum(..) => None,
+                _ => self.children(id).iter().find_map(|child| lists.get(child).copied().flatten()),
+            };
+            lists.insert(id, list);
+        }
+        lists
     }
 
     /// True if an expression contains such a node, or is one.
