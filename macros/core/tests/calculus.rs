@@ -87,20 +87,6 @@ fn nothing_is_divided_by_a_difference_of_stretches() {
     }
 }
 
-/// I1b is even in each pair of stretches: the twist quotient of a power of it has no quotient of powers, and
-/// no power of a mirrored I1b.
-#[test]
-fn twists_of_isochoric_powers_need_one_power() {
-    let item = quote! {
-        fn E([l1, l2, l3]: [f64; 3], mu: f64, n: f64) -> f64 { mu / n * (I1b / 3.0).powf(n) + mu * (J - 1.0).powi(2) }
-    };
-    let mut model = compile("power of I1b", &quote!(domain(J > 0.0)), &item);
-    let twist = model.plain.twist;
-    let program = model.program(&twist);
-    assert_eq!(count(&program, |op| matches!(op, Op::Power(..))), 1);
-    assert_eq!(count(&program, |op| matches!(op, Op::PowerQuotient { .. })), 0);
-}
-
 /// Far outside its domain an exponential overflows, which does not reveal its parity: the pole must stay.
 #[test]
 fn overflow_is_no_parity() {

@@ -139,7 +139,8 @@ fn by_parameters(declaration: &Declaration) -> String {
     }
     let functions = if declaration.has_functions() { ", and by each value of a function" } else { "" };
     format!(
-        "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each{functions}."
+        "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by \
+         each{functions}."
     )
 }
 

@@ -156,11 +156,6 @@ impl Declaration {
     pub(crate) fn has_units(&self) -> bool {
         self.parameters.iter().any(|parameter| matches!(Unit::read(&parameter.doc), Ok(Some(_))))
     }
-
-    /// The exponent of Pa in the unit of each parameter; `None` without one.
-    pub(crate) fn pascals(&self) -> Vec<Option<i64>> {
-        self.parameters.iter().map(|parameter| parameter.unit().map(Unit::pascals)).collect()
-    }
 }
 
 /// Names with a meaning in every energy.
