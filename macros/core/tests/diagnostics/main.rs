@@ -9,7 +9,6 @@
 
 mod remedies;
 
-use piola_codegen::algebra::interpret::evaluate;
 use proc_macro2::TokenStream;
 
 /// The messages of a declaration, each with the tokens that it stands on.
@@ -149,25 +148,4 @@ fn tensors() {
         check(format!("tr({other})"), "tr", "write the sum of the eigenvalues, of C `l1.powi(2)`");
         check(format!("({other}).trace()"), "trace", "write the sum of the eigenvalues");
     }
-}
-
-#[test]
-fn parts_are_named_inside_sums() {
-    let energies = |sum: &str| {
-        let energy = "mu * (I1 - 3.0 - 2.0 * J.ln())";
-        let item = format!(
-            "fn E<const N: usize>([l1, l2, l3]: [f64; 3], mu: f64, m: [f64; N]) -> f64 {{ {energy} + {sum} }}"
-        );
-        let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
-        let (_, model) = piola_codegen::analyse(tokens("domain(J > 0.0)"), tokens(&item), None).expect(sum);
-        let point = &model.samples[0];
-        [model.energy, model.plain.energy].map(|id| evaluate(&model.graph, id, point).value)
-    };
-    let written_out = "sum(|p| (l1.powf(m[p]) + l2.powf(m[p]) + l3.powf(m[p]) - 3 - m[p] * J.ln()).exp())";
-    let named = "sum(|p| {
-        let s = l1.powf(m[p]) + l2.powf(m[p]) + l3.powf(m[p]) - 3;
-        let q = s - m[p] * J.ln();
-        q.exp()
-    })";
-    assert_eq!(energies(named), energies(written_out));
 }
