@@ -59,90 +59,80 @@ pub fn Springs([l1, l2, l3]: [f64; 3]) -> f64 {
 
 /// Materials with names that their own expansions use, each in a block of its own.
 macro_rules! with_names {
-    ($($declare:ident: $($name:ident)*;)*) => { $($($declare!($name);)*)* };
+    ($($declare:ident: $($name:ident)*;)*) => { $($(const _: () = { $declare!($name); };)*)* };
 }
 
 macro_rules! types {
     ($name:ident) => {
-        const _: () = {
-            /// Rubber.
-            #[piola::material(domain(J > 0.0), extend, fit)]
-            fn $name(
-                [l1, l2, l3]: [f64; 3],
-                /** Pa. */
-                mu: f64,
-                /** Pa. */
-                lambda: f64,
-            ) -> f64 {
-                mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-            }
-        };
+        /// Rubber.
+        #[piola::material(domain(J > 0.0), extend, fit)]
+        fn $name(
+            [l1, l2, l3]: [f64; 3],
+            /** Pa. */
+            mu: f64,
+            /** Pa. */
+            lambda: f64,
+        ) -> f64 {
+            mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+        }
     };
 }
 
 macro_rules! numbers {
     ($name:ident) => {
-        const _: () = {
-            /// Rubber.
-            #[piola::material(domain(J > 0.0), admissible($name > 0.0), extend($name > 0.0), fit)]
-            fn Energy(
-                [l1, l2, l3]: [f64; 3],
-                /** Pa. */
-                $name: f64,
-                /** Pa. */
-                lambda: f64,
-            ) -> f64 {
-                $name / 2.0 * (I1 - 3.0) - $name * J.ln() + lambda / 2.0 * J.ln().powi(2)
-            }
-        };
+        /// Rubber.
+        #[piola::material(domain(J > 0.0), admissible($name > 0.0), extend($name > 0.0), fit)]
+        fn Energy(
+            [l1, l2, l3]: [f64; 3],
+            /** Pa. */
+            $name: f64,
+            /** Pa. */
+            lambda: f64,
+        ) -> f64 {
+            $name / 2.0 * (I1 - 3.0) - $name * J.ln() + lambda / 2.0 * J.ln().powi(2)
+        }
     };
 }
 
 macro_rules! lists {
     ($name:ident) => {
-        const _: () = {
-            /// Sum.
-            #[piola::material(domain(J > 0.0), admissible($name[p] > 0.0), extend, fit)]
-            fn Energy<const N: usize>(
-                [l1, l2, l3]: [f64; 3],
-                /** Pa. */
-                $name: [f64; N],
-            ) -> f64 {
-                sum(|p| $name[p] * (I1 - 3.0 - 2.0 * J.ln()))
-            }
-        };
+        /// Sum.
+        #[piola::material(domain(J > 0.0), admissible($name[p] > 0.0), extend, fit)]
+        fn Energy<const N: usize>(
+            [l1, l2, l3]: [f64; 3],
+            /** Pa. */
+            $name: [f64; N],
+        ) -> f64 {
+            sum(|p| $name[p] * (I1 - 3.0 - 2.0 * J.ln()))
+        }
     };
 }
 
 macro_rules! stretches {
     ($name:ident) => {
-        const _: () = {
-            /// Logarithms.
-            #[piola::material(domain(J > 0.0), extend, fit)]
-            fn Energy(
-                [$name, l2, l3]: [f64; 3],
-                /** Pa. */
-                mu: f64,
-            ) -> f64 {
-                mu * ($name.ln().powi(2) + l2.ln().powi(2) + l3.ln().powi(2))
-            }
-        };
+        /// Logarithms.
+        #[piola::material(domain(J > 0.0), extend, fit)]
+        fn Energy(
+            [$name, l2, l3]: [f64; 3],
+            /** Pa. */
+            mu: f64,
+        ) -> f64 {
+            mu * ($name.ln().powi(2) + l2.ln().powi(2) + l3.ln().powi(2))
+        }
     };
 }
 
 macro_rules! lengths {
     ($name:ident) => {
-        const _: () = {
-            /// Sum.
-            #[piola::material(domain(J > 0.0), extend, fit)]
-            fn Energy<const $name: usize>(
-                [l1, l2, l3]: [f64; 3],
-                /** Pa. */
-                mu: [f64; $name],
-            ) -> f64 {
-                sum(|p| mu[p] * (I1 - 3.0 - 2.0 * J.ln()))
-            }
-        };
+        /// Sum.
+        #[piola::material(domain(J > 0.0), extend, fit)]
+        fn Energy<const $name: usize>(
+            [l1, l2, l3]: [f64; 3],
+            /** Pa. */
+            mu: [f64; $name],
+        ) -> f64 {
+            sum(|p| mu[p] * (I1 - 3.0 - 2.0 * J.ln()))
+        }
     };
 }
 

@@ -2,8 +2,8 @@
 
 use piola::Inversion;
 use piola_codegen::algebra::interpret::{Memo, Point, evaluate, evaluate_with};
-use piola_codegen::model::{Model, model};
-use piola_codegen::read::parse::{Declaration, parse};
+use piola_codegen::model::Model;
+use piola_codegen::read::parse::Declaration;
 
 /// The declaration of a text, and its expressions.
 ///
@@ -14,9 +14,7 @@ pub fn understood(text: &str) -> Result<(Declaration, Model), String> {
     let (Some((arguments, item)), true) = (all.pop(), all.is_empty()) else {
         return Err(format!("not one declaration: {text}"));
     };
-    let declaration = parse(arguments, item).map_err(|error| format!("{error}: {text}"))?;
-    let model = model(&declaration).map_err(|error| format!("{error}: {text}"))?;
-    Ok((declaration, model))
+    piola_codegen::analyse(arguments, item, None).map_err(|error| format!("{error}: {text}"))
 }
 
 /// An energy with parameters, as expressions.

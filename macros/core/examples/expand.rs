@@ -30,16 +30,6 @@ mod tests {
     use super::expansions;
 
     #[test]
-    fn materials_are_found_in_modules() {
-        let declaration =
-            "#[material] fn Solid([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * (I1 - 2.0 * J - 1.0) }";
-        for source in [declaration.to_owned(), format!("pub mod solids {{ mod inner {{ {declaration} }} }}")]
-        {
-            assert!(expansions(&source).expect("a material").contains("struct Solid"), "{source}");
-        }
-    }
-
-    #[test]
     fn a_file_without_materials_is_a_failure() {
         let error = expansions("mod elsewhere; fn main() {}").expect_err("no material");
         assert_eq!(error.to_string(), "no function has the attribute `material`");

@@ -162,14 +162,11 @@ fn values(graph: &mut Graph, source: &Source<'_>, derived: &Derived, samples: &[
 
 /// Checks that the words of the attribute fit the declaration. The domain of one with mistakes of form is not
 /// judged.
-fn options(source: &Source<'_>, is_well_formed: bool) -> Vec<Finding> {
+fn options(source: &Source<'_>, is_well_formed: bool) -> Option<Finding> {
     let options = &source.declaration.options;
-    let word = |name: &str| options.words.iter().find(|word| *word == name);
-    let mut findings = Vec::new();
-    if is_well_formed && options.extend.is_some() && source.volume == Volume::Any {
-        findings.push(Finding::new(word("extend"), Violation::ExtendWithoutDomain));
-    }
-    findings
+    let word = options.words.iter().find(|word| *word == "extend");
+    (is_well_formed && options.extend.is_some() && source.volume == Volume::Any)
+        .then(|| Finding::new(word, Violation::ExtendWithoutDomain))
 }
 
 /// Checks that no real power of an expression that vanishes at rest is to be continued.

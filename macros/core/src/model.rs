@@ -167,24 +167,15 @@ impl Variant {
     }
 }
 
-/// The model of a declaration: resolved, checked and differentiated.
-///
-/// # Errors
-/// All mistakes of meaning, each at its tokens.
-pub fn model(declaration: &Declaration) -> syn::Result<Model> {
-    let mut diagnostics = Diagnostics::default();
-    let model = read(declaration, &mut diagnostics, None);
-    diagnostics.finish(model)
-}
-
 /// Maximum number of parameters of an energy whose size is limited: each needs a register.
 pub const MOST_PARAMETERS: usize = 512;
 
 /// Maximum depth of expressions in an energy whose size is limited: algebra descends into them.
 const DEEPEST: usize = 256;
 
-/// The model of a declaration whose expressions, derivatives included, have at most this size; `None` for no
-/// limit except memory. If the declaration has mistakes of form, only its names are resolved and checked.
+/// The model of a declaration: resolved, checked and differentiated. Its expressions, derivatives included,
+/// have at most this size; `None` for no limit except memory. If the declaration has mistakes of form, only
+/// its names are resolved and checked.
 pub fn read(declaration: &Declaration, diagnostics: &mut Diagnostics, most: Option<usize>) -> Option<Model> {
     let parameters = declaration.parameters.len();
     if most.is_some() && parameters > MOST_PARAMETERS {
@@ -368,11 +359,8 @@ fn bounds_at_rest(
         conditions.filter_map(|(condition, &id)| id.filter(|_| is_strict(condition))).collect();
     let is_parameter = |node: &Node| matches!(node, Node::Parameter(_) | Node::Entry(_) | Node::Function(..));
     let at_rest: Vec<_> = bounds.iter().map(|&bound| substitute_rest(graph, bound)).enumerate().collect();
-    let decided = at_rest.into_iter().filter(|&(_, value)| {
-        !implied.contains(&value)
-            && graph.reachable(&[value]).into_iter().any(|id| is_parameter(graph.node(id)))
-    });
-    decided.collect()
+    let is_decided = |value: Id| !implied.contains(&value) && graph.contains(value, is_parameter);
+    at_rest.into_iter().filter(|&(_, value)| is_decided(value)).collect()
 }
 
 /// λ + 2μ/3.

@@ -437,32 +437,20 @@ fn symbol(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use quote::{ToTokens, quote};
+    use quote::quote;
 
     use super::*;
-    use crate::model::model;
+    use crate::analyse;
     use crate::read::diagnostics::Diagnostics;
-    use crate::read::parse::parse;
+    use crate::read::parse::parse_declaration;
     use crate::read::resolve::Resolver;
-
-    #[test]
-    fn moduli_gather_powers_of_numbers() {
-        let item = quote! {
-            fn E([l1, l2, l3]: [f64; 3], A: f64, n: f64) -> f64 { A * (I1.powf(n) + (I2 / J.powi(2)).powf(n)) }
-        };
-        let declaration = parse(quote!(domain(J > 0.0)), item).unwrap();
-        let mut model = model(&declaration).unwrap();
-        let moduli = model.moduli.map(|modulus| formula(&mut model.graph, &declaration, modulus));
-        assert_eq!(moduli, ["4/3 A n 3^n", "8/9 A n² 3^n − 8/9 A n 3^n"]);
-    }
 
     #[test]
     fn powers_of_the_volume_are_printed_as_such() {
         let check = |energy: &str, expected: &str| {
             let body: syn::Expr = syn::parse_str(energy).unwrap();
             let item = quote!(fn E([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * (#body) });
-            let declaration = parse(quote!(domain(J > 0.0), prestressed), item).unwrap();
-            let mut model = model(&declaration).unwrap();
+            let (declaration, mut model) = analyse(quote!(domain(J > 0.0), prestressed), item, None).unwrap();
             assert_eq!(formula(&mut model.graph, &declaration, model.energy), expected);
         };
         check("I1 + J.powi(2) - 2 * J", "μ (I1 + J² − 2 J)");
@@ -484,8 +472,9 @@ mod tests {
                     #body
                 }
             };
-            let declaration = parse(quote!(), item.to_token_stream()).unwrap();
-            let energy = Resolver::new(&declaration, graph, &mut Diagnostics::default()).energy();
+            let mut diagnostics = Diagnostics::default();
+            let declaration = parse_declaration(quote!(), item, &mut diagnostics).unwrap();
+            let energy = Resolver::new(&declaration, graph, &mut diagnostics).energy();
             (rust(graph, &declaration, energy), energy)
         };
         let mut graph = Graph::default();

@@ -3,8 +3,8 @@
 
 use catalogue::{Declared, catalogue};
 use piola_codegen::algebra::interpret::{Point, evaluate};
-use piola_codegen::model::{Model, model};
-use piola_codegen::read::parse::parse;
+use piola_codegen::analyse;
+use piola_codegen::model::Model;
 use piola_codegen::schedule::{Op, Program};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -13,7 +13,8 @@ use quote::quote;
 mod catalogue;
 
 fn compile(name: &str, arguments: &TokenStream, item: &TokenStream) -> Model {
-    parse(arguments.clone(), item.clone()).and_then(|d| model(&d)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    let analysed = analyse(arguments.clone(), item.clone(), None);
+    analysed.map_or_else(|error| panic!("{name}: {error}"), |(_, model)| model)
 }
 
 /// The energies of the catalogue, with the names of their files.
@@ -72,8 +73,7 @@ fn twists_have_poles_exactly_where_the_stress_jumps() {
 fn nothing_is_divided_by_a_difference_of_stretches() {
     for (name, mut model) in models() {
         for variant in [Some(model.plain.clone()), model.extended.clone()].into_iter().flatten() {
-            let roots = [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat();
-            let program = model.program(&roots);
+            let program = model.program(&variant.blocks());
             let operations: Vec<_> = program.operations().collect();
             let of = |value| operations.iter().find(|(v, _)| *v == value).map(|(_, op)| *op);
             for (_, op) in &operations {
@@ -85,20 +85,6 @@ fn nothing_is_divided_by_a_difference_of_stretches() {
             }
         }
     }
-}
-
-/// I1b is even in each pair of stretches: the twist quotient of a power of it has no quotient of powers, and
-/// no power of a mirrored I1b.
-#[test]
-fn twists_of_isochoric_powers_need_one_power() {
-    let item = quote! {
-        fn E([l1, l2, l3]: [f64; 3], mu: f64, n: f64) -> f64 { mu / n * (I1b / 3.0).powf(n) + mu * (J - 1.0).powi(2) }
-    };
-    let mut model = compile("power of I1b", &quote!(domain(J > 0.0)), &item);
-    let twist = model.plain.twist;
-    let program = model.program(&twist);
-    assert_eq!(count(&program, |op| matches!(op, Op::Power(..))), 1);
-    assert_eq!(count(&program, |op| matches!(op, Op::PowerQuotient { .. })), 0);
 }
 
 /// Far outside its domain an exponential overflows, which does not reveal its parity: the pole must stay.
@@ -123,9 +109,7 @@ fn literal_exponents_are_real_powers_unless_they_are_simple_fractions() {
         }
     };
     let mut model = compile("literal exponents", &quote!(domain(J > 0.0), prestressed), &item);
-    let variant = model.plain.clone();
-    let roots = [&variant.gradient[..], &variant.hessian, &variant.flip, &variant.twist].concat();
-    let program = model.program(&roots);
+    let program = model.program(&model.plain.blocks());
     assert_eq!(count(&program, |op| matches!(op, Op::Power(..))), 3);
     assert_eq!(count(&program, |op| matches!(op, Op::PowerQuotient { .. })), 3);
     assert_eq!(count(&program, |op| matches!(op, Op::Sqrt(_))), 3);
@@ -171,8 +155,7 @@ fn formulas_are_cut_off() {
     let body: TokenStream =
         format!("{{ {body} mu * (v24.powi(2) + I1 * I1 / 3.0 - I2) }}").parse().expect("tokens");
     let item = quote!(fn E([x, y, z]: [f64; 3], mu: f64) -> f64 #body);
-    let mut model = compile("shared", &quote!(), &item);
-    let declaration = parse(quote!(), item).expect("a declaration");
+    let (declaration, mut model) = analyse(quote!(), item, None).expect("an energy");
     let text = piola_codegen::printer::formula(&mut model.graph, &declaration, model.energy);
     assert!(text.contains('…') && text.len() < 20_000, "{} bytes", text.len());
 }

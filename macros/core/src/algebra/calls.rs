@@ -1,7 +1,5 @@
 //! Calls f(x) of functions that are parameters: an energy is defined where each f is at its x.
 
-use rustc_hash::FxHashMap;
-
 use crate::algebra::expr::{Graph, Id, Node, ParameterIndex};
 
 /// A call of a function that is a parameter.
@@ -17,21 +15,13 @@ pub struct Call {
 
 /// The calls in an expression, each once.
 pub fn calls(graph: &Graph, e: Id) -> Vec<Call> {
-    let mut lists = FxHashMap::default();
-    let mut calls: Vec<Call> = Vec::new();
-    for id in graph.reachable(&[e]) {
-        let list = match *graph.node(id) {
-            Node::Entry(k) => Some(k),
-            // Entries inside a sum are none outside.
-            Node::Sum(..) => None,
-            _ => graph.children(id).iter().find_map(|child| lists.get(child).copied().flatten()),
-        };
-        lists.insert(id, list);
-        if let Node::Function(function, 0, argument) = *graph.node(id) {
-            calls.push(Call { function, argument, list });
-        }
-    }
-    calls
+    let order = graph.reachable(&[e]);
+    let lists = graph.lists(&order);
+    let call = |id: Id| match *graph.node(id) {
+        Node::Function(function, 0, argument) => Some(Call { function, argument, list: lists[&id] }),
+        _ => None,
+    };
+    order.into_iter().filter_map(call).collect()
 }
 
 #[cfg(test)]

@@ -72,34 +72,35 @@ fn polynomial(graph: &mut Graph, function: Extended, order: u8, i: Stretch) -> I
 
 /// The value of φ, φ′, φ″ … at any argument.
 pub fn derivative(graph: &mut Graph, function: Extended, order: u8, at: Id) -> Id {
-    match (function, order) {
-        (Extended::Ln, 0) => graph.ln(at),
-        (Extended::Ln, _) => {
-            let power = graph.powi(at, -i64::from(order));
-            graph.scale(power, ln_coefficient(order))
-        }
-        (Extended::Power(exponent), _) => {
-            let coefficient = falling(graph, exponent, order);
-            let lowered = graph.add_exponents(exponent, Exponent::integer(-i64::from(order)));
-            let power = graph.power(at, lowered);
-            graph.mul(coefficient, power)
-        }
-    }
+    rule(graph, function, order, |graph| graph.ln(at), |graph, exponent| graph.power(at, exponent))
 }
 
 /// Divided difference of φ, φ′ or φ″ between a and b.
 pub fn derivative_quotient(graph: &mut Graph, function: Extended, order: u8, a: Id, b: Id) -> Id {
-    match (function, order) {
-        (Extended::Ln, 0) => graph.leaf(Node::LnQuotient(a, b)),
-        (Extended::Ln, _) => {
-            let quotient = power_quotient(graph, a, b, Exponent::integer(-i64::from(order)));
-            graph.scale(quotient, ln_coefficient(order))
+    let ln = |graph: &mut Graph| graph.leaf(Node::LnQuotient(a, b));
+    rule(graph, function, order, ln, |graph, exponent| power_quotient(graph, a, b, exponent))
+}
+
+/// A derivative of φ, or its divided difference, from those of ln x and x^r.
+fn rule(
+    graph: &mut Graph,
+    function: Extended,
+    order: u8,
+    ln: impl FnOnce(&mut Graph) -> Id,
+    power: impl FnOnce(&mut Graph, Exponent) -> Id,
+) -> Id {
+    let lowering = Exponent::integer(-i64::from(order));
+    match function {
+        Extended::Ln if order == 0 => ln(graph),
+        Extended::Ln => {
+            let power = power(graph, lowering);
+            graph.scale(power, ln_coefficient(order))
         }
-        (Extended::Power(exponent), _) => {
+        Extended::Power(exponent) => {
             let coefficient = falling(graph, exponent, order);
-            let lowered = graph.add_exponents(exponent, Exponent::integer(-i64::from(order)));
-            let quotient = power_quotient(graph, a, b, lowered);
-            graph.mul(coefficient, quotient)
+            let lowered = graph.add_exponents(exponent, lowering);
+            let power = power(graph, lowered);
+            graph.mul(coefficient, power)
         }
     }
 }

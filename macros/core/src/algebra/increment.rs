@@ -101,7 +101,8 @@ impl Increments {
                 let (df, dg) = (self.increment(graph, f), self.increment(graph, g));
                 let f_at_rest = substitute_rest(graph, f);
                 // Only its exponent decides whether a whole power vanishes at rest.
-                let g = if has_whole_powers(graph, g) { self.accurate(graph, g) } else { g };
+                let has_whole_powers = graph.contains(g, |node| matches!(node, Node::WholePower(..)));
+                let g = if has_whole_powers { self.accurate(graph, g) } else { g };
                 let (left, right) = (graph.mul(df, g), graph.mul(f_at_rest, dg));
                 graph.add(left, right)
             }
@@ -130,11 +131,6 @@ impl Increments {
         let outer = outer(graph, a, b);
         graph.mul(outer, inner)
     }
-}
-
-/// True if an expression has powers whose exponents are parameters.
-fn has_whole_powers(graph: &Graph, e: Id) -> bool {
-    graph.reachable(&[e]).into_iter().any(|id| matches!(graph.node(id), Node::WholePower(..)))
 }
 
 /// True if an expression that depends on the stretches is zero at rest by its form.

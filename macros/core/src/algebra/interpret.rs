@@ -121,16 +121,14 @@ impl Interpreter<'_> {
                 Estimate { value: found, magnitude: found.abs() + (slope * magnitude).abs() }
             }
             Node::ElementaryQuotient(function, a, b) => {
-                let (a, b) = (self.value(*a).value, self.value(*b).value);
-                exact(function.quotient_value(a, b))
+                self.quotient(*a, *b, |a, b| function.quotient_value(a, b))
             }
             Node::Function(k, order, a) => {
                 let Estimate { value, magnitude } = self.value(*a);
                 Estimate { value: stand_in(*k, *order, value), magnitude: 4.0 * (1.0 + magnitude) }
             }
             Node::FunctionQuotient(k, order, a, b) => {
-                let (a, b) = (self.value(*a).value, self.value(*b).value);
-                exact(stand_in_quotient(*k, *order, a, b))
+                self.quotient(*a, *b, |a, b| stand_in_quotient(*k, *order, a, b))
             }
             Node::WholePower(base, n, order) => {
                 let Estimate { value, magnitude } = self.value(*base);
@@ -187,18 +185,11 @@ impl Interpreter<'_> {
                 let is_negative = self.value(*condition).value < 0.0;
                 self.value(if is_negative { *a } else { *b })
             }
-            Node::LnQuotient(a, b) => {
-                let (a, b) = (self.value(*a).value, self.value(*b).value);
-                exact(ln_quotient(a, b))
-            }
-            Node::ExpQuotient(a, b) => {
-                let (a, b) = (self.value(*a).value, self.value(*b).value);
-                exact(exp_quotient(a, b))
-            }
+            Node::LnQuotient(a, b) => self.quotient(*a, *b, ln_quotient),
+            Node::ExpQuotient(a, b) => self.quotient(*a, *b, exp_quotient),
             Node::PowerQuotient(a, b, exponent) => {
                 let r = self.exponent(*exponent);
-                let (a, b) = (self.value(*a).value, self.value(*b).value);
-                exact(power_quotient(a, b, r))
+                self.quotient(*a, *b, |a, b| power_quotient(a, b, r))
             }
             Node::PoleQuotient(a, b) => {
                 let Estimate { value, magnitude } = self.value(*a);
@@ -206,6 +197,12 @@ impl Interpreter<'_> {
                 Estimate { value: value / denominator, magnitude: (magnitude / denominator).abs() }
             }
         }
+    }
+
+    /// A divided difference without rounding errors of its arguments.
+    fn quotient(&mut self, a: Id, b: Id, of: impl FnOnce(f64, f64) -> f64) -> Estimate {
+        let value = of(self.value(a).value, self.value(b).value);
+        Estimate { value, magnitude: value.abs() }
     }
 
     fn exponent(&mut self, exponent: Exponent) -> f64 {

@@ -23,11 +23,8 @@ type Polynomial = [Rational; 3];
 pub fn without_stretches(graph: &mut Graph, e: Id) -> Option<Id> {
     let mut done = FxHashMap::default();
     let rewritten = rewrite(graph, e, &mut done);
-    (!has_stretch(graph, rewritten)).then_some(rewritten)
-}
-
-fn has_stretch(graph: &Graph, e: Id) -> bool {
-    graph.reachable(&[e]).into_iter().any(|id| matches!(graph.node(id), Node::Strain(_)))
+    let has_stretch = graph.contains(rewritten, |node| matches!(node, Node::Strain(_)));
+    (!has_stretch).then_some(rewritten)
 }
 
 fn rewrite(graph: &mut Graph, e: Id, done: &mut FxHashMap<Id, Id>) -> Id {

@@ -134,17 +134,14 @@ fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
 
 /// The effect of the word `fit`.
 fn by_parameters(declaration: &Declaration) -> String {
-    let text = match declaration.has_functions() {
-        _ if !declaration.options.fit => "",
-        false => {
-            "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each."
-        }
-        true => {
-            "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by each, and by \
-             each value of a function."
-        }
-    };
-    text.to_owned()
+    if !declaration.options.fit {
+        return String::new();
+    }
+    let functions = if declaration.has_functions() { ", and by each value of a function" } else { "" };
+    format!(
+        "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by \
+         each{functions}."
+    )
 }
 
 /// Formulas, their shared parts first.

@@ -19,41 +19,27 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
     let naming = naming(declaration);
     let computed = computed(declaration, model);
     let constants = constants(declaration, model);
-    if !declaration.is_plain() {
-        return quote! {
-            #[allow(unused_variables, clippy::all)]
-            #naming
-            impl #bounds ::piola::Material for #name #arguments {
-                #computed
-                #constants
-            }
-
-            impl #bounds __p::Graded for #name #arguments {
-                type OnLanes<'lanes> = &'lanes Self;
-
-                #[inline(always)]
-                fn on_lanes<'lanes>(material: impl ::core::ops::Fn(usize) -> &'lanes Self + ::core::marker::Copy) -> Self::OnLanes<'lanes>
-                where
-                    Self: 'lanes,
-                {
-                    material(0)
-                }
-
-                fn shares_lanes(&self, other: &Self) -> bool {
-                    ::core::ptr::eq(self, other) || self == other
-                }
-            }
-        };
-    }
+    let lengths = &declaration.generics;
     let value = value_parameter(declaration);
     let kept = value.as_ref().map(|value| quote!(#value: __p::ParameterValue));
-    let lengths = &declaration.generics;
-    let (on_lanes, gathered) = per_lane(declaration);
+    let (implementation, (on_lanes, gathered), shares_lanes) = if declaration.is_plain() {
+        let implementation =
+            quote!(impl<#(const #lengths: usize,)* #kept> ::piola::Material for #name<#(#lengths,)* #value>);
+        (implementation, per_lane(declaration), None)
+    } else {
+        let shares_lanes = quote! {
+            fn shares_lanes(&self, other: &Self) -> bool {
+                ::core::ptr::eq(self, other) || self == other
+            }
+        };
+        let implementation = quote!(impl #bounds ::piola::Material for #name #arguments);
+        (implementation, (quote!(&'lanes Self), quote!(material(0))), Some(shares_lanes))
+    };
     // What is not inlined into the function of a back end is not compiled for its instructions.
     quote! {
         #[allow(unused_variables, clippy::all)]
         #naming
-        impl<#(const #lengths: usize,)* #kept> ::piola::Material for #name<#(#lengths,)* #value> {
+        #implementation {
             #computed
             #constants
         }
@@ -68,6 +54,8 @@ pub(super) fn material(declaration: &Declaration, model: &mut Model) -> TokenStr
             {
                 #gathered
             }
+
+            #shares_lanes
         }
     }
 }
@@ -152,7 +140,6 @@ fn constants(declaration: &Declaration, model: &mut Model) -> TokenStream {
 fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let writer = &Writer::new(declaration);
     let [l1, l2, l3] = &declaration.stretches;
-    let threshold = &writer.threshold;
     let mut bodies = |select: &dyn Fn(&Variant) -> Vec<Id>,
                       result: &dyn Fn(&[TokenStream]) -> TokenStream| {
         let body = |model: &mut Model, roots: &[Id]| {
@@ -162,21 +149,8 @@ fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
             body
         };
         let plain = body(model, &select(&model.plain));
-        match model.extended.as_ref().map(select) {
-            None => plain,
-            Some(extended) => {
-                let extended = body(model, &extended);
-                quote! {
-                    match self.inversion {
-                        __p::Inversion::Refuse => { #plain }
-                        __p::Inversion::Extend { epsilon: #threshold } => {
-                            let #threshold = R::splat(#threshold);
-                            #extended
-                        }
-                    }
-                }
-            }
-        }
+        let extended = model.extended.as_ref().map(select);
+        writer.by_inversion(plain, extended.map(|extended| body(model, &extended)))
     };
     let energy = bodies(&|variant| vec![variant.energy], &|outputs| quote!(#(#outputs)*));
     let gradient = bodies(&|variant| variant.gradient.to_vec(), &|outputs| quote!([#(#outputs),*]));
@@ -265,19 +239,8 @@ fn admits(declaration: &Declaration, model: &mut Model, writer: &Writer<'_>) -> 
     let (plain, extended) = (model.plain.energy, model.extended.as_ref().map(|variant| variant.energy));
     let of_functions = functions::defined(declaration, model, writer, plain).map(|plain| {
         let extended = extended.and_then(|energy| functions::defined(declaration, model, writer, energy));
-        let threshold = &writer.threshold;
-        match extended.filter(|extended| extended.to_string() != plain.to_string()) {
-            None => plain,
-            Some(extended) => quote! {
-                match self.inversion {
-                    __p::Inversion::Refuse => #plain,
-                    __p::Inversion::Extend { epsilon: #threshold } => {
-                        let #threshold = R::splat(#threshold);
-                        #extended
-                    }
-                }
-            },
-        }
+        let extended = extended.filter(|extended| extended.to_string() != plain.to_string());
+        writer.by_inversion(plain, extended)
     });
     let defined = free_name(declaration, &["defined", "functions_defined"]);
     let of_functions = of_functions.map(|mask| {

@@ -5,7 +5,7 @@ use quote::{ToTokens, format_ident, quote};
 use rustc_hash::FxHashMap;
 use syn::Ident;
 
-use crate::read::parse::Declaration;
+use crate::read::parse::{Declaration, Parameter};
 use crate::schedule::{Op, Program, Statement, Value};
 
 /// Writes programs with the names of one declaration.
@@ -61,13 +61,18 @@ impl<'a> Writer<'a> {
         Self { variables, ..self.clone() }
     }
 
-    /// A field as a number of type `R`.
-    fn field(&self, field: TokenStream) -> TokenStream {
-        let material = &self.material;
-        if self.declaration.is_plain() {
-            quote!(__p::ParameterValue::on(&#material.#field))
-        } else {
-            quote!(R::splat(#material.#field))
+    /// The text for the material inside its domain, or else for the one that is continued beyond it.
+    pub(super) fn by_inversion(&self, plain: TokenStream, extended: Option<TokenStream>) -> TokenStream {
+        let Some(extended) = extended else { return plain };
+        let threshold = &self.threshold;
+        quote! {
+            match self.inversion {
+                __p::Inversion::Refuse => { #plain }
+                __p::Inversion::Extend { epsilon: #threshold } => {
+                    let #threshold = R::splat(#threshold);
+                    #extended
+                }
+            }
         }
     }
 
@@ -275,26 +280,13 @@ impl<'a> Lines<'a> {
 
     fn new(writer: &'a Writer<'a>, program: &Program) -> Self {
         let mut reads = FxHashMap::default();
-        let mut read = |value: Value| *reads.entry(value).or_insert(0) += 1;
-        for statement in &program.statements {
-            match statement {
-                Statement::Let(_, op) => op.operands().into_iter().for_each(&mut read),
-                Statement::Loop { body, totals, .. } => {
-                    body.iter().flat_map(|(_, op)| op.operands()).for_each(&mut read);
-                    totals.iter().for_each(|&(_, term)| read(term));
-                }
-            }
-        }
-        program.outputs.iter().copied().for_each(read);
+        program.each_read(|value| *reads.entry(value).or_insert(0) += 1);
         Self { writer, statements: TokenStream::new(), names: Names::default(), reads, waiting: Vec::new() }
     }
 
     /// Writes an operation: literals and inputs where they are read, the rest as a `let` or where it is read.
     fn push(&mut self, value: Value, op: &Op) {
         let writer = self.writer;
-        let parameter = |k: usize| &writer.declaration.parameters[k].name;
-        // A whole exponent is not a value of type `R`: it is read from the material where it is needed.
-        let is_whole = |k: usize| writer.declaration.parameters[k].is_whole;
         match *op {
             Op::Literal(bits) => self.names.set(value, literal(f64::from_bits(bits))),
             Op::Stretch(i) => self.names.set(value, &writer.variables[i]),
@@ -303,28 +295,30 @@ impl<'a> Lines<'a> {
                 self.names.set(value, quote!(#strains[#i]));
             }
             Op::Epsilon => self.names.set(value, &writer.threshold),
-            Op::Parameter(k) if is_whole(k) => {
-                let (name, material) = (parameter(k), &writer.material);
-                self.names.set(value, quote!(#material.#name));
-            }
-            Op::Entry(k) if is_whole(k) => {
-                let (name, material, index) = (parameter(k), &writer.material, &writer.index);
-                self.names.set(value, quote!(#material.#name[#index]));
-            }
-            Op::Parameter(k) => self.field(value, parameter(k), TokenStream::new()),
+            Op::Parameter(k) => self.parameter(value, k, &TokenStream::new()),
             Op::Entry(k) => {
                 let index = &writer.index;
-                self.field(value, parameter(k), quote!([#index]));
+                self.parameter(value, k, &quote!([#index]));
             }
             _ => self.operation(value, op),
         }
     }
 
-    /// Reads a parameter from the material.
-    fn field(&mut self, value: Value, parameter: &Ident, index: TokenStream) {
-        let number = self.writer.field(quote!(#parameter #index));
-        self.statements.extend(quote!(let #parameter: R = #number;));
-        self.names.set(value, parameter);
+    /// Reads a parameter from the material, as a number of type `R`.
+    fn parameter(&mut self, value: Value, k: usize, index: &TokenStream) {
+        let Writer { declaration, material, .. } = self.writer;
+        let Parameter { name, is_whole, .. } = &declaration.parameters[k];
+        let field = quote!(#material.#name #index);
+        // A whole exponent is not a value of type `R`: it is read from the material where it is needed.
+        if *is_whole {
+            return self.names.set(value, field);
+        }
+        let number = match declaration.is_plain() {
+            true => quote!(__p::ParameterValue::on(&#field)),
+            false => quote!(R::splat(#field)),
+        };
+        self.statements.extend(quote!(let #name: R = #number;));
+        self.names.set(value, name);
     }
 
     fn operation(&mut self, value: Value, op: &Op) {

@@ -26,17 +26,13 @@ impl Argument {
                 _ => {}
             }
         }
-        found.retain(|argument| argument.depends_on(graph, |node| matches!(node, Node::Stretch(_))));
+        found.retain(|argument| graph.contains(argument.of, |node| matches!(node, Node::Stretch(_))));
         found
     }
 
     /// True if an expression is an argument in a part.
     pub(crate) fn is_in(graph: &Graph, part: Id, of: Id) -> bool {
         Self::all(graph, part).iter().any(|argument| argument.of == of)
-    }
-
-    pub(crate) fn depends_on(&self, graph: &Graph, is: impl Fn(&Node) -> bool) -> bool {
-        graph.reachable(&[self.of]).into_iter().any(|id| is(graph.node(id)))
     }
 
     /// The exponent of a power that is not whole, such as a root.

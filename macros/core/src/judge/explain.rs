@@ -407,8 +407,7 @@ impl Explainer<'_, '_> {
     /// True if a condition on an expression of parameters can be declared as it is printed: such conditions
     /// have no sums.
     fn is_declarable(&self, of: Id, condition: &str) -> bool {
-        let is_sum = |&id: &Id| matches!(self.graph.node(id), Node::Sum(..));
-        !self.graph.reachable(&[of]).iter().any(is_sum) && !is_cut(condition)
+        !self.graph.contains(of, |node| matches!(node, Node::Sum(..))) && !is_cut(condition)
     }
 
     /// The declared conditions on parameters with further ones.

@@ -14,8 +14,9 @@ pub(crate) fn units(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
     if !source.declaration.has_units() {
         return None;
     }
-    let units = source.declaration.pascals();
-    let mut dimensions = Dimensions::new(&units);
+    let parameters = source.declaration.parameters.iter();
+    let pascals: Vec<_> = parameters.map(|parameter| parameter.unit().map(Unit::pascals)).collect();
+    let mut dimensions = Dimensions::new(&pascals);
     match dimensions.of(graph, source.energy) {
         Ok(None | Some(Rational::ONE)) => None,
         Ok(Some(dimension)) => {

@@ -97,17 +97,15 @@ pub(crate) fn vanishing(graph: &mut Graph, source: &Source<'_>) -> Vec<Vanishing
 
 /// An argument of an energy that vanishes inside a domain.
 fn vanishing_in(graph: &Graph, bounds: &[Id], energy: Id, draws: &[Point]) -> Option<Id> {
-    let depends_on_function =
-        |id: Id| graph.reachable(&[id]).iter().any(|&id| matches!(graph.node(id), Node::Function(..)));
     // The values of functions are not known here.
-    if bounds.iter().any(|&bound| depends_on_function(bound)) {
+    if bounds.iter().any(|&bound| graph.contains(bound, |node| matches!(node, Node::Function(..)))) {
         return None;
     }
     let arguments = Argument::all(graph, energy);
     let found = arguments.into_iter().find(|argument| {
         // No condition of a domain is on each entry of a list.
         !is_positive(graph, argument.of)
-            && !argument.depends_on(graph, |node| matches!(node, Node::Entry(_) | Node::Function(..)))
+            && !graph.contains(argument.of, |node| matches!(node, Node::Entry(_) | Node::Function(..)))
             && draws.iter().any(|point| changes_sign(graph, bounds, argument.of, point))
     });
     found.map(|argument| argument.of)

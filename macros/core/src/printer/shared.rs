@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{Notation, Printer, subscript};
-use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::expr::{Graph, Id};
 use crate::read::parse::Declaration;
 
 /// Formulas and the parts that they share.
@@ -39,7 +39,7 @@ fn share(mut printer: Printer<'_>, roots: &[Id]) -> Formulas {
         return Formulas { parts: Vec::new(), formulas };
     }
     let order = printer.graph.reachable(roots);
-    let is_entry = entries(printer.graph, &order);
+    let lists = printer.graph.lists(&order);
     let mut candidates = shared(printer.graph, roots, &order);
     loop {
         printer.named.clear();
@@ -48,7 +48,7 @@ fn share(mut printer: Printer<'_>, roots: &[Id]) -> Formulas {
         for &id in &candidates {
             let text = printer.line(id);
             if text.chars().count() >= SHORTEST {
-                let name = name(parts.len() + 1, is_entry[&id]);
+                let name = name(parts.len() + 1, lists[&id].is_some());
                 printer.named.insert(id, name.clone());
                 parts.push((name, text));
             }
@@ -77,68 +77,8 @@ fn shared(graph: &Graph, roots: &[Id], order: &[Id]) -> Vec<Id> {
     order.iter().copied().filter(|id| parents[id] > 1).collect()
 }
 
-/// For each node, true if its value differs from term to term of a sum over lists.
-fn entries(graph: &Graph, order: &[Id]) -> HashMap<Id, bool> {
-    let mut is_entry = HashMap::new();
-    for &id in order {
-        let varies = match graph.node(id) {
-            Node::Entry(_) => true,
-            Node::Sum(..) => false,
-            _ => graph.children(id).iter().any(|child| is_entry[child]),
-        };
-        is_entry.insert(id, varies);
-    }
-    is_entry
-}
-
 fn name(number: usize, is_entry: bool) -> String {
     let digits: String =
         number.to_string().bytes().map(|digit| subscript(usize::from(digit - b'0'))).collect();
     format!("s{digits}{}", if is_entry { "ₚ" } else { "" })
-}
-
-#[cfg(test)]
-mod tests {
-    use quote::quote;
-
-    use super::*;
-
-    #[track_caller]
-    fn check(energy: &syn::Expr, parts: &[(&str, &str)], first: &str) {
-        let item = quote!(fn E([l1, l2, l3]: [f64; 3], c: f64, d: f64) -> f64 { #energy });
-        let (declaration, mut model) =
-            crate::analyse(quote!(domain(J > 0.0), prestressed), item, None).expect("an energy");
-        let roots = [model.plain.gradient[0], model.plain.hessian[0]];
-        let found = formulas(&mut model.graph, &declaration, &roots);
-        let found_parts: Vec<_> = found.parts.iter().map(|(name, text)| (&name[..], &text[..])).collect();
-        assert_eq!(found_parts, parts);
-        assert_eq!(found.formulas[0], first);
-    }
-
-    #[test]
-    fn short_formulas_are_read_as_they_are() {
-        check(&syn::parse_quote!(c * I1 + d * I1.powi(2)), &[], "2 c λ₁ + 4 d I1 λ₁");
-    }
-
-    #[test]
-    fn divisors_that_are_products_are_in_parentheses() {
-        check(
-            &syn::parse_quote!(c * I1b.ln() + d * J),
-            &[("s₁", "4/3 λ₁ J^(−2/3) − 2/3 λ₂² J^(−2/3)/λ₁ − 2/3 λ₃² J^(−2/3)/λ₁")],
-            "d λ₂ λ₃ + c s₁/(I1 J^(−2/3))",
-        );
-    }
-
-    #[test]
-    fn long_parts_that_occur_more_than_once_have_names() {
-        check(
-            &syn::parse_quote!(c * (I1b - 3.0) + d * (I1b - 3.0).powi(2) + d * (I1b - 3.0).powi(3)),
-            &[
-                ("s₁", "4/3 λ₁ J^(−2/3) − 2/3 λ₂² J^(−2/3)/λ₁ − 2/3 λ₃² J^(−2/3)/λ₁"),
-                ("s₂", "I1 J^(−2/3) − 3"),
-                ("s₃", "4/9 J^(−2/3) + 10/9 λ₂² J^(−2/3)/λ₁² + 10/9 λ₃² J^(−2/3)/λ₁²"),
-            ],
-            "c s₁ + 2 d s₂ s₁ + 3 d s₂² s₁",
-        );
-    }
 }

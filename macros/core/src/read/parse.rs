@@ -156,25 +156,10 @@ impl Declaration {
     pub(crate) fn has_units(&self) -> bool {
         self.parameters.iter().any(|parameter| matches!(Unit::read(&parameter.doc), Ok(Some(_))))
     }
-
-    /// The exponent of Pa in the unit of each parameter; `None` without one.
-    pub(crate) fn pascals(&self) -> Vec<Option<i64>> {
-        self.parameters.iter().map(|parameter| parameter.unit().map(Unit::pascals)).collect()
-    }
 }
 
 /// Names with a meaning in every energy.
 pub const WORDS: [&str; 5] = ["J", "I1", "I2", "I1b", "I2b"];
-
-/// Reads the attribute's arguments and its item.
-///
-/// # Errors
-/// All mistakes of form, each at its token.
-pub fn parse(arguments: TokenStream, item: TokenStream) -> syn::Result<Declaration> {
-    let mut diagnostics = Diagnostics::default();
-    let declaration = parse_declaration(arguments, item, &mut diagnostics);
-    diagnostics.finish(declaration)
-}
 
 /// Reads the attribute's arguments and its item, and adds mistakes to the diagnostics: the rest of the
 /// declaration may have further ones in its meaning.

@@ -435,7 +435,7 @@ impl<'a> Resolver<'a> {
 
     /// True if a value depends on a mistake.
     fn is_unknown(&self, value: Id) -> bool {
-        self.graph.reachable(&[value]).into_iter().any(|id| *self.graph.node(id) == UNKNOWN)
+        self.graph.contains(value, |node| *node == UNKNOWN)
     }
 
     fn error(&mut self, tokens: impl ToTokens, message: &str) {

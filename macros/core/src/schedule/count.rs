@@ -123,17 +123,14 @@ impl Count {
         let constant = (once > 0 || each.is_empty()).then(|| once.to_string());
         let terms = each.into_iter().map(|(length, number)| {
             let length = &declaration.lengths[length];
-            term(number, length, &length.text(declaration))
+            let text = length.text(declaration);
+            match (number, length) {
+                (_, Entries::Known(Expr::Lit(_))) => format!("{number} · {text}"),
+                (1, _) => text,
+                _ => format!("{number} {text}"),
+            }
         });
         constant.into_iter().chain(terms).collect::<Vec<_>>().join(" + ")
-    }
-}
-
-fn term(number: usize, length: &Entries, text: &str) -> String {
-    match (number, length) {
-        (_, Entries::Known(Expr::Lit(_))) => format!("{number} · {text}"),
-        (1, _) => text.to_owned(),
-        _ => format!("{number} {text}"),
     }
 }
 

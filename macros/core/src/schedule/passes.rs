@@ -7,21 +7,10 @@ use super::program::{Op, Program, Statement, Value};
 pub(super) fn fuse_multiply_add(mut program: Program, values: usize) -> Program {
     let mut uses = vec![0; values];
     let mut products = vec![None; values];
-    let mut count = |value: Value| uses[value.0] += 1;
-    program.outputs.iter().copied().for_each(&mut count);
-    for statement in &program.statements {
-        let lets: &[_] = match statement {
-            Statement::Let(value, op) => &[(*value, *op)],
-            Statement::Loop { body, totals, .. } => {
-                totals.iter().for_each(|&(_, term)| count(term));
-                body
-            }
-        };
-        for &(value, mut op) in lets {
-            op.each_operand(|operand| count(*operand));
-            if let Op::Mul(a, b) = op {
-                products[value.0] = Some((a, b));
-            }
+    program.each_read(|value| uses[value.0] += 1);
+    for (value, op) in program.operations() {
+        if let Op::Mul(a, b) = op {
+            products[value.0] = Some((a, b));
         }
     }
     let mut is_fused = vec![false; values];

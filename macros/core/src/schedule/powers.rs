@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use crate::algebra::divided::LARGEST_ROOT;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
-use crate::algebra::rational::Rational;
+use crate::algebra::rational::{Rational, gcd};
 
 /// The powers of each base that are needed, from which the computed one is chosen.
 pub(super) struct Powers {
@@ -37,7 +37,8 @@ impl Powers {
                     for &(base, exponent) in factors {
                         if is_simple(exponent) {
                             let common = denominators.entry(base).or_insert(1);
-                            *common = least_common_multiple(*common, exponent.rational.denominator());
+                            let denominator = exponent.rational.denominator();
+                            *common *= denominator / gcd(*common, denominator);
                         } else {
                             used.entry(class(base, exponent)).or_default().0.push(exponent.rational);
                         }
@@ -91,14 +92,4 @@ fn class(base: Id, exponent: Exponent) -> PowerClass {
 
 fn larger(a: Rational, b: Rational) -> Rational {
     if a.checked_add(b.negated()).is_some_and(Rational::is_negative) { b } else { a }
-}
-
-fn least_common_multiple(a: i128, b: i128) -> i128 {
-    let gcd = |mut a: i128, mut b: i128| {
-        while b != 0 {
-            (a, b) = (b, a % b);
-        }
-        a
-    };
-    a / gcd(a, b) * b
 }

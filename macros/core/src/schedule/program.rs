@@ -144,10 +144,7 @@ impl Op {
             | Self::Below(a, b)
             | Self::WholePower(a, b, _)
             | Self::ElementaryQuotient(_, a, b)
-            | Self::FunctionQuotient(.., a, b) => {
-                show(a);
-                show(b);
-            }
+            | Self::FunctionQuotient(.., a, b) => [a, b].into_iter().for_each(show),
             Self::WholePowerQuotient([a, b], c, _)
             | Self::LnProduct([a, b, c])
             | Self::MulAdd(a, b, c)
@@ -155,11 +152,7 @@ impl Op {
             | Self::MulSub(a, b, c)
             | Self::WhereNegative(a, b, c)
             | Self::ShareAbove(a, b, c)
-            | Self::ShareBelow(a, b, c) => {
-                show(a);
-                show(b);
-                show(c);
-            }
+            | Self::ShareBelow(a, b, c) => [a, b, c].into_iter().for_each(show),
             Self::Pair { values, reciprocals, logarithms } => {
                 [values, reciprocals, logarithms].into_iter().flatten().for_each(show);
             }
@@ -201,9 +194,25 @@ pub struct Program {
 impl Program {
     /// All operations in order, those of loops among them.
     pub fn operations(&self) -> impl Iterator<Item = (Value, Op)> {
-        self.statements.iter().flat_map(|statement| match statement {
-            Statement::Let(value, op) => vec![(*value, *op)],
-            Statement::Loop { body, .. } => body.clone(),
+        self.statements.iter().flat_map(|statement| {
+            let (one, body) = match statement {
+                Statement::Let(value, op) => (Some((*value, *op)), &[][..]),
+                Statement::Loop { body, .. } => (None, &body[..]),
+            };
+            one.into_iter().chain(body.iter().copied())
         })
+    }
+
+    /// Calls a function for each value that operations and totals read, and for each output.
+    pub(crate) fn each_read(&self, mut show: impl FnMut(Value)) {
+        for (_, mut op) in self.operations() {
+            op.each_operand(|value| show(*value));
+        }
+        for statement in &self.statements {
+            if let Statement::Loop { totals, .. } = statement {
+                totals.iter().for_each(|&(_, term)| show(term));
+            }
+        }
+        self.outputs.iter().copied().for_each(show);
     }
 }

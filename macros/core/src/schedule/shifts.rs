@@ -48,7 +48,8 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
                     continue;
                 }
                 let shift = match powers.evaluation(base, exponent) {
-                    Evaluation::Real(computed) if !varies(graph, base) => {
+                    // A base that may differ from entry to entry stays in its sum.
+                    Evaluation::Real(computed) if !graph.contains(base, |e| matches!(e, Node::Entry(_))) => {
                         exponent.rational.checked_add(computed.negated())
                     }
                     Evaluation::Real(_) | Evaluation::Root(_) => None,
@@ -82,11 +83,6 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
         }
         _ => (Shifts::new(), id),
     }
-}
-
-/// True if a base may differ from entry to entry: such a base stays in its sum.
-fn varies(graph: &Graph, id: Id) -> bool {
-    graph.reachable(&[id]).into_iter().any(|id| matches!(graph.node(id), Node::Entry(_)))
 }
 
 fn times(graph: &mut Graph, id: Id, shifts: &Shifts) -> Id {

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Exponent, Extended, Graph, Id, Node};
+use super::{Exponent, Extended, Graph, Id, Node, ParameterIndex};
 
 impl Graph {
     /// Direct subexpressions, exponents included.
@@ -54,66 +54,47 @@ impl Graph {
         if self.is_full() {
             return id;
         }
-        let node = match self.node(id).clone() {
+        let mut node = self.node(id).clone();
+        match &mut node {
             Node::Linear { constant, terms } => {
-                let terms: Vec<_> = terms.into_iter().map(|(term, c)| (map(self, term), c)).collect();
-                return if is_changed { self.linear(constant, &terms) } else { id };
+                terms.iter_mut().for_each(|(term, _)| *term = map(self, *term));
+                return if is_changed { self.linear(*constant, terms) } else { id };
             }
             Node::Product(factors) => {
-                let factors: Vec<_> =
-                    factors.into_iter().map(|(base, e)| (map(self, base), exponent(self, e, map))).collect();
-                return if is_changed { self.product(&factors) } else { id };
+                for (base, e) in &mut *factors {
+                    (*base, *e) = (map(self, *base), exponent(self, *e, map));
+                }
+                return if is_changed { self.product(factors) } else { id };
             }
-            Node::Ln(a) => {
-                let a = map(self, a);
-                return self.ln(a);
+            Node::Ln(a) | Node::Exp(a) | Node::Elementary(_, a) | Node::Function(.., a) | Node::Sum(_, a) => {
+                *a = map(self, *a);
             }
-            Node::Exp(a) => {
-                let a = map(self, a);
-                return self.exp(a);
+            Node::Excess(a, b)
+            | Node::Accurate(a, b)
+            | Node::LnQuotient(a, b)
+            | Node::ExpQuotient(a, b)
+            | Node::ElementaryQuotient(_, a, b)
+            | Node::FunctionQuotient(.., a, b)
+            | Node::WholePower(a, b, _)
+            | Node::PoleQuotient(a, b) => (*a, *b) = (map(self, *a), map(self, *b)),
+            Node::WhereNegative(a, b, c) | Node::WholePowerQuotient(a, b, c, _) => {
+                (*a, *b, *c) = (map(self, *a), map(self, *b), map(self, *c));
             }
-            Node::Excess(a, b) => {
-                let (a, b) = (map(self, a), map(self, b));
-                return self.excess(a, b);
-            }
-            Node::Accurate(a, b) => {
-                let (a, b) = (map(self, a), map(self, b));
-                return self.accurate(a, b);
-            }
-            Node::Elementary(function, a) => {
-                let a = map(self, a);
-                return self.elementary(function, a);
-            }
-            Node::Sum(length, body) => {
-                let body = map(self, body);
-                return self.sum(length, body);
-            }
-            Node::WholePower(base, n, order) => {
-                let (base, n) = (map(self, base), map(self, n));
-                return self.whole_power(base, n, order);
-            }
-            Node::WholePowerQuotient(a, b, n, order) => {
-                Node::WholePowerQuotient(map(self, a), map(self, b), map(self, n), order)
-            }
-            Node::Function(f, order, a) => Node::Function(f, order, map(self, a)),
-            Node::FunctionQuotient(f, order, a, b) => {
-                Node::FunctionQuotient(f, order, map(self, a), map(self, b))
-            }
-            Node::WhereNegative(condition, a, b) => {
-                Node::WhereNegative(map(self, condition), map(self, a), map(self, b))
-            }
-            Node::ElementaryQuotient(function, a, b) => {
-                Node::ElementaryQuotient(function, map(self, a), map(self, b))
-            }
-            Node::LnQuotient(a, b) => Node::LnQuotient(map(self, a), map(self, b)),
-            Node::ExpQuotient(a, b) => Node::ExpQuotient(map(self, a), map(self, b)),
             Node::PowerQuotient(a, b, e) => {
-                Node::PowerQuotient(map(self, a), map(self, b), exponent(self, e, map))
+                (*a, *b, *e) = (map(self, *a), map(self, *b), exponent(self, *e, map));
             }
-            Node::PoleQuotient(a, b) => Node::PoleQuotient(map(self, a), map(self, b)),
             _ => return id,
-        };
-        self.leaf(node)
+        }
+        match node {
+            Node::Ln(a) => self.ln(a),
+            Node::Exp(a) => self.exp(a),
+            Node::Excess(a, b) => self.excess(a, b),
+            Node::Accurate(a, b) => self.accurate(a, b),
+            Node::Elementary(function, a) => self.elementary(function, a),
+            Node::Sum(length, body) => self.sum(length, body),
+            Node::WholePower(base, n, order) => self.whole_power(base, n, order),
+            node => self.leaf(node),
+        }
     }
 
     /// The expression with every stretch replaced.
@@ -143,6 +124,29 @@ impl Graph {
             depths.insert(id, inner + 1);
         }
         roots.iter().map(|root| depths[root]).max().unwrap_or(0)
+    }
+
+    /// For each of these nodes, children before parents, a list with whose entries its value changes from term
+    /// to term of a sum.
+    #[must_use]
+    pub fn lists(&self, order: &[Id]) -> FxHashMap<Id, Option<ParameterIndex>> {
+        let mut lists: FxHashMap<Id, Option<ParameterIndex>> = FxHashMap::default();
+        for &id in order {
+            let list = match *self.node(id) {
+                Node::Entry(k) => Some(k),
+                // Entries inside a sum are none outside.
+                Node::Sum(..) => None,
+                _ => self.children(id).iter().find_map(|child| lists.get(child).copied().flatten()),
+            };
+            lists.insert(id, list);
+        }
+        lists
+    }
+
+    /// True if an expression contains such a node, or is one.
+    #[must_use]
+    pub fn contains(&self, id: Id, is: impl Fn(&Node) -> bool) -> bool {
+        self.reachable(&[id]).into_iter().any(|id| is(self.node(id)))
     }
 
     /// All nodes below the roots, roots included, children before parents.

@@ -120,6 +120,8 @@ mod tests {
     use quote::quote;
 
     use super::*;
+    use crate::read::diagnostics::Diagnostics;
+    use crate::read::parse::parse_declaration;
 
     #[test]
     fn vectors_that_are_read_together_have_one_length() {
@@ -131,8 +133,10 @@ mod tests {
                 s + sum(|p| b[p]) * sum(|p| e[p] + f[p])
             }
         };
-        let declaration = super::super::parse(quote!(admissible(c[p] > 0.0, a[p] < f[p])), item)
-            .unwrap_or_else(|e| panic!("{e}"));
+        let mut diagnostics = Diagnostics::default();
+        let arguments = quote!(admissible(c[p] > 0.0, a[p] < f[p]));
+        let declaration = parse_declaration(arguments, item, &mut diagnostics);
+        let declaration = diagnostics.finish(declaration).unwrap_or_else(|e| panic!("{e}"));
         let lengths: Vec<_> = declaration.parameters.iter().filter_map(Parameter::length).collect();
         assert_eq!(lengths, [0, 1, 2, 2, 0, 0]);
         let texts: Vec<_> = declaration.lengths.iter().map(|length| length.text(&declaration)).collect();

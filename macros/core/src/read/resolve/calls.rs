@@ -240,7 +240,7 @@ impl Resolver<'_> {
         if self.is_unknown(base) {
             return base;
         }
-        if self.depends_on_stretches(exponent) {
+        if self.graph.contains(exponent, |node| matches!(node, Node::Stretch(_))) {
             return self.mistake(argument, "an exponent is made of numbers and parameters, not of stretches");
         }
         let is_negative = self.graph.as_constant(exponent).is_some_and(Rational::is_negative);
@@ -249,10 +249,6 @@ impl Resolver<'_> {
         }
         let exponent = self.graph.exponent(exponent);
         self.graph.power(base, exponent)
-    }
-
-    fn depends_on_stretches(&self, id: Id) -> bool {
-        self.graph.reachable(&[id]).into_iter().any(|id| matches!(self.graph.node(id), Node::Stretch(_)))
     }
 
     pub(super) fn call(&mut self, call: &ExprCall) -> Id {

@@ -13,7 +13,7 @@ use crate::read::spelling::taken;
 use quote::ToTokens;
 
 /// The pairs of stretches, in the order in which papers write I2.
-const PAIRS: [[Stretch; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+pub(super) const PAIRS: [[Stretch; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 /// The closure of a sum, `|l| …`, with its names.
 pub(super) struct Summand<'a> {
@@ -43,17 +43,13 @@ impl<'a> Summand<'a> {
 }
 
 impl Resolver<'_> {
-    /// Σ f(λi).
-    pub(super) fn sum_over_stretches(&mut self, name: &Ident, body: &Expr) -> Id {
-        self.sum_over(&[name], body, [0, 1, 2].map(|i| vec![i]))
-    }
-
-    /// Σ f(λi, λj).
-    pub(super) fn sum_over_pairs(&mut self, names: [&Ident; 2], body: &Expr) -> Id {
-        self.sum_over(&names, body, PAIRS.map(|pair| pair.to_vec()))
-    }
-
-    fn sum_over(&mut self, names: &[&Ident], body: &Expr, places: [Vec<Stretch>; 3]) -> Id {
+    /// Σ f(λi), or Σ f(λi, λj) with two names; each term has its own stretches.
+    pub(super) fn sum_over<const N: usize>(
+        &mut self,
+        names: [&Ident; N],
+        body: &Expr,
+        places: [[Stretch; N]; 3],
+    ) -> Id {
         for (k, name) in names.iter().enumerate() {
             let is_read = identifiers(body.to_token_stream()).contains(name);
             if self.is_taken(name) || names[..k].contains(name) {
@@ -64,12 +60,12 @@ impl Resolver<'_> {
             }
         }
         // The first term reports the mistakes of all, and a message about the sum shows its part.
-        let first = self.term(names, body, &places[0]);
+        let first = self.term(&names, body, &places[0]);
         if self.is_unknown(first) {
             return first;
         }
         let nodes = std::mem::take(&mut self.nodes);
-        let others = [&places[1], &places[2]].map(|at| self.term(names, body, at));
+        let others = [&places[1], &places[2]].map(|at| self.term(&names, body, at));
         self.nodes = nodes;
         let sum = self.graph.sum_of(&[first, others[0], others[1]]);
         join_sums(self.graph, sum)

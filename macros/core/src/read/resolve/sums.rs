@@ -3,7 +3,7 @@
 use quote::ToTokens;
 use syn::{Expr, ExprCall, ExprIndex, Ident};
 
-use super::stretches::Summand;
+use super::stretches::{PAIRS, Summand};
 use super::{Resolver, Scope};
 use crate::algebra::expr::{Id, Length, Node};
 use crate::read::parse::{Kind, indexed_lists};
@@ -40,8 +40,10 @@ impl Resolver<'_> {
             return self.mistake(call, FORMS);
         };
         let name = match summand.names[..] {
-            [a, b] => return self.sum_over_pairs([a, b], summand.body),
-            [name] if summand.is_over_stretches() => return self.sum_over_stretches(name, summand.body),
+            [a, b] => return self.sum_over([a, b], summand.body, PAIRS),
+            [name] if summand.is_over_stretches() => {
+                return self.sum_over([name], summand.body, [[0], [1], [2]]);
+            }
             [name] => name,
             _ => return self.mistake(call, FORMS),
         };
