@@ -53,6 +53,7 @@ pub use term::{EnergyChange, NodeBlocks, Term};
 /// names that end in `_here`. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a
 /// divided stiffness. [`minimize`](divided::minimize) is Newton's method for any other objective.
 /// The crate in `distributed/` uses all but the last.
+#[doc(hidden)]
 pub mod divided {
     pub use super::line_search::Line;
     pub use super::newton::{Linearised, Minimisation, minimize};

@@ -49,8 +49,7 @@ use settings::check_settings;
 /// It takes as much memory again, except for the materials and the symbolic factorisation, which are shared;
 /// to undo steps later it is enough to keep positions and velocities.
 ///
-/// With another [`Machine`](super::divided::Machine) it is the part of a machine, of a body that is divided
-/// among machines.
+/// With another `Machine` it is the part of a machine, of a body that is divided among machines.
 #[derive(Clone)]
 pub struct Simulation<M: Machine = OneMachine> {
     body: Body,
@@ -109,6 +108,7 @@ impl<M: Machine> Simulation<M> {
     ///
     /// # Errors
     /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`]: on this machine alone.
+    #[doc(hidden)]
     pub fn divided(
         machine: M,
         body: Option<Body>,
@@ -174,6 +174,7 @@ impl<M: Machine> Simulation<M> {
     }
 
     /// Machine that simulates the body or its part.
+    #[doc(hidden)]
     pub fn machine(&mut self) -> &mut M {
         &mut self.workspace.machine
     }

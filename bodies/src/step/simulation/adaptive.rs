@@ -101,6 +101,7 @@ impl<M: Machine> Simulation<M> {
     ///
     /// # Errors
     /// Those of [`Simulation::advance_within`], on all machines.
+    #[doc(hidden)]
     pub fn advance_within_here(
         &mut self,
         duration: f64,

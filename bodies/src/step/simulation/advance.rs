@@ -61,6 +61,7 @@ impl<M: Machine> Simulation<M> {
     ///
     /// # Errors
     /// Those of [`Simulation::step`], on all machines.
+    #[doc(hidden)]
     pub fn step_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
         let heaviest = self.workspace.machine.nodes().largest(heaviest);
@@ -76,6 +77,7 @@ impl<M: Machine> Simulation<M> {
     ///
     /// # Errors
     /// Those of [`Simulation::equilibrate`], on all machines.
+    #[doc(hidden)]
     pub fn equilibrate_here(&mut self) -> Result<StepReport, StepError> {
         self.advance(f64::INFINITY)
     }
