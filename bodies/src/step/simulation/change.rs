@@ -91,7 +91,8 @@ impl Simulation {
     /// [`Body::from_parts`](crate::system::Body::from_parts), from the next step on.
     ///
     /// # Errors
-    /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
+    /// [`BodyError`] if there is no such part, or the material has parameters for another number of points.
+    /// The material then stays as it was.
     pub fn set_material(
         &mut self,
         part: usize,
