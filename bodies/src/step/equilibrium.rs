@@ -24,9 +24,9 @@ use crate::system::assemble::Elastic;
 use crate::system::linear::multigrid::Undivided;
 use crate::system::{Body, Cholesky, LinearError, LowerTriangle, NodalStiffness, Pins, Tetrahedron};
 
+use super::error::NewtonError;
 use super::integrator::Stage;
 use super::minimisation::demand_admissible;
-use super::newton::NewtonError;
 use super::objective::{Objective, Quadratic};
 use super::simulation::Simulation;
 use super::term::NodeBlocks;

@@ -15,8 +15,9 @@ use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::linear::multigrid::Division;
 
+use super::error::NewtonError;
 use super::line_search::Line;
-use super::newton::{Linearised, Minimisation, NewtonError};
+use super::newton::{Linearised, Minimisation};
 use super::objective::{Objective, product};
 use super::solver::{Definiteness, Machine, Solution};
 use super::term::EnergyChange;

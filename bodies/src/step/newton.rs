@@ -4,25 +4,22 @@
 
 use piola::point::Filter;
 
+use super::error::NewtonError;
 use super::filtering::Filtering;
 use super::line_search::{Line, Outcome, backtrack};
 use super::solver::{Definiteness, Solution};
 
-mod error;
 mod report;
 mod settings;
 
-pub use error::NewtonError;
 pub use report::{Convergence, NewtonReport};
 pub use settings::NewtonSettings;
 
 /// Objective with the memory to minimise it: its variables x, the gradient g at x, a direction d, and the
 /// trial x + step d of a line search.
 ///
-/// [`Simulation`](crate::step::Simulation) has an implementation for one body. Codes whose variables are
-/// divided among machines implement it themselves: each number that a method returns must then be the same on
-/// all machines.
-pub trait Minimisation: Line {
+/// If variables are divided among machines, each number that a method returns is the same on all of them.
+pub(super) trait Minimisation: Line {
     /// Evaluates g after the energies; returns its norm over the free variables, N.
     fn gradient(&mut self) -> Result<f64, Self::Error>;
 
@@ -41,9 +38,7 @@ pub trait Minimisation: Line {
     fn descent(&self) -> f64;
 
     /// Share of the direction that a line search tries first, at most 1.
-    fn longest_step(&self) -> f64 {
-        1.0
-    }
+    fn longest_step(&self) -> f64;
 
     /// Prepares [`Line::change`]: differences of energies are relative to x.
     fn set_base(&mut self);
@@ -63,13 +58,13 @@ pub trait Minimisation: Line {
 
 /// Outcome of a linearisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Linearised {
+pub(super) struct Linearised {
     /// Norm of the gradient over the free variables, N.
-    pub residual: f64,
+    pub(super) residual: f64,
     /// Number of elements whose tangent the filter changed.
-    pub filtered: usize,
+    pub(super) filtered: usize,
     /// Number of elements whose tangent is at a pole.
-    pub bounded: usize,
+    pub(super) bounded: usize,
 }
 
 /// Moves x towards a minimum, and the pins with the first direction if `pins_move`.
@@ -78,7 +73,7 @@ pub struct Linearised {
 ///
 /// # Errors
 /// [`NewtonError::NotFinite`], [`NewtonError::LineSearch`], or an error of the objective.
-pub fn minimize<M: Minimisation>(
+pub(super) fn minimize<M: Minimisation>(
     minimisation: &mut M,
     pins_move: bool,
     settings: &NewtonSettings,

@@ -13,9 +13,8 @@
 //!
 //! Bodies that are suddenly pulled or let go move less smoothly than a third order demands: p is at most 2.
 
-use crate::step::error::StepError;
+use crate::step::error::{NewtonError, StepError};
 use crate::step::integrator::State;
-use crate::step::newton::NewtonError;
 use crate::step::solver::Machine;
 use crate::step::staged::StagedSteps;
 use crate::system::LinearError;

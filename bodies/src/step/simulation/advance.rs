@@ -1,8 +1,8 @@
 //! A step from one state to the next, stage by stage.
 
-use crate::step::error::StepError;
+use crate::step::error::{NewtonError, StepError};
 use crate::step::minimisation::StageMinimisation;
-use crate::step::newton::{NewtonError, NewtonReport, minimize};
+use crate::step::newton::{NewtonReport, minimize};
 use crate::step::objective::{Objective, Quadratic, Terms};
 use crate::step::solver::Machine;
 use crate::step::staged::InStage;

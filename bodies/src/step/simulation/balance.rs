@@ -1,7 +1,7 @@
 //! Forces on all nodes, and the reactions of pins, which follow from the balance of forces.
 
+use crate::step::error::NewtonError;
 use crate::step::minimisation::demand_admissible;
-use crate::step::newton::NewtonError;
 use crate::step::solver::Machine;
 
 use super::{Simulation, SimulationSettings};
