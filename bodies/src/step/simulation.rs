@@ -150,13 +150,13 @@ impl<M: Machine> Simulation<M> {
     /// Current position of each node, m.
     #[must_use]
     pub fn positions(&self) -> &[[f64; 3]] {
-        self.steps.positions()
+        &self.steps.state.x
     }
 
     /// Current velocity of each node, m/s.
     #[must_use]
     pub fn velocities(&self) -> &[[f64; 3]] {
-        self.steps.velocities()
+        &self.steps.state.v
     }
 
     /// Acceleration of each node at the end of the last step, m/s², as its integrator defines it: for
@@ -164,13 +164,13 @@ impl<M: Machine> Simulation<M> {
     /// [`Simulation::equilibrate`].
     #[must_use]
     pub fn accelerations(&self) -> &[[f64; 3]] {
-        self.steps.accelerations()
+        &self.steps.state.a
     }
 
     /// Indices of the pinned nodes, ascending.
     #[must_use]
     pub fn pinned(&self) -> &[usize] {
-        self.steps.pinned()
+        &self.steps.pinned
     }
 
     /// Machine that simulates the body or its part.
@@ -181,19 +181,19 @@ impl<M: Machine> Simulation<M> {
 
     /// Survey of the elastic energies at the current positions, evaluated if necessary.
     fn survey(&mut self) -> Evaluated {
-        let x = self.steps.positions();
+        let x = &self.steps.state.x;
         *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, x))
     }
 
     /// Springs and other terms.
     pub(super) fn all_terms(&self) -> Terms<'_> {
-        Terms { springs: self.steps.springs(), others: &self.terms }
+        Terms { springs: &self.steps.springs, others: &self.terms }
     }
 
     /// Springs that pull at the body.
     #[must_use]
     pub fn springs(&self) -> &[Spring] {
-        self.steps.springs()
+        &self.steps.springs
     }
 
     /// Current settings.

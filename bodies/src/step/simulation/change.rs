@@ -20,7 +20,9 @@ impl<M: Machine> Simulation<M> {
     /// # Errors
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
     pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.steps.set_positions(positions)?;
+        self.steps.check_nodal(positions)?;
+        self.steps.state.x.copy_from_slice(positions);
+        self.steps.targets.copy_from_slice(positions);
         self.evaluated = None;
         Ok(())
     }
@@ -30,7 +32,9 @@ impl<M: Machine> Simulation<M> {
     /// # Errors
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite velocity for each node.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.steps.set_velocities(velocities)
+        self.steps.check_nodal(velocities)?;
+        self.steps.state.v.copy_from_slice(velocities);
+        Ok(())
     }
 
     /// Sets the acceleration of each node at the end of the step before, m/s²: with positions and velocities
@@ -43,7 +47,9 @@ impl<M: Machine> Simulation<M> {
     /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite acceleration for each
     /// node.
     pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.steps.set_accelerations(accelerations)
+        self.steps.check_nodal(accelerations)?;
+        self.steps.state.a.copy_from_slice(accelerations);
+        Ok(())
     }
 
     /// Prescribes the position of a pinned node, m, after the next step and from then on.
