@@ -6,48 +6,21 @@ use thiserror::Error;
 
 use crate::system::LinearError;
 
-/// Reason why a simulation cannot be set up.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum SetupError {
-    /// A pin or spring uses a node that does not exist.
-    #[error("{0}")]
-    NoSuchNode(#[from] NoSuchNode),
-    /// A motion is prescribed for a node that is not pinned.
-    #[error("node {node} (from 0) is not pinned, so its motion cannot be prescribed")]
-    NotPinned {
-        /// The node, from 0.
-        node: usize,
-    },
-    /// Wrong length: an array does not have one entry for each node.
-    #[error("expected one entry for each of {expected} nodes, found {found}")]
-    Length {
-        /// Number of nodes.
-        expected: usize,
-        /// Number of entries given.
-        found: usize,
-    },
-    /// A vector of a node, such as its position, is infinite or NaN.
-    #[error("the entry of node {node} (from 0) is not finite")]
-    NotFinite {
-        /// The node, from 0.
-        node: usize,
-    },
-    /// A spring has a negative or infinite stiffness, or an entry that is not finite.
-    #[error("spring {index} (from 0) has a negative stiffness or an entry that is not finite")]
-    Spring {
-        /// Index of the spring.
-        index: usize,
-    },
-    /// A setting is out of range.
-    #[error("{rule}")]
-    Setting {
-        /// The rule that it breaks.
-        rule: &'static str,
-    },
-    /// The linear solver cannot be set up.
-    #[error("{0}")]
-    Linear(#[from] LinearError),
+/// Reason why a simulation cannot be set up or changed, in words.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct SetupError(pub(super) String);
+
+impl From<NoSuchNode> for SetupError {
+    fn from(error: NoSuchNode) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl From<LinearError> for SetupError {
+    fn from(error: LinearError) -> Self {
+        Self(error.to_string())
+    }
 }
 
 /// Reason why a step failed. The state before the step is untouched.

@@ -83,7 +83,7 @@ impl Simulation {
     /// A simulation at rest in the rest shape. Does the symbolic part of all later linear algebra.
     ///
     /// # Errors
-    /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`], [`SetupError::Linear`].
+    /// [`SetupError`] for a pin that is no node, a setting out of range, or a failure of the linear solver.
     pub fn new(body: Body, pins: &Pins, settings: SimulationSettings) -> Result<Self, SetupError> {
         let choice = Choice::Setting(settings.newton.linear);
         Self::on(|body| OneMachine::new(body, pins, choice), body, pins, settings)
@@ -107,7 +107,7 @@ impl<M: Machine> Simulation<M> {
     /// include copies of nodes of other machines.
     ///
     /// # Errors
-    /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`]: on this machine alone.
+    /// [`SetupError`] for a pin that is no node, or a setting out of range: on this machine alone.
     #[doc(hidden)]
     pub fn divided(
         machine: M,

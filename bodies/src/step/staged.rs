@@ -47,7 +47,7 @@ impl StagedSteps {
     /// State of nodes at rest at these positions, m, some of them pinned.
     ///
     /// # Errors
-    /// [`SetupError::NoSuchNode`].
+    /// [`SetupError`] for a pin that is no node.
     pub(super) fn new(
         integrator: Integrator,
         positions: &[[f64; 3]],
@@ -99,13 +99,15 @@ impl StagedSteps {
     /// Prescribes the position of a pinned node, m, after the next step and from then on.
     ///
     /// # Errors
-    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
+    /// [`SetupError`] for a node that is not pinned, or a position that is not finite.
     pub(super) fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
         if self.pinned.binary_search(&node).is_err() {
-            return Err(SetupError::NotPinned { node });
+            return Err(SetupError(format!(
+                "node {node} (from 0) is not pinned, so its motion cannot be prescribed"
+            )));
         }
         if position.iter().any(|x| !x.is_finite()) {
-            return Err(SetupError::NotFinite { node });
+            return Err(not_finite(node));
         }
         self.targets[node] = position;
         Ok(())
@@ -115,8 +117,8 @@ impl StagedSteps {
     /// in the course of the next step.
     ///
     /// # Errors
-    /// [`SetupError::Spring`] if its stiffness is negative or a component is not finite,
-    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
+    /// [`SetupError`] for a node that does not exist, a negative stiffness or a component that is not finite.
+    /// The springs then stay as they were.
     pub(super) fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
         springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
         let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
@@ -191,11 +193,12 @@ impl StagedSteps {
     }
 
     pub(super) fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
-        if vectors.len() != self.state.x.len() {
-            return Err(SetupError::Length { expected: self.state.x.len(), found: vectors.len() });
+        let (nodes, found) = (self.state.x.len(), vectors.len());
+        if found != nodes {
+            return Err(SetupError(format!("expected one entry for each of {nodes} nodes, found {found}")));
         }
         match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
-            Some(node) => Err(SetupError::NotFinite { node }),
+            Some(node) => Err(not_finite(node)),
             None => Ok(()),
         }
     }
@@ -207,8 +210,14 @@ impl StagedSteps {
         }
         let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
         if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
-            return Err(SetupError::Spring { index });
+            return Err(SetupError(format!(
+                "spring {index} (from 0) has a negative stiffness or an entry that is not finite"
+            )));
         }
         Ok(())
     }
+}
+
+fn not_finite(node: usize) -> SetupError {
+    SetupError(format!("the entry of node {node} (from 0) is not finite"))
 }
