@@ -5,7 +5,6 @@ use super::*;
 use crate::system::Cholesky;
 use crate::system::assemble::Elastic;
 use crate::system::element::tests::to_matrix;
-use crate::system::stiffnesses::ElementStiffnesses;
 use crate::system::testing::{beam, kirchhoff, shake};
 use crate::system::{Body, ElasticResponse};
 
@@ -44,11 +43,12 @@ fn gathering_gives_what_scattering_gives() {
 
     let mut elastic = Elastic::new(&body);
     elastic.evaluate(&body, &shake(&mut Random::new(1), body.rest(), 0.01));
-    let stiffnesses = ElementStiffnesses::of(&body, &mut elastic, Filter::None);
+    let mut kept = NodalStiffness::with_elements(&body, &[]).expect("small");
+    kept.linearise(&body, &mut elastic, Filter::None);
     let unknowns = 3 * (body.rest().len() - 2);
     assert_eq!(matrix.free_nodes().len(), body.rest().len() - 2);
     let mut expected = vec![vec![0.0; unknowns]; unknowns];
-    for (element, stiffness) in stiffnesses.of_elements(&body) {
+    for (element, stiffness) in kept.elements().of_elements(&body) {
         let of_element = to_matrix(stiffness);
         let free = element.nodes.map(|node| matrix.free_nodes().iter().position(|&other| other == node));
         for row in 0..12 {
