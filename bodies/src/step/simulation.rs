@@ -94,12 +94,6 @@ impl Simulation {
     pub fn forces(&self) -> &[[f64; 3]] {
         &self.forces
     }
-
-    /// Terms of the energy except for deformation, gravity and springs.
-    #[must_use]
-    pub fn terms(&self) -> &[Arc<dyn Term>] {
-        &self.terms
-    }
 }
 
 impl<M: Machine> Simulation<M> {

@@ -168,14 +168,6 @@ fn problems_name_the_line() {
 
 #[test]
 fn problems_of_the_older_format_name_the_line() {
-    check_in(
-        OLDER,
-        "2.2 0 8",
-        "2.2 1 8",
-        2,
-        "the file is binary, only ASCII is read; `gmsh OLD.msh -save -format msh41 -o NEW.msh` of Gmsh 4.1 or \
-         later converts it",
-    );
     check_in(OLDER, "\n10 0 0 1", "\n40 0 0 1", 15, "node 40 is given twice");
     check_in(OLDER, "\n10 0 0 1", "\n10 0 0", 15, "the z coordinate is missing");
     check_in(OLDER, "40 3 20 10", "40 3 20 99", 21, "the element names node 99, which is not given above");
