@@ -156,7 +156,9 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         workspace.machine.join(objective.body, objective.blocks)?;
         let mut tangents = Evaluated::NONE;
         let solver = workspace.machine.solver();
-        solver.with_stiffness(&mut |stiffness| tangents = objective.linearise(filter, stiffness));
+        solver.with_stiffness(&mut |stiffness| {
+            tangents = stiffness.linearise(objective.body, objective.elastic, filter);
+        });
         demand_admissible(workspace.machine.nodes(), &tangents, objective.body, objective.elastic)?;
         let NewtonWorkspace { machine, gradient, .. } = &mut **workspace;
         objective.gradient(x, gradient);
@@ -207,7 +209,7 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         let Self { objective, workspace: NewtonWorkspace { machine, gradient, direction, .. }, .. } = self;
         objective.elastic.set_base();
         objective.quadratic_gradient(self.x, gradient);
-        let own = [product(gradient, direction), objective.quadratic_curvature(direction)];
+        let own = [product(gradient, direction), objective.quadratic.curvature(direction)];
         self.quadratic = machine.nodes().totals(own);
     }
 
