@@ -35,10 +35,10 @@ mod testing;
 
 #[cfg(feature = "faer")]
 pub use equilibrium::{Equilibrium, Stability};
-pub use error::{SetupError, StepError};
+pub use error::{NewtonError, SetupError, StepError};
 pub use filtering::Filtering;
 pub use integrator::Integrator;
-pub use newton::{Convergence, NewtonError, NewtonReport, NewtonSettings};
+pub use newton::{Convergence, NewtonReport, NewtonSettings};
 pub use simulation::{AdaptiveReport, Energies, Simulation, SimulationSettings, StepReport};
 pub use solver::{LinearSolver, SparseSolver};
 pub use spring::Spring;
@@ -51,15 +51,11 @@ pub use term::{EnergyChange, NodeBlocks, Term};
 /// [`Solver`](divided::Solver) solves the linear systems.
 /// [`Simulation::divided`] takes both, and its methods are those of one machine, or have
 /// names that end in `_here`. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a
-/// divided stiffness. [`minimize`](divided::minimize) is Newton's method for any other objective.
-/// The crate in `distributed/` uses all but the last.
+/// divided stiffness. The crate in `distributed/` uses all of it.
+#[doc(hidden)]
 pub mod divided {
-    pub use super::line_search::Line;
-    pub use super::newton::{Linearised, Minimisation, minimize};
     pub use super::objective::Objective;
-    pub use super::solver::{
-        Definiteness, Machine, OneMachine, Preconditioner, Solution, SolveError, Solver,
-    };
+    pub use super::solver::{Definiteness, Machine, OneMachine, Preconditioner, Solution, Solver};
     pub use crate::system::linear::conjugate_gradients::{End, Iteration};
     pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Undivided};
 }

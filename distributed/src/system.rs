@@ -10,7 +10,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use piola_bodies::step::divided::{
-    Definiteness, End, Iteration, Machine, Objective, Preconditioner, Solution, SolveError, Solver,
+    Definiteness, End, Iteration, Machine, Objective, Preconditioner, Solution, Solver,
 };
 use piola_bodies::step::{NewtonError, StepError};
 use piola_bodies::system::{Body, LinearError, NodalStiffness};
@@ -326,12 +326,10 @@ impl Solver for LinearSystem {
         direction: &mut [[f64; 3]],
         tolerance: f64,
         definiteness: Definiteness,
-    ) -> Result<Option<Solution>, SolveError> {
+    ) -> Result<Option<Solution>, NewtonError> {
         let (gradient, owned) = (&gradient[..self.shares.len()], &mut direction[..self.shares.len()]);
         match self.find_direction(objective, x, gradient, owned, tolerance, definiteness) {
-            Err(Error::Step(StepError::Newton(NewtonError::NotPositive { node, shift }))) => {
-                Err(SolveError::NotPositive { node, shift })
-            }
+            Err(Error::Step(StepError::Newton(error @ NewtonError::NotPositive { .. }))) => Err(error),
             // An earlier exchange may have failed, too.
             found => match self.failure.note(found) {
                 Some(solution) if !self.failure.is_noted() => Ok(solution),

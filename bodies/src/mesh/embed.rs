@@ -5,7 +5,7 @@ use thiserror::Error;
 use tree::{Nearest, Tree};
 
 use super::io::Surface;
-use super::tet::{Bounds, MeshError, RestShape, TetMesh, cross, dot, norm, subtract};
+use super::tet::{Bounds, RestShape, TetMesh, cross, dot, norm, subtract};
 
 mod tree;
 
@@ -50,20 +50,23 @@ impl Embedding {
     /// near, the first in the mesh is used.
     ///
     /// # Errors
-    /// [`EmbedError::Outside`] for a vertex farther outside, [`EmbedError::NotFinite`] for a position that is
-    /// not finite, [`EmbedError::Tolerance`] if the tolerance is negative or NaN, [`EmbedError::Mesh`] if the
-    /// mesh is not a body ([`TetMesh::rest_shapes`]).
+    /// [`EmbedError`] for a vertex farther outside, for a position that is not finite, if the tolerance is
+    /// negative or NaN, or if the mesh is not a body ([`TetMesh::rest_shapes`]).
     pub fn new(mesh: &TetMesh, surface: &Surface, tolerance: f64) -> Result<Self, EmbedError> {
         if tolerance.is_nan() || tolerance < 0.0 {
-            return Err(EmbedError::Tolerance { tolerance });
+            let tolerance = number(tolerance);
+            return Err(EmbedError(format!(
+                "the largest distance of a surface vertex from the mesh is {tolerance} m; it must not be negative"
+            )));
         }
-        let shapes = mesh.rest_shapes()?;
+        let shapes = mesh.rest_shapes().map_err(|error| EmbedError(error.to_string()))?;
         let cage = Cage { mesh, shapes: &shapes };
         let tree = cage.tree();
         let anchors = surface.positions.iter().enumerate().map(|(index, &x)| {
             let vertex = index + 1;
             if !x.iter().all(|c| c.is_finite()) {
-                return Err(EmbedError::NotFinite { vertex });
+                let problem = format!("surface vertex {vertex} has a coordinate that is not finite");
+                return Err(EmbedError(problem));
             }
             match tree.nearest(x, |tet| cage.distance(tet, x)) {
                 Some(Nearest { body: tet, distance, .. }) if distance <= tolerance => {
@@ -71,7 +74,10 @@ impl Embedding {
                 }
                 nearest => {
                     let distance = nearest.map_or(f64::INFINITY, |nearest| nearest.distance);
-                    Err(EmbedError::Outside { vertex, distance, tolerance })
+                    Err(EmbedError(format!(
+                        "surface vertex {vertex} lies {distance:.3e} m outside the tetrahedral mesh; at most \
+                         {tolerance:.3e} m is allowed"
+                    )))
                 }
             }
         });
@@ -96,41 +102,10 @@ impl Embedding {
     }
 }
 
-/// Reason why a surface cannot be embedded.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum EmbedError {
-    /// A vertex is too far from every tetrahedron.
-    #[error(
-        "surface vertex {vertex} lies {distance:.3e} m outside the tetrahedral mesh; at most {tolerance:.3e} m is allowed"
-    )]
-    Outside {
-        /// The vertex, from 1 as in an OBJ file.
-        vertex: usize,
-        /// Its distance from the nearest tetrahedron, m.
-        distance: f64,
-        /// Largest allowed distance, m.
-        tolerance: f64,
-    },
-    /// A coordinate of a vertex is infinite or NaN.
-    #[error("surface vertex {vertex} has a coordinate that is not finite")]
-    NotFinite {
-        /// The vertex, from 1 as in an OBJ file.
-        vertex: usize,
-    },
-    /// The largest allowed distance is negative or NaN.
-    #[error(
-        "the largest distance of a surface vertex from the mesh is {} m; it must not be negative",
-        number(*tolerance)
-    )]
-    Tolerance {
-        /// The distance as given, m.
-        tolerance: f64,
-    },
-    /// The mesh of the tetrahedra is not a body.
-    #[error("{0}")]
-    Mesh(#[from] MeshError),
-}
+/// Reason why a surface cannot be embedded, in words. Vertices are counted from 1, as in an OBJ file.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct EmbedError(String);
 
 /// The tetrahedra at rest.
 struct Cage<'a> {
@@ -227,10 +202,10 @@ mod tests {
         );
         let error =
             Embedding::new(&corner(), &points(&[[3.0, 0.0, 0.0]]), 0.1).expect_err("two metres outside");
-        assert!(matches!(error, EmbedError::Outside { vertex: 1, distance, .. } if distance == 2.0));
+        assert!(error.to_string().starts_with("surface vertex 1 lies 2.000e0 m outside"), "{error}");
         for nowhere in [f64::NAN, f64::INFINITY] {
             let error = Embedding::new(&corner(), &points(&[[nowhere; 3]]), 0.1).expect_err("nowhere");
-            assert_eq!(error, EmbedError::NotFinite { vertex: 1 });
+            assert_eq!(error.to_string(), "surface vertex 1 has a coordinate that is not finite");
         }
     }
 

@@ -113,28 +113,33 @@ impl TetMesh {
     /// its sign would be noise.
     pub fn rest_shapes(&self) -> Result<Vec<RestShape>, MeshError> {
         if self.tets.is_empty() {
-            return Err(MeshError::Empty);
+            return Err(MeshError("the mesh has no tetrahedra".to_owned()));
         }
         if let Some(node) = self.positions.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
-            return Err(MeshError::NotFinite { node });
+            return Err(MeshError(format!("the position of node {node} (from 0) is not finite")));
         }
         let mut shapes = Vec::with_capacity(self.tets.len());
         for (tet, nodes) in self.tets.iter().enumerate() {
             let (element, count) = (self.tag(tet), self.positions.len());
             if let Some(&node) = nodes.iter().find(|&&node| node >= count) {
-                return Err(NoSuchNode { element: Some(element), node, nodes: count }.into());
+                let missing = NoSuchNode { element: Some(element), node, nodes: count };
+                return Err(MeshError(missing.to_string()));
             }
-            let shape = rest_shape(nodes.map(|node| self.positions[node]));
-            shapes.push(shape.map_err(|fault| match fault {
-                Fault::Volume(volume) => MeshError::NonPositiveVolume { element, volume },
-                Fault::Scale(length) => MeshError::VolumeOutOfRange { element, length },
-            })?);
+            shapes.push(rest_shape(element, nodes.map(|node| self.positions[node]))?);
         }
-        match (self.unused_nodes().first(), self.repeated()) {
-            (Some(&node), _) => Err(MeshError::UnusedNode { node }),
-            (None, Some(tets)) => Err(MeshError::SameTwice { elements: tets.map(|tet| self.tag(tet)) }),
-            (None, None) => Ok(shapes),
+        if let Some(node) = self.unused_nodes().first() {
+            return Err(MeshError(format!(
+                "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
+                 `TetMesh::without_unused_nodes` removes such nodes"
+            )));
         }
+        if let Some([one, other]) = self.repeated().map(|tets| tets.map(|tet| self.tag(tet))) {
+            return Err(MeshError(format!(
+                "elements {one} and {other} join the same four nodes, which would count their volume twice; \
+                 remove one of them"
+            )));
+        }
+        Ok(shapes)
     }
 
     /// First two tetrahedra that join the same four nodes, in any order.
@@ -248,16 +253,8 @@ pub(crate) fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f
     masses
 }
 
-/// Reason why a tetrahedron has no shape.
-enum Fault {
-    /// Its volume, m³, is not positive.
-    Volume(f64),
-    /// Its volume is out of the range of f64; the value is the length of its longest edge, m.
-    Scale(f64),
-}
-
-/// Inverse edge matrix and volume of a tetrahedron.
-fn rest_shape([x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestShape, Fault> {
+/// Inverse edge matrix and volume of a tetrahedron; `element` is its tag.
+fn rest_shape(element: usize, [x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestShape, MeshError> {
     let edges = [subtract(x1, x0), subtract(x2, x0), subtract(x3, x0)];
     let (rows, determinant, noise) = inverse(edges);
     let volume = determinant / 6.0;
@@ -267,8 +264,16 @@ fn rest_shape([x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestShape, Fault> {
     // At the size of one nothing overflows, and what is flat is flat.
     let size = edges.as_flattened().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
     let (_, unit_determinant, unit_noise) = inverse(edges.map(|edge| edge.map(|x| x / size)));
-    let is_out_of_range = size.is_infinite() || unit_determinant > unit_noise;
-    Err(if is_out_of_range { Fault::Scale(size) } else { Fault::Volume(volume) })
+    if size.is_infinite() || unit_determinant > unit_noise {
+        let fault = if size > 1.0 { "overflows" } else { "underflows" };
+        return Err(MeshError(format!(
+            "element {element} is {size:.0e} m large, and its volume {fault}; are the units right?"
+        )));
+    }
+    Err(MeshError(format!(
+        "element {element} has the rest volume {volume:e} m³, which is not positive beyond rounding; \
+         is it flat, or are two of its nodes swapped?"
+    )))
 }
 
 /// Rows of the inverse of a matrix of these columns times the determinant, the determinant, and a bound for
@@ -301,70 +306,18 @@ impl Bounds {
     }
 }
 
-/// Reason why a mesh is not a body.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum MeshError {
-    /// Mesh without tetrahedra.
-    #[error("the mesh has no tetrahedra")]
-    Empty,
-    /// A coordinate is infinite or NaN.
-    #[error("the position of node {node} (from 0) is not finite")]
-    NotFinite {
-        /// The node, from 0.
-        node: usize,
-    },
-    /// A tetrahedron uses a node that does not exist.
-    #[error("{0}")]
-    NoSuchNode(#[from] NoSuchNode),
-    /// A node belongs to no tetrahedron; it would have no mass.
-    #[error(
-        "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
-         `TetMesh::without_unused_nodes` removes such nodes"
-    )]
-    UnusedNode {
-        /// The node, from 0.
-        node: usize,
-    },
-    /// Two tetrahedra join the same four nodes.
-    #[error(
-        "elements {} and {} join the same four nodes, which would count their volume twice; remove one of them",
-        elements[0], elements[1]
-    )]
-    SameTwice {
-        /// Tags of the two.
-        elements: [usize; 2],
-    },
-    /// A tetrahedron is flat or inverted at rest.
-    #[error(
-        "element {element} has the rest volume {volume:e} m³, which is not positive beyond rounding; \
-         is it flat, or are two of its nodes swapped?"
-    )]
-    NonPositiveVolume {
-        /// Tag of the tetrahedron.
-        element: usize,
-        /// Its signed volume, m³.
-        volume: f64,
-    },
-    /// A tetrahedron is so large or so small that its volume overflows or underflows.
-    #[error(
-        "element {element} is {length:.0e} m large, and its volume {}; are the units right?",
-        if *length > 1.0 { "overflows" } else { "underflows" }
-    )]
-    VolumeOutOfRange {
-        /// Tag of the tetrahedron.
-        element: usize,
-        /// The largest difference between the coordinates of its nodes, m.
-        length: f64,
-    },
-}
+/// Reason why a mesh is not a body, in words.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct MeshError(String);
 
-/// Message that a mesh has no group of a name; `of` is the kind of groups, if not all count.
-pub(crate) fn no_such_group(name: &str, existing: &[String], of: &str) -> String {
+/// Message that a mesh has no group of a name; `of` is the kind of the existing groups, if not all count.
+pub(crate) fn no_such_group<'a>(name: &str, existing: impl Iterator<Item = &'a Group>, of: &str) -> String {
     let name = quoted(name);
-    match existing {
-        [] => format!("there is no group `{name}`: the mesh has no groups{of}"),
-        _ => format!("there is no group `{name}`{of}; there are: {}", names(existing)),
+    let mut existing = existing.map(|group| &group.name).peekable();
+    match existing.peek() {
+        None => format!("there is no group `{name}`: the mesh has no groups{of}"),
+        Some(_) => format!("there is no group `{name}`{of}; there are: {}", names(existing)),
     }
 }
 
@@ -430,7 +383,8 @@ mod tests {
     fn a_volume_below_its_rounding_error_counts_as_zero() {
         let mut mesh = corner();
         mesh.positions[3] = [0.1, 0.2, 1e-17];
-        assert!(matches!(mesh.rest_shapes(), Err(MeshError::NonPositiveVolume { element: 1, .. })));
+        let message = mesh.rest_shapes().expect_err("flat").to_string();
+        assert!(message.starts_with("element 1 has the rest volume "), "{message}");
     }
 
     /// A row of tetrahedra, two of which become the same.
@@ -443,7 +397,9 @@ mod tests {
             twice.tets.push(even.map(|k| mesh.tets[7][k]));
             twice.tags.push(3);
             let error = twice.rest_shapes().expect_err("a tetrahedron twice");
-            assert_eq!(error, MeshError::SameTwice { elements: [107, 3] });
+            let expected = "elements 107 and 3 join the same four nodes, which would count their volume twice; \
+                            remove one of them";
+            assert_eq!(error.to_string(), expected);
         }
         assert!(mesh.rest_shapes().is_ok());
     }
@@ -464,20 +420,19 @@ mod tests {
         for (scale, word) in
             [(1e-103, "underflows"), (1e-300, "underflows"), (1e103, "overflows"), (1e307, "overflows")]
         {
-            let error = scaled(scale, 1.0).expect_err("out of range");
-            assert!(
-                matches!(error, MeshError::VolumeOutOfRange { element: 1, length } if length == 5.0 * scale)
-            );
-            let message = error.to_string();
-            assert!(message.contains(word) && message.ends_with("; are the units right?"), "{message}");
-            let error = scaled(scale, 0.0).expect_err("flat");
-            assert!(matches!(error, MeshError::NonPositiveVolume { .. }), "{scale:e}: {error}");
+            let message = scaled(scale, 1.0).expect_err("out of range").to_string();
+            let size = 5.0 * scale;
+            let expected =
+                format!("element 1 is {size:.0e} m large, and its volume {word}; are the units right?");
+            assert_eq!(message, expected);
+            let message = scaled(scale, 0.0).expect_err("flat").to_string();
+            assert!(message.contains("not positive beyond rounding"), "{scale:e}: {message}");
         }
         let mut widest = corner();
         widest.positions[0] = [f64::MIN; 3];
         widest.positions[1] = [f64::MAX; 3];
-        let error = widest.rest_shapes().expect_err("an edge overflows");
-        assert!(matches!(error, MeshError::VolumeOutOfRange { .. }), "{error}");
+        let message = widest.rest_shapes().expect_err("an edge overflows").to_string();
+        assert!(message.ends_with("its volume overflows; are the units right?"), "{message}");
     }
 
     #[test]
@@ -491,7 +446,8 @@ mod tests {
         broken.tets.as_flattened_mut().iter_mut().for_each(|node| *node += 1);
         broken.groups = vec![Group { nodes: vec![0, 5], ..Group::default() }];
         assert_eq!((broken.connected_components(), broken.unused_nodes()), (vec![6, 6], vec![0]));
-        assert!(matches!(broken.rest_shapes(), Err(MeshError::UnusedNode { node: 0 })));
+        let message = broken.rest_shapes().expect_err("an unused node").to_string();
+        assert!(message.starts_with("node 0 (from 0) belongs to no tetrahedron"), "{message}");
         let cleaned = broken.without_unused_nodes();
         assert_eq!((cleaned.bounds(), cleaned.dropped_nodes), (whole.bounds(), 1));
         assert_eq!(cleaned.groups[0].nodes, [4]);

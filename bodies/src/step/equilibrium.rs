@@ -24,9 +24,9 @@ use crate::system::assemble::Elastic;
 use crate::system::linear::multigrid::Undivided;
 use crate::system::{Body, Cholesky, LinearError, LowerTriangle, NodalStiffness, Pins, Tetrahedron};
 
+use super::error::NewtonError;
 use super::integrator::Stage;
 use super::minimisation::demand_admissible;
-use super::newton::NewtonError;
 use super::objective::{Objective, Quadratic};
 use super::simulation::Simulation;
 use super::term::NodeBlocks;
@@ -126,7 +126,7 @@ impl Equilibrium {
         matrix.fill(&stiffness, |_| 0.0)?;
         blocks.add_to_triangle(&mut matrix);
         let rigid = rigid::motions(simulation, matrix.free_nodes());
-        let definiteness = Definiteness::of(&mut matrix, body.masses(), &rigid)?;
+        let in_balance = stability(&mut matrix, body.masses(), &rigid)?;
 
         let square = |x: &[f64; 3]| x.iter().map(|c| c * c).sum::<f64>();
         let is_free = |node: &usize| simulation.pinned().binary_search(node).is_err();
@@ -143,11 +143,9 @@ impl Equilibrium {
             residual,
             largest_force,
             unit_force,
-            stability: match definiteness {
-                _ if residual > BALANCE * largest_force && !is_stress_free => Stability::Unbalanced,
-                Definiteness::Positive => Stability::Stable,
-                Definiteness::Singular => Stability::Undecided,
-                Definiteness::Indefinite => Stability::Saddle,
+            stability: match residual > BALANCE * largest_force && !is_stress_free {
+                true => Stability::Unbalanced,
+                false => in_balance,
             },
             rigid_motions: rigid.len(),
             inverted: elastic.stretches().filter(|stretches| stretches[2] < 0.0).count(),
@@ -171,45 +169,41 @@ fn unit_force(body: &Body) -> f64 {
     forces.fold(0.0, f64::max)
 }
 
-/// Signs of the eigenvalues of a stiffness beyond the rigid motions.
-enum Definiteness {
-    Positive,
-    Singular,
-    Indefinite,
-}
-
-impl Definiteness {
-    /// Judges the stiffness of the free nodes, and changes it; `rigid` are motions of these nodes.
-    fn of(stiffness: &mut LowerTriangle, masses: &[f64], rigid: &[Vec<f64>]) -> Result<Self, NewtonError> {
-        if !stiffness.values().iter().all(|entry| entry.is_finite()) {
-            return Err(NewtonError::NotFinite);
-        }
-        let mass = |row: usize, stiffness: &LowerTriangle| masses[stiffness.free_nodes()[row / 3]];
-        let ratios = stiffness.diagonal().enumerate().map(|(row, entry)| entry.abs() / mass(row, stiffness));
-        let scale = ratios.fold(0.0, f64::max);
-        // A body without stiffness has no negative eigenvalue.
-        let scale = if scale > 0.0 { scale } else { 1.0 };
-        let shift = |node: usize| SHIFT * scale * masses[node];
-        if !scale.is_finite() {
-            return Err(NewtonError::NotFinite);
-        }
-        let held = held(rigid);
-        stiffness.add_to_diagonal(|row, node| match held.contains(&row) {
-            true => shift(node) + scale * masses[node],
-            false => shift(node),
-        });
-        let mut cholesky = Cholesky::new(stiffness.column_starts(), stiffness.row_indices())?;
-        let mut is_positive = |stiffness: &LowerTriangle| match cholesky.factor(stiffness.values()) {
-            Ok(()) => Ok(true),
-            Err(LinearError::NotPositive { .. }) => Ok(false),
-            Err(error) => Err(error),
-        };
-        if !is_positive(stiffness)? {
-            return Ok(Self::Indefinite);
-        }
-        stiffness.add_to_diagonal(|_, node| -2.0 * shift(node));
-        Ok(if is_positive(stiffness)? { Self::Positive } else { Self::Singular })
+/// Stability of a body in balance, by the signs of the eigenvalues of its stiffness beyond the rigid motions.
+/// Changes the stiffness of the free nodes; `rigid` are motions of these nodes.
+fn stability(
+    stiffness: &mut LowerTriangle,
+    masses: &[f64],
+    rigid: &[Vec<f64>],
+) -> Result<Stability, NewtonError> {
+    if !stiffness.values().iter().all(|entry| entry.is_finite()) {
+        return Err(NewtonError::NotFinite);
     }
+    let mass = |row: usize, stiffness: &LowerTriangle| masses[stiffness.free_nodes()[row / 3]];
+    let ratios = stiffness.diagonal().enumerate().map(|(row, entry)| entry.abs() / mass(row, stiffness));
+    let scale = ratios.fold(0.0, f64::max);
+    // A body without stiffness has no negative eigenvalue.
+    let scale = if scale > 0.0 { scale } else { 1.0 };
+    let shift = |node: usize| SHIFT * scale * masses[node];
+    if !scale.is_finite() {
+        return Err(NewtonError::NotFinite);
+    }
+    let held = held(rigid);
+    stiffness.add_to_diagonal(|row, node| match held.contains(&row) {
+        true => shift(node) + scale * masses[node],
+        false => shift(node),
+    });
+    let mut cholesky = Cholesky::new(stiffness.column_starts(), stiffness.row_indices())?;
+    let mut is_positive = |stiffness: &LowerTriangle| match cholesky.factor(stiffness.values()) {
+        Ok(()) => Ok(true),
+        Err(LinearError::NotPositive { .. }) => Ok(false),
+        Err(error) => Err(error),
+    };
+    if !is_positive(stiffness)? {
+        return Ok(Stability::Saddle);
+    }
+    stiffness.add_to_diagonal(|_, node| -2.0 * shift(node));
+    Ok(if is_positive(stiffness)? { Stability::Stable } else { Stability::Undecided })
 }
 
 /// Unknowns, one for each motion, such that no combination of the motions leaves all of them in place: by

@@ -1,54 +1,26 @@
-//! Errors of setting up and stepping a simulation.
+//! Errors of setting up and stepping a simulation, and of the minimisations in a step.
 
 use piola::__private::message::number;
 use piola::NoSuchNode;
 use thiserror::Error;
 
-use crate::step::newton::NewtonError;
 use crate::system::LinearError;
 
-/// Reason why a simulation cannot be set up.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum SetupError {
-    /// A pin or spring uses a node that does not exist.
-    #[error("{0}")]
-    NoSuchNode(#[from] NoSuchNode),
-    /// A motion is prescribed for a node that is not pinned.
-    #[error("node {node} (from 0) is not pinned, so its motion cannot be prescribed")]
-    NotPinned {
-        /// The node, from 0.
-        node: usize,
-    },
-    /// Wrong length: an array does not have one entry for each node.
-    #[error("expected one entry for each of {expected} nodes, found {found}")]
-    Length {
-        /// Number of nodes.
-        expected: usize,
-        /// Number of entries given.
-        found: usize,
-    },
-    /// A vector of a node, such as its position, is infinite or NaN.
-    #[error("the entry of node {node} (from 0) is not finite")]
-    NotFinite {
-        /// The node, from 0.
-        node: usize,
-    },
-    /// A spring has a negative or infinite stiffness, or an entry that is not finite.
-    #[error("spring {index} (from 0) has a negative stiffness or an entry that is not finite")]
-    Spring {
-        /// Index of the spring.
-        index: usize,
-    },
-    /// A setting is out of range.
-    #[error("{rule}")]
-    Setting {
-        /// The rule that it breaks.
-        rule: &'static str,
-    },
-    /// The linear solver cannot be set up.
-    #[error("{0}")]
-    Linear(#[from] LinearError),
+/// Reason why a simulation cannot be set up or changed, in words.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct SetupError(pub(super) String);
+
+impl From<NoSuchNode> for SetupError {
+    fn from(error: NoSuchNode) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl From<LinearError> for SetupError {
+    fn from(error: LinearError) -> Self {
+        Self(error.to_string())
+    }
 }
 
 /// Reason why a step failed. The state before the step is untouched.
@@ -70,6 +42,85 @@ pub enum StepError {
     /// The minimisation failed.
     #[error("{0}")]
     Newton(#[from] NewtonError),
+}
+
+/// Reason why Newton's method failed.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum NewtonError {
+    /// An element is outside the domain of its material at the start.
+    #[error(
+        "element {element} is outside the domain of its material before the step: its stretches are {} \
+         (`Inversion::Extend` continues an energy beyond J > 0 only: other conditions of its domain must hold)",
+        stretches.map(number).join(", ")
+    )]
+    Inadmissible {
+        /// Tag of the element.
+        element: usize,
+        /// Its principal stretches; NaN if unknown.
+        stretches: [f64; 3],
+    },
+    /// The energy, a force or the stiffness of an element is infinite or NaN at the start, although its
+    /// material admits its deformation.
+    #[error(
+        "the energy or a force of element {element} is not finite before the step: the deformation, the moduli of \
+         the material or the reciprocal of its `epsilon` exceed the range of f64"
+    )]
+    ElementNotFinite {
+        /// Tag of the element.
+        element: usize,
+    },
+    /// The motion of the pins alone takes an element out of the domain of its material.
+    #[error(
+        "the motion of the pins takes element {element} out of the domain of its material; take shorter time steps"
+    )]
+    PinsMoveTooFar {
+        /// Tag of the element.
+        element: usize,
+    },
+    /// A term has no energy before the step, or after the pins have moved.
+    #[error(
+        "term {term} (from 0) has no finite energy before the step or where the pins move; set positions that it \
+         admits, or take shorter time steps"
+    )]
+    TermRefuses {
+        /// Index of the term, from 0.
+        term: usize,
+    },
+    /// A term uses a node that does not exist.
+    #[error("second derivatives of a term: {0}")]
+    NoSuchNode(#[from] NoSuchNode),
+    /// The matrix is not positive definite with any multiple of inertia added.
+    #[error(
+        "the matrix is not positive definite at node {node} (from 0), even with {shift:e} times the inertia added; \
+         where elements are so flat that the energy's derivatives differ by more orders of magnitude than f64 has \
+         digits, extend it from a greater `epsilon`, or begin less flat"
+    )]
+    NotPositive {
+        /// The node in whose unknowns a pivot fails.
+        node: usize,
+        /// The largest multiple of inertia that was tried.
+        shift: f64,
+    },
+    /// A gradient, a direction or a slope is infinite or NaN.
+    #[error("a force or the Newton direction is not finite; the motion exceeds the range of f64")]
+    NotFinite,
+    /// No step along a direction of descent decreases the objective.
+    #[error(
+        "no step down to {step:e} of the Newton direction decreases the energy (residual {residual:e} N, {refused} \
+         trials outside the domain of a material)"
+    )]
+    LineSearch {
+        /// The smallest step tried.
+        step: f64,
+        /// Number of trials that left the domain of a material.
+        refused: usize,
+        /// Norm of the gradient, N.
+        residual: f64,
+    },
+    /// The linear solver failed for another reason.
+    #[error("{0}")]
+    Linear(#[from] LinearError),
 }
 
 /// A time step with the reason why it is refused.

@@ -22,7 +22,7 @@ const SHRINK: f64 = 0.5;
 const MAX_TRIALS: usize = 48;
 
 /// Objective along a line, relative to its start.
-pub trait Line {
+pub(super) trait Line {
     /// Reason why the objective cannot be evaluated, other than a point outside its domain.
     type Error;
 

@@ -15,8 +15,9 @@ use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::linear::multigrid::Division;
 
+use super::error::NewtonError;
 use super::line_search::Line;
-use super::newton::{Linearised, Minimisation, NewtonError};
+use super::newton::{Linearised, Minimisation};
 use super::objective::{Objective, product};
 use super::solver::{Definiteness, Machine, Solution};
 use super::term::EnergyChange;
@@ -155,7 +156,9 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         workspace.machine.join(objective.body, objective.blocks)?;
         let mut tangents = Evaluated::NONE;
         let solver = workspace.machine.solver();
-        solver.with_stiffness(&mut |stiffness| tangents = objective.linearise(filter, stiffness));
+        solver.with_stiffness(&mut |stiffness| {
+            tangents = stiffness.linearise(objective.body, objective.elastic, filter);
+        });
         demand_admissible(workspace.machine.nodes(), &tangents, objective.body, objective.elastic)?;
         let NewtonWorkspace { machine, gradient, .. } = &mut **workspace;
         objective.gradient(x, gradient);
@@ -206,7 +209,7 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         let Self { objective, workspace: NewtonWorkspace { machine, gradient, direction, .. }, .. } = self;
         objective.elastic.set_base();
         objective.quadratic_gradient(self.x, gradient);
-        let own = [product(gradient, direction), objective.quadratic_curvature(direction)];
+        let own = [product(gradient, direction), objective.quadratic.curvature(direction)];
         self.quadratic = machine.nodes().totals(own);
     }
 

@@ -4,46 +4,41 @@
 
 use piola::point::Filter;
 
+use super::error::NewtonError;
 use super::filtering::Filtering;
 use super::line_search::{Line, Outcome, backtrack};
 use super::solver::{Definiteness, Solution};
 
-mod error;
 mod report;
 mod settings;
 
-pub use error::NewtonError;
 pub use report::{Convergence, NewtonReport};
 pub use settings::NewtonSettings;
 
 /// Objective with the memory to minimise it: its variables x, the gradient g at x, a direction d, and the
 /// trial x + step d of a line search.
 ///
-/// [`Simulation`](crate::step::Simulation) has an implementation for one body. Codes whose variables are
-/// divided among machines implement it themselves: each number that a method returns must then be the same on
-/// all machines.
-pub trait Minimisation: Line {
+/// If variables are divided among machines, each number that a method returns is the same on all of them.
+pub(super) trait Minimisation: Line<Error = NewtonError> {
     /// Evaluates g after the energies; returns its norm over the free variables, N.
-    fn gradient(&mut self) -> Result<f64, Self::Error>;
+    fn gradient(&mut self) -> Result<f64, NewtonError>;
 
     /// Evaluates g and the filtered second derivatives K; with `pins_move`, adds K times the displacement of
     /// the pins to g.
-    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, Self::Error>;
+    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, NewtonError>;
 
     /// Solves K d = −g. The relative tolerance takes effect if it is tighter than the solver's own.
     /// Returns `None` if K is indefinite and [`Definiteness::Required`].
-    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, Self::Error>;
+    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, NewtonError>;
 
     /// Moves the pins in x, and evaluates the energies there.
-    fn move_pins(&mut self) -> Result<(), Self::Error>;
+    fn move_pins(&mut self) -> Result<(), NewtonError>;
 
     /// g·d over the free variables, J.
     fn descent(&self) -> f64;
 
     /// Share of the direction that a line search tries first, at most 1.
-    fn longest_step(&self) -> f64 {
-        1.0
-    }
+    fn longest_step(&self) -> f64;
 
     /// Prepares [`Line::change`]: differences of energies are relative to x.
     fn set_base(&mut self);
@@ -63,13 +58,13 @@ pub trait Minimisation: Line {
 
 /// Outcome of a linearisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Linearised {
+pub(super) struct Linearised {
     /// Norm of the gradient over the free variables, N.
-    pub residual: f64,
+    pub(super) residual: f64,
     /// Number of elements whose tangent the filter changed.
-    pub filtered: usize,
+    pub(super) filtered: usize,
     /// Number of elements whose tangent is at a pole.
-    pub bounded: usize,
+    pub(super) bounded: usize,
 }
 
 /// Moves x towards a minimum, and the pins with the first direction if `pins_move`.
@@ -77,15 +72,12 @@ pub struct Linearised {
 /// The energies must have been evaluated at x, and on success they have been again.
 ///
 /// # Errors
-/// [`NewtonError::NotFinite`], [`NewtonError::LineSearch`], or an error of the objective.
-pub fn minimize<M: Minimisation>(
+/// [`NewtonError::NotFinite`], [`NewtonError::LineSearch`], or an error of the minimisation.
+pub(super) fn minimize<M: Minimisation>(
     minimisation: &mut M,
     pins_move: bool,
     settings: &NewtonSettings,
-) -> Result<NewtonReport, M::Error>
-where
-    M::Error: From<NewtonError>,
-{
+) -> Result<NewtonReport, NewtonError> {
     let report = NewtonReport::before(settings);
     Newton { minimisation, settings, report, moved: None }.run(pins_move)
 }
@@ -109,11 +101,8 @@ enum Progress {
     Nothing,
 }
 
-impl<M: Minimisation> Newton<'_, M>
-where
-    M::Error: From<NewtonError>,
-{
-    fn run(mut self, mut pins_move: bool) -> Result<NewtonReport, M::Error> {
+impl<M: Minimisation> Newton<'_, M> {
+    fn run(mut self, mut pins_move: bool) -> Result<NewtonReport, NewtonError> {
         // Iterations in a row that have gained nothing beyond noise, neither in the objective nor in the
         // gradient.
         let mut idle = 0;
@@ -174,9 +163,9 @@ where
     }
 
     /// Evaluates the gradient; returns true if it is small enough.
-    fn note_gradient(&mut self) -> Result<bool, M::Error> {
+    fn note_gradient(&mut self) -> Result<bool, NewtonError> {
         let residual = self.minimisation.gradient()?;
-        Ok(self.report.note_residual(residual, self.settings)?)
+        self.report.note_residual(residual, self.settings)
     }
 
     /// Relative tolerance for the next system [EW96, choice 2], not tighter than the last system requires.
@@ -191,7 +180,7 @@ where
     /// Moving pins enter the first linear system with their displacement d: K p = −g − K d. Its tangent is
     /// that of the state before they move, when elements next to them are not yet distorted; the line search
     /// starts after the move.
-    fn find_direction(&mut self, pins_move: bool, tolerance: f64) -> Result<bool, M::Error> {
+    fn find_direction(&mut self, pins_move: bool, tolerance: f64) -> Result<bool, NewtonError> {
         let filtering = self.settings.filtering;
         let residual = self.linearise(filtering.choice(), pins_move)?;
         if !pins_move && self.report.iterations == 0 && self.report.note_residual(residual, self.settings)? {
@@ -208,7 +197,7 @@ where
     }
 
     /// Evaluates the gradient and the filtered second derivatives; returns the norm of the gradient.
-    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<f64, M::Error> {
+    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<f64, NewtonError> {
         let Linearised { residual, filtered, bounded } = self.minimisation.linearise(filter, pins_move)?;
         self.report.filtered = self.report.filtered.max(filtered);
         self.report.bounded = self.report.bounded.max(bounded);
@@ -216,7 +205,7 @@ where
     }
 
     /// Solves for the direction; returns false if the matrix is indefinite and definiteness is required.
-    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<bool, M::Error> {
+    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<bool, NewtonError> {
         let Some(solution) = self.minimisation.solve(tolerance, definiteness)? else { return Ok(false) };
         self.report.shift = self.report.shift.max(solution.shift);
         self.report.linear_iterations += solution.iterations;
@@ -226,17 +215,17 @@ where
 
     /// Moves the pins; returns false if the direction, found before the move, is not a descent direction
     /// after it.
-    fn move_pins(&mut self) -> Result<bool, M::Error> {
+    fn move_pins(&mut self) -> Result<bool, NewtonError> {
         self.minimisation.move_pins()?;
         self.note_gradient()?;
         Ok(self.minimisation.descent() < 0.0)
     }
 
     /// Moves x along the direction by a step that the line search accepts.
-    fn search(&mut self) -> Result<Progress, M::Error> {
+    fn search(&mut self) -> Result<Progress, NewtonError> {
         let slope = self.minimisation.descent();
         if !slope.is_finite() {
-            return Err(NewtonError::NotFinite.into());
+            return Err(NewtonError::NotFinite);
         }
         let first = self.minimisation.longest_step();
         self.minimisation.set_base();
@@ -252,7 +241,7 @@ where
                 self.report.refused_trials += refused;
                 if -slope > self.minimisation.reject() {
                     let residual = self.report.residual;
-                    return Err(NewtonError::LineSearch { step, refused, residual }.into());
+                    return Err(NewtonError::LineSearch { step, refused, residual });
                 }
                 Ok(Progress::Nothing)
             }

@@ -17,8 +17,6 @@
 use std::iter;
 use std::sync::Arc;
 
-use piola::point::Filter;
-
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
@@ -99,7 +97,7 @@ impl Quadratic<'_> {
     }
 
     /// Curvature dᵀ H d.
-    fn curvature(&self, d: &[[f64; 3]]) -> f64 {
+    pub(super) fn curvature(&self, d: &[[f64; 3]]) -> f64 {
         let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
         d.iter().enumerate().map(|(node, &d)| self.diagonal(node) * square(d)).sum()
     }
@@ -166,11 +164,6 @@ impl Objective<'_> {
         self.elastic.evaluate(self.body, x)
     }
 
-    /// Evaluates the elastic gradients and the filtered stiffness where the energies were evaluated last.
-    pub(super) fn linearise(&mut self, filter: Filter, stiffness: &mut NodalStiffness) -> Evaluated {
-        stiffness.linearise(self.body, self.elastic, filter)
-    }
-
     /// The gradient at `x`, after the elastic gradients or stiffnesses have been evaluated there.
     pub(crate) fn gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         self.quadratic_gradient(x, gradient);
@@ -213,11 +206,6 @@ impl Objective<'_> {
     #[must_use]
     pub fn regularisation(&self, node: usize) -> f64 {
         self.quadratic.regularisation(node)
-    }
-
-    /// Curvature dᵀ H d of inertia and damping.
-    pub(crate) fn quadratic_curvature(&self, d: &[[f64; 3]]) -> f64 {
-        self.quadratic.curvature(d)
     }
 }
 

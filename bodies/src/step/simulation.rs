@@ -49,8 +49,7 @@ use settings::check_settings;
 /// It takes as much memory again, except for the materials and the symbolic factorisation, which are shared;
 /// to undo steps later it is enough to keep positions and velocities.
 ///
-/// With another [`Machine`](super::divided::Machine) it is the part of a machine, of a body that is divided
-/// among machines.
+/// With another `Machine` it is the part of a machine, of a body that is divided among machines.
 #[derive(Clone)]
 pub struct Simulation<M: Machine = OneMachine> {
     body: Body,
@@ -84,7 +83,7 @@ impl Simulation {
     /// A simulation at rest in the rest shape. Does the symbolic part of all later linear algebra.
     ///
     /// # Errors
-    /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`], [`SetupError::Linear`].
+    /// [`SetupError`] for a pin that is no node, a setting out of range, or a failure of the linear solver.
     pub fn new(body: Body, pins: &Pins, settings: SimulationSettings) -> Result<Self, SetupError> {
         let choice = Choice::Setting(settings.newton.linear);
         Self::on(|body| OneMachine::new(body, pins, choice), body, pins, settings)
@@ -95,12 +94,6 @@ impl Simulation {
     pub fn forces(&self) -> &[[f64; 3]] {
         &self.forces
     }
-
-    /// Terms of the energy except for deformation, gravity and springs.
-    #[must_use]
-    pub fn terms(&self) -> &[Arc<dyn Term>] {
-        &self.terms
-    }
 }
 
 impl<M: Machine> Simulation<M> {
@@ -108,7 +101,8 @@ impl<M: Machine> Simulation<M> {
     /// include copies of nodes of other machines.
     ///
     /// # Errors
-    /// [`SetupError::NoSuchNode`] for a pin, [`SetupError::Setting`]: on this machine alone.
+    /// [`SetupError`] for a pin that is no node, or a setting out of range: on this machine alone.
+    #[doc(hidden)]
     pub fn divided(
         machine: M,
         body: Option<Body>,
@@ -150,13 +144,13 @@ impl<M: Machine> Simulation<M> {
     /// Current position of each node, m.
     #[must_use]
     pub fn positions(&self) -> &[[f64; 3]] {
-        self.steps.positions()
+        &self.steps.state.x
     }
 
     /// Current velocity of each node, m/s.
     #[must_use]
     pub fn velocities(&self) -> &[[f64; 3]] {
-        self.steps.velocities()
+        &self.steps.state.v
     }
 
     /// Acceleration of each node at the end of the last step, m/s², as its integrator defines it: for
@@ -164,35 +158,36 @@ impl<M: Machine> Simulation<M> {
     /// [`Simulation::equilibrate`].
     #[must_use]
     pub fn accelerations(&self) -> &[[f64; 3]] {
-        self.steps.accelerations()
+        &self.steps.state.a
     }
 
     /// Indices of the pinned nodes, ascending.
     #[must_use]
     pub fn pinned(&self) -> &[usize] {
-        self.steps.pinned()
+        &self.steps.pinned
     }
 
     /// Machine that simulates the body or its part.
+    #[doc(hidden)]
     pub fn machine(&mut self) -> &mut M {
         &mut self.workspace.machine
     }
 
     /// Survey of the elastic energies at the current positions, evaluated if necessary.
     fn survey(&mut self) -> Evaluated {
-        let x = self.steps.positions();
+        let x = &self.steps.state.x;
         *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, x))
     }
 
     /// Springs and other terms.
     pub(super) fn all_terms(&self) -> Terms<'_> {
-        Terms { springs: self.steps.springs(), others: &self.terms }
+        Terms { springs: &self.steps.springs, others: &self.terms }
     }
 
     /// Springs that pull at the body.
     #[must_use]
     pub fn springs(&self) -> &[Spring] {
-        self.steps.springs()
+        &self.steps.springs
     }
 
     /// Current settings.

@@ -20,7 +20,7 @@ use interface::OwnSolver;
 pub use preconditioner::Preconditioner;
 pub use user_defined::SparseSolver;
 
-pub use interface::{Definiteness, Machine, Solution, SolveError, Solver};
+pub use interface::{Definiteness, Machine, Solution, Solver};
 pub(super) use one_machine::Choice;
 pub use one_machine::OneMachine;
 

@@ -6,7 +6,7 @@
 use piola::NoSuchNode;
 
 use super::error::SetupError;
-use super::integrator::{Integrator, Method, Stage, Stages, State, on_the_way};
+use super::integrator::{Integrator, Method, Stages, State, on_the_way};
 use super::spring::Spring;
 
 /// State of the nodes of a body, or of the part of a machine, and the stages by which an [`Integrator`]
@@ -20,21 +20,25 @@ use super::spring::Spring;
 /// M a = −∇Ψ(x) + other forces at x and v, with v = (x − s)/τ and a = (v − w)/σ
 /// ```
 ///
-/// for the s, w, τ and σ of its [`Stage`].
+/// for the s, w, τ and σ of its [`Stage`](super::integrator::Stage).
 #[derive(Clone, Debug)]
 pub(super) struct StagedSteps {
-    integrator: Integrator,
+    pub(super) integrator: Integrator,
     method: Method,
     dt: f64,
+    /// State after the last step.
     pub(super) state: State,
-    next: State,
-    stages: Stages,
+    /// State after the step in progress; its positions are those of the current stage, where the minimisation
+    /// begins and which the minimum replaces.
+    pub(super) next: State,
+    pub(super) stages: Stages,
     /// Indices of the pinned nodes, ascending.
-    pinned: Vec<usize>,
+    pub(super) pinned: Vec<usize>,
     /// Position of each pinned node, and only of those, after the next step, m.
-    targets: Vec<[f64; 3]>,
-    pins_move: Vec<[f64; 3]>,
-    springs: Vec<Spring>,
+    pub(super) targets: Vec<[f64; 3]>,
+    /// Displacement of each pinned node in the current stage, m; zero for others.
+    pub(super) pins_move: Vec<[f64; 3]>,
+    pub(super) springs: Vec<Spring>,
     /// Targets of the springs where the next step starts, m.
     targets_before: Vec<[f64; 3]>,
 }
@@ -43,7 +47,7 @@ impl StagedSteps {
     /// State of nodes at rest at these positions, m, some of them pinned.
     ///
     /// # Errors
-    /// [`SetupError::NoSuchNode`].
+    /// [`SetupError`] for a pin that is no node.
     pub(super) fn new(
         integrator: Integrator,
         positions: &[[f64; 3]],
@@ -72,68 +76,12 @@ impl StagedSteps {
         })
     }
 
-    pub(super) fn integrator(&self) -> Integrator {
-        self.integrator
-    }
-
     /// Replaces the integrator from the next step on.
     pub(super) fn set_integrator(&mut self, integrator: Integrator) {
         if integrator != self.integrator {
             self.integrator = integrator;
             self.stages = Stages::new(integrator, self.state.x.len());
         }
-    }
-
-    /// Position of each node after the last step, m.
-    pub(super) fn positions(&self) -> &[[f64; 3]] {
-        &self.state.x
-    }
-
-    /// Velocity of each node after the last step, m/s.
-    pub(super) fn velocities(&self) -> &[[f64; 3]] {
-        &self.state.v
-    }
-
-    /// Acceleration of each node, m/s², as in
-    /// [`Simulation::accelerations`](super::Simulation::accelerations).
-    pub(super) fn accelerations(&self) -> &[[f64; 3]] {
-        &self.state.a
-    }
-
-    /// Replaces positions, m. Pins hold their nodes there.
-    ///
-    /// # Errors
-    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
-    pub(super) fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.check_nodal(positions)?;
-        self.state.x.copy_from_slice(positions);
-        self.targets.copy_from_slice(positions);
-        Ok(())
-    }
-
-    /// Replaces velocities, m/s.
-    ///
-    /// # Errors
-    /// The errors of [`StagedSteps::set_positions`].
-    pub(super) fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.check_nodal(velocities)?;
-        self.state.v.copy_from_slice(velocities);
-        Ok(())
-    }
-
-    /// Replaces the accelerations at the end of the step before, m/s².
-    ///
-    /// # Errors
-    /// The errors of [`StagedSteps::set_positions`].
-    pub(super) fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.check_nodal(accelerations)?;
-        self.state.a.copy_from_slice(accelerations);
-        Ok(())
-    }
-
-    /// Indices of the pinned nodes, ascending.
-    pub(super) fn pinned(&self) -> &[usize] {
-        &self.pinned
     }
 
     /// Replaces the pinned nodes. A node that was not pinned before is held where it is.
@@ -151,29 +99,26 @@ impl StagedSteps {
     /// Prescribes the position of a pinned node, m, after the next step and from then on.
     ///
     /// # Errors
-    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
+    /// [`SetupError`] for a node that is not pinned, or a position that is not finite.
     pub(super) fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
         if self.pinned.binary_search(&node).is_err() {
-            return Err(SetupError::NotPinned { node });
+            return Err(SetupError(format!(
+                "node {node} (from 0) is not pinned, so its motion cannot be prescribed"
+            )));
         }
         if position.iter().any(|x| !x.is_finite()) {
-            return Err(SetupError::NotFinite { node });
+            return Err(not_finite(node));
         }
         self.targets[node] = position;
         Ok(())
-    }
-
-    /// The springs.
-    pub(super) fn springs(&self) -> &Vec<Spring> {
-        &self.springs
     }
 
     /// Replaces the springs. If a spring has the same index and anchor as one before, its target moves evenly
     /// in the course of the next step.
     ///
     /// # Errors
-    /// [`SetupError::Spring`] if its stiffness is negative or a component is not finite,
-    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
+    /// [`SetupError`] for a node that does not exist, a negative stiffness or a component that is not finite.
+    /// The springs then stay as they were.
     pub(super) fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
         springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
         let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
@@ -217,13 +162,7 @@ impl StagedSteps {
         is_moving
     }
 
-    /// The stage begun last, as the input of its minimisation.
-    pub(super) fn in_stage(&mut self) -> InStage<'_> {
-        let Stages { current: stage, springs, .. } = &self.stages;
-        InStage { stage, springs, pins_move: &self.pins_move, end: &mut self.next.x }
-    }
-
-    /// Ends a stage, with [its positions](InStage::end) at the minimum.
+    /// Ends a stage, with the positions of `next` at the minimum.
     ///
     /// # Panics
     /// If there is no such stage.
@@ -254,11 +193,12 @@ impl StagedSteps {
     }
 
     pub(super) fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
-        if vectors.len() != self.state.x.len() {
-            return Err(SetupError::Length { expected: self.state.x.len(), found: vectors.len() });
+        let (nodes, found) = (self.state.x.len(), vectors.len());
+        if found != nodes {
+            return Err(SetupError(format!("expected one entry for each of {nodes} nodes, found {found}")));
         }
         match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
-            Some(node) => Err(SetupError::NotFinite { node }),
+            Some(node) => Err(not_finite(node)),
             None => Ok(()),
         }
     }
@@ -270,21 +210,14 @@ impl StagedSteps {
         }
         let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
         if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
-            return Err(SetupError::Spring { index });
+            return Err(SetupError(format!(
+                "spring {index} (from 0) has a negative stiffness or an entry that is not finite"
+            )));
         }
         Ok(())
     }
 }
 
-/// Stage of a step as the input of its minimisation.
-#[derive(Debug)]
-pub(super) struct InStage<'a> {
-    /// The stage.
-    pub(super) stage: &'a Stage,
-    /// The springs, with their targets in the stage.
-    pub(super) springs: &'a Vec<Spring>,
-    /// Displacement of each pinned node, m; zero for others.
-    pub(super) pins_move: &'a [[f64; 3]],
-    /// Positions of the nodes, m: the start of the minimisation, to be replaced by the minimum.
-    pub(super) end: &'a mut [[f64; 3]],
+fn not_finite(node: usize) -> SetupError {
+    SetupError(format!("the entry of node {node} (from 0) is not finite"))
 }

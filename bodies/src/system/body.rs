@@ -53,8 +53,8 @@ impl Body {
     /// A body of one material; `density` in kg/m³.
     ///
     /// # Errors
-    /// [`BodyError::Mesh`], [`BodyError::Density`], [`BodyError::MassOutOfRange`],
-    /// [`BodyError::MaterialsForPoints`].
+    /// [`BodyError`] of the mesh, the density, the mass of a node, or a material with parameters for each
+    /// point.
     pub fn new(
         mesh: &TetMesh,
         material: impl TileMaterial<f64> + 'static,
@@ -77,7 +77,10 @@ impl Body {
         let mut runs = Vec::with_capacity(parts.len());
         for (index, Part { material, density, .. }) in parts.into_iter().enumerate() {
             if !(density > 0.0 && density.is_finite()) {
-                return Err(BodyError::Density { density });
+                let density = number(density);
+                return Err(BodyError(format!(
+                    "the density is {density} kg/m³; it must be positive and finite"
+                )));
             }
             let start = elements.len();
             for tet in (0..shapes.len()).filter(|&tet| part_of_tet[tet] == index) {
@@ -89,7 +92,10 @@ impl Body {
         }
         let masses = lumped_masses(mesh, &shapes, &densities);
         if let Some(node) = masses.iter().position(|mass| !mass.is_normal()) {
-            return Err(BodyError::MassOutOfRange { node, mass: masses[node] });
+            let fault = if masses[node] > 1.0 { "overflows" } else { "underflows" };
+            return Err(BodyError(format!(
+                "the mass of node {node} (from 0) {fault}; are the units of the mesh and of the density right?"
+            )));
         }
         Ok(Self { rest: mesh.positions.clone(), masses, elements, runs })
     }
@@ -103,14 +109,16 @@ impl Body {
     /// one part.
     ///
     /// # Errors
-    /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
+    /// [`BodyError`] if there is no such part, or the material has parameters for another number of points.
+    /// The material then stays as it was.
     pub fn set_material(
         &mut self,
         part: usize,
         material: impl TileMaterial<f64> + 'static,
     ) -> Result<(), BodyError> {
         let parts = self.runs.len();
-        let (_, elements) = self.materials().nth(part).ok_or(BodyError::NoSuchPart { part, parts })?;
+        let missing = || BodyError(format!("there is no part {part} (from 0) of a body of {parts}"));
+        let (_, elements) = self.materials().nth(part).ok_or_else(missing)?;
         fits(&material, elements.len())?;
         self.runs[part].material = Arc::new(material);
         Ok(())
@@ -162,9 +170,9 @@ impl Body {
 /// Checks that a material is one for all elements of a part, or has one for each.
 fn fits(material: &dyn TileMaterial<f64>, elements: usize) -> Result<(), BodyError> {
     match material.properties().points {
-        Some(materials) if materials != elements => {
-            Err(BodyError::MaterialsForPoints { materials, elements })
-        }
+        Some(materials) if materials != elements => Err(BodyError(format!(
+            "there are {materials} materials for a part of {elements} elements: give one for all, or one for each"
+        ))),
         _ => Ok(()),
     }
 }
@@ -174,88 +182,34 @@ fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
     let mut assigned = vec![None; mesh.tets.len()];
     for (index, part) in parts.iter().enumerate() {
         let Some(name) = &part.group else { continue };
-        let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
-        let group = group.ok_or_else(|| BodyError::NoSuchGroup {
-            name: name.clone(),
-            existing: mesh
-                .groups
-                .iter()
-                .filter(|group| group.dimension == 3)
-                .map(|group| group.name.clone())
-                .collect(),
-        })?;
+        let of_tets = || mesh.groups.iter().filter(|group| group.dimension == 3);
+        let group = of_tets().find(|group| group.name == *name);
+        let group = group.ok_or_else(|| BodyError(no_such_group(name, of_tets(), " of tetrahedra")))?;
         for &tet in &group.tets {
             match assigned.get_mut(tet) {
                 Some(slot @ None) => *slot = Some(index),
-                _ => return Err(BodyError::InTwoParts { element: mesh.tag(tet) }),
+                _ => {
+                    let element = mesh.tag(tet);
+                    return Err(BodyError(format!(
+                        "element {element} has two materials: it belongs to two parts"
+                    )));
+                }
             }
         }
     }
     let rest = parts.iter().position(|part| part.group.is_none());
     let each = assigned.into_iter().enumerate();
-    each.map(|(tet, part)| part.or(rest).ok_or(BodyError::InNoPart { element: mesh.tag(tet) })).collect()
+    let missing = |tet| format!("element {} has no material: it belongs to no part", mesh.tag(tet));
+    each.map(|(tet, part)| part.or(rest).ok_or_else(|| BodyError(missing(tet)))).collect()
 }
 
-/// Reason why a mesh and its parts are not a body.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum BodyError {
-    /// The mesh itself is invalid.
-    #[error("{0}")]
-    Mesh(#[from] MeshError),
-    /// A density is not positive and finite.
-    #[error("the density is {} kg/m³; it must be positive and finite", number(*density))]
-    Density {
-        /// The density, kg/m³.
-        density: f64,
-    },
-    /// The mass of a node overflows or underflows.
-    #[error(
-        "the mass of node {node} (from 0) {}; are the units of the mesh and of the density right?",
-        if *mass > 1.0 { "overflows" } else { "underflows" }
-    )]
-    MassOutOfRange {
-        /// The node, from 0.
-        node: usize,
-        /// Its mass, kg.
-        mass: f64,
-    },
-    /// Wrong number of materials: a part needs one for all its elements, or one for each.
-    #[error(
-        "there are {materials} materials for a part of {elements} elements: give one for all, or one for each"
-    )]
-    MaterialsForPoints {
-        /// Number of materials.
-        materials: usize,
-        /// Number of elements of the part.
-        elements: usize,
-    },
-    /// A part names a group that the mesh does not have.
-    #[error("{}", no_such_group(name, existing, " of tetrahedra"))]
-    NoSuchGroup {
-        /// The missing group.
-        name: String,
-        /// The groups of tetrahedra that exist.
-        existing: Vec<String>,
-    },
-    /// No part has this index.
-    #[error("there is no part {part} (from 0) of a body of {parts}")]
-    NoSuchPart {
-        /// The index, from 0.
-        part: usize,
-        /// Number of parts.
-        parts: usize,
-    },
-    /// An element belongs to no part.
-    #[error("element {element} has no material: it belongs to no part")]
-    InNoPart {
-        /// Tag of the element.
-        element: usize,
-    },
-    /// An element belongs to two parts.
-    #[error("element {element} has two materials: it belongs to two parts")]
-    InTwoParts {
-        /// Tag of the element.
-        element: usize,
-    },
+/// Reason why a mesh and its parts are not a body, in words.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct BodyError(String);
+
+impl From<MeshError> for BodyError {
+    fn from(error: MeshError) -> Self {
+        Self(error.to_string())
+    }
 }

@@ -91,6 +91,7 @@ impl NodalStiffness {
     ///
     /// # Errors
     /// [`LinearError::OutOfMemory`].
+    #[doc(hidden)]
     pub fn empty() -> Result<Self, LinearError> {
         let graph = Graph::of_upper(&[])?;
         let pattern = Arc::new(Pattern::new(&graph, &[])?);
@@ -100,6 +101,7 @@ impl NodalStiffness {
     }
 
     /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
+    #[doc(hidden)]
     pub fn add_to_diagonal(&mut self, node: usize, stiffness: f64) {
         if node < self.matrix.pattern().rows() {
             let at = self.matrix.pattern().diagonal(node);

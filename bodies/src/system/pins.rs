@@ -32,17 +32,24 @@ impl Pins {
     /// Pins at the nodes that lie in a box at rest.
     ///
     /// # Errors
-    /// [`PinError::EmptyBox`].
+    /// [`PinError`] if there are none.
     pub fn in_box(mesh: &TetMesh, bounds: Bounds) -> Result<Self, PinError> {
         let inside = mesh.positions.iter().enumerate().filter(|&(_, &x)| bounds.contains(x));
         let pins = Self::at(inside.map(|(node, _)| node));
-        if pins.nodes.is_empty() { Err(PinError::EmptyBox { bounds, body: mesh.bounds() }) } else { Ok(pins) }
+        if pins.nodes.is_empty() {
+            let (Bounds { min, max }, body) = (bounds, mesh.bounds());
+            return Err(PinError(format!(
+                "no node lies in the box {min:?} to {max:?}; the body extends from {:?} to {:?}",
+                body.min, body.max
+            )));
+        }
+        Ok(pins)
     }
 
     /// Pins at the nodes of a group of any dimension, such as a physical group of Gmsh.
     ///
     /// # Errors
-    /// [`PinError::NoSuchGroup`], or [`PinError::EmptyGroup`] if none of its nodes belongs to a tetrahedron.
+    /// [`PinError`] if there is no such group, or none of its nodes belongs to a tetrahedron.
     pub fn of_group(mesh: &TetMesh, name: &str) -> Result<Self, PinError> {
         // Gmsh allows one name in each dimension.
         let nodes = mesh.groups.iter().filter(|group| group.name == name).flat_map(|group| &group.nodes);
@@ -50,10 +57,9 @@ impl Pins {
         if !pins.nodes.is_empty() {
             Ok(pins)
         } else if mesh.group(name).is_some() {
-            Err(PinError::EmptyGroup { name: name.to_owned() })
+            Err(PinError(format!("the group `{}` holds no node of a tetrahedron", quoted(name))))
         } else {
-            let existing = mesh.groups.iter().map(|group| group.name.clone()).collect();
-            Err(PinError::NoSuchGroup { name: name.to_owned(), existing })
+            Err(PinError(no_such_group(name, mesh.groups.iter(), "")))
         }
     }
 
@@ -70,36 +76,10 @@ impl Pins {
     }
 }
 
-/// Reason why there is nothing to pin.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum PinError {
-    /// No node lies in the box.
-    #[error(
-        "no node lies in the box {:?} to {:?}; the body extends from {:?} to {:?}",
-        bounds.min, bounds.max, body.min, body.max
-    )]
-    EmptyBox {
-        /// The box.
-        bounds: Bounds,
-        /// The box around the body.
-        body: Bounds,
-    },
-    /// No group has this name.
-    #[error("{}", no_such_group(name, existing, ""))]
-    NoSuchGroup {
-        /// The missing group.
-        name: String,
-        /// The groups that exist.
-        existing: Vec<String>,
-    },
-    /// A group without nodes.
-    #[error("the group `{}` holds no node of a tetrahedron", quoted(name))]
-    EmptyGroup {
-        /// Name of the group.
-        name: String,
-    },
-}
+/// Reason why there is nothing to pin, in words.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct PinError(String);
 
 #[cfg(test)]
 mod tests {

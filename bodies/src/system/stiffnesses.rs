@@ -13,18 +13,6 @@ pub(crate) struct ElementStiffnesses {
 }
 
 impl ElementStiffnesses {
-    /// The stiffnesses where the energies were evaluated last.
-    #[cfg(test)]
-    pub(super) fn of(
-        body: &Body,
-        elastic: &mut super::assemble::Elastic,
-        filter: piola::point::Filter,
-    ) -> Self {
-        let mut tiles = vec![[[[[0.0; 3]; 3]; 10]; TILE]; body.groups().count()];
-        elastic.linearise(body, filter, 0, &mut tiles);
-        Self { tiles }
-    }
-
     /// Each element of the body with its stiffness.
     pub(super) fn of_elements<'a>(
         &'a self,

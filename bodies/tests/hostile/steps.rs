@@ -1,16 +1,10 @@
-//! Steps and equilibria, with terms, solvers and objectives that answer nonsense.
+//! Steps and equilibria, with terms and solvers that answer nonsense.
 
-use std::cell::RefCell;
-
-use piola::point::Filter;
 use piola_bodies::mesh::{Anchor, tetrahedral_box};
-use piola_bodies::step::divided::{Definiteness, Line, Linearised, Minimisation, Solution, minimize};
-use piola_bodies::step::{
-    EnergyChange, Equilibrium, NewtonError, NodeBlocks, Simulation, SparseSolver, Spring, StepReport, Term,
-};
+use piola_bodies::step::{Equilibrium, NodeBlocks, Simulation, SparseSolver, Spring, StepReport, Term};
 use piola_bodies::system::{Body, LinearError, LowerTriangle};
 
-use crate::arguments::{Hostile, SEEDS, check};
+use crate::arguments::{SEEDS, check};
 
 /// A term of hostile numbers: it returns errors, infinities and NaN, and names nodes that are missing or
 /// share no element.
@@ -138,80 +132,4 @@ fn simulations() {
         }
     });
     assert!(steps > SEEDS / 20, "{steps} steps succeed");
-}
-
-/// An objective of hostile numbers, which fails in the end.
-struct Wild<'a>(RefCell<&'a mut Hostile>);
-
-impl Wild<'_> {
-    fn number(&self) -> f64 {
-        self.0.borrow_mut().number()
-    }
-
-    fn fails(&self) -> Result<f64, NewtonError> {
-        let fails = self.0.borrow_mut().0.once_in(16);
-        if fails { Err(NewtonError::NotFinite) } else { Ok(self.number()) }
-    }
-}
-
-impl Line for Wild<'_> {
-    type Error = NewtonError;
-
-    fn change(&mut self, _: f64) -> Result<Option<EnergyChange>, NewtonError> {
-        let difference = self.fails()?;
-        let is_inside = !self.0.borrow_mut().0.once_in(4);
-        Ok(is_inside.then(|| EnergyChange { difference, noise: self.number() }))
-    }
-
-    fn slope(&mut self) -> Result<f64, NewtonError> {
-        self.fails()
-    }
-}
-
-impl Minimisation for Wild<'_> {
-    fn gradient(&mut self) -> Result<f64, NewtonError> {
-        self.fails()
-    }
-
-    fn linearise(&mut self, _: Filter, _: bool) -> Result<Linearised, NewtonError> {
-        Ok(Linearised { residual: self.fails()?, filtered: 1, bounded: 1 })
-    }
-
-    fn solve(&mut self, _: f64, definiteness: Definiteness) -> Result<Option<Solution>, NewtonError> {
-        let shift = self.fails()?;
-        let is_indefinite = definiteness == Definiteness::Required && self.0.borrow_mut().0.once_in(2);
-        Ok((!is_indefinite).then(|| Solution { shift, ..Solution::default() }))
-    }
-
-    fn move_pins(&mut self) -> Result<(), NewtonError> {
-        self.fails().map(|_| ())
-    }
-
-    fn descent(&self) -> f64 {
-        self.number()
-    }
-
-    fn set_base(&mut self) {}
-
-    fn accept(&mut self) {}
-
-    fn reject(&mut self) -> f64 {
-        self.number()
-    }
-
-    fn displacement(&self) -> f64 {
-        self.number()
-    }
-
-    fn error_scale(&self) -> f64 {
-        self.number()
-    }
-}
-
-#[test]
-fn minimisations_of_nonsense_end() {
-    check(|hostile| {
-        let (settings, pins_move) = (hostile.settings(), hostile.0.once_in(2));
-        let _ = minimize(&mut Wild(RefCell::new(hostile)), pins_move, &settings.newton);
-    });
 }

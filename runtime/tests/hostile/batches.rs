@@ -5,7 +5,16 @@ use piola::batch::{Batch, CsrPlaces, Layout, Quadrature, REST, Tetrahedra};
 use piola::point::Filter;
 use piola::point::measures::Measure;
 
-use crate::arguments::{SEEDS, check};
+use crate::arguments::{Hostile, SEEDS, check};
+
+impl Hostile {
+    fn numbers(&mut self, good: usize) -> Vec<f64> {
+        let all_good = self.0.once_in(2);
+        (0..self.length(good))
+            .map(|_| if all_good { self.0.uniform(0.5, 2.0) } else { self.number() })
+            .collect()
+    }
+}
 
 #[test]
 fn batches() {

@@ -48,12 +48,8 @@ impl Nearest {
     /// True if this one is nearer than another: a tetrahedron that holds the point is nearer than one that
     /// touches it, and the first of equal ones is nearer.
     fn is_before(&self, other: &Self) -> bool {
-        match (self.holds_point, other.holds_point) {
-            (true, false) => true,
-            (false, true) => false,
-            _ if self.distance == other.distance => self.body < other.body,
-            _ => self.distance < other.distance,
-        }
+        let order = |nearest: &Self| (!nearest.holds_point, nearest.distance, nearest.body);
+        order(self) < order(other)
     }
 }
 

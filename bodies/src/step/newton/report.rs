@@ -1,6 +1,7 @@
 //! Report of a minimisation.
 
-use super::{NewtonError, NewtonSettings};
+use super::NewtonSettings;
+use crate::step::error::NewtonError;
 
 /// Reason why Newton's method stopped, in order from the best.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

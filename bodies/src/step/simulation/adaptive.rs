@@ -13,9 +13,8 @@
 //!
 //! Bodies that are suddenly pulled or let go move less smoothly than a third order demands: p is at most 2.
 
-use crate::step::error::StepError;
+use crate::step::error::{NewtonError, StepError};
 use crate::step::integrator::State;
-use crate::step::newton::NewtonError;
 use crate::step::solver::Machine;
 use crate::step::staged::StagedSteps;
 use crate::system::LinearError;
@@ -101,6 +100,7 @@ impl<M: Machine> Simulation<M> {
     ///
     /// # Errors
     /// Those of [`Simulation::advance_within`], on all machines.
+    #[doc(hidden)]
     pub fn advance_within_here(
         &mut self,
         duration: f64,
@@ -137,7 +137,7 @@ struct Course<'a, M: Machine> {
 impl<M: Machine> Course<'_, M> {
     /// Makes the steps; the report is `None` if there were none.
     fn run(&mut self, allowed: f64) -> Result<Option<AdaptiveReport>, StepError> {
-        let weight = 2.0_f64.powi(self.whole.integrator().order().min(2)) - 1.0;
+        let weight = 2.0_f64.powi(self.whole.integrator.order().min(2)) - 1.0;
         let parts = 1_u32 << MAX_HALVINGS;
         let (mut taken, mut refused, mut unresolved, mut error) = (0, 0, 0, 0.0);
         let mut shortest = parts;

@@ -1,11 +1,11 @@
 //! A step from one state to the next, stage by stage.
 
-use crate::step::error::StepError;
+use crate::step::error::{NewtonError, StepError};
 use crate::step::minimisation::StageMinimisation;
-use crate::step::newton::{NewtonError, NewtonReport, minimize};
+use crate::step::newton::{NewtonReport, minimize};
 use crate::step::objective::{Objective, Quadratic, Terms};
 use crate::step::solver::Machine;
-use crate::step::staged::InStage;
+use crate::step::staged::StagedSteps;
 use crate::system::element::Evaluated;
 use crate::system::linear::multigrid::Division;
 
@@ -61,6 +61,7 @@ impl<M: Machine> Simulation<M> {
     ///
     /// # Errors
     /// Those of [`Simulation::step`], on all machines.
+    #[doc(hidden)]
     pub fn step_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
         let heaviest = self.workspace.machine.nodes().largest(heaviest);
@@ -76,6 +77,7 @@ impl<M: Machine> Simulation<M> {
     ///
     /// # Errors
     /// Those of [`Simulation::equilibrate`], on all machines.
+    #[doc(hidden)]
     pub fn equilibrate_here(&mut self) -> Result<StepReport, StepError> {
         self.advance(f64::INFINITY)
     }
@@ -112,7 +114,8 @@ impl<M: Machine> Simulation<M> {
         let own = [usize::from(pins_move), self.pinned().iter().filter(is_own).count()];
         let [moves, pinned] = nodes.totals(own.map(|number| number as f64));
         let (pins_move, may_drift) = (moves > 0.0, pinned < 3.0);
-        let InStage { stage, springs, pins_move: displacements, end } = self.steps.in_stage();
+        let StagedSteps { stages, pins_move: displacements, next, .. } = &mut self.steps;
+        let stage = &stages.current;
         let [tau, sigma] = stage.lengths;
         let is_static = tau == f64::INFINITY;
         let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
@@ -128,11 +131,11 @@ impl<M: Machine> Simulation<M> {
                 gravity: self.settings.gravity,
                 forces: &self.forces,
             },
-            terms: Terms { springs, others: &self.terms },
+            terms: Terms { springs: &stages.springs, others: &self.terms },
             blocks: &mut self.blocks,
         };
         let mut minimisation =
-            StageMinimisation::new(objective, &mut self.workspace, end, displacements, survey)?;
+            StageMinimisation::new(objective, &mut self.workspace, &mut next.x, displacements, survey)?;
         let report = minimize(&mut minimisation, pins_move, &self.settings.newton)?;
         Ok((report, minimisation.survey()))
     }

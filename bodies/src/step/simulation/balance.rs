@@ -1,7 +1,7 @@
 //! Forces on all nodes, and the reactions of pins, which follow from the balance of forces.
 
+use crate::step::error::NewtonError;
 use crate::step::minimisation::demand_admissible;
-use crate::step::newton::NewtonError;
 use crate::step::solver::Machine;
 
 use super::{Simulation, SimulationSettings};
@@ -10,7 +10,7 @@ impl Simulation {
     /// Gradient of all energies at the current state, N, with damping but without inertia. The elastic
     /// energies must have been evaluated there last.
     fn balance(&mut self) -> Vec<[f64; 3]> {
-        let (x, v) = (self.steps.positions(), self.steps.velocities());
+        let (x, v) = (&self.steps.state.x, &self.steps.state.v);
         let mut total = vec![[0.0; 3]; x.len()];
         self.elastic.evaluate_gradients(&self.body);
         self.elastic.add_gradient(&self.body, &mut total);

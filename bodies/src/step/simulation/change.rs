@@ -18,9 +18,11 @@ impl<M: Machine> Simulation<M> {
     /// Sets the position of each node, m, for any deformation, even collapsed. Pins hold their nodes there.
     ///
     /// # Errors
-    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite position for each node.
+    /// [`SetupError`] unless there is one finite position for each node.
     pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.steps.set_positions(positions)?;
+        self.steps.check_nodal(positions)?;
+        self.steps.state.x.copy_from_slice(positions);
+        self.steps.targets.copy_from_slice(positions);
         self.evaluated = None;
         Ok(())
     }
@@ -28,9 +30,11 @@ impl<M: Machine> Simulation<M> {
     /// Sets the velocity of each node, m/s; of a pinned node it lasts until the next step.
     ///
     /// # Errors
-    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite velocity for each node.
+    /// [`SetupError`] unless there is one finite velocity for each node.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.steps.set_velocities(velocities)
+        self.steps.check_nodal(velocities)?;
+        self.steps.state.v.copy_from_slice(velocities);
+        Ok(())
     }
 
     /// Sets the acceleration of each node at the end of the step before, m/s²: with positions and velocities
@@ -40,16 +44,17 @@ impl<M: Machine> Simulation<M> {
     /// by them, and [`Simulation::reactions`] takes them.
     ///
     /// # Errors
-    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite acceleration for each
-    /// node.
+    /// [`SetupError`] unless there is one finite acceleration for each node.
     pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.steps.set_accelerations(accelerations)
+        self.steps.check_nodal(accelerations)?;
+        self.steps.state.a.copy_from_slice(accelerations);
+        Ok(())
     }
 
     /// Prescribes the position of a pinned node, m, after the next step and from then on.
     ///
     /// # Errors
-    /// [`SetupError::NotPinned`] or [`SetupError::NotFinite`].
+    /// [`SetupError`] for a node that is not pinned, or a position that is not finite.
     pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
         self.steps.prescribe(node, position)
     }
@@ -61,8 +66,8 @@ impl<M: Machine> Simulation<M> {
     /// between.
     ///
     /// # Errors
-    /// [`SetupError::Spring`] if its stiffness is negative or a number is not finite,
-    /// [`SetupError::NoSuchNode`]. The springs then stay as they were.
+    /// [`SetupError`] for a node that does not exist, a negative stiffness or a number that is not finite. The
+    /// springs then stay as they were.
     pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
         self.steps.set_springs(springs)
     }
@@ -75,7 +80,8 @@ impl Simulation {
     /// releasing nodes that were pinned then costs a new symbolic analysis.
     ///
     /// # Errors
-    /// [`SetupError::NoSuchNode`], [`SetupError::Linear`]. The pins then stay as they were.
+    /// [`SetupError`] for a node that does not exist, or a failure of the linear solver. The pins then stay as
+    /// they were.
     pub fn set_pins(&mut self, pins: &Pins) -> Result<(), SetupError> {
         let nodes = self.body.rest().len();
         if let Some(&node) = pins.nodes().last().filter(|&&node| node >= nodes) {
@@ -91,7 +97,8 @@ impl Simulation {
     /// [`Body::from_parts`](crate::system::Body::from_parts), from the next step on.
     ///
     /// # Errors
-    /// [`BodyError::NoSuchPart`], [`BodyError::MaterialsForPoints`]. The material then stays as it was.
+    /// [`BodyError`] if there is no such part, or the material has parameters for another number of points.
+    /// The material then stays as it was.
     pub fn set_material(
         &mut self,
         part: usize,
@@ -106,7 +113,7 @@ impl Simulation {
     /// Sets a constant force on each node, N, from the next step on; an empty slice removes all forces.
     ///
     /// # Errors
-    /// [`SetupError::Length`] or [`SetupError::NotFinite`] unless there is one finite force for each node.
+    /// [`SetupError`] unless there is one finite force for each node.
     pub fn set_forces(&mut self, forces: &[[f64; 3]]) -> Result<(), SetupError> {
         if !forces.is_empty() {
             self.steps.check_nodal(forces)?;
@@ -126,7 +133,8 @@ impl Simulation {
     /// up as by [`Simulation::new`].
     ///
     /// # Errors
-    /// [`SetupError::Setting`], [`SetupError::Linear`]. The settings then stay as they were.
+    /// [`SetupError`] for a setting out of range, or a failure of the linear solver. The settings then stay as
+    /// they were.
     pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
         check_settings(&settings)?;
         let (new, old) = (&settings.newton, &self.settings.newton);
@@ -142,7 +150,7 @@ impl Simulation {
     /// replaced.
     ///
     /// # Errors
-    /// [`SetupError::Linear`] with the error of the solver for the pattern. The solver before then stays.
+    /// [`SetupError`] with the error of the solver for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
         Ok(self.set_choice(Choice::UserDefined(Arc::new(solver)))?)
     }

@@ -46,7 +46,7 @@ pub(super) fn check_settings(settings: &SimulationSettings) -> Result<(), SetupE
     ];
     let broken = checks.into_iter().find(|(holds, _)| !holds).map(|(_, rule)| rule);
     match broken.or(newton.linear.broken_rule()) {
-        Some(rule) => Err(SetupError::Setting { rule }),
+        Some(rule) => Err(SetupError(rule.to_owned())),
         None => Ok(()),
     }
 }

@@ -1,7 +1,6 @@
 //! Motions: falls, momentum and energy. The children test the rest.
 
 use piola::__private::random::Random;
-use piola::NoSuchNode;
 use piola::point::Filter;
 
 use super::*;

@@ -1,10 +1,11 @@
 //! Second derivatives as a sparse matrix, for a factorisation or a user-defined solver.
 
+use crate::step::error::NewtonError;
 use crate::step::objective::Objective;
 use crate::system::linear::LinearError;
 use crate::system::{Body, LowerTriangle, NodalStiffness, Pins};
 
-use super::interface::{Definiteness, OwnSolver, Solution, SolveError, Solver};
+use super::interface::{Definiteness, OwnSolver, Solution, Solver};
 use super::user_defined::SparseSolver;
 
 /// The largest tolerance that a solver receives.
@@ -95,7 +96,7 @@ impl<S: SparseSolver> Solver for Assembled<S> {
         direction: &mut [[f64; 3]],
         tolerance: f64,
         definiteness: Definiteness,
-    ) -> Result<Option<Solution>, SolveError> {
+    ) -> Result<Option<Solution>, NewtonError> {
         let Self { stiffness, matrix, held, unknowns, solver, .. } = self;
         for (unknown, &node) in unknowns.chunks_exact_mut(3).zip(matrix.free_nodes()) {
             for c in 0..3 {
@@ -124,13 +125,13 @@ impl<S: SparseSolver> Solver for Assembled<S> {
                 Err(LinearError::NotPositive { column }) => {
                     // A user-defined solver may name any column.
                     let node = matrix.free_nodes().get(column / 3).copied().unwrap_or(0);
-                    return Err(SolveError::NotPositive { node, shift });
+                    return Err(NewtonError::NotPositive { node, shift });
                 }
                 Err(error) => return Err(error.into()),
             }
         };
         if unknowns.iter().any(|x| !x.is_finite()) {
-            return Err(SolveError::NotFinite);
+            return Err(NewtonError::NotFinite);
         }
         for (unknown, &node) in unknowns.chunks_exact(3).zip(matrix.free_nodes()) {
             direction[node] = [unknown[0], unknown[1], unknown[2]];

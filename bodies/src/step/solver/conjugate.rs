@@ -1,5 +1,6 @@
 //! Conjugate gradients on the assembled matrix.
 
+use crate::step::error::NewtonError;
 use crate::step::objective::Objective;
 use crate::system::linear::LinearError;
 use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
@@ -8,7 +9,7 @@ use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::{Body, Pins};
 
-use super::interface::{Definiteness, OwnSolver, Solution, SolveError, Solver};
+use super::interface::{Definiteness, OwnSolver, Solution, Solver};
 use super::preconditioner::Preconditioner;
 
 /// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).
@@ -98,7 +99,7 @@ impl Solver for Conjugate {
         direction: &mut [[f64; 3]],
         tolerance: f64,
         definiteness: Definiteness,
-    ) -> Result<Option<Solution>, SolveError> {
+    ) -> Result<Option<Solution>, NewtonError> {
         let Self { stiffness, nodes, preconditioner, conjugate_gradients, .. } = self;
         objective.add_second_derivatives(stiffness);
         let tolerance = tolerance.min(self.tolerance);
@@ -122,7 +123,7 @@ impl Solver for Conjugate {
             }
             let solution = Solution::of(iteration, definiteness)?;
             if solution.is_some() && unknowns.iter().any(|x| !x.is_finite()) {
-                return Err(SolveError::NotFinite);
+                return Err(NewtonError::NotFinite);
             }
             return Ok(solution);
         }

@@ -1,5 +1,6 @@
 //! Interface of the linear solvers to Newton's method.
 
+use crate::step::error::NewtonError;
 use crate::step::objective::Objective;
 use crate::step::term::NodeBlocks;
 use crate::system::linear::LinearError;
@@ -83,7 +84,7 @@ pub trait Solver {
     /// `tolerance` takes effect if it is tighter than the solver's own.
     ///
     /// # Errors
-    /// [`SolveError`], on all machines.
+    /// [`NewtonError::NotPositive`], [`NewtonError::NotFinite`] or [`NewtonError::Linear`], on all machines.
     fn solve(
         &mut self,
         objective: &Objective<'_>,
@@ -92,7 +93,7 @@ pub trait Solver {
         direction: &mut [[f64; 3]],
         tolerance: f64,
         definiteness: Definiteness,
-    ) -> Result<Option<Solution>, SolveError>;
+    ) -> Result<Option<Solution>, NewtonError>;
 }
 
 /// Solver of a body on one machine.
@@ -118,36 +119,14 @@ impl Solution {
     pub(super) fn of(
         Iteration { iterations, end }: Iteration,
         definiteness: Definiteness,
-    ) -> Result<Option<Self>, SolveError> {
+    ) -> Result<Option<Self>, NewtonError> {
         match end {
             End::Converged => Ok(Some(Self { iterations, ..Self::default() })),
             End::NegativeCurvature if definiteness == Definiteness::Required => Ok(None),
             End::Limit | End::NegativeCurvature => {
                 Ok(Some(Self { iterations, truncated: true, ..Self::default() }))
             }
-            End::NotFinite => Err(SolveError::NotFinite),
+            End::NotFinite => Err(NewtonError::NotFinite),
         }
-    }
-}
-
-/// Reason why a linear system has no solution.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SolveError {
-    /// The matrix is not positive definite with any multiple of inertia added.
-    NotPositive {
-        /// The node in whose unknowns a pivot fails.
-        node: usize,
-        /// The largest multiple of inertia that was tried.
-        shift: f64,
-    },
-    /// The solution is infinite or NaN.
-    NotFinite,
-    /// The solver fails for another reason.
-    Linear(LinearError),
-}
-
-impl From<LinearError> for SolveError {
-    fn from(error: LinearError) -> Self {
-        Self::Linear(error)
     }
 }

@@ -4,25 +4,21 @@ use super::*;
 use crate::mesh::tetrahedral_box;
 use crate::system::testing::{kirchhoff, shake};
 
-/// A shaken box of more elements than a wave holds.
-fn shaken() -> (Body, Elastic) {
+/// Of a shaken box of more elements than a wave holds.
+#[test]
+fn the_product_is_the_sum_of_those_of_the_elements() {
     let mesh = tetrahedral_box([10, 9, 9], [1.0, 0.9, 0.9]).expect("a box");
     let body = Body::new(&mesh, kirchhoff(), 1000.0).expect("a body");
     assert!(body.elements().len() > WAVE * TILE);
     let mut elastic = Elastic::new(&body);
     elastic.evaluate(&body, &shake(&mut Random::new(3), &mesh.positions, 0.01));
-    (body, elastic)
-}
-
-#[test]
-fn the_product_is_the_sum_of_those_of_the_elements() {
-    let (body, mut elastic) = shaken();
     let nodes = body.rest().len();
     let mut random = Random::new(4);
     let x: Vec<[f64; 3]> = (0..nodes).map(|_| [0; 3].map(|_| random.uniform(-1.0, 1.0))).collect();
-    let elements = ElementStiffnesses::of(&body, &mut elastic, Filter::Clamp);
+    let mut kept = NodalStiffness::with_elements(&body, &[]).expect("small");
+    kept.linearise(&body, &mut elastic, Filter::Clamp);
     let mut expected = vec![[0.0; 3]; nodes];
-    elements.add_product(&body, &x, &mut expected);
+    kept.elements().add_product(&body, &x, &mut expected);
 
     let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
     let mut found = vec![[f64::NAN; 3]; nodes];
@@ -37,21 +33,12 @@ fn the_product_is_the_sum_of_those_of_the_elements() {
         // Sums of some 24 elements times 12 terms, in different orders, which cancel.
         assert!((found - expected).abs() <= 600.0 * f64::EPSILON * largest, "{found} for {expected}");
     }
+    // The matrix that keeps the stiffnesses of all elements has the same blocks.
+    assert!(stiffness.matrix().blocks() == kept.matrix().blocks());
+    let tiles = [&stiffness, &kept].map(|matrix| matrix.elements().tiles.len());
+    assert_eq!(tiles, [WAVE, body.groups().count()]);
     assert!(stiffness.multiply(&x[1..], &mut found).is_err());
     assert!(stiffness.multiply(&x, &mut found[1..]).is_err());
-}
-
-/// A matrix that keeps the stiffnesses of all elements has the same blocks.
-#[test]
-fn elements_that_are_kept_change_no_bit() {
-    let (body, mut elastic) = shaken();
-    let [mut waves, mut kept] = [NodalStiffness::new(&body, &[]), NodalStiffness::with_elements(&body, &[])]
-        .map(|k| k.expect("small"));
-    waves.linearise(&body, &mut elastic, Filter::Clamp);
-    kept.linearise(&body, &mut elastic, Filter::Clamp);
-    assert!(waves.matrix().blocks() == kept.matrix().blocks());
-    let elements = ElementStiffnesses::of(&body, &mut elastic, Filter::Clamp);
-    assert!(kept.elements().tiles == elements.tiles && waves.elements().tiles.len() == WAVE);
 }
 
 #[test]
