@@ -185,6 +185,30 @@ impl LowerTriangle {
         let starts = self.column_starts();
         starts[..starts.len() - 1].iter().map(|&start| self.values[start])
     }
+
+    /// Computes A x for the whole matrix, both triangles.
+    ///
+    /// # Errors
+    /// [`LinearError::Length`] unless `x` and `product` have one entry for each row.
+    pub fn multiply(&self, x: &[f64], product: &mut [f64]) -> Result<(), LinearError> {
+        let unknowns = 3 * self.free_nodes.len();
+        fits("x", x.len(), unknowns)?;
+        fits("product", product.len(), unknowns)?;
+        product.fill(0.0);
+        for column in 0..unknowns {
+            let range = self.column(column);
+            let entries = self.row_indices()[range.clone()].iter().zip(&self.values[range]);
+            let mut sum = 0.0;
+            for (&row, value) in entries {
+                sum += value * x[row];
+                if row != column {
+                    product[row] += value * x[column];
+                }
+            }
+            product[column] += sum;
+        }
+        Ok(())
+    }
 }
 
 /// Orders the free nodes so that a Cholesky factor stays sparse.

@@ -6,7 +6,7 @@ use piola_bodies::system::{Body, ElasticResponse, LowerTriangle, NodalStiffness,
 
 use crate::arguments::{Hostile, check};
 
-/// Stiffnesses as a matrix without some nodes.
+/// A stiffness without some nodes, as a matrix that is multiplied.
 fn triangle(hostile: &mut Hostile, stiffness: &NodalStiffness) {
     let nodes = hostile.node(9);
     let Ok(mut matrix) = LowerTriangle::new(stiffness, &hostile.pins(nodes)) else { return };
@@ -16,6 +16,9 @@ fn triangle(hostile: &mut Hostile, stiffness: &NodalStiffness) {
     if let Ok(Ok(other)) = other {
         let _ = matrix.fill(&other, |_| inertia);
     }
+    let unknowns = 3 * matrix.free_nodes().len();
+    let (x, mut product) = (hostile.numbers(unknowns), hostile.numbers(unknowns));
+    let _ = matrix.multiply(&x, &mut product);
 }
 
 /// Blocks or levels for a stiffness, and what they make of a right side.

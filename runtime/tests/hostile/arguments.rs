@@ -67,6 +67,13 @@ impl Hostile {
         }
     }
 
+    pub(crate) fn numbers(&mut self, good: usize) -> Vec<f64> {
+        let all_good = self.0.once_in(2);
+        (0..self.length(good))
+            .map(|_| if all_good { self.0.uniform(0.5, 2.0) } else { self.number() })
+            .collect()
+    }
+
     pub(crate) fn points(&mut self, good: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut points = good.to_vec();
         points.resize(self.length(good.len()), [0.5; 3]);

@@ -5,16 +5,7 @@ use piola::batch::{Batch, CsrPlaces, Layout, Quadrature, REST, Tetrahedra};
 use piola::point::Filter;
 use piola::point::measures::Measure;
 
-use crate::arguments::{Hostile, SEEDS, check};
-
-impl Hostile {
-    fn numbers(&mut self, good: usize) -> Vec<f64> {
-        let all_good = self.0.once_in(2);
-        (0..self.length(good))
-            .map(|_| if all_good { self.0.uniform(0.5, 2.0) } else { self.number() })
-            .collect()
-    }
-}
+use crate::arguments::{SEEDS, check};
 
 #[test]
 fn batches() {

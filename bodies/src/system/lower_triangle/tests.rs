@@ -90,6 +90,11 @@ fn a_factor_solves_the_system_it_was_made_from() {
         let exact: Vec<f64> = (0..3 * matrix.free_nodes().len()).map(|_| random.uniform(-1.0, 1.0)).collect();
         let mut b: Vec<f64> =
             dense(&matrix).iter().map(|row| row.iter().zip(&exact).map(|(a, x)| a * x).sum()).collect();
+        let mut product = vec![f64::NAN; b.len()];
+        matrix.multiply(&exact, &mut product).expect("lengths");
+        let largest = b.iter().fold(0.0, |largest: f64, b| largest.max(b.abs()));
+        // Sums of some fifty terms, in different orders, which cancel.
+        assert!(product.iter().zip(&b).all(|(product, b)| (product - b).abs() <= 1e-13 * largest));
         cholesky.solve(&mut b);
         for (found, expected) in b.iter().zip(&exact) {
             // Condition about 10⁴ (stiffness of ten cells over the shift), times n u.
@@ -161,4 +166,7 @@ fn what_does_not_fit_is_an_error() {
     let mut matrix = LowerTriangle::new(&small, &Pins::none()).expect("small");
     let error = LinearError::Length { slice: "stiffness", found: large.len(), expected: small.len() };
     assert_eq!(matrix.fill(&large, |_| 0.0), Err(error));
+    let mut product = [0.0; 24];
+    assert!(matrix.multiply(&[1.0; 23], &mut product).is_err());
+    assert!(matrix.multiply(&[1.0; 24], &mut product[1..]).is_err());
 }
