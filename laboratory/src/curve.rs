@@ -125,9 +125,9 @@ impl FromStr for Mode {
     type Err = ModeError;
 
     /// Parses a name in any case, with spaces or `-` for `_`: the [name](Mode::name), or another common one:
-    /// `UT`, `tension`, `compression`, `uniaxial tension`, `uniaxial compression`; `ET`, `EB`, `BT`, `biaxial`,
-    /// `biaxial tension`; `PS`, `planar`, `planar tension`; `SS`; `hydrostatic`. `shear` alone could be either
-    /// of two tests and is refused.
+    /// `UT`, `tension`, `compression`, `uniaxial tension`, `uniaxial compression`; `ET`, `EB`, `BT`,
+    /// `biaxial`, `biaxial tension`; `PS`, `planar`, `planar tension`; `SS`; `hydrostatic`. `shear` alone
+    /// could be either of two tests and is refused.
     fn from_str(text: &str) -> Result<Self, ModeError> {
         let words = text.to_lowercase();
         let words = words.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());

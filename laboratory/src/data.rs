@@ -42,8 +42,8 @@
 //!   line what was used and what was left out.
 //!
 //! Numbers are what their header names; the description has their range. A test whose specimen would do work
-//! while it is deformed, Σ strain · stress < 0, is an error (strains under `stretch`? compression with positive
-//! numbers?), and so is a compression with larger stretches than at rest.
+//! while it is deformed, Σ strain · stress < 0, is an error (strains under `stretch`? compression with
+//! positive numbers?), and so is a compression with larger stretches than at rest.
 //!
 //! Stretches and volumes are from 10⁻⁶ to 10⁶, shears up to 10⁶, stresses 0 or from 10⁻¹⁰⁰ to 10¹⁰⁰ Pa in
 //! size: far beyond measurements, and well inside of the range of squares and quotients.

@@ -167,8 +167,8 @@ type Four = Lanes2<Lanes2<f64>>;
 /// Stretches of four points, one of them inverted.
 const STRETCHES: [[f64; 4]; 3] = [[1.5, 1.2, 1.0, 1.1], [1.1, 1.2, 1.0, 0.9], [0.8, 0.7, 1.0, -0.3]];
 
-/// Energy, gradients, gradient at strains and blocks on each lane, as bits, so that NaN equals itself; and which
-/// lanes are admitted.
+/// Energy, gradients, gradient at strains and blocks on each lane, as bits, so that NaN equals itself; and
+/// which lanes are admitted.
 fn results(material: &impl Material, stretches: [Four; 3], strains: [Four; 3]) -> (Vec<[u64; 4]>, u64) {
     let Blocks { gradient, hessian, flip, twist } = material.blocks(stretches);
     let gradients = [material.gradient(stretches), material.gradient_at_strains(strains), gradient];

@@ -8,8 +8,8 @@ use crate::curve::{Mode, ModeError};
 /// Choice of columns, test and unit for a file of measurements.
 ///
 /// A column is chosen by its header, or by its number counted from 1; after `=` may be a header in plain form
-/// that replaces its own: `Dehnung`, `3`, `3=stretch`, `Dehnung=strain [%]`. Without `=`, a header that is not
-/// in plain form means a nominal strain, or a nominal stress.
+/// that replaces its own: `Dehnung`, `3`, `3=stretch`, `Dehnung=strain [%]`. Without `=`, a header that is
+/// not in plain form means a nominal strain, or a nominal stress.
 ///
 /// ```
 /// use piola_laboratory::curve::Mode;

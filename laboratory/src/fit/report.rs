@@ -77,8 +77,8 @@ fn compressible(best: &Minimum<'_>) -> Option<Warning> {
 }
 
 impl fmt::Display for Fit {
-    /// A line for each parameter with its standard error, R², the differences, the way to the minimum, and the
-    /// warnings.
+    /// A line for each parameter with its standard error, R², the differences, the way to the minimum, and
+    /// the warnings.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for Number { name, value, standing, error } in &self.numbers {
             write!(f, "  {name:12} {:<14}", number(rounded(*value)))?;

@@ -1,4 +1,5 @@
-//! Fits: those whose answer is known, at edges of the admissible parameters, with other minima, of exponentials.
+//! Fits: those whose answer is known, at edges of the admissible parameters, with other minima, of
+//! exponentials.
 
 mod edges;
 mod exponentials;

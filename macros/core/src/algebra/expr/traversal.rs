@@ -126,8 +126,8 @@ impl Graph {
         roots.iter().map(|root| depths[root]).max().unwrap_or(0)
     }
 
-    /// For each of these nodes, children before parents, a list with whose entries its value changes from term
-    /// to term of a sum.
+    /// For each of these nodes, children before parents, a list with whose entries its value changes from
+    /// term to term of a sum.
     #[must_use]
     pub fn lists(&self, order: &[Id]) -> FxHashMap<Id, Option<ParameterIndex>> {
         let mut lists: FxHashMap<Id, Option<ParameterIndex>> = FxHashMap::default();
