@@ -53,7 +53,7 @@ fn new(declaration: &Declaration, model: &mut Model) -> TokenStream {
     );
     let new_doc = doc(&new_doc);
     let has_numbers = declaration.parameters.iter().any(|parameter| !parameter.is_function());
-    let checked = has_numbers.then(|| {
+    let checked = (has_numbers || !options.admissible.is_empty()).then(|| {
         let (parameters, numbers) = (parameters(), numbers(declaration, None));
         let admissible = conditions(declaration, &options.admissible);
         quote!(__p::check_parameters(#parameters, #numbers, #admissible)?;)

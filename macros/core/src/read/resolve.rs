@@ -290,6 +290,10 @@ impl<'a> Resolver<'a> {
             },
             Expr::Paren(inner) => self.expression(&inner.expr),
             Expr::Group(inner) => self.expression(&inner.expr),
+            Expr::Block(inner) if self.scope == Scope::Parameters => {
+                self.excuse_names(inner);
+                self.mistake(inner, "a condition has no `{ … }`: write out here what its names stand for")
+            }
             Expr::Block(inner) => self.block(&inner.block),
             Expr::Unary(unary) => match unary.op {
                 UnOp::Neg(_) => {
