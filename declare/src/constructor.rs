@@ -45,8 +45,8 @@ impl Constructor {
         for (k, value) in model.bounds_at_rest.clone() {
             let program = lower(declaration, &model.program(&[value]))?;
             let bound = declaration.bounds().nth(k);
-            let named = |bound| (program, Text::from(condition_text(bound)), named(declaration, bound));
-            at_rest.extend(bound.map(named));
+            let checked = |bound| (program, Text::from(condition_text(bound)), named(declaration, bound));
+            at_rest.extend(bound.map(checked));
         }
         let stated = declaration.lengths.iter().map(|entries| match entries {
             Entries::Known(syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(length), .. })) => {
