@@ -13,7 +13,6 @@ mod user_defined;
 use crate::system::linear::LinearError;
 use crate::system::{Body, Pins};
 
-use assembled::Assembled;
 use conjugate::Conjugate;
 use interface::OwnSolver;
 
@@ -113,7 +112,7 @@ impl LinearSolver {
         Ok(match self {
             Self::Automatic => return Self::for_elements(body.elements().len()).set_up(body, pins, pairs),
             #[cfg(feature = "faer")]
-            Self::Cholesky => Box::new(Assembled::new(body, pins, pairs, |matrix| {
+            Self::Cholesky => Box::new(assembled::Assembled::new(body, pins, pairs, |matrix| {
                 crate::system::Cholesky::new(matrix.column_starts(), matrix.row_indices())
             })?),
             Self::ConjugateGradients { tolerance, max_iterations } => {
