@@ -29,6 +29,7 @@ impl Folder {
         let created: Vec<_> = path.ancestors().take_while(is_new).map(PathBuf::from).collect();
         let parents = path.parent().map_or(Ok(()), fs::create_dir_all);
         parents.and_then(|()| fs::create_dir(path)).map_err(|error| {
+            created.iter().skip(1).for_each(|folder| drop(fs::remove_dir(folder)));
             let reason = match path.is_dir() {
                 true => {
                     "it exists already; name a new one with --out, or continue the run in it with --resume"
