@@ -213,6 +213,7 @@ fn columns_that_are_not_clear_are_listed() {
     );
     refuse("Load (N),Extension (mm)\n1,0.1\n", UNIAXIAL, 1, &["1 `Load (N)`", "cross-section"]);
     refuse("strain,strain_%,stress_Pa\n0.1,10,1\n", UNIAXIAL, 1, &["`strain` and `strain_%` are both"]);
+    refuse("strain [%],stress_Pa\nmm/mm,Pa\n0.1,1\n", UNIAXIAL, 1, &["1 `strain [%]`"]);
     refuse("mode,stretch,nominal_stress_stone\n", [""; 4], 1, &["nominal_stress_stone", "--stress"]);
     refuse("# by hand\nmode,angle,stress_Pa\n", [""; 4], 2, &["no header is a stretch", "2 `angle`"]);
     for header in ["Strain [mstrain]", "Strain (Strain 1)", "Tensile % strain"] {

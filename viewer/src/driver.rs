@@ -84,9 +84,12 @@ impl Answer {
     pub(crate) fn refusal(act: &Act, error: Error) -> Self {
         let (reason, mistakes) = match error {
             Error::Declaration(mistakes) => (mistakes.to_string(), mistakes.list),
-            // A page gets the name of a file and the kind of a system error, without any path.
+            // A page gets the name of a file, and the reason of the program or the kind of a system error,
+            // without any path.
             Error::Write { path, source } => {
-                (format!("cannot write {}: {}", name_of(&path), source.kind()), Vec::new())
+                let reason =
+                    source.get_ref().map_or_else(|| source.kind().to_string(), |own| own.to_string());
+                (format!("cannot write {}: {reason}", name_of(&path)), Vec::new())
             }
             error => (error.to_string(), Vec::new()),
         };

@@ -102,7 +102,8 @@ pub(super) struct Heading {
 }
 
 impl Heading {
-    /// The header of a column, which may be empty; the unit below it is that of a name without one.
+    /// The header of a column, which may be empty; the unit below it is that of a name without one. With two
+    /// different units the quantity is not clear.
     pub(super) fn of(place: usize, text: &str, below: Option<Unit>) -> Self {
         let (name, own) = name_and_unit(text);
         let unit = own.or(below);
@@ -119,7 +120,8 @@ impl Heading {
             Mode => unit.is_none(),
             quantity => has_clear_unit(text, unit, quantity.is_stress()),
         };
-        let quantity = if is_plain { quantity } else { Other };
+        let are_two_units = own.zip(below).is_some_and(|(own, below)| own != below);
+        let quantity = if is_plain && !are_two_units { quantity } else { Other };
         let text = if text.is_empty() { format!("column {}", place + 1) } else { text.into() };
         Self { place, text, quantity, unit, is_compressive }
     }

@@ -3,7 +3,7 @@
 //! Files are written during the run, so that an interruption leaves a shorter run. Nothing that was there
 //! before is replaced: a run begins in a folder that does not exist yet.
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
@@ -17,18 +17,21 @@ pub struct Folder {
     path: PathBuf,
     /// Folders that did not exist before, innermost first.
     created: Vec<PathBuf>,
+    /// The folder, locked until the program ends; `None` on systems that lock no folders.
+    _lock: Option<File>,
 }
 
 impl Folder {
     /// Creates a folder for the files of a run.
     ///
     /// # Errors
-    /// [`Error::Usage`] if it exists or cannot be created.
+    /// [`Error::Usage`] if it exists or cannot be created, or if another run writes there.
     pub fn create(path: &Path) -> Result<Self, Error> {
         let is_new = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let created: Vec<_> = path.ancestors().take_while(is_new).map(PathBuf::from).collect();
         let parents = path.parent().map_or(Ok(()), fs::create_dir_all);
         parents.and_then(|()| fs::create_dir(path)).map_err(|error| {
+            created.iter().skip(1).for_each(|folder| drop(fs::remove_dir(folder)));
             let reason = match path.is_dir() {
                 true => {
                     "it exists already; name a new one with --out, or continue the run in it with --resume"
@@ -38,20 +41,31 @@ impl Folder {
             };
             Error::Usage(format!("cannot write to the folder {}: {reason}", path.display()))
         })?;
-        Ok(Self { path: path.into(), created })
+        Self::locked(path, created)
     }
 
     /// Opens the folder of a run to continue it.
     ///
     /// # Errors
-    /// [`Error::Usage`] if the folder has no state of a run.
+    /// [`Error::Usage`] if the folder has no state of a run, or if another run writes there.
     pub fn reopen(path: &Path) -> Result<Self, Error> {
         match path.join(STATE_FILE).is_file() {
-            true => Ok(Self { path: path.into(), created: Vec::new() }),
+            true => Self::locked(path, Vec::new()),
             false => Err(Error::Usage(format!(
                 "the folder {} contains no run to continue; leave out --resume, or name another one with --out",
                 path.display()
             ))),
+        }
+    }
+
+    fn locked(path: &Path, created: Vec<PathBuf>) -> Result<Self, Error> {
+        let lock = File::open(path).ok();
+        match lock.as_ref().map(File::try_lock) {
+            Some(Err(TryLockError::WouldBlock)) => Err(Error::Usage(format!(
+                "another run is writing to the folder {}; wait until it has ended",
+                path.display()
+            ))),
+            _ => Ok(Self { path: path.into(), created, _lock: lock }),
         }
     }
 
@@ -136,6 +150,21 @@ mod tests {
         assert_eq!(names(&target)?, ["frame_0000.ply", "summary.json"]);
         folder.abandon();
         assert_eq!(names(scratch.path())?, [""; 0]);
+        Ok(())
+    }
+
+    #[test]
+    fn one_run_at_a_time_writes_to_a_folder() -> Result<(), Box<dyn std::error::Error>> {
+        let scratch = tempfile::tempdir()?;
+        let target = scratch.path().join("out");
+        let folder = Folder::create(&target)?;
+        folder.write(STATE_FILE, |file| file.write_all(b"{}"))?;
+        if cfg!(unix) {
+            let refused = Folder::reopen(&target);
+            assert!(refused.is_err_and(|error| error.to_string().contains("another run is writing")));
+        }
+        drop(folder);
+        assert!(Folder::reopen(&target).is_ok());
         Ok(())
     }
 }
