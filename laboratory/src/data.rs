@@ -41,9 +41,9 @@
 //! * [`ReadOptions`] also has the test and the unit for a file that names none. [`Reading`] describes in a
 //!   line what was used and what was left out.
 //!
-//! Numbers are what their header names; the description has their range. A test whose specimen would do work
-//! while it is deformed, Σ strain · stress < 0, is an error (strains under `stretch`? compression with
-//! positive numbers?), and so is a compression with larger stretches than at rest.
+//! What may mean two things is an error, with the line and what to write: stretches that are all above 8, or
+//! some above 20, without a unit (percent?), stresses of another sign than their strain (strains under
+//! `stretch`? compression with positive numbers?), a `stress` of an unnamed kind next to a true strain.
 //!
 //! Stretches and volumes are from 10⁻⁶ to 10⁶, shears up to 10⁶, stresses 0 or from 10⁻¹⁰⁰ to 10¹⁰⁰ Pa in
 //! size: far beyond measurements, and well inside of the range of squares and quotients.
@@ -54,6 +54,7 @@ mod fault;
 mod heading;
 mod measured;
 mod options;
+mod plausible;
 mod reader;
 mod table;
 mod unit;

@@ -181,25 +181,30 @@ fn refuse(text: &str, given: [&str; 4], line: u64, words: &[&str]) {
 const UNIAXIAL: [&str; 4] = ["uniaxial", "", "", ""];
 
 #[test]
-fn stresses_against_their_strains_are_asked_about() {
+fn numbers_that_cannot_be_stretches_are_asked_about() {
     let stretch =
         |rows: &str, words: &[&str]| refuse(&format!("stretch,stress_MPa\n{rows}"), UNIAXIAL, 2, words);
+    stretch("10,0.1\n20,0.2\n50,0.4\n", &["percent", "strain [%]", "stretch [-]"]);
+    stretch("5,0.1\n10,0.15\n50,0.4\n", &["from 5 to 50", "percent"]);
     stretch("0.1,0.1\n0.5,0.4\n", &["λ = 0.1", "is the number a strain"]);
     stretch("0,0\n0.1,0.1\n", &["stretch is 0", "`strain`"]);
+    stretch("0.12,0.14\n0.24,0.23\n6.6,6.3\n", &["λ = 0.12", "strain"]);
     stretch("1.1,-0.1\n1.5,-0.4\n", &["λ = 1.1", "another sign"]);
     stretch("-1.1,1\n", &["-1.1", "positive"]);
     let strain = "strain,stress [MPa]\n";
-    refuse(&format!("{strain}-10,-0.1\n-20,-0.2\n"), UNIAXIAL, 2, &["stretch is -9"]);
+    refuse(&format!("{strain}10,0.1\n20,0.2\n"), UNIAXIAL, 2, &["`strain`", "percent", "strain [-]"]);
+    refuse(&format!("{strain}-10,-0.1\n-20,-0.2\n"), UNIAXIAL, 2, &["percent"]);
     let compression = ["compression", "", "", ""];
     refuse(&format!("{strain}0.1,0.1\n0.2,0.2\n"), compression, 2, &["λ = 1.1", "is a compression"]);
-    // Small scatter about rest; slack of a compression; an unloaded specimen.
-    for rows in [
-        "0.999,0.001\n1.001,-0.001\n1.1,0.1\n7.6,6.3\n",
-        "0.99,0.001\n0.5,-0.6\n",
-        "1.5,0.4\n2,0.6\n1.5,0.3\n1.05,-0.03\n",
+    // As large as that, if a unit says so; small scatter about rest; slack of a compression.
+    for text in [
+        "stretch [-],stress [MPa]\n10,0.1\n23,0.2\n",
+        "strain [%],stress [MPa]\n1000,0.1\n2300,0.2\n",
+        "stretch,stress [MPa]\n0.999,0.001\n1.001,-0.001\n1.1,0.1\n7.6,6.3\n",
+        "stretch,stress [MPa]\n0.99,0.001\n0.5,-0.6\n",
+        "stretch,stress [MPa]\n1.5,0.4\n2,0.6\n1.5,0.3\n1.05,-0.03\n",
     ] {
-        let text = format!("stretch,stress [MPa]\n{rows}");
-        assert!(Measurements::read_with(&text, &options(UNIAXIAL)).is_ok(), "{text}");
+        assert!(Measurements::read_with(text, &options(UNIAXIAL)).is_ok(), "{text}");
     }
 }
 
@@ -213,6 +218,7 @@ fn columns_that_are_not_clear_are_listed() {
     );
     refuse("Load (N),Extension (mm)\n1,0.1\n", UNIAXIAL, 1, &["1 `Load (N)`", "cross-section"]);
     refuse("strain,strain_%,stress_Pa\n0.1,10,1\n", UNIAXIAL, 1, &["`strain` and `strain_%` are both"]);
+    refuse("true strain,stress_Pa\n0.1,1\n", UNIAXIAL, 1, &["`true stress` or a `nominal stress`"]);
     refuse("strain [%],stress_Pa\nmm/mm,Pa\n0.1,1\n", UNIAXIAL, 1, &["1 `strain [%]`"]);
     refuse("mode,stretch,nominal_stress_stone\n", [""; 4], 1, &["nominal_stress_stone", "--stress"]);
     refuse("# by hand\nmode,angle,stress_Pa\n", [""; 4], 2, &["no header is a stretch", "2 `angle`"]);

@@ -143,6 +143,18 @@ impl Used {
         let control = column(&headings, options.strain.as_deref(), false)?;
         let mut stress = column(&headings, options.stress.as_deref(), true)?;
         stress.unit = stress.unit.or(options.unit.map(Unit::Stress));
+        let names_its_kind =
+            ["nominal", "engineering"].iter().any(|kind| stress.text.to_lowercase().contains(kind));
+        if control.quantity == Quantity::TrueStrain
+            && stress.quantity == Quantity::Stress
+            && options.stress.is_none()
+            && !names_its_kind
+        {
+            let text = quoted(&stress.text);
+            return Err(format!(
+                "`{text}` next to a true strain may be a `true stress` or a `nominal stress`"
+            ));
+        }
         Ok(Self { mode, control, stress })
     }
 }

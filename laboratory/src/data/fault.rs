@@ -115,7 +115,7 @@ pub enum Fault {
         /// The test.
         mode: Mode,
     },
-    /// The stresses of a test oppose its strains, or the strains of a compression are tensions.
+    /// A point that is unlikely to be what its header and its test mean.
     #[error(
         "{mode} {} = {} has a stress of {} Pa{question}: a strain is written under `strain` or `strain [%]`, a compression \
          with negative strain and stress or under `compressive strain` and `compressive stress`",
@@ -124,12 +124,29 @@ pub enum Fault {
     Sign {
         /// The test.
         mode: Mode,
-        /// The control of the first such point.
+        /// The control.
         control: f64,
-        /// Its stress, Pa.
+        /// The stress, Pa.
         stress: f64,
         /// The reason, and what the numbers may be instead.
         question: &'static str,
+    },
+    /// Stretches as large as strains in percent.
+    #[error(
+        "`{}` of {mode} makes {} from {} to {}: are the numbers percent? Then write `strain [%]`; if they are as large as \
+         that, `{}`",
+        quoted(column), mode.letter(), number(*range.start()), number(*range.end()),
+        if *is_stretch { "stretch [-]" } else { "strain [-]" }
+    )]
+    Percent {
+        /// The header of the column.
+        column: String,
+        /// The test.
+        mode: Mode,
+        /// The least and the greatest control.
+        range: std::ops::RangeInclusive<f64>,
+        /// True if they stand under `stretch`.
+        is_stretch: bool,
     },
     /// No point except the rest state.
     #[error("below this header there is no point but rest; write lines such as `uniaxial,1.5,0.37`")]

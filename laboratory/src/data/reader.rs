@@ -9,6 +9,7 @@ use super::fault::{DataError, Fault};
 use super::heading::{Heading, Quantity, Unit};
 use super::measured::{Measured, Measurements};
 use super::options::{ReadOptions, Test};
+use super::plausible;
 use super::table::{may_be_thousands, number};
 use crate::curve::Mode;
 use crate::rest::digits;
@@ -70,16 +71,14 @@ impl Measurements {
         let factor = |column| factor(column).map_err(at_header);
         let factors = [factor(&table.used.control)?, factor(&table.used.stress)?];
         let decimal = table.decimal()?;
-        let (mut points, mut tests) = (Vec::new(), Vec::new());
+        let (mut points, mut rows) = (Vec::new(), Vec::new());
         for row in &table.rows {
             let point = table.used.point(row, decimal, factors, options);
             let (test, point) = point.map_err(|fault| DataError { line: row.line, fault })?;
             points.push(point);
-            tests.push(Test { is_compression: test.is_compression || factors[0] < 0.0, ..test });
+            rows.push((row.line, test));
         }
-        if let Some((row, fault)) = opposed(&points, &tests) {
-            return Err(DataError { line: table.rows[row].line, fault });
-        }
+        plausible::check(&points, &rows, &table.used.control)?;
         if points.iter().all(Measured::is_rest) {
             return Err(at_header(Fault::NoPoints));
         }
@@ -177,27 +176,6 @@ fn stress_of(quantity: Quantity, mode: Mode, control: f64, value: f64) -> Option
         (Quantity::Pressure, Mode::Volumetric) => Some(-value),
         _ => None,
     }
-}
-
-/// A row of a test whose specimen would do work while it is deformed, Σ strain · stress < 0, or whose
-/// compression is a tension, Σ strain > 0.
-fn opposed(points: &[Measured], tests: &[Test]) -> Option<(usize, Fault)> {
-    let strain = |row: usize| points[row].control - points[row].mode.rest();
-    let work = |row: usize| strain(row) * points[row].stress;
-    let both = |mode| [false, true].map(|is_compression| Test { mode, is_compression });
-    Mode::ALL.into_iter().flat_map(both).find_map(|test| {
-        let rows = || (0..points.len()).filter(|&row| tests[row] == test);
-        let (first, question) = if test.is_compression && rows().map(strain).sum::<f64>() > 0.0 {
-            (rows().find(|&row| strain(row) > 0.0)?, ", but the test is a compression")
-        } else if rows().map(work).sum::<f64>() < 0.0 {
-            let question = ", of another sign than its strain; is the number a strain, or a compression?";
-            (rows().find(|&row| work(row) < 0.0)?, question)
-        } else {
-            return None;
-        };
-        let Measured { mode, control, stress } = points[first];
-        Some((first, Fault::Sign { mode, control, stress, question }))
-    })
 }
 
 /// The column with its quantity and unit, in sentences.
