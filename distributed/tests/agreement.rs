@@ -309,3 +309,57 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
     let words = [words(&options), material.map(str::to_owned).to_vec()].concat();
     check(&ranks(), &words, simulation.positions(), 1e-9 * f64::from(frames))
 }
+
+/// A bar in TetGen's files, with markers and regions, an unused node, comments, and tetrahedra in both
+/// orientations.
+#[test]
+fn a_bar_in_files_of_tetgen_is_that_of_one_machine() -> TestResult {
+    let bar = tetrahedral_box([2, 6, 2], [0.3, 1.0, 0.3])?;
+    let scratch = tempfile::tempdir()?;
+    let file = scratch.path().join("bar.node");
+    let stray = 11;
+    let number = |node: usize| if node < stray { node + 1 } else { node + 2 };
+    let mut nodes = format!("# a bar\n{} 3 1 1\n", bar.positions.len() + 1);
+    for (node, [x, y, z]) in bar.positions.iter().enumerate() {
+        let marker = if *y == 0.0 { 5 } else { 0 };
+        nodes += &format!("{} {x:?} {y:?} {z:?} 0.5 {marker} # {y}\n", number(node));
+    }
+    nodes += &format!("{} 9 9 9 0.5 0\n", stray + 1);
+    let mut tets = format!("{} 4 1\n", bar.tets.len());
+    for (tet, nodes) in bar.tets.iter().enumerate() {
+        let [a, b, c, d] = nodes.map(number);
+        let [b, c] = if tet % 3 == 0 { [c, b] } else { [b, c] };
+        tets += &format!("{} {a} {b} {c} {d} {}\n", tet + 1, if tet % 2 == 0 { 7 } else { -1 });
+    }
+    std::fs::write(&file, nodes)?;
+    std::fs::write(file.with_extension("ele"), tets)?;
+
+    let mesh = piola_bodies::mesh::read_tetgen(&file)?;
+    let soft = (HORSE.material)().build()?.moduli;
+    let part = |group: Option<&str>, name: &str, density: f64| -> Result<Part, Box<dyn std::error::Error>> {
+        let material = MaterialSpec::matching(name, soft).build()?.elements;
+        Ok(Part { group: group.map(str::to_owned), material, density })
+    };
+    let parts = vec![part(None, "neo-Hookean", 1000.0)?, part(Some("7"), "stable neo-Hookean", 3000.0)?];
+    let body = Body::from_parts(&mesh, parts)?;
+    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
+    let mut simulation = Simulation::new(body, &Pins::of_group(&mesh, "5")?, settings)?;
+    simulation.equilibrate()?;
+
+    let file = file.to_str().expect("UTF-8");
+    let options =
+        words(&format!("statics scramble --amplitude 0 --gravity 9.81 --pin 5 {SOLVED} --mesh {file}"));
+    let material = ["--material", "neo-Hookean", "--part", "7=stable neo-Hookean;density=3000"];
+    for count in ranks() {
+        let folder = scratch.path().join(count.to_string());
+        let words = [options.clone(), material.map(str::to_owned).to_vec()].concat();
+        let found = state_after(count, words, &folder)?;
+        let error = distance(&found.positions, simulation.positions());
+        assert!(error <= 1e-8, "{error:e} m on {count} ranks");
+        let summary: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(folder.join("summary.json"))?)?;
+        let warnings = summary["warnings"].to_string();
+        assert!(warnings.contains("1 nodes of the file belong to no tetrahedron"), "{warnings}");
+    }
+    Ok(())
+}

@@ -133,6 +133,28 @@ impl ElasticResponse {
         Ok(self.sum(energies, body, gradient))
     }
 
+    /// Makes the energies evaluated last the base of [`ElasticResponse::difference`].
+    pub fn set_base(&mut self) {
+        self.elastic.set_base();
+    }
+
+    /// Energy evaluated last minus the energy of the base, J: a sum of differences of elements, which keeps
+    /// digits that a difference of sums loses.
+    #[must_use]
+    pub fn difference(&self) -> f64 {
+        self.elastic.difference()
+    }
+
+    /// Bound for the rounding error of [`ElasticResponse::difference`], J, of the body for which this memory
+    /// was made.
+    ///
+    /// # Errors
+    /// [`LengthError`] for another body.
+    pub fn difference_noise(&self, body: &Body) -> Result<f64, LengthError> {
+        self.check_body(body)?;
+        Ok(self.elastic.difference_noise(body))
+    }
+
     fn check_body(&self, body: &Body) -> Result<(), LengthError> {
         same("elements", body.elements().len(), self.elements, 1)?;
         same("nodes", body.rest().len(), self.nodes, 1)
