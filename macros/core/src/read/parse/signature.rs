@@ -13,17 +13,46 @@ use crate::read::notation::Notation;
 use crate::read::spelling::taken;
 use crate::read::unit::Unit;
 
-/// Members of every material, which a method for a parameter of the same name would hide: those of the type
-/// and of the traits of the language, of `Material`, of `Declared`, of `Fittable` and of `Graded`.
-const MEMBERS: [&str; 5] = [
-    "new with_inversion clone",
-    "energy gradient gradient_at_strains blocks energy_and_blocks admits has_invariants has_second_invariant \
-     curvature_by_invariants has_energy_by_invariants energy_by_invariants gradient_by_invariants \
-     derivatives_by_invariants admits_invariants has_pole ends_at_zero_volume inversion stated_moduli \
-     RESPONDS_TOGETHER respond_together",
-    "DESCRIPTION from_values moduli",
-    "values with_values gradient_by_parameters constraints domain_constraints",
-    "on_lanes shares_lanes",
+/// Members of every material, which a method for a parameter of the same name would hide.
+const MEMBERS: [&str; 33] = [
+    // Of the type and of the traits of the language.
+    "new",
+    "with_inversion",
+    "clone",
+    // Of `Material`.
+    "energy",
+    "gradient",
+    "gradient_at_strains",
+    "blocks",
+    "energy_and_blocks",
+    "admits",
+    "has_invariants",
+    "has_second_invariant",
+    "curvature_by_invariants",
+    "has_energy_by_invariants",
+    "energy_by_invariants",
+    "gradient_by_invariants",
+    "derivatives_by_invariants",
+    "admits_invariants",
+    "has_pole",
+    "ends_at_zero_volume",
+    "inversion",
+    "stated_moduli",
+    "RESPONDS_TOGETHER",
+    "respond_together",
+    // Of `Declared`.
+    "DESCRIPTION",
+    "from_values",
+    "moduli",
+    // Of `Fittable`.
+    "values",
+    "with_values",
+    "gradient_by_parameters",
+    "constraints",
+    "domain_constraints",
+    // Of `Graded`.
+    "on_lanes",
+    "shares_lanes",
 ];
 
 /// Values that are patterns everywhere, so that no argument can have their name.
@@ -384,7 +413,7 @@ pub fn is_reserved(name: &Ident) -> bool {
     let text = name.to_string();
     let text = text.as_str();
     WORDS.contains(&text)
-        || MEMBERS.iter().any(|group| group.split(' ').any(|member| member == text))
+        || MEMBERS.contains(&text)
         || PATTERNS.contains(&text)
         || text == "sum"
         || is_raw(name)
