@@ -228,11 +228,16 @@ pub(crate) fn energy_is_finite<R: Real>(stretches: [R; 3], energy: R) -> R::Mask
     stretches_in_range(stretches) & energy.is_finite()
 }
 
+/// True if no entry is infinite or NaN.
+#[inline(always)]
+pub(crate) fn entries_are_finite<R: Real>(A: &Matrix3<R>) -> R::Mask {
+    none_infinite([none_infinite(A[0]), none_infinite(A[1]), none_infinite(A[2])]).is_finite()
+}
+
 /// True if stretches and stress are valid.
 #[inline(always)]
 pub(crate) fn stress_is_finite<R: Real>(stretches: [R; 3], P: &Matrix3<R>) -> R::Mask {
-    let entries = none_infinite([none_infinite(P[0]), none_infinite(P[1]), none_infinite(P[2])]);
-    stretches_in_range(stretches) & entries.is_finite()
+    stretches_in_range(stretches) & entries_are_finite(P)
 }
 
 /// Decomposes F as every evaluation of the material does: with [`svd_signed_by_determinant`] if its domain

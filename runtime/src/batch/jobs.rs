@@ -61,22 +61,29 @@ pub(super) fn for_each_tile<E: Kernels, const I: usize, const O: usize>(
         );
         return first + later;
     }
+    E::with_workspace(|workspace| one_after_the_other(work, points, workspace, body))
+}
+
+fn one_after_the_other<E: Scalar, const I: usize, const O: usize>(
+    mut work: Work<'_, E, I, O>,
+    points: std::ops::Range<usize>,
+    workspace: &mut Workspace<E>,
+    body: &impl Fn(Job<'_, E>, [&[E]; I], [&mut [E]; O]) -> Status<u64>,
+) -> Survey {
     let mut survey = Survey::default();
-    E::with_workspace(|workspace| {
-        for start in points.clone().step_by(TILE) {
-            let tile = work.split_off(1);
-            let status = body(
-                Job { workspace, start, count: TILE.min(points.end - start) },
-                tile.inputs.map(|(slice, _)| slice),
-                tile.outputs.map(|(slice, _)| slice),
-            );
-            for (point, to) in tile.statuses.iter().enumerate() {
-                to.set(status.of_point(point));
-            }
-            if status != Status::default() {
-                survey = survey + Survey::of(status, start);
-            }
+    for start in points.clone().step_by(TILE) {
+        let tile = work.split_off(1);
+        let status = body(
+            Job { workspace, start, count: TILE.min(points.end - start) },
+            tile.inputs.map(|(slice, _)| slice),
+            tile.outputs.map(|(slice, _)| slice),
+        );
+        for (point, to) in tile.statuses.iter().enumerate() {
+            to.set(status.of_point(point));
         }
-    });
+        if status != Status::default() {
+            survey = survey + Survey::of(status, start);
+        }
+    }
     survey
 }
