@@ -182,7 +182,8 @@ macro_rules! tile_responses {
                                 }
                                 admitted |= R::bits(material.$domain(at)) << group;
                             });
-                            domain_and_range(count, admitted, finite) & own
+                            let status = domain_and_range(count, admitted, finite);
+                            if P::MAY_DIFFER { status & own } else { status }
                         }
                     }
                     struct Finite<'a, E>(Arguments<'a, E>, &'a Rows<E, $rows>);
@@ -200,18 +201,23 @@ macro_rules! tile_responses {
                         }
                     }
                     let Arguments { backend, start, count, .. } = arguments;
+                    let mut respond = |first, own| {
+                        if P::Material::RESPONDS_TOGETHER {
+                            let admitted = together(self, ResponseKind::$Kind, first, own, arguments, to);
+                            domain_and_range(count, admitted, backend.run(Finite(arguments, to))) & own
+                        } else {
+                            backend.run(OnLanes { points: self, first, own, arguments, to })
+                        }
+                    };
+                    if !P::MAY_DIFFER {
+                        return respond(0, u64::MAX);
+                    }
                     let (mut left, mut status) = (first_bits(count), Status::default());
                     while left != 0 {
                         let first = left.trailing_zeros() as usize;
                         let own = self.sharing(start, count, first);
                         left &= !own;
-                        let of_own = if P::Material::RESPONDS_TOGETHER {
-                            let admitted = together(self, ResponseKind::$Kind, first, own, arguments, to);
-                            domain_and_range(count, admitted, backend.run(Finite(arguments, to))) & own
-                        } else {
-                            backend.run(OnLanes { points: self, first, own, arguments, to })
-                        };
-                        status = status | of_own;
+                        status = status | respond(first, own);
                     }
                     status
                 }
