@@ -20,12 +20,15 @@ fn energy(material: &dyn TileMaterial<f64>, element: &Tetrahedron, positions: &[
     group.energies[0]
 }
 
+/// Gradient of an element, N.
+type Gradient = [[f64; 3]; 4];
+
 fn derivatives(
     material: &dyn TileMaterial<f64>,
     element: &Tetrahedron,
     positions: &[[f64; 3]],
     filter: Filter,
-) -> ([[f64; 3]; 4], [[f64; 12]; 12], Survey) {
+) -> (Gradient, [[f64; 12]; 12], Survey) {
     let ([gradient, with_stiffness], stiffness, survey) = declared(material, element, positions, filter);
     assert_eq!(gradient, with_stiffness, "the gradient is the same with and without a stiffness");
     (gradient, stiffness, survey)
@@ -38,7 +41,7 @@ fn declared(
     element: &Tetrahedron,
     positions: &[[f64; 3]],
     filter: Filter,
-) -> ([[[f64; 3]; 4]; 2], [[f64; 12]; 12], Survey) {
+) -> ([Gradient; 2], [[f64; 12]; 12], Survey) {
     let mut group = ElementGroup::new(0, &[*element]);
     group.evaluate(material, &[*element], positions);
     let mut stiffness = [[[[0.0; 3]; 3]; 10]];
