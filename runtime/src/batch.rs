@@ -289,9 +289,9 @@ impl<'a, E: Kernels> Batch<'a, E> {
             lengths.chain(outputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components)));
         let materials = properties.points.map(|points| ("materials", points, 1));
         let statuses = (!self.statuses.is_empty()).then_some(("statuses", self.statuses.len(), 1));
-        for (slice, found, components) in lengths.chain(materials).chain(statuses) {
-            LengthError::check(slice, found, components, count, group)?;
-        }
+        lengths.chain(materials).chain(statuses).try_for_each(|(slice, found, components)| {
+            LengthError::check(slice, found, components, count, group)
+        })?;
         let call = Call {
             material: self.material,
             properties,

@@ -7,7 +7,7 @@
 use crate::kernels::rows::{ROW, Rows, first_bits, for_each_group, to_rows};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
 use crate::material::properties::largest_rest_stiffness;
-use crate::material::{Graded, Material, PerPoint, RawTile, ResponseKind};
+use crate::material::{Curvature, Graded, Material, PerPoint, RawTile, ResponseKind};
 use crate::point::energy_is_finite;
 use crate::status::Status;
 
@@ -105,8 +105,9 @@ pub struct Arguments<'a, E> {
     pub(crate) start: usize,
     /// Number of points in the tile.
     pub(crate) count: usize,
-    /// Properties of the materials of all tiles.
-    pub(crate) properties: Properties,
+    /// Derivatives by invariants that are read: [`Properties`] of the materials of all tiles.
+    pub(crate) curvature: Curvature,
+    pub(crate) has_second_invariant: bool,
     pub(crate) rows: &'a Rows<E, 3>,
 }
 
@@ -143,21 +144,24 @@ macro_rules! tile_responses {
         impl<E: Scalar, P: Points> TileMaterial<E> for P {
             $(
                 fn $tile(&self, arguments: Arguments<'_, E>, to: &mut Rows<E, $rows>) -> Status<u64> {
-                    /// The points of a tile whose materials share lanes with that of its point `first`.
+                    /// The points `own` of a tile, as bits, whose materials share lanes.
                     struct OnLanes<'a, P, E> {
                         points: &'a P,
-                        first: usize,
                         own: u64,
-                        arguments: Arguments<'a, E>,
+                        start: usize,
+                        count: usize,
+                        rows: &'a Rows<E, 3>,
                         to: &'a mut Rows<E, $rows>,
                     }
                     impl<P: Points, E: Scalar> Kernel<E> for OnLanes<'_, P, E> {
                         type Output = Status<u64>;
                         #[inline(always)]
                         fn run<R: Lanes<Scalar = E>>(self) -> Status<u64> {
-                            let Self { points, first, own, arguments, to } = self;
-                            let Arguments { start, count, rows, .. } = arguments;
-                            let others = if P::MAY_DIFFER { !own } else { 0 };
+                            let Self { points, own, start, count, rows, to } = self;
+                            let (others, first) = match P::MAY_DIFFER {
+                                true => (!own, own.trailing_zeros() as usize),
+                                false => (0, 0),
+                            };
                             let (mut admitted, mut finite) = (0, 0);
                             for_each_group!(R, count, but others, |group| {
                                 let at = rows.get_all::<R>(group);
@@ -200,24 +204,23 @@ macro_rules! tile_responses {
                             finite
                         }
                     }
-                    let Arguments { backend, start, count, .. } = arguments;
-                    let mut respond = |first, own| {
+                    let Arguments { backend, start, count, rows, .. } = arguments;
+                    let mut respond = |own| {
                         if P::Material::RESPONDS_TOGETHER {
-                            let admitted = together(self, ResponseKind::$Kind, first, own, arguments, to);
+                            let admitted = together(self, ResponseKind::$Kind, own, arguments, to);
                             domain_and_range(count, admitted, backend.run(Finite(arguments, to))) & own
                         } else {
-                            backend.run(OnLanes { points: self, first, own, arguments, to })
+                            backend.run(OnLanes { points: self, own, start, count, rows, to })
                         }
                     };
                     if !P::MAY_DIFFER {
-                        return respond(0, u64::MAX);
+                        return respond(u64::MAX);
                     }
                     let (mut left, mut status) = (first_bits(count), Status::default());
                     while left != 0 {
-                        let first = left.trailing_zeros() as usize;
-                        let own = self.sharing(start, count, first);
+                        let own = self.sharing(start, count, left.trailing_zeros() as usize);
                         left &= !own;
-                        status = status | respond(first, own);
+                        status = status | respond(own);
                     }
                     status
                 }
@@ -263,22 +266,21 @@ tile_responses! {
     finite where |at, _| anywhere(at);
 }
 
-/// Passes the points of a tile whose materials share lanes with that of its point `first` to the material,
-/// all at once. Returns those inside the domain as bits.
+/// Passes the points `own` of a tile, as bits, whose materials share lanes, to the material, all at once.
+/// Returns those inside the domain as bits.
 fn together<E: Scalar, P: Points, const N: usize>(
     points: &P,
     response: ResponseKind,
-    first: usize,
     own: u64,
-    Arguments { backend, start, count, properties, rows }: Arguments<'_, E>,
+    Arguments { backend, start, count, curvature, has_second_invariant, rows }: Arguments<'_, E>,
     to: &mut Rows<E, N>,
 ) -> u64 {
     let (materials, have_own) = (points.materials(), points.count().is_some());
-    // The other points stand in with the same material.
+    // The other points stand in with the material of the first.
+    let first = own.trailing_zeros() as usize;
     let place = |point: usize| start + if own >> point & 1 == 1 { point } else { first };
     let unread = match response {
         ResponseKind::DerivativesByInvariants => {
-            let Properties { curvature, has_second_invariant, .. } = properties;
             (0..9).filter(|&k| curvature.leaves_out(k, has_second_invariant)).fold(0, |bits, k| bits | 1 << k)
         }
         _ => 0,

@@ -73,7 +73,7 @@ pub trait Graded: Material + Sized {
         Self: 'a;
 
     /// True if lanes hold this material and the other one side by side: unless they differ in parameters that
-    /// are not numbers.
+    /// are not numbers. An equivalence relation.
     #[doc(hidden)]
     #[inline(always)]
     fn shares_lanes(&self, other: &Self) -> bool {
