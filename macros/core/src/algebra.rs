@@ -20,6 +20,4 @@ pub mod power_sums;
 pub mod quotient;
 pub mod rational;
 pub mod simplify;
-#[cfg(test)]
-pub(crate) mod testing;
 pub mod volume;

@@ -186,28 +186,3 @@ fn may_vanish(graph: &Graph, base: Id) -> bool {
         _ => true,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::algebra::interpret::{Estimate, Point, evaluate};
-    use crate::algebra::testing::expressions;
-
-    /// Compares with finite differences: their error must fall as h².
-    #[test]
-    fn every_rule_is_the_slope_of_its_function() {
-        for (name, mut graph, e) in expressions() {
-            let derivative = Differentiator::default().by_stretch(&mut graph, e, 1);
-            let at = |y: f64| Point { stretches: [1.3, y, 0.6], ..Point::default() };
-            let value = |id, y| {
-                let Estimate { value, .. } = evaluate(&graph, id, &at(y));
-                value
-            };
-            let exact = value(derivative, 0.9);
-            let error = |h: f64| ((value(e, 0.9 + h) - value(e, 0.9 - h)) / (2.0 * h) - exact).abs();
-            let (coarse, fine) = (error(1e-2), error(1e-3));
-            let is_slope = fine < 1e-12 || (80.0..120.0).contains(&(coarse / fine));
-            assert!(is_slope, "{name}: {coarse:e} then {fine:e}");
-        }
-    }
-}

@@ -117,8 +117,6 @@ fn has_entries(graph: &Graph, (base, exponent): (Id, Exponent)) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algebra::interpret::{Point, evaluate};
-    use crate::algebra::testing::expressions;
 
     #[test]
     fn products_of_sums_become_sums_of_products() {
@@ -169,15 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn values_stay_and_too_long_sums_too() {
-        for (name, mut graph, e) in expressions() {
-            let expanded = expand_products(&mut graph, e);
-            let point = Point { stretches: [1.3, 0.9, 0.6], ..Point::default() };
-            let [before, after] = [e, expanded].map(|id| evaluate(&graph, id, &point));
-            // A dozen roundings of each.
-            let tolerance = 24.0 * f64::EPSILON * (before.magnitude + after.magnitude);
-            assert!((before.value - after.value).abs() <= tolerance, "{name}");
-        }
+    fn too_long_sums_stay() {
         let mut g = Graph::default();
         let stretches = [0, 1, 2].map(|i| g.stretch(i));
         let sum = g.sum_of(&stretches);

@@ -126,38 +126,3 @@ fn times(a: Polynomial, b: Polynomial) -> Option<Polynomial> {
     let [c0, c1, c2, c3, c4] = product;
     (c3.is_zero() && c4.is_zero()).then_some([c0, c1, c2])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sums_of_fourth_powers_are_functions_of_the_invariants() {
-        let mut graph = Graph::default();
-        let stretches = [0, 1, 2].map(|i| graph.leaf(Node::Strain(i)));
-        let squares = stretches.map(|stretch| {
-            let square = graph.powi(stretch, 2);
-            let strain = graph.linear(Rational::integer(-1), &[(square, Rational::ONE)]);
-            graph.powi(strain, 2)
-        });
-        let sum = graph.sum_of(&squares);
-        let rewritten = without_stretches(&mut graph, sum).expect("a power sum");
-        // Stretches 2, 1, 1/2: I1 = 21/4, I2 = 21/4, Σ (λ² − 1)² = 9 + 0 + 9/16.
-        let [i1, i2] = [Rational::new(21, 4), Rational::new(21, 4)].map(|value| value.expect("a fraction"));
-        let [i1, i2] = [graph.constant(i1), graph.constant(i2)];
-        let one = graph.integer(1);
-        let value = graph.substitute(rewritten, [i1, i2, one]);
-        assert_eq!(graph.as_constant(value), Rational::new(153, 16));
-    }
-
-    #[test]
-    fn sums_of_other_functions_are_not() {
-        let mut graph = Graph::default();
-        let stretches = [0, 1, 2].map(|i| graph.leaf(Node::Strain(i)));
-        let sum = graph.sum_of(&stretches);
-        assert_eq!(without_stretches(&mut graph, sum), None);
-        let squares = [0, 1].map(|i| graph.powi(stretches[i], 2));
-        let incomplete = graph.sum_of(&squares);
-        assert_eq!(without_stretches(&mut graph, incomplete), None);
-    }
-}
