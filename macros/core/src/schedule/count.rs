@@ -20,51 +20,18 @@ pub fn table(declaration: &Declaration, counts: &[(&str, Count)]) -> String {
     format!("| result | operations |\n|---|---|\n{}", rows.collect::<String>())
 }
 
-/// Operations of about the same cost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum OperationKind {
-    /// Addition, subtraction, change of sign, maximum or selection.
-    Addition,
-    /// Multiplication of two values.
-    Multiplication,
-    /// Division or reciprocal.
-    Division,
-    /// Square or cube root.
-    Root,
-    /// Logarithm, also one from which powers are computed.
-    Logarithm,
-    /// Exponential to the base e.
-    Exponential,
-    /// Another elementary function, such as the hyperbolic tangent.
-    Elementary,
-    /// Power with a real exponent, or with a whole one that is a parameter.
-    Power,
-    /// Divided difference, or the common part of those of two values.
-    Quotient,
-    /// Call of a function that is a parameter.
-    Function,
-}
-
-/// Operations that cost more than an addition, with their signs in a summary.
-const COSTLY: [(OperationKind, &str); 8] = [
-    (OperationKind::Division, "÷"),
-    (OperationKind::Root, "√"),
-    (OperationKind::Logarithm, "ln"),
-    (OperationKind::Exponential, "exp"),
-    (OperationKind::Elementary, "φ"),
-    (OperationKind::Power, "pow"),
-    (OperationKind::Quotient, "Δ"),
-    (OperationKind::Function, "f"),
-];
+/// The signs in a summary of operations that cost more than an addition or a multiplication; those have none.
+const COSTLY: [&str; 8] = ["÷", "√", "ln", "exp", "φ", "pow", "Δ", "f"];
 
 /// An explanation of the counts for their readers.
 pub const LEGEND: &str = "A fused multiplication and addition counts as two operations, a loop over lists of length N as N \
      times what it does for one entry. In parentheses are those of the operations that cost more than an addition or a \
      multiplication: ÷ divisions, √ roots, ln, exp, φ other elementary functions, pow real powers, Δ divided differences, f functions that are parameters";
 
-/// The operations of a program: those done once, and those done for each entry of lists of one length.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Count(Sorted<(OperationKind, Option<Length>), usize>);
+/// The numbers of operations of a program by their signs: those done once, and those done for each entry of
+/// lists of one length.
+#[derive(Clone, Debug, Default)]
+pub struct Count(Sorted<(&'static str, Option<Length>), usize>);
 
 impl Count {
     /// The count of a whole program.
@@ -73,49 +40,40 @@ impl Count {
         let mut count = Self::default();
         for statement in &program.statements {
             match statement {
-                Statement::Let(_, op) => count.add(op, None),
+                Statement::Let(_, op) => count.add(signs(op), None),
                 Statement::Loop { length, body, totals } => {
-                    body.iter().for_each(|(_, op)| count.add(op, Some(*length)));
-                    if !totals.is_empty() {
-                        *entry(&mut count.0, (OperationKind::Addition, Some(*length))) += totals.len();
-                    }
+                    body.iter().for_each(|(_, op)| count.add(signs(op), Some(*length)));
+                    totals.iter().for_each(|_| count.add(&[""], Some(*length)));
                 }
             }
         }
         count
     }
 
-    fn add(&mut self, op: &Op, length: Option<Length>) {
-        for &kind in kinds(op) {
-            *entry(&mut self.0, (kind, length)) += 1;
+    fn add(&mut self, signs: &[&'static str], length: Option<Length>) {
+        for &sign in signs {
+            *entry(&mut self.0, (sign, length)) += 1;
         }
-    }
-
-    /// The number of operations of the given kinds, for lists of the given lengths.
-    #[must_use]
-    pub fn number(&self, lengths: &[usize], is_asked: impl Fn(OperationKind) -> bool) -> usize {
-        let times = |length: Option<Length>| length.map_or(1, |length| lengths[length]);
-        self.0.iter().filter(|((kind, _), _)| is_asked(*kind)).map(|((_, l), n)| n * times(*l)).sum()
     }
 
     /// The number of all operations and of the costly ones, such as `12 + 31 N (1 ÷, 1 ln, 3 N pow)`.
     fn summary(&self, declaration: &Declaration) -> String {
         let all = self.text(declaration, |_| true);
-        let costly = COSTLY.into_iter().filter_map(|(kind, sign)| {
-            let is_used = self.0.iter().any(|((used, _), _)| *used == kind);
-            is_used.then(|| format!("{} {sign}", self.text(declaration, |asked| asked == kind)))
+        let costly = COSTLY.into_iter().filter_map(|sign| {
+            let is_used = self.0.iter().any(|((used, _), _)| *used == sign);
+            is_used.then(|| format!("{} {sign}", self.text(declaration, |asked| asked == sign)))
         });
         let costly: Vec<_> = costly.collect();
         if costly.is_empty() { all } else { format!("{all} ({})", costly.join(", ")) }
     }
 
-    /// The number of operations of the given kinds, such as `12 + 31 N`.
-    fn text(&self, declaration: &Declaration, is_asked: impl Fn(OperationKind) -> bool) -> String {
+    /// The number of operations of the given signs, such as `12 + 31 N`.
+    fn text(&self, declaration: &Declaration, is_asked: impl Fn(&str) -> bool) -> String {
         let mut once = 0;
         let mut each: Sorted<Length, usize> = Sorted::new();
-        for &((kind, length), number) in &self.0 {
+        for &((sign, length), number) in &self.0 {
             match length {
-                _ if !is_asked(kind) => {}
+                _ if !is_asked(sign) => {}
                 Some(length) => *entry(&mut each, length) += number,
                 None => once += number,
             }
@@ -134,8 +92,8 @@ impl Count {
     }
 }
 
-/// The kinds that an operation counts as.
-fn kinds(op: &Op) -> &'static [OperationKind] {
+/// The signs of what an operation counts as.
+fn signs(op: &Op) -> &'static [&'static str] {
     match op {
         Op::Literal(_) | Op::Stretch(_) | Op::Strain(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => {
             &[]
@@ -143,21 +101,19 @@ fn kinds(op: &Op) -> &'static [OperationKind] {
         Op::Neg(_)
         | Op::Add(..)
         | Op::Sub(..)
+        | Op::Mul(..)
         | Op::Max(..)
         | Op::AboveZero(_)
         | Op::Below(..)
         | Op::WhereNegative(..)
-        | Op::PoleFloor => &[OperationKind::Addition],
-        Op::Mul(..) => &[OperationKind::Multiplication],
-        Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => {
-            &[OperationKind::Addition, OperationKind::Multiplication]
-        }
-        Op::Div(..) => &[OperationKind::Division],
-        Op::Sqrt(_) | Op::Cbrt(_) => &[OperationKind::Root],
-        Op::Ln(_) | Op::LnProduct(_) | Op::Logarithm(_) => &[OperationKind::Logarithm],
-        Op::Exp(_) => &[OperationKind::Exponential],
-        Op::Elementary(..) => &[OperationKind::Elementary],
-        Op::Power(..) | Op::WholePower(..) => &[OperationKind::Power],
+        | Op::PoleFloor => &[""],
+        Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => &["", ""],
+        Op::Div(..) => &["÷"],
+        Op::Sqrt(_) | Op::Cbrt(_) => &["√"],
+        Op::Ln(_) | Op::LnProduct(_) | Op::Logarithm(_) => &["ln"],
+        Op::Exp(_) => &["exp"],
+        Op::Elementary(..) => &["φ"],
+        Op::Power(..) | Op::WholePower(..) => &["pow"],
         Op::Pair { .. }
         | Op::LnQuotient(_)
         | Op::PowerQuotient { .. }
@@ -166,7 +122,7 @@ fn kinds(op: &Op) -> &'static [OperationKind] {
         | Op::ElementaryQuotient(..)
         | Op::FunctionQuotient(..)
         | Op::ShareAbove(..)
-        | Op::ShareBelow(..) => &[OperationKind::Quotient],
-        Op::Function(..) => &[OperationKind::Function],
+        | Op::ShareBelow(..) => &["Δ"],
+        Op::Function(..) => &["f"],
     }
 }

@@ -145,8 +145,7 @@ impl Resolver<'_> {
             );
             return self.mistake(method, &message);
         }
-        let elementary = Elementary::ALL.map(Elementary::name);
-        let known = || METHODS.into_iter().map(|(known, _)| known).chain(elementary);
+        let known = || METHODS.into_iter().map(|(known, _)| known).chain(Elementary::names());
         let near = || nearest(&name, known()).and_then(form);
         let hint = match tensors::function(&name, of).or_else(|| paper_notation::function(&name, notation)) {
             Some(hint) => hint.to_owned(),
