@@ -4,10 +4,10 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::functions;
-use super::writer::{Writer, free_name};
+use super::material::domain;
+use super::writer::Writer;
 use crate::algebra::invariants::Curvature;
 use crate::model::Model;
-use crate::read::domain::Volume;
 use crate::read::parse::Declaration;
 
 /// The constant for it and the methods, if the energy is one of invariants.
@@ -32,33 +32,15 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
     let (gradient, gradient_outputs) = program(&invariants.gradient);
     let all = [&invariants.gradient[..], &invariants.hessian].concat();
     let (derivatives, derivative_outputs) = program(&all);
-    let (bounds, bound_outputs) = program(&invariants.bounds);
-    let of_functions = functions::defined(declaration, model, &named, invariants.energy);
-    let defined = free_name(declaration, &["defined", "functions_defined"]);
-    let of_functions = of_functions.map(|mask| quote!(let #defined = #mask;));
-
     // λ1 λ2 ≤ (λ1² + λ2²)/2, so λ3 ≥ 2J/I1: no stretch is below the threshold where 2J > ε I1.
     let threshold = &writer.threshold;
-    let inside = match model.volume {
-        Volume::Any => None,
-        Volume::Positive => Some(quote!(R::splat(0.0).less(#j))),
-        Volume::Nonzero => Some(quote!(R::splat(0.0).less(#j.abs()))),
+    let continued = quote! {
+        __p::Inversion::Extend { epsilon: #threshold } => {
+            (R::splat(#threshold) * #i1).less(#j + #j)
+        }
     };
-    let inside = inside.map(|inside| match model.extended {
-        None => inside,
-        Some(_) => quote! {
-            match self.inversion {
-                __p::Inversion::Refuse => #inside,
-                __p::Inversion::Extend { epsilon: #threshold } => {
-                    (R::splat(#threshold) * #i1).less(#j + #j)
-                }
-            }
-        },
-    });
-    let conditions = bound_outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound)));
-    let conditions = conditions.chain(of_functions.as_ref().map(|_| quote!(#defined))).chain(inside);
-    let admits = conditions.reduce(|a, b| quote!(#a & #b));
-    let admits = admits.unwrap_or_else(|| quote!(__p::Mask::splat(true)));
+    let of_functions = |model: &mut Model| functions::defined(declaration, model, &named, invariants.energy);
+    let admits = domain(declaration, model, &named, &invariants.bounds, of_functions, j, &continued);
 
     let has_no_energy = (!invariants.has_energy).then(|| {
         quote!(
@@ -111,8 +93,6 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
         #[inline(always)]
         #[allow(non_snake_case)]
         fn admits_invariants<R: __p::Real>(&self, #arguments) -> R::Mask {
-            #bounds
-            #of_functions
             #admits
         }
     }

@@ -230,35 +230,50 @@ fn at_strains(model: &mut Model, writer: &Writer<'_>, [l1, l2, l3]: &[Ident; 3])
 }
 
 /// The test of the domain: J > 0 is λ3 > 0 and J ≠ 0 is |λ3| > 0, the last stretch being the smallest and
-/// carrying the sign; the other bounds are positive expressions, and functions test their own arguments.
+/// carrying the sign.
 fn admits(declaration: &Declaration, model: &mut Model, writer: &Writer<'_>) -> TokenStream {
-    let program = model.program(&model.bounds.clone());
-    let (statements, outputs) = writer.program(&program);
-    let bounds = outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound)));
-    let mut conditions: Vec<TokenStream> = bounds.collect();
     let (plain, extended) = (model.plain.energy, model.extended.as_ref().map(|variant| variant.energy));
-    let of_functions = functions::defined(declaration, model, writer, plain).map(|plain| {
+    let of_functions = |model: &mut Model| {
+        let plain = functions::defined(declaration, model, writer, plain)?;
         let extended = extended.and_then(|energy| functions::defined(declaration, model, writer, energy));
         let extended = extended.filter(|extended| extended.to_string() != plain.to_string());
-        writer.by_inversion(plain, extended)
-    });
+        Some(writer.by_inversion(plain, extended))
+    };
+    let continued = quote!(__p::Inversion::Extend { .. } => __p::Mask::splat(true),);
+    let (bounds, smallest) = (model.bounds.clone(), &declaration.stretches[2]);
+    domain(declaration, model, writer, &bounds, of_functions, smallest, &continued)
+}
+
+/// The test of a domain: bounds are positive expressions, functions test their own arguments, and a variable
+/// has the sign of J, which matters unless the energy is `continued`.
+pub(super) fn domain(
+    declaration: &Declaration,
+    model: &mut Model,
+    writer: &Writer<'_>,
+    bounds: &[Id],
+    of_functions: impl FnOnce(&mut Model) -> Option<TokenStream>,
+    signed: &Ident,
+    continued: &TokenStream,
+) -> TokenStream {
+    let (statements, outputs) = writer.program(&model.program(bounds));
+    let bounds = outputs.iter().map(|bound| quote!(R::splat(0.0).less(#bound)));
+    let mut conditions: Vec<TokenStream> = bounds.collect();
     let defined = free_name(declaration, &["defined", "functions_defined"]);
-    let of_functions = of_functions.map(|mask| {
+    let of_functions = of_functions(model).map(|mask| {
         conditions.push(quote!(#defined));
         quote!(let #defined = #mask;)
     });
-    let smallest = &declaration.stretches[2];
     let inside = match model.volume {
         Volume::Any => None,
-        Volume::Positive => Some(quote!(R::splat(0.0).less(#smallest))),
-        Volume::Nonzero => Some(quote!(R::splat(0.0).less(#smallest.abs()))),
+        Volume::Positive => Some(quote!(R::splat(0.0).less(#signed))),
+        Volume::Nonzero => Some(quote!(R::splat(0.0).less(#signed.abs()))),
     };
     conditions.extend(inside.map(|inside| match &model.extended {
         None => inside,
         Some(_) => quote! {
             match self.inversion {
                 __p::Inversion::Refuse => #inside,
-                __p::Inversion::Extend { .. } => __p::Mask::splat(true),
+                #continued
             }
         },
     }));
