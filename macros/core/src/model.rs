@@ -7,7 +7,7 @@ use syn::{BinOp, Expr};
 
 use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::cancellation::{lossy, over_one_denominator};
-use crate::algebra::diff::Differentiator;
+use crate::algebra::diff::derivatives;
 use crate::algebra::expand::expand_products;
 use crate::algebra::expr::{Graph, Id, Length, Node};
 use crate::algebra::extension;
@@ -373,16 +373,7 @@ fn bulk(graph: &mut Graph, [shear, lame]: [Id; 2]) -> Id {
 
 /// An energy with its first and second derivatives and quotients.
 fn variant(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
-    let mut d = Differentiator::default();
-    let gradient = [0, 1, 2].map(|i| {
-        let derivative = d.by_stretch(graph, energy, i);
-        simplify(graph, derivative)
-    });
-    let second = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-    let hessian = second.map(|(i, j)| {
-        let derivative = d.by_stretch(graph, gradient[i], j);
-        simplify(graph, derivative)
-    });
+    let (gradient, hessian) = derivatives(graph, energy);
     let mut quotients = Quotients::new(samples);
     let flip = PAIRS.map(|(i, j)| quotients.flip(graph, gradient[i], i, j));
     let twist = PAIRS.map(|(i, j)| quotients.twist(graph, gradient[i], i, j, positive));

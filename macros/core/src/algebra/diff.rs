@@ -8,6 +8,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
 use crate::algebra::rational::Rational;
+use crate::algebra::simplify::simplify;
 
 /// Derivatives, each computed once.
 #[derive(Debug, Default)]
@@ -141,28 +142,23 @@ impl Differentiator {
                 }
                 _ => graph.integer(0),
             },
-            Node::Stretch(_)
-            | Node::Parameter(_)
-            | Node::Entry(_)
-            | Node::Float(_)
-            | Node::Epsilon
-            // The nodes below only arise after differentiation, in quotients, increments and lowered
-            // extensions.
-            | Node::Strain(_)
-            | Node::Above(_)
-            | Node::Below(_)
-            | Node::ShareAbove(..)
-            | Node::ShareBelow(..)
-            | Node::WhereNegative(..)
-            | Node::LnQuotient(..)
-            | Node::ExpQuotient(..)
-            | Node::ElementaryQuotient(..)
-            | Node::FunctionQuotient(..)
-            | Node::WholePowerQuotient(..)
-            | Node::PowerQuotient(..)
-            | Node::PoleQuotient(..) => graph.integer(0),
+            // Other variables and numbers. All further nodes arise after differentiation, in quotients,
+            // increments and lowered extensions.
+            _ => graph.integer(0),
         }
     }
+}
+
+/// ψ1, ψ2, ψ3 and ψ11, ψ22, ψ33, ψ12, ψ13, ψ23 of an energy, simplified.
+pub fn derivatives(graph: &mut Graph, energy: Id) -> ([Id; 3], [Id; 6]) {
+    let mut d = Differentiator::default();
+    let mut derivative = |of, k| {
+        let derivative = d.by_stretch(graph, of, k);
+        simplify(graph, derivative)
+    };
+    let gradient = [0, 1, 2].map(|k| derivative(energy, k));
+    let hessian = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| derivative(gradient[i], j));
+    (gradient, hessian)
 }
 
 /// The factor ln b of b^r. Where b vanishes, as I1 − 3 does at rest, b^r ln b is 0 for r > 0, not 0 · (−∞).

@@ -11,9 +11,8 @@
 //! graph, so that the same calculus differentiates it. An energy that names a stretch is of this kind only
 //! where [`power_sums`](super::power_sums) sees it.
 
-use crate::algebra::diff::Differentiator;
+use crate::algebra::diff::derivatives;
 use crate::algebra::expr::{Graph, Id};
-use crate::algebra::simplify::simplify;
 
 /// An energy in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
 #[derive(Clone, Debug)]
@@ -57,12 +56,6 @@ impl ByInvariants {
 /// The derivatives of an energy of I1, I2, J, with the bounds of its domain, and the energy itself if it has
 /// its digits.
 pub fn by_invariants(graph: &mut Graph, energy: Id, has_energy: bool, bounds: Vec<Id>) -> ByInvariants {
-    let mut d = Differentiator::default();
-    let mut derivative = |of, k| {
-        let derivative = d.by_stretch(graph, of, k);
-        simplify(graph, derivative)
-    };
-    let gradient = [0, 1, 2].map(|k| derivative(energy, k));
-    let hessian = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| derivative(gradient[i], j));
+    let (gradient, hessian) = derivatives(graph, energy);
     ByInvariants { energy, has_energy, gradient, hessian, bounds }
 }
