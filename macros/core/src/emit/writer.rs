@@ -133,24 +133,21 @@ impl<'a> Writer<'a> {
             Op::Sub(a, b) => binary(a, '-', b),
             Op::Mul(a, b) => binary(a, '*', b),
             Op::Div(a, b) => binary(a, '/', b),
-            Op::MulAdd(a, b, c) => {
-                let (a, b, c) = (o(a), n(b), n(c));
-                quote!(#a.mul_add(#b, #c))
-            }
+            Op::MulAdd(a, b, c) => method(o(a), "mul_add", &[n(b), n(c)]),
             // A change of sign costs nothing: it is part of the fused instruction.
             Op::NegMulAdd(a, b, c) => {
-                let (a, b, c) = (o(a), n(b), n(c));
-                quote!((-#a).mul_add(#b, #c))
+                let a = o(a);
+                method(quote!((-#a)), "mul_add", &[n(b), n(c)])
             }
             Op::MulSub(a, b, c) => {
                 let (a, b, c) = (o(a), n(b), o(c));
                 quote!(#a.mul_add(#b, -#c))
             }
-            Op::Sqrt(a) => method(o(a), "sqrt"),
-            Op::Cbrt(a) => method(o(a), "cbrt"),
-            Op::Ln(a) => method(o(a), "ln"),
-            Op::Exp(a) => method(o(a), "exp"),
-            Op::Elementary(function, a) => method(o(a), function.name()),
+            Op::Sqrt(a) => method(o(a), "sqrt", &[]),
+            Op::Cbrt(a) => method(o(a), "cbrt", &[]),
+            Op::Ln(a) => method(o(a), "ln", &[]),
+            Op::Exp(a) => method(o(a), "exp", &[]),
+            Op::Elementary(function, a) => method(o(a), function.name(), &[]),
             Op::ElementaryQuotient(function, a, b) => {
                 self.call(&format!("{}_quotient", function.name()), &[n(a), n(b)])
             }
@@ -158,15 +155,12 @@ impl<'a> Writer<'a> {
                 let factors = factors.map(n);
                 self.call("ln_product", &[quote!([#(#factors),*])])
             }
-            Op::Logarithm(a) => method(o(a), "logarithm"),
+            Op::Logarithm(a) => method(o(a), "logarithm", &[]),
             Op::Power(logarithm, exponent) => {
                 let (logarithm, exponent) = (n(logarithm), n(exponent));
                 quote!(R::power(#logarithm, #exponent))
             }
-            Op::Max(a, b) => {
-                let (a, b) = (o(a), n(b));
-                quote!(#a.max(#b))
-            }
+            Op::Max(a, b) => method(o(a), "max", &[n(b)]),
             Op::AboveZero(a) => self.call("above_zero", &[n(a)]),
             Op::Below(a, b) => {
                 let (a, b) = (o(a), o(b));
@@ -199,7 +193,7 @@ impl<'a> Writer<'a> {
                 let arguments = [values, reciprocals, logarithms].map(|two| self.two(two, names));
                 quote!(__p::Pair::new(#(#arguments),*))
             }
-            Op::LnQuotient(pair) => method(o(pair), "ln_quotient"),
+            Op::LnQuotient(pair) => method(o(pair), "ln_quotient", &[]),
             Op::PowerQuotient { pair, powers, exponent } => {
                 let (pair, powers, exponent) = (o(pair), self.two(powers, names), n(exponent));
                 quote!(#pair.power_quotient(#powers, #exponent))
@@ -399,9 +393,9 @@ impl Names {
     }
 }
 
-fn method(receiver: impl ToTokens, name: &str) -> TokenStream {
+fn method(receiver: impl ToTokens, name: &str, arguments: &[Option<&TokenStream>]) -> TokenStream {
     let name = format_ident!("{name}");
-    quote!(#receiver.#name())
+    quote!(#receiver.#name(#(#arguments),*))
 }
 
 fn literal(value: f64) -> TokenStream {
