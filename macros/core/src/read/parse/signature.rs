@@ -228,6 +228,9 @@ pub(super) fn result(signature: &Signature, generics: &Generics, diagnostics: &m
     }
 }
 
+/// The message about a parameter of another form.
+const PARAMETER: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or `mu: Vec<f64>`, a whole exponent `n: u32` or a function `f: F`, with `F: piola::Univariate`";
+
 impl Lists {
     fn add(
         &mut self,
@@ -236,13 +239,12 @@ impl Lists {
         stretches: Option<&[Ident; 3]>,
         diagnostics: &mut Diagnostics,
     ) {
-        const MESSAGE: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or `mu: Vec<f64>`, a whole exponent `n: u32` or a function `f: F`, with `F: piola::Univariate`";
         let FnArg::Typed(argument) = input else {
-            return diagnostics.error(input, MESSAGE);
+            return diagnostics.error(input, PARAMETER);
         };
         let Some(name) = plain_name(&argument.pat) else {
             self.mistaken.extend(identifiers(argument.pat.to_token_stream()));
-            return diagnostics.error(&argument.pat, MESSAGE);
+            return diagnostics.error(&argument.pat, PARAMETER);
         };
         // No code is generated at run time, in which a name could have another meaning.
         if diagnostics.notation() == Notation::Attribute || !is_raw(&name) {
@@ -268,21 +270,28 @@ impl Lists {
                 }
                 self.parameters.push(Parameter { name, doc, attributes, kind, is_whole });
             }
-            Err(mistake) => {
-                diagnostics.error(mistake.tokens, mistake.message.unwrap_or(MESSAGE));
+            Err((tokens, message)) => {
+                diagnostics.error(tokens, message);
                 self.mistaken.push(name);
             }
         }
     }
 
-    fn kind(&mut self, name: &Ident, ty: &Type, generics: &Generics) -> Result<Kind, Mistake> {
+    /// The kind of a parameter, or the mistaken tokens with the message about them.
+    fn kind(
+        &mut self,
+        name: &Ident,
+        ty: &Type,
+        generics: &Generics,
+    ) -> Result<Kind, (TokenStream, &'static str)> {
         const ENTRIES: &str = "the entries of a list are `f64`, or `u32` if they are exponents";
         const OWNED: &str =
             "a material owns its lists: write `Vec<f64>`, or `[f64; N]` with `const N: usize`";
+        let mistake = |tokens: &dyn ToTokens, message: &'static str| Err((tokens.to_token_stream(), message));
         let is_number = |ty: &Type| generics.is_number(ty) || is_u32(ty);
         match ty {
             ty if is_number(ty) => Ok(Kind::Number),
-            Type::Array(array) if !is_number(&array.elem) => Err(Mistake::new(&array.elem, ENTRIES)),
+            Type::Array(array) if !is_number(&array.elem) => mistake(&array.elem, ENTRIES),
             Type::Array(array) => {
                 let is_known = match &array.len {
                     Expr::Lit(literal) => {
@@ -294,22 +303,23 @@ impl Lists {
                 if is_known {
                     Ok(Kind::List(self.length(&array.len)))
                 } else {
-                    let message =
-                        "the length of a list is a number such as `3`, or `N` with `const N: usize`";
-                    Err(Mistake::new(&array.len, message))
+                    mistake(
+                        &array.len,
+                        "the length of a list is a number such as `3`, or `N` with `const N: usize`",
+                    )
                 }
             }
-            Type::Slice(_) | Type::Reference(_) => Err(Mistake::new(ty, OWNED)),
+            Type::Slice(_) | Type::Reference(_) => mistake(ty, OWNED),
             ty if is_vector(ty) => match entry(ty) {
                 Some(entry) if is_number(entry) => {
                     self.lengths.push(Entries::AtRunTime(name.clone()));
                     Ok(Kind::List(self.lengths.len() - 1))
                 }
-                Some(entry) => Err(Mistake::new(entry, ENTRIES)),
-                None => Err(Mistake::new(ty, ENTRIES)),
+                Some(entry) => mistake(entry, ENTRIES),
+                None => mistake(ty, ENTRIES),
             },
             ty if may_be_function(ty) => Ok(Kind::Function(Box::new(ty.clone()))),
-            ty => Err(Mistake { tokens: ty.to_token_stream(), message: None }),
+            ty => mistake(ty, PARAMETER),
         }
     }
 
@@ -321,18 +331,6 @@ impl Lists {
             self.lengths.push(Entries::Known(length.clone()));
             self.lengths.len() - 1
         })
-    }
-}
-
-/// A mistaken type of a parameter; without a message, it is not one of those that parameters can have.
-struct Mistake {
-    tokens: TokenStream,
-    message: Option<&'static str>,
-}
-
-impl Mistake {
-    fn new(tokens: &impl ToTokens, message: &'static str) -> Self {
-        Self { tokens: tokens.to_token_stream(), message: Some(message) }
     }
 }
 
