@@ -129,22 +129,6 @@ fn products_of_sums_compile_in_no_time() {
     assert!(start.elapsed().as_secs() < 5);
 }
 
-#[test]
-fn parameters_may_be_large_or_in_order() {
-    let large = quote!(
-        fn E([x, y, z]: [f64; 3], mu: f64) -> f64 {
-            mu * ((I1 - 3.0).powi(2) + I1 * I1 / 3.0 - I2)
-        }
-    );
-    compile("large", &quote!(admissible(mu > 1e9)), &large);
-    let ordered = quote! {
-        fn E([x, y, z]: [f64; 3], a: f64, b: f64, c: f64, d: f64) -> f64 {
-            ((b - a) * (c - b)).sqrt() * (d - c).ln().powi(2) * (1.0 - d).sqrt() * (I1 * I1 / 3.0 - I2)
-        }
-    };
-    compile("ordered", &quote!(admissible(a > 0.0, a < b, b < c, c < d, d < 1.0)), &ordered);
-}
-
 /// 2²⁴ terms when written out; a hundred nodes in the graph.
 #[test]
 fn formulas_are_cut_off() {

@@ -23,22 +23,15 @@ fn check(name: &str, actual: &str) {
         return;
     }
     let expected = fs::read_to_string(path).unwrap_or_default();
-    let (mut old, mut new) = (expected.lines(), actual.lines());
-    let mut number = 0;
-    loop {
-        number += 1;
-        let (old, new) = (old.next(), new.next());
-        assert!(
-            old == new,
-            "tests/goldens/{name} differs in line {number}:\n- {}\n+ {}\nIf that is meant, set PIOLA_BLESS=1 and run the test \
-             again: it writes the file, and its difference is for review",
-            old.unwrap_or("(its end)"),
-            new.unwrap_or("(the end)"),
-        );
-        if old.is_none() {
-            return;
-        }
-    }
+    let same = expected.lines().zip(actual.lines()).take_while(|(old, new)| old == new).count();
+    assert!(
+        expected.lines().eq(actual.lines()),
+        "tests/goldens/{name} differs in line {}:\n- {}\n+ {}\nIf that is meant, set PIOLA_BLESS=1 and run the test \
+         again: it writes the file, and its difference is for review",
+        same + 1,
+        expected.lines().nth(same).unwrap_or("(its end)"),
+        actual.lines().nth(same).unwrap_or("(the end)"),
+    );
 }
 
 /// Compares the expansion of the only declaration of a file of the catalogue.

@@ -12,21 +12,36 @@ impl<'a> Source<'a> {
     /// The smallest term that alone breaks a rule, found through sums and the names of their terms.
     ///
     /// Terms that break a rule together, such as two that should cancel, are not taken apart.
-    pub(crate) fn blamed_term(&self, mut breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
-        let breaks = |part: &Expr| self.nodes.of(part).is_some_and(&mut breaks);
-        smallest(&self.declaration.body, breaks, terms, Several::StayTogether)
+    pub(crate) fn blamed_term(&self, breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
+        self.smallest(breaks, terms, Several::StayTogether)
     }
 
     /// The smallest operand that alone breaks a rule, found through operators and functions.
-    pub(crate) fn blamed_operand(&self, mut breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
-        let breaks = |part: &Expr| self.nodes.of(part).is_some_and(&mut breaks);
-        smallest(&self.declaration.body, breaks, operands, Several::StayTogether)
+    pub(crate) fn blamed_operand(&self, breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
+        self.smallest(breaks, operands, Several::StayTogether)
     }
 
     /// The smallest operand that contains the culprit, the first one if it is written more than once.
-    pub(crate) fn first_operand(&self, mut holds: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
-        let holds = |part: &Expr| self.nodes.of(part).is_some_and(&mut holds);
-        smallest(&self.declaration.body, holds, operands, Several::FirstIsMeant)
+    pub(crate) fn first_operand(&self, holds: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
+        self.smallest(holds, operands, Several::FirstIsMeant)
+    }
+
+    fn smallest(
+        &self,
+        mut breaks: impl FnMut(Id) -> bool,
+        parts: impl Fn(&'a Expr, &mut HashMap<String, &'a Expr>) -> Vec<&'a Expr>,
+        several: Several,
+    ) -> Option<&'a Expr> {
+        let mut definitions = HashMap::new();
+        let mut blamed = value(&self.declaration.body, &mut definitions)?;
+        loop {
+            let parts = parts(blamed, &mut definitions).into_iter();
+            let mut blamed_parts = parts.filter(|part| self.nodes.of(part).is_some_and(&mut breaks));
+            match (blamed_parts.next(), blamed_parts.next()) {
+                (Some(part), other) if other.is_none() || several == Several::FirstIsMeant => blamed = part,
+                _ => return Some(blamed),
+            }
+        }
     }
 }
 
@@ -37,24 +52,6 @@ enum Several {
     StayTogether,
     /// Each breaks it.
     FirstIsMeant,
-}
-
-fn smallest<'b>(
-    body: &'b Block,
-    mut breaks: impl FnMut(&Expr) -> bool,
-    parts: impl Fn(&'b Expr, &mut HashMap<String, &'b Expr>) -> Vec<&'b Expr>,
-    several: Several,
-) -> Option<&'b Expr> {
-    let mut definitions = HashMap::new();
-    let mut blamed = value(body, &mut definitions)?;
-    loop {
-        let parts = parts(blamed, &mut definitions);
-        let mut blamed_parts = parts.into_iter().filter(|part| breaks(part));
-        match (blamed_parts.next(), blamed_parts.next()) {
-            (Some(part), other) if other.is_none() || several == Several::FirstIsMeant => blamed = part,
-            _ => return Some(blamed),
-        }
-    }
 }
 
 /// The terms of a sum, or the expression that a name or parentheses stand for.
