@@ -119,37 +119,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn products_of_sums_become_sums_of_products() {
-        let mut g = Graph::default();
-        let [a, b] = [0, 1].map(|k| g.leaf(Node::Parameter(k)));
-        let sum = g.add(a, b);
-        let fourfold = g.linear(Rational::ZERO, &[(a, Rational::integer(4)), (b, Rational::integer(4))]);
-        let half = g.scale(fourfold, Rational::new(1, 2).unwrap());
-        let expected = g.linear(Rational::ZERO, &[(a, Rational::integer(2)), (b, Rational::integer(2))]);
-        assert_eq!(expand_products(&mut g, half), expected);
-        let (square, product) = (g.powi(sum, 2), g.mul(a, b));
-        let [aa, bb] = [a, b].map(|x| g.powi(x, 2));
-        let expected =
-            g.linear(Rational::ZERO, &[aa, bb, product, product].map(|term| (term, Rational::ONE)));
-        assert_eq!(expand_products(&mut g, square), expected);
-    }
-
-    #[test]
-    fn sums_over_lists_keep_only_what_changes() {
-        let mut g = Graph::default();
-        let (kappa, mu) = (g.leaf(Node::Parameter(0)), g.leaf(Node::Entry(1)));
-        let shifted = g.linear(Rational::integer(3), &[(mu, Rational::integer(-2))]);
-        let body = g.mul(kappa, shifted);
-        let sum = g.sum(0, body);
-        let (all, one) = (g.sum(0, mu), g.integer(1));
-        let length = g.sum(0, one);
-        let [first, second] = [all, length].map(|sum| g.mul(kappa, sum));
-        let expected =
-            g.linear(Rational::ZERO, &[(first, Rational::integer(-2)), (second, Rational::integer(3))]);
-        assert_eq!(expand_products(&mut g, sum), expected);
-    }
-
-    #[test]
     fn powers_of_numbers_gather() {
         let mut g = Graph::default();
         let (n, three) = (g.leaf(Node::Parameter(0)), g.integer(3));
