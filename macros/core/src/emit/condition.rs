@@ -1,9 +1,10 @@
 //! Conditions on parameters as data, which constructors check.
 
 use quote::ToTokens;
-use syn::{BinOp, Expr, Ident, Lit, UnOp};
+use syn::{BinOp, Expr, UnOp};
 
 use super::condition_text;
+use crate::read::notation::digits;
 use crate::read::parse::{Declaration, identifiers, indexed_list};
 use crate::read::resolve::constant;
 
@@ -55,7 +56,7 @@ impl<T> Condition<T> {
             text: condition_text(condition),
             sides,
             comparison,
-            list: indexed_list(condition).and_then(|(list, _)| place(declaration, &list)),
+            list: indexed_list(condition).and_then(|(list, _)| declaration.place(&list)),
             names: named(declaration, condition),
         }
     }
@@ -68,10 +69,6 @@ pub fn named(declaration: &Declaration, condition: &Expr) -> Vec<usize> {
     (0..declaration.parameters.len()).filter(|&k| names.contains(&declaration.parameters[k].name)).collect()
 }
 
-fn place(declaration: &Declaration, name: &Ident) -> Option<usize> {
-    declaration.parameters.iter().position(|parameter| parameter.name == *name)
-}
-
 fn term<T>(declaration: &Declaration, expression: &Expr, form: &dyn Fn(Term<T>) -> T) -> T {
     let read = |expression: &Expr| term(declaration, expression, form);
     let call = |name: &str, operands: Vec<T>| Term::Call(name.to_owned(), operands);
@@ -79,17 +76,16 @@ fn term<T>(declaration: &Declaration, expression: &Expr, form: &dyn Fn(Term<T>) 
         Expr::Paren(inner) => return read(&inner.expr),
         Expr::Group(inner) => return read(&inner.expr),
         Expr::Index(entry) => return read(&entry.expr),
-        Expr::Lit(number) => Term::Number(match &number.lit {
-            Lit::Float(number) => number.base10_parse().unwrap_or(f64::NAN),
-            Lit::Int(number) => number.base10_parse().unwrap_or(f64::NAN),
-            _ => f64::NAN,
-        }),
+        Expr::Lit(number) => {
+            let value = digits(&number.lit).and_then(|(digits, _)| digits.parse().ok());
+            Term::Number(value.unwrap_or(f64::NAN))
+        }
         Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => call("-", vec![read(&unary.expr)]),
         Expr::Binary(binary) => {
             let operator = binary.op.to_token_stream().to_string();
             call(&operator, vec![read(&binary.left), read(&binary.right)])
         }
-        Expr::Path(path) => match path.path.get_ident().and_then(|name| place(declaration, name)) {
+        Expr::Path(path) => match path.path.get_ident().and_then(|name| declaration.place(name)) {
             Some(k) => Term::Parameter(k),
             None => Term::Number(constant(&path.path).unwrap_or(f64::NAN)),
         },

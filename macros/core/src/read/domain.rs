@@ -2,6 +2,7 @@
 
 use syn::{BinOp, Expr};
 
+use crate::read::notation::digits;
 use crate::read::parse::Declaration;
 
 /// The volumes J for which an energy is defined.
@@ -33,11 +34,8 @@ impl Declaration {
 fn volume(condition: &Expr) -> Option<Volume> {
     let is_j = |e: &Expr| matches!(e, Expr::Path(path) if path.path.is_ident("J"));
     let is_zero = |e: &Expr| {
-        matches!(e, Expr::Lit(lit) if match &lit.lit {
-            syn::Lit::Float(number) => number.base10_parse::<f64>().is_ok_and(|value| value == 0.0),
-            syn::Lit::Int(number) => number.base10_parse::<u64>().is_ok_and(|value| value == 0),
-            _ => false,
-        })
+        matches!(e, Expr::Lit(number)
+            if digits(&number.lit).is_some_and(|(digits, _)| digits.parse::<f64>() == Ok(0.0)))
     };
     let Expr::Binary(binary) = condition else { return None };
     let (forward, backward) =

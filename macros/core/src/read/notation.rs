@@ -161,14 +161,19 @@ fn is_left_out(expression: &Expr) -> bool {
     matches!(expression, Expr::Path(path) if path.path.is_ident(LEFT_OUT))
 }
 
+/// The digits and the suffix of a number.
+pub(crate) fn digits(literal: &Lit) -> Option<(&str, &str)> {
+    match literal {
+        Lit::Int(number) => Some((number.base10_digits(), number.suffix())),
+        Lit::Float(number) => Some((number.base10_digits(), number.suffix())),
+        _ => None,
+    }
+}
+
 /// A number without the decimal point that Rust requires.
 fn number(literal: &Lit) -> Option<String> {
-    let text = match literal {
-        Lit::Int(number) => number.base10_digits().to_owned(),
-        Lit::Float(number) => number.base10_digits().to_owned(),
-        _ => return None,
-    };
-    Some(text.strip_suffix(".0").map(str::to_owned).unwrap_or(text))
+    let (digits, _) = digits(literal)?;
+    Some(digits.strip_suffix(".0").unwrap_or(digits).to_owned())
 }
 
 /// `x.ln()` as `ln(x)`, `x.powi(2)` as `x^2`.

@@ -125,6 +125,12 @@ impl Declaration {
         }
     }
 
+    /// The place of the parameter of this name.
+    #[must_use]
+    pub fn place(&self, name: &Ident) -> Option<usize> {
+        self.parameters.iter().position(|parameter| parameter.name == *name)
+    }
+
     /// True if a parameter is a list whose length is known at run time only.
     #[must_use]
     pub fn is_vector(&self, parameter: &Parameter) -> bool {

@@ -9,6 +9,7 @@ use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::power_sums::without_stretches;
 use crate::algebra::rational::Rational;
 use crate::read::diagnostics::Diagnostics;
+use crate::read::notation::digits;
 use crate::read::parse::{Declaration, identifiers, indexed_list, is_f64};
 use crate::read::spelling::taken;
 pub(crate) use names::constant;
@@ -397,10 +398,8 @@ impl<'a> Resolver<'a> {
     }
 
     fn literal(&mut self, literal: &Lit) -> Id {
-        let (digits, suffix) = match literal {
-            Lit::Float(number) => (number.base10_digits().to_owned(), number.suffix()),
-            Lit::Int(number) => (number.base10_digits().to_owned(), number.suffix()),
-            _ => return self.mistake(literal, "a literal in an energy is a number"),
+        let Some((digits, suffix)) = digits(literal) else {
+            return self.mistake(literal, "a literal in an energy is a number");
         };
         match suffix {
             "" | "f64" => {}
@@ -415,7 +414,7 @@ impl<'a> Resolver<'a> {
                 return self.mistake(literal, &message);
             }
         }
-        if let Some(exact) = Rational::from_decimal(&digits) {
+        if let Some(exact) = Rational::from_decimal(digits) {
             return self.graph.constant(exact);
         }
         match digits.parse::<f64>() {

@@ -272,7 +272,7 @@ impl Resolver<'_> {
             self.excuse();
             return self.unknown();
         }
-        match self.declaration.parameters.iter().position(|parameter| parameter.name == name) {
+        match self.declaration.place(&name) {
             Some(k) if self.declaration.parameters[k].is_function() => return self.function(k, call),
             Some(_) => {
                 return self.mistake(

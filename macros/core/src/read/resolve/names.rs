@@ -46,7 +46,7 @@ impl Resolver<'_> {
                 Scope::Parameters => self.deformation(name),
             };
         }
-        if let Some(k) = self.declaration.parameters.iter().position(|parameter| parameter.name == *name) {
+        if let Some(k) = self.declaration.place(name) {
             return match &self.declaration.parameters[k].kind {
                 Kind::Number if self.declaration.parameters[k].is_whole => self.whole_as_number(name, &text),
                 Kind::Number => self.graph.leaf(Node::Parameter(k)),
@@ -211,6 +211,6 @@ impl Resolver<'_> {
             || text == "sum"
             || self.bindings.contains_key(&text)
             || self.declaration.stretches.contains(name)
-            || self.declaration.parameters.iter().any(|parameter| parameter.name == *name)
+            || self.declaration.place(name).is_some()
     }
 }

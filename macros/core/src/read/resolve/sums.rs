@@ -65,8 +65,8 @@ impl Resolver<'_> {
     fn inside(&self, outer: &Ident, body: &Expr, index: &Ident) -> String {
         let mut lists = indexed_lists(body.to_token_stream());
         lists.retain(|(list, _)| {
-            let mut parameters = self.declaration.parameters.iter();
-            parameters.any(|parameter| parameter.name == *list && parameter.length().is_some())
+            let place = self.declaration.place(list);
+            place.is_some_and(|k| self.declaration.parameters[k].length().is_some())
         });
         if lists.iter().any(|(_, by)| by == index) {
             return "sums over lists cannot stand inside each other: write two sums and multiply them"
@@ -97,7 +97,7 @@ impl Resolver<'_> {
             Expr::Index(entry) => plain_name(&entry.expr)?,
             argument => plain_name(argument)?,
         };
-        let k = self.declaration.parameters.iter().position(|parameter| parameter.name == *name)?;
+        let k = self.declaration.place(name)?;
         let is_number = matches!(self.declaration.parameters[k].kind, Kind::Number);
         if !self.declaration.parameters[k].is_whole || self.scope == Scope::Parameters {
             return None;
@@ -130,7 +130,7 @@ impl Resolver<'_> {
             return self.mistake(expression, "an entry is written `mu[p]`, inside `sum(|p| …)`");
         };
         let name = list.to_string();
-        let position = self.declaration.parameters.iter().position(|parameter| parameter.name == *list);
+        let position = self.declaration.place(list);
         let length = position.and_then(|k| self.declaration.parameters[k].length());
         let (Some(k), Some(length)) = (position, length) else {
             self.excuse();
