@@ -4,8 +4,8 @@
 //! The files `*.txt` are tables of mistakes, and of energies next to them that have none. Lines with `==` in
 //! front are a declaration; each line below is one case, which stands for the `…` of the declaration, after
 //! other arguments in `#[…]` if it has them, in which `…` are the declaration's own. After `=>` follow the
-//! tokens of the message and a part of it; a case with several mistakes has them in lines of their own. A
-//! case without is free of mistakes.
+//! tokens of the message and a part of it, the end if a `$` follows; a case with several mistakes has them in
+//! lines of their own. A case without is free of mistakes.
 
 mod remedies;
 
@@ -24,7 +24,11 @@ fn check(arguments: &str, item: &str, expected: &[(&str, &str)]) {
     let found = mistakes(arguments, item);
     assert_eq!(found.len(), expected.len(), "#[material({arguments})] {item}\n{found:#?}");
     for ((tokens, message), (expected_tokens, expected)) in found.iter().zip(expected) {
-        assert!(message.contains(expected), "{item}\nsays: {message}\nnot:  {expected}");
+        let is_said = match expected.strip_suffix('$') {
+            Some(end) => message.ends_with(end),
+            None => message.contains(expected),
+        };
+        assert!(is_said, "{item}\nsays: {message}\nnot:  {expected}");
         assert_eq!(tokens, expected_tokens, "{item}\n{message}");
     }
 }
