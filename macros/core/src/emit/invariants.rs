@@ -6,7 +6,6 @@ use quote::{format_ident, quote};
 use super::functions;
 use super::material::domain;
 use super::writer::Writer;
-use crate::algebra::invariants::Curvature;
 use crate::model::Model;
 use crate::read::parse::Declaration;
 
@@ -51,11 +50,7 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
         )
     });
     let has_second = !model.graph.is_zero(invariants.gradient[1]);
-    let curvature = match invariants.curvature(&model.graph) {
-        Curvature::Volume => quote!(Volume),
-        Curvature::Separate => quote!(Separate),
-        Curvature::All => quote!(All),
-    };
+    let curvature = format_ident!("{:?}", invariants.curvature(&model.graph));
 
     quote! {
         #[inline(always)]

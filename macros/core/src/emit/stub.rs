@@ -26,15 +26,9 @@ pub fn inert(mistakes: &syn::Error, item: TokenStream) -> TokenStream {
 
 /// The lengths of lists, each once.
 fn lengths(signature: &Signature) -> Vec<Ident> {
-    let mut names: Vec<Ident> = Vec::new();
-    for generic in &signature.generics.params {
-        if let GenericParam::Const(constant) = generic
-            && !names.contains(&constant.ident)
-        {
-            names.push(constant.ident.clone());
-        }
-    }
-    names
+    let names: Vec<_> = signature.generics.const_params().map(|constant| &constant.ident).collect();
+    let firsts = (0..names.len()).filter(|&k| !names[..k].contains(&names[k]));
+    firsts.map(|k| names[k].clone()).collect()
 }
 
 /// Types of the constructor's arguments, and the parameters with the results of their methods.
