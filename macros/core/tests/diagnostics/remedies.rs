@@ -62,14 +62,3 @@ fn what_is_printed_has_a_value_wherever_it_is_said_to() {
     check("domain(J != 0.0)", "mu * I1.powf(mu) + mu * J.sqrt()", None);
     check("domain(J != 0.0)", "mu * (I1 + J.powi(-2) / 2)", Some("the declared one"));
 }
-
-/// A condition that fails where elements are flat is not offered where `extend` excludes it.
-#[test]
-fn what_is_extended_has_room_for_flat_elements() {
-    let limited = "fn E([l1, l2, l3]: [f64; 3], mu: f64, m: f64) -> f64 { -mu * (1 - (I1 - 3) / m).ln() }";
-    let message = |arguments: &str| {
-        mistakes(arguments, limited).into_iter().map(|(_, message)| message).collect::<String>()
-    };
-    assert!(message("domain(J > 0.0, I1 - 3.0 < m)").contains("or write `I1b` for `I1`"));
-    assert!(!message("domain(J > 0.0, I1 - 3.0 < m), extend").contains("I1b"));
-}
