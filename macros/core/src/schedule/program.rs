@@ -69,8 +69,8 @@ pub enum Op {
     ShareAbove(Value, Value, Value),
     /// Fraction of the interval between the first two that lies below the third.
     ShareBelow(Value, Value, Value),
-    /// The common part of the divided differences of logarithms and powers of two values a, b: from a, b, from
-    /// 1/a, 1/b, and from the [`Logarithm`](Self::Logarithm)s of a and b.
+    /// The common part of the divided differences of logarithms and powers of two values a, b: from a, b,
+    /// from 1/a, 1/b, and from the [`Logarithm`](Self::Logarithm)s of a and b.
     Pair([Value; 2], [Value; 2], [Value; 2]),
     /// The divided difference (ln a − ln b) / (a − b), from their pair.
     LnQuotient(Value),
