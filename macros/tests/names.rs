@@ -62,27 +62,14 @@ macro_rules! with_names {
     ($($declare:ident: $($name:ident)*;)*) => { $($(const _: () = { $declare!($name); };)*)* };
 }
 
-macro_rules! types {
-    ($name:ident) => {
-        /// Rubber.
-        #[piola::material(domain(J > 0.0), extend, fit)]
-        fn $name(
-            [l1, l2, l3]: [f64; 3],
-            /** Pa. */
-            mu: f64,
-            /** Pa. */
-            lambda: f64,
-        ) -> f64 {
-            mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-        }
-    };
-}
-
 macro_rules! numbers {
     ($name:ident) => {
+        numbers!(Energy, $name);
+    };
+    ($Energy:ident, $name:ident) => {
         /// Rubber.
         #[piola::material(domain(J > 0.0), admissible($name > 0.0), extend($name > 0.0), fit)]
-        fn Energy(
+        fn $Energy(
             [l1, l2, l3]: [f64; 3],
             /** Pa. */
             $name: f64,
@@ -94,17 +81,32 @@ macro_rules! numbers {
     };
 }
 
+macro_rules! types {
+    ($name:ident) => {
+        numbers!($name, mu);
+    };
+}
+
 macro_rules! lists {
     ($name:ident) => {
+        lists!($name, N);
+    };
+    ($name:ident, $N:ident) => {
         /// Sum.
         #[piola::material(domain(J > 0.0), admissible($name[p] > 0.0), extend, fit)]
-        fn Energy<const N: usize>(
+        fn Energy<const $N: usize>(
             [l1, l2, l3]: [f64; 3],
             /** Pa. */
-            $name: [f64; N],
+            $name: [f64; $N],
         ) -> f64 {
             sum(|p| $name[p] * (I1 - 3.0 - 2.0 * J.ln()))
         }
+    };
+}
+
+macro_rules! lengths {
+    ($name:ident) => {
+        lists!(mu, $name);
     };
 }
 
@@ -118,20 +120,6 @@ macro_rules! stretches {
             mu: f64,
         ) -> f64 {
             mu * ($name.ln().powi(2) + l2.ln().powi(2) + l3.ln().powi(2))
-        }
-    };
-}
-
-macro_rules! lengths {
-    ($name:ident) => {
-        /// Sum.
-        #[piola::material(domain(J > 0.0), extend, fit)]
-        fn Energy<const $name: usize>(
-            [l1, l2, l3]: [f64; 3],
-            /** Pa. */
-            mu: [f64; $name],
-        ) -> f64 {
-            sum(|p| mu[p] * (I1 - 3.0 - 2.0 * J.ln()))
         }
     };
 }
