@@ -303,19 +303,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn real_exponents_merge_with_whole_ones() {
-        let mut g = Graph::default();
-        let (x, alpha) = (g.stretch(0), g.leaf(Node::Parameter(0)));
-        let exponent = g.exponent(alpha);
-        let power = g.power(x, exponent);
-        let over = g.div(power, x);
-        let minus_one = g.integer(-1);
-        let shifted = g.add(alpha, minus_one);
-        let exponent = g.exponent(shifted);
-        assert_eq!(over, g.power(x, exponent));
-    }
-
-    #[test]
     fn real_powers_of_products_are_kept_whole() {
         // (x²)^½ is |x|, not x.
         let mut g = Graph::default();
