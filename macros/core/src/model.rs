@@ -69,7 +69,6 @@ pub struct Model {
     pub lossy: Vec<Id>,
     /// Points of the domain with admissible parameters.
     pub samples: Vec<Point>,
-    /// The programs scheduled so far.
     programs: FxHashMap<Vec<Id>, Rc<Program>>,
     collector: Collector,
 }

@@ -101,7 +101,6 @@ impl Notation {
     }
 }
 
-/// A base and its exponent.
 type Factor = (Id, Exponent);
 
 struct Printer<'a> {

@@ -12,7 +12,6 @@ use super::{condition_text, doc, generics, naming};
 use crate::model::Model;
 use crate::read::parse::{Declaration, Entries, Kind, Parameter};
 
-/// The inherent methods.
 pub(super) fn constructor(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let name = &declaration.name;
     let (bounds, arguments) = generics(declaration);
@@ -143,7 +142,6 @@ fn with_inversion(declaration: &Declaration, conditions: &[Expr]) -> TokenStream
     }
 }
 
-/// The parameters of the description.
 fn parameters() -> TokenStream {
     quote!(&<Self as __p::Declared>::DESCRIPTION.parameters)
 }

@@ -94,7 +94,6 @@ pub(super) fn read(
     values.collect()
 }
 
-/// Parameters of some real material.
 fn typical(typical: &Typical) -> TokenStream {
     let lists = typical.values.iter().map(|(_, values)| {
         let numbers = values.numbers.iter().map(|&number| {

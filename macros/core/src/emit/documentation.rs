@@ -151,7 +151,6 @@ fn block(names: &[&str], Formulas { parts, formulas }: &Formulas) -> String {
     format!("```text\n{}```", parts.chain(formulas).collect::<String>())
 }
 
-/// The operations of each result.
 fn operations(declaration: &Declaration, model: &mut Model) -> String {
     let table = table(declaration, &model.counts());
     format!("**Operations**, of each result by itself:\n\n{table}\n{LEGEND}.")

@@ -22,7 +22,6 @@ pub(super) struct Writer<'a> {
     pub(super) index: Ident,
     /// The threshold of the extension.
     pub(super) threshold: Ident,
-    /// The principal strains.
     pub(super) strains: Ident,
 }
 
@@ -262,7 +261,6 @@ struct Lines<'a> {
     writer: &'a Writer<'a>,
     statements: TokenStream,
     names: Names,
-    /// Number of reads of each value.
     reads: FxHashMap<Value, usize>,
     /// Values read once, with their expressions, which the next statements may take in.
     waiting: Vec<(Value, Text)>,

@@ -20,7 +20,6 @@ const QUOTABLE: usize = 40;
 /// The longest stress, in bytes, to be appended: a longer one is better avoided than balanced.
 const APPENDABLE: usize = 200;
 
-/// Adds findings to the diagnostics of a declaration.
 pub(crate) fn report(
     graph: &mut Graph,
     source: &Source<'_>,

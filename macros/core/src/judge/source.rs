@@ -10,7 +10,6 @@ use crate::read::resolve::Nodes;
 
 /// A declaration whose names are resolved.
 pub(crate) struct Source<'a> {
-    /// The tokens.
     pub(crate) declaration: &'a Declaration,
     /// The node of each expression of the body.
     pub(crate) nodes: Nodes,
@@ -20,7 +19,6 @@ pub(crate) struct Source<'a> {
     pub(crate) bounds: &'a [Id],
     /// Expressions of parameters that are positive.
     pub(crate) admissible: &'a [Id],
-    /// The volumes of the domain.
     pub(crate) volume: Volume,
 }
 

@@ -119,7 +119,6 @@ impl Nodes {
         self.0.get(&std::ptr::from_ref(expression)).copied()
     }
 
-    /// Replaces each node by another one.
     pub(crate) fn replace(&mut self, mut with: impl FnMut(Id) -> Id) {
         self.0.values_mut().for_each(|id| *id = with(*id));
     }
@@ -369,7 +368,6 @@ impl<'a> Resolver<'a> {
         self.connect(value, binary)
     }
 
-    /// A sum with further terms.
     fn with_terms(&mut self, sum: Id, terms: &mut Vec<(Id, Rational)>) -> Id {
         if terms.is_empty() {
             return sum;
@@ -463,7 +461,6 @@ fn sign(binary: &syn::ExprBinary) -> Option<Rational> {
     }
 }
 
-/// True if a suffix is the name of a numeric type.
 fn is_numeric_type(suffix: &str) -> bool {
     const BITS: [&str; 6] = ["8", "16", "32", "64", "128", "size"];
     suffix.strip_prefix(['i', 'u']).is_some_and(|bits| BITS.contains(&bits))

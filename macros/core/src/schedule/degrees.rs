@@ -14,7 +14,6 @@ pub(super) struct Degrees {
 }
 
 impl Degrees {
-    /// The degree of a node.
     pub(super) fn of(&mut self, graph: &Graph, id: Id) -> Degree {
         if let Some(&done) = self.memo.get(&id) {
             return done;

@@ -24,7 +24,6 @@ pub(super) struct Order<'d> {
     /// more of it.
     products: FxHashMap<Id, Vec<(Factor, usize)>>,
     sets: Vec<Set>,
-    /// All products.
     all: Set,
 }
 

@@ -3,7 +3,6 @@
 //! The maps of this crate have a few entries. It is compiled before every crate that declares a material, and
 //! a list is compiled and searched in less time than a tree.
 
-/// Keys with their values.
 pub(crate) type Sorted<K, V> = Vec<(K, V)>;
 
 /// The value of a key, initially the default.

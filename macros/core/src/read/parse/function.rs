@@ -32,7 +32,6 @@ impl Function {
     }
 }
 
-/// The tokens of a function before its body.
 fn without_body(item: &TokenStream) -> TokenStream {
     let is_body =
         |token: &TokenTree| matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace);

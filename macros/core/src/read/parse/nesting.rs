@@ -126,7 +126,6 @@ fn check_to(deepest: usize, tokens: &TokenStream, notation: Notation) -> syn::Re
     Ok(())
 }
 
-/// Start of a token.
 fn first(token: &TokenTree) -> Span {
     match token {
         TokenTree::Group(group) if group.delimiter() != Delimiter::None => group.span_open(),

@@ -107,7 +107,6 @@ pub(super) fn plain(signature: &Signature, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// The generics of a declaration.
 #[derive(Default)]
 pub(super) struct Generics {
     /// Lengths of lists.
@@ -171,7 +170,6 @@ pub(super) fn generics(signature: &Signature, diagnostics: &mut Diagnostics) -> 
     Generics { lengths: names, types }
 }
 
-/// The names of the three stretches.
 pub(super) fn stretches(
     signature: &Signature,
     generics: &Generics,

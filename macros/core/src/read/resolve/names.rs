@@ -120,7 +120,6 @@ impl Resolver<'_> {
         self.mistake(name, &message)
     }
 
-    /// The first list among the parameters.
     pub(super) fn first_list(&self) -> Option<&Ident> {
         let mut parameters = self.declaration.parameters.iter();
         parameters.find(|parameter| parameter.length().is_some()).map(|parameter| &parameter.name)
@@ -148,7 +147,6 @@ impl Resolver<'_> {
         self.mistake(name, &message)
     }
 
-    /// The names that an expression may use.
     fn known_names(&self) -> Vec<String> {
         let parameters = self.declaration.parameters.iter().map(|parameter| parameter.name.to_string());
         if self.scope == Scope::Parameters {

@@ -12,7 +12,6 @@ use crate::read::parse::{Kind, indexed_lists};
 const FORMS: &str = "a sum is written `sum(|p| mu[p] * …)` over lists, `sum(|l| l.powi(2))` over the three stretches, \
      `sum(|a, b| (a * b).powi(2))` over their pairs";
 
-/// The index of a sum.
 pub(super) struct Index {
     pub(super) name: Ident,
     /// The length of the lists that it has indexed so far.
@@ -24,7 +23,6 @@ pub(super) struct Index {
 }
 
 impl Index {
-    /// An index that has indexed nothing.
     pub(super) fn new(name: Ident) -> Self {
         Self { name, length: None, is_excused: false, others: Vec::new() }
     }
