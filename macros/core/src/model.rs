@@ -21,7 +21,7 @@ use crate::judge::{self, Derived, Source};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
 use crate::read::parse::{Declaration, Parameter};
-use crate::read::resolve::{self, Invariantly, Resolver};
+use crate::read::resolve::{self, Resolver};
 use crate::read::unit::Unit;
 use crate::schedule::count::Count;
 use crate::schedule::{Collector, Program, schedule};
@@ -285,7 +285,7 @@ fn derive(
     // By invariants, I1b − 3 is not known well enough for real powers, be they of the energy or of a bound.
     let invariants = resolve::resolve_by_invariants(declaration, &mut graph)
         .filter(|_| !prepared.has_squares)
-        .map(|Invariantly { energy, bounds, is_written_so }| {
+        .map(|(energy, bounds, is_written_so)| {
             let energy = over_one_denominator(&mut graph, energy, &prepared.ways.by_invariants());
             by_invariants(&mut graph, energy, is_written_so, bounds)
         });

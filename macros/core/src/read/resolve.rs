@@ -62,20 +62,10 @@ const POWER: &str = "a power is written `x.powi(2)` or `x.powf(alpha)`";
 const NO_HELPERS: &str = "an energy has no helpers: write a sum over the three stretches as `sum(|l| …)`, and name \
      parts by `let`, also in a sum: `sum(|p| { let s = …; … })`";
 
-/// An energy with I1, I2, J in the places of the three stretches.
-pub struct Invariantly {
-    /// ψ.
-    pub energy: Id,
-    /// The bounds of its domain.
-    pub bounds: Vec<Id>,
-    /// True if ψ is written in the invariants, and not in sums over the stretches that the invariants
-    /// determine.
-    pub is_written_so: bool,
-}
-
-/// The energy by invariants, unless a stretch is named outside a sum that they determine. The declaration
-/// must be free of mistakes.
-pub fn resolve_by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<Invariantly> {
+/// The energy with I1, I2, J in the places of the three stretches, the bounds of its domain, and true if the
+/// energy is written in the invariants, and not in sums over the stretches that they determine; `None` if a
+/// stretch is named outside of such sums. The declaration must be free of mistakes.
+pub fn resolve_by_invariants(declaration: &Declaration, graph: &mut Graph) -> Option<(Id, Vec<Id>, bool)> {
     let mut diagnostics = Diagnostics::default();
     let mut resolver =
         Resolver { scope: Scope::Invariants, ..Resolver::new(declaration, graph, &mut diagnostics) };
@@ -86,7 +76,7 @@ pub fn resolve_by_invariants(declaration: &Declaration, graph: &mut Graph) -> Op
     }
     let energy = without_stretches(graph, written)?;
     let bounds = bounds.into_iter().map(|bound| without_stretches(graph, bound)).collect::<Option<_>>()?;
-    Some(Invariantly { energy, bounds, is_written_so: energy == written })
+    Some((energy, bounds, energy == written))
 }
 
 /// The energy with I1b, I2b in the places of I1, I2. The declaration must be free of mistakes.
