@@ -79,35 +79,27 @@ impl Unit {
 mod tests {
     use super::Unit;
 
-    #[track_caller]
-    fn check(documentation: &str, expected: Option<Unit>) {
-        assert_eq!(Unit::read(documentation), Ok(expected), "{documentation}");
-    }
-
     #[test]
     fn the_end_of_a_sentence_is_the_unit() {
-        check("Shear modulus μ, Pa.", Some(Unit::Pascal));
-        check("Shear modulus [Pa]", Some(Unit::Pascal));
-        check("Modulus μ, Pa: the shear modulus for n → ∞.", Some(Unit::Pascal));
-        check("Compressibility D1 = 2/κ (1/Pa).", Some(Unit::PerPascal));
-        check("Exponents αₚ, dimensionless.", Some(Unit::Dimensionless));
-        check("Release β of the tubes, 1.", Some(Unit::Dimensionless));
-        check("Modulus. At most 0.5 of the other, Pa.", Some(Unit::Pascal));
-        check("Modulus.\nIts unit is Pa", Some(Unit::Pascal));
-    }
-
-    #[test]
-    fn other_words_are_no_unit() {
-        for text in [
-            "",
-            "Pa",
-            "Exponent.",
-            "Release β of the tubes, 1 for none.",
-            "Of soft rubber about 0.4 MPa.",
-            "Modulus of a bar.",
-            "At most 1.",
+        let [pascal, per_pascal, dimensionless] = Unit::ALL.map(Some);
+        for (documentation, expected) in [
+            ("Shear modulus μ, Pa.", pascal),
+            ("Shear modulus [Pa]", pascal),
+            ("Modulus μ, Pa: the shear modulus for n → ∞.", pascal),
+            ("Compressibility D1 = 2/κ (1/Pa).", per_pascal),
+            ("Exponents αₚ, dimensionless.", dimensionless),
+            ("Release β of the tubes, 1.", dimensionless),
+            ("Modulus. At most 0.5 of the other, Pa.", pascal),
+            ("Modulus.\nIts unit is Pa", pascal),
+            ("", None),
+            ("Pa", None),
+            ("Exponent.", None),
+            ("Release β of the tubes, 1 for none.", None),
+            ("Of soft rubber about 0.4 MPa.", None),
+            ("Modulus of a bar.", None),
+            ("At most 1.", None),
         ] {
-            check(text, None);
+            assert_eq!(Unit::read(documentation), Ok(expected), "{documentation}");
         }
     }
 }
