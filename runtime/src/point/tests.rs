@@ -15,20 +15,24 @@ mod plane;
 mod small_strain;
 mod statuses;
 
-fn product(A: &Matrix3<f64>, B: &Matrix3<f64>) -> Matrix3<f64> {
+pub(super) fn product(A: &Matrix3<f64>, B: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| A[i][k] * B[k][j]).sum()))
 }
 
-fn transposed(A: &Matrix3<f64>) -> Matrix3<f64> {
+pub(super) fn transposed(A: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| A[j][i]))
 }
 
+pub(super) fn diagonal(d: [f64; 3]) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }))
+}
+
 /// A + s B.
-fn moved(A: &Matrix3<f64>, s: f64, B: &Matrix3<f64>) -> Matrix3<f64> {
+pub(super) fn moved(A: &Matrix3<f64>, s: f64, B: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| A[i][j] + s * B[i][j]))
 }
 
-fn norm<'a>(entries: impl IntoIterator<Item = &'a f64>) -> f64 {
+pub(super) fn norm<'a>(entries: impl IntoIterator<Item = &'a f64>) -> f64 {
     entries.into_iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
@@ -129,23 +133,22 @@ fn roundings_decide_at_a_pole() {
 
 #[test]
 fn the_status_says_what_the_numbers_cannot() {
-    let at = |d: [f64; 3]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }));
     let fine = Status::default();
-    let inverted = at([1.0, 1.0, -0.1]);
+    let inverted = diagonal([1.0, 1.0, -0.1]);
     assert_eq!(evaluate(&SaintVenantKirchhoff, &inverted, Filter::None).status, fine);
     assert_eq!(evaluate(&RotatedLinear, &inverted, Filter::None).status, fine);
     assert!(evaluate(&NeoHookean, &inverted, Filter::None).status.refused);
     assert!(evaluate_energy(&NeoHookean, &inverted).status.refused);
     assert!(evaluate_stress(&NeoHookean, &inverted).status.refused);
 
-    let mirrored = evaluate(&RotatedLinear, &at([1.0, 1.0, -1.0]), Filter::None);
+    let mirrored = evaluate(&RotatedLinear, &diagonal([1.0, 1.0, -1.0]), Filter::None);
     assert_eq!(mirrored.status, Status { bounded: true, ..fine });
     assert!(mirrored.tangent.to_matrix().iter().flatten().all(|x| x.is_finite()));
-    let collapsed = evaluate(&RotatedLinear, &at([0.0; 3]), Filter::Clamp);
+    let collapsed = evaluate(&RotatedLinear, &diagonal([0.0; 3]), Filter::Clamp);
     assert_eq!(collapsed.status, Status { bounded: true, filtered: true, ..fine });
     assert!(collapsed.tangent.blocks.twist == [0.0; 3]);
 
-    let broken = at([1.0, f64::NAN, 1.0]);
+    let broken = diagonal([1.0, f64::NAN, 1.0]);
     assert!(evaluate(&SaintVenantKirchhoff, &broken, Filter::Clamp).status.nonfinite);
     assert!(evaluate_energy(&SaintVenantKirchhoff, &broken).status.nonfinite);
     assert!(evaluate_stress(&SaintVenantKirchhoff, &broken).status.nonfinite);
