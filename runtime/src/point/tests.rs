@@ -7,7 +7,6 @@ use crate::material::Material;
 use crate::material::PAIRS;
 use crate::random::Random;
 
-mod differences;
 mod filters;
 mod lanes;
 mod measures;

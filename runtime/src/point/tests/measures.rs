@@ -1,6 +1,5 @@
 //! Measures of stress and tangent against their definitions in F, P and dP/dF, written out over indices.
 
-use super::differences::{check_slope, flat};
 use super::filters::convert;
 use super::*;
 use crate::convert::{from_nalgebra, to_nalgebra};
@@ -228,6 +227,30 @@ fn the_spatial_tangents_are_dP_dF_less_the_turning_stress() {
         });
         check(sample.tangent(Jaumann), &c_jaumann, limit, "c°", F);
     });
+}
+
+/// Checks that a central difference, (f(h) − f(−h))/2h, tends to `derivative` as h² does, with a floor of `rounding`/h from the
+/// rounding of f.
+#[track_caller]
+fn check_slope<const N: usize>(f: impl Fn(f64) -> [f64; N], derivative: [f64; N], rounding: f64, what: &str) {
+    let error = |h: f64| {
+        let (ahead, behind) = (f(h), f(-h));
+        let errors: [f64; N] = std::array::from_fn(|k| (ahead[k] - behind[k]) / (2.0 * h) - derivative[k]);
+        norm(&errors)
+    };
+    // The third derivative bounds the error at the first step; each step is a quarter of the last one, so
+    // 1/16 is due.
+    let mut bound = error(2f64.powi(-7));
+    for step in 0..8 {
+        let h = 2f64.powi(-9 - 2 * step);
+        bound /= 12.0;
+        let limit = bound.max(rounding / h);
+        assert!(error(h) <= limit, "{what}: error {:e} at h = {h:e}, expected at most {limit:e}", error(h));
+    }
+}
+
+fn flat(A: &Matrix3<f64>) -> [f64; 9] {
+    std::array::from_fn(|k| A[k / 3][k % 3])
 }
 
 /// Rᵀ τ R, with the rotation R of the polar decomposition, changes by c★ alone.
