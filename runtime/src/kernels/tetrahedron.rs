@@ -2,7 +2,7 @@
 
 #![expect(non_snake_case, reason = "F, U, V, Ds as in the literature")]
 
-use super::form::{FullStiffness, Output, OutputByInvariants, gradient_is_finite, put_gradient};
+use super::form::{FullStiffness, Output, gradient_is_finite, put_gradient};
 use crate::lanes::{Mask, Real};
 use crate::material::Response;
 use crate::point::invariants::invariants;

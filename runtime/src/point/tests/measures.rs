@@ -229,8 +229,8 @@ fn the_spatial_tangents_are_dP_dF_less_the_turning_stress() {
     });
 }
 
-/// Checks that a central difference, (f(h) − f(−h))/2h, tends to `derivative` as h² does, with a floor of `rounding`/h from the
-/// rounding of f.
+/// Checks that a central difference, (f(h) − f(−h))/2h, tends to `derivative` as h² does, with a floor of
+/// `rounding`/h from the rounding of f.
 #[track_caller]
 fn check_slope<const N: usize>(f: impl Fn(f64) -> [f64; N], derivative: [f64; N], rounding: f64, what: &str) {
     let error = |h: f64| {
