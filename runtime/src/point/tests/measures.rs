@@ -50,14 +50,16 @@ fn measured<R: Real + Into<f64>>(
     (wide, measure.tangent(svd, blocks).map(|row| row.map(Into::into)))
 }
 
-/// All numbers of all measures, for comparisons bit by bit.
+/// All numbers of a point and of its measures, for comparisons bit by bit.
 pub(super) fn every_number<R: Real>(point: &Point<R>) -> Vec<R> {
     let (svd, blocks) = (point.decomposition(), &point.tangent.blocks);
-    let numbers = |measure: Measure| {
-        let stress = measure.stress(&svd, blocks.gradient);
-        stress.into_iter().chain(measure.tangent(&svd, blocks).into_iter().flatten())
-    };
-    Measure::ALL.into_iter().flat_map(numbers).collect()
+    let mut numbers = [point.stress.as_flattened(), &point.stretches].concat();
+    numbers.extend_from_slice(point.tangent.to_matrix().as_flattened());
+    for measure in Measure::ALL {
+        numbers.extend(measure.stress(&svd, blocks.gradient));
+        numbers.extend_from_slice(measure.tangent(&svd, blocks).as_flattened());
+    }
+    numbers
 }
 
 /// A point in double precision, and its measures in precision R from the same decomposition and blocks.
