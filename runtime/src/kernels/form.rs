@@ -278,13 +278,6 @@ fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
     is_capped[0] | is_capped[1] | is_capped[2]
 }
 
-/// True if nothing can overflow on the way from the tangent to the stiffness: its entries are sums of at most
-/// 27 products of an entry of the tangent and two of W, or sums of nine such entries.
-#[inline(always)]
-fn stiffness_is_finite<R: Real>(blocks: &Blocks<R>, rest: &Rest<R>) -> R::Mask {
-    rest.keeps_finite(largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]))
-}
-
 /// True if nothing can overflow on the way from stress to the gradient: a sum of nine products of the stress,
 /// Dm⁻¹ and the volume.
 #[inline(always)]
@@ -305,18 +298,12 @@ pub(crate) fn put_gradient<R: Real>(
     let rest = Rest::new(*rest);
     thrice!(a => {
         let row = three!(x => stress[a][x] * rest.volume);
-        put_at_nodes(a, three!(n => dot(row, rest.inverse[n])), to);
+        let [g1, g2, g3] = three!(n => dot(row, rest.inverse[n]));
+        to.put(a, -(g1 + g2 + g3));
+        to.put(3 + a, g1);
+        to.put(6 + a, g2);
+        to.put(9 + a, g3);
     });
-}
-
-/// Writes coordinate a of vectors of the nodes 1, 2, 3, and minus their sum at node 0: that of node n at
-/// 3n+a.
-#[inline(always)]
-fn put_at_nodes<R: Real>(a: usize, [g1, g2, g3]: [R; 3], to: &mut (impl Components<R> + ?Sized)) {
-    to.put(a, -(g1 + g2 + g3));
-    to.put(3 + a, g1);
-    to.put(6 + a, g2);
-    to.put(9 + a, g3);
 }
 
 /// Form of an element's stiffness with N components.
@@ -352,7 +339,10 @@ impl<F: StiffnessForm<N>, const N: usize> Output<Elements, N> for F {
     #[inline(always)]
     fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
         let bounded = if has_pole { cap_twist(blocks) } else { R::Mask::splat(false) };
-        Status { bounded, nonfinite: !stiffness_is_finite(blocks, &Rest::new(*rest)), ..Status::clean() }
+        // An entry is a sum of at most 27 products of an entry of the tangent and two of W, or of nine such
+        // sums.
+        let tangent = largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]);
+        Status { bounded, nonfinite: !Rest::new(*rest).keeps_finite(tangent), ..Status::clean() }
     }
 
     #[inline(always)]

@@ -146,7 +146,7 @@ pub fn plane_strain<R: Real<Mask = bool>>(
     F: &Matrix2<R>,
     filter: Filter,
 ) -> PlanePoint<R> {
-    respond(material, &plane_svd(F), R::splat(1.0), Across::Held, filter)
+    respond(material, &plane_svd(F), R::splat(1.0), false, filter)
 }
 
 /// Stress and tangent in plane stress: λ3 is such that P33 = 0.
@@ -174,19 +174,12 @@ pub fn plane_stress<R: Real<Mask = bool>>(
         Some(Side { stress: across, slope, magnitude })
     };
     match release(side, R::splat(1.0) / (l1 * l2.abs())) {
-        Ok(stretch) => respond(material, &svd, stretch, Across::Free, filter),
+        Ok(stretch) => respond(material, &svd, stretch, true, filter),
         Err(reason) => {
             let refused = Status { refused: true, ..Status::clean() };
             meaningless(&svd, refused, reason == Unreleased::NoEquilibrium)
         }
     }
-}
-
-/// Treatment of the stretch out of the plane: given, or to be found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Across {
-    Held,
-    Free,
 }
 
 /// The derivatives of the energy by the stretches of the axes, where these are in its domain, and finite.
@@ -203,12 +196,12 @@ fn defined_at<R: Real<Mask = bool>>(
     numbers.fold(true, |finite, number| finite & number.is_finite()).then_some(blocks)
 }
 
-/// The point with all stretches known.
+/// The point with all stretches known, of which that out of the plane is free of stress or held.
 fn respond<R: Real<Mask = bool>>(
     material: &(impl Response<R> + ?Sized),
     svd: &PlaneSvd<R>,
     across: R,
-    kind: Across,
+    is_free: bool,
     filter: Filter,
 ) -> PlanePoint<R> {
     let (zero, PlaneSvd { U, stretches, V }) = (R::splat(0.0), *svd);
@@ -217,7 +210,7 @@ fn respond<R: Real<Mask = bool>>(
     let blocks = axes.blocks(material);
     let ([mut g1, mut g2, mut g3], [h11, h22, h33, h12, h13, h23]) = (blocks.gradient, blocks.hessian);
     let (mut hessian, mut ratios) = ([h11, h22, h12], [zero; 2]);
-    if kind == Across::Free {
+    if is_free {
         ratios = [h13 / h33, h23 / h33];
         hessian = [h11 - ratios[0] * h13, h22 - ratios[1] * h23, h12 - ratios[0] * h23];
         (g1, g2, g3) = (g1 - ratios[0] * g3, g2 - ratios[1] * g3, zero);
