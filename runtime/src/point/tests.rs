@@ -18,7 +18,7 @@ pub(super) fn product(A: &Matrix3<f64>, B: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| A[i][k] * B[k][j]).sum()))
 }
 
-pub(super) fn transposed(A: &Matrix3<f64>) -> Matrix3<f64> {
+fn transposed(A: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| A[j][i]))
 }
 
@@ -35,9 +35,13 @@ pub(super) fn norm<'a>(entries: impl IntoIterator<Item = &'a f64>) -> f64 {
     entries.into_iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-fn with_stretches(random: &mut Random, l: [f64; 3]) -> Matrix3<f64> {
-    let (Q, W) = (random.rotation(), random.rotation());
+/// Q diag(l) Wᵀ.
+pub(super) fn framed(Q: &Matrix3<f64>, l: [f64; 3], W: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| Q[i][k] * l[k] * W[j][k]).sum()))
+}
+
+fn with_stretches(random: &mut Random, l: [f64; 3]) -> Matrix3<f64> {
+    framed(&random.rotation(), l, &random.rotation())
 }
 
 /// Deformations from harmless to equal and inverted stretches; only the first three are inside J > 0.

@@ -4,7 +4,7 @@
 
 use super::*;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
-use crate::point::tests::{diagonal, moved, norm, product, transposed};
+use crate::point::tests::{diagonal, framed, moved, norm, product};
 use crate::point::twice::Twice;
 use crate::random::Random;
 
@@ -161,8 +161,7 @@ fn families(count: usize, exponent: f64, mut f: impl FnMut(&str, &Exact)) {
     let permutations = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     for _ in 0..count {
         let (Q, W) = (random.rotation(), random.rotation());
-        let Wt = transposed(&W);
-        let mut spectrum = |name: &str, d: [f64; 3]| f(name, &product(&Q, &product(&diagonal(d), &Wt)));
+        let mut spectrum = |name: &str, d: [f64; 3]| f(name, &framed(&Q, d, &W));
         let e = 10f64.powf(random.uniform(-16.0, 0.0));
         let a = random.uniform(0.1, 3.0);
         spectrum("repeated", [a, a, a]);
@@ -198,21 +197,27 @@ fn families(count: usize, exponent: f64, mut f: impl FnMut(&str, &Exact)) {
     }
 }
 
-fn bounds_hold<E: Scalar>(exponent: f64, method: Method) {
-    let (mut names, mut matrices) = (Vec::<String>::new(), Vec::<Matrix3<E>>::new());
-    families(5_000, exponent, |name, F| {
-        names.push(name.into());
-        matrices.push(rounded(F));
-    });
-    for (backend, answers) in by_every_backend(method, &matrices) {
+/// Judges the decompositions of matrices, family by family, by every back end.
+#[track_caller]
+fn judge<E: Scalar>(method: Method, names: &[String], matrices: &[Matrix3<E>]) {
+    for (backend, answers) in by_every_backend(method, matrices) {
         let mut worst = std::collections::BTreeMap::<&str, Worst>::new();
-        for ((name, F), answer) in names.iter().zip(&matrices).zip(&answers) {
+        for ((name, F), answer) in names.iter().zip(matrices).zip(&answers) {
             worst.entry(name).or_default().see(F, answer);
         }
         for (name, worst) in &worst {
             worst.check(&format!("{name}, {backend}"));
         }
     }
+}
+
+fn bounds_hold<E: Scalar>(exponent: f64, method: Method) {
+    let (mut names, mut matrices) = (Vec::<String>::new(), Vec::<Matrix3<E>>::new());
+    families(5_000, exponent, |name, F| {
+        names.push(name.into());
+        matrices.push(rounded(F));
+    });
+    judge(method, &names, &matrices);
 }
 
 #[test]
@@ -233,19 +238,10 @@ fn bounds_hold_in_f32() {
 #[test]
 fn bounds_hold_for_small_integers() {
     fn check<E: Scalar>() {
-        let entry = |code: usize, k: u32| E::splat((code / 3usize.pow(k) % 3) as f64 - 1.0);
-        let matrices: Vec<Matrix3<E>> = (0..3usize.pow(9))
-            .map(|code| {
-                std::array::from_fn(|i| std::array::from_fn(|j| entry(code, 3 * i as u32 + j as u32)))
-            })
-            .collect();
-        for (backend, answers) in by_every_backend(Method::Plain, &matrices) {
-            let mut worst = Worst::default();
-            for (F, answer) in matrices.iter().zip(&answers) {
-                worst.see(F, answer);
-            }
-            worst.check(backend.name());
-        }
+        let entry = |code: usize, k: usize| E::splat((code / 3usize.pow(k as u32) % 3) as f64 - 1.0);
+        let matrix = |code| std::array::from_fn(|i| std::array::from_fn(|j| entry(code, 3 * i + j)));
+        let matrices: Vec<Matrix3<E>> = (0..3usize.pow(9)).map(matrix).collect();
+        judge(Method::Plain, &vec![String::from("integers"); matrices.len()], &matrices);
     }
     check::<f64>();
     check::<f32>();

@@ -15,8 +15,8 @@ fn by_eigensolver(A: &[[f64; 9]; 9], f: impl Fn(f64) -> f64) -> [[f64; 9]; 9] {
 
 fn hessian_with(random: &mut Random, eigenvalues: [f64; 3]) -> [f64; 6] {
     let Q = random.rotation();
-    let entry = |i: usize, j: usize| (0..3).map(|k| Q[i][k] * eigenvalues[k] * Q[j][k]).sum();
-    [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)]
+    let [[h11, h12, h13], [_, h22, h23], [.., h33]] = framed(&Q, eigenvalues, &Q);
+    [h11, h22, h33, h12, h13, h23]
 }
 
 /// Spectra of the Hessian block that make eigensolvers fail: pairs, triples, zeros, tiny gaps, tiny signs.

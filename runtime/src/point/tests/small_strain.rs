@@ -52,9 +52,7 @@ fn displacement_gradients(random: &mut Random, strain: f64) -> Vec<Matrix3<f64>>
     for d in
         [[1.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1.0, 1.0, -0.5], [1.0, 1.0 + 1e-7, 1.0 - 1e-7], [1.0, 1e-9, 0.0]]
     {
-        let scaled = std::array::from_fn(|i| {
-            std::array::from_fn(|j| (0..3).map(|k| frame[i][k] * strain * d[k] * frame[j][k]).sum())
-        });
+        let scaled = framed(&frame, d.map(|d| strain * d), &frame);
         for angle in [0.0, strain, strain.sqrt(), 0.2] {
             // R (I + U) − I = (R − I) + U + (R − I) U.
             let turn = rotation_from_rest(random, angle.min(0.2));

@@ -63,11 +63,8 @@ fn start(random: &mut Random) -> Exact {
     let gap = exponent(60.0);
     match random.below(7) {
         0 => random.matrix(),
-        1 => product(&random.rotation(), &product(&diagonal(spectrum), &random.rotation())),
-        2 => product(
-            &random.rotation(),
-            &product(&diagonal([1.0, 1.0 + gap, spectrum[1]]), &random.rotation()),
-        ),
+        1 => framed(&random.rotation(), spectrum, &random.rotation()),
+        2 => framed(&random.rotation(), [1.0, 1.0 + gap, spectrum[1]], &random.rotation()),
         3 => moved(&random.rotation(), gap, &random.matrix()),
         4 => random.matrix().map(|row| row.map(|x| x * 2f64.powi(-(random.below(50) as i32)))),
         5 => moved(&diagonal([1.0, 1.0 + gap, 1.0 - gap]), spectrum[1], &random.matrix()),
