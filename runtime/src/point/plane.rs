@@ -219,7 +219,11 @@ fn respond<R: Real<Mask = bool>>(
     let has_pole = material.has_pole() && (l1 + l2).abs().less(pole_floor(axes.sorted));
     let unfiltered = PlaneTangent { U, V, hessian, flip: blocks.flip[0], twist: blocks.twist[0] };
     let (tangent, is_filtered) = unfiltered.project(filter);
-    let point = PlanePoint {
+    let is_finite = stretches_in_range(axes.sorted)
+        & unfiltered.stays_finite()
+        & [g1, g2, g3, energy].into_iter().chain(ratios).all(|number| (number + number).is_finite());
+    let refused = !material.admits(axes.sorted);
+    PlanePoint {
         stretches,
         out_of_plane_stretch: across,
         out_of_plane_slope: tangent::in_the_world(&U, [[-ratios[0], zero], [zero, -ratios[1]]], &V),
@@ -228,15 +232,9 @@ fn respond<R: Real<Mask = bool>>(
         gradient: [g1, g2],
         stress: tangent::in_the_world(&U, [[g1, zero], [zero, g2]], &V),
         tangent,
-        status: Status::clean(),
+        status: Status { refused, bounded: has_pole, nonfinite: !is_finite, filtered: is_filtered },
         no_equilibrium: false,
-    };
-    let is_finite = stretches_in_range(axes.sorted)
-        & unfiltered.stays_finite()
-        & [g1, g2, g3, energy].into_iter().chain(ratios).all(|number| (number + number).is_finite());
-    let refused = !material.admits(axes.sorted);
-    let status = Status { refused, bounded: has_pole, nonfinite: !is_finite, filtered: is_filtered };
-    PlanePoint { status, ..point }
+    }
 }
 
 /// A point without results.
