@@ -3,6 +3,7 @@
 use super::tangent::assemble_blocks;
 use super::*;
 use crate::hand_written::{NeoHookean, RotatedLinear, SaintVenantKirchhoff};
+use crate::lanes::Lanes;
 use crate::material::Material;
 use crate::material::PAIRS;
 use crate::random::Random;
@@ -33,6 +34,13 @@ pub(super) fn moved(A: &Matrix3<f64>, s: f64, B: &Matrix3<f64>) -> Matrix3<f64> 
 
 pub(super) fn norm<'a>(entries: impl IntoIterator<Item = &'a f64>) -> f64 {
     entries.into_iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The number of a lane.
+pub(super) fn of_lane<R: Lanes>(x: R, lane: usize) -> R::Scalar {
+    let mut all = vec![R::Scalar::default(); R::LANES];
+    x.store(&mut all);
+    all[lane]
 }
 
 /// Q diag(l) Wᵀ.

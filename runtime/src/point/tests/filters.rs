@@ -84,11 +84,7 @@ impl<E: Scalar> Kernel<E> for Project<'_, E> {
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> Blocks<E> {
         let blocks = convert(self.blocks, |x| R::splat(x.into()));
-        convert(&project(&blocks, self.filter).0, |x: R| {
-            let mut all = vec![E::default(); R::LANES];
-            x.store(&mut all);
-            all[0]
-        })
+        convert(&project(&blocks, self.filter).0, |x: R| of_lane(x, 0))
     }
 }
 

@@ -8,13 +8,6 @@ use crate::material::Material;
 
 type Two = Lanes2<f64>;
 
-/// The two numbers.
-fn parts(both: Two) -> [f64; 2] {
-    let mut parts = [0.0; 2];
-    both.store(&mut parts);
-    parts
-}
-
 /// True if lane k of a mask has this truth value.
 fn is_set(mask: <Two as Real>::Mask, k: usize) -> bool {
     Two::bits(mask) >> k & 1 == 1
@@ -35,7 +28,7 @@ fn check(material: &impl Material, pair: [&Matrix3<f64>; 2], filter: Filter) {
 fn compare(alone: [Point<f64>; 2], both: &Point<Two>) {
     for (k, alone) in alone.iter().enumerate() {
         for (alone, both) in every_number(alone).into_iter().zip(every_number(both)) {
-            let both = parts(both)[k];
+            let both = of_lane(both, k);
             let same = alone.to_bits() == both.to_bits() || (alone.is_nan() && both.is_nan());
             assert!(same, "{alone:e} became {both:e}");
         }
