@@ -9,7 +9,7 @@ use crate::lanes::{Lanes, Mask, Real, Scalar};
 use crate::material::Blocks;
 use crate::point::invariants::tangent::{Entries, RowsOf, Terms};
 use crate::point::matrix::{dot, three, thrice, to_row_major};
-use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks};
+use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks, multiply};
 use crate::status::Status;
 
 /// Outputs of a tile.
@@ -237,17 +237,6 @@ impl<R: Real> Rest<R> {
         let factor = self.volume.sqrt();
         three!(n => three!(x => factor * self.inverse[n][x]))
     }
-
-    /// W: row n is the gradient of the barycentric coordinate of node n + 1, in the principal frame at rest,
-    /// times √volume.
-    #[inline(always)]
-    fn shape_gradients(&self, V: &[[R; 3]; 3]) -> [[R; 3]; 3] {
-        let gradients = self.scaled_gradients();
-        three!(n => {
-            let row = gradients[n];
-            three!(l => row[0].mul_add(V[0][l], row[1].mul_add(V[1][l], row[2] * V[2][l])))
-        })
-    }
 }
 
 #[inline(always)]
@@ -348,7 +337,8 @@ impl<F: StiffnessForm<N>, const N: usize> Output<Elements, N> for F {
     #[inline(always)]
     fn put_all<R: Real>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut (impl Components<R> + ?Sized)) {
         let Tangent { U, V, blocks } = tangent;
-        let W = Rest::new(*rest).shape_gradients(V);
+        // Row n is the gradient of the barycentric coordinate of node n + 1 in the principal frame at rest.
+        let W = multiply(&Rest::new(*rest).scaled_gradients(), V);
         assemble_blocks(U, &W, blocks, &mut StiffnessPlace::<F, _, N>(PhantomData, to));
     }
 

@@ -64,11 +64,17 @@ const STRETCHES: [[f64; 3]; 7] = [
 ];
 
 fn random_blocks(random: &mut Random) -> Blocks<f64> {
+    let zero = Blocks { gradient: [0.0; 3], hessian: [0.0; 6], flip: [0.0; 3], twist: [0.0; 3] };
+    convert(&zero, |_: f64| random.uniform(-1.0, 1.0))
+}
+
+/// Each number by itself.
+fn convert<A: Real, B: Real>(blocks: &Blocks<A>, mut number: impl FnMut(A) -> B) -> Blocks<B> {
     Blocks {
-        gradient: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
-        hessian: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
-        flip: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
-        twist: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
+        gradient: blocks.gradient.map(&mut number),
+        hessian: blocks.hessian.map(&mut number),
+        flip: blocks.flip.map(&mut number),
+        twist: blocks.twist.map(&mut number),
     }
 }
 

@@ -88,15 +88,6 @@ impl<E: Scalar> Kernel<E> for Project<'_, E> {
     }
 }
 
-pub(super) fn convert<A: Real, B: Real>(blocks: &Blocks<A>, number: impl Fn(A) -> B) -> Blocks<B> {
-    Blocks {
-        gradient: blocks.gradient.map(&number),
-        hessian: blocks.hessian.map(&number),
-        flip: blocks.flip.map(&number),
-        twist: blocks.twist.map(&number),
-    }
-}
-
 /// A filter in precision E, on every back end, against the eigensolver in doubles; magnitudes are multiplied
 /// by a power of two on the way in and divided by it on the way out, which is exact.
 #[track_caller]

@@ -1,6 +1,5 @@
 //! Measures of stress and tangent against their definitions in F, P and dP/dF, written out over indices.
 
-use super::filters::convert;
 use super::*;
 use crate::convert::{from_nalgebra, to_nalgebra};
 use crate::hand_written::ExtendedNeoHookean;

@@ -92,13 +92,7 @@ fn the_last_octaves_before_overflow_are_said_and_no_others() {
 fn a_sixteenth_of_the_largest_number_leaves_room_for_rotations() {
     let mut random = Random::new(64);
     for _ in 0..20_000 {
-        let mut number = || (f64::MAX / 16.0).copysign(random.uniform(-1.0, 1.0));
-        let blocks = Blocks {
-            gradient: [0.0; 3],
-            hessian: std::array::from_fn(|_| number()),
-            flip: std::array::from_fn(|_| number()),
-            twist: std::array::from_fn(|_| number()),
-        };
+        let blocks = convert(&random_blocks(&mut random), |x| (f64::MAX / 16.0).copysign(x));
         assert!(tangent_stays_finite(&blocks));
         let (U, V) = (random.rotation(), random.rotation());
         for filter in FILTERS {
