@@ -39,16 +39,16 @@ fn check<R: Real<Mask = bool> + Into<f64>>(
     said
 }
 
-/// Checks four materials, with F instead of H too.
+/// True if every entry point reports F, as H too, with four materials.
 #[track_caller]
-fn everywhere<R: Real<Mask = bool> + Into<f64>>(F: &Matrix3<R>) -> Vec<bool> {
-    [
+fn is_said<R: Real<Mask = bool> + Into<f64>>(F: &Matrix3<R>) -> bool {
+    let said = [
         check(&SaintVenantKirchhoff, F, F),
         check(&NeoHookean, F, F),
         check(&RotatedLinear, F, F),
         check(&ExtendedNeoHookean { epsilon: 0.3 }, F, F),
-    ]
-    .concat()
+    ];
+    said.concat().into_iter().all(|said| said)
 }
 
 #[test]
@@ -59,11 +59,7 @@ fn nan_and_infinity_are_said_by_every_entry_point() {
             for size in [1.0, 0.01, 1e-300, 0.0] {
                 let mut F = random.matrix().map(|row| row.map(|x| x * size));
                 F[entry / 3][entry % 3] = bad;
-                assert!(everywhere(&F).into_iter().all(|said| said), "{F:?}");
-                assert!(
-                    everywhere(&F.map(|row| row.map(|x| x as f32))).into_iter().all(|said| said),
-                    "{F:?}"
-                );
+                assert!(is_said(&F) && is_said(&F.map(|row| row.map(|x| x as f32))), "{F:?}");
             }
         }
     }
