@@ -212,8 +212,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
     ///
     /// `rest` holds [`REST`] components of each: Dm⁻¹ row by row, 1/m, and the volume, m³, as in `RestShape`;
     /// F = Ds Dm⁻¹. Gradients have 12 components, coordinate a of node n at 3n+a; **forces are minus these**.
-    /// Stiffnesses have 144 entries, unknown 3n+a in row and column 3n+a. With feature `bodies`,
-    /// `CsrPlaces` sums them into a sparse matrix.
+    /// Stiffnesses have 144 entries, unknown 3n+a in row and column 3n+a. [`CsrPlaces`] sums
+    /// them into a sparse matrix.
     ///
     /// The filter acts on dP/dF and is pulled back. At a pole, where a twist is beyond 10⁶ times the rest of
     /// the tangent, it is cut there, because a factorisation could not resolve more.

@@ -45,22 +45,4 @@ mod tests {
         let two_by_three = [[1, 2, 3], [4, 5, 6]];
         assert_eq!(from_nalgebra(&to_nalgebra(&two_by_three)), two_by_three);
     }
-
-    /// The product of a flattened tangent and a flattened dF, in the documented order of indices, is that of
-    /// `apply`.
-    #[test]
-    #[expect(non_snake_case, reason = "F as in the literature")]
-    fn tangents_multiply_flattened_rows() {
-        use crate::hand_written::SaintVenantKirchhoff;
-        use crate::point::{Filter, evaluate};
-
-        let F = [[1.1, 0.2, 0.0], [-0.1, 0.9, 0.3], [0.0, 0.1, 1.2]];
-        let tangent = evaluate(&SaintVenantKirchhoff, &F, Filter::None).tangent;
-        let matrix: nalgebra::SMatrix<f64, 9, 9> = to_nalgebra(&tangent.to_matrix());
-        let product = matrix * nalgebra::SVector::<f64, 9>::from_row_slice(ROWS.as_flattened());
-        for (found, expected) in product.iter().zip(tangent.apply(&ROWS).as_flattened()) {
-            // Nine products of entries below 10 each: a rounding of each and of their sums.
-            assert!((found - expected).abs() <= 1e3 * f64::EPSILON, "{found} for {expected}");
-        }
-    }
 }

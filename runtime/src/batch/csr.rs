@@ -160,7 +160,6 @@ impl std::error::Error for CsrError {}
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
 
     const CORNERS: [[usize; 4]; 2] = [[0, 1, 2, 3], [4, 3, 2, 1]];
 
@@ -182,23 +181,14 @@ mod tests {
     #[test]
     fn whole_matrices_and_triangles_hold_the_sum() {
         let tetrahedra = Tetrahedra::new(5, &CORNERS).expect("nodes that exist");
-        let mut random = Random::new(1);
-        // Symmetric stiffnesses, in both layouts.
-        let mut matrices = [[[0.0; 12]; 12]; 2];
-        for matrix in &mut matrices {
-            for r in 0..12 {
-                for c in 0..=r {
-                    matrix[r][c] = random.uniform(-1.0, 1.0);
-                    matrix[c][r] = matrix[r][c];
-                }
-            }
-        }
+        // Entries of symmetric stiffnesses.
+        let entry = |element: usize, r: usize, c: usize| ((100 * element + r * c + 7 * (r + c)) as f64).sin();
         let mut dense = [[0.0; 12]; 12];
-        for (corners, matrix) in CORNERS.iter().zip(&matrices) {
+        for (element, corners) in CORNERS.iter().enumerate() {
             for r in 0..12 {
                 for c in 0..12 {
                     if let (Some(i), Some(j)) = (unknowns(corners[r / 3]), unknowns(corners[c / 3])) {
-                        dense[i + r % 3][j + c % 3] += matrix[r][c];
+                        dense[i + r % 3][j + c % 3] += entry(element, r, c);
                     }
                 }
             }
@@ -211,10 +201,8 @@ mod tests {
             for layout in [Layout::Points, Layout::Lines] {
                 let count = if layout == Layout::Points { 2 } else { f64::LINE };
                 let mut stiffnesses = vec![f64::NAN; 144 * count];
-                for (element, matrix) in matrices.iter().enumerate() {
-                    for k in 0..144 {
-                        stiffnesses[layout.index::<f64>(element, 144, k)] = matrix[k / 12][k % 12];
-                    }
+                for (element, k) in (0..2).flat_map(|element| (0..144).map(move |k| (element, k))) {
+                    stiffnesses[layout.index::<f64>(element, 144, k)] = entry(element, k / 12, k % 12);
                 }
                 let mut values = vec![1.0; columns.len()];
                 places.add(&stiffnesses, layout, &mut values).expect("lengths fit");

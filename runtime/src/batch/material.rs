@@ -17,7 +17,7 @@ pub use crate::material::properties::Properties;
 trait Points: Send + Sync {
     type Material: Material;
 
-    /// True if points may have materials that do not [share lanes](Graded::shares_lanes).
+    /// True if each point has a material of its own. They may not [share lanes](Graded::shares_lanes).
     const MAY_DIFFER: bool;
 
     /// The material on the lanes that begin with a point.
@@ -30,17 +30,7 @@ trait Points: Send + Sync {
     /// All the materials: one, or one for each point.
     fn materials(&self) -> &[Self::Material];
 
-    /// Number of points with a material of their own; `None` if one material is used for any number of
-    /// points.
-    fn count(&self) -> Option<usize>;
-
-    fn properties(&self) -> Properties {
-        Properties::of(self.materials(), self.count())
-    }
-
-    fn rest_stiffness(&self) -> f64 {
-        largest_rest_stiffness(self.materials())
-    }
+    fn properties(&self) -> Properties;
 }
 
 impl<M: Material> Points for M {
@@ -61,8 +51,8 @@ impl<M: Material> Points for M {
         std::slice::from_ref(self)
     }
 
-    fn count(&self) -> Option<usize> {
-        None
+    fn properties(&self) -> Properties {
+        Properties::of(self.materials(), None)
     }
 }
 
@@ -85,10 +75,6 @@ impl<M: Graded, S: AsRef<[M]> + Send + Sync> Points for PerPoint<M, S> {
 
     fn materials(&self) -> &[M] {
         PerPoint::materials(self)
-    }
-
-    fn count(&self) -> Option<usize> {
-        self.properties.points
     }
 
     fn properties(&self) -> Properties {
@@ -227,7 +213,7 @@ macro_rules! tile_responses {
             )*
 
             fn rest_stiffness(&self) -> f64 {
-                Points::rest_stiffness(self)
+                largest_rest_stiffness(self.materials())
             }
 
             fn properties(&self) -> Properties {
@@ -275,7 +261,7 @@ fn together<E: Scalar, P: Points, const N: usize>(
     Arguments { backend, start, count, curvature, has_second_invariant, rows }: Arguments<'_, E>,
     to: &mut Rows<E, N>,
 ) -> u64 {
-    let (materials, have_own) = (points.materials(), points.count().is_some());
+    let materials = points.materials();
     // The other points stand in with the material of the first.
     let first = own.trailing_zeros() as usize;
     let place = |point: usize| start + if own >> point & 1 == 1 { point } else { first };
@@ -287,12 +273,12 @@ fn together<E: Scalar, P: Points, const N: usize>(
     };
     let respond = |to: &mut Rows<E, N>| {
         P::Material::respond_together(
-            |point| &materials[if have_own { place(point) } else { 0 }],
+            |point| &materials[if P::MAY_DIFFER { place(point) } else { 0 }],
             response,
             RawTile {
                 backend,
                 count,
-                materials: if have_own { count } else { 1 },
+                materials: if P::MAY_DIFFER { count } else { 1 },
                 stride: ROW,
                 arguments: rows.0.as_flattened(),
                 results: to.0.as_flattened_mut(),

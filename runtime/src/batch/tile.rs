@@ -47,18 +47,14 @@ impl<'a, E: Kernels> Call<'a, E> {
         Tile { call: self, start, count, F, outputs, svd, is_decomposed: false, scratch }
     }
 
-    /// Sink for the points that are not in `served`.
-    pub(super) fn sink<'t>(&self, to: &'t mut [E], served: u64) -> Sink<'t, E> {
-        Sink { to, layout: self.layout, non_temporal: None, served }
-    }
-
     /// The guard of stores past the caches. A call without them has none: ordinary stores would wait for it.
     pub(super) fn fence(&self) -> Option<NonTemporal> {
         (self.streams && self.layout == Layout::Lines).then(NonTemporal::new)
     }
 
-    /// A sink for outputs that may be larger than the caches, with the [`fence`](Self::fence) of this tile.
-    pub(super) fn large_sink<'t>(
+    /// Sink for the points that are not in `served`; with the [`fence`](Self::fence) of this tile, for outputs
+    /// that may be larger than the caches.
+    pub(super) fn sink<'t>(
         &self,
         to: &'t mut [E],
         fence: Option<&'t NonTemporal>,
@@ -114,7 +110,7 @@ impl<E: Kernels> Tile<'_, E> {
                 outputs: self.outputs,
                 count: self.count,
                 line: &mut self.scratch.line,
-                to: call.sink(to, 0),
+                to: call.sink(to, None, 0),
             };
             served &= E::stress_by_invariants(call.backend, kernel);
             served = self.accepted(served);
@@ -131,7 +127,7 @@ impl<E: Kernels> Tile<'_, E> {
             outputs: self.outputs,
             count: self.count,
             line,
-            to: call.sink(to, served),
+            to: call.sink(to, None, served),
         };
         (refused | E::stress(call.backend, kernel)) & !served
     }
@@ -165,8 +161,8 @@ impl<E: Kernels> Tile<'_, E> {
                 count: self.count,
                 line,
                 short_line,
-                first: call.sink(first, 0),
-                second: call.large_sink(second, fence.as_ref(), 0),
+                first: call.sink(first, None, 0),
+                second: call.sink(second, fence.as_ref(), 0),
             };
             served &= E::tangents_by_invariants(call.backend, kernel);
             served = self.accepted(served);
@@ -181,10 +177,10 @@ impl<E: Kernels> Tile<'_, E> {
         }
         let (points, outputs, count) = (&*self.svd, self.outputs, self.count);
         let Scratch { blocks, line, .. } = &mut *self.scratch;
-        let to = call.sink(first, served);
+        let to = call.sink(first, None, served);
         let kernel = Stress { points, gradients: &blocks.0, outputs, count, line, to };
         let stressed = E::stress(call.backend, kernel);
-        let to = call.large_sink(second, fence.as_ref(), served);
+        let to = call.sink(second, fence.as_ref(), served);
         let kernel = Tangents { points, blocks, outputs, count, has_pole, line, to };
         (E::tangents(call.backend, kernel) | stressed | status) & !served
     }

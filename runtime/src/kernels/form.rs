@@ -2,12 +2,14 @@
 
 #![expect(non_snake_case, reason = "U, V, W, P as in the literature")]
 
-use super::sink::Source;
+use std::marker::PhantomData;
+
+use super::sink::{LineBuffer, Sink, Source};
 use crate::lanes::{Lanes, Mask, Real, Scalar};
 use crate::material::Blocks;
 use crate::point::invariants::tangent::{Entries, RowsOf, Terms};
 use crate::point::matrix::{dot, three, thrice, to_row_major};
-use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks};
+use crate::point::{Assemble, Matrix3, Tangent, assemble_blocks, multiply};
 use crate::status::Status;
 
 /// Outputs of a tile.
@@ -21,10 +23,32 @@ pub(crate) enum Outputs<'a, E> {
     ElementsByBlocks(Source<'a, E, 10>),
 }
 
-/// The kind of thing that outputs belong to: [`Points`] or [`Elements`].
+/// The kind of thing that outputs belong to, [`Points`] or [`Elements`], with its first output: P itself at
+/// points, the gradient at elements.
 pub(crate) trait Site {
     /// Shape at rest.
     type Rest<R: Real>;
+
+    /// Shapes at rest of a tile.
+    type Shapes<'a, E: Scalar>;
+
+    /// Shapes at rest of the points from `at` on.
+    fn rest<R: Lanes>(shapes: &Self::Shapes<'_, R::Scalar>, at: usize) -> Self::Rest<R>;
+
+    /// True if the first output is finite, given that P is.
+    fn stays_finite<R: Lanes>(stress: &Matrix3<R>, rest: &Self::Rest<R>) -> R::Mask;
+
+    /// Puts the first output into its place; [`Site::finish`] must follow.
+    fn put<R: Lanes>(
+        stress: &Matrix3<R>,
+        rest: &Self::Rest<R>,
+        to: &mut Sink<'_, R::Scalar>,
+        line: &mut LineBuffer<R::Scalar>,
+        at: usize,
+    );
+
+    /// Copies the first output to the slice.
+    fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize);
 }
 
 /// Points, which have no shape at rest.
@@ -32,6 +56,31 @@ pub(crate) struct Points;
 
 impl Site for Points {
     type Rest<R: Real> = ();
+    type Shapes<'a, E: Scalar> = ();
+
+    #[inline(always)]
+    fn rest<R: Lanes>((): &(), _: usize) {}
+
+    #[inline(always)]
+    fn stays_finite<R: Lanes>(_: &Matrix3<R>, (): &()) -> R::Mask {
+        R::Mask::splat(true)
+    }
+
+    #[inline(always)]
+    fn put<R: Lanes>(
+        stress: &Matrix3<R>,
+        (): &(),
+        to: &mut Sink<'_, R::Scalar>,
+        line: &mut LineBuffer<R::Scalar>,
+        at: usize,
+    ) {
+        to.place::<R, 9>(line, at).put_all(to_row_major(*stress));
+    }
+
+    #[inline(always)]
+    fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize) {
+        to.finish::<R, 9>(line, at, count);
+    }
 }
 
 /// Elements, which have Dm⁻¹ row by row and the volume at rest.
@@ -39,9 +88,37 @@ pub(crate) struct Elements;
 
 impl Site for Elements {
     type Rest<R: Real> = [R; 10];
+    type Shapes<'a, E: Scalar> = Source<'a, E, 10>;
+
+    #[inline(always)]
+    fn rest<R: Lanes>(shapes: &Source<'_, R::Scalar, 10>, at: usize) -> [R; 10] {
+        shapes.get_all(at)
+    }
+
+    #[inline(always)]
+    fn stays_finite<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
+        gradient_is_finite(stress, rest)
+    }
+
+    #[inline(always)]
+    fn put<R: Lanes>(
+        stress: &Matrix3<R>,
+        rest: &[R; 10],
+        to: &mut Sink<'_, R::Scalar>,
+        line: &mut LineBuffer<R::Scalar>,
+        at: usize,
+    ) {
+        put_gradient(stress, rest, to.place::<R, 12>(line, at));
+    }
+
+    #[inline(always)]
+    fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize) {
+        to.finish::<R, 12>(line, at, count);
+    }
 }
 
-/// Second output: a form of N components, made from a point's judged tangent and the shape at rest.
+/// Second output: a form of N components, made from a point's judged tangent, or without a decomposition, and
+/// the shape at rest.
 pub(crate) trait Output<S: Site, const N: usize> {
     /// Changes blocks if the form requires more than the filter.
     #[inline(always)]
@@ -51,10 +128,7 @@ pub(crate) trait Output<S: Site, const N: usize> {
     }
 
     fn put_all<R: Real>(tangent: &Tangent<R>, rest: &S::Rest<R>, to: &mut (impl Components<R> + ?Sized));
-}
 
-/// Form that is made without a decomposition as well.
-pub(crate) trait OutputByInvariants<S: Site, const N: usize>: Output<S, N> {
     /// Returns the largest entry on the diagonal of the tangent.
     fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
@@ -101,41 +175,39 @@ impl<R: Real, const N: usize> Components<R> for [R; N] {
     }
 }
 
-/// Output for the blocks of [`assemble_blocks`], placed as the form F prescribes.
-struct Blocks3<'a, F, C: ?Sized>(F, &'a mut C);
-
 /// All 81 entries of dP/dF: row 3i+j, column 3k+l at 9 (3i+j) + 3k+l.
 pub(crate) struct FullTangent;
-
-impl<R: Real, C: Components<R> + ?Sized> Assemble<R> for Blocks3<'_, FullTangent, C> {
-    #[inline(always)]
-    fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
-        thrice!(x => {
-            thrice!(y => {
-                let (row, column) = (3 * a + x, 3 * c + y);
-                self.1.put(9 * row + column, block[x][y]);
-                self.1.put(9 * column + row, block[x][y]);
-            });
-        });
-    }
-}
 
 impl Output<Points, 81> for FullTangent {
     #[inline(always)]
     fn put_all<R: Real>(tangent: &Tangent<R>, (): &(), to: &mut (impl Components<R> + ?Sized)) {
         let Tangent { U, V, blocks } = tangent;
-        assemble_blocks(U, V, blocks, &mut Blocks3(Self, to));
+        assemble_blocks(U, V, blocks, &mut TangentPlace(to));
     }
-}
 
-impl OutputByInvariants<Points, 81> for FullTangent {
     #[inline(always)]
     fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
         terms: &Terms<R, HAS_SECOND, HAS_ALL>,
         (): &(),
         to: &mut (impl Components<R> + ?Sized),
     ) -> R {
-        terms.assemble(&Entries, &mut Blocks3(Self, to))
+        terms.assemble(&Entries, &mut TangentPlace(to))
+    }
+}
+
+/// Output for the blocks of [`assemble_blocks`] as entries of dP/dF.
+struct TangentPlace<'a, C: ?Sized>(&'a mut C);
+
+impl<R: Real, C: Components<R> + ?Sized> Assemble<R> for TangentPlace<'_, C> {
+    #[inline(always)]
+    fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
+        thrice!(x => {
+            thrice!(y => {
+                let (row, column) = (3 * a + x, 3 * c + y);
+                self.0.put(9 * row + column, block[x][y]);
+                self.0.put(9 * column + row, block[x][y]);
+            });
+        });
     }
 }
 
@@ -164,17 +236,6 @@ impl<R: Real> Rest<R> {
     fn scaled_gradients(&self) -> [[R; 3]; 3] {
         let factor = self.volume.sqrt();
         three!(n => three!(x => factor * self.inverse[n][x]))
-    }
-
-    /// W: row n is the gradient of the barycentric coordinate of node n + 1, in the principal frame at rest,
-    /// times √volume.
-    #[inline(always)]
-    fn shape_gradients(&self, V: &[[R; 3]; 3]) -> [[R; 3]; 3] {
-        let gradients = self.scaled_gradients();
-        three!(n => {
-            let row = gradients[n];
-            three!(l => row[0].mul_add(V[0][l], row[1].mul_add(V[1][l], row[2] * V[2][l])))
-        })
     }
 }
 
@@ -206,26 +267,12 @@ fn cap_twist<R: Real>(blocks: &mut Blocks<R>) -> R::Mask {
     is_capped[0] | is_capped[1] | is_capped[2]
 }
 
-/// True if nothing can overflow on the way from the tangent to the stiffness: its entries are sums of at most
-/// 27 products of an entry of the tangent and two of W, or sums of nine such entries.
-#[inline(always)]
-fn stiffness_is_finite<R: Real>(blocks: &Blocks<R>, rest: &Rest<R>) -> R::Mask {
-    rest.keeps_finite(largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]))
-}
-
 /// True if nothing can overflow on the way from stress to the gradient: a sum of nine products of the stress,
 /// Dm⁻¹ and the volume.
 #[inline(always)]
 pub(crate) fn gradient_is_finite<R: Real>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
     let Rest { inverse, volume } = Rest::new(*rest);
     (largest(to_row_major(inverse)) * volume * R::splat(16.0) * largest(to_row_major(*stress))).is_finite()
-}
-
-/// Bounds the twists of the blocks for any form of a stiffness, and reports whether it overflows.
-#[inline(always)]
-fn prepare_stiffness<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
-    let bounded = if has_pole { cap_twist(blocks) } else { R::Mask::splat(false) };
-    Status { bounded, nonfinite: !stiffness_is_finite(blocks, &Rest::new(*rest)), ..Status::clean() }
 }
 
 /// The gradient of an element's energy in its nodal positions: entry a of node n at 3n+a.
@@ -240,33 +287,83 @@ pub(crate) fn put_gradient<R: Real>(
     let rest = Rest::new(*rest);
     thrice!(a => {
         let row = three!(x => stress[a][x] * rest.volume);
-        put_at_nodes(a, three!(n => dot(row, rest.inverse[n])), to);
+        let [g1, g2, g3] = three!(n => dot(row, rest.inverse[n]));
+        to.put(a, -(g1 + g2 + g3));
+        to.put(3 + a, g1);
+        to.put(6 + a, g2);
+        to.put(9 + a, g3);
     });
 }
 
-/// Writes coordinate a of vectors of the nodes 1, 2, 3, and minus their sum at node 0: that of node n at
-/// 3n+a.
-#[inline(always)]
-fn put_at_nodes<R: Real>(a: usize, [g1, g2, g3]: [R; 3], to: &mut (impl Components<R> + ?Sized)) {
-    to.put(a, -(g1 + g2 + g3));
-    to.put(3 + a, g1);
-    to.put(6 + a, g2);
-    to.put(9 + a, g3);
-}
-
-/// Places of the entries of an element's stiffness in an output.
-trait Places {
+/// Form of an element's stiffness with N components.
+pub(crate) trait StiffnessForm<const N: usize> {
     /// The place of the entry between coordinate a of node i and c of node j, i ≥ j, and that of its mirror
     /// image.
     fn places(i: usize, a: usize, j: usize, c: usize) -> (usize, Option<usize>);
 }
 
+/// All 144 entries: unknown 3i+a is coordinate a of node i, entry (row, column) at 12 row + column.
+pub(crate) struct FullStiffness;
+
+impl StiffnessForm<144> for FullStiffness {
+    #[inline(always)]
+    fn places(i: usize, a: usize, j: usize, c: usize) -> (usize, Option<usize>) {
+        let (row, column) = (3 * i + a, 3 * j + c);
+        (12 * row + column, Some(12 * column + row))
+    }
+}
+
+/// The blocks of the node pairs i ≥ j in the order (0,0), (1,0), (1,1), (2,0), …, nine entries each.
+pub(crate) struct BlockStiffness;
+
+impl StiffnessForm<90> for BlockStiffness {
+    #[inline(always)]
+    fn places(i: usize, a: usize, j: usize, c: usize) -> (usize, Option<usize>) {
+        let start = 9 * (i * (i + 1) / 2 + j);
+        (start + 3 * a + c, (i == j).then_some(start + 3 * c + a))
+    }
+}
+
+impl<F: StiffnessForm<N>, const N: usize> Output<Elements, N> for F {
+    #[inline(always)]
+    fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
+        let bounded = if has_pole { cap_twist(blocks) } else { R::Mask::splat(false) };
+        // An entry is a sum of at most 27 products of an entry of the tangent and two of W, or of nine such
+        // sums.
+        let tangent = largest([largest(blocks.hessian), largest(blocks.flip), largest(blocks.twist)]);
+        Status { bounded, nonfinite: !Rest::new(*rest).keeps_finite(tangent), ..Status::clean() }
+    }
+
+    #[inline(always)]
+    fn put_all<R: Real>(tangent: &Tangent<R>, rest: &[R; 10], to: &mut (impl Components<R> + ?Sized)) {
+        let Tangent { U, V, blocks } = tangent;
+        // Row n is the gradient of the barycentric coordinate of node n + 1 in the principal frame at rest.
+        let W = multiply(&Rest::new(*rest).scaled_gradients(), V);
+        assemble_blocks(U, &W, blocks, &mut StiffnessPlace::<F, _, N>(PhantomData, to));
+    }
+
+    #[inline(always)]
+    fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
+        terms: &Terms<R, HAS_SECOND, HAS_ALL>,
+        rest: &[R; 10],
+        to: &mut (impl Components<R> + ?Sized),
+    ) -> R {
+        let coordinates = RowsOf::new(Rest::new(*rest).scaled_gradients());
+        terms.assemble(&coordinates, &mut StiffnessPlace::<F, _, N>(PhantomData, to))
+    }
+
+    #[inline(always)]
+    fn stays_finite<R: Real>(tangent: R, rest: &[R; 10]) -> R::Mask {
+        Rest::new(*rest).keeps_finite(tangent)
+    }
+}
+
 /// Stiffness from the blocks of the tangent: [`assemble_blocks`] with W instead of V, with no 9×12 product.
 ///
 /// Node 0 takes minus the sums over the others, so that a common translation is resisted by rounding alone.
-struct StiffnessPlace<'a, F, C: ?Sized>(F, &'a mut C);
+struct StiffnessPlace<'a, F, C: ?Sized, const N: usize>(PhantomData<F>, &'a mut C);
 
-impl<F: Places, C: ?Sized> StiffnessPlace<'_, F, C> {
+impl<F: StiffnessForm<N>, C: ?Sized, const N: usize> StiffnessPlace<'_, F, C, N> {
     #[inline(always)]
     fn put<R: Real>(&mut self, [i, a]: [usize; 2], [j, c]: [usize; 2], entry: R)
     where
@@ -280,7 +377,9 @@ impl<F: Places, C: ?Sized> StiffnessPlace<'_, F, C> {
     }
 }
 
-impl<F: Places, R: Real, C: Components<R> + ?Sized> Assemble<R> for StiffnessPlace<'_, F, C> {
+impl<F: StiffnessForm<N>, R: Real, C: Components<R> + ?Sized, const N: usize> Assemble<R>
+    for StiffnessPlace<'_, F, C, N>
+{
     #[inline(always)]
     fn block(&mut self, a: usize, c: usize, block: &Matrix3<R>) {
         // `block[x][y]` belongs to coordinate a of node x + 1 and coordinate c of node y + 1, and stands for
@@ -298,70 +397,5 @@ impl<F: Places, R: Real, C: Components<R> + ?Sized> Assemble<R> for StiffnessPla
                 }
             });
         });
-    }
-}
-
-macro_rules! stiffness_form {
-    ($(#[$doc:meta])* $Form:ident of $numbers:literal, |$i:ident, $a:ident, $j:ident, $c:ident| $places:expr) => {
-        $(#[$doc])*
-        pub(crate) struct $Form;
-
-        impl Places for $Form {
-            #[inline(always)]
-            fn places($i: usize, $a: usize, $j: usize, $c: usize) -> (usize, Option<usize>) {
-                $places
-            }
-        }
-
-        impl Output<Elements, $numbers> for $Form {
-            #[inline(always)]
-            fn prepare<R: Real>(blocks: &mut Blocks<R>, rest: &[R; 10], has_pole: bool) -> Status<R::Mask> {
-                prepare_stiffness(blocks, rest, has_pole)
-            }
-
-            #[inline(always)]
-            fn put_all<R: Real>(
-                tangent: &Tangent<R>,
-                rest: &[R; 10],
-                to: &mut (impl Components<R> + ?Sized),
-            ) {
-                let Tangent { U, V, blocks } = tangent;
-                let W = Rest::new(*rest).shape_gradients(V);
-                assemble_blocks(U, &W, blocks, &mut StiffnessPlace(Self, to));
-            }
-        }
-
-        impl OutputByInvariants<Elements, $numbers> for $Form {
-            #[inline(always)]
-            fn put_all_by_invariants<R: Real, const HAS_SECOND: bool, const HAS_ALL: bool>(
-                terms: &Terms<R, HAS_SECOND, HAS_ALL>,
-                rest: &[R; 10],
-                to: &mut (impl Components<R> + ?Sized),
-            ) -> R {
-                let coordinates = RowsOf::new(Rest::new(*rest).scaled_gradients());
-                terms.assemble(&coordinates, &mut StiffnessPlace(Self, to))
-            }
-
-            #[inline(always)]
-            fn stays_finite<R: Real>(tangent: R, rest: &[R; 10]) -> R::Mask {
-                Rest::new(*rest).keeps_finite(tangent)
-            }
-        }
-    };
-}
-
-stiffness_form! {
-    /// All 144 entries: unknown 3i+a is coordinate a of node i, entry (row, column) at 12 row + column.
-    FullStiffness of 144, |i, a, j, c| {
-        let (row, column) = (3 * i + a, 3 * j + c);
-        (12 * row + column, Some(12 * column + row))
-    }
-}
-
-stiffness_form! {
-    /// The blocks of the node pairs i ≥ j in the order (0,0), (1,0), (1,1), (2,0), …, nine entries each.
-    BlockStiffness of 90, |i, a, j, c| {
-        let start = 9 * (i * (i + 1) / 2 + j);
-        (start + 3 * a + c, (i == j).then_some(start + 3 * c + a))
     }
 }

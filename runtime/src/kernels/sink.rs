@@ -44,7 +44,7 @@ impl<'a, E: Scalar, const N: usize> Source<'a, E, N> {
     pub(crate) fn new(backend: Backend, layout: Layout, from: &'a [E], lines: &'a mut Lines<E, N>) -> Self {
         match layout {
             Layout::Lines if from.len() == N * TILE => return Self(from),
-            Layout::Lines => lines.copy_from(from),
+            Layout::Lines => lines.0.as_flattened_mut()[..from.len()].copy_from_slice(from),
             Layout::Points => {
                 backend.run(Turn::<E, N> { from, to: lines });
             }
@@ -94,11 +94,6 @@ impl<E: Scalar, const N: usize> Lines<E, N> {
         for k in 0..N {
             numbers[k].store(&mut to[k * E::LINE..]);
         }
-    }
-
-    /// A tile's part of a slice as it is.
-    pub(crate) fn copy_from(&mut self, from: &[E]) {
-        self.0.as_flattened_mut()[..from.len()].copy_from_slice(from);
     }
 
     pub(crate) fn source(&self) -> Source<'_, E, N> {

@@ -2,14 +2,14 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
-use super::form::{Components, Elements, Outputs, Points, Site, gradient_is_finite, put_gradient};
+use super::form::{Elements, Outputs, Points, Site};
 use super::rows::{Row, Rows, first_bits, for_each_group};
 use super::sink::{LineBuffer, Sink, Source};
 use super::svd_tile::SvdTile;
-use crate::lanes::{Backend, Kernel, Lanes, Mask, Scalar};
+use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::point::invariants::{gradient_is_in_range, stress_by_invariants};
-use crate::point::matrix::{three, to_matrix, to_row_major};
-use crate::point::{Matrix3, stress, stress_is_finite};
+use crate::point::matrix::{three, to_matrix};
+use crate::point::{stress, stress_is_finite};
 use crate::status::Status;
 
 /// Frames and ψi, from which P, Pa, or the gradients of elements, N, are made.
@@ -34,9 +34,9 @@ pub(crate) fn run<E: Scalar>(backend: Backend, stress: Stress<'_, E>) -> Status<
 }
 
 /// Kernel of [`Stress`], with the shapes at rest.
-struct StressAt<'a, E: Scalar, S: FirstOutput>(Stress<'a, E>, S::Shapes<'a, E>);
+struct StressAt<'a, E: Scalar, S: Site>(Stress<'a, E>, S::Shapes<'a, E>);
 
-impl<E: Scalar, S: FirstOutput> Kernel<E> for StressAt<'_, E, S> {
+impl<E: Scalar, S: Site> Kernel<E> for StressAt<'_, E, S> {
     type Output = Status<u64>;
 
     #[inline(always)]
@@ -53,88 +53,6 @@ impl<E: Scalar, S: FirstOutput> Kernel<E> for StressAt<'_, E, S> {
             S::finish::<R>(&mut to, line, at, count);
         });
         status & first_bits(count)
-    }
-}
-
-/// The output that is made from P: P itself at points, the gradient at elements.
-pub(crate) trait FirstOutput: Site {
-    /// Shapes at rest of a tile.
-    type Shapes<'a, E: Scalar>;
-
-    /// Shapes at rest of the points from `at` on.
-    fn rest<R: Lanes>(shapes: &Self::Shapes<'_, R::Scalar>, at: usize) -> Self::Rest<R>;
-
-    /// True if the output is finite, given that P is.
-    fn stays_finite<R: Lanes>(stress: &Matrix3<R>, rest: &Self::Rest<R>) -> R::Mask;
-
-    /// Puts the output into its place; [`FirstOutput::finish`] must follow.
-    fn put<R: Lanes>(
-        stress: &Matrix3<R>,
-        rest: &Self::Rest<R>,
-        to: &mut Sink<'_, R::Scalar>,
-        line: &mut LineBuffer<R::Scalar>,
-        at: usize,
-    );
-
-    /// Copies the output to the slice.
-    fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize);
-}
-
-impl FirstOutput for Points {
-    type Shapes<'a, E: Scalar> = ();
-
-    #[inline(always)]
-    fn rest<R: Lanes>((): &(), _: usize) {}
-
-    #[inline(always)]
-    fn stays_finite<R: Lanes>(_: &Matrix3<R>, (): &()) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    #[inline(always)]
-    fn put<R: Lanes>(
-        stress: &Matrix3<R>,
-        (): &(),
-        to: &mut Sink<'_, R::Scalar>,
-        line: &mut LineBuffer<R::Scalar>,
-        at: usize,
-    ) {
-        to.place::<R, 9>(line, at).put_all(to_row_major(*stress));
-    }
-
-    #[inline(always)]
-    fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize) {
-        to.finish::<R, 9>(line, at, count);
-    }
-}
-
-impl FirstOutput for Elements {
-    type Shapes<'a, E: Scalar> = Source<'a, E, 10>;
-
-    #[inline(always)]
-    fn rest<R: Lanes>(shapes: &Source<'_, R::Scalar, 10>, at: usize) -> [R; 10] {
-        shapes.get_all(at)
-    }
-
-    #[inline(always)]
-    fn stays_finite<R: Lanes>(stress: &Matrix3<R>, rest: &[R; 10]) -> R::Mask {
-        gradient_is_finite(stress, rest)
-    }
-
-    #[inline(always)]
-    fn put<R: Lanes>(
-        stress: &Matrix3<R>,
-        rest: &[R; 10],
-        to: &mut Sink<'_, R::Scalar>,
-        line: &mut LineBuffer<R::Scalar>,
-        at: usize,
-    ) {
-        put_gradient(stress, rest, to.place::<R, 12>(line, at));
-    }
-
-    #[inline(always)]
-    fn finish<R: Lanes>(to: &mut Sink<'_, R::Scalar>, line: &LineBuffer<R::Scalar>, at: usize, count: usize) {
-        to.finish::<R, 12>(line, at, count);
     }
 }
 
@@ -164,12 +82,12 @@ pub(crate) fn run_by_invariants<E: Scalar>(backend: Backend, stress: StressByInv
 }
 
 /// Kernel of [`StressByInvariants`], with the shapes at rest.
-struct ByInvariantsAt<'a, E: Scalar, S: FirstOutput, const HAS_SECOND: bool>(
+struct ByInvariantsAt<'a, E: Scalar, S: Site, const HAS_SECOND: bool>(
     StressByInvariants<'a, E>,
     S::Shapes<'a, E>,
 );
 
-impl<E: Scalar, S: FirstOutput, const HAS_SECOND: bool> Kernel<E> for ByInvariantsAt<'_, E, S, HAS_SECOND> {
+impl<E: Scalar, S: Site, const HAS_SECOND: bool> Kernel<E> for ByInvariantsAt<'_, E, S, HAS_SECOND> {
     type Output = u64;
 
     #[inline(always)]

@@ -2,12 +2,9 @@
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
-use super::form::{
-    BlockStiffness, Elements, FullStiffness, FullTangent, Output, OutputByInvariants, Outputs, Points,
-};
+use super::form::{BlockStiffness, Elements, FullStiffness, FullTangent, Output, Outputs, Points, Site};
 use super::rows::{Rows, first_bits, for_each_group, from_rows, to_rows};
 use super::sink::{LineBuffer, Sink, Source};
-use super::stress::FirstOutput;
 use super::svd_tile::SvdTile;
 use crate::lanes::{Backend, Kernel, Lanes, Scalar};
 use crate::material::Curvature;
@@ -71,12 +68,12 @@ pub(crate) fn run<E: Scalar>(backend: Backend, tangents: Tangents<'_, E>) -> Sta
 }
 
 /// Kernel of [`Tangents`], with the shapes at rest and a form of the output.
-struct Shaped<'a, E: Scalar, S: FirstOutput, F, const N: usize>(Tangents<'a, E>, S::Shapes<'a, E>, F);
+struct Shaped<'a, E: Scalar, S: Site, F, const N: usize>(Tangents<'a, E>, S::Shapes<'a, E>, F);
 
 impl<E, S, F, const N: usize> Kernel<E> for Shaped<'_, E, S, F, N>
 where
     E: Scalar,
-    S: FirstOutput,
+    S: Site,
     F: Output<S, N>,
 {
     type Output = Status<u64>;
@@ -141,8 +138,8 @@ fn with_terms<'a, E, S, F, const N: usize>(
 ) -> u64
 where
     E: Scalar,
-    S: FirstOutput,
-    F: OutputByInvariants<S, N>,
+    S: Site,
+    F: Output<S, N>,
 {
     let has_second = tangents.has_second_invariant;
     match (has_second, tangents.curvature.has_all(has_second)) {
@@ -154,22 +151,18 @@ where
 }
 
 /// Kernel of [`TangentsByInvariants`], with the shapes at rest and a form of the second output.
-struct ByInvariants<
-    'a,
-    E: Scalar,
-    S: FirstOutput,
+struct ByInvariants<'a, E: Scalar, S: Site, M, const HAS_SECOND: bool, const HAS_ALL: bool, const N: usize>(
+    TangentsByInvariants<'a, E>,
+    S::Shapes<'a, E>,
     M,
-    const HAS_SECOND: bool,
-    const HAS_ALL: bool,
-    const N: usize,
->(TangentsByInvariants<'a, E>, S::Shapes<'a, E>, M);
+);
 
 impl<E, S, M, const HAS_SECOND: bool, const HAS_ALL: bool, const N: usize> Kernel<E>
     for ByInvariants<'_, E, S, M, HAS_SECOND, HAS_ALL, N>
 where
     E: Scalar,
-    S: FirstOutput,
-    M: OutputByInvariants<S, N>,
+    S: Site,
+    M: Output<S, N>,
 {
     type Output = u64;
 

@@ -2,13 +2,13 @@
 
 #![expect(non_snake_case, reason = "F, U, V, Ds as in the literature")]
 
-use super::form::{FullStiffness, Output, OutputByInvariants, gradient_is_finite, put_gradient};
+use super::form::{FullStiffness, Output, gradient_is_finite, put_gradient};
 use crate::lanes::{Mask, Real};
 use crate::material::Response;
 use crate::point::invariants::invariants;
 use crate::point::invariants::tangent::Terms;
 use crate::point::matrix::three;
-use crate::point::{Filter, Matrix3, Tangent, decompose, judge, multiply, stress, stress_is_finite};
+use crate::point::{Filter, Matrix3, Point, evaluate, multiply};
 use crate::status::Status;
 
 /// Gradient and stiffness of a linear tetrahedron.
@@ -61,17 +61,13 @@ fn by_decomposition<R: Real>(
     rest: &[R; 10],
     filter: Filter,
 ) -> DenseTetrahedron<R> {
-    let svd = decompose(material, F);
-    let blocks = material.blocks(svd.stretches);
-    let stress = stress(&svd, blocks.gradient);
-    let is_finite = stress_is_finite(svd.stretches, &stress) & gradient_is_finite(&stress, rest);
-    let (mut blocks, status) = judge(svd.stretches, &blocks, material.has_pole(), filter);
-    let refused =
-        Status { refused: !material.admits(svd.stretches), nonfinite: !is_finite, ..Status::clean() };
-    let status = status | refused | FullStiffness::prepare(&mut blocks, rest, material.has_pole());
+    let Point { stress, mut tangent, status, .. } = evaluate(material, F, filter);
+    let nonfinite = !gradient_is_finite(&stress, rest);
+    let status = status | Status { nonfinite, ..Status::clean() };
+    let status = status | FullStiffness::prepare(&mut tangent.blocks, rest, material.has_pole());
     let mut at = DenseTetrahedron::zero(status);
     put_gradient(&stress, rest, &mut at.gradient);
-    FullStiffness::put_all(&Tangent { U: svd.U, V: svd.V, blocks }, rest, &mut at.stiffness);
+    FullStiffness::put_all(&tangent, rest, &mut at.stiffness);
     at
 }
 

@@ -181,6 +181,7 @@ const fn newton_steps(unit_roundoff: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::point::tests::framed;
     use crate::random::Random;
 
     #[test]
@@ -203,8 +204,7 @@ mod tests {
             let gap = 2f64.powf(random.uniform(-60.0, 0.0));
             let eigenvalues = [[1.0, 1.0 - gap, 0.3], [1.0, gap, 0.0], [1.0, 1.0 + gap, 1.0 - gap]][k % 3];
             let Q = random.rotation();
-            let entry = |i: usize, j: usize| (0..3).map(|k| Q[i][k] * eigenvalues[k] * Q[j][k]).sum::<f64>();
-            let A: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+            let A = framed(&Q, eigenvalues, &Q);
             let Deflation { frame: [v, p, q], is_largest } =
                 deflate([A[0][0], A[1][1], A[2][2], A[0][1], A[0][2], A[1][2]]);
             let dot = |x: [f64; 3], y: [f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];

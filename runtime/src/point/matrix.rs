@@ -12,20 +12,13 @@ use crate::lanes::Real;
 /// worth inlining, and then costs a call for every operation in it.
 macro_rules! three {
     ($i:ident => $value:expr) => {
-        [
-            {
-                let $i = 0_usize;
-                $value
-            },
-            {
-                let $i = 1_usize;
-                $value
-            },
-            {
-                let $i = 2_usize;
-                $value
-            },
-        ]
+        three!($i => $value; 0, 1, 2)
+    };
+    ($i:ident => $value:expr; $($index:literal),*) => {
+        [$({
+            let $i: usize = $index;
+            $value
+        }),*]
     };
 }
 
@@ -47,19 +40,14 @@ macro_rules! symmetric {
 /// constant from the beginning.
 #[cfg(feature = "batch")]
 macro_rules! thrice {
-    ($i:ident => $body:block) => {{
-        {
-            let $i = 0_usize;
+    ($i:ident => $body:block) => {
+        thrice!($i => $body; 0, 1, 2)
+    };
+    ($i:ident => $body:block; $($index:literal),*) => {{
+        $({
+            let $i: usize = $index;
             $body
-        }
-        {
-            let $i = 1_usize;
-            $body
-        }
-        {
-            let $i = 2_usize;
-            $body
-        }
+        })*
     }};
 }
 

@@ -146,7 +146,7 @@ pub fn plane_strain<R: Real<Mask = bool>>(
     F: &Matrix2<R>,
     filter: Filter,
 ) -> PlanePoint<R> {
-    respond(material, &plane_svd(F), R::splat(1.0), Across::Held, filter)
+    respond(material, &plane_svd(F), R::splat(1.0), false, filter)
 }
 
 /// Stress and tangent in plane stress: λ3 is such that P33 = 0.
@@ -174,19 +174,12 @@ pub fn plane_stress<R: Real<Mask = bool>>(
         Some(Side { stress: across, slope, magnitude })
     };
     match release(side, R::splat(1.0) / (l1 * l2.abs())) {
-        Ok(stretch) => respond(material, &svd, stretch, Across::Free, filter),
+        Ok(stretch) => respond(material, &svd, stretch, true, filter),
         Err(reason) => {
             let refused = Status { refused: true, ..Status::clean() };
             meaningless(&svd, refused, reason == Unreleased::NoEquilibrium)
         }
     }
-}
-
-/// Treatment of the stretch out of the plane: given, or to be found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Across {
-    Held,
-    Free,
 }
 
 /// The derivatives of the energy by the stretches of the axes, where these are in its domain, and finite.
@@ -203,12 +196,12 @@ fn defined_at<R: Real<Mask = bool>>(
     numbers.fold(true, |finite, number| finite & number.is_finite()).then_some(blocks)
 }
 
-/// The point with all stretches known.
+/// The point with all stretches known, of which that out of the plane is free of stress or held.
 fn respond<R: Real<Mask = bool>>(
     material: &(impl Response<R> + ?Sized),
     svd: &PlaneSvd<R>,
     across: R,
-    kind: Across,
+    is_free: bool,
     filter: Filter,
 ) -> PlanePoint<R> {
     let (zero, PlaneSvd { U, stretches, V }) = (R::splat(0.0), *svd);
@@ -217,7 +210,7 @@ fn respond<R: Real<Mask = bool>>(
     let blocks = axes.blocks(material);
     let ([mut g1, mut g2, mut g3], [h11, h22, h33, h12, h13, h23]) = (blocks.gradient, blocks.hessian);
     let (mut hessian, mut ratios) = ([h11, h22, h12], [zero; 2]);
-    if kind == Across::Free {
+    if is_free {
         ratios = [h13 / h33, h23 / h33];
         hessian = [h11 - ratios[0] * h13, h22 - ratios[1] * h23, h12 - ratios[0] * h23];
         (g1, g2, g3) = (g1 - ratios[0] * g3, g2 - ratios[1] * g3, zero);
@@ -226,7 +219,11 @@ fn respond<R: Real<Mask = bool>>(
     let has_pole = material.has_pole() && (l1 + l2).abs().less(pole_floor(axes.sorted));
     let unfiltered = PlaneTangent { U, V, hessian, flip: blocks.flip[0], twist: blocks.twist[0] };
     let (tangent, is_filtered) = unfiltered.project(filter);
-    let point = PlanePoint {
+    let is_finite = stretches_in_range(axes.sorted)
+        & unfiltered.stays_finite()
+        & [g1, g2, g3, energy].into_iter().chain(ratios).all(|number| (number + number).is_finite());
+    let refused = !material.admits(axes.sorted);
+    PlanePoint {
         stretches,
         out_of_plane_stretch: across,
         out_of_plane_slope: tangent::in_the_world(&U, [[-ratios[0], zero], [zero, -ratios[1]]], &V),
@@ -235,15 +232,9 @@ fn respond<R: Real<Mask = bool>>(
         gradient: [g1, g2],
         stress: tangent::in_the_world(&U, [[g1, zero], [zero, g2]], &V),
         tangent,
-        status: Status::clean(),
+        status: Status { refused, bounded: has_pole, nonfinite: !is_finite, filtered: is_filtered },
         no_equilibrium: false,
-    };
-    let is_finite = stretches_in_range(axes.sorted)
-        & unfiltered.stays_finite()
-        & [g1, g2, g3, energy].into_iter().chain(ratios).all(|number| (number + number).is_finite());
-    let refused = !material.admits(axes.sorted);
-    let status = Status { refused, bounded: has_pole, nonfinite: !is_finite, filtered: is_filtered };
-    PlanePoint { status, ..point }
+    }
 }
 
 /// A point without results.

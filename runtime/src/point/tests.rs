@@ -3,11 +3,11 @@
 use super::tangent::assemble_blocks;
 use super::*;
 use crate::hand_written::{NeoHookean, RotatedLinear, SaintVenantKirchhoff};
+use crate::lanes::Lanes;
 use crate::material::Material;
 use crate::material::PAIRS;
 use crate::random::Random;
 
-mod differences;
 mod filters;
 mod lanes;
 mod measures;
@@ -15,7 +15,7 @@ mod plane;
 mod small_strain;
 mod statuses;
 
-fn product(A: &Matrix3<f64>, B: &Matrix3<f64>) -> Matrix3<f64> {
+pub(super) fn product(A: &Matrix3<f64>, B: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| A[i][k] * B[k][j]).sum()))
 }
 
@@ -23,18 +23,33 @@ fn transposed(A: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| A[j][i]))
 }
 
+pub(super) fn diagonal(d: [f64; 3]) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }))
+}
+
 /// A + s B.
-fn moved(A: &Matrix3<f64>, s: f64, B: &Matrix3<f64>) -> Matrix3<f64> {
+pub(super) fn moved(A: &Matrix3<f64>, s: f64, B: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| A[i][j] + s * B[i][j]))
 }
 
-fn norm<'a>(entries: impl IntoIterator<Item = &'a f64>) -> f64 {
+pub(super) fn norm<'a>(entries: impl IntoIterator<Item = &'a f64>) -> f64 {
     entries.into_iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-fn with_stretches(random: &mut Random, l: [f64; 3]) -> Matrix3<f64> {
-    let (Q, W) = (random.rotation(), random.rotation());
+/// The number of a lane.
+pub(super) fn of_lane<R: Lanes>(x: R, lane: usize) -> R::Scalar {
+    let mut all = vec![R::Scalar::default(); R::LANES];
+    x.store(&mut all);
+    all[lane]
+}
+
+/// Q diag(l) Wᵀ.
+pub(super) fn framed(Q: &Matrix3<f64>, l: [f64; 3], W: &Matrix3<f64>) -> Matrix3<f64> {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| Q[i][k] * l[k] * W[j][k]).sum()))
+}
+
+fn with_stretches(random: &mut Random, l: [f64; 3]) -> Matrix3<f64> {
+    framed(&random.rotation(), l, &random.rotation())
 }
 
 /// Deformations from harmless to equal and inverted stretches; only the first three are inside J > 0.
@@ -49,11 +64,17 @@ const STRETCHES: [[f64; 3]; 7] = [
 ];
 
 fn random_blocks(random: &mut Random) -> Blocks<f64> {
+    let zero = Blocks { gradient: [0.0; 3], hessian: [0.0; 6], flip: [0.0; 3], twist: [0.0; 3] };
+    convert(&zero, |_: f64| random.uniform(-1.0, 1.0))
+}
+
+/// Each number by itself.
+fn convert<A: Real, B: Real>(blocks: &Blocks<A>, mut number: impl FnMut(A) -> B) -> Blocks<B> {
     Blocks {
-        gradient: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
-        hessian: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
-        flip: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
-        twist: std::array::from_fn(|_| random.uniform(-1.0, 1.0)),
+        gradient: blocks.gradient.map(&mut number),
+        hessian: blocks.hessian.map(&mut number),
+        flip: blocks.flip.map(&mut number),
+        twist: blocks.twist.map(&mut number),
     }
 }
 
@@ -129,23 +150,22 @@ fn roundings_decide_at_a_pole() {
 
 #[test]
 fn the_status_says_what_the_numbers_cannot() {
-    let at = |d: [f64; 3]| std::array::from_fn(|i| std::array::from_fn(|j| if i == j { d[i] } else { 0.0 }));
     let fine = Status::default();
-    let inverted = at([1.0, 1.0, -0.1]);
+    let inverted = diagonal([1.0, 1.0, -0.1]);
     assert_eq!(evaluate(&SaintVenantKirchhoff, &inverted, Filter::None).status, fine);
     assert_eq!(evaluate(&RotatedLinear, &inverted, Filter::None).status, fine);
     assert!(evaluate(&NeoHookean, &inverted, Filter::None).status.refused);
     assert!(evaluate_energy(&NeoHookean, &inverted).status.refused);
     assert!(evaluate_stress(&NeoHookean, &inverted).status.refused);
 
-    let mirrored = evaluate(&RotatedLinear, &at([1.0, 1.0, -1.0]), Filter::None);
+    let mirrored = evaluate(&RotatedLinear, &diagonal([1.0, 1.0, -1.0]), Filter::None);
     assert_eq!(mirrored.status, Status { bounded: true, ..fine });
     assert!(mirrored.tangent.to_matrix().iter().flatten().all(|x| x.is_finite()));
-    let collapsed = evaluate(&RotatedLinear, &at([0.0; 3]), Filter::Clamp);
+    let collapsed = evaluate(&RotatedLinear, &diagonal([0.0; 3]), Filter::Clamp);
     assert_eq!(collapsed.status, Status { bounded: true, filtered: true, ..fine });
     assert!(collapsed.tangent.blocks.twist == [0.0; 3]);
 
-    let broken = at([1.0, f64::NAN, 1.0]);
+    let broken = diagonal([1.0, f64::NAN, 1.0]);
     assert!(evaluate(&SaintVenantKirchhoff, &broken, Filter::Clamp).status.nonfinite);
     assert!(evaluate_energy(&SaintVenantKirchhoff, &broken).status.nonfinite);
     assert!(evaluate_stress(&SaintVenantKirchhoff, &broken).status.nonfinite);

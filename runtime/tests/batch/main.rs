@@ -3,12 +3,13 @@
 #![cfg(feature = "batch")]
 #![expect(non_snake_case, reason = "F, P, dP_dF as in the literature")]
 
+use nalgebra::SMatrix;
 use piola::__private::random::Random;
 use piola::batch::{Batch, Kernels, Layout, REST, TileMaterial};
 use piola::lanes::{Backend, Real, Scalar};
 use piola::point::measures::Measure;
 use piola::point::{Filter, Matrix3, Point, evaluate, evaluate_energy};
-use piola::{Inversion, Material, StatusCell, Survey, material};
+use piola::{Inversion, Material, Status, StatusCell, Survey, material};
 
 #[allow(dead_code, reason = "each crate that includes this file needs some of it")]
 #[path = "../../src/hand_written.rs"]
@@ -83,51 +84,33 @@ fn lay<E: Kernels, const N: usize>(layout: Layout, points: &[[E; N]]) -> Vec<E> 
     slice
 }
 
-fn number<E: Kernels>(layout: Layout, slice: &[E], numbers: usize, p: usize, k: usize) -> E {
-    slice[layout.index::<E>(p, numbers, k)]
-}
+/// Components of a point in each output of a batch: ψ, P, P with dP/dF, dP/dF, the gradient and the stiffness
+/// of an element, τ, and the tangent of its Lie derivative, which no division makes infinite.
+const COMPONENTS: [usize; 8] = [1, 9, 9, 81, 12, 144, 6, 36];
 
 /// Everything that a batch gives.
-#[derive(Debug, PartialEq)]
 struct All<E> {
     surveys: [Survey; 5],
-    energies: Vec<E>,
-    P: Vec<E>,
-    P_with_tangent: Vec<E>,
-    full: Vec<E>,
-    gradients: Vec<E>,
-    stiffnesses: Vec<E>,
-    /// τ, and the tangent of its Lie derivative, which no division makes infinite.
-    kirchhoff: Vec<E>,
-    kirchhoff_tangents: Vec<E>,
+    outputs: [Vec<E>; 8],
+    /// The status of each point in the call for tangents.
+    statuses: Vec<Status>,
 }
 
 fn all<E: Kernels>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> All<E> {
     let batch = batch.with_layout(layout);
-    let count = sample.F.len();
-    let F = lay(layout, &sample.F);
-    let rest = lay(layout, &sample.rest);
-    let zero = |numbers: usize| vec![E::splat(0.0); numbers * count];
-    let mut all = All {
-        surveys: [Survey::default(); 5],
-        energies: zero(1),
-        P: zero(9),
-        P_with_tangent: zero(9),
-        full: zero(81),
-        gradients: zero(12),
-        stiffnesses: zero(144),
-        kirchhoff: zero(6),
-        kirchhoff_tangents: zero(36),
-    };
+    let (F, rest) = (lay(layout, &sample.F), lay(layout, &sample.rest));
+    let mut outputs = COMPONENTS.map(|components| vec![E::splat(0.0); components * sample.F.len()]);
+    let [energies, P, beside, full, gradients, stiffnesses, tau, tau_tangents] = &mut outputs;
+    let statuses: Vec<_> = sample.F.iter().map(|_| StatusCell::default()).collect();
     let surveys = [
-        batch.energies(&F, &mut all.energies),
-        batch.stresses(&F, &mut all.P),
-        batch.tangents(&F, &mut all.P_with_tangent, &mut all.full),
-        batch.stiffnesses(&F, &rest, &mut all.gradients, &mut all.stiffnesses),
-        batch.measured_tangents(Measure::Kirchhoff, &F, &mut all.kirchhoff, &mut all.kirchhoff_tangents),
+        batch.energies(&F, energies),
+        batch.stresses(&F, P),
+        batch.with_statuses(&statuses).tangents(&F, beside, full),
+        batch.stiffnesses(&F, &rest, gradients, stiffnesses),
+        batch.measured_tangents(Measure::Kirchhoff, &F, tau, tau_tangents),
     ];
-    all.surveys = surveys.map(|survey| survey.expect("lengths fit"));
-    all
+    let surveys = surveys.map(|survey| survey.expect("lengths fit"));
+    All { surveys, outputs, statuses: statuses.iter().map(StatusCell::get).collect() }
 }
 
 /// Worst of |found − expected| relative to u times a scale.
@@ -135,7 +118,7 @@ fn all<E: Kernels>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> 
 struct Worst(f64);
 
 impl Worst {
-    fn see<E: Kernels>(&mut self, found: E, expected: E, scale: f64) {
+    fn see<E: Kernels>(&mut self, found: E, expected: impl Into<f64>, scale: f64) {
         let (found, expected): (f64, f64) = (found.into(), expected.into());
         let error = (found - expected).abs() / (<E as Real>::UNIT_ROUNDOFF * scale.max(f64::MIN_POSITIVE));
         if error > self.0 || error.is_nan() {
@@ -165,6 +148,7 @@ fn check_against_points<E: Kernels, M: Material>(material: &M, skip: impl Fn(usi
             for (p, F) in sample.F.iter().enumerate() {
                 let F: Matrix3<E> = std::array::from_fn(|i| std::array::from_fn(|j| F[3 * i + j]));
                 let point = evaluate(material, &F, filter);
+                assert_eq!(found.statuses[p].refused, point.status.refused, "{backend}: {F:?}");
                 refused += usize::from(point.status.refused);
                 if skip(p) || point.status.refused {
                     continue;
@@ -187,46 +171,41 @@ fn check_point<E: Kernels>(
     F: &Matrix3<E>,
     point: &Point<E>,
 ) {
+    let [energies, P, beside, full, gradients, stiffnesses, ..] = &found.outputs;
     let dP_dF = point.tangent.to_matrix();
     let size = norm(F.iter().flatten().copied()).max(1.0);
     let unfiltered = evaluate(material, F, Filter::None).tangent.to_matrix();
     let stiff = norm(unfiltered.into_iter().flatten());
     let stress = stiff * size;
-    worst.see(found.energies[p], evaluate_energy(material, F).energy, stress * size);
+    worst.see(energies[p], evaluate_energy(material, F).energy, stress * size);
     for k in 0..9 {
-        worst.see(found.P[9 * p + k], point.stress[k / 3][k % 3], stress);
-        worst.see(found.P_with_tangent[9 * p + k], point.stress[k / 3][k % 3], stress);
+        worst.see(P[9 * p + k], point.stress[k / 3][k % 3], stress);
+        worst.see(beside[9 * p + k], point.stress[k / 3][k % 3], stress);
         for l in 0..9 {
-            worst.see(found.full[81 * p + 9 * k + l], dP_dF[k][l], stiff * size * size);
-            assert!(found.full[81 * p + 9 * k + l] == found.full[81 * p + 9 * l + k]);
+            worst.see(full[81 * p + 9 * k + l], dP_dF[k][l], stiff * size * size);
+            assert!(full[81 * p + 9 * k + l] == full[81 * p + 9 * l + k]);
         }
     }
-    // Column 3n+a of G is ∂F/∂x_na: Dm⁻¹ in row a, with minus the sum for node 0.
-    let rest = sample.rest[p];
-    let G = |row: usize, column: usize| -> E {
-        let (n, a) = (column / 3, column % 3);
+    // Column 3n+a is ∂F/∂x_na: Dm⁻¹ in row a, with minus the sum for node 0.
+    let rest: [f64; REST] = sample.rest[p].map(Into::into);
+    let G = SMatrix::<f64, 9, 12>::from_fn(|row, column| {
         let shape = |n: usize| rest[3 * n + row % 3];
-        match (a == row / 3, n) {
-            (false, _) => E::splat(0.0),
+        match (column % 3 == row / 3, column / 3) {
+            (false, _) => 0.0,
             (true, 0) => -(shape(0) + shape(1) + shape(2)),
             (true, n) => shape(n - 1),
         }
-    };
-    let shape = norm(rest[..9].iter().copied()).max(1.0) * 2.0;
+    });
+    let shape = norm(sample.rest[p][..9].iter().copied()).max(1.0) * 2.0;
+    let P = SMatrix::<f64, 9, 1>::from_fn(|k, _| point.stress[k / 3][k % 3].into());
+    let force = rest[9] * G.transpose() * P;
+    let stiffness = rest[9] * G.transpose() * SMatrix::<f64, 9, 9>::from_fn(|k, l| dP_dF[k][l].into()) * G;
     for row in 0..12 {
-        let force =
-            (0..9).fold(E::splat(0.0), |sum, k| sum + rest[9] * G(k, row) * point.stress[k / 3][k % 3]);
-        worst.see(found.gradients[12 * p + row], force, shape * stress);
+        worst.see(gradients[12 * p + row], force[row], shape * stress);
         for column in 0..12 {
-            let mut entry = E::splat(0.0);
-            for k in 0..9 {
-                for l in 0..9 {
-                    entry = entry + rest[9] * G(k, row) * dP_dF[k][l] * G(l, column);
-                }
-            }
-            let mine = found.stiffnesses[144 * p + 12 * row + column];
-            worst.see(mine, entry, shape * shape * stiff * size * size);
-            assert!(mine == found.stiffnesses[144 * p + 12 * column + row]);
+            let mine = stiffnesses[144 * p + 12 * row + column];
+            worst.see(mine, stiffness[(row, column)], shape * shape * stiff * size * size);
+            assert!(mine == stiffnesses[144 * p + 12 * column + row]);
         }
     }
 }
@@ -259,21 +238,10 @@ fn every_output_by_invariants_is_that_of_the_points() {
 /// The bits of every number, in any layout of the batch.
 fn bits<E: Kernels>(layout: Layout, all: &All<E>, count: usize) -> Vec<u64> {
     let mut bits = Vec::new();
-    let outputs = [
-        (&all.energies, 1),
-        (&all.P, 9),
-        (&all.P_with_tangent, 9),
-        (&all.full, 81),
-        (&all.gradients, 12),
-        (&all.stiffnesses, 144),
-        (&all.kirchhoff, 6),
-        (&all.kirchhoff_tangents, 36),
-    ];
     for p in 0..count {
-        for (output, numbers) in outputs {
-            bits.extend(
-                (0..numbers).map(|k| Into::<f64>::into(number(layout, output, numbers, p, k)).to_bits()),
-            );
+        for (output, components) in all.outputs.iter().zip(COMPONENTS) {
+            let numbers = (0..components).map(|k| output[layout.index::<E>(p, components, k)]);
+            bits.extend(numbers.map(|number| Into::<f64>::into(number).to_bits()));
         }
     }
     bits
@@ -297,7 +265,7 @@ fn check_bits<E: Kernels>(energy: &dyn TileMaterial<E>, filter: Filter) {
             (Layout::Lines, batch.with_threads(true)),
         ] {
             let found = two_threads.install(|| all(&variant, layout, &sample));
-            assert_eq!(found.surveys, points.surveys, "{backend}");
+            assert_eq!((&found.surveys, &found.statuses), (&points.surveys, &points.statuses), "{backend}");
             assert!(bits(layout, &found, COUNT) == expected, "{backend}, {layout:?}");
         }
         // Another place in the tile, other neighbours, another number of points.
@@ -363,25 +331,6 @@ fn a_survey_counts_and_names_the_first() {
             assert_eq!((survey.refused, survey.nonfinite, survey.first), (3, 3, Some(100)), "{backend}");
             assert!(!survey.is_clean());
         }
-    }
-}
-
-#[test]
-fn every_point_has_its_status_on_any_number_of_threads() {
-    // Enough tiles for threads to share, the last one not full.
-    const COUNT: usize = 64 * 20 + 5;
-    let is_inverted = |p: usize| p % 7 == 3;
-    let F: Vec<f64> = (0..COUNT)
-        .flat_map(|p| [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, if is_inverted(p) { -1.0 } else { 1.0 }])
-        .collect();
-    let two_threads = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a pool of threads");
-    for threads in [false, true] {
-        let statuses: Vec<StatusCell> = (0..COUNT).map(|_| StatusCell::default()).collect();
-        let batch = Batch::new(&NeoHookean).with_threads(threads).with_statuses(&statuses);
-        let survey =
-            two_threads.install(|| batch.stresses(&F, &mut vec![0.0; 9 * COUNT])).expect("lengths fit");
-        assert_eq!((survey.refused, survey.first), ((0..COUNT).filter(|&p| is_inverted(p)).count(), Some(3)));
-        assert!((0..COUNT).all(|p| statuses[p].get().refused == is_inverted(p)), "{threads}");
     }
 }
 

@@ -21,28 +21,19 @@ struct Mesh<E> {
 fn mesh<E: Scalar>(tetrahedra: usize) -> Mesh<E> {
     let regular = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     let mut random = Random::new(9);
-    let mut near = |x: f64, by: f64| E::splat(x + random.uniform(-by, by));
+    let mut near = |x: f64, by: f64| x + random.uniform(-by, by);
     let positions: Vec<[E; 3]> =
-        (0..tetrahedra + 3).map(|node| regular[node % 4].map(|x| near(x, 0.1))).collect();
+        (0..tetrahedra + 3).map(|node| regular[node % 4].map(|x| E::splat(near(x, 0.1)))).collect();
     // Every other one has its last nodes swapped, so that all have a positive volume.
     let corners: Vec<[usize; 4]> = (0..tetrahedra)
         .map(|t| if t % 2 == 0 { [t, t + 1, t + 3, t + 2] } else { [t, t + 1, t + 2, t + 3] })
         .collect();
     let rest = corners.iter().map(|&corners| {
         let Ds = edges(&positions, corners);
-        let minor = |i: usize, j: usize| {
-            let [p, q, r, s] = [(i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3];
-            Ds[r][p] * Ds[s][q] - Ds[r][q] * Ds[s][p]
-        };
-        let det = Ds[0][0] * minor(0, 0) + Ds[1][0] * minor(0, 1) + Ds[2][0] * minor(0, 2);
-        let mut shape = [near(0.5, 0.4); REST];
-        for j in 0..3 {
-            let F: [E; 3] = std::array::from_fn(|i| near(if i == j { 1.1 } else { 0.0 }, 0.05));
-            for i in 0..3 {
-                shape[3 * i + j] = (0..3).fold(E::splat(0.0), |sum, k| sum + minor(i, k) * F[k]) / det;
-            }
-        }
-        shape
+        let F = nalgebra::Matrix3::from_fn(|i, j| near(if i == j { 1.1 } else { 0.0 }, 0.05));
+        let Ds = nalgebra::Matrix3::<f64>::from_fn(|i, j| Ds[i][j].into());
+        let shape = Ds.try_inverse().expect("a volume") * F;
+        std::array::from_fn(|k| E::splat(if k < 9 { shape[(k / 3, k % 3)] } else { near(0.5, 0.4) }))
     });
     Mesh { rest: rest.collect(), positions, corners }
 }

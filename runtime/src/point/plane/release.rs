@@ -70,53 +70,43 @@ pub(super) fn release<R: Real<Mask = bool>>(
     // Below the range too little is left of a stretch.
     let smallest = R::splat(R::min_positive());
     let side = |stretch: R| if smallest.less(stretch) { side(stretch) } else { None };
-    let interval = enclose(|stretch| side(stretch).map(|side| side.stress), isochoric)?;
-    solve(side, interval).ok_or(Unreleased::NoEquilibrium)
-}
-
-/// An interval with a stretch too small at one end and one too large at the other.
-#[derive(Clone, Copy, Debug)]
-struct Interval<R> {
-    low: R,
-    high: R,
-    /// For low and high, true if it is outside the domain; never both.
-    is_edge: [bool; 2],
+    let ends = enclose(|stretch| side(stretch).map(|side| side.stress), isochoric)?;
+    solve(side, ends).ok_or(Unreleased::NoEquilibrium)
 }
 
 /// A stretch with its stress, unless it is outside the domain.
 type End<R> = (R, Option<R>);
 
-impl<R: Real<Mask = bool>> Interval<R> {
-    fn between((low, at_low): End<R>, (high, at_high): End<R>) -> Option<Self> {
-        let zero = R::splat(0.0);
-        let is_enclosed = match (at_low, at_high) {
-            (Some(narrow), Some(wide)) => !zero.less(narrow) && !wide.less(zero),
-            (Some(narrow), None) => narrow.less(zero),
-            (None, Some(wide)) => zero.less(wide),
-            (None, None) => false,
-        };
-        is_enclosed.then_some(Self { low, high, is_edge: [at_low.is_none(), at_high.is_none()] })
+/// True if one end is too small and the other too large; either may be outside the domain, but not both.
+fn is_enclosed<R: Real<Mask = bool>>([(_, at_low), (_, at_high)]: [End<R>; 2]) -> bool {
+    let zero = R::splat(0.0);
+    match (at_low, at_high) {
+        (Some(narrow), Some(wide)) => !zero.less(narrow) && !wide.less(zero),
+        (Some(narrow), None) => narrow.less(zero),
+        (None, Some(wide)) => zero.less(wide),
+        (None, None) => false,
     }
 }
 
+/// The two ends of an interval that [encloses](is_enclosed) a root.
 fn enclose<R: Real<Mask = bool>>(
     stress: impl Fn(R) -> Option<R>,
     isochoric: R,
-) -> Result<Interval<R>, Unreleased> {
+) -> Result<[End<R>; 2], Unreleased> {
     let end = |stretch: R| (stretch, stress(stretch));
     let one = R::splat(1.0);
     // Collapsed in the plane, the body would have to be infinitely thick.
     let range = R::splat(R::min_positive().powf(0.2));
     let isochoric = isochoric.max(range).min(one / range);
     let (mut low, mut high) = (end(isochoric.min(one)), end(isochoric.max(one)));
-    if let Some(interval) = Interval::between(low, high) {
-        return Ok(interval);
+    if is_enclosed([low, high]) {
+        return Ok([low, high]);
     }
     let mut is_defined = low.1.is_some() || high.1.is_some();
     let mut factor = R::splat(1.0 + 1.0 / 1024.0);
     for _ in 0..WIDENINGS {
         let (below, above) = (end(low.0 / factor), end(high.0 * factor));
-        if let Some(interval) = Interval::between(below, low).or_else(|| Interval::between(high, above)) {
+        if let Some(interval) = [[below, low], [high, above]].into_iter().find(|ends| is_enclosed(*ends)) {
             return Ok(interval);
         }
         is_defined |= below.1.is_some() || above.1.is_some();
@@ -125,9 +115,10 @@ fn enclose<R: Real<Mask = bool>>(
     Err(if is_defined { Unreleased::NoEquilibrium } else { Unreleased::Undefined })
 }
 
-fn solve<R: Real<Mask = bool>>(side: impl Fn(R) -> Option<Side<R>>, interval: Interval<R>) -> Option<R> {
+fn solve<R: Real<Mask = bool>>(side: impl Fn(R) -> Option<Side<R>>, ends: [End<R>; 2]) -> Option<R> {
     let (zero, half) = (R::splat(0.0), R::splat(0.5));
-    let Interval { mut low, mut high, mut is_edge } = interval;
+    let [mut low, mut high] = ends.map(|(stretch, _)| stretch);
+    let mut is_edge = ends.map(|(_, stress)| stress.is_none());
     let mut stretch = middle(low, high);
     let (mut before_last, mut last) = (high - low, high - low);
     for _ in 0..STEPS {

@@ -8,13 +8,6 @@ use crate::material::Material;
 
 type Two = Lanes2<f64>;
 
-/// The two numbers.
-fn parts(both: Two) -> [f64; 2] {
-    let mut parts = [0.0; 2];
-    both.store(&mut parts);
-    parts
-}
-
 /// True if lane k of a mask has this truth value.
 fn is_set(mask: <Two as Real>::Mask, k: usize) -> bool {
     Two::bits(mask) >> k & 1 == 1
@@ -33,17 +26,9 @@ fn check(material: &impl Material, pair: [&Matrix3<f64>; 2], filter: Filter) {
 
 #[track_caller]
 fn compare(alone: [Point<f64>; 2], both: &Point<Two>) {
-    let both_dP_dF = both.tangent.to_matrix();
-    let both_numbers = every_number(both);
-    for (k, alone) in alone.into_iter().enumerate() {
-        let stress = alone.stress.iter().flatten().zip(both.stress.iter().flatten());
-        let dP_dF = alone.tangent.to_matrix();
-        let tangent = dP_dF.iter().flatten().zip(both_dP_dF.iter().flatten());
-        let stretches = alone.stretches.iter().zip(&both.stretches);
-        let numbers = every_number(&alone);
-        let measures = numbers.iter().zip(&both_numbers);
-        for (alone, both) in stress.chain(tangent).chain(stretches).chain(measures) {
-            let both = parts(*both)[k];
+    for (k, alone) in alone.iter().enumerate() {
+        for (alone, both) in every_number(alone).into_iter().zip(every_number(both)) {
+            let both = of_lane(both, k);
             let same = alone.to_bits() == both.to_bits() || (alone.is_nan() && both.is_nan());
             assert!(same, "{alone:e} became {both:e}");
         }
