@@ -32,11 +32,11 @@ fn check(text: &str, given: [&str; 4], expected: &[(Mode, f64, f64)], words: &[&
     assert_eq!(points.len(), expected.len(), "{points:?}");
     for (point, &(mode, control, stress)) in points.iter().zip(expected) {
         let is_close = |found: f64, expected: f64| (found - expected).abs() <= 1e-14 * expected.abs();
-        assert_eq!(point.mode, mode, "{reading}");
+        assert_eq!(point.mode, mode, "{}", reading.note);
         assert!(is_close(point.control, control) && is_close(point.stress, stress), "{point:?}");
     }
     for word in words {
-        assert!(reading.to_string().contains(word), "`{word}` is not in: {reading}");
+        assert!(reading.note.contains(word), "`{word}` is not in: {}", reading.note);
     }
 }
 

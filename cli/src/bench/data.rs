@@ -111,7 +111,7 @@ impl Data {
                 Fault::NoMode if given > 0 => unpaired("--mode", given, files),
                 fault => Error::usage(format!("{path}:{}: {fault}", source.line)),
             })?;
-        let (mut points, mut note) = (reading.measurements.clone(), reading.to_string());
+        let (mut points, mut note) = (reading.measurements.clone(), reading.note);
         if !self.tests.is_empty() {
             let modes: Vec<_> = self.tests.iter().map(|test| test.mode).collect();
             points.points.retain(|point| modes.contains(&point.mode));

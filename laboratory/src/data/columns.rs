@@ -2,7 +2,7 @@
 
 use piola::__private::message::quoted;
 
-use super::fault::{DataError, Fault};
+use super::fault::DataError;
 use super::heading::{Heading, Quantity, Unit, has_clear_unit, unit};
 use super::options::ReadOptions;
 use super::table::{fields, is_number, separator};
@@ -72,8 +72,14 @@ impl<'a> Table<'a> {
                 row.fields.pop();
             }
             if row.fields.len() != expected {
-                let fault = Fault::Fields { found: row.fields.len(), expected };
-                return Err(DataError { line: row.line, fault });
+                let found = row.fields.len();
+                let remedy = match found > expected {
+                    true => ", and decimals with a point, or columns separated by semicolons or tabs",
+                    false => "",
+                };
+                let mistake =
+                    format!("{found} fields where the header has {expected}; write as many{remedy}");
+                return Err(DataError::at(row.line, mistake));
             }
         }
         Ok(Self { line, separator, used, unused, preamble, rows })
@@ -89,7 +95,11 @@ fn rows(text: &str) -> Result<(char, Vec<Row<'_>>), DataError> {
     let separator = lines.last().map_or(' ', |(_, last)| separator(last));
     let rows = lines.into_iter().map(|(line, text)| Row { line, fields: fields(text, separator) });
     let rows: Vec<_> = rows.filter(|row| row.fields.iter().any(|field| !field.is_empty())).collect();
-    if rows.is_empty() { Err(DataError { line: 1, fault: Fault::NoTable }) } else { Ok((separator, rows)) }
+    if rows.is_empty() {
+        let remedy = "write `mode,stretch,nominal_stress_MPa`, then lines such as `uniaxial,1.5,0.37`";
+        return Err(DataError::at(1, format!("there is no table; {remedy}")));
+    }
+    Ok((separator, rows))
 }
 
 /// The index of the header, or of the first row if there is none, that of the first row, and the columns.
@@ -125,9 +135,19 @@ fn by_numbers(rows: &[Row<'_>], numbers: [usize; 2], options: &ReadOptions) -> R
     Ok((first, first, used))
 }
 
+/// The mistake of a header, or of the first row where there is none, with the columns by their numbers.
 fn refused(row: &Row<'_>, problem: String) -> DataError {
-    let columns = row.fields.iter().map(|&name| name.into()).collect();
-    DataError { line: row.line, fault: Fault::Columns { problem, columns } }
+    const MOST: usize = 12;
+    let columns = (1..).zip(&row.fields).map(|(number, name)| format!("{number} `{}`", quoted(name)));
+    let (shown, others) = (columns.clone().take(MOST).collect::<Vec<_>>(), columns.skip(MOST).count());
+    let more = if others > 0 { format!(" and {others} more") } else { String::new() };
+    let mistake = format!(
+        "{problem}; the columns are {}{more}. Write a header such as `stretch,nominal_stress_MPa`, or give the columns by \
+         name or number and what they hold: `--strain \"1=strain [%]\" --stress \"2=stress [MPa]\"` \
+         (`ReadOptions::strain`). Divide forces by the cross-section and elongations by the length at rest",
+        shown.join(", ")
+    );
+    DataError::at(row.line, mistake)
 }
 
 impl Used {
@@ -150,9 +170,9 @@ impl Used {
             && options.stress.is_none()
             && !names_its_kind
         {
-            let text = quoted(&stress.text);
             return Err(format!(
-                "`{text}` next to a true strain may be a `true stress` or a `nominal stress`"
+                "`{}` next to a true strain may be a `true stress` or a `nominal stress`",
+                quoted(&stress.text)
             ));
         }
         Ok(Self { mode, control, stress })

@@ -5,7 +5,7 @@ use std::fmt;
 use piola::__private::message::quoted;
 
 use super::trial::TrialError;
-use crate::data::{Agreement, Fault, short};
+use crate::data::{Agreement, short};
 
 /// Fitted parameters, and their agreement with the data.
 #[derive(Clone, Debug, PartialEq)]
@@ -260,8 +260,7 @@ pub enum FitError {
         /// Its index among the measurements.
         index: usize,
         /// Reason.
-        #[source]
-        fault: Fault,
+        fault: String,
     },
     /// No point counts.
     #[error("there is no point with a stress to fit")]

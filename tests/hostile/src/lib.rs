@@ -86,7 +86,7 @@ pub fn csv(_: &Path, bytes: &[u8]) -> bool {
     let options = ReadOptions { test, unit, ..ReadOptions::default() };
     let data = match Measurements::read_with(&decoded(bytes), &options) {
         Ok(reading) => {
-            let note = reading.to_string();
+            let note = reading.note;
             assert!(!note.is_empty() && !note.chars().any(char::is_control), "{note:?}");
             reading.measurements
         }
