@@ -52,11 +52,11 @@ pub enum Difference {
 /// use piola_laboratory::curve::Volume;
 /// use piola_laboratory::fit::FitSettings;
 ///
-/// let settings = FitSettings::default().with_volume(Volume::Free).with_held(["alpha_1"]);
+/// let settings =
+///     FitSettings { volume: Volume::Free, held: vec!["alpha_1".into()], ..FitSettings::default() };
 /// assert_eq!(settings.restarts, 20);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct FitSettings {
     /// Treatment of the volume of the specimens. Most data are without lateral stretches; for rubber the
     /// assumption to make then is constant volume, the default. If the energy yields in volume, it describes
@@ -87,38 +87,6 @@ impl Default for FitSettings {
             restarts: 20,
             seed: 1,
         }
-    }
-}
-
-impl FitSettings {
-    /// Settings with another [`volume`](Self::volume).
-    #[must_use]
-    pub fn with_volume(self, volume: Volume) -> Self {
-        Self { volume, ..self }
-    }
-
-    /// Settings with another [`difference`](Self::difference).
-    #[must_use]
-    pub fn with_difference(self, difference: Difference) -> Self {
-        Self { difference, ..self }
-    }
-
-    /// Settings with other [`held`](Self::held) parameters.
-    #[must_use]
-    pub fn with_held<S: Into<String>>(self, held: impl IntoIterator<Item = S>) -> Self {
-        Self { held: held.into_iter().map(Into::into).collect(), ..self }
-    }
-
-    /// Settings with another number of [`restarts`](Self::restarts).
-    #[must_use]
-    pub fn with_restarts(self, restarts: usize) -> Self {
-        Self { restarts, ..self }
-    }
-
-    /// Settings with another [`seed`](Self::seed).
-    #[must_use]
-    pub fn with_seed(self, seed: u64) -> Self {
-        Self { seed, ..self }
     }
 }
 

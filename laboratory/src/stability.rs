@@ -44,7 +44,6 @@ pub use path::{Path, Walk};
 
 /// Range of stretches that a survey covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct SurveySettings {
     /// The least stretch, from 10⁻⁶ to below 1.
     pub from: f64,
@@ -58,20 +57,6 @@ impl Default for SurveySettings {
     /// 0.3 … 3 in steps of 6 %.
     fn default() -> Self {
         Self { from: 0.3, to: 3.0, resolution: 41 }
-    }
-}
-
-impl SurveySettings {
-    /// Settings with another range of stretches.
-    #[must_use]
-    pub fn with_range(self, from: f64, to: f64) -> Self {
-        Self { from, to, ..self }
-    }
-
-    /// Settings with another [`resolution`](Self::resolution).
-    #[must_use]
-    pub fn with_resolution(self, resolution: usize) -> Self {
-        Self { resolution, ..self }
     }
 }
 

@@ -88,12 +88,9 @@ impl Material {
     ) -> PyResult<Bound<'py, PyAny>> {
         let data = from_dictionary(data)?;
         let candidate = self.uniform()?.candidate().map_err(of_material)?;
-        let settings = FitSettings::default()
-            .with_volume(volume(incompressible))
-            .with_difference(if relative { Difference::Relative } else { Difference::Absolute })
-            .with_held(held)
-            .with_restarts(restarts)
-            .with_seed(seed);
+        let volume = volume(incompressible);
+        let difference = if relative { Difference::Relative } else { Difference::Absolute };
+        let settings = FitSettings { volume, difference, held, restarts, seed };
         let fit = py.detach(|| fit_parameters(&*candidate, &data, &settings));
         let Fit { values, numbers, agreement, difference, condition, ended, warnings, .. } =
             fit.map_err(|error| FitError::new_err(error.to_string()))?;
@@ -129,7 +126,7 @@ impl Material {
         resolution: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let specimen = self.uniform()?.interpreted().map_err(of_material)?;
-        let settings = SurveySettings::default().with_range(smallest, largest).with_resolution(resolution);
+        let settings = SurveySettings { from: smallest, to: largest, resolution };
         let report = py.detach(|| survey(&specimen, &settings)).map_err(value_error)?;
         let text = report.to_string();
         let Report { points, admitted, findings, walks, .. } = report;

@@ -162,7 +162,7 @@ impl fmt::Display for Warning {
                 write!(
                     f,
                     "the data hardly determine {together}: {what} the fit by {effect}; hold {which} (`--hold {name}`, \
-                     `FitSettings::with_held`), or add data of other tests"
+                     `FitSettings::held`), or add data of other tests"
                 )
             }
             Self::OtherMinimum { numbers, difference, found } => {
@@ -185,7 +185,7 @@ impl fmt::Display for Warning {
                     numbers.iter().map(|(name, _, there)| format!("{name} = {there:.4e}")).collect(),
                 ];
                 let (here, there) = (here.join(", "), there.join(", "));
-                let hold = format_args!("(`--hold {name}`, `FitSettings::with_held`)");
+                let hold = format_args!("(`--hold {name}`, `FitSettings::held`)");
                 match is_runaway {
                     true => write!(
                         f,
@@ -216,7 +216,7 @@ impl fmt::Display for Warning {
                 f,
                 "the volume was kept, but this energy is compressible: its Poisson's ratio at small strain is {poisson:.2}; to \
                  fit the solid that will move, leave the sides free (`--compressible`, \
-                 `FitSettings::with_volume(Volume::Free)`), or make it incompressible with a term such as \
+                 `FitSettings::volume`), or make it incompressible with a term such as \
                  `kappa / 2.0 * (J - 1.0).powi(2)`, kappa being {bulk:.0e} Pa or more"
             ),
             Self::Poor { determination } => write!(

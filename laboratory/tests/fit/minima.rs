@@ -65,7 +65,7 @@ fn of_a_term_that_has_vanished_the_exponent_makes_no_other_minimum() -> Outcome 
     let names: Vec<_> = numbers.iter().map(|(name, ..)| name.as_str()).collect();
     assert_eq!(names, ["beta_1", "beta_2"], "the coefficients are the same, 0 among them");
     let text = others(&found)[0].to_string();
-    assert!(text.contains("(`--hold beta_2`, `FitSettings::with_held`), or leave the term out"), "{text}");
+    assert!(text.contains("(`--hold beta_2`, `FitSettings::held`), or leave the term out"), "{text}");
     Ok(())
 }
 

@@ -60,7 +60,7 @@ pub fn seeds(format: &str) -> PathBuf {
 /// Tetrahedra of Gmsh; where they are refused, without the other elements, in a scene that is measured.
 pub fn msh(scratch: &Path, bytes: &[u8]) -> bool {
     let files = Files { mesh: write(scratch, "body.msh", bytes), surface: None };
-    let settings = Settings::new(&STRETCH).with_only_tetrahedra(true);
+    let settings = Settings { only_tetrahedra: true, ..Settings::new(&STRETCH) };
     play(scratch, files.clone()) || play_by(settings, scratch, files)
 }
 
@@ -197,7 +197,7 @@ fn play(scratch: &Path, files: Files) -> bool {
 }
 
 fn play_by(settings: Settings, scratch: &Path, files: Files) -> bool {
-    let settings = settings.with_files(Some(files)).with_frames(1);
+    let settings = Settings { files: Some(files), frames: 1, ..settings };
     // Of an earlier run.
     let _ = fs::remove_dir_all(scratch.join("out"));
     let output = Output { folder: scratch.join("out"), vtu: true, resume: false };
