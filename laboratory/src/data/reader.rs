@@ -52,8 +52,8 @@ impl Measurements {
     /// data point differs from the rest state.
     pub fn read_with(text: &str, options: &ReadOptions) -> Result<Reading, DataError> {
         let text = text.trim_start_matches('\u{feff}');
-        if text.starts_with("PK\u{3}\u{4}") {
-            let mistake = "this is not text but an archive, as spreadsheets are; save the sheet as CSV";
+        if text.contains('\0') {
+            let mistake = "this is UTF-16, or not text but an archive, as spreadsheets are; save the sheet as CSV in UTF-8";
             return Err(DataError::at(1, mistake));
         }
         let table = Table::of(text, options)?;

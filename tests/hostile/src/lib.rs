@@ -19,7 +19,7 @@ use piola::point::{Filter, Matrix3, evaluate};
 use piola_declare::Energy;
 use piola_laboratory::chart::{self, Curve};
 use piola_laboratory::curve::{Mode, Volume, sweep};
-use piola_laboratory::data::{Measurements, ReadOptions, decoded};
+use piola_laboratory::data::{Measurements, ReadOptions};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::seal;
 use piola_scenes::run::{Output, run};
@@ -84,7 +84,7 @@ pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
 pub fn csv(_: &Path, bytes: &[u8]) -> bool {
     let (test, unit) = (Some(Mode::Uniaxial.into()), Some("MPa".parse().expect("a unit")));
     let options = ReadOptions { test, unit, ..ReadOptions::default() };
-    let data = match Measurements::read_with(&decoded(bytes), &options) {
+    let data = match Measurements::read_with(&String::from_utf8_lossy(bytes), &options) {
         Ok(reading) => {
             let note = reading.note;
             assert!(!note.is_empty() && !note.chars().any(char::is_control), "{note:?}");
