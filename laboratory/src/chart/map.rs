@@ -9,7 +9,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::panel::{Area, ChartError, FONT, failed, write};
 use crate::curve::lateral::{Side, release};
 use crate::specimen::{self, Specimen};
-use crate::stability::criteria::{Criterion, Judgement};
+use crate::stability::criteria::Judgement;
 use crate::stability::{Path, SurveySettings};
 
 /// Plane of stretches λ1, λ2, and the condition on the third.
@@ -70,54 +70,26 @@ fn second(path: Path, specimen: &dyn Specimen, first: f64) -> Option<f64> {
     path.stretches(specimen, first).map(|[_, second, _]| second)
 }
 
-/// The criteria that a cell of the picture keeps or loses.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Cell {
-    Kept,
-    Hill,
-    Ellipticity,
-    HillAndEllipticity,
-    All,
-    Outside,
-}
+/// Kinds of the cells of the picture, with colours of Okabe and Ito, which stay apart for all kinds of colour
+/// vision; pale where all criteria are kept.
+const KINDS: [(&str, RGBColor); 6] = [
+    ("all criteria hold", RGBColor(222, 240, 233)),
+    ("Hill lost", RGBColor(86, 180, 233)),
+    ("strong ellipticity lost", RGBColor(240, 228, 66)),
+    ("Hill and strong ellipticity lost", RGBColor(230, 159, 0)),
+    ("all lost, Baker–Ericksen too", RGBColor(213, 94, 0)),
+    ("outside the domain, or no equilibrium", RGBColor(190, 190, 190)),
+];
 
-impl Cell {
-    const ALL: [Self; 6] =
-        [Self::Kept, Self::Hill, Self::Ellipticity, Self::HillAndEllipticity, Self::All, Self::Outside];
-
-    fn of(judgement: Option<Judgement>) -> Self {
-        let Some(Judgement { kept, .. }) = judgement else { return Self::Outside };
-        match Criterion::ALL.map(|criterion| kept[criterion as usize]) {
-            [false, ..] => Self::All,
-            [true, true, true] => Self::Kept,
-            [true, false, true] => Self::Hill,
-            [true, true, false] => Self::Ellipticity,
-            [true, false, false] => Self::HillAndEllipticity,
-        }
-    }
-
-    /// Colours of Okabe and Ito, which stay apart for all kinds of colour vision; pale where all criteria are
-    /// kept.
-    fn colour(self) -> RGBColor {
-        match self {
-            Self::Kept => RGBColor(222, 240, 233),
-            Self::Hill => RGBColor(86, 180, 233),
-            Self::Ellipticity => RGBColor(240, 228, 66),
-            Self::HillAndEllipticity => RGBColor(230, 159, 0),
-            Self::All => RGBColor(213, 94, 0),
-            Self::Outside => RGBColor(190, 190, 190),
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Kept => "all criteria hold",
-            Self::Hill => "Hill lost",
-            Self::Ellipticity => "strong ellipticity lost",
-            Self::HillAndEllipticity => "Hill and strong ellipticity lost",
-            Self::All => "all lost, Baker–Ericksen too",
-            Self::Outside => "outside the domain, or no equilibrium",
-        }
+/// The kind of a cell, an index of [`KINDS`].
+fn kind(judgement: Option<Judgement>) -> usize {
+    match judgement.map(|judgement| judgement.kept) {
+        Some([true, true, true]) => 0,
+        Some([true, false, true]) => 1,
+        Some([true, true, false]) => 2,
+        Some([true, false, false]) => 3,
+        Some([false, ..]) => 4,
+        None => 5,
     }
 }
 
@@ -171,7 +143,7 @@ fn panel(
         let mut start = 0;
         for run in column.chunk_by(|one, next| one == next) {
             let corners = [(edges[i], edges[start]), (edges[i + 1], edges[start + run.len()])];
-            let run_of_cells = Rectangle::new(corners, run[0].colour().filled());
+            let run_of_cells = Rectangle::new(corners, KINDS[run[0]].1.filled());
             chart.draw_series([run_of_cells]).map_err(failed)?;
             start += run.len();
         }
@@ -217,16 +189,16 @@ fn panel(
     Ok(())
 }
 
-/// Column by column, from the least stretches to the greatest.
-fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: Plane) -> Vec<Cell> {
+/// The kinds of all cells, column by column, from the least stretches to the greatest.
+fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: Plane) -> Vec<usize> {
     // The middles of the cells are every other one of these.
     let stretches = settings.stretches(2 * CELLS + 1);
-    let mut cells = vec![Cell::Outside; CELLS * CELLS];
+    let mut cells = vec![0; CELLS * CELLS];
     for i in 0..CELLS {
         for j in 0..=i {
             let pair = [stretches[2 * i + 1], stretches[2 * j + 1]];
             let judgement = plane.stretches(specimen, pair).and_then(|all| Judgement::of(specimen, all));
-            cells[CELLS * i + j] = Cell::of(judgement);
+            cells[CELLS * i + j] = kind(judgement);
             cells[CELLS * j + i] = cells[CELLS * i + j];
         }
     }
@@ -235,12 +207,12 @@ fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: Plane) -> Ve
 
 /// Colours and what they mean, three in a row.
 fn explain(area: &Area<'_>) -> Result<(), ChartError> {
-    for (k, cell) in Cell::ALL.into_iter().enumerate() {
+    for (k, (name, colour)) in KINDS.into_iter().enumerate() {
         let (x, y) = (64 + 330 * (k as i32 % 3), 14 + 30 * (k as i32 / 3));
         let corners = [(x, y), (x + 24, y + 16)];
-        area.draw(&Rectangle::new(corners, cell.colour().filled())).map_err(failed)?;
+        area.draw(&Rectangle::new(corners, colour.filled())).map_err(failed)?;
         area.draw(&Rectangle::new(corners, RGBColor(120, 120, 120))).map_err(failed)?;
-        write(area, cell.name(), (x + 34, y + 9), HPos::Left, 14, &BLACK)?;
+        write(area, name, (x + 34, y + 9), HPos::Left, 14, &BLACK)?;
     }
     Ok(())
 }

@@ -137,7 +137,8 @@ impl Used {
     ) -> Result<(Test, Measured), Fault> {
         let test = match self.mode {
             Some(place) => {
-                row.fields[place].parse().map_err(|error: ModeError| Fault::Other(error.to_string()))?
+                let unknown = |error: ModeError| Fault::Other(error.to_string());
+                row.fields[place].parse::<Test>().map_err(unknown)?
             }
             None => options.test.ok_or(Fault::NoMode)?,
         };
