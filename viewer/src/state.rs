@@ -75,7 +75,7 @@ impl State {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`Error::Unreadable`], or like [`State::parse`].
+    /// [`Error::Usage`].
     pub fn read(path: &Path) -> Result<Self, Error> {
         Self::parse(&read_text(path, MAX_LENGTH)?, path)
     }
