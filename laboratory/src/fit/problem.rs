@@ -80,25 +80,17 @@ struct Coordinates {
 
 /// Result of a trial: the energy with its parameters and its response at each point, or the reason for a
 /// refusal.
-enum Trial {
-    Answers(Box<dyn Candidate>, Vec<Response>),
-    Refused(TrialError),
-}
+type Trial = Result<(Box<dyn Candidate>, Vec<Response>), TrialError>;
 
 impl Task<'_> {
     fn attempt(&self, values: &[f64]) -> Trial {
-        let candidate = match self.start.with_values(&self.numbers.lists(values)) {
-            Ok(candidate) => candidate,
-            Err(reason) => return Trial::Refused(TrialError::Inadmissible(reason)),
-        };
+        let candidate = self.start.with_values(&self.numbers.lists(values))?;
         let mut responses = Vec::with_capacity(self.points.len());
         for &(point, _) in self.points {
-            match respond(candidate.as_ref(), point.mode, self.volume, point.control) {
-                Ok(response) => responses.push(response),
-                Err(reason) => return Trial::Refused(TrialError::Point(PointError { point, reason })),
-            }
+            let response = respond(candidate.as_ref(), point.mode, self.volume, point.control);
+            responses.push(response.map_err(|reason| PointError { point, reason })?);
         }
-        Trial::Answers(candidate, responses)
+        Ok((candidate, responses))
     }
 }
 
@@ -158,25 +150,19 @@ impl<'a> Problem<'a> {
 
     /// Succeeds if there is a residual at each point with these free numbers.
     pub(super) fn accepts(&self, free: &DVector<f64>) -> Result<(), TrialError> {
-        match self.task.attempt(&self.with_free(free)) {
-            Trial::Answers(..) => Ok(()),
-            Trial::Refused(refusal) => Err(refusal),
-        }
+        self.task.attempt(&self.with_free(free)).map(drop)
     }
 
     /// Succeeds if there is a residual at each point.
     pub(super) fn answers(&self) -> Result<(), TrialError> {
-        match &self.trial {
-            Trial::Answers(..) => Ok(()),
-            Trial::Refused(refusal) => Err(refusal.clone()),
-        }
+        self.trial.as_ref().map(|_| ()).map_err(Clone::clone)
     }
 
     /// The constraints on the free numbers at the current place: those of the parameters, and for each point
     /// those of the domain at its stretches. That free sides give way when a parameter changes is left out of
     /// these.
     pub(super) fn bounds(&self) -> Vec<Bound> {
-        let Trial::Answers(candidate, responses) = &self.trial else { return Vec::new() };
+        let Ok((candidate, responses)) = &self.trial else { return Vec::new() };
         let bound = |Constraint { limit, value, gradient }: Constraint, point| {
             let gradient = DVector::from_iterator(self.free.len(), self.free.iter().map(|&k| gradient[k]));
             Bound { limit, point, value, gradient }
@@ -192,8 +178,8 @@ impl<'a> Problem<'a> {
     /// The energy as tried last, or where it was refused, as given.
     pub(super) fn specimen(&self) -> &dyn Candidate {
         match &self.trial {
-            Trial::Answers(candidate, _) => candidate.as_ref(),
-            Trial::Refused(_) => self.task.start,
+            Ok((candidate, _)) => candidate.as_ref(),
+            Err(_) => self.task.start,
         }
     }
 
@@ -213,7 +199,7 @@ impl<'a> Problem<'a> {
     /// axes of tension along one: ψ1, ψ2, ψ3 themselves, so that the pressure of an incompressible solid
     /// counts too.
     pub(super) fn has_stresses_of(&self, other: &Self, share: f64) -> bool {
-        let (Trial::Answers(one, responses), Trial::Answers(other, _)) = (&self.trial, &other.trial) else {
+        let (Ok((one, responses)), Ok((other, _))) = (&self.trial, &other.trial) else {
             return false;
         };
         let is_alike = |strains: [f64; 3]| {
@@ -235,7 +221,7 @@ impl<'a> Problem<'a> {
 
     /// ∂r/∂p of the free numbers p in their own units; `None` where the trial is refused.
     pub(super) fn slopes(&self) -> Option<DMatrix<f64>> {
-        let Trial::Answers(candidate, responses) = &self.trial else { return None };
+        let Ok((candidate, responses)) = &self.trial else { return None };
         let mut slopes = DMatrix::zeros(self.task.points.len(), self.free.len());
         for (row, (response, (_, size))) in responses.iter().zip(self.task.points).enumerate() {
             let ordered = Ordered::new(response.stretches);
@@ -267,7 +253,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        let Trial::Answers(_, responses) = &self.trial else {
+        let Ok((_, responses)) = &self.trial else {
             return Some(DVector::from_element(self.task.points.len(), REFUSED));
         };
         let residual = |(response, (point, size)): (&Response, &(Measured, f64))| {
