@@ -192,28 +192,6 @@ impl<'a> Problem<'a> {
         (self.task.volume == Volume::Kept && is_imposed).then(|| specimen::moduli(self.specimen()))
     }
 
-    /// True if the stresses of another energy differ from those of this one by no more than `share` of the
-    /// greatest of each point.
-    ///
-    /// They are compared at the stretches of the data and at their inverses, which make tension along two
-    /// axes of tension along one: ψ1, ψ2, ψ3 themselves, so that the pressure of an incompressible solid
-    /// counts too.
-    pub(super) fn has_stresses_of(&self, other: &Self, share: f64) -> bool {
-        let (Ok((one, responses)), Ok((other, _))) = (&self.trial, &other.trial) else {
-            return false;
-        };
-        let is_alike = |strains: [f64; 3]| {
-            let [one, other] = [one, other].map(|candidate| specimen::gradient(candidate.as_ref(), strains));
-            let (Some(one), Some(other)) = (one, other) else { return one == other };
-            let greatest = one.iter().fold(0.0_f64, |greatest, stress| greatest.max(stress.abs()));
-            one.iter().zip(other).all(|(one, other)| (one - other).abs() <= share * greatest)
-        };
-        responses.iter().all(|response| {
-            let strains = response.stretches.map(|stretch| stretch - 1.0);
-            is_alike(strains) && is_alike(response.stretches.map(|stretch| 1.0 / stretch - 1.0))
-        })
-    }
-
     /// The number of points.
     pub(super) fn count(&self) -> usize {
         self.task.points.len()

@@ -238,12 +238,7 @@ fn pure_shear_cannot_tell_the_invariants_apart() -> Outcome {
     assert!(total.abs() <= 1e-6 * 3e5 && *effect <= 1e-9, "{found:?}");
     let text = text(&found);
     assert!(text.contains("they change the fit by less than 0.0001 %; hold one of them"), "{text}");
-    assert!(
-        text.contains(
-            "another minimum has differences of 0.000 %, compared with 0.000 % of this one: c10 = "
-        ),
-        "{text}"
-    );
+    assert!(text.contains("of up to 0.000 %, compared with 0.000 % of this one, at c10 from "), "{text}");
     Ok(())
 }
 
