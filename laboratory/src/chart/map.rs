@@ -106,7 +106,7 @@ const SIZE: (u32, u32) = (1100, 680);
 /// # Errors
 /// [`ChartError`] if the settings are out of range, or the library of charts fails.
 pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> Result<String, ChartError> {
-    settings.check()?;
+    settings.check().map_err(|error| ChartError(error.to_string()))?;
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();

@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use piola::__private::message::quoted;
-
 use super::trial::TrialError;
 use crate::data::{Agreement, short};
 
@@ -209,41 +207,10 @@ impl fmt::Display for Warning {
     }
 }
 
-/// Limit of [`FitSettings::restarts`](super::FitSettings::restarts), far beyond the minima of any energy.
-pub(super) const MOST_RESTARTS: usize = 10_000;
-
 /// Reason why nothing can be fitted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
-    /// A parameter that is to be held does not exist.
-    #[error("there is no parameter `{}` to hold; there are {}", quoted(name), known.join(", "))]
-    UnknownParameter {
-        /// The name as given.
-        name: String,
-        /// The names that exist, list by entry.
-        known: Vec<String>,
-    },
-    /// No parameter is left that could change, or that the data determine.
-    #[error("no parameter is left to fit: hold fewer, or add data of other tests")]
-    NothingFree,
-    /// Too many starts were requested.
-    #[error("the number of random starts is {restarts}; it must be at most {MOST_RESTARTS}")]
-    Restarts {
-        /// The number as given.
-        restarts: usize,
-    },
-    /// A point is not in the range of measurements.
-    #[error("the point {} (from 0) cannot be fitted: {fault}", index)]
-    Point {
-        /// Its index among the measurements.
-        index: usize,
-        /// Reason.
-        fault: String,
-    },
-    /// No point counts.
-    #[error("there is no point with a stress to fit")]
-    NoPoints,
     /// Fewer points than parameters.
     #[error("{points} points cannot determine {free} parameters; hold some, or add data")]
     TooFewPoints {
@@ -262,7 +229,7 @@ pub enum FitError {
         #[from]
         TrialError,
     ),
-    /// The residuals became NaN or infinite from every start.
-    #[error("residuals become infinite on the way; start nearer to the solution")]
-    NoMinimum,
+    /// Another reason: a setting or a point out of range, a parameter that does not exist, nothing to fit.
+    #[error("{0}")]
+    Other(String),
 }
