@@ -63,7 +63,7 @@ pub(crate) use measured::short;
 pub use measured::{Agreement, Measured, Measurements, PointError};
 pub use options::{ReadOptions, Test};
 pub use reader::Reading;
-pub use unit::{StressUnit, StressUnitError};
+pub use unit::StressUnit;
 
 /// Vulcanised rubber with 8 % sulphur in uniaxial tension, equibiaxial tension and pure shear, as a file.
 ///

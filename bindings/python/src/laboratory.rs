@@ -8,8 +8,8 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use piola::contract::{Notation, Settings, check};
 use piola::point::{stress, svd};
 use piola_declare::Energy;
-use piola_laboratory::curve::{Mode, ModeError, Volume, sweep};
-use piola_laboratory::data::{Measured, Measurements, ReadOptions, StressUnitError, TRELOAR_1944};
+use piola_laboratory::curve::{Mode, Volume, sweep};
+use piola_laboratory::data::{Measured, Measurements, ReadOptions, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
 use piola_laboratory::stability::{Report, SurveySettings, survey};
@@ -234,7 +234,7 @@ fn volume(incompressible: bool) -> Volume {
 }
 
 fn mode(name: &str) -> PyResult<Mode> {
-    name.parse().map_err(value_error::<ModeError>)
+    name.parse().map_err(value_error::<String>)
 }
 
 fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
@@ -283,8 +283,8 @@ pub(crate) fn measurements<'py>(
     unit: Option<&str>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = ReadOptions {
-        test: mode.map(str::parse).transpose().map_err(value_error::<ModeError>)?,
-        unit: unit.map(str::parse).transpose().map_err(value_error::<StressUnitError>)?,
+        test: mode.map(str::parse).transpose().map_err(value_error::<String>)?,
+        unit: unit.map(str::parse).transpose().map_err(value_error::<String>)?,
         strain: strain.map(Into::into),
         stress: stress.map(Into::into),
     };

@@ -9,7 +9,7 @@ use super::measured::{Measured, Measurements};
 use super::options::{ReadOptions, Test};
 use super::plausible;
 use super::table::{may_be_thousands, number};
-use crate::curve::{Mode, ModeError};
+use crate::curve::Mode;
 use crate::rest::digits;
 
 /// Measurements, and how a file was understood.
@@ -136,10 +136,7 @@ impl Used {
         options: &ReadOptions,
     ) -> Result<(Test, Measured), Fault> {
         let test = match self.mode {
-            Some(place) => {
-                let unknown = |error: ModeError| Fault::Other(error.to_string());
-                row.fields[place].parse::<Test>().map_err(unknown)?
-            }
+            Some(place) => row.fields[place].parse::<Test>().map_err(Fault::Other)?,
             None => options.test.ok_or(Fault::NoMode)?,
         };
         let value = |column: &Heading, factor: f64| {
