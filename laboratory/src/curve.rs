@@ -137,7 +137,6 @@ impl FromStr for Mode {
     }
 }
 
-/// Other names of each mode.
 const NAMES: [(Mode, &[&str]); 5] = [
     (Mode::Uniaxial, &["ut", "tension", "compression", "uniaxial_tension", "uniaxial_compression"]),
     (Mode::Equibiaxial, &["et", "eb", "bt", "biaxial", "equi_biaxial", "biaxial_tension"]),

@@ -287,7 +287,6 @@ impl MaterialSpec {
         make(energy, &values, self.inversion.unwrap_or(usual)).map_err(refused)
     }
 
-    /// The values in the order of the declaration.
     fn values(&self, material: &Text, description: &Description) -> Result<Vec<&[f64]>, Error> {
         let material = material.clone();
         let known = || description.parameters.iter().map(|parameter| &parameter.name);
@@ -336,7 +335,6 @@ pub struct MaterialInfo {
     pub moduli: Moduli,
 }
 
-/// Names of all materials of the catalogue.
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     DECLARATIONS.iter().map(|declaration| declaration.name)
 }

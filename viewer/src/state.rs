@@ -41,7 +41,6 @@ pub struct Drag {
     pub place: [f64; 3],
 }
 
-/// Format of a file and its version.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 enum Format {
     #[serde(rename = "piola state 2")]

@@ -45,7 +45,6 @@ impl Plane {
         }
     }
 
-    /// Lines in this plane with their names.
     fn lines(self) -> [(&'static str, Line); 3] {
         match self {
             Self::Sheet => [

@@ -7,7 +7,6 @@ use super::heading::{Heading, Quantity, Unit, has_clear_unit, unit};
 use super::options::ReadOptions;
 use super::table::{fields, is_number, separator};
 
-/// A row of fields.
 pub(super) struct Row<'a> {
     pub(super) line: u64,
     pub(super) fields: Vec<&'a str>,
@@ -39,9 +38,7 @@ pub(super) struct Table<'a> {
     pub(super) rows: Vec<Row<'a>>,
 }
 
-/// The columns that are used.
 pub(super) struct Used {
-    /// The column with the test.
     pub(super) mode: Option<usize>,
     pub(super) control: Heading,
     pub(super) stress: Heading,

@@ -127,7 +127,6 @@ fn factor(column: &Heading) -> Result<f64, String> {
 }
 
 impl Used {
-    /// The point of a row, with its test.
     fn point(
         &self,
         row: &Row<'_>,
@@ -207,7 +206,6 @@ fn described(column: &Heading) -> String {
     format!("`{}` as {}{unit}{sign}", quoted(&column.text), column.quantity.name())
 }
 
-/// Describes how the file was understood.
 fn note(table: &Table<'_>, decimal: char, data: &Measurements) -> String {
     let Used { control, stress, .. } = &table.used;
     let mut parts = vec![format!("{}, {}", described(control), described(stress))];

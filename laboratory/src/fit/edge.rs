@@ -35,7 +35,6 @@ const SILENCE: f64 = 1e-10;
 
 /// The edges that stopped a search, and the directions along them.
 pub(super) struct Stop {
-    /// The reason of each edge for refusing.
     pub(super) reasons: Vec<TrialError>,
     /// Ways on downwards along the edges: next to them, and at a distance that leaves room if they are
     /// curved.

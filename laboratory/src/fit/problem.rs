@@ -17,7 +17,6 @@ const REFUSED: f64 = 1e100;
 /// Energy to be fitted, and the points that count.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
-    /// The energy as given.
     pub(super) start: &'a dyn Candidate,
     pub(super) numbers: &'a Numbers,
     /// Points, each with the divisor of its difference.
@@ -143,7 +142,6 @@ impl<'a> Problem<'a> {
         values
     }
 
-    /// The current free numbers.
     pub(super) fn place(&self) -> DVector<f64> {
         DVector::from_iterator(self.free.len(), self.free.iter().map(|&number| self.values[number]))
     }
@@ -192,7 +190,6 @@ impl<'a> Problem<'a> {
         (self.task.volume == Volume::Kept && is_imposed).then(|| specimen::moduli(self.specimen()))
     }
 
-    /// The number of points.
     pub(super) fn count(&self) -> usize {
         self.task.points.len()
     }

@@ -74,7 +74,6 @@ pub struct Walk {
     pub lost: [Option<f64>; 3],
 }
 
-/// Steps of a path.
 const STEPS: u32 = 256;
 /// Halvings of a step: to 10⁻¹² of the way.
 const HALVINGS: u32 = 32;
