@@ -13,56 +13,48 @@ use crate::stability::criteria::Judgement;
 use crate::stability::{Path, SurveySettings};
 
 /// Plane of stretches λ1, λ2, and the condition on the third.
-#[derive(Clone, Copy)]
-enum Plane {
-    /// A sheet: no stress through its thickness.
-    Sheet,
-    /// Plane strain: λ3 = 1.
-    Strain,
-}
-
-impl Plane {
+struct Plane {
+    title: &'static str,
     /// The three stretches; `None` if no thickness makes a sheet free of stress.
-    fn stretches(self, specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
-        match self {
-            Self::Strain => Some([l1, l2, 1.0]),
-            Self::Sheet => {
-                let thickness = |strain: f64| {
-                    let strains = [l1 - 1.0, l2 - 1.0, strain];
-                    let [.., stress] = specimen::gradient(specimen, strains)?;
-                    Some(Side { stress, slope: specimen::hessian(specimen, strains)[2][2] })
-                };
-                let strain = release(thickness, 1.0 / (l1 * l2) - 1.0)?;
-                Some([l1, l2, 1.0 + strain])
-            }
-        }
-    }
-
-    fn title(self) -> &'static str {
-        match self {
-            Self::Sheet => "sheet: no stress through its thickness",
-            Self::Strain => "plane strain: λ3 = 1",
-        }
-    }
-
-    fn lines(self) -> [(&'static str, Line); 3] {
-        match self {
-            Self::Sheet => [
-                ("uniaxial", |specimen, first| second(Path::Uniaxial, specimen, first)),
-                ("equibiaxial", |specimen, first| second(Path::Equibiaxial, specimen, first)),
-                ("pure shear", |specimen, first| second(Path::PureShear, specimen, first)),
-            ],
-            Self::Strain => [
-                ("constant volume", |_, first| Some(1.0 / first)),
-                ("equibiaxial", |_, first| Some(first)),
-                ("confined", |_, _| Some(1.0)),
-            ],
-        }
-    }
+    stretches: fn(&dyn Specimen, [f64; 2]) -> Option<[f64; 3]>,
+    /// Lines in this plane with their names.
+    lines: [(&'static str, Line); 3],
 }
 
 /// λ2 by λ1 along a line of the picture; `None` where nothing makes the sides free of stress.
 type Line = fn(&dyn Specimen, f64) -> Option<f64>;
+
+static PLANES: [Plane; 2] = [
+    Plane {
+        title: "sheet: no stress through its thickness",
+        stretches: sheet,
+        lines: [
+            ("uniaxial", |specimen, first| second(Path::Uniaxial, specimen, first)),
+            ("equibiaxial", |specimen, first| second(Path::Equibiaxial, specimen, first)),
+            ("pure shear", |specimen, first| second(Path::PureShear, specimen, first)),
+        ],
+    },
+    Plane {
+        title: "plane strain: λ3 = 1",
+        stretches: |_, [l1, l2]| Some([l1, l2, 1.0]),
+        lines: [
+            ("constant volume", |_, first| Some(1.0 / first)),
+            ("equibiaxial", |_, first| Some(first)),
+            ("confined", |_, _| Some(1.0)),
+        ],
+    },
+];
+
+/// The stretches of a sheet without stress through its thickness.
+fn sheet(specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
+    let thickness = |strain: f64| {
+        let strains = [l1 - 1.0, l2 - 1.0, strain];
+        let [.., stress] = specimen::gradient(specimen, strains)?;
+        Some(Side { stress, slope: specimen::hessian(specimen, strains)[2][2] })
+    };
+    let strain = release(thickness, 1.0 / (l1 * l2) - 1.0)?;
+    Some([l1, l2, 1.0 + strain])
+}
 
 /// λ2 of a test by its λ1.
 fn second(path: Path, specimen: &dyn Specimen, first: f64) -> Option<f64> {
@@ -112,7 +104,7 @@ pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> R
         root.fill(&WHITE).map_err(failed)?;
         root.draw(&Text::new(title.to_owned(), (20, 14), (FONT, 20).into_font())).map_err(failed)?;
         let (upper, legend) = root.margin(44, 10, 10, 10).split_vertically(540);
-        for (plane, area) in [Plane::Sheet, Plane::Strain].into_iter().zip(upper.split_evenly((1, 2))) {
+        for (plane, area) in PLANES.iter().zip(upper.split_evenly((1, 2))) {
             panel(specimen, settings, plane, &area)?;
         }
         explain(&legend)?;
@@ -124,13 +116,13 @@ pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> R
 fn panel(
     specimen: &dyn Specimen,
     settings: &SurveySettings,
-    plane: Plane,
+    plane: &Plane,
     area: &Area<'_>,
 ) -> Result<(), ChartError> {
     let axis = || Axis { ends: settings.from..settings.to };
     let mut chart = ChartBuilder::on(area)
         .margin(10)
-        .caption(plane.title(), (FONT, 16))
+        .caption(plane.title, (FONT, 16))
         .x_label_area_size(44)
         .y_label_area_size(54)
         .build_cartesian_2d(axis(), axis())
@@ -157,7 +149,7 @@ fn panel(
         .draw()
         .map_err(failed)?;
 
-    for (name, second) in plane.lines() {
+    for (name, second) in plane.lines {
         let point = |first: &f64| {
             let second = second(specimen, *first)?;
             (settings.from <= second && second <= settings.to).then_some((*first, second))
@@ -189,14 +181,14 @@ fn panel(
 }
 
 /// The kinds of all cells, column by column, from the least stretches to the greatest.
-fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: Plane) -> Vec<usize> {
+fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: &Plane) -> Vec<usize> {
     // The middles of the cells are every other one of these.
     let stretches = settings.stretches(2 * CELLS + 1);
     let mut cells = vec![0; CELLS * CELLS];
     for i in 0..CELLS {
         for j in 0..=i {
             let pair = [stretches[2 * i + 1], stretches[2 * j + 1]];
-            let judgement = plane.stretches(specimen, pair).and_then(|all| Judgement::of(specimen, all));
+            let judgement = (plane.stretches)(specimen, pair).and_then(|all| Judgement::of(specimen, all));
             cells[CELLS * i + j] = kind(judgement);
             cells[CELLS * j + i] = cells[CELLS * i + j];
         }
