@@ -1,8 +1,8 @@
 //! Other parameters with which a fit is about as good: those of other minima, and others of the same solid.
 //!
-//! Terms of a sum that exchange their places are the same parameters. The exponent of a term whose coefficient
-//! has vanished is arbitrary; for two terms with the same exponent only the sum matters; and a parameter that
-//! grows without bound changes less and less.
+//! Terms of a sum that exchange their places are the same parameters. The exponent of a term whose
+//! coefficient has vanished is arbitrary; for two terms with the same exponent only the sum matters; and a
+//! parameter that grows without bound changes less and less.
 
 use std::collections::BTreeMap;
 

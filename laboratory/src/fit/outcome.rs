@@ -94,8 +94,8 @@ pub enum Warning {
         /// Root mean square of the effect of such a change on the differences, to first order.
         effect: f64,
     },
-    /// Other descents end about as well at other parameters: a term has vanished, two terms have become one, a
-    /// parameter grows without bound, parameters compensate each other, or there are several minima.
+    /// Other descents end about as well at other parameters: a term has vanished, two terms have become one,
+    /// a parameter grows without bound, parameters compensate each other, or there are several minima.
     Ambiguous {
         /// Name, least and greatest value of the parameters that differ by more than the order of terms.
         ranges: Vec<(String, f64, f64)>,
