@@ -120,7 +120,8 @@ pub fn survey(specimen: &dyn Specimen, settings: &SurveySettings) -> Result<Repo
             }
         }
     }
-    let walks = Walk::all(specimen, settings);
+    let both = |path| [settings.from, settings.to].map(|to| Walk::along(path, specimen, to));
+    let walks = Path::ALL.into_iter().flat_map(both).collect();
     Ok(Report { settings: *settings, moduli, points, admitted, findings, walks })
 }
 

@@ -49,12 +49,7 @@ impl<'a> Table<'a> {
     /// form. If both columns are chosen by their numbers, it begins with the first number in one of them.
     pub(super) fn of(text: &'a str, options: &ReadOptions) -> Result<Self, DataError> {
         let (separator, mut rows) = rows(text)?;
-        let number = |choice: &Option<String>| chosen(choice.as_deref()?).0.parse::<usize>().ok();
-        let places = number(&options.strain).zip(number(&options.stress));
-        let (preamble, begin, used) = match places {
-            Some((strain, stress)) => by_numbers(&rows, [strain, stress], options)?,
-            None => by_names(&rows, options)?,
-        };
+        let (preamble, begin, used) = find(&rows, options)?;
         let Row { line, fields } = &rows[preamble];
         let (line, expected, has_header) = (*line, fields.len(), begin > preamble);
         let is_used =
@@ -100,9 +95,18 @@ fn rows(text: &str) -> Result<(char, Vec<Row<'_>>), DataError> {
 }
 
 /// The index of the header, or of the first row if there is none, that of the first row, and the columns.
-type Found = (usize, usize, Used);
-
-fn by_names(rows: &[Row<'_>], options: &ReadOptions) -> Result<Found, DataError> {
+fn find(rows: &[Row<'_>], options: &ReadOptions) -> Result<(usize, usize, Used), DataError> {
+    let number = |choice: &Option<String>| chosen(choice.as_deref()?).0.parse::<usize>().ok();
+    if let Some((strain, stress)) = number(&options.strain).zip(number(&options.stress)) {
+        let field = |row: &Row<'_>, number: usize| {
+            row.fields.get(number.wrapping_sub(1)).is_some_and(|field| is_number(field))
+        };
+        let first = rows.iter().position(|row| field(row, strain) || field(row, stress));
+        let first = first.unwrap_or(rows.len() - 1);
+        let nameless = vec![""; rows[first].fields.len()];
+        let used = Used::of(&nameless, None, options).map_err(|problem| refused(&rows[first], problem))?;
+        return Ok((first, first, used));
+    }
     for (index, row) in rows.iter().enumerate().filter(|(_, row)| !row.is_data()) {
         let units = rows.get(index + 1).filter(|row| row.is_units());
         let Ok(used) = Used::of(&row.fields, units, options) else { continue };
@@ -119,17 +123,6 @@ fn by_names(rows: &[Row<'_>], options: &ReadOptions) -> Result<Found, DataError>
         Err(problem) if !names.is_data() => Err(refused(names, problem)),
         _ => Err(refused(names, "there is no header above the numbers".into())),
     }
-}
-
-fn by_numbers(rows: &[Row<'_>], numbers: [usize; 2], options: &ReadOptions) -> Result<Found, DataError> {
-    let field = |row: &Row<'_>, number: usize| {
-        row.fields.get(number.wrapping_sub(1)).is_some_and(|field| is_number(field))
-    };
-    let first = rows.iter().position(|row| numbers.iter().any(|number| field(row, *number)));
-    let first = first.unwrap_or(rows.len() - 1);
-    let nameless = vec![""; rows[first].fields.len()];
-    let used = Used::of(&nameless, None, options).map_err(|problem| refused(&rows[first], problem))?;
-    Ok((first, first, used))
 }
 
 /// The mistake of a header, or of the first row where there is none, with the columns by their numbers.

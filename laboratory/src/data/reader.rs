@@ -87,25 +87,19 @@ impl Table<'_> {
     fn decimal(&self) -> Result<char, DataError> {
         let places = [self.used.control.place, self.used.stress.place];
         let numbers = self.rows.iter().flat_map(|row| places.map(|place| (row.line, row.fields[place])));
-        let with_comma: Vec<_> = numbers.filter(|(_, field)| field.contains(',')).collect();
-        match with_comma.first() {
-            Some(&(line, found)) if self.separator != ',' => {
-                match with_comma.iter().all(|(_, field)| may_be_thousands(field)) {
-                    true => {
-                        let mistake = format!(
-                            "`{}` may be {} or {}, like every number with a comma here; write decimals with a point, and \
-                             thousands without a mark",
-                            quoted(found),
-                            quoted(&found.replace(',', "")),
-                            quoted(&found.replace(',', "."))
-                        );
-                        Err(DataError::at(line, mistake))
-                    }
-                    false => Ok(','),
-                }
-            }
-            _ => Ok('.'),
+        let mut with_comma = numbers.filter(|(_, field)| self.separator != ',' && field.contains(','));
+        let Some((line, found)) = with_comma.next() else { return Ok('.') };
+        if !may_be_thousands(found) || !with_comma.all(|(_, field)| may_be_thousands(field)) {
+            return Ok(',');
         }
+        let mistake = format!(
+            "`{}` may be {} or {}, like every number with a comma here; write decimals with a point, and thousands \
+             without a mark",
+            quoted(found),
+            quoted(&found.replace(',', "")),
+            quoted(&found.replace(',', "."))
+        );
+        Err(DataError::at(line, mistake))
     }
 }
 

@@ -7,7 +7,6 @@
 
 use std::fmt;
 
-use super::SurveySettings;
 use super::criteria::{Criterion, Judgement};
 use crate::Specimen;
 use crate::curve::{Mode, Volume, respond};
@@ -85,13 +84,6 @@ impl Walk {
         let judged = |share| Judgement::of(specimen, path.stretches(specimen, stretch(share))?);
         let (reached, lost) = losses(judged);
         Self { path, to, reached: stretch(reached), lost: lost.map(|lost| lost.map(stretch)) }
-    }
-
-    /// Walks from rest to both ends of the settings' range along every path.
-    pub(super) fn all(specimen: &dyn Specimen, settings: &SurveySettings) -> Vec<Self> {
-        let ends = [settings.from, settings.to];
-        let both = |path| ends.map(|to| Self::along(path, specimen, to));
-        Path::ALL.into_iter().flat_map(both).collect()
     }
 
     /// The first stretch at which a criterion is lost.
