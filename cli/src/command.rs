@@ -173,7 +173,7 @@ impl Choice {
     /// The scene with the overrides.
     fn settings(self) -> Result<Settings, Error> {
         let settings = self.scene.settings(self.surface)?;
-        Ok(self.steps.apply(settings).with_threads(self.threads))
+        Ok(Settings { threads: self.threads, ..self.steps.apply(settings) })
     }
 }
 

@@ -161,7 +161,8 @@ impl RunOptions {
     pub fn task(&self) -> Result<Task, Error> {
         let mut task = self.body.task()?;
         let frames = self.frames.unwrap_or(task.settings.frames);
-        task.settings = self.steps.apply(task.settings).with_frames(frames);
+        task.settings = self.steps.apply(task.settings);
+        task.settings.frames = frames;
         task.settings.check()?;
         Ok(task)
     }

@@ -300,7 +300,7 @@ impl<'a> Course<'a> {
     /// Settings on which the motion depends, as JSON.
     fn settings(&self) -> Result<String, Error> {
         let Task { settings, groups, materials, moves, .. } = self.task;
-        let lasting: Settings = settings.clone().with_frames(1).with_threads(1).with_newton(Newton::Single);
+        let lasting = Settings { frames: 1, threads: 1, newton: Newton::Single, ..settings.clone() };
         let materials: Vec<_> =
             groups.iter().zip(materials).map(|(group, part)| (group, &part.material, part.density)).collect();
         serde_json::to_string(&(lasting, materials, moves)).map_err(|error| Error::Options(error.to_string()))

@@ -54,7 +54,7 @@ fn matching(scene: &Scene, name: &str) -> Result<MaterialSpec, Box<dyn std::erro
 #[track_caller]
 #[expect(clippy::print_stdout, reason = "figures, shown with --nocapture")]
 fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usize) -> TestResult {
-    let settings = Settings::new(scene).with_material(matching(scene, material)?);
+    let settings = Settings { material: matching(scene, material)?, ..Settings::new(scene) };
     let geometry = Geometry::load(&settings)?;
     let height = geometry.mesh.bounds().size()[1];
     let scratch = tempfile::tempdir()?;
@@ -134,7 +134,7 @@ fn check_dinosaur(settings: &Settings, frames: usize, options: &[String]) -> Tes
 #[test]
 fn integrators_agree() -> TestResult {
     for (name, integrator) in [("sdirk2", Integrator::Sdirk2), ("sdirk3", Integrator::Sdirk3)] {
-        let settings = Settings::new(&DINOSAUR).with_integrator(integrator).with_gravity(9.81);
+        let settings = Settings { integrator, gravity: 9.81, ..Settings::new(&DINOSAUR) };
         check_dinosaur(&settings, 5, &words(&format!("--gravity 9.81 --integrator {name}")))?;
     }
     Ok(())
@@ -146,7 +146,7 @@ fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
     let spec = matching(&DINOSAUR, "neo-Hookean")?;
     let parameters = spec.build()?.parameters;
     let [mu, lambda] = ["mu", "lambda"].map(|name| parameters[name][0]);
-    let settings = Settings::new(&DINOSAUR).with_material(spec).with_dt(0.4);
+    let settings = Settings { material: spec, dt: 0.4, ..Settings::new(&DINOSAUR) };
     let options = [
         "--dt=0.4".to_owned(),
         "--energy".to_owned(),
@@ -163,11 +163,13 @@ fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
 #[test]
 fn steps_within_a_tolerance_agree() -> TestResult {
     let (tolerance, dt, frames) = (0.05, 0.1, 4);
-    let settings = Settings::new(&DINOSAUR)
-        .with_dt(dt)
-        .with_integrator(Integrator::Sdirk2)
-        .with_tolerance(Some(tolerance))
-        .with_newton(Newton::Full);
+    let settings = Settings {
+        dt,
+        integrator: Integrator::Sdirk2,
+        tolerance: Some(tolerance),
+        newton: Newton::Full,
+        ..Settings::new(&DINOSAUR)
+    };
     let geometry = Geometry::load(&settings)?;
     let mut play = Play::new(&settings, &geometry)?;
     let mut taken = 0;

@@ -48,7 +48,7 @@ pub fn draw(
 ) -> Result<String, ChartError> {
     let panels: Vec<_> = GROUPS.iter().filter_map(|group| Panel::of(group, curves, data)).collect();
     if panels.is_empty() {
-        return Err(ChartError::Empty);
+        return Err(ChartError(panel::EMPTY.into()));
     }
     let (mut svg, mut fine) = (String::new(), Fine::default());
     {

@@ -88,13 +88,6 @@ impl Mode {
         }
     }
 
-    /// True if a specimen can be brought to a control: γ is any finite number, λ and J are positive finite
-    /// ones.
-    #[must_use]
-    pub fn allows(self, control: f64) -> bool {
-        control.is_finite() && (self == Self::SimpleShear || control > 0.0)
-    }
-
     /// The principal strains when the machine's stretch is 1 + `along` and that of free sides 1 + `side`.
     fn strains(self, along: f64, side: f64) -> [f64; 3] {
         match self {
@@ -122,22 +115,28 @@ impl fmt::Display for Mode {
 }
 
 impl FromStr for Mode {
-    type Err = ModeError;
+    type Err = String;
 
     /// Parses a name in any case, with spaces or `-` for `_`: the [name](Mode::name), or another common one:
     /// `UT`, `tension`, `compression`, `uniaxial tension`, `uniaxial compression`; `ET`, `EB`, `BT`,
     /// `biaxial`, `biaxial tension`; `PS`, `planar`, `planar tension`; `SS`; `hydrostatic`. `shear` alone
     /// could be either of two tests and is refused.
-    fn from_str(text: &str) -> Result<Self, ModeError> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let words = text.to_lowercase();
         let words = words.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
         let name = words.collect::<Vec<_>>().join("_");
         let mode = NAMES.into_iter().find(|(mode, others)| mode.name() == name || others.contains(&&*name));
-        mode.map(|(mode, _)| mode).ok_or_else(|| ModeError(text.trim().into()))
+        mode.map(|(mode, _)| mode).ok_or_else(|| {
+            let hint = match name == "shear" {
+                true => " by itself: pure shear has a stretch λ, simple shear an angle γ",
+                false => "",
+            };
+            let modes = Self::ALL.map(|mode| format!("`{mode}`")).join(", ");
+            format!("`{}` is not a test{hint}; write one of {modes}", quoted(text.trim()))
+        })
     }
 }
 
-/// Other names of each mode.
 const NAMES: [(Mode, &[&str]); 5] = [
     (Mode::Uniaxial, &["ut", "tension", "compression", "uniaxial_tension", "uniaxial_compression"]),
     (Mode::Equibiaxial, &["et", "eb", "bt", "biaxial", "equi_biaxial", "biaxial_tension"]),
@@ -145,18 +144,6 @@ const NAMES: [(Mode, &[&str]); 5] = [
     (Mode::SimpleShear, &["ss"]),
     (Mode::Volumetric, &["hydrostatic"]),
 ];
-
-/// An unknown name of a test.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "`{}` is not a test{}; write one of {}", quoted(.0),
-    if .0.eq_ignore_ascii_case("shear") { " by itself: pure shear has a stretch λ, simple shear an angle γ" } else { "" },
-    Mode::ALL.map(|mode| format!("`{mode}`")).join(", ")
-)]
-pub struct ModeError(
-    /// The name as given.
-    pub String,
-);
 
 /// Treatment of the volume of a specimen: free or constant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -251,7 +238,7 @@ pub fn respond(
     volume: Volume,
     control: f64,
 ) -> Result<Response, ResponseError> {
-    if !mode.allows(control) {
+    if !control.is_finite() || (mode != Mode::SimpleShear && control <= 0.0) {
         return Err(ResponseError::Control { mode, control });
     }
     let (strains, weights) = match (mode, volume) {

@@ -13,10 +13,10 @@
 //!
 //! # Files of test machines and spreadsheets
 //!
-//! * Columns are separated by tabs, semicolons, commas or spaces: the first of these in the last line.
-//!   Decimals have a point, or in the whole file a comma where another mark separates columns; thousands have
-//!   no mark. If every comma could be one of thousands, as in `1,234`, the file is refused. Lines above the
-//!   header are skipped; a row of units may stand below it.
+//! * The text is UTF-8. Columns are separated by tabs, semicolons, commas or spaces: the first of these in
+//!   the last line. Decimals have a point, or in the whole file a comma where another mark separates columns;
+//!   thousands have no mark. If every comma could be one of thousands, as in `1,234`, the file is refused.
+//!   Lines above the header are skipped; a row of units may stand below it.
 //! * A header in plain form is one of these names, in letters of any case:
 //!
 //! | quantity | header | becomes |
@@ -49,7 +49,6 @@
 //! size: far beyond measurements, and well inside of the range of squares and quotients.
 
 mod columns;
-mod encoding;
 mod fault;
 mod heading;
 mod measured;
@@ -59,13 +58,12 @@ mod reader;
 mod table;
 mod unit;
 
-pub use encoding::decoded;
 pub use fault::{DataError, Fault};
 pub(crate) use measured::short;
 pub use measured::{Agreement, Measured, Measurements, PointError};
 pub use options::{ReadOptions, Test};
 pub use reader::Reading;
-pub use unit::{StressUnit, StressUnitError};
+pub use unit::StressUnit;
 
 /// Vulcanised rubber with 8 % sulphur in uniaxial tension, equibiaxial tension and pure shear, as a file.
 ///

@@ -23,6 +23,8 @@ mod starts;
 mod trial;
 mod uniqueness;
 
+use piola::__private::message::quoted;
+
 use crate::curve::Volume;
 use crate::data::{Measured, Measurements};
 
@@ -52,11 +54,11 @@ pub enum Difference {
 /// use piola_laboratory::curve::Volume;
 /// use piola_laboratory::fit::FitSettings;
 ///
-/// let settings = FitSettings::default().with_volume(Volume::Free).with_held(["alpha_1"]);
+/// let settings =
+///     FitSettings { volume: Volume::Free, held: vec!["alpha_1".into()], ..FitSettings::default() };
 /// assert_eq!(settings.restarts, 20);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct FitSettings {
     /// Treatment of the volume of the specimens. Most data are without lateral stretches; for rubber the
     /// assumption to make then is constant volume, the default. If the energy yields in volume, it describes
@@ -90,37 +92,8 @@ impl Default for FitSettings {
     }
 }
 
-impl FitSettings {
-    /// Settings with another [`volume`](Self::volume).
-    #[must_use]
-    pub fn with_volume(self, volume: Volume) -> Self {
-        Self { volume, ..self }
-    }
-
-    /// Settings with another [`difference`](Self::difference).
-    #[must_use]
-    pub fn with_difference(self, difference: Difference) -> Self {
-        Self { difference, ..self }
-    }
-
-    /// Settings with other [`held`](Self::held) parameters.
-    #[must_use]
-    pub fn with_held<S: Into<String>>(self, held: impl IntoIterator<Item = S>) -> Self {
-        Self { held: held.into_iter().map(Into::into).collect(), ..self }
-    }
-
-    /// Settings with another number of [`restarts`](Self::restarts).
-    #[must_use]
-    pub fn with_restarts(self, restarts: usize) -> Self {
-        Self { restarts, ..self }
-    }
-
-    /// Settings with another [`seed`](Self::seed).
-    #[must_use]
-    pub fn with_seed(self, seed: u64) -> Self {
-        Self { seed, ..self }
-    }
-}
+/// Limit of [`FitSettings::restarts`], far beyond the minima of any energy.
+const MOST_RESTARTS: usize = 10_000;
 
 /// Fits the parameters of an energy to data, starting from those that it has.
 ///
@@ -135,13 +108,15 @@ pub fn fit_parameters(
     settings: &FitSettings,
 ) -> Result<Fit, FitError> {
     let restarts = settings.restarts;
-    if restarts > outcome::MOST_RESTARTS {
-        return Err(FitError::Restarts { restarts });
+    if restarts > MOST_RESTARTS {
+        return Err(FitError::Other(format!(
+            "the number of random starts is {restarts}; it must be at most {MOST_RESTARTS}"
+        )));
     }
     if let Some((index, fault)) =
         data.points.iter().map(Measured::fault).enumerate().find_map(|(index, fault)| Some((index, fault?)))
     {
-        return Err(FitError::Point { index, fault });
+        return Err(FitError::Other(format!("the point {index} (from 0) cannot be fitted: {fault}")));
     }
     let numbers = Numbers::of(start);
     let mut held = held(&numbers, &settings.held)?;
@@ -165,7 +140,8 @@ pub fn fit_parameters(
     }
     let free = held.iter().filter(|standing| standing.is_none()).count();
     if free == 0 {
-        return Err(FitError::NothingFree);
+        let mistake = "no parameter is left to fit: hold fewer, or add data of other tests";
+        return Err(FitError::Other(mistake.into()));
     }
     if points.len() < free {
         return Err(FitError::TooFewPoints { points: points.len(), free });
@@ -178,10 +154,12 @@ pub fn fit_parameters(
         .enumerate()
         .filter_map(|(start, problem)| minimum::descend(problem, start))
         .collect();
-    let least = minima.iter().map(|minimum| minimum.squares).reduce(f64::min).ok_or(FitError::NoMinimum)?;
+    let no_minimum =
+        || FitError::Other("residuals become infinite on the way; start nearer to the solution".into());
+    let least = minima.iter().map(|minimum| minimum.squares).reduce(f64::min).ok_or_else(no_minimum)?;
     // Of those that differ by rounding alone the first.
     let is_least = |minimum: &&Minimum<'_>| minimum.squares <= least * (1.0 + 1e-9);
-    let best = minima.iter().find(is_least).ok_or(FitError::NoMinimum)?;
+    let best = minima.iter().find(is_least).ok_or_else(no_minimum)?;
     let agreement = data.agreement(best.problem.specimen(), settings.volume);
     let agreement = agreement.map_err(TrialError::Point)?;
     let analysis = uniqueness::analyse(&best.problem, &numbers);
@@ -199,7 +177,10 @@ fn held(numbers: &Numbers, names: &[String]) -> Result<Vec<Option<Standing>>, Fi
             }
         }
         if !is_known {
-            return Err(FitError::UnknownParameter { name: name.clone(), known: numbers.names.clone() });
+            let (name, known) = (quoted(name), numbers.names.join(", "));
+            return Err(FitError::Other(format!(
+                "there is no parameter `{name}` to hold; there are {known}"
+            )));
         }
     }
     Ok(held)
@@ -214,5 +195,8 @@ fn points(data: &Measurements, difference: Difference) -> Result<Vec<(Measured, 
     };
     let counting = data.points.iter().filter(|point| !point.is_rest() && size(point) != 0.0);
     let points: Vec<_> = counting.map(|point| (*point, size(point))).collect();
-    if points.is_empty() { Err(FitError::NoPoints) } else { Ok(points) }
+    if points.is_empty() {
+        return Err(FitError::Other("there is no point with a stress to fit".into()));
+    }
+    Ok(points)
 }

@@ -89,7 +89,8 @@ impl Place {
 ///     Contender { name: "neo-Hookean".into(), candidate: Box::new(NeoHookean::new(4e5, 2e7)?) },
 ///     Contender { name: "Gent".into(), candidate: Box::new(Gent::new(3e5, 80.0, 2e7)?) },
 /// ];
-/// let settings = FitSettings::default().with_difference(Difference::Absolute).with_restarts(2);
+/// let settings =
+///     FitSettings { difference: Difference::Absolute, restarts: 2, ..FitSettings::default() };
 /// let ranking = rank(&contenders, &Measurements::read(TRELOAR_1944)?, &settings);
 /// let names: Vec<_> = ranking.places.iter().map(|place| (&*place.name, place.parameters())).collect();
 /// assert_eq!(names, [("Gent", 2), ("neo-Hookean", 1)]);
@@ -98,7 +99,7 @@ impl Place {
 /// ```
 #[must_use]
 pub fn rank(contenders: &[Contender], data: &Measurements, settings: &FitSettings) -> Ranking {
-    let settings = settings.clone().with_volume(Volume::Kept);
+    let settings = FitSettings { volume: Volume::Kept, ..settings.clone() };
     let fitted = |contender| place(contender, data, &settings);
     let results: Vec<_> = contenders.par_iter().map(fitted).collect();
 

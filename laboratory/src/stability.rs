@@ -44,7 +44,6 @@ pub use path::{Path, Walk};
 
 /// Range of stretches that a survey covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct SurveySettings {
     /// The least stretch, from 10⁻⁶ to below 1.
     pub from: f64,
@@ -58,20 +57,6 @@ impl Default for SurveySettings {
     /// 0.3 … 3 in steps of 6 %.
     fn default() -> Self {
         Self { from: 0.3, to: 3.0, resolution: 41 }
-    }
-}
-
-impl SurveySettings {
-    /// Settings with another range of stretches.
-    #[must_use]
-    pub fn with_range(self, from: f64, to: f64) -> Self {
-        Self { from, to, ..self }
-    }
-
-    /// Settings with another [`resolution`](Self::resolution).
-    #[must_use]
-    pub fn with_resolution(self, resolution: usize) -> Self {
-        Self { resolution, ..self }
     }
 }
 
@@ -104,33 +89,9 @@ pub struct Finding {
 }
 
 /// Reason why a material cannot be surveyed.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SurveyError {
-    /// The range of stretches does not contain the rest state, or exceeds the stretches of any solid.
-    #[error(
-        "the stretches are from {} to {}; they must be at least {:e} and at most {:e}, with the rest state, 1, between them",
-        number(*from), number(*to), STRETCHES.0, STRETCHES.1
-    )]
-    Range {
-        /// The least stretch as given.
-        from: f64,
-        /// The greatest stretch as given.
-        to: f64,
-    },
-    /// Too few or too many stretches along an axis.
-    #[error("the resolution is {resolution}; it must be from {} to {}", LIMITS.0, LIMITS.1)]
-    Resolution {
-        /// The resolution as given.
-        resolution: usize,
-    },
-    /// The rest state is not admitted, or its shear modulus, in which all others are shown, is not positive.
-    #[error("the shear modulus at rest is {} Pa and must be positive: no solid has this energy", number(*mu))]
-    Rest {
-        /// The shear modulus, Pa; NaN where the rest state is not admitted.
-        mu: f64,
-    },
-}
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct SurveyError(String);
 
 /// Limits of the stretches: a chain of a million links straightens by a factor of a thousand, and powers of
 /// these are far from overflow.
@@ -159,7 +120,8 @@ pub fn survey(specimen: &dyn Specimen, settings: &SurveySettings) -> Result<Repo
             }
         }
     }
-    let walks = Walk::all(specimen, settings);
+    let both = |path| [settings.from, settings.to].map(|to| Walk::along(path, specimen, to));
+    let walks = Path::ALL.into_iter().flat_map(both).collect();
     Ok(Report { settings: *settings, moduli, points, admitted, findings, walks })
 }
 
@@ -175,10 +137,20 @@ impl SurveySettings {
     pub(crate) fn check(&self) -> Result<(), SurveyError> {
         let Self { from, to, resolution } = *self;
         if !(STRETCHES.0 <= from && from < 1.0 && 1.0 < to && to <= STRETCHES.1) {
-            return Err(SurveyError::Range { from, to });
+            return Err(SurveyError(format!(
+                "the stretches are from {} to {}; they must be at least {:e} and at most {:e}, with the rest state, 1, \
+                 between them",
+                number(from),
+                number(to),
+                STRETCHES.0,
+                STRETCHES.1
+            )));
         }
         if !(LIMITS.0..=LIMITS.1).contains(&resolution) {
-            return Err(SurveyError::Resolution { resolution });
+            let (least, most) = LIMITS;
+            return Err(SurveyError(format!(
+                "the resolution is {resolution}; it must be from {least} to {most}"
+            )));
         }
         Ok(())
     }
@@ -206,5 +178,11 @@ impl SurveySettings {
 fn at_rest(specimen: &dyn Specimen) -> Result<Moduli, SurveyError> {
     let moduli = specimen::moduli(specimen);
     let mu = if specimen.admits([1.0; 3]) { moduli.mu } else { f64::NAN };
-    if mu > 0.0 && mu.is_finite() { Ok(moduli) } else { Err(SurveyError::Rest { mu }) }
+    if mu > 0.0 && mu.is_finite() {
+        return Ok(moduli);
+    }
+    let mu = number(mu);
+    Err(SurveyError(format!(
+        "the shear modulus at rest is {mu} Pa and must be positive: no solid has this energy"
+    )))
 }

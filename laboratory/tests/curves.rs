@@ -4,7 +4,7 @@ use piola::interpreter::Interpreted;
 use piola::material::Moduli;
 use piola::{Inversion, Material};
 use piola_declare::Energy;
-use piola_laboratory::chart::{ChartError, Curve, draw};
+use piola_laboratory::chart::{Curve, draw};
 use piola_laboratory::curve::{Mode, Response, ResponseError, Volume, respond};
 use piola_laboratory::data::Measurements;
 use piola_materials::{DECLARATIONS, Gent, NeoHookean, Ogden, RotatedLinear};
@@ -234,7 +234,8 @@ fn charts_are_drawn_or_refused_and_never_without_end() -> Outcome {
     }
     for wild in [1e101, f64::MAX, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
         for points in [[(1.0, 0.0), (2.0, wild)], [(wild, 0.0), (2.0, 1.0)]] {
-            assert!(matches!(drawn(&points), Err(ChartError::Range { .. })), "{points:?}");
+            let error = drawn(&points).expect_err("beyond all axes").to_string();
+            assert!(error.starts_with("an axis of the chart would have to be from "), "{points:?}: {error}");
         }
     }
     Ok(())

@@ -8,8 +8,8 @@ use piola::material::{MaterialError, Text};
 use piola_bodies::mesh::ReadError;
 use piola_bodies::step::{NewtonError, SetupError, StepError};
 use piola_bodies::system::BodyError;
+use piola_declare::Mistakes;
 use piola_declare::emit::EmitError;
-use piola_declare::{Mistakes, nearest};
 
 /// Error that prevents a scene from starting or continuing.
 #[derive(Debug, thiserror::Error)]
@@ -31,35 +31,12 @@ pub enum Error {
         /// Reason and remedy.
         String,
     ),
-    /// A file of an energy or a state cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// Error of the system.
-        source: io::Error,
-    },
     /// An energy has mistakes.
     #[error("{0}")]
     Declaration(Mistakes),
     /// An energy cannot be printed in another language.
     #[error(transparent)]
     Emit(#[from] EmitError),
-    /// The material has no parameter of that name.
-    #[error(
-        "{material} has no parameter `{}`; {} has {}",
-        quoted(parameter),
-        near_or_it(parameter, known),
-        list(known)
-    )]
-    UnknownParameter {
-        /// Name of the material.
-        material: Text,
-        /// The name as given.
-        parameter: String,
-        /// The names that exist.
-        known: Vec<Text>,
-    },
     /// A parameter has no value, and there is no default that suits everybody.
     #[error("{material} needs a value for {}", list(missing))]
     MissingParameters {
@@ -89,14 +66,6 @@ pub enum Error {
     /// The file of a mesh or a surface cannot be read or is malformed.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// A mesh or a surface is unusable.
-    #[error("{file}: {source}")]
-    Geometry {
-        /// The file, or the name of the body.
-        file: String,
-        /// Reason, without the name of the file.
-        source: Box<dyn std::error::Error + Send + Sync>,
-    },
     /// Mesh and material are not a valid body.
     #[error(transparent)]
     Body(#[from] BodyError),
@@ -145,14 +114,6 @@ pub fn explained(error: &StepError) -> String {
         }
         other => other.to_string(),
     }
-}
-
-/// "it", after a question if a name is similar to a known one, with or without an index.
-fn near_or_it(name: &str, known: &[Text]) -> String {
-    let known = || known.iter().map(|known| &**known);
-    let without_index = name.trim_end_matches(|c: char| c == '_' || c.is_ascii_digit());
-    let near = nearest(name, known()).or_else(|| nearest(without_index, known()));
-    near.map_or_else(|| "it".to_owned(), |near| format!("did you mean `{}`? It", quoted(near)))
 }
 
 /// Names in backquotes with commas, or "none".

@@ -1,8 +1,8 @@
 //! The geometry of a run: tetrahedra, and the surface that is drawn instead of them.
 
 use std::collections::HashMap;
-use std::error;
 use std::ffi::OsStr;
+use std::fmt;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -38,8 +38,8 @@ impl Geometry {
     /// The body of the settings: from their files, or one that comes with the program.
     ///
     /// # Errors
-    /// [`Error::Read`] if a file cannot be read or is malformed, [`Error::Geometry`] if its tetrahedra are
-    /// not a valid body or the surface lies outside of them.
+    /// [`Error::Read`] if a file cannot be read or is malformed, [`Error::Usage`] if its tetrahedra are not a
+    /// valid body or the surface lies outside of them, [`Error::OutOfRange`] for its size.
     pub fn load(settings: &Settings) -> Result<Self, Error> {
         let Some(files) = &settings.files else { return Self::of(settings.body) };
         let mesh = match files.mesh.extension().and_then(OsStr::to_str) {
@@ -231,11 +231,8 @@ fn boundary(mesh: &TetMesh) -> Surface {
 }
 
 /// Names the file in an error about its content.
-fn usable<T, E>(file: &str, result: Result<T, E>) -> Result<T, Error>
-where
-    E: error::Error + Send + Sync + 'static,
-{
-    result.map_err(|source| Error::Geometry { file: file.into(), source: source.into() })
+fn usable<T>(file: &str, result: Result<T, impl fmt::Display>) -> Result<T, Error> {
+    result.map_err(|error| Error::Usage(format!("{file}: {error}")))
 }
 
 #[cfg(test)]
@@ -243,7 +240,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_seldom_meant_is_told() -> Result<(), Box<dyn error::Error>> {
+    fn what_is_seldom_meant_is_told() -> Result<(), Box<dyn std::error::Error>> {
         let mut mesh = tetrahedral_box([2, 1, 1], [2.0, 1.0, 1.0])?;
         let of = |mesh: &TetMesh| Geometry::new(mesh.clone(), "mesh", &Surface::default(), "none");
         assert_eq!(of(&mesh)?.warnings(), [""; 0]);

@@ -9,17 +9,18 @@
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, OnceLock};
 
+use piola::__private::message::quoted;
 use piola::Inversion;
 use piola::batch;
 use piola::interpreter::Interpreted;
 use piola::material::{Description, MaterialError, Moduli, Text};
-use piola_declare::Energy;
 use piola_declare::emit::Emission;
+use piola_declare::{Energy, nearest};
 use piola_laboratory::fit::Candidate;
 use piola_materials::{DECLARATIONS, Declaration};
 use serde::{Deserialize, Serialize};
 
-use crate::error::Error;
+use crate::error::{Error, list};
 use fitted::Fitted;
 
 mod fitted;
@@ -192,8 +193,8 @@ impl MaterialSpec {
     /// Finds the material and checks its parameters.
     ///
     /// # Errors
-    /// [`Error::Unknown`], [`Error::UnknownParameter`], [`Error::MissingParameters`] or
-    /// [`Error::Inadmissible`].
+    /// [`Error::Unknown`], [`Error::MissingParameters`] or [`Error::Inadmissible`]; [`Error::Usage`] for a
+    /// parameter that the material does not have.
     pub fn build(&self) -> Result<MaterialInfo, Error> {
         let (name, _) = self.known()?;
         let compiled = if self.energy.is_none() { piola_materials::find(&name) } else { None };
@@ -286,15 +287,18 @@ impl MaterialSpec {
         make(energy, &values, self.inversion.unwrap_or(usual)).map_err(refused)
     }
 
-    /// The values in the order of the declaration.
     fn values(&self, material: &Text, description: &Description) -> Result<Vec<&[f64]>, Error> {
         let material = material.clone();
         let known = || description.parameters.iter().map(|parameter| &parameter.name);
-        if let Some((parameter, _)) =
-            self.parameters.iter().find(|(name, _)| !known().any(|known| known == name))
+        if let Some((name, _)) = self.parameters.iter().find(|(name, _)| !known().any(|known| known == name))
         {
-            let (parameter, known) = (parameter.clone(), known().cloned().collect());
-            return Err(Error::UnknownParameter { material, parameter, known });
+            let names: Vec<&str> = known().map(|name| &**name).collect();
+            return Err(Error::Usage(format!(
+                "{material} has no parameter `{}`; {} has {}",
+                quoted(name),
+                near_or_it(name, &names),
+                list(&names)
+            )));
         }
         let value = |wanted: &Text| {
             self.parameters.iter().find(|(name, _)| wanted == name).map(|(_, values)| values.as_slice())
@@ -306,6 +310,14 @@ impl MaterialSpec {
             Err(Error::MissingParameters { material, missing })
         }
     }
+}
+
+/// "it", after a question if a name is similar to a known one, with or without an index.
+fn near_or_it(name: &str, known: &[&str]) -> String {
+    let near = |name: &str| nearest(name, known.iter().copied());
+    let without_index = name.trim_end_matches(|c: char| c == '_' || c.is_ascii_digit());
+    let near = near(name).or_else(|| near(without_index));
+    near.map_or_else(|| "it".to_owned(), |near| format!("did you mean `{}`? It", quoted(near)))
 }
 
 /// Values by the names of the parameters.
@@ -323,7 +335,6 @@ pub struct MaterialInfo {
     pub moduli: Moduli,
 }
 
-/// Names of all materials of the catalogue.
 pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     DECLARATIONS.iter().map(|declaration| declaration.name)
 }

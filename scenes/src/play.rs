@@ -424,7 +424,7 @@ mod tests {
 
     #[test]
     fn no_step_leads_beyond_all_time() {
-        let settings = Settings::new(&HORSE).with_body(Body::BAR);
+        let settings = Settings { body: Body::BAR, ..Settings::new(&HORSE) };
         let geometry = Geometry::load(&settings).expect("a body of the program");
         let mut play = Play::new(&settings, &geometry).expect("a scene that plays");
         let late = r#"{"frame":1,"dt":1e300,"since_frame":1,"since_time":1.7976931348623157e308}"#;
@@ -448,7 +448,7 @@ mod tests {
             released: 0.2,
         };
         static DRAWN: Scene = Scene { pulls: &[PULL], ..TWIST };
-        let settings = Settings::new(&DRAWN).with_dt(dt);
+        let settings = Settings { dt, ..Settings::new(&DRAWN) };
         let geometry = Geometry::load(&settings).expect("a body of the program");
         Play::new(&settings, &geometry).expect("a scene that plays")
     }

@@ -27,29 +27,25 @@ pub fn within(whole: Bounds, shares: Bounds) -> Bounds {
 /// Parses a box in metres, `LOW:HIGH,LOW:HIGH,LOW:HIGH`; a side that is left out lies at infinity.
 ///
 /// # Errors
-/// [`RegionError`] if the text has another format or a range is empty.
-pub fn parse(text: &str) -> Result<Bounds, RegionError> {
+/// A description of the format if the text has another one, or a range is empty.
+pub fn parse(text: &str) -> Result<Bounds, &'static str> {
     let mut region = EVERYWHERE;
     let mut ranges = text.split(',');
     for i in 0..3 {
-        let (low, high) = ranges.next().and_then(|range| range.split_once(':')).ok_or(RegionError)?;
+        let (low, high) = ranges.next().and_then(|range| range.split_once(':')).ok_or(FORMAT)?;
         for (side, text) in [(&mut region.min[i], low.trim()), (&mut region.max[i], high.trim())] {
             if !text.is_empty() {
-                *side = text.parse().map_err(|_| RegionError)?;
+                *side = text.parse().map_err(|_| FORMAT)?;
             }
         }
     }
     let is_box = (0..3).all(|i| region.min[i] <= region.max[i]);
-    if ranges.next().is_none() && is_box { Ok(region) } else { Err(RegionError) }
+    if ranges.next().is_none() && is_box { Ok(region) } else { Err(FORMAT) }
 }
 
-/// Error of a text that is not a box; the message describes the format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "a box is three ranges LOW:HIGH in metres with LOW ≤ HIGH, separated by commas, where either side of a range may be \
-     left out, such as `:,:0.05,:`"
-)]
-pub struct RegionError;
+/// The format of a box, for a text that is none.
+const FORMAT: &str = "a box is three ranges LOW:HIGH in metres with LOW ≤ HIGH, separated by commas, where either side of a \
+                      range may be left out, such as `:,:0.05,:`";
 
 #[cfg(test)]
 mod tests {
@@ -63,7 +59,7 @@ mod tests {
             Ok(Bounds { min: [-open, -1.0, 0.25], max: [open, 0.05, open] })
         );
         for text in ["", "1,2,3", ":,:", ":,:,:,:", "1:0,:,:", "nan:,:,:", "a:b,:,:"] {
-            assert_eq!(parse(text), Err(RegionError), "{text}");
+            assert_eq!(parse(text), Err(FORMAT), "{text}");
         }
     }
 

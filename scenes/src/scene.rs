@@ -73,7 +73,6 @@ impl Scene {
         serializer.serialize_str(scene.name)
     }
 
-    /// Finds a scene by its name.
     pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<&'static Self, D::Error> {
         Self::find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
     }

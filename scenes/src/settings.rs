@@ -19,7 +19,6 @@ const MAX_PINS: f64 = 1000.0;
 /// Settings of a run: a scene and overrides of its defaults.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-#[non_exhaustive]
 pub struct Settings {
     /// The scene.
     #[serde(with = "Scene")]
@@ -74,18 +73,6 @@ pub struct Files {
     pub surface: Option<PathBuf>,
 }
 
-/// Methods that replace one field each.
-macro_rules! setters {
-    ($($(#[$about:meta])+ $setter:ident: $field:ident = $value:ty;)+) => {$(
-        $(#[$about])+
-        #[must_use]
-        pub fn $setter(mut self, value: $value) -> Self {
-            self.$field = value;
-            self
-        }
-    )+};
-}
-
 impl Settings {
     /// The scene as it is described, on one thread and without gravity.
     #[must_use]
@@ -108,35 +95,6 @@ impl Settings {
             newton: Newton::Single,
             threads: 1,
         }
-    }
-
-    setters! {
-        /// Replaces the body.
-        with_body: body = Body;
-        /// Takes the body from files, or, with `None`, that of the program.
-        with_files: files = Option<Files>;
-        /// Replaces the unit of the coordinates in files.
-        with_unit: unit = Unit;
-        /// Leaves out other volume elements of files than linear tetrahedra, or not.
-        with_only_tetrahedra: only_tetrahedra = bool;
-        /// Replaces the start.
-        with_start: start = Start;
-        /// Replaces the material.
-        with_material: material = MaterialSpec;
-        /// Replaces the acceleration downwards, m/s².
-        with_gravity: gravity = f64;
-        /// Replaces the time step, s.
-        with_dt: dt = f64;
-        /// Replaces the number of time steps.
-        with_frames: frames = usize;
-        /// Replaces the integrator.
-        with_integrator: integrator = Integrator;
-        /// Replaces the tolerance of time steps, body heights per second.
-        with_tolerance: tolerance = Option<f64>;
-        /// Replaces the accuracy of each step.
-        with_newton: newton = Newton;
-        /// Replaces the number of threads; 0 for one per core.
-        with_threads: threads = usize;
     }
 
     /// Checks that all values are in range, so that a simulation is meaningful and ends.

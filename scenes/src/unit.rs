@@ -39,7 +39,6 @@ impl Unit {
         }
     }
 
-    /// Converts points in this unit to metres.
     pub(crate) fn convert(self, points: &mut [[f64; 3]]) {
         points.as_flattened_mut().iter_mut().for_each(|x| *x = self.to_metres(*x));
     }

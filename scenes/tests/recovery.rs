@@ -19,8 +19,7 @@ fn play(
     newton: Newton,
 ) -> Result<TrialOutcome, Error> {
     let spec = MaterialSpec::matching(material, soft_moduli());
-    let settings = Settings::new(scene).with_body(body).with_material(spec);
-    let settings = settings.with_start(start).with_newton(newton);
+    let settings = Settings { body, material: spec, start, newton, ..Settings::new(scene) };
     let outcome = run_trial(&settings, &Geometry::load(&settings)?)?;
     let what = format!("{} {} {material}: {outcome:?}", scene.name, body.name);
     assert!(outcome.finite && outcome.largest_rise <= RISE, "{what}");

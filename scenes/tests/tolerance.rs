@@ -36,8 +36,8 @@ impl State {
 
     /// The positions after the next frame, made to a tolerance, body heights per second, and the steps of it.
     fn frame(&self, integrator: Integrator, tolerance: f64) -> (Vec<[f64; 3]>, StepCounts) {
-        let settings = self.settings.clone().with_integrator(integrator).with_newton(Newton::Full);
-        let settings = settings.with_tolerance(Some(tolerance));
+        let (newton, tolerance) = (Newton::Full, Some(tolerance));
+        let settings = Settings { integrator, newton, tolerance, ..self.settings.clone() };
         let mut play = Play::new(&settings, &self.geometry).expect("a scene that plays");
         let now = self.play.simulation();
         play.resume(self.play.clock(), now.positions(), now.velocities()).expect("a state of the body");

@@ -81,7 +81,6 @@ impl Conversation {
         })
     }
 
-    /// The order of an act.
     fn act(&self, act: Act, answer: Sender<Answer>) -> Result<Option<Order>, String> {
         let act = self.as_own(act)?;
         let energy = match &act {

@@ -47,8 +47,7 @@ impl Session {
     /// # Errors
     /// An error of the settings or of the body, or of a material that is not defined at the start.
     pub fn new(settings: Settings) -> Result<Self, Error> {
-        let material = settings.material.explicit()?;
-        let settings = settings.with_material(material);
+        let settings = Settings { material: settings.material.explicit()?, ..settings };
         let geometry = Geometry::load(&settings)?;
         let play = at_start(&settings, &geometry)?;
         let (pulls, material_at_start) = (BTreeMap::new(), settings.material.clone());
@@ -145,15 +144,15 @@ impl Session {
             }
             Act::Material { name, as_stiff } => {
                 let material = self.material(name, *as_stiff)?;
-                self.change(self.settings.clone().with_material(material))
+                self.change(Settings { material, ..self.settings.clone() })
             }
             Act::Energy { text, parameters } => self.declare(typed::energy(text, parameters)?, parameters),
             Act::Parameter { name, values } => {
                 let material = self.settings.material.clone().with_parameter(name, values.clone());
-                self.change(self.settings.clone().with_material(material))
+                self.change(Settings { material, ..self.settings.clone() })
             }
             &Act::TimeStep { seconds } => {
-                let settings = self.settings.clone().with_dt(seconds);
+                let settings = Settings { dt: seconds, ..self.settings.clone() };
                 settings.check()?;
                 self.settings = settings;
                 self.play.set_dt(seconds);
@@ -186,7 +185,7 @@ impl Session {
     /// An error of the material; the state is then as before.
     pub fn declare(&mut self, energy: Energy, parameters: &BTreeMap<String, Vec<f64>>) -> Result<(), Error> {
         let material = typed::material(energy, parameters, &self.settings.material, self.play.moduli())?;
-        self.change(self.settings.clone().with_material(material))
+        self.change(Settings { material, ..self.settings.clone() })
     }
 
     fn pull(&mut self, number: u64, vertex: usize, target: [f64; 3]) -> Result<(), Error> {

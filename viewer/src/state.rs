@@ -41,7 +41,6 @@ pub struct Drag {
     pub place: [f64; 3],
 }
 
-/// Format of a file and its version.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 enum Format {
     #[serde(rename = "piola state 2")]
@@ -75,7 +74,7 @@ impl State {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`Error::Unreadable`], or like [`State::parse`].
+    /// [`Error::Usage`].
     pub fn read(path: &Path) -> Result<Self, Error> {
         Self::parse(&read_text(path, MAX_LENGTH)?, path)
     }

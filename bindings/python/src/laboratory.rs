@@ -8,8 +8,8 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use piola::contract::{Notation, Settings, check};
 use piola::point::{stress, svd};
 use piola_declare::Energy;
-use piola_laboratory::curve::{Mode, ModeError, Volume, sweep};
-use piola_laboratory::data::{Measured, Measurements, ReadOptions, StressUnitError, TRELOAR_1944};
+use piola_laboratory::curve::{Mode, Volume, sweep};
+use piola_laboratory::data::{Measured, Measurements, ReadOptions, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
 use piola_laboratory::stability::{Report, SurveySettings, survey};
@@ -88,12 +88,9 @@ impl Material {
     ) -> PyResult<Bound<'py, PyAny>> {
         let data = from_dictionary(data)?;
         let candidate = self.uniform()?.candidate().map_err(of_material)?;
-        let settings = FitSettings::default()
-            .with_volume(volume(incompressible))
-            .with_difference(if relative { Difference::Relative } else { Difference::Absolute })
-            .with_held(held)
-            .with_restarts(restarts)
-            .with_seed(seed);
+        let volume = volume(incompressible);
+        let difference = if relative { Difference::Relative } else { Difference::Absolute };
+        let settings = FitSettings { volume, difference, held, restarts, seed };
         let fit = py.detach(|| fit_parameters(&*candidate, &data, &settings));
         let Fit { values, numbers, agreement, difference, condition, ended, warnings, .. } =
             fit.map_err(|error| FitError::new_err(error.to_string()))?;
@@ -129,7 +126,7 @@ impl Material {
         resolution: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let specimen = self.uniform()?.interpreted().map_err(of_material)?;
-        let settings = SurveySettings::default().with_range(smallest, largest).with_resolution(resolution);
+        let settings = SurveySettings { from: smallest, to: largest, resolution };
         let report = py.detach(|| survey(&specimen, &settings)).map_err(value_error)?;
         let text = report.to_string();
         let Report { points, admitted, findings, walks, .. } = report;
@@ -237,7 +234,7 @@ fn volume(incompressible: bool) -> Volume {
 }
 
 fn mode(name: &str) -> PyResult<Mode> {
-    name.parse().map_err(value_error::<ModeError>)
+    name.parse().map_err(value_error::<String>)
 }
 
 fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
@@ -286,8 +283,8 @@ pub(crate) fn measurements<'py>(
     unit: Option<&str>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = ReadOptions {
-        test: mode.map(str::parse).transpose().map_err(value_error::<ModeError>)?,
-        unit: unit.map(str::parse).transpose().map_err(value_error::<StressUnitError>)?,
+        test: mode.map(str::parse).transpose().map_err(value_error::<String>)?,
+        unit: unit.map(str::parse).transpose().map_err(value_error::<String>)?,
         strain: strain.map(Into::into),
         stress: stress.map(Into::into),
     };

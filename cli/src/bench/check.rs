@@ -48,8 +48,7 @@ impl Check {
     /// Examines the material and writes the map if one is wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
         let material = self.material.spec()?.with_inversion(self.inversion);
-        let stretches =
-            SurveySettings::default().with_range(self.from, self.to).with_resolution(self.resolution);
+        let stretches = SurveySettings { from: self.from, to: self.to, resolution: self.resolution };
         let description = material.description()?;
         let title = format!("{} {}", description.name, as_options(&material)?.replace("--param ", ""));
         let specimen = material.interpreted()?;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use piola_laboratory::data::{Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944, Test, decoded};
+use piola_laboratory::data::{Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944, Test};
 
 use crate::error::Error;
 
@@ -106,12 +106,12 @@ impl Data {
             stress: column(&self.stresses),
         };
         let (files, given) = (self.files.len(), self.tests.len());
-        let reading =
-            Measurements::read_with(&decoded(&bytes), &options).map_err(|source| match source.fault {
-                Fault::NoMode if given > 0 => unpaired("--mode", given, files),
-                fault => Error::usage(format!("{path}:{}: {fault}", source.line)),
-            })?;
-        let (mut points, mut note) = (reading.measurements.clone(), reading.to_string());
+        let text = String::from_utf8_lossy(&bytes);
+        let reading = Measurements::read_with(&text, &options).map_err(|source| match source.fault {
+            Fault::NoMode if given > 0 => unpaired("--mode", given, files),
+            fault => Error::usage(format!("{path}:{}: {fault}", source.line)),
+        })?;
+        let (mut points, mut note) = (reading.measurements.clone(), reading.note);
         if !self.tests.is_empty() {
             let modes: Vec<_> = self.tests.iter().map(|test| test.mode).collect();
             points.points.retain(|point| modes.contains(&point.mode));

@@ -63,11 +63,8 @@ impl Fit {
         let spec = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
         let material = spec.build()?.name;
         let candidate = spec.candidate()?;
-        let settings = FitSettings::default()
-            .with_volume(volume)
-            .with_held(self.held)
-            .with_restarts(self.starts)
-            .with_seed(self.seed);
+        let (held, restarts, seed) = (self.held, self.starts, self.seed);
+        let settings = FitSettings { volume, held, restarts, seed, ..FitSettings::default() };
         let fit = fit::fit_parameters(&*candidate, &data, &settings).map_err(|error| {
             Error::usage(format!("{material} cannot be fitted: {error}{}", remedy(&error)))
         })?;

@@ -52,7 +52,8 @@ pub(super) fn run(data: &Data, svg: Option<&Path>) -> Result<String, Error> {
     };
     let rubbers = DECLARATIONS.iter().filter(|declaration| declaration.is_rubber);
     let contenders = rubbers.map(|rubber| contender(rubber.name)).collect::<Result<Vec<_>, _>>()?;
-    let ranking = rank(&contenders, &data, &FitSettings::default().with_difference(Difference::Absolute));
+    let settings = FitSettings { difference: Difference::Absolute, ..FitSettings::default() };
+    let ranking = rank(&contenders, &data, &settings);
     let title = format!("rubbers, incompressible, fitted to {files}");
     if let Some(svg) = svg {
         let picture = chart::rows(&title, NOTE, &ranking).map_err(Error::usage)?;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use piola_scenes::output::seal;
-use piola_scenes::settings::Files;
+use piola_scenes::settings::{Files, Settings};
 use piola_scenes::unit::Unit;
 use piola_viewer::protocol::Act;
 use piola_viewer::session::Session;
@@ -102,7 +102,8 @@ fn a_body_from_files_is_given_again() {
     fs::write(&other, TETRAHEDRON.replace("0 0 1\n$", "0 0 2\n$")).expect("a scratch file");
     let files = |mesh: &Path| Some(Files { mesh: mesh.into(), surface: None });
     let state = folder.path().join("state.json");
-    let mut session = Session::new(settings().with_files(files(&mesh))).expect("a scene that plays");
+    let of_mesh = |unit| Settings { files: files(&mesh), unit, ..settings() };
+    let mut session = Session::new(of_mesh(Unit::M)).expect("a scene that plays");
     steps(&mut session, 2);
     session.state().write(&state).expect("a file");
     let text = fs::read_to_string(&state).expect("a file");
@@ -117,8 +118,7 @@ fn a_body_from_files_is_given_again() {
         assert!(error.contains("another body"), "{error}");
     }
     // The unit is not given again.
-    let in_inches = settings().with_files(files(&mesh)).with_unit(Unit::In);
-    let mut session = Session::new(in_inches).expect("a scene that plays");
+    let mut session = Session::new(of_mesh(Unit::In)).expect("a scene that plays");
     steps(&mut session, 2);
     session.state().write(&state).expect("a file");
     let again = Session::resume(State::read(&state).expect("a state").with_files(files(&mesh)));

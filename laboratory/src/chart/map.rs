@@ -9,115 +9,78 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::panel::{Area, ChartError, FONT, failed, write};
 use crate::curve::lateral::{Side, release};
 use crate::specimen::{self, Specimen};
-use crate::stability::criteria::{Criterion, Judgement};
+use crate::stability::criteria::Judgement;
 use crate::stability::{Path, SurveySettings};
 
 /// Plane of stretches λ1, λ2, and the condition on the third.
-#[derive(Clone, Copy)]
-enum Plane {
-    /// A sheet: no stress through its thickness.
-    Sheet,
-    /// Plane strain: λ3 = 1.
-    Strain,
-}
-
-impl Plane {
+struct Plane {
+    title: &'static str,
     /// The three stretches; `None` if no thickness makes a sheet free of stress.
-    fn stretches(self, specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
-        match self {
-            Self::Strain => Some([l1, l2, 1.0]),
-            Self::Sheet => {
-                let thickness = |strain: f64| {
-                    let strains = [l1 - 1.0, l2 - 1.0, strain];
-                    let [.., stress] = specimen::gradient(specimen, strains)?;
-                    Some(Side { stress, slope: specimen::hessian(specimen, strains)[2][2] })
-                };
-                let strain = release(thickness, 1.0 / (l1 * l2) - 1.0)?;
-                Some([l1, l2, 1.0 + strain])
-            }
-        }
-    }
-
-    fn title(self) -> &'static str {
-        match self {
-            Self::Sheet => "sheet: no stress through its thickness",
-            Self::Strain => "plane strain: λ3 = 1",
-        }
-    }
-
+    stretches: fn(&dyn Specimen, [f64; 2]) -> Option<[f64; 3]>,
     /// Lines in this plane with their names.
-    fn lines(self) -> [(&'static str, Line); 3] {
-        match self {
-            Self::Sheet => [
-                ("uniaxial", |specimen, first| second(Path::Uniaxial, specimen, first)),
-                ("equibiaxial", |specimen, first| second(Path::Equibiaxial, specimen, first)),
-                ("pure shear", |specimen, first| second(Path::PureShear, specimen, first)),
-            ],
-            Self::Strain => [
-                ("constant volume", |_, first| Some(1.0 / first)),
-                ("equibiaxial", |_, first| Some(first)),
-                ("confined", |_, _| Some(1.0)),
-            ],
-        }
-    }
+    lines: [(&'static str, Line); 3],
 }
 
 /// λ2 by λ1 along a line of the picture; `None` where nothing makes the sides free of stress.
 type Line = fn(&dyn Specimen, f64) -> Option<f64>;
+
+static PLANES: [Plane; 2] = [
+    Plane {
+        title: "sheet: no stress through its thickness",
+        stretches: sheet,
+        lines: [
+            ("uniaxial", |specimen, first| second(Path::Uniaxial, specimen, first)),
+            ("equibiaxial", |specimen, first| second(Path::Equibiaxial, specimen, first)),
+            ("pure shear", |specimen, first| second(Path::PureShear, specimen, first)),
+        ],
+    },
+    Plane {
+        title: "plane strain: λ3 = 1",
+        stretches: |_, [l1, l2]| Some([l1, l2, 1.0]),
+        lines: [
+            ("constant volume", |_, first| Some(1.0 / first)),
+            ("equibiaxial", |_, first| Some(first)),
+            ("confined", |_, _| Some(1.0)),
+        ],
+    },
+];
+
+/// The stretches of a sheet without stress through its thickness.
+fn sheet(specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
+    let thickness = |strain: f64| {
+        let strains = [l1 - 1.0, l2 - 1.0, strain];
+        let [.., stress] = specimen::gradient(specimen, strains)?;
+        Some(Side { stress, slope: specimen::hessian(specimen, strains)[2][2] })
+    };
+    let strain = release(thickness, 1.0 / (l1 * l2) - 1.0)?;
+    Some([l1, l2, 1.0 + strain])
+}
 
 /// λ2 of a test by its λ1.
 fn second(path: Path, specimen: &dyn Specimen, first: f64) -> Option<f64> {
     path.stretches(specimen, first).map(|[_, second, _]| second)
 }
 
-/// The criteria that a cell of the picture keeps or loses.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Cell {
-    Kept,
-    Hill,
-    Ellipticity,
-    HillAndEllipticity,
-    All,
-    Outside,
-}
+/// Kinds of the cells of the picture, with colours of Okabe and Ito, which stay apart for all kinds of colour
+/// vision; pale where all criteria are kept.
+const KINDS: [(&str, RGBColor); 6] = [
+    ("all criteria hold", RGBColor(222, 240, 233)),
+    ("Hill lost", RGBColor(86, 180, 233)),
+    ("strong ellipticity lost", RGBColor(240, 228, 66)),
+    ("Hill and strong ellipticity lost", RGBColor(230, 159, 0)),
+    ("all lost, Baker–Ericksen too", RGBColor(213, 94, 0)),
+    ("outside the domain, or no equilibrium", RGBColor(190, 190, 190)),
+];
 
-impl Cell {
-    const ALL: [Self; 6] =
-        [Self::Kept, Self::Hill, Self::Ellipticity, Self::HillAndEllipticity, Self::All, Self::Outside];
-
-    fn of(judgement: Option<Judgement>) -> Self {
-        let Some(Judgement { kept, .. }) = judgement else { return Self::Outside };
-        match Criterion::ALL.map(|criterion| kept[criterion as usize]) {
-            [false, ..] => Self::All,
-            [true, true, true] => Self::Kept,
-            [true, false, true] => Self::Hill,
-            [true, true, false] => Self::Ellipticity,
-            [true, false, false] => Self::HillAndEllipticity,
-        }
-    }
-
-    /// Colours of Okabe and Ito, which stay apart for all kinds of colour vision; pale where all criteria are
-    /// kept.
-    fn colour(self) -> RGBColor {
-        match self {
-            Self::Kept => RGBColor(222, 240, 233),
-            Self::Hill => RGBColor(86, 180, 233),
-            Self::Ellipticity => RGBColor(240, 228, 66),
-            Self::HillAndEllipticity => RGBColor(230, 159, 0),
-            Self::All => RGBColor(213, 94, 0),
-            Self::Outside => RGBColor(190, 190, 190),
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Kept => "all criteria hold",
-            Self::Hill => "Hill lost",
-            Self::Ellipticity => "strong ellipticity lost",
-            Self::HillAndEllipticity => "Hill and strong ellipticity lost",
-            Self::All => "all lost, Baker–Ericksen too",
-            Self::Outside => "outside the domain, or no equilibrium",
-        }
+/// The kind of a cell, an index of [`KINDS`].
+fn kind(judgement: Option<Judgement>) -> usize {
+    match judgement.map(|judgement| judgement.kept) {
+        Some([true, true, true]) => 0,
+        Some([true, false, true]) => 1,
+        Some([true, true, false]) => 2,
+        Some([true, false, false]) => 3,
+        Some([false, ..]) => 4,
+        None => 5,
     }
 }
 
@@ -134,14 +97,14 @@ const SIZE: (u32, u32) = (1100, 680);
 /// # Errors
 /// [`ChartError`] if the settings are out of range, or the library of charts fails.
 pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> Result<String, ChartError> {
-    settings.check()?;
+    settings.check().map_err(|error| ChartError(error.to_string()))?;
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
         root.fill(&WHITE).map_err(failed)?;
         root.draw(&Text::new(title.to_owned(), (20, 14), (FONT, 20).into_font())).map_err(failed)?;
         let (upper, legend) = root.margin(44, 10, 10, 10).split_vertically(540);
-        for (plane, area) in [Plane::Sheet, Plane::Strain].into_iter().zip(upper.split_evenly((1, 2))) {
+        for (plane, area) in PLANES.iter().zip(upper.split_evenly((1, 2))) {
             panel(specimen, settings, plane, &area)?;
         }
         explain(&legend)?;
@@ -153,13 +116,13 @@ pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> R
 fn panel(
     specimen: &dyn Specimen,
     settings: &SurveySettings,
-    plane: Plane,
+    plane: &Plane,
     area: &Area<'_>,
 ) -> Result<(), ChartError> {
     let axis = || Axis { ends: settings.from..settings.to };
     let mut chart = ChartBuilder::on(area)
         .margin(10)
-        .caption(plane.title(), (FONT, 16))
+        .caption(plane.title, (FONT, 16))
         .x_label_area_size(44)
         .y_label_area_size(54)
         .build_cartesian_2d(axis(), axis())
@@ -171,7 +134,7 @@ fn panel(
         let mut start = 0;
         for run in column.chunk_by(|one, next| one == next) {
             let corners = [(edges[i], edges[start]), (edges[i + 1], edges[start + run.len()])];
-            let run_of_cells = Rectangle::new(corners, run[0].colour().filled());
+            let run_of_cells = Rectangle::new(corners, KINDS[run[0]].1.filled());
             chart.draw_series([run_of_cells]).map_err(failed)?;
             start += run.len();
         }
@@ -186,7 +149,7 @@ fn panel(
         .draw()
         .map_err(failed)?;
 
-    for (name, second) in plane.lines() {
+    for (name, second) in plane.lines {
         let point = |first: &f64| {
             let second = second(specimen, *first)?;
             (settings.from <= second && second <= settings.to).then_some((*first, second))
@@ -217,16 +180,16 @@ fn panel(
     Ok(())
 }
 
-/// Column by column, from the least stretches to the greatest.
-fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: Plane) -> Vec<Cell> {
+/// The kinds of all cells, column by column, from the least stretches to the greatest.
+fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: &Plane) -> Vec<usize> {
     // The middles of the cells are every other one of these.
     let stretches = settings.stretches(2 * CELLS + 1);
-    let mut cells = vec![Cell::Outside; CELLS * CELLS];
+    let mut cells = vec![0; CELLS * CELLS];
     for i in 0..CELLS {
         for j in 0..=i {
             let pair = [stretches[2 * i + 1], stretches[2 * j + 1]];
-            let judgement = plane.stretches(specimen, pair).and_then(|all| Judgement::of(specimen, all));
-            cells[CELLS * i + j] = Cell::of(judgement);
+            let judgement = (plane.stretches)(specimen, pair).and_then(|all| Judgement::of(specimen, all));
+            cells[CELLS * i + j] = kind(judgement);
             cells[CELLS * j + i] = cells[CELLS * i + j];
         }
     }
@@ -235,12 +198,12 @@ fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: Plane) -> Ve
 
 /// Colours and what they mean, three in a row.
 fn explain(area: &Area<'_>) -> Result<(), ChartError> {
-    for (k, cell) in Cell::ALL.into_iter().enumerate() {
+    for (k, (name, colour)) in KINDS.into_iter().enumerate() {
         let (x, y) = (64 + 330 * (k as i32 % 3), 14 + 30 * (k as i32 / 3));
         let corners = [(x, y), (x + 24, y + 16)];
-        area.draw(&Rectangle::new(corners, cell.colour().filled())).map_err(failed)?;
+        area.draw(&Rectangle::new(corners, colour.filled())).map_err(failed)?;
         area.draw(&Rectangle::new(corners, RGBColor(120, 120, 120))).map_err(failed)?;
-        write(area, cell.name(), (x + 34, y + 9), HPos::Left, 14, &BLACK)?;
+        write(area, name, (x + 34, y + 9), HPos::Left, 14, &BLACK)?;
     }
     Ok(())
 }

@@ -12,7 +12,6 @@ use super::fine::Fine;
 use super::{Curve, Group};
 use crate::curve::Mode;
 use crate::data::{Agreement, Measurements, short as determined};
-use crate::stability::SurveyError;
 
 pub(super) const FONT: &str = "sans-serif";
 pub(super) const GREY: RGBColor = RGBColor(90, 90, 90);
@@ -33,37 +32,15 @@ pub(super) fn colour(mode: Mode) -> RGBColor {
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Reason why there is no chart.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ChartError {
-    /// No points to draw.
-    #[error("there is no point to draw: the material has no stress at any of them")]
-    Empty,
-    /// A number is infinite, NaN or beyond 10¹⁰⁰, and no axis reaches it.
-    #[error("an axis of the chart would have to be from {} to {}; its ends must be at most {MOST:e} in size", number(*from), number(*to))]
-    Range {
-        /// The least number.
-        from: f64,
-        /// The greatest number.
-        to: f64,
-    },
-    /// The material cannot be surveyed for a map.
-    #[error(transparent)]
-    Survey(
-        /// The reason.
-        #[from]
-        SurveyError,
-    ),
-    /// The library of charts fails.
-    #[error("the chart cannot be drawn: {reason}")]
-    Drawing {
-        /// Its message.
-        reason: String,
-    },
-}
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct ChartError(pub(super) String);
+
+/// The message of a chart without a point.
+pub(super) const EMPTY: &str = "there is no point to draw: the material has no stress at any of them";
 
 pub(super) fn failed(error: impl fmt::Display) -> ChartError {
-    ChartError::Drawing { reason: error.to_string() }
+    ChartError(format!("the chart cannot be drawn: {error}"))
 }
 
 /// Writes a text at one side of a place, at its height.
@@ -238,7 +215,11 @@ fn range(numbers: impl Iterator<Item = f64>) -> Result<Range<f64>, ChartError> {
     });
     let largest = from.abs().max(to.abs());
     if largest.is_nan() || largest > MOST {
-        return Err(ChartError::Range { from, to });
+        return Err(ChartError(format!(
+            "an axis of the chart would have to be from {} to {}; its ends must be at most {MOST:e} in size",
+            number(from),
+            number(to)
+        )));
     }
     let (size, least_size) = (to - from, 1e-9 * largest);
     let margin = match size > least_size {

@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 use super::fine::Fine;
-use super::panel::{Area, ChartError, GREY, colour, failed, head, write};
+use super::panel::{Area, ChartError, EMPTY, GREY, colour, failed, head, write};
 use crate::ranking::{Place, Ranking};
 
 const WIDTH: i32 = 1200;
@@ -32,7 +32,7 @@ const TICKS: [f64; 13] = [0.0, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995, 0.998, 0.
 /// # Errors
 /// [`ChartError`] if nothing was ranked, or the library of charts fails.
 pub fn rows(title: &str, note: &str, ranking: &Ranking) -> Result<String, ChartError> {
-    let axis = Axis::of(ranking).ok_or(ChartError::Empty)?;
+    let axis = Axis::of(ranking).ok_or_else(|| ChartError(EMPTY.into()))?;
     let below = LEGEND + ROW * ranking.places.len() as i32;
     let (mut svg, mut fine) = (String::new(), Fine::default());
     {

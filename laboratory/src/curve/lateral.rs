@@ -71,7 +71,7 @@ fn solve(side: impl Fn(f64) -> Option<Side>, interval: Interval) -> Option<f64> 
         if strain <= low || strain >= high {
             return (is_edge == [false; 2]).then_some(strain);
         }
-        let middle = match side(strain) {
+        match side(strain) {
             Some(Side { stress, slope }) => {
                 if stress == 0.0 {
                     return Some(strain);
@@ -92,21 +92,14 @@ fn solve(side: impl Fn(f64) -> Option<Side>, interval: Interval) -> Option<f64> 
                     strain = next;
                     continue;
                 }
-                0.5 * (low + high)
             }
-            None if is_edge[0] => {
-                low = strain;
-                0.5 * (low + high)
-            }
-            None if is_edge[1] => {
-                high = strain;
-                0.5 * (low + high)
-            }
+            None if is_edge[0] => low = strain,
+            None if is_edge[1] => high = strain,
             // A hole in the domain.
             None => return None,
-        };
+        }
         (before_last, last) = (last, 0.5 * (high - low));
-        strain = middle;
+        strain = 0.5 * (low + high);
     }
 }
 

@@ -2,12 +2,11 @@
 
 use piola::__private::message::quoted;
 
-use super::fault::{DataError, Fault};
+use super::fault::DataError;
 use super::heading::{Heading, Quantity, Unit, has_clear_unit, unit};
 use super::options::ReadOptions;
 use super::table::{fields, is_number, separator};
 
-/// A row of fields.
 pub(super) struct Row<'a> {
     pub(super) line: u64,
     pub(super) fields: Vec<&'a str>,
@@ -39,9 +38,7 @@ pub(super) struct Table<'a> {
     pub(super) rows: Vec<Row<'a>>,
 }
 
-/// The columns that are used.
 pub(super) struct Used {
-    /// The column with the test.
     pub(super) mode: Option<usize>,
     pub(super) control: Heading,
     pub(super) stress: Heading,
@@ -52,12 +49,7 @@ impl<'a> Table<'a> {
     /// form. If both columns are chosen by their numbers, it begins with the first number in one of them.
     pub(super) fn of(text: &'a str, options: &ReadOptions) -> Result<Self, DataError> {
         let (separator, mut rows) = rows(text)?;
-        let number = |choice: &Option<String>| chosen(choice.as_deref()?).0.parse::<usize>().ok();
-        let places = number(&options.strain).zip(number(&options.stress));
-        let (preamble, begin, used) = match places {
-            Some((strain, stress)) => by_numbers(&rows, [strain, stress], options)?,
-            None => by_names(&rows, options)?,
-        };
+        let (preamble, begin, used) = find(&rows, options)?;
         let Row { line, fields } = &rows[preamble];
         let (line, expected, has_header) = (*line, fields.len(), begin > preamble);
         let is_used =
@@ -72,8 +64,14 @@ impl<'a> Table<'a> {
                 row.fields.pop();
             }
             if row.fields.len() != expected {
-                let fault = Fault::Fields { found: row.fields.len(), expected };
-                return Err(DataError { line: row.line, fault });
+                let found = row.fields.len();
+                let remedy = match found > expected {
+                    true => ", and decimals with a point, or columns separated by semicolons or tabs",
+                    false => "",
+                };
+                let mistake =
+                    format!("{found} fields where the header has {expected}; write as many{remedy}");
+                return Err(DataError::at(row.line, mistake));
             }
         }
         Ok(Self { line, separator, used, unused, preamble, rows })
@@ -89,13 +87,26 @@ fn rows(text: &str) -> Result<(char, Vec<Row<'_>>), DataError> {
     let separator = lines.last().map_or(' ', |(_, last)| separator(last));
     let rows = lines.into_iter().map(|(line, text)| Row { line, fields: fields(text, separator) });
     let rows: Vec<_> = rows.filter(|row| row.fields.iter().any(|field| !field.is_empty())).collect();
-    if rows.is_empty() { Err(DataError { line: 1, fault: Fault::NoTable }) } else { Ok((separator, rows)) }
+    if rows.is_empty() {
+        let remedy = "write `mode,stretch,nominal_stress_MPa`, then lines such as `uniaxial,1.5,0.37`";
+        return Err(DataError::at(1, format!("there is no table; {remedy}")));
+    }
+    Ok((separator, rows))
 }
 
 /// The index of the header, or of the first row if there is none, that of the first row, and the columns.
-type Found = (usize, usize, Used);
-
-fn by_names(rows: &[Row<'_>], options: &ReadOptions) -> Result<Found, DataError> {
+fn find(rows: &[Row<'_>], options: &ReadOptions) -> Result<(usize, usize, Used), DataError> {
+    let number = |choice: &Option<String>| chosen(choice.as_deref()?).0.parse::<usize>().ok();
+    if let Some((strain, stress)) = number(&options.strain).zip(number(&options.stress)) {
+        let field = |row: &Row<'_>, number: usize| {
+            row.fields.get(number.wrapping_sub(1)).is_some_and(|field| is_number(field))
+        };
+        let first = rows.iter().position(|row| field(row, strain) || field(row, stress));
+        let first = first.unwrap_or(rows.len() - 1);
+        let nameless = vec![""; rows[first].fields.len()];
+        let used = Used::of(&nameless, None, options).map_err(|problem| refused(&rows[first], problem))?;
+        return Ok((first, first, used));
+    }
     for (index, row) in rows.iter().enumerate().filter(|(_, row)| !row.is_data()) {
         let units = rows.get(index + 1).filter(|row| row.is_units());
         let Ok(used) = Used::of(&row.fields, units, options) else { continue };
@@ -114,20 +125,19 @@ fn by_names(rows: &[Row<'_>], options: &ReadOptions) -> Result<Found, DataError>
     }
 }
 
-fn by_numbers(rows: &[Row<'_>], numbers: [usize; 2], options: &ReadOptions) -> Result<Found, DataError> {
-    let field = |row: &Row<'_>, number: usize| {
-        row.fields.get(number.wrapping_sub(1)).is_some_and(|field| is_number(field))
-    };
-    let first = rows.iter().position(|row| numbers.iter().any(|number| field(row, *number)));
-    let first = first.unwrap_or(rows.len() - 1);
-    let nameless = vec![""; rows[first].fields.len()];
-    let used = Used::of(&nameless, None, options).map_err(|problem| refused(&rows[first], problem))?;
-    Ok((first, first, used))
-}
-
+/// The mistake of a header, or of the first row where there is none, with the columns by their numbers.
 fn refused(row: &Row<'_>, problem: String) -> DataError {
-    let columns = row.fields.iter().map(|&name| name.into()).collect();
-    DataError { line: row.line, fault: Fault::Columns { problem, columns } }
+    const MOST: usize = 12;
+    let columns = (1..).zip(&row.fields).map(|(number, name)| format!("{number} `{}`", quoted(name)));
+    let (shown, others) = (columns.clone().take(MOST).collect::<Vec<_>>(), columns.skip(MOST).count());
+    let more = if others > 0 { format!(" and {others} more") } else { String::new() };
+    let mistake = format!(
+        "{problem}; the columns are {}{more}. Write a header such as `stretch,nominal_stress_MPa`, or give the columns by \
+         name or number and what they hold: `--strain \"1=strain [%]\" --stress \"2=stress [MPa]\"` \
+         (`ReadOptions::strain`). Divide forces by the cross-section and elongations by the length at rest",
+        shown.join(", ")
+    );
+    DataError::at(row.line, mistake)
 }
 
 impl Used {
@@ -150,9 +160,9 @@ impl Used {
             && options.stress.is_none()
             && !names_its_kind
         {
-            let text = quoted(&stress.text);
             return Err(format!(
-                "`{text}` next to a true strain may be a `true stress` or a `nominal stress`"
+                "`{}` next to a true strain may be a `true stress` or a `nominal stress`",
+                quoted(&stress.text)
             ));
         }
         Ok(Self { mode, control, stress })

@@ -42,7 +42,6 @@ const NAMES: [(Quantity, &str, &[&str]); 10] = [
 ];
 
 impl Quantity {
-    /// The name in sentences.
     pub(super) fn name(self) -> &'static str {
         NAMES.iter().find(|(quantity, ..)| *quantity == self).map_or("", |(_, name, _)| name)
     }
@@ -58,7 +57,6 @@ impl Quantity {
     }
 }
 
-/// Unit of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Unit {
     Stress(StressUnit),
@@ -88,7 +86,6 @@ pub(super) fn unit(text: &str) -> Option<Unit> {
 /// Bytes beyond which a text is not looked at as a unit.
 const LONGEST: usize = 24;
 
-/// The header of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Heading {
     /// The index of the column.

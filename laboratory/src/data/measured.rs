@@ -4,7 +4,6 @@ use std::fmt;
 
 use piola::__private::message::number;
 
-use super::fault::Fault;
 use crate::curve::{Mode, ResponseError, Volume, respond};
 use crate::specimen::Specimen;
 
@@ -27,7 +26,7 @@ impl Measured {
     }
 
     /// The mistake in a reading out of the range that the [module](super) states.
-    pub(crate) fn fault(&self) -> Option<Fault> {
+    pub(crate) fn fault(&self) -> Option<String> {
         let Self { mode, control, stress } = *self;
         let (controls, requirement) = match mode {
             Mode::SimpleShear => (-1e6..=1e6, "finite, and at most 1e6"),
@@ -37,12 +36,15 @@ impl Measured {
                  `strain [%]`",
             ),
         };
-        if !controls.contains(&control) {
-            return Some(Fault::Range { quantity: mode.quantity(), value: control, requirement });
-        }
-        let requirement = "at most 1e100 Pa, and at least 1e-100 Pa if it is not 0: is its unit right?";
-        let is_stress = stress == 0.0 || (1e-100..=1e100).contains(&stress.abs());
-        (!is_stress).then_some(Fault::Range { quantity: "the stress in Pa", value: stress, requirement })
+        let (quantity, value, requirement) = if !controls.contains(&control) {
+            (mode.quantity(), control, requirement)
+        } else if stress == 0.0 || (1e-100..=1e100).contains(&stress.abs()) {
+            return None;
+        } else {
+            let requirement = "at most 1e100 Pa, and at least 1e-100 Pa if it is not 0: is its unit right?";
+            ("the stress in Pa", stress, requirement)
+        };
+        Some(format!("{quantity} is {}; it must be {requirement}", number(value)))
     }
 }
 

@@ -1,6 +1,8 @@
 //! Plausibility of measurements: strains under `stretch`, percent without a word, signs of compression.
 
-use super::fault::{DataError, Fault};
+use piola::__private::message::{number, quoted};
+
+use super::fault::DataError;
 use super::heading::{Heading, Quantity};
 use super::measured::Measured;
 use super::options::Test;
@@ -30,9 +32,16 @@ pub(super) fn check(points: &[Measured], rows: &[(u64, Test)], column: &Heading)
                 && (least > FAR.0 || most > FAR.1)
             {
                 let is_stretch = column.quantity == Quantity::Stretch;
-                let (column, range) = (column.text.clone(), least..=most);
-                let fault = Fault::Percent { column, mode, range, is_stretch };
-                return Err(DataError { line: *line, fault });
+                let mistake = format!(
+                    "`{}` of {mode} makes {} from {} to {}: are the numbers percent? Then write `strain [%]`; if they are \
+                     as large as that, `{}`",
+                    quoted(&column.text),
+                    mode.letter(),
+                    number(least),
+                    number(most),
+                    if is_stretch { "stretch [-]" } else { "strain [-]" }
+                );
+                return Err(DataError::at(*line, mistake));
             }
         }
         for &(point, &(line, test)) in &points {
@@ -51,7 +60,14 @@ pub(super) fn check(points: &[Measured], rows: &[(u64, Test)], column: &Heading)
             } else {
                 continue;
             };
-            return Err(DataError { line, fault: Fault::Sign { mode, control, stress, question } });
+            let mistake = format!(
+                "{mode} {} = {} has a stress of {} Pa{question}: a strain is written under `strain` or `strain [%]`, a \
+                 compression with negative strain and stress or under `compressive strain` and `compressive stress`",
+                mode.letter(),
+                number(control),
+                number(stress)
+            );
+            return Err(DataError::at(line, mistake));
         }
     }
     Ok(())

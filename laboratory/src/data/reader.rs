@@ -1,7 +1,5 @@
 //! Reader of measured points from the text of a file, with a note on how the file was understood.
 
-use std::fmt;
-
 use piola::__private::message::{names, quoted};
 
 use super::columns::{Row, Table, Used};
@@ -21,13 +19,7 @@ pub struct Reading {
     /// The points.
     pub measurements: Measurements,
     /// Note on the columns that were used, with their meaning, and those that were left out.
-    note: String,
-}
-
-impl fmt::Display for Reading {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.note)
-    }
+    pub note: String,
 }
 
 impl Measurements {
@@ -60,13 +52,14 @@ impl Measurements {
     /// data point differs from the rest state.
     pub fn read_with(text: &str, options: &ReadOptions) -> Result<Reading, DataError> {
         let text = text.trim_start_matches('\u{feff}');
-        if text.starts_with("PK\u{3}\u{4}") {
-            return Err(DataError { line: 1, fault: Fault::Archive });
+        if text.contains('\0') {
+            let mistake = "this is UTF-16, or not text but an archive, as spreadsheets are; save the sheet as CSV in UTF-8";
+            return Err(DataError::at(1, mistake));
         }
         let table = Table::of(text, options)?;
-        let at_header = |fault| DataError { line: table.line, fault };
+        let at_header = |mistake: String| DataError::at(table.line, mistake);
         if table.used.mode.is_none() && options.test.is_none() {
-            return Err(at_header(Fault::NoMode));
+            return Err(DataError { line: table.line, fault: Fault::NoMode });
         }
         let factor = |column| factor(column).map_err(at_header);
         let factors = [factor(&table.used.control)?, factor(&table.used.stress)?];
@@ -80,7 +73,8 @@ impl Measurements {
         }
         plausible::check(&points, &rows, &table.used.control)?;
         if points.iter().all(Measured::is_rest) {
-            return Err(at_header(Fault::NoPoints));
+            let remedy = "write lines such as `uniaxial,1.5,0.37`";
+            return Err(at_header(format!("below this header there is no point but rest; {remedy}")));
         }
         let measurements = Measurements { points };
         let note = note(&table, decimal, &measurements);
@@ -93,32 +87,40 @@ impl Table<'_> {
     fn decimal(&self) -> Result<char, DataError> {
         let places = [self.used.control.place, self.used.stress.place];
         let numbers = self.rows.iter().flat_map(|row| places.map(|place| (row.line, row.fields[place])));
-        let with_comma: Vec<_> = numbers.filter(|(_, field)| field.contains(',')).collect();
-        match with_comma.first() {
-            Some(&(line, found)) if self.separator != ',' => {
-                match with_comma.iter().all(|(_, field)| may_be_thousands(field)) {
-                    true => Err(DataError { line, fault: Fault::Thousands { found: found.into() } }),
-                    false => Ok(','),
-                }
-            }
-            _ => Ok('.'),
+        let mut with_comma = numbers.filter(|(_, field)| self.separator != ',' && field.contains(','));
+        let Some((line, found)) = with_comma.next() else { return Ok('.') };
+        if !may_be_thousands(found) || !with_comma.all(|(_, field)| may_be_thousands(field)) {
+            return Ok(',');
         }
+        let mistake = format!(
+            "`{}` may be {} or {}, like every number with a comma here; write decimals with a point, and thousands \
+             without a mark",
+            quoted(found),
+            quoted(&found.replace(',', "")),
+            quoted(&found.replace(',', "."))
+        );
+        Err(DataError::at(line, mistake))
     }
 }
 
 /// The size of a unit of a column, with the sign of compression.
-fn factor(column: &Heading) -> Result<f64, Fault> {
+fn factor(column: &Heading) -> Result<f64, String> {
     let size = match column.unit {
         Some(Unit::Share(size)) => size,
         Some(Unit::Stress(unit)) => unit.pascals(),
-        None if column.quantity.is_stress() => return Err(Fault::NoUnit { found: column.text.clone() }),
+        None if column.quantity.is_stress() => {
+            return Err(format!(
+                "`{}` names no unit of stress; write it there, as in `stress [MPa]`, or give it (`--unit MPa`, \
+                 `ReadOptions::unit`)",
+                quoted(&column.text)
+            ));
+        }
         None => 1.0,
     };
     Ok(if column.is_compressive { -size } else { size })
 }
 
 impl Used {
-    /// The point of a row, with its test.
     fn point(
         &self,
         row: &Row<'_>,
@@ -127,27 +129,36 @@ impl Used {
         options: &ReadOptions,
     ) -> Result<(Test, Measured), Fault> {
         let test = match self.mode {
-            Some(place) => row.fields[place].parse()?,
+            Some(place) => row.fields[place].parse::<Test>().map_err(Fault::Other)?,
             None => options.test.ok_or(Fault::NoMode)?,
         };
         let value = |column: &Heading, factor: f64| {
             let found = row.fields[column.place];
-            let fault = || Fault::Number { column: column.text.clone(), found: found.into(), decimal };
-            Ok::<_, Fault>(factor * number(found, decimal).ok_or_else(fault)?)
+            let marks = match decimal {
+                ',' => ": decimals of this file have a comma, and thousands no mark",
+                _ => "",
+            };
+            let mistake = || {
+                let (text, header) = (quoted(found), quoted(&column.text));
+                Fault::Other(format!("`{text}` under `{header}` is not a number{marks}"))
+            };
+            Ok::<_, Fault>(factor * number(found, decimal).ok_or_else(mistake)?)
         };
-        let not_of_test =
-            |column: &Heading| Fault::NotOfTest { column: column.text.clone(), mode: test.mode };
+        let not_of_test = |column: &Heading| {
+            let (header, mode) = (quoted(&column.text), test.mode);
+            Fault::Other(format!("`{header}` is not a quantity of the test {mode}"))
+        };
         let (control, stress) = (value(&self.control, factors[0])?, value(&self.stress, factors[1])?);
         let control = control_of(self.control.quantity, test.mode, control);
         let control = control.ok_or_else(|| not_of_test(&self.control))?;
         // The control first: a stress may be divided by it.
         if let Some(fault) = (Measured { mode: test.mode, control, stress: 0.0 }).fault() {
-            return Err(fault);
+            return Err(Fault::Other(fault));
         }
         let stress = stress_of(self.stress.quantity, test.mode, control, stress);
         let stress = stress.ok_or_else(|| not_of_test(&self.stress))?;
         let measured = Measured { mode: test.mode, control, stress };
-        measured.fault().map_or(Ok((test, measured)), Err)
+        measured.fault().map_or(Ok((test, measured)), |fault| Err(Fault::Other(fault)))
     }
 }
 
@@ -189,7 +200,6 @@ fn described(column: &Heading) -> String {
     format!("`{}` as {}{unit}{sign}", quoted(&column.text), column.quantity.name())
 }
 
-/// Describes how the file was understood.
 fn note(table: &Table<'_>, decimal: char, data: &Measurements) -> String {
     let Used { control, stress, .. } = &table.used;
     let mut parts = vec![format!("{}, {}", described(control), described(stress))];

@@ -53,18 +53,21 @@ impl fmt::Display for StressUnit {
 }
 
 impl FromStr for StressUnit {
-    type Err = StressUnitError;
+    type Err = String;
 
     /// Parses a unit in letters of any case, except for `m` before a capital, as in `mPa` and `mN/m²`: that
     /// would be a thousandth. A square is written `²`, `^2`, `**2` or `2`.
-    fn from_str(text: &str) -> Result<Self, StressUnitError> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let name = plain(text);
         let is_named = |(own, _, spellings): &&(&str, f64, &[&str])| {
             own.eq_ignore_ascii_case(&name) || spellings.contains(&&*name)
         };
         let is_milli = text.trim().strip_prefix('m').is_some_and(|rest| rest.starts_with(char::is_uppercase));
         let found = UNITS.iter().find(is_named).filter(|_| !is_milli);
-        let &(name, pascals, _) = found.ok_or_else(|| StressUnitError(text.trim().into()))?;
+        let &(name, pascals, _) = found.ok_or_else(|| {
+            let units = UNITS.map(|(name, ..)| name).join(", ");
+            format!("`{}` is not a unit of stress; write one of {units}", quoted(text.trim()))
+        })?;
         Ok(Self { name, pascals })
     }
 }
@@ -82,11 +85,3 @@ pub(super) fn plain(unit: &str) -> String {
     });
     letters.flat_map(char::to_lowercase).collect()
 }
-
-/// An unknown name of a unit of stress.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{}` is not a unit of stress; write one of {}", quoted(.0), UNITS.map(|(name, ..)| name).join(", "))]
-pub struct StressUnitError(
-    /// The name as given.
-    pub String,
-);

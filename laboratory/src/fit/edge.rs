@@ -35,7 +35,6 @@ const SILENCE: f64 = 1e-10;
 
 /// The edges that stopped a search, and the directions along them.
 pub(super) struct Stop {
-    /// The reason of each edge for refusing.
     pub(super) reasons: Vec<TrialError>,
     /// Ways on downwards along the edges: next to them, and at a distance that leaves room if they are
     /// curved.
@@ -137,7 +136,7 @@ impl<'a, 'b> Surroundings<'a, 'b> {
             let basis = along(&edges, unknowns);
             let step = self.step(&basis)?;
             let from = self.inside(&edges, margin);
-            let is_worth = !is_no_gain((&self.slopes * &step).norm_squared(), self.squares());
+            let is_worth = !is_no_gain((&self.slopes * &step).norm_squared(), self.residuals.norm_squared());
             let refused = self.accepts(&(&from + &step * PROBE)).err().filter(|_| is_worth);
             let Some(refusal) = refused else {
                 if edges.is_empty() {
@@ -162,10 +161,6 @@ impl<'a, 'b> Surroundings<'a, 'b> {
             edges.retain(|_| multipliers.next().is_none_or(|&multiplier| multiplier >= 0.0));
         }
         Some(Stop { reasons: reasons(edges), ways: Vec::new(), is_least: false })
-    }
-
-    fn squares(&self) -> f64 {
-        self.residuals.norm_squared()
     }
 
     /// The free numbers at these coordinates.

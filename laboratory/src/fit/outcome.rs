@@ -2,10 +2,8 @@
 
 use std::fmt;
 
-use piola::__private::message::quoted;
-
 use super::trial::TrialError;
-use crate::data::{Agreement, Fault, short};
+use crate::data::{Agreement, short};
 
 /// Fitted parameters, and their agreement with the data.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,23 +94,15 @@ pub enum Warning {
         /// Root mean square of the effect of such a change on the differences, to first order.
         effect: f64,
     },
-    /// Another minimum, about as good, of a solid with other stresses.
-    OtherMinimum {
-        /// Its parameters one by one, by the names of [`Fit::numbers`].
-        numbers: Vec<(String, f64)>,
-        /// Its [`Fit::difference`].
+    /// Other descents end about as well at other parameters: a term has vanished, two terms have become one,
+    /// a parameter grows without bound, parameters compensate each other, or there are several minima.
+    Ambiguous {
+        /// Name, least and greatest value of the parameters that differ by more than the order of terms.
+        ranges: Vec<(String, f64, f64)>,
+        /// The greatest [`Fit::difference`] of these descents.
         difference: f64,
         /// [`Fit::difference`] of the minimum that was found, to compare with.
         found: f64,
-    },
-    /// Equivalent parameters: one parameter grows without bound, a term has vanished, two terms have become
-    /// one, or parameters compensate each other.
-    EquivalentParameters {
-        /// Name, value, and value of the other, of the parameters that differ by more than the order of
-        /// terms; lists with all their entries.
-        numbers: Vec<(String, f64, f64)>,
-        /// True if the only difference is one parameter that runs off to infinity.
-        is_runaway: bool,
     },
     /// A better fit is beyond an edge of the admissible parameters: these are the best parameters found along
     /// it. One warning for each edge.
@@ -162,42 +152,29 @@ impl fmt::Display for Warning {
                 write!(
                     f,
                     "the data hardly determine {together}: {what} the fit by {effect}; hold {which} (`--hold {name}`, \
-                     `FitSettings::with_held`), or add data of other tests"
+                     `FitSettings::held`), or add data of other tests"
                 )
             }
-            Self::OtherMinimum { numbers, difference, found } => {
-                let numbers: Vec<_> =
-                    numbers.iter().map(|(name, value)| format!("{name} = {value:.4e}")).collect();
+            Self::Ambiguous { ranges, difference, found } => {
+                let spread = |(_, least, greatest): &(String, f64, f64)| {
+                    (greatest - least) / least.abs().min(greatest.abs())
+                };
+                let most = ranges.iter().max_by(|a, b| spread(a).total_cmp(&spread(b)));
+                let name = most.map_or("", |(name, ..)| name);
+                let ranges: Vec<_> = ranges
+                    .iter()
+                    .map(|(name, least, greatest)| format!("{name} from {least:.4e} to {greatest:.4e}"))
+                    .collect();
                 write!(
                     f,
-                    "another minimum has differences of {:.3} %, compared with {:.3} % of this one: {}",
+                    "other descents end about as well, with differences of up to {:.3} %, compared with {:.3} % of this one, \
+                     at {}: a term has vanished, two terms have become one, a parameter grows without bound, parameters \
+                     compensate each other, or there are several minima; hold one of them (`--hold {name}`, \
+                     `FitSettings::held`), leave a term out, or add data of other tests",
                     100.0 * difference,
                     100.0 * found,
-                    numbers.join(", ")
+                    ranges.join(", ")
                 )
-            }
-            Self::EquivalentParameters { numbers, is_runaway } => {
-                let change = |(_, here, there): &(String, f64, f64)| change(*here, *there);
-                let most = numbers.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
-                let name = most.map_or("", |(name, ..)| name);
-                let [here, there]: [Vec<_>; 2] = [
-                    numbers.iter().map(|(name, here, _)| format!("{name} = {here:.4e}")).collect(),
-                    numbers.iter().map(|(name, _, there)| format!("{name} = {there:.4e}")).collect(),
-                ];
-                let (here, there) = (here.join(", "), there.join(", "));
-                let hold = format_args!("(`--hold {name}`, `FitSettings::with_held`)");
-                match is_runaway {
-                    true => write!(
-                        f,
-                        "{name} grows without bound: {there} does about as well as {here}; hold it {hold}, or declare what the \
-                         energy becomes in that limit"
-                    ),
-                    false => write!(
-                        f,
-                        "the solid is the same with {there} as with {here}: a term has vanished, two terms have become \
-                         one, or parameters compensate each other; hold one of them {hold}, or leave the term out"
-                    ),
-                }
             }
             Self::Edge { reason } => {
                 write!(
@@ -216,7 +193,7 @@ impl fmt::Display for Warning {
                 f,
                 "the volume was kept, but this energy is compressible: its Poisson's ratio at small strain is {poisson:.2}; to \
                  fit the solid that will move, leave the sides free (`--compressible`, \
-                 `FitSettings::with_volume(Volume::Free)`), or make it incompressible with a term such as \
+                 `FitSettings::volume`), or make it incompressible with a term such as \
                  `kappa / 2.0 * (J - 1.0).powi(2)`, kappa being {bulk:.0e} Pa or more"
             ),
             Self::Poor { determination } => write!(
@@ -230,42 +207,10 @@ impl fmt::Display for Warning {
     }
 }
 
-/// Limit of [`FitSettings::restarts`](super::FitSettings::restarts), far beyond the minima of any energy.
-pub(super) const MOST_RESTARTS: usize = 10_000;
-
 /// Reason why nothing can be fitted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
-    /// A parameter that is to be held does not exist.
-    #[error("there is no parameter `{}` to hold; there are {}", quoted(name), known.join(", "))]
-    UnknownParameter {
-        /// The name as given.
-        name: String,
-        /// The names that exist, list by entry.
-        known: Vec<String>,
-    },
-    /// No parameter is left that could change, or that the data determine.
-    #[error("no parameter is left to fit: hold fewer, or add data of other tests")]
-    NothingFree,
-    /// Too many starts were requested.
-    #[error("the number of random starts is {restarts}; it must be at most {MOST_RESTARTS}")]
-    Restarts {
-        /// The number as given.
-        restarts: usize,
-    },
-    /// A point is not in the range of measurements.
-    #[error("the point {} (from 0) cannot be fitted: {fault}", index)]
-    Point {
-        /// Its index among the measurements.
-        index: usize,
-        /// Reason.
-        #[source]
-        fault: Fault,
-    },
-    /// No point counts.
-    #[error("there is no point with a stress to fit")]
-    NoPoints,
     /// Fewer points than parameters.
     #[error("{points} points cannot determine {free} parameters; hold some, or add data")]
     TooFewPoints {
@@ -284,12 +229,7 @@ pub enum FitError {
         #[from]
         TrialError,
     ),
-    /// The residuals became NaN or infinite from every start.
-    #[error("residuals become infinite on the way; start nearer to the solution")]
-    NoMinimum,
-}
-
-/// Distance of two values, relative to the lesser of them.
-pub(super) fn change(one: f64, other: f64) -> f64 {
-    if one == other { 0.0 } else { (one - other).abs() / one.abs().min(other.abs()) }
+    /// Another reason: a setting or a point out of range, a parameter that does not exist, nothing to fit.
+    #[error("{0}")]
+    Other(String),
 }

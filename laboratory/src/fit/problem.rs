@@ -17,7 +17,6 @@ const REFUSED: f64 = 1e100;
 /// Energy to be fitted, and the points that count.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
-    /// The energy as given.
     pub(super) start: &'a dyn Candidate,
     pub(super) numbers: &'a Numbers,
     /// Points, each with the divisor of its difference.
@@ -80,25 +79,17 @@ struct Coordinates {
 
 /// Result of a trial: the energy with its parameters and its response at each point, or the reason for a
 /// refusal.
-enum Trial {
-    Answers(Box<dyn Candidate>, Vec<Response>),
-    Refused(TrialError),
-}
+type Trial = Result<(Box<dyn Candidate>, Vec<Response>), TrialError>;
 
 impl Task<'_> {
     fn attempt(&self, values: &[f64]) -> Trial {
-        let candidate = match self.start.with_values(&self.numbers.lists(values)) {
-            Ok(candidate) => candidate,
-            Err(reason) => return Trial::Refused(TrialError::Inadmissible(reason)),
-        };
+        let candidate = self.start.with_values(&self.numbers.lists(values))?;
         let mut responses = Vec::with_capacity(self.points.len());
         for &(point, _) in self.points {
-            match respond(candidate.as_ref(), point.mode, self.volume, point.control) {
-                Ok(response) => responses.push(response),
-                Err(reason) => return Trial::Refused(TrialError::Point(PointError { point, reason })),
-            }
+            let response = respond(candidate.as_ref(), point.mode, self.volume, point.control);
+            responses.push(response.map_err(|reason| PointError { point, reason })?);
         }
-        Trial::Answers(candidate, responses)
+        Ok((candidate, responses))
     }
 }
 
@@ -151,32 +142,25 @@ impl<'a> Problem<'a> {
         values
     }
 
-    /// The current free numbers.
     pub(super) fn place(&self) -> DVector<f64> {
         DVector::from_iterator(self.free.len(), self.free.iter().map(|&number| self.values[number]))
     }
 
     /// Succeeds if there is a residual at each point with these free numbers.
     pub(super) fn accepts(&self, free: &DVector<f64>) -> Result<(), TrialError> {
-        match self.task.attempt(&self.with_free(free)) {
-            Trial::Answers(..) => Ok(()),
-            Trial::Refused(refusal) => Err(refusal),
-        }
+        self.task.attempt(&self.with_free(free)).map(drop)
     }
 
     /// Succeeds if there is a residual at each point.
     pub(super) fn answers(&self) -> Result<(), TrialError> {
-        match &self.trial {
-            Trial::Answers(..) => Ok(()),
-            Trial::Refused(refusal) => Err(refusal.clone()),
-        }
+        self.trial.as_ref().map(|_| ()).map_err(Clone::clone)
     }
 
     /// The constraints on the free numbers at the current place: those of the parameters, and for each point
     /// those of the domain at its stretches. That free sides give way when a parameter changes is left out of
     /// these.
     pub(super) fn bounds(&self) -> Vec<Bound> {
-        let Trial::Answers(candidate, responses) = &self.trial else { return Vec::new() };
+        let Ok((candidate, responses)) = &self.trial else { return Vec::new() };
         let bound = |Constraint { limit, value, gradient }: Constraint, point| {
             let gradient = DVector::from_iterator(self.free.len(), self.free.iter().map(|&k| gradient[k]));
             Bound { limit, point, value, gradient }
@@ -192,8 +176,8 @@ impl<'a> Problem<'a> {
     /// The energy as tried last, or where it was refused, as given.
     pub(super) fn specimen(&self) -> &dyn Candidate {
         match &self.trial {
-            Trial::Answers(candidate, _) => candidate.as_ref(),
-            Trial::Refused(_) => self.task.start,
+            Ok((candidate, _)) => candidate.as_ref(),
+            Err(_) => self.task.start,
         }
     }
 
@@ -206,36 +190,13 @@ impl<'a> Problem<'a> {
         (self.task.volume == Volume::Kept && is_imposed).then(|| specimen::moduli(self.specimen()))
     }
 
-    /// True if the stresses of another energy differ from those of this one by no more than `share` of the
-    /// greatest of each point.
-    ///
-    /// They are compared at the stretches of the data and at their inverses, which make tension along two
-    /// axes of tension along one: ψ1, ψ2, ψ3 themselves, so that the pressure of an incompressible solid
-    /// counts too.
-    pub(super) fn has_stresses_of(&self, other: &Self, share: f64) -> bool {
-        let (Trial::Answers(one, responses), Trial::Answers(other, _)) = (&self.trial, &other.trial) else {
-            return false;
-        };
-        let is_alike = |strains: [f64; 3]| {
-            let [one, other] = [one, other].map(|candidate| specimen::gradient(candidate.as_ref(), strains));
-            let (Some(one), Some(other)) = (one, other) else { return one == other };
-            let greatest = one.iter().fold(0.0_f64, |greatest, stress| greatest.max(stress.abs()));
-            one.iter().zip(other).all(|(one, other)| (one - other).abs() <= share * greatest)
-        };
-        responses.iter().all(|response| {
-            let strains = response.stretches.map(|stretch| stretch - 1.0);
-            is_alike(strains) && is_alike(response.stretches.map(|stretch| 1.0 / stretch - 1.0))
-        })
-    }
-
-    /// The number of points.
     pub(super) fn count(&self) -> usize {
         self.task.points.len()
     }
 
     /// ∂r/∂p of the free numbers p in their own units; `None` where the trial is refused.
     pub(super) fn slopes(&self) -> Option<DMatrix<f64>> {
-        let Trial::Answers(candidate, responses) = &self.trial else { return None };
+        let Ok((candidate, responses)) = &self.trial else { return None };
         let mut slopes = DMatrix::zeros(self.task.points.len(), self.free.len());
         for (row, (response, (_, size))) in responses.iter().zip(self.task.points).enumerate() {
             let ordered = Ordered::new(response.stretches);
@@ -267,7 +228,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        let Trial::Answers(_, responses) = &self.trial else {
+        let Ok((_, responses)) = &self.trial else {
             return Some(DVector::from_element(self.task.points.len(), REFUSED));
         };
         let residual = |(response, (point, size)): (&Response, &(Measured, f64))| {

@@ -52,7 +52,7 @@ pub(super) fn report(
         warnings.push(Warning::Unfinished);
     }
     warnings.extend(analysis.warnings);
-    warnings.extend(others::warnings(best, minima, numbers));
+    warnings.extend(others::warning(best, minima, numbers));
     Fit {
         values: numbers.lists(&best.problem.values),
         numbers: fitted,

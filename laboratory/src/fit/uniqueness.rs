@@ -5,6 +5,8 @@
 //!
 //! \[BKW80\] Belsley, Kuh, Welsch, *Regression Diagnostics*, 1980, chapter 3.
 
+use std::collections::HashSet;
+
 use super::candidate::Numbers;
 use super::outcome::Warning;
 use super::problem::Problem;
@@ -101,13 +103,9 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
 /// One for each set of parameters: of combinations of the same ones that which changes least.
 fn warnings(mut combinations: Vec<(Vec<(String, f64)>, f64)>) -> Vec<Warning> {
     combinations.sort_by(|(_, a), (_, b)| a.total_cmp(b));
-    let mut seen: Vec<Vec<String>> = Vec::new();
-    combinations.retain(|(changes, _)| {
-        let names: Vec<_> = changes.iter().map(|(name, _)| name.clone()).collect();
-        let is_new = !seen.contains(&names);
-        seen.push(names);
-        is_new
-    });
+    let mut seen = HashSet::new();
+    combinations
+        .retain(|(changes, _)| seen.insert(changes.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>()));
     let warning = |(changes, effect)| Warning::Collinear { changes, effect };
     combinations.into_iter().map(warning).collect()
 }

@@ -10,15 +10,12 @@
 use piola::material::{Blocks, PAIRS};
 
 use super::criteria::Judgement;
-use super::path::STEPS;
+use super::path::losses;
 use crate::Specimen;
 use crate::curve::{Mode, Volume, respond};
 
 /// The penalty by the greatest modulus.
 const PENALTY: f64 = 1e6;
-
-/// Halvings of a step: to 10⁻¹² of the way.
-const HALVINGS: u32 = 32;
 
 /// The first control at which each of [`Criterion::ALL`](super::criteria::Criterion::ALL) is lost on the way
 /// from rest to a control, the volume being kept; rest itself if it does not hold there.
@@ -45,27 +42,11 @@ pub fn lost(specimen: &dyn Specimen, mode: Mode, to: f64) -> [Option<f64>; 3] {
         Mode::SimpleShear => share * to,
         _ => to.powf(share),
     };
-    let judged = |share: f64| {
+    let (_, lost) = losses(|share| {
         let response = respond(specimen, mode, Volume::Kept, control(share)).ok()?;
         Judgement::with(specimen, response.stretches, penalise)
-    };
-    let mut lost = [None; 3];
-    let share = |step: u32| f64::from(step) / f64::from(STEPS);
-    for step in 0..=STEPS {
-        let Some(judgement) = judged(share(step)) else { break };
-        for (k, lost) in lost.iter_mut().enumerate() {
-            if lost.is_none() && !judgement.kept[k] {
-                let (mut holding, mut beyond) = (share(step.saturating_sub(1)), share(step));
-                for _ in 0..HALVINGS {
-                    let middle = 0.5 * (holding + beyond);
-                    let keeps = judged(middle).is_some_and(|judgement| judgement.kept[k]);
-                    *(if keeps { &mut holding } else { &mut beyond }) = middle;
-                }
-                *lost = Some(control(holding));
-            }
-        }
-    }
-    lost
+    });
+    lost.map(|lost| lost.map(control))
 }
 
 /// Adds the penalty on the volume, at J = 1.

@@ -7,7 +7,6 @@
 
 use std::fmt;
 
-use super::SurveySettings;
 use super::criteria::{Criterion, Judgement};
 use crate::Specimen;
 use crate::curve::{Mode, Volume, respond};
@@ -74,40 +73,17 @@ pub struct Walk {
     pub lost: [Option<f64>; 3],
 }
 
-/// Steps of a path.
-pub(super) const STEPS: u32 = 256;
-
-/// Halvings of the logarithms between two stretches: from one end of f64 to the other they leave 10⁻¹⁵.
-const HALVINGS: u32 = 60;
+const STEPS: u32 = 256;
+/// Halvings of a step: to 10⁻¹² of the way.
+const HALVINGS: u32 = 32;
 
 impl Walk {
     /// Walks from rest to a stretch, which is positive.
     pub fn along(path: Path, specimen: &dyn Specimen, to: f64) -> Self {
-        let judged = |stretch: f64| Judgement::of(specimen, path.stretches(specimen, stretch)?);
-        let mut walk = Self { path, to, reached: 1.0, lost: [None; 3] };
-        for step in 0..=STEPS {
-            let stretch = to.powf(f64::from(step) / f64::from(STEPS));
-            let last = walk.reached;
-            let Some(judgement) = judged(stretch) else {
-                walk.reached = edge(last, stretch, |x| judged(x).is_some());
-                return walk;
-            };
-            walk.reached = stretch;
-            for (k, lost) in walk.lost.iter_mut().enumerate() {
-                if lost.is_none() && !judgement.kept[k] {
-                    let keeps = |x: f64| judged(x).is_some_and(|judgement| judgement.kept[k]);
-                    *lost = Some(edge(last, stretch, keeps));
-                }
-            }
-        }
-        walk
-    }
-
-    /// Walks from rest to both ends of the settings' range along every path.
-    pub(super) fn all(specimen: &dyn Specimen, settings: &SurveySettings) -> Vec<Self> {
-        let ends = [settings.from, settings.to];
-        let both = |path| ends.map(|to| Self::along(path, specimen, to));
-        Path::ALL.into_iter().flat_map(both).collect()
+        let stretch = |share: f64| to.powf(share);
+        let judged = |share| Judgement::of(specimen, path.stretches(specimen, stretch(share))?);
+        let (reached, lost) = losses(judged);
+        Self { path, to, reached: stretch(reached), lost: lost.map(|lost| lost.map(stretch)) }
     }
 
     /// The first stretch at which a criterion is lost.
@@ -117,38 +93,31 @@ impl Walk {
     }
 }
 
-/// The last stretch between one that holds, or rest, and one that does not.
-fn edge(mut holding: f64, mut beyond: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
-        if (holding / beyond).ln().abs() <= 1e-9 {
-            break;
+/// The share of a way from rest that can be judged, and the shares at which each criterion is lost first;
+/// `judged` gives the criteria at a share of the way, 0 to 1.
+pub(super) fn losses(judged: impl Fn(f64) -> Option<Judgement>) -> (f64, [Option<f64>; 3]) {
+    let (mut reached, mut lost) = (0.0, [None; 3]);
+    for step in 0..=STEPS {
+        let share = f64::from(step) / f64::from(STEPS);
+        let Some(judgement) = judged(share) else {
+            return (edge(reached, share, |share| judged(share).is_some()), lost);
+        };
+        for (k, lost) in lost.iter_mut().enumerate() {
+            if lost.is_none() && !judgement.kept[k] {
+                let keeps = |share| judged(share).is_some_and(|judgement| judgement.kept[k]);
+                *lost = Some(edge(reached, share, keeps));
+            }
         }
-        // Each root by itself: the product may overflow.
-        let middle = holding.sqrt() * beyond.sqrt();
-        if holds(middle) { holding = middle } else { beyond = middle }
+        reached = share;
     }
-    holding
+    (reached, lost)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[track_caller]
-    fn check(holding: f64, beyond: f64, edge_at: f64) {
-        let found = edge(holding, beyond, |x| (x < edge_at) == (holding < edge_at));
-        assert!((found / edge_at).ln().abs() <= 1.1e-9, "{found:e} for {edge_at:e}");
+/// The last share between one that holds, or rest, and one that does not.
+fn edge(mut holding: f64, mut beyond: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (holding + beyond);
+        *(if holds(middle) { &mut holding } else { &mut beyond }) = middle;
     }
-
-    #[test]
-    fn an_edge_is_found_over_the_whole_range() {
-        check(1.0, 2.0, 1.5);
-        check(1.0, 1e-300, 1e-299);
-        check(1e300, 1.7e308, 1e301);
-        check(f64::MAX, 5e-324, 1e-200);
-        // There is none: it ends all the same.
-        for nowhere in [0.0, f64::INFINITY, f64::NAN] {
-            edge(1.0, nowhere, |_| false);
-        }
-    }
+    holding
 }

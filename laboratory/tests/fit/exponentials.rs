@@ -32,7 +32,7 @@ fn fitted(start: &dyn Candidate, settings: &FitSettings) -> Result<Fit, FitError
 
 /// From the start given alone.
 fn alone() -> FitSettings {
-    FitSettings::default().with_restarts(0)
+    FitSettings { restarts: 0, ..FitSettings::default() }
 }
 
 /// Names of the parameters that the data do not determine, according to the fit.
@@ -67,7 +67,7 @@ fn what_is_drowned_at_the_start_is_not_indifferent() -> Outcome {
 fn what_a_factor_of_zero_hides_is_not_indifferent() -> Outcome {
     let start = Ogden::new([6e5, 0.0], [1.3, 5.0], 2e7)?;
     assert_eq!(indifferent(&fitted(&start, &FitSettings::default())?), ["kappa"]);
-    let held = FitSettings::default().with_held(["mu_2"]);
+    let held = FitSettings { held: vec!["mu_2".into()], ..FitSettings::default() };
     assert_eq!(indifferent(&fitted(&start, &held)?), ["alpha_2", "kappa"]);
     Ok(())
 }

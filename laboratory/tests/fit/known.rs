@@ -36,11 +36,16 @@ fn synthetic(material: &dyn Candidate, volume: Volume, modes: &[Mode]) -> Measur
     super::synthetic(material, volume, modes, &[0.7, 0.85, 1.1, 1.3, 1.6, 2.0, 2.5])
 }
 
+/// With a free volume.
+fn free() -> FitSettings {
+    FitSettings { volume: Volume::Free, ..FitSettings::default() }
+}
+
 /// From `start` to the parameters of `wanted`, which answer the data exactly.
 #[track_caller]
 fn recovers(wanted: &dyn Candidate, start: &dyn Candidate, volume: Volume, modes: &[Mode]) {
     let data = synthetic(wanted, volume, modes);
-    let settings = FitSettings::default().with_volume(volume).with_restarts(4);
+    let settings = FitSettings { volume, restarts: 4, ..FitSettings::default() };
     let name = wanted.description().name;
     let found = fit_parameters(start, &data, &settings).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert!(found.difference <= 1e-9, "{name}: {found:?}");
@@ -57,7 +62,7 @@ fn whole_exponents_are_held() -> Outcome {
     let rivlin = |c: [f64; 3], bulk| Rivlin::new(c.to_vec(), vec![1, 0, 2], vec![0, 1, 0], bulk);
     let (wanted, start) = (rivlin([2e5, 3e4, 1e3], 2e6)?, rivlin([1e5, 1e4, 1e2], 1e6)?);
     let data = synthetic(&wanted, Volume::Free, &[Mode::Uniaxial, Mode::Equibiaxial]);
-    let settings = FitSettings::default().with_volume(Volume::Free).with_restarts(2);
+    let settings = FitSettings { restarts: 2, ..free() };
     let found = fit_parameters(&start, &data, &settings)?;
     assert!(found.difference <= 1e-9, "{found:?}");
     let standings: Vec<_> = found.numbers.iter().map(|number| number.standing).collect();
@@ -94,7 +99,7 @@ fn parameters_are_recovered_from_what_they_make() -> Outcome {
 #[test]
 fn a_list_is_held_with_all_its_entries() -> Outcome {
     let start = Ogden::new([4e5, -4e4], [1.8, -2.0], 1e6)?;
-    let settings = FitSettings::default().with_held(["alpha"]).with_restarts(0);
+    let settings = FitSettings { held: vec!["alpha".into()], restarts: 0, ..FitSettings::default() };
     let found = fit_parameters(&start, &treloar(), &settings)?;
     let held = found.numbers.iter().filter(|number| number.standing == Standing::Held);
     assert!(held.map(|number| number.name.as_str()).eq(["alpha_1", "alpha_2"]), "{found:?}");
@@ -119,14 +124,14 @@ fn ordinates_of_a_curve_are_recovered_from_what_they_make() -> Outcome {
     recovers(&wanted, &start, Volume::Free, &[Mode::Uniaxial, Mode::Equibiaxial]);
 
     let data = synthetic(&wanted, Volume::Free, &[Mode::Uniaxial, Mode::Equibiaxial]);
-    let settings = FitSettings::default().with_volume(Volume::Free).with_restarts(0);
-    let found = fit_parameters(&start, &data, &settings.clone().with_held(["f_2"]))?;
+    let holding = |name: &str| FitSettings { held: vec![name.into()], restarts: 0, ..free() };
+    let found = fit_parameters(&start, &data, &holding("f_2"))?;
     let names: Vec<_> = found.numbers.iter().map(|number| number.name.as_str()).collect();
     assert_eq!(names, ["f_1", "f_2", "f_3", "f_4", "kappa"]);
     assert_eq!((found.numbers[1].standing, found.numbers[1].value), (Standing::Held, -2e5));
     assert!(found.difference > 1e-3, "{found:?}");
     // The curve as a whole.
-    let found = fit_parameters(&start, &data, &settings.with_held(["f"]))?;
+    let found = fit_parameters(&start, &data, &holding("f"))?;
     assert!(found.numbers[..4].iter().all(|number| number.standing == Standing::Held), "{found:?}");
     Ok(())
 }
@@ -158,7 +163,7 @@ fn a_curve_without_values_is_held() -> Outcome {
     let (wanted, start) = (Curved::new(4e5, 1e6, Line)?, Curved::new(1e5, 3e5, Line)?);
     recovers(&wanted, &start, Volume::Free, &[Mode::Uniaxial]);
     let data = synthetic(&wanted, Volume::Free, &[Mode::Uniaxial]);
-    let found = fit_parameters(&start, &data, &FitSettings::default().with_volume(Volume::Free))?;
+    let found = fit_parameters(&start, &data, &free())?;
     assert_eq!(found.numbers.len(), 2);
     assert_eq!(found.values.last(), Some(&Vec::new()));
     Ok(())
@@ -233,12 +238,7 @@ fn pure_shear_cannot_tell_the_invariants_apart() -> Outcome {
     assert!(total.abs() <= 1e-6 * 3e5 && *effect <= 1e-9, "{found:?}");
     let text = text(&found);
     assert!(text.contains("they change the fit by less than 0.0001 %; hold one of them"), "{text}");
-    assert!(
-        text.contains(
-            "another minimum has differences of 0.000 %, compared with 0.000 % of this one: c10 = "
-        ),
-        "{text}"
-    );
+    assert!(text.contains("of up to 0.000 %, compared with 0.000 % of this one, at c10 from "), "{text}");
     Ok(())
 }
 
@@ -247,7 +247,7 @@ fn what_small_strains_say_little_about_is_named() -> Outcome {
     // There the stresses of c10 and c01 differ by a factor of λ only, and c01 is small.
     let truth = MooneyRivlin::new(2e5, 10.0, 2e7)?;
     let data = super::synthetic(&truth, Volume::Kept, &[Mode::Uniaxial], &[0.99, 1.01, 1.02, 1.03]);
-    let found = fit_parameters(&truth, &data, &FitSettings::default().with_restarts(0))?;
+    let found = fit_parameters(&truth, &data, &FitSettings { restarts: 0, ..FitSettings::default() })?;
     let text = text(&found);
     assert_eq!(text.matches("hardly determine").count(), 1, "{text}");
     assert!(text.contains("hardly determine c01: a change by 1 % changes the fit by"), "{text}");
@@ -258,15 +258,14 @@ fn what_small_strains_say_little_about_is_named() -> Outcome {
 #[test]
 fn what_cannot_be_fitted_is_said() -> Outcome {
     let rubber = NeoHookean::new(1e6, 1e8)?;
-    let held = |names: &[&str]| FitSettings::default().with_held(names.iter().copied());
+    let held = |name: &str| FitSettings { held: vec![name.into()], ..FitSettings::default() };
     let message = |data: &Measurements, settings: &FitSettings| {
         fit_parameters(&rubber, data, settings).expect_err("no fit").to_string()
     };
-    assert!(message(&treloar(), &held(&["nu"])).contains("there are mu, lambda"));
-    assert!(message(&treloar(), &held(&["mu"])).contains("hold fewer"));
+    assert!(message(&treloar(), &held("nu")).contains("there are mu, lambda"));
+    assert!(message(&treloar(), &held("mu")).contains("hold fewer"));
     assert!(message(&tension(&[(2.0, 0.0)]), &FitSettings::default()).contains("no point with a stress"));
-    let free = FitSettings::default().with_volume(Volume::Free);
-    let one = fit_parameters(&rubber, &tension(&[(2.0, 1e5)]), &free);
+    let one = fit_parameters(&rubber, &tension(&[(2.0, 1e5)]), &free());
     assert_eq!(one, Err(FitError::TooFewPoints { points: 1, free: 2 }));
     let locking = fit_parameters(&Gent::new(3e5, 10.0, 2e7)?, &treloar(), &FitSettings::default())
         .expect_err("it locks");
@@ -303,8 +302,8 @@ fn a_solid_that_gives_way_is_not_fitted_at_kept_volume_unsaid() -> Outcome {
     let n = kept.values[1][0];
     let poisson = compressible(&kept).expect("a warning");
     assert!((poisson - (n - 1.0) / (2.0 * n + 1.0)).abs() <= 1e-14 && poisson < 0.0, "{kept:?}");
-    assert!(text(&kept).contains("`--compressible`, `FitSettings::with_volume(Volume::Free)`"), "{kept:?}");
-    let free = fit_parameters(&start, &treloar(), &FitSettings::default().with_volume(Volume::Free))?;
+    assert!(text(&kept).contains("`--compressible`, `FitSettings::volume`"), "{kept:?}");
+    let free = fit_parameters(&start, &treloar(), &free())?;
     assert_eq!(compressible(&free), None, "{free:?}");
     assert!(
         free.agreement.total > Some(0.8) && kept.agreement.total.is_some_and(|total| total < 0.0),
@@ -322,7 +321,7 @@ fn starts_and_points_beyond_all_bounds_are_refused() -> Outcome {
     let rubber = NeoHookean::new(1e5, 5e6)?;
     let data = treloar();
     for restarts in [10_001, usize::MAX / 20 + 1, usize::MAX] {
-        let error = fit_parameters(&rubber, &data, &FitSettings::default().with_restarts(restarts));
+        let error = fit_parameters(&rubber, &data, &FitSettings { restarts, ..FitSettings::default() });
         let error = error.expect_err("too many").to_string();
         assert_eq!(error, format!("the number of random starts is {restarts}; it must be at most 10000"));
     }

@@ -36,7 +36,7 @@ fn synthetic(material: &dyn Candidate, volume: Volume, modes: &[Mode], controls:
 }
 
 fn by(difference: Difference) -> FitSettings {
-    FitSettings::default().with_difference(difference)
+    FitSettings { difference, ..FitSettings::default() }
 }
 
 /// What the warnings of one kind tell.

@@ -4,7 +4,7 @@ use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::data::Measurements;
 use piola_laboratory::fit::{Candidate, Fit, FitSettings, Warning, fit_parameters};
 
-use super::{Outcome, synthetic, told, treloar};
+use super::{Outcome, synthetic, text, told, treloar};
 
 /// Rubber after Swanson 1985: two sums.
 #[piola::material(domain(J > 0.0), admissible(alpha[p] > -1.0, beta[p] > -1.0), fit)]
@@ -36,12 +36,14 @@ fn measured(material: &dyn Candidate) -> Measurements {
     synthetic(material, Volume::Kept, &modes, &[1.05, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0])
 }
 
-/// What is said of other minima.
-fn others(fit: &Fit) -> Vec<&Warning> {
-    let is_other = |warning: &&Warning| {
-        matches!(warning, Warning::OtherMinimum { .. } | Warning::EquivalentParameters { .. })
-    };
-    told(fit, |warning| Some(warning).filter(is_other))
+/// The parameters that differ among descents that are about as good, with their ranges.
+fn ambiguous(fit: &Fit) -> Vec<(&str, f64, f64)> {
+    let ranges = told(fit, |warning| match warning {
+        Warning::Ambiguous { ranges, .. } => Some(ranges),
+        _ => None,
+    });
+    let all = ranges.into_iter().flatten();
+    all.map(|(name, least, greatest)| (name.as_str(), *least, *greatest)).collect()
 }
 
 #[test]
@@ -50,22 +52,19 @@ fn terms_of_each_sum_change_places_unsaid() -> Outcome {
     let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
     let found = fit_parameters(&start, &measured(&truth), &FitSettings::default())?;
     assert!(found.difference <= 1e-9 && found.descents > 10, "{found:?}");
-    assert!(others(&found).is_empty(), "{:?}", others(&found));
+    assert!(ambiguous(&found).is_empty(), "{found:?}");
     Ok(())
 }
 
 #[test]
-fn of_a_term_that_has_vanished_the_exponent_makes_no_other_minimum() -> Outcome {
+fn of_a_term_that_has_vanished_the_exponent_is_ambiguous() -> Outcome {
     let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, 0.0], [-0.3, 1.4], 2e7)?;
     let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
     let found = fit_parameters(&start, &measured(&truth), &FitSettings::default())?;
-    let [Warning::EquivalentParameters { numbers, is_runaway: false }] = others(&found)[..] else {
-        panic!("{:?}", others(&found));
-    };
-    let names: Vec<_> = numbers.iter().map(|(name, ..)| name.as_str()).collect();
-    assert_eq!(names, ["beta_1", "beta_2"], "the coefficients are the same, 0 among them");
-    let text = others(&found)[0].to_string();
-    assert!(text.contains("(`--hold beta_2`, `FitSettings::with_held`), or leave the term out"), "{text}");
+    let ranges = ambiguous(&found);
+    assert!(ranges.iter().any(|(name, ..)| *name == "beta_2"), "{ranges:?}");
+    let text = text(&found);
+    assert!(text.contains("`FitSettings::held`), leave a term out, or add data"), "{text}");
     Ok(())
 }
 
@@ -76,17 +75,10 @@ fn what_grows_without_end_is_said_once() -> Outcome {
     // Of Treloar's, n grows until 1 + b (I1 − 3)/n is rounding, and the stresses show it.
     for data in [measured(&limit), treloar()] {
         let found = fit_parameters(&start, &data, &FitSettings::default())?;
-        let said = others(&found);
-        let endless: Vec<_> = said
-            .iter()
-            .filter(|other| matches!(other, Warning::EquivalentParameters { is_runaway: true, .. }))
-            .collect();
-        let [endless] = endless[..] else { panic!("{said:?}") };
-        assert!(endless.to_string().starts_with("n grows without bound: n = "), "{endless}");
-        for other in said {
-            let Warning::OtherMinimum { numbers, .. } = other else { continue };
-            assert!(numbers[4].1 < 1e3, "{other:?}");
-        }
+        let ranges = ambiguous(&found);
+        let endless: Vec<_> = ranges.iter().filter(|(name, ..)| *name == "n").collect();
+        // Random starts vary by ten at most.
+        assert!(matches!(endless[..], [(_, _, greatest)] if *greatest > 2e3), "{ranges:?}");
     }
     Ok(())
 }

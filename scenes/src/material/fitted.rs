@@ -7,7 +7,6 @@ use piola_declare::Energy;
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
 
-/// A material to be fitted.
 pub(super) struct Fitted {
     pub(super) energy: Energy,
     pub(super) material: Interpreted,

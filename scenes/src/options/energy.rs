@@ -55,8 +55,8 @@ impl Formula {
     /// by its name; with the parameters that are given.
     ///
     /// # Errors
-    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::Usage`],
-    /// [`Error::Unreadable`], and those of `listed`.
+    /// [`Error::Declaration`]; a name without a value is a mistake at its place. [`Error::Usage`], and those
+    /// of `listed`.
     pub fn material(
         self,
         name: Option<&str>,
@@ -110,7 +110,7 @@ fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
 /// The material of a declaration in Rust, if a name is that of a file.
 ///
 /// # Errors
-/// [`Error::Unreadable`], [`Error::Declaration`].
+/// [`Error::Usage`] if it cannot be read, [`Error::Declaration`].
 pub fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
     let path = Path::new(name);
     if path.extension().is_none_or(|extension| extension != "rs") {

@@ -35,12 +35,9 @@ impl StepOptions {
     /// Settings with these overrides.
     #[must_use]
     pub fn apply(&self, settings: Settings) -> Settings {
-        let dt = self.dt.unwrap_or(settings.dt);
-        settings
-            .with_dt(dt)
-            .with_integrator(self.integrator)
-            .with_tolerance(self.tolerance)
-            .with_newton(self.newton)
+        let &Self { integrator, tolerance, newton, dt } = self;
+        let dt = dt.unwrap_or(settings.dt);
+        Settings { dt, integrator, tolerance, newton, ..settings }
     }
 }
 

@@ -129,7 +129,6 @@ mod tests {
     use super::*;
     use crate::output::frame_file;
 
-    /// Names of what is in a folder.
     fn names(folder: &Path) -> io::Result<Vec<String>> {
         let names = fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
         let mut names = names.collect::<io::Result<Vec<_>>>()?;

@@ -38,25 +38,16 @@ pub fn seal(content: &impl Serialize) -> serde_json::Result<Vec<u8>> {
 /// The content of a line that [`seal`] has written.
 ///
 /// # Errors
-/// [`SealError`].
-pub fn unseal<T: DeserializeOwned>(text: &str) -> Result<T, SealError> {
-    let line: Line<'_> = serde_json::from_str(text).map_err(SealError::NotJson)?;
+/// The reason why it is none, or has another content.
+pub fn unseal<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    let unexpected = |error: serde_json::Error| {
+        printable(&error.to_string().chars().take(MAX_MESSAGE).collect::<String>())
+    };
+    let line: Line<'_> = serde_json::from_str(text).map_err(unexpected)?;
     if checksum(line.content) != line.crc32 {
-        return Err(SealError::Checksum);
+        return Err("the checksum is wrong: the file has been changed or cut off".into());
     }
-    serde_json::from_str(line.content.get()).map_err(SealError::NotJson)
-}
-
-/// Reason why a line cannot be read.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SealError {
-    /// The line is not sealed JSON, or its content is not as expected.
-    #[error("{}", printable(&.0.to_string().chars().take(MAX_MESSAGE).collect::<String>()))]
-    NotJson(#[source] serde_json::Error),
-    /// The checksum does not match the content.
-    #[error("the checksum is wrong: the file has been changed or cut off")]
-    Checksum,
+    serde_json::from_str(line.content.get()).map_err(unexpected)
 }
 
 fn checksum(content: &RawValue) -> String {
@@ -95,7 +86,7 @@ mod tests {
     #[test]
     fn messages_are_short() {
         let name = format!("{{\"{}\":1}}", "y".repeat(1 << 20));
-        let message = unseal::<Vec<f64>>(&name).expect_err("no list").to_string();
+        let message = unseal::<Vec<f64>>(&name).expect_err("no list");
         assert!(message.chars().count() <= MAX_MESSAGE, "{message}");
     }
 }

@@ -39,7 +39,7 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
 /// The text of a file with a length, in bytes, of `longest` at most.
 ///
 /// # Errors
-/// [`Error::Unreadable`].
+/// [`Error::Usage`] if it cannot be read, or is longer.
 pub fn read_text(path: &Path, longest: u64) -> Result<String, Error> {
     let mut text = String::new();
     let read =
@@ -48,7 +48,7 @@ pub fn read_text(path: &Path, longest: u64) -> Result<String, Error> {
         true => Err(io::Error::other(format!("it is longer than {} MiB", longest >> 20))),
         false => Ok(text),
     });
-    read.map_err(|source| Error::Unreadable { path: path.into(), source })
+    read.map_err(|error| Error::Usage(format!("{}: cannot be read: {error}", path.display())))
 }
 
 /// Checks that a file is empty or begins as the new one does.

@@ -55,7 +55,7 @@ mod tests {
 
     fn scrambled(seed: u64, amplitude: Amplitude, pins: &Pins) -> (TetMesh, Vec<[f64; 3]>) {
         let start = Start::Scrambled { seed, amplitude };
-        let settings = Settings::new(&SCRAMBLE).with_body(Body::DINOSAUR).with_start(start);
+        let settings = Settings { body: Body::DINOSAUR, start, ..Settings::new(&SCRAMBLE) };
         let geometry = Geometry::load(&settings).expect("a body of the program");
         let positions = start_positions(&settings, &geometry, pins);
         (geometry.mesh, positions)

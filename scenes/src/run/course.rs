@@ -120,7 +120,6 @@ impl<'a> Course<'a> {
         Self { setup, folder, progress, positions, times, due: Instant::now(), failures }
     }
 
-    /// Plays the scene to its end.
     pub(super) fn play(mut self, watch: &mut Watch<'_>) -> Result<Finished, Error> {
         let mut ended = Ended::Finished;
         let first = self.setup.play.clock().frame() + 1;
@@ -147,7 +146,6 @@ impl<'a> Course<'a> {
         Ok(self.finish(ended, watch))
     }
 
-    /// Makes a step and writes its files.
     fn step(&mut self, frame: usize) -> Result<(), Error> {
         let clock = Instant::now();
         let report = self.setup.threads.install(|| self.setup.play.step())?;

@@ -10,7 +10,6 @@ use crate::settings::Settings;
 /// Largest size of a state of a run, in bytes; a longer file is refused.
 pub(super) const MAX_LENGTH: u64 = 1 << 32;
 
-/// Figures of a run so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Progress {

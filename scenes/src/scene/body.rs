@@ -104,7 +104,6 @@ impl Body {
         serializer.serialize_str(body.name)
     }
 
-    /// Finds a body by its name.
     pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Self::find(&String::deserialize(deserializer)?).map_err(D::Error::custom)
     }

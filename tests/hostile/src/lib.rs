@@ -19,7 +19,7 @@ use piola::point::{Filter, Matrix3, evaluate};
 use piola_declare::Energy;
 use piola_laboratory::chart::{self, Curve};
 use piola_laboratory::curve::{Mode, Volume, sweep};
-use piola_laboratory::data::{Measurements, ReadOptions, decoded};
+use piola_laboratory::data::{Measurements, ReadOptions};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::seal;
 use piola_scenes::run::{Output, run};
@@ -60,7 +60,7 @@ pub fn seeds(format: &str) -> PathBuf {
 /// Tetrahedra of Gmsh; where they are refused, without the other elements, in a scene that is measured.
 pub fn msh(scratch: &Path, bytes: &[u8]) -> bool {
     let files = Files { mesh: write(scratch, "body.msh", bytes), surface: None };
-    let settings = Settings::new(&STRETCH).with_only_tetrahedra(true);
+    let settings = Settings { only_tetrahedra: true, ..Settings::new(&STRETCH) };
     play(scratch, files.clone()) || play_by(settings, scratch, files)
 }
 
@@ -84,9 +84,9 @@ pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
 pub fn csv(_: &Path, bytes: &[u8]) -> bool {
     let (test, unit) = (Some(Mode::Uniaxial.into()), Some("MPa".parse().expect("a unit")));
     let options = ReadOptions { test, unit, ..ReadOptions::default() };
-    let data = match Measurements::read_with(&decoded(bytes), &options) {
+    let data = match Measurements::read_with(&String::from_utf8_lossy(bytes), &options) {
         Ok(reading) => {
-            let note = reading.to_string();
+            let note = reading.note;
             assert!(!note.is_empty() && !note.chars().any(char::is_control), "{note:?}");
             reading.measurements
         }
@@ -197,7 +197,7 @@ fn play(scratch: &Path, files: Files) -> bool {
 }
 
 fn play_by(settings: Settings, scratch: &Path, files: Files) -> bool {
-    let settings = settings.with_files(Some(files)).with_frames(1);
+    let settings = Settings { files: Some(files), frames: 1, ..settings };
     // Of an earlier run.
     let _ = fs::remove_dir_all(scratch.join("out"));
     let output = Output { folder: scratch.join("out"), vtu: true, resume: false };

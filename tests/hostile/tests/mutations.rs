@@ -75,7 +75,8 @@ fn seed_of_the_viewer() {
     if std::env::var_os("PIOLA_BLESS").is_none() {
         return;
     }
-    let mut session = Session::new(Settings::new(&HORSE).with_files(Some(cube()))).expect("a session");
+    let mut session =
+        Session::new(Settings { files: Some(cube()), ..Settings::new(&HORSE) }).expect("a session");
     for act in [
         Act::Pull { drag: 1, vertex: 3, target: [1.0, 1.5, -0.25] },
         Act::Material { name: "gent".into(), as_stiff: true },

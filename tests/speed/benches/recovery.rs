@@ -106,11 +106,11 @@ fn play(
     starts: Vec<Start>,
 ) -> Result<Vec<TrialOutcome>, Box<dyn Error + Send + Sync>> {
     let material = MaterialSpec::matching(material, soft_moduli());
-    let described = Settings::new(scene).with_body(body).with_material(material).with_newton(newton);
+    let described = Settings { body, material, newton, ..Settings::new(scene) };
     let geometry = Geometry::load(&described)?;
     let outcomes: Result<_, Box<dyn Error + Send + Sync>> = starts
         .into_par_iter()
-        .map(|start| Ok(run_trial(&described.clone().with_start(start), &geometry)?))
+        .map(|start| Ok(run_trial(&Settings { start, ..described.clone() }, &geometry)?))
         .collect();
     let outcomes: Vec<TrialOutcome> = outcomes?;
     for outcome in &outcomes {
