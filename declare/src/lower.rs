@@ -382,17 +382,17 @@ impl Lowering<'_> {
             }
             Op::Logarithm(a) => Operation::Logarithm(to, r(a)),
             Op::Power(logarithm, exponent) => Operation::Power(to, r(logarithm), r(exponent)),
-            Op::Pair(values, reciprocals, logarithms) => Operation::Pair {
+            Op::Pair { values, reciprocals, logarithms } => Operation::Pair {
                 to,
                 values: values.map(r),
                 reciprocals: reciprocals.map(r),
                 logarithms: logarithms.map(r),
             },
             Op::LnQuotient(pair) => Operation::LnQuotient(to, r(pair)),
-            Op::PowerQuotient(pair, powers, exponent) => {
+            Op::PowerQuotient { pair, powers, exponent } => {
                 Operation::PowerQuotient { to, pair: r(pair), powers: powers.map(r), exponent: r(exponent) }
             }
-            Op::ExpQuotient([a, b], [a_exp, b_exp]) => {
+            Op::ExpQuotient { values: [a, b], exponentials: [a_exp, b_exp] } => {
                 Operation::ExpQuotient(to, [a, a_exp].map(r), [b, b_exp].map(r))
             }
             Op::WholePower(a, n, order) => Operation::WholePower(to, r(a), self.whole(n), order),

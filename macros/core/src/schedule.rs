@@ -233,12 +233,12 @@ impl Scheduler<'_> {
             Node::ExpQuotient(a, b) => {
                 let values = [a, b].map(|id| self.value(id));
                 let exponentials = values.map(|value| self.push(Op::Exp(value)));
-                Op::ExpQuotient(values, exponentials)
+                Op::ExpQuotient { values, exponentials }
             }
             Node::PowerQuotient(a, b, exponent) => {
                 let pair = self.pair(a, b);
                 let powers = [a, b].map(|base| self.power(base, exponent));
-                Op::PowerQuotient(pair, powers, self.exponent(exponent))
+                Op::PowerQuotient { pair, powers, exponent: self.exponent(exponent) }
             }
             Node::PoleQuotient(numerator, sum) => {
                 let (numerator, sum) = (self.value(numerator), self.value(sum));
@@ -350,7 +350,7 @@ impl Scheduler<'_> {
         let values = [a, b].map(|id| self.value(id));
         let reciprocals = [a, b].map(|base| self.power(base, Exponent::integer(-1)));
         let logarithms = values.map(|value| self.push(Op::Logarithm(value)));
-        self.push(Op::Pair(values, reciprocals, logarithms))
+        self.push(Op::Pair { values, reciprocals, logarithms })
     }
 
     fn whole_power(&mut self, base: Value, n: i64) -> Value {

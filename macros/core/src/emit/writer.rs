@@ -188,16 +188,16 @@ impl<'a> Writer<'a> {
             }
             Op::ShareAbove(a, b, epsilon) => self.call("share_above", &[n(a), n(b), n(epsilon)]),
             Op::ShareBelow(a, b, epsilon) => self.call("share_below", &[n(a), n(b), n(epsilon)]),
-            Op::Pair(values, reciprocals, logarithms) => {
+            Op::Pair { values, reciprocals, logarithms } => {
                 let arguments = [values, reciprocals, logarithms].map(|two| self.two(two, names));
                 quote!(__p::Pair::new(#(#arguments),*))
             }
             Op::LnQuotient(pair) => method(o(pair), "ln_quotient", &[]),
-            Op::PowerQuotient(pair, powers, exponent) => {
+            Op::PowerQuotient { pair, powers, exponent } => {
                 let (pair, powers, exponent) = (o(pair), self.two(powers, names), n(exponent));
                 quote!(#pair.power_quotient(#powers, #exponent))
             }
-            Op::ExpQuotient([a, b], [a_exp, b_exp]) => {
+            Op::ExpQuotient { values: [a, b], exponentials: [a_exp, b_exp] } => {
                 self.call("exp_quotient", &[[a, a_exp], [b, b_exp]].map(|two| self.two(two, names)))
             }
             Op::PoleFloor => {

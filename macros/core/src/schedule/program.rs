@@ -8,7 +8,6 @@ pub struct Value(pub usize);
 
 /// One operation on values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "some are named like operators or methods of `f64`")]
 pub enum Op {
     /// The bits of an `f64`.
     Literal(u64),
@@ -24,10 +23,15 @@ pub enum Op {
     Epsilon,
     /// Smallest denominator of a quotient at a pole.
     PoleFloor,
+    /// −a.
     Neg(Value),
+    /// First + second.
     Add(Value, Value),
+    /// First − second.
     Sub(Value, Value),
+    /// First · second.
     Mul(Value, Value),
+    /// First / second.
     Div(Value, Value),
     /// First · second + third.
     MulAdd(Value, Value, Value),
@@ -35,9 +39,13 @@ pub enum Op {
     NegMulAdd(Value, Value, Value),
     /// First · second − third.
     MulSub(Value, Value, Value),
+    /// Square root.
     Sqrt(Value),
+    /// Cube root.
     Cbrt(Value),
+    /// Natural logarithm.
     Ln(Value),
+    /// Exponential function.
     Exp(Value),
     /// The logarithm from which all powers of a value are computed.
     Logarithm(Value),
@@ -69,15 +77,33 @@ pub enum Op {
     ShareAbove(Value, Value, Value),
     /// Fraction of the interval between the first two that lies below the third.
     ShareBelow(Value, Value, Value),
-    /// The common part of the divided differences of logarithms and powers of two values a, b: from a, b,
-    /// from 1/a, 1/b, and from the [`Logarithm`](Self::Logarithm)s of a and b.
-    Pair([Value; 2], [Value; 2], [Value; 2]),
+    /// The common part of the divided differences of logarithms and powers of two values a, b.
+    Pair {
+        /// a, b.
+        values: [Value; 2],
+        /// 1/a, 1/b.
+        reciprocals: [Value; 2],
+        /// The [`Logarithm`](Self::Logarithm)s of a and b.
+        logarithms: [Value; 2],
+    },
     /// The divided difference (ln a − ln b) / (a − b), from their pair.
     LnQuotient(Value),
-    /// The divided difference (a^r − b^r) / (a − b), from the pair of a and b, from a^r, b^r, and from r.
-    PowerQuotient(Value, [Value; 2], Value),
-    /// The divided difference (eᵃ − eᵇ) / (a − b), from a, b and from eᵃ, eᵇ.
-    ExpQuotient([Value; 2], [Value; 2]),
+    /// The divided difference (a^r − b^r) / (a − b).
+    PowerQuotient {
+        /// The pair of a and b.
+        pair: Value,
+        /// a^r, b^r.
+        powers: [Value; 2],
+        /// r.
+        exponent: Value,
+    },
+    /// The divided difference (eᵃ − eᵇ) / (a − b).
+    ExpQuotient {
+        /// a, b.
+        values: [Value; 2],
+        /// eᵃ, eᵇ.
+        exponentials: [Value; 2],
+    },
 }
 
 impl Op {
@@ -127,13 +153,13 @@ impl Op {
             | Self::WhereNegative(a, b, c)
             | Self::ShareAbove(a, b, c)
             | Self::ShareBelow(a, b, c) => [a, b, c].into_iter().for_each(show),
-            Self::Pair(values, reciprocals, logarithms) => {
+            Self::Pair { values, reciprocals, logarithms } => {
                 [values, reciprocals, logarithms].into_iter().flatten().for_each(show);
             }
-            Self::PowerQuotient(pair, [a, b], exponent) => {
+            Self::PowerQuotient { pair, powers: [a, b], exponent } => {
                 [pair, a, b, exponent].into_iter().for_each(show);
             }
-            Self::ExpQuotient(values, exponentials) => {
+            Self::ExpQuotient { values, exponentials } => {
                 [values, exponentials].into_iter().flatten().for_each(show);
             }
         }
