@@ -6,8 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use piola::__private::interpreter::{Elementary, Exponent, Loop, Operation, Program, Register, Sizes};
-use piola_codegen::algebra::expr::Elementary as Function;
+use piola::__private::interpreter::{Exponent, Loop, Operation, Program, Register, Sizes};
 use piola_codegen::read::parse::Declaration;
 use piola_codegen::schedule::{Op, Program as Ordered, Statement, Value};
 
@@ -55,14 +54,16 @@ pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Opti
         outputs[part] = ordered.outputs.iter().map(|&output| lowering.read(output)).collect();
     }
     let [results, bounds] = outputs;
+    let stretches = [0, 1, 2].map(|i| lowering.register(Name::Stretch(i)));
     let preparations = lowering.preparations.len();
     lowering.program.operations.splice(..0, lowering.preparations);
     let constants = lowering.constants.len();
-    let [numbers, _, logarithms, pairs] =
+    let [numbers, _, logarithms, pairs, _] =
         lowering.registers.map(|registers| registers.first + registers.count);
     let sizes = Sizes { numbers, constants, logarithms, pairs };
     let most = numbers.max(logarithms).max(pairs);
-    (most <= MOST_REGISTERS).then_some(Program { preparations, results, bounds, sizes, ..lowering.program })
+    let program = Program { stretches, preparations, results, bounds, sizes, ..lowering.program };
+    (most <= MOST_REGISTERS).then_some(program)
 }
 
 /// A value of a part of the program, or a stretch, which an operation may read that does not name it.
@@ -169,10 +170,12 @@ enum Kind {
     Constant,
     Logarithm,
     Pair,
+    /// A whole exponent, which is read from the parameters.
+    Exponent,
 }
 
 impl Kind {
-    const ALL: [Self; 4] = [Self::Number, Self::Constant, Self::Logarithm, Self::Pair];
+    const ALL: [Self; 5] = [Self::Number, Self::Constant, Self::Logarithm, Self::Pair, Self::Exponent];
 }
 
 /// Registers of one kind.
@@ -185,12 +188,7 @@ struct Registers {
 }
 
 /// Location of a value.
-#[derive(Clone, Copy)]
-enum Place {
-    Register(Kind, Register),
-    /// A whole exponent, which is read from the parameters.
-    Whole(Exponent),
-}
+type Place = (Kind, Register);
 
 struct Lowering<'a> {
     declaration: &'a Declaration,
@@ -202,7 +200,7 @@ struct Lowering<'a> {
     filled: BTreeMap<Constant, Register>,
     /// The values that are constants.
     constants: BTreeSet<Name>,
-    registers: [Registers; 4],
+    registers: [Registers; 5],
     /// The part of the program that is being lowered.
     part: usize,
     /// The value of the last operation.
@@ -223,9 +221,9 @@ impl Lowering<'_> {
             let name = self.named(value);
             let is_whole = |k: usize| self.declaration.parameters[k].is_whole;
             let place = match op {
-                Op::Parameter(k) if is_whole(k) => Place::Whole(Exponent::Parameter(k)),
-                Op::Entry(k) if is_whole(k) => Place::Whole(Exponent::Entry(k)),
-                Op::Stretch(i) => Place::Register(Kind::Number, self.stretch(i)),
+                Op::Parameter(k) if is_whole(k) => self.exponent(Exponent::Parameter(k)),
+                Op::Entry(k) if is_whole(k) => self.exponent(Exponent::Entry(k)),
+                Op::Stretch(i) => (Kind::Number, self.stretch(i)),
                 Op::PoleFloor => return (0..3).for_each(|i| _ = self.stretch(i)),
                 Op::Strain(i) => {
                     let register = self.make(Kind::Number, name);
@@ -264,12 +262,17 @@ impl Lowering<'_> {
                 register
             }
         };
-        Place::Register(Kind::Constant, register)
+        (Kind::Constant, register)
+    }
+
+    fn exponent(&mut self, exponent: Exponent) -> Place {
+        self.program.exponents.push(exponent);
+        (Kind::Exponent, self.registers[Kind::Exponent as usize].add())
     }
 
     /// The register of a stretch.
     fn stretch(&mut self, i: usize) -> Register {
-        if let Some(&Place::Register(_, register)) = self.places.get(&Name::Stretch(i)) {
+        if let Some(&(_, register)) = self.places.get(&Name::Stretch(i)) {
             return register;
         }
         let register = self.make(Kind::Number, Name::Stretch(i));
@@ -354,60 +357,7 @@ impl Lowering<'_> {
         );
         self.free(over);
         let to = self.make(kind, self.named(value));
-        let r = |value: Value| self.read(value);
-        Some(match *op {
-            Op::Neg(a) => Operation::Neg(to, r(a)),
-            Op::Add(a, b) => Operation::Add(to, r(a), r(b)),
-            Op::Sub(a, b) => Operation::Sub(to, r(a), r(b)),
-            Op::Mul(a, b) => Operation::Mul(to, r(a), r(b)),
-            Op::Div(a, b) => Operation::Div(to, r(a), r(b)),
-            Op::MulAdd(a, b, c) => Operation::MulAdd(to, [a, b, c].map(r)),
-            Op::NegMulAdd(a, b, c) => Operation::NegMulAdd(to, [a, b, c].map(r)),
-            Op::MulSub(a, b, c) => Operation::MulSub(to, [a, b, c].map(r)),
-            Op::Sqrt(a) => Operation::Sqrt(to, r(a)),
-            Op::Cbrt(a) => Operation::Cbrt(to, r(a)),
-            Op::Ln(a) => Operation::Ln(to, r(a)),
-            Op::Exp(a) => Operation::Exp(to, r(a)),
-            Op::Max(a, b) => Operation::Max(to, r(a), r(b)),
-            Op::Below(a, b) => Operation::Below(to, r(a), r(b)),
-            Op::AboveZero(a) => Operation::AboveZero(to, r(a)),
-            Op::WhereNegative(a, b, c) => Operation::WhereNegative(to, [a, b, c].map(r)),
-            Op::ShareAbove(a, b, c) => Operation::ShareAbove(to, [a, b, c].map(r)),
-            Op::ShareBelow(a, b, c) => Operation::ShareBelow(to, [a, b, c].map(r)),
-            Op::PoleFloor => Operation::PoleFloor(to, [0, 1, 2].map(|i| self.register(Name::Stretch(i)))),
-            Op::LnProduct(factors) => Operation::LnProduct(to, factors.map(r)),
-            Op::Elementary(function, a) => Operation::Elementary(elementary(function), to, r(a)),
-            Op::ElementaryQuotient(function, a, b) => {
-                Operation::ElementaryQuotient(elementary(function), to, r(a), r(b))
-            }
-            Op::Logarithm(a) => Operation::Logarithm(to, r(a)),
-            Op::Power(logarithm, exponent) => Operation::Power(to, r(logarithm), r(exponent)),
-            Op::Pair { values, reciprocals, logarithms } => Operation::Pair {
-                to,
-                values: values.map(r),
-                reciprocals: reciprocals.map(r),
-                logarithms: logarithms.map(r),
-            },
-            Op::LnQuotient(pair) => Operation::LnQuotient(to, r(pair)),
-            Op::PowerQuotient { pair, powers, exponent } => {
-                Operation::PowerQuotient { to, pair: r(pair), powers: powers.map(r), exponent: r(exponent) }
-            }
-            Op::ExpQuotient { values: [a, b], exponentials: [a_exp, b_exp] } => {
-                Operation::ExpQuotient(to, [a, a_exp].map(r), [b, b_exp].map(r))
-            }
-            Op::WholePower(a, n, order) => Operation::WholePower(to, r(a), self.whole(n), order),
-            Op::WholePowerQuotient(bases, n, order) => {
-                Operation::WholePowerQuotient(to, bases.map(r), self.whole(n), order)
-            }
-            Op::Function(k, order, a) => Operation::Function(to, k, order, r(a)),
-            Op::FunctionQuotient(k, order, a, b) => Operation::FunctionQuotient(to, k, order, [a, b].map(r)),
-            Op::Literal(_)
-            | Op::Stretch(_)
-            | Op::Strain(_)
-            | Op::Parameter(_)
-            | Op::Entry(_)
-            | Op::Epsilon => return None,
-        })
+        Some(Operation::One(to, op.map(|value| self.read(value))))
     }
 
     /// The register of a value, which the order of the operations has filled.
@@ -416,24 +366,14 @@ impl Lowering<'_> {
     }
 
     fn register(&self, name: Name) -> Register {
-        match self.places.get(&name) {
-            Some(&Place::Register(_, register)) => register,
-            _ => 0,
-        }
-    }
-
-    fn whole(&self, value: Value) -> Exponent {
-        match self.places.get(&self.named(value)) {
-            Some(&Place::Whole(exponent)) => exponent,
-            _ => Exponent::Parameter(0),
-        }
+        self.places.get(&name).map_or(0, |&(_, register)| register)
     }
 
     /// A free register for a value; constants keep theirs.
     fn make(&mut self, kind: Kind, name: Name) -> Register {
         let registers = &mut self.registers[kind as usize];
         let register = registers.free.pop().unwrap_or_else(|| registers.add());
-        self.places.insert(name, Place::Register(kind, register));
+        self.places.insert(name, (kind, register));
         // A value that nothing reads is still written.
         if kind != Kind::Constant && !self.lives.contains_key(&name) {
             registers.free.push(register);
@@ -443,12 +383,9 @@ impl Lowering<'_> {
 
     /// Frees the registers of values that nothing reads any more.
     fn free(&mut self, over: BTreeSet<Name>) {
-        let places = over.into_iter().filter_map(|name| match self.places.get(&name) {
-            Some(&Place::Register(kind, register)) if kind != Kind::Constant => Some((kind, register)),
-            _ => None,
-        });
+        let places = over.iter().filter_map(|name| self.places.get(name).copied());
         // Two names may be one register.
-        let registers: BTreeSet<_> = places.collect();
+        let registers: BTreeSet<_> = places.filter(|&(kind, _)| kind != Kind::Constant).collect();
         registers.into_iter().for_each(|(kind, register)| self.registers[kind as usize].free.push(register));
     }
 }
@@ -464,13 +401,11 @@ impl Registers {
 /// Two operations that follow each other as one, if the second reads once what the first has computed, and
 /// nothing else does: that value then needs no register.
 fn fused(first: Operation, second: Operation) -> Option<Operation> {
-    let (Operation::Mul(passed, ..)
-    | Operation::MulMul(passed, _)
-    | Operation::MulAdd(passed, _)
-    | Operation::NegMulAdd(passed, _)) = first
-    else {
+    use Operation::{MulAddMul, MulMul, MulMulAdd, MulMulMul, NegMul, NegMulAddMul, NegMulMulAdd, One};
+    let (One(passed, Op::Mul(..) | Op::MulAdd(..) | Op::NegMulAdd(..)) | MulMul(passed, _)) = first else {
         return None;
     };
+    let One(to, second) = second else { return None };
     let factor = |x: Register, y: Register| match (x == passed, y == passed) {
         (true, false) => Some(y),
         (false, true) => Some(x),
@@ -478,40 +413,15 @@ fn fused(first: Operation, second: Operation) -> Option<Operation> {
     };
     let addend = |z: Register| Some(z).filter(|&z| z != passed);
     Some(match (first, second) {
-        (Operation::Mul(_, a, b), Operation::Neg(to, _)) => Operation::NegMul(to, a, b),
-        (Operation::Mul(_, a, b), Operation::Mul(to, x, y)) => Operation::MulMul(to, [a, b, factor(x, y)?]),
-        (Operation::MulMul(_, [a, b, c]), Operation::Mul(to, x, y)) => {
-            Operation::MulMulMul(to, [a, b, c, factor(x, y)?])
-        }
-        (Operation::MulAdd(_, [a, b, c]), Operation::Mul(to, x, y)) => {
-            Operation::MulAddMul(to, [a, b, c, factor(x, y)?])
-        }
-        (Operation::NegMulAdd(_, [a, b, c]), Operation::Mul(to, x, y)) => {
-            Operation::NegMulAddMul(to, [a, b, c, factor(x, y)?])
-        }
-        (Operation::Mul(_, a, b), Operation::MulAdd(to, [x, y, z])) => {
-            Operation::MulMulAdd(to, [a, b, factor(x, y)?, addend(z)?])
-        }
-        (Operation::Mul(_, a, b), Operation::NegMulAdd(to, [x, y, z])) => {
-            Operation::NegMulMulAdd(to, [a, b, factor(x, y)?, addend(z)?])
+        (One(_, Op::Mul(a, b)), Op::Neg(_)) => NegMul(to, a, b),
+        (One(_, Op::Mul(a, b)), Op::Mul(x, y)) => MulMul(to, [a, b, factor(x, y)?]),
+        (MulMul(_, [a, b, c]), Op::Mul(x, y)) => MulMulMul(to, [a, b, c, factor(x, y)?]),
+        (One(_, Op::MulAdd(a, b, c)), Op::Mul(x, y)) => MulAddMul(to, [a, b, c, factor(x, y)?]),
+        (One(_, Op::NegMulAdd(a, b, c)), Op::Mul(x, y)) => NegMulAddMul(to, [a, b, c, factor(x, y)?]),
+        (One(_, Op::Mul(a, b)), Op::MulAdd(x, y, z)) => MulMulAdd(to, [a, b, factor(x, y)?, addend(z)?]),
+        (One(_, Op::Mul(a, b)), Op::NegMulAdd(x, y, z)) => {
+            NegMulMulAdd(to, [a, b, factor(x, y)?, addend(z)?])
         }
         _ => return None,
     })
-}
-
-fn elementary(function: Function) -> Elementary {
-    match function {
-        Function::Asinh => Elementary::Asinh,
-        Function::Atan => Elementary::Atan,
-        Function::Cos => Elementary::Cos,
-        Function::Cosh => Elementary::Cosh,
-        Function::Erf => Elementary::Erf,
-        Function::ExpM1 => Elementary::ExpM1,
-        Function::Ln1p => Elementary::Ln1p,
-        Function::Sigmoid => Elementary::Sigmoid,
-        Function::Sin => Elementary::Sin,
-        Function::Sinh => Elementary::Sinh,
-        Function::Softplus => Elementary::Softplus,
-        Function::Tanh => Elementary::Tanh,
-    }
 }

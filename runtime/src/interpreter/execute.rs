@@ -225,7 +225,7 @@ fn execute<R: Real, const G: usize>(
                     entry = outside;
                 }
             }
-            _ => compute(operation, file, parameters, entry),
+            operation => compute(program, operation, file, parameters, entry),
         }
     }
 }
