@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use piola::__private::interpreter::{ByInvariants, Calls, ParameterValues, Programs, Value, Variant, Volume};
+use piola::__private::interpreter::{ByInvariants, Calls, ParameterValues, Programs, Value, Variant};
 use piola::__private::{Condition, record};
 use piola::contract::Notation;
 use piola::interpreter::Interpreted;
@@ -279,11 +279,7 @@ pub fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs
         extended,
         at_strains: program(model, &model.at_strains.clone())?,
         bounds: program(model, &model.bounds.clone())?,
-        volume: match model.volume {
-            read::domain::Volume::Any => Volume::Any,
-            read::domain::Volume::Positive => Volume::Positive,
-            read::domain::Volume::Nonzero => Volume::Nonzero,
-        },
+        volume: model.volume,
         by_invariants,
         moduli: program(model, &model.moduli.clone())?,
         are_whole: declaration.parameters.iter().map(|parameter| parameter.is_whole).collect(),

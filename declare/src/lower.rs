@@ -4,7 +4,7 @@
 //! values one after the other: fewer registers stay in the innermost cache. What a loop reads of values from
 //! outside of it, it reads for every entry, so that these keep their registers until its end.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use piola::__private::interpreter::{Exponent, Loop, Operation, Program, Register, Sizes};
 use piola_codegen::read::parse::Declaration;
@@ -33,7 +33,7 @@ pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Opti
         lives: lives(parts),
         constants,
         places: BTreeMap::new(),
-        filled: BTreeMap::new(),
+        filled: HashMap::new(),
         registers,
         part: 0,
         latest: None,
@@ -71,16 +71,6 @@ pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Opti
 enum Name {
     Value(usize, Value),
     Stretch(usize),
-}
-
-/// A number that is the same at every point.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Constant {
-    Literal(u64),
-    Parameter(usize),
-    /// The entry of a list that the caller names.
-    Entry(usize),
-    Epsilon,
 }
 
 /// The time at which each value is read last. Each operation has a time of its own, and so has the end of
@@ -197,7 +187,7 @@ struct Lowering<'a> {
     /// Location of each value, or its location when it was read last.
     places: BTreeMap<Name, Place>,
     /// The registers of constants that are filled before the first operation.
-    filled: BTreeMap<Constant, Register>,
+    filled: HashMap<Op<Register>, Register>,
     /// The values that are constants.
     constants: BTreeSet<Name>,
     registers: [Registers; 5],
@@ -229,10 +219,10 @@ impl Lowering<'_> {
                     let register = self.make(Kind::Number, name);
                     return self.program.arguments.push((register, 3 + i));
                 }
-                Op::Literal(bits) => self.constant(Constant::Literal(bits)),
-                Op::Parameter(k) => self.constant(Constant::Parameter(k)),
-                Op::Entry(k) if !is_in_loop => self.constant(Constant::Entry(k)),
-                Op::Epsilon => self.constant(Constant::Epsilon),
+                Op::Literal(bits) => self.constant(Op::Literal(bits)),
+                Op::Parameter(k) => self.constant(Op::Parameter(k)),
+                Op::Entry(k) if !is_in_loop => self.constant(Op::Entry(k)),
+                Op::Epsilon => self.constant(Op::Epsilon),
                 _ => return,
             };
             self.places.insert(name, place);
@@ -246,22 +236,13 @@ impl Lowering<'_> {
     }
 
     /// The place of a constant that is filled before the first operation.
-    fn constant(&mut self, constant: Constant) -> Place {
-        let register = match self.filled.get(&constant) {
-            Some(&register) => register,
-            None => {
-                let register = self.registers[Kind::Constant as usize].add();
-                let program = &mut self.program;
-                match constant {
-                    Constant::Literal(bits) => program.literals.push((register, f64::from_bits(bits))),
-                    Constant::Parameter(k) => program.parameters.push((register, k)),
-                    Constant::Entry(k) => program.entries.push((register, k)),
-                    Constant::Epsilon => program.epsilon = Some(register),
-                }
-                self.filled.insert(constant, register);
-                register
-            }
-        };
+    fn constant(&mut self, constant: Op<Register>) -> Place {
+        let (registers, program) = (&mut self.registers, &mut self.program);
+        let register = *self.filled.entry(constant).or_insert_with(|| {
+            let register = registers[Kind::Constant as usize].add();
+            program.filled.push((register, constant));
+            register
+        });
         (Kind::Constant, register)
     }
 

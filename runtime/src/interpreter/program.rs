@@ -14,20 +14,15 @@ pub type Register = u16;
 /// A register may hold several values one after the other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
-    /// Constants that the declaration writes as numbers.
-    pub literals: Vec<(Register, f64)>,
     /// Registers that hold an argument: its place among the arguments.
     pub arguments: Vec<(Register, usize)>,
-    /// Constants that are a parameter: its place in the declaration.
-    pub parameters: Vec<(Register, usize)>,
-    /// Constants that are the entry of a list which the caller names: the list's place in the declaration.
-    pub entries: Vec<(Register, usize)>,
+    /// Constants that are filled before the first operation: a literal, a parameter, the entry of a list that
+    /// the caller names, or the threshold ε of an extension.
+    pub filled: Vec<(Register, Op<Register>)>,
     /// Whole exponents, by their registers.
     pub exponents: Vec<Exponent>,
     /// The registers of the three stretches, if an operation reads them without naming them.
     pub stretches: [Register; 3],
-    /// The constant that is the threshold ε of an extension.
-    pub epsilon: Option<Register>,
     /// The operations, in order.
     pub operations: Vec<Operation>,
     /// Number of operations at the start that compute constants: once for all tiles that follow each other.
