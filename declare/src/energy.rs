@@ -141,7 +141,7 @@ impl Energy {
     /// [`MaterialError`] of the compiled energy's constructor.
     pub fn material(&self, values: &[&[f64]], inversion: Inversion) -> Result<Interpreted, MaterialError> {
         let Compiled { description, programs, constructor, .. } = &*self.0;
-        let values = constructor.values(description, values)?;
+        let values = constructor.values(description, values, &[])?;
         constructor.build(description, programs, values, inversion)
     }
 
@@ -182,7 +182,8 @@ impl Energy {
         values: &[Vec<f64>],
     ) -> Result<Interpreted, MaterialError> {
         let Compiled { description, programs, constructor, .. } = &*self.0;
-        let values = constructor.changed_values(description, material.values(), values)?;
+        let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
+        let values = constructor.values(description, &values, material.values().all())?;
         constructor.build(description, programs, values, Inversion::Refuse)
     }
 

@@ -25,7 +25,7 @@ pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Prog
 /// depend on the domain.
 pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program> {
     let constants = constants(declaration, parts);
-    let mut registers = Kind::ALL.map(|_| Registers::default());
+    let mut registers: [Registers; 5] = Default::default();
     // Two values may be one constant, so that these are enough.
     registers[Kind::Number as usize].first = constants.len();
     let mut lowering = Lowering {
@@ -84,7 +84,7 @@ fn lives(parts: &[&Ordered]) -> BTreeMap<Name, usize> {
             match statement {
                 Statement::Let(_, op) => {
                     time += 1;
-                    reads(op, named, |name| _ = last.insert(name, time));
+                    last.extend(reads(part, op).map(|name| (name, time)));
                 }
                 Statement::Loop { body, totals, .. } => {
                     let inside: BTreeSet<_> = body.iter().map(|&(value, _)| named(value)).collect();
@@ -92,7 +92,7 @@ fn lives(parts: &[&Ordered]) -> BTreeMap<Name, usize> {
                     for (_, op) in body {
                         time += 1;
                         let until = |name| if inside.contains(&name) { time } else { end };
-                        reads(op, named, |name| _ = last.insert(name, until(name)));
+                        last.extend(reads(part, op).map(|name| (name, until(name))));
                     }
                     time = end;
                     for name in totals.iter().flat_map(|&(total, term)| [total, term]).map(named) {
@@ -105,15 +105,11 @@ fn lives(parts: &[&Ordered]) -> BTreeMap<Name, usize> {
     }
     // A stretch is in one register under all its names.
     for i in 0..3 {
-        let of_stretch = |(part, ordered): (usize, &&Ordered)| {
-            let values = ordered.statements.iter().filter_map(move |statement| match *statement {
-                Statement::Let(value, Op::Stretch(k)) if k == i => Some(Name::Value(part, value)),
-                _ => None,
-            });
-            values.collect::<Vec<_>>()
-        };
-        let names = parts.iter().enumerate().flat_map(of_stretch).chain([Name::Stretch(i)]);
-        let names: Vec<_> = names.collect();
+        let mut names = vec![Name::Stretch(i)];
+        for (part, ordered) in parts.iter().enumerate() {
+            let values = ordered.operations().filter(|&(_, op)| op == Op::Stretch(i));
+            names.extend(values.map(|(value, _)| Name::Value(part, value)));
+        }
         if let Some(latest) = names.iter().filter_map(|name| last.get(name).copied()).max() {
             last.extend(names.into_iter().map(|name| (name, latest)));
         }
@@ -145,12 +141,11 @@ fn constants(declaration: &Declaration, parts: &[&Ordered]) -> BTreeSet<Name> {
     constants
 }
 
-/// Shows the names that an operation reads.
-fn reads(op: &Op, named: impl Fn(Value) -> Name, mut show: impl FnMut(Name)) {
-    op.operands().into_iter().for_each(|value| show(named(value)));
-    if *op == Op::PoleFloor {
-        (0..3).for_each(|i| show(Name::Stretch(i)));
-    }
+/// The names that an operation of a part reads.
+fn reads(part: usize, op: &Op) -> impl Iterator<Item = Name> {
+    let stretches = if *op == Op::PoleFloor { 0..3 } else { 0..0 };
+    let values = op.operands().into_iter().map(move |value| Name::Value(part, value));
+    values.chain(stretches.map(Name::Stretch))
 }
 
 /// The kind of a register.
@@ -162,10 +157,6 @@ enum Kind {
     Pair,
     /// A whole exponent, which is read from the parameters.
     Exponent,
-}
-
-impl Kind {
-    const ALL: [Self; 5] = [Self::Number, Self::Constant, Self::Logarithm, Self::Pair, Self::Exponent];
 }
 
 /// Registers of one kind.
@@ -326,16 +317,7 @@ impl Lowering<'_> {
             _ if self.constants.contains(&self.named(value)) => Kind::Constant,
             _ => Kind::Number,
         };
-        let mut over = BTreeSet::new();
-        reads(
-            op,
-            |value| self.named(value),
-            |name| {
-                if self.lives.get(&name) == Some(&time) {
-                    over.insert(name);
-                }
-            },
-        );
+        let over = reads(self.part, op).filter(|name| self.lives.get(name) == Some(&time)).collect();
         self.free(over);
         let to = self.make(kind, self.named(value));
         Some(Operation::One(to, op.map(|value| self.read(value))))

@@ -113,7 +113,7 @@ impl<'a> Body<'a> {
     }
 
     fn expression(&self, id: Id) -> String {
-        let prefix = self.printer.prefix;
+        let prefix = &self.printer.file.prefix;
         let language = self.language();
         let o = |id: Id| self.operand(id);
         let rounded = |result| language.rounded(result);
