@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use piola::__private::interpreter::{Exponent, Loop, Operation, Program, Register, Sizes};
+use piola::__private::interpreter::{Loop, Operation, Program, Register, Sizes};
 use piola_codegen::read::parse::Declaration;
 use piola_codegen::schedule::{Op, Program as Ordered, Statement, Value};
 
@@ -202,8 +202,7 @@ impl Lowering<'_> {
             let name = self.named(value);
             let is_whole = |k: usize| self.declaration.parameters[k].is_whole;
             let place = match op {
-                Op::Parameter(k) if is_whole(k) => self.exponent(Exponent::Parameter(k)),
-                Op::Entry(k) if is_whole(k) => self.exponent(Exponent::Entry(k)),
+                Op::Parameter(k) | Op::Entry(k) if is_whole(k) => self.exponent(k),
                 Op::Stretch(i) => (Kind::Number, self.stretch(i)),
                 Op::PoleFloor => return (0..3).for_each(|i| _ = self.stretch(i)),
                 Op::Strain(i) => {
@@ -237,8 +236,8 @@ impl Lowering<'_> {
         (Kind::Constant, register)
     }
 
-    fn exponent(&mut self, exponent: Exponent) -> Place {
-        self.program.exponents.push(exponent);
+    fn exponent(&mut self, parameter: usize) -> Place {
+        self.program.exponents.push(parameter);
         (Kind::Exponent, self.registers[Kind::Exponent as usize].add())
     }
 

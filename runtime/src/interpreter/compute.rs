@@ -4,7 +4,7 @@ use piola_codegen::algebra::expr::Elementary;
 use piola_codegen::schedule::Op;
 
 use super::parameters::Parameters;
-use super::program::{Exponent, Operation, Program, Register};
+use super::program::{Operation, Program, Register};
 use super::registers::{Each, Files};
 use crate::lanes::Real;
 use crate::quotient::{
@@ -109,10 +109,7 @@ pub(super) fn compute<R: Real, const G: usize>(
         Operation::NegMul(to, a, b) => return arithmetic!(to, [x: a, y: b] -(x * y)),
         Operation::One(to, op) => (to, op),
     };
-    let whole = |exponent: Register| match program.exponents[usize::from(exponent)] {
-        Exponent::Parameter(k) => parameters.whole(k, 0),
-        Exponent::Entry(k) => parameters.whole(k, entry),
-    };
+    let whole = |exponent: Register| parameters.whole(program.exponents[usize::from(exponent)], entry);
     match op {
         // They fill registers before the first operation.
         Op::Literal(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon | Op::Stretch(_) | Op::Strain(_) => {}

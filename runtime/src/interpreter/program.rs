@@ -19,8 +19,8 @@ pub struct Program {
     /// Constants that are filled before the first operation: a literal, a parameter, the entry of a list that
     /// the caller names, or the threshold ε of an extension.
     pub filled: Vec<(Register, Op<Register>)>,
-    /// Whole exponents, by their registers.
-    pub exponents: Vec<Exponent>,
+    /// Whole exponents, and lists of them, by their registers: the place in the declaration.
+    pub exponents: Vec<usize>,
     /// The registers of the three stretches, if an operation reads them without naming them.
     pub stretches: [Register; 3],
     /// The operations, in order.
@@ -62,15 +62,6 @@ pub struct Loop {
     pub totals: Vec<(Register, Register)>,
     /// Number of operations between the begin of the loop and its end, for each entry.
     pub length: usize,
-}
-
-/// A whole exponent, read from the parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Exponent {
-    /// A parameter, by its place in the declaration.
-    Parameter(usize),
-    /// The current entry of a list, by its place in the declaration.
-    Entry(usize),
 }
 
 /// A step of a program. The register of a result comes first, then those of the operands.
