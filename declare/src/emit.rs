@@ -271,19 +271,14 @@ impl Energy {
             return Err(EmitError::Precision);
         }
         // In `f32` a file has the numbers that are nearest, for which the conditions must hold as well.
-        let rounded: Vec<Vec<f64>> = match emission.precision {
-            Precision::F64 => values.iter().map(|list| list.to_vec()).collect(),
-            Precision::F32 => {
-                values.iter().map(|list| list.iter().map(|&x| f64::from(x as f32)).collect()).collect()
-            }
+        let (format, nearest): (_, fn(&f64) -> f64) = match emission.precision {
+            Precision::F64 => (record::Format::F64, |&x| x),
+            Precision::F32 => (record::Format::F32, |&x| f64::from(x as f32)),
         };
+        let rounded: Vec<Vec<f64>> = values.iter().map(|list| list.iter().map(nearest).collect()).collect();
         let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
         let material = self.with_marked_parameters(&self.material(&values, inversion)?);
         let Emission { target, precision, .. } = *emission;
-        let format = match precision {
-            Precision::F64 => record::Format::F64,
-            Precision::F32 => record::Format::F32,
-        };
         let mut wanted = emission.functions.clone();
         wanted.sort_unstable();
         wanted.dedup();

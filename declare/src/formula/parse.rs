@@ -59,13 +59,8 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
         })
     });
     let bulk = bulk.transpose()?;
-    let given: HashSet<String> = options
-        .parameters
-        .iter()
-        .flatten()
-        .map(|(name, _)| name.clone())
-        .chain(options.bulk.clone())
-        .collect();
+    let names = options.parameters.iter().flatten().map(|(name, _)| name);
+    let given: HashSet<String> = names.chain(&options.bulk).cloned().collect();
     let spelled_out = given.iter().filter_map(|name| Some((spelled_out(name), syn::parse_str(name).ok()?)));
     let mut parser = Parser {
         tokens: Tokens::new(tokens),
