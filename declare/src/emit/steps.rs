@@ -31,7 +31,7 @@ impl Steps {
     pub(super) fn of(program: &RecordedProgram) -> Self {
         let mut order = Order::new(program);
         let all: BTreeSet<Id> = (0..program.operations.len() as Id).collect();
-        let all = order.steps(ROOT, &all);
+        let all = order.steps(&[], &all);
         let mut scopes =
             Scopes { program, parents: vec![0], defined: HashMap::new(), escaping: BTreeSet::new() };
         scopes.visit(&all, 0);
@@ -42,106 +42,50 @@ impl Steps {
     }
 }
 
-/// A place in the tree of conditions.
-type Node = usize;
-const ROOT: Node = 0;
-
-/// A condition under which operations are needed, within another one.
-struct Condition {
-    parent: Node,
-    mask: Id,
-}
+/// Conditions under which operations are needed: masks that hold or do not, the outermost first.
+type Path = Vec<(Id, bool)>;
 
 struct Order<'a> {
     program: &'a RecordedProgram,
-    /// All but the root, whose place comes first.
-    conditions: Vec<Condition>,
-    places: HashMap<(Node, Id, bool), Node>,
-    /// The condition under which each operation is needed.
-    needed: Vec<Node>,
+    /// The conditions under which each operation is needed.
+    needed: Vec<Path>,
     is_done: Vec<bool>,
 }
 
 impl<'a> Order<'a> {
     fn new(program: &'a RecordedProgram) -> Self {
         let count = program.operations.len();
-        let root = Condition { parent: ROOT, mask: 0 };
-        let mut order = Self {
-            program,
-            conditions: vec![root],
-            places: HashMap::new(),
-            needed: Vec::new(),
-            is_done: vec![false; count],
-        };
-        let mut needed: Vec<Option<Node>> = vec![None; count];
+        let mut needed: Vec<Option<Path>> = vec![None; count];
         for &result in &program.results {
-            needed[result as usize] = Some(ROOT);
+            needed[result as usize] = Some(Path::new());
         }
         for k in (0..count).rev() {
-            let node = needed[k].unwrap_or(ROOT);
-            let mut need = |order: &Self, id: Id, node: Node| {
-                let old = needed[id as usize];
-                needed[id as usize] = Some(old.map_or(node, |old| order.common(old, node)));
+            let path = needed[k].clone().unwrap_or_default();
+            let mut need = |id: Id, path: &[(Id, bool)]| {
+                let old = needed[id as usize].take();
+                needed[id as usize] = Some(old.map_or(path.to_vec(), |old| common(&old, path)));
             };
-            match order.guarded(k as Id) {
+            match guarded(program, k as Id) {
                 Some((mask, yes, no)) => {
-                    let [if_yes, if_no] = [true, false].map(|holds| order.within(node, mask, holds));
-                    need(&order, mask, node);
-                    need(&order, yes, if_yes);
-                    need(&order, no, if_no);
+                    need(mask, &path);
+                    need(yes, &within(&path, mask, true));
+                    need(no, &within(&path, mask, false));
                 }
-                None => program.operations[k].for_each_operand(|id| need(&order, id, node)),
+                None => program.operations[k].for_each_operand(|id| need(id, &path)),
             }
         }
-        order.needed = needed.into_iter().map(|node| node.unwrap_or(ROOT)).collect();
-        order
+        let needed = needed.into_iter().map(Option::unwrap_or_default).collect();
+        Self { program, needed, is_done: vec![false; count] }
     }
 
-    /// Mask and values of a selection that is a branch.
-    fn guarded(&self, id: Id) -> Option<(Id, Id, Id)> {
-        match self.program.operations[id as usize] {
-            RecordedOperation::Select(mask, yes, no) if self.program.guards.contains(&mask) => {
-                Some((mask, yes, no))
-            }
-            _ => None,
-        }
-    }
-
-    /// The condition that a mask holds or not, within another one.
-    fn within(&mut self, node: Node, mask: Id, holds: bool) -> Node {
-        if self.ancestors(node).any(|node| node != ROOT && self.conditions[node].mask == mask) {
-            return node;
-        }
-        *self.places.entry((node, mask, holds)).or_insert_with(|| {
-            self.conditions.push(Condition { parent: node, mask });
-            self.conditions.len() - 1
-        })
-    }
-
-    /// A condition and those that it is within, the root last.
-    fn ancestors(&self, node: Node) -> impl Iterator<Item = Node> + Clone {
-        std::iter::successors(Some(node), |&node| (node != ROOT).then(|| self.conditions[node].parent))
-    }
-
-    /// The innermost condition that both are within.
-    fn common(&self, one: Node, other: Node) -> Node {
-        let of_other = self.ancestors(other);
-        self.ancestors(one).find(|&node| of_other.clone().any(|other| other == node)).unwrap_or(ROOT)
-    }
-
-    /// True if a condition is within another one and differs from it.
-    fn is_below(&self, node: Node, other: Node) -> bool {
-        node != other && self.ancestors(node).any(|node| node == other)
-    }
-
-    /// Statements under a condition, of these operations.
-    fn steps(&mut self, node: Node, operations: &BTreeSet<Id>) -> Vec<Step> {
+    /// Statements under conditions, of these operations.
+    fn steps(&mut self, path: &[(Id, bool)], operations: &BTreeSet<Id>) -> Vec<Step> {
         let mut steps = Vec::new();
         let here: Vec<_> =
-            operations.iter().copied().filter(|&id| self.needed[id as usize] == node).collect();
+            operations.iter().copied().filter(|&id| self.needed[id as usize] == path).collect();
         let mut by_mask: HashMap<Id, Vec<Id>> = HashMap::new();
         for &id in &here {
-            if let Some((mask, ..)) = self.guarded(id) {
+            if let Some((mask, ..)) = guarded(self.program, id) {
                 by_mask.entry(mask).or_default().push(id);
             }
         }
@@ -149,7 +93,7 @@ impl<'a> Order<'a> {
             if self.is_done[id as usize] {
                 continue;
             }
-            let Some((mask, ..)) = self.guarded(id) else {
+            let Some((mask, ..)) = guarded(self.program, id) else {
                 self.is_done[id as usize] = true;
                 if !is_inline(&self.program.operations[id as usize]) {
                     steps.push(Step::Compute(id));
@@ -159,7 +103,7 @@ impl<'a> Order<'a> {
             let mut selections = Vec::new();
             let mut inside = [BTreeSet::new(), BTreeSet::new()];
             for &other in &by_mask[&mask] {
-                let Some((_, yes, no)) = self.guarded(other) else { continue };
+                let Some((_, yes, no)) = guarded(self.program, other) else { continue };
                 if self.is_done[other as usize] {
                     continue;
                 }
@@ -167,7 +111,7 @@ impl<'a> Order<'a> {
                 let is_ready = [yes, no]
                     .iter()
                     .enumerate()
-                    .all(|(k, &value)| self.collect(value, node, &mut inside[k], &mut added[k]));
+                    .all(|(k, &value)| self.collect(value, path, &mut inside[k], &mut added[k]));
                 if is_ready {
                     selections.push(other);
                 } else {
@@ -177,10 +121,10 @@ impl<'a> Order<'a> {
                 }
             }
             let [yes, no] = [true, false].map(|holds| {
-                let within = self.within(node, mask, holds);
-                match within == node {
+                let within = within(path, mask, holds);
+                match within == path {
                     true => Vec::new(),
-                    false => self.steps(within, &inside[usize::from(!holds)]),
+                    false => self.steps(&within, &inside[usize::from(!holds)]),
                 }
             });
             for &selection in &selections {
@@ -191,16 +135,16 @@ impl<'a> Order<'a> {
         steps
     }
 
-    /// Collects what a value needs under a condition within this one; false if it needs more that has not
+    /// Collects what a value needs under further conditions than these; false if it needs more that has not
     /// been computed.
-    fn collect(&self, id: Id, node: Node, to: &mut BTreeSet<Id>, added: &mut Vec<Id>) -> bool {
+    fn collect(&self, id: Id, path: &[(Id, bool)], to: &mut BTreeSet<Id>, added: &mut Vec<Id>) -> bool {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             if self.is_done[id as usize] || to.contains(&id) {
                 continue;
             }
-            let operation = &self.program.operations[id as usize];
-            if self.is_below(self.needed[id as usize], node) {
+            let (operation, needed) = (&self.program.operations[id as usize], &self.needed[id as usize]);
+            if needed.len() > path.len() && needed.starts_with(path) {
                 to.insert(id);
                 added.push(id);
             } else if !is_inline(operation) {
@@ -210,6 +154,25 @@ impl<'a> Order<'a> {
         }
         true
     }
+}
+
+/// Mask and values of a selection that is a branch.
+fn guarded(program: &RecordedProgram, id: Id) -> Option<(Id, Id, Id)> {
+    match program.operations[id as usize] {
+        RecordedOperation::Select(mask, yes, no) if program.guards.contains(&mask) => Some((mask, yes, no)),
+        _ => None,
+    }
+}
+
+/// These conditions and that a mask holds or not, unless they decide on it already.
+fn within(path: &[(Id, bool)], mask: Id, holds: bool) -> Path {
+    let is_decided = path.iter().any(|&(known, _)| known == mask);
+    path.iter().copied().chain((!is_decided).then_some((mask, holds))).collect()
+}
+
+/// The conditions that both are within.
+fn common(one: &[(Id, bool)], other: &[(Id, bool)]) -> Path {
+    one.iter().zip(other).take_while(|(one, other)| one == other).map(|(&one, _)| one).collect()
 }
 
 /// List of statements that each result is defined in.
