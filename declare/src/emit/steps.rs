@@ -3,7 +3,7 @@
 //! A selection by a mask that the computation has tested is a branch: it contains the operations that only
 //! one of its values needs. Otherwise the order of the record is kept.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use piola::__private::record::{Id, RecordedOperation, RecordedProgram};
 
@@ -32,12 +32,9 @@ impl Steps {
         let mut order = Order::new(program);
         let all: BTreeSet<Id> = (0..program.operations.len() as Id).collect();
         let all = order.steps(&[], &all);
-        let mut scopes =
-            Scopes { program, parents: vec![0], defined: HashMap::new(), escaping: BTreeSet::new() };
-        scopes.visit(&all, 0);
-        for &result in &program.results {
-            scopes.uses(result, 0);
-        }
+        let mut scopes = Scopes { program, hidden: HashSet::new(), escaping: BTreeSet::new() };
+        scopes.visit(&all);
+        program.results.iter().for_each(|&result| scopes.uses(result));
         Self { all, escaping: scopes.escaping }
     }
 }
@@ -107,17 +104,11 @@ impl<'a> Order<'a> {
                 if self.is_done[other as usize] {
                     continue;
                 }
-                let mut added = [Vec::new(), Vec::new()];
-                let is_ready = [yes, no]
-                    .iter()
-                    .enumerate()
-                    .all(|(k, &value)| self.collect(value, path, &mut inside[k], &mut added[k]));
-                if is_ready {
+                let mut further = inside.clone();
+                let is_ready = |(value, inside): (Id, &mut BTreeSet<Id>)| self.collect(value, path, inside);
+                if [yes, no].into_iter().zip(&mut further).all(is_ready) {
                     selections.push(other);
-                } else {
-                    for (inside, added) in inside.iter_mut().zip(&added) {
-                        added.iter().for_each(|id| _ = inside.remove(id));
-                    }
+                    inside = further;
                 }
             }
             let [yes, no] = [true, false].map(|holds| {
@@ -137,7 +128,7 @@ impl<'a> Order<'a> {
 
     /// Collects what a value needs under further conditions than these; false if it needs more that has not
     /// been computed.
-    fn collect(&self, id: Id, path: &[(Id, bool)], to: &mut BTreeSet<Id>, added: &mut Vec<Id>) -> bool {
+    fn collect(&self, id: Id, path: &[(Id, bool)], to: &mut BTreeSet<Id>) -> bool {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             if self.is_done[id as usize] || to.contains(&id) {
@@ -146,7 +137,6 @@ impl<'a> Order<'a> {
             let (operation, needed) = (&self.program.operations[id as usize], &self.needed[id as usize]);
             if needed.len() > path.len() && needed.starts_with(path) {
                 to.insert(id);
-                added.push(id);
             } else if !is_inline(operation) {
                 return false;
             }
@@ -175,57 +165,50 @@ fn common(one: &[(Id, bool)], other: &[(Id, bool)]) -> Path {
     one.iter().zip(other).take_while(|(one, other)| one == other).map(|(&one, _)| one).collect()
 }
 
-/// List of statements that each result is defined in.
+/// Results that are used outside of the list of statements that defines them.
 struct Scopes<'a> {
     program: &'a RecordedProgram,
-    /// The list around each list.
-    parents: Vec<usize>,
-    defined: HashMap<Id, usize>,
+    /// Results that are defined in lists whose statements have all been visited.
+    hidden: HashSet<Id>,
     escaping: BTreeSet<Id>,
 }
 
 impl Scopes<'_> {
     /// Visits the statements of a list in their order, each of which uses what others before it have defined.
-    fn visit(&mut self, steps: &[Step], scope: usize) {
+    /// Returns the results that the list itself defines.
+    fn visit(&mut self, steps: &[Step]) -> Vec<Id> {
+        let mut defined = Vec::new();
         for step in steps {
             match step {
                 Step::Compute(id) => {
-                    self.program.operations[*id as usize]
-                        .for_each_operand(|operand| self.uses(operand, scope));
-                    self.defined.insert(*id, scope);
+                    self.program.operations[*id as usize].for_each_operand(|operand| self.uses(operand));
+                    defined.push(*id);
                 }
                 Step::Branch { mask, selections, yes, no } => {
-                    self.uses(*mask, scope);
+                    self.uses(*mask);
                     for (k, inner) in [yes, no].into_iter().enumerate() {
-                        self.parents.push(scope);
-                        let here = self.parents.len() - 1;
-                        self.visit(inner, here);
+                        let inside = self.visit(inner);
                         for &selection in selections {
                             if let RecordedOperation::Select(_, yes, no) =
                                 self.program.operations[selection as usize]
                             {
-                                self.uses([yes, no][k], here);
+                                self.uses([yes, no][k]);
                             }
                         }
+                        self.hidden.extend(inside);
                     }
-                    self.defined.extend(selections.iter().map(|&selection| (selection, scope)));
+                    defined.extend(selections);
                 }
             }
         }
+        defined
     }
 
-    fn uses(&mut self, id: Id, scope: usize) {
-        if let RecordedOperation::Second(call) = self.program.operations[id as usize] {
-            return self.uses(call, scope);
-        }
-        let Some(&defined) = self.defined.get(&id) else { return };
-        let mut at = scope;
-        while at != defined {
-            if at == 0 {
-                self.escaping.insert(id);
-                return;
-            }
-            at = self.parents[at];
+    fn uses(&mut self, id: Id) {
+        match self.program.operations[id as usize] {
+            RecordedOperation::Second(call) => self.uses(call),
+            _ if self.hidden.contains(&id) => _ = self.escaping.insert(id),
+            _ => {}
         }
     }
 }
