@@ -3,7 +3,7 @@
 //! A selection by a mask that the computation has tested is a branch: it contains the operations that only
 //! one of its values needs. Otherwise the order of the record is kept.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeSet, HashSet};
 
 use piola::__private::record::{Id, RecordedOperation, RecordedProgram};
 
@@ -80,12 +80,6 @@ impl<'a> Order<'a> {
         let mut steps = Vec::new();
         let here: Vec<_> =
             operations.iter().copied().filter(|&id| self.needed[id as usize] == path).collect();
-        let mut by_mask: HashMap<Id, Vec<Id>> = HashMap::new();
-        for &id in &here {
-            if let Some((mask, ..)) = guarded(self.program, id) {
-                by_mask.entry(mask).or_default().push(id);
-            }
-        }
         for &id in &here {
             if self.is_done[id as usize] {
                 continue;
@@ -99,11 +93,9 @@ impl<'a> Order<'a> {
             };
             let mut selections = Vec::new();
             let mut inside = [BTreeSet::new(), BTreeSet::new()];
-            for &other in &by_mask[&mask] {
-                let Some((_, yes, no)) = guarded(self.program, other) else { continue };
-                if self.is_done[other as usize] {
-                    continue;
-                }
+            for &other in here.iter().filter(|&&other| !self.is_done[other as usize]) {
+                let same = guarded(self.program, other).filter(|&(other_mask, ..)| other_mask == mask);
+                let Some((_, yes, no)) = same else { continue };
                 let mut further = inside.clone();
                 let is_ready = |(value, inside): (Id, &mut BTreeSet<Id>)| self.collect(value, path, inside);
                 if [yes, no].into_iter().zip(&mut further).all(is_ready) {
