@@ -11,8 +11,9 @@ use piola::__private::record::{Id, RecordedOperation, RecordedProgram};
 pub(super) enum Step {
     /// Computes an operation.
     Compute(Id),
-    /// Computes the values of selections by the mask where it holds, and where it does not.
-    Branch { mask: Id, selections: Vec<Id>, yes: Vec<Step>, no: Vec<Step> },
+    /// Selections by a mask, each with its values where that holds and where it does not, and the statements
+    /// that compute these.
+    Branch { mask: Id, selections: Vec<(Id, [Id; 2])>, inner: [Vec<Step>; 2] },
 }
 
 /// The statements of a program, and those whose results are needed outside of the branch that has them.
@@ -99,21 +100,21 @@ impl<'a> Order<'a> {
                 let mut further = inside.clone();
                 let is_ready = |(value, inside): (Id, &mut BTreeSet<Id>)| self.collect(value, path, inside);
                 if [yes, no].into_iter().zip(&mut further).all(is_ready) {
-                    selections.push(other);
+                    selections.push((other, [yes, no]));
                     inside = further;
                 }
             }
-            let [yes, no] = [true, false].map(|holds| {
+            let inner = [true, false].map(|holds| {
                 let within = within(path, mask, holds);
                 match within == path {
                     true => Vec::new(),
                     false => self.steps(&within, &inside[usize::from(!holds)]),
                 }
             });
-            for &selection in &selections {
+            for &(selection, _) in &selections {
                 self.is_done[selection as usize] = true;
             }
-            steps.push(Step::Branch { mask, selections, yes, no });
+            steps.push(Step::Branch { mask, selections, inner });
         }
         steps
     }
@@ -176,20 +177,14 @@ impl Scopes<'_> {
                     self.program.operations[*id as usize].for_each_operand(|operand| self.uses(operand));
                     defined.push(*id);
                 }
-                Step::Branch { mask, selections, yes, no } => {
+                Step::Branch { mask, selections, inner } => {
                     self.uses(*mask);
-                    for (k, inner) in [yes, no].into_iter().enumerate() {
+                    for (k, inner) in inner.iter().enumerate() {
                         let inside = self.visit(inner);
-                        for &selection in selections {
-                            if let RecordedOperation::Select(_, yes, no) =
-                                self.program.operations[selection as usize]
-                            {
-                                self.uses([yes, no][k]);
-                            }
-                        }
+                        selections.iter().for_each(|&(_, values)| self.uses(values[k]));
                         self.hidden.extend(inside);
                     }
-                    defined.extend(selections);
+                    defined.extend(selections.iter().map(|&(selection, _)| selection));
                 }
             }
         }
