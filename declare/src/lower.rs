@@ -24,37 +24,30 @@ pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Prog
 /// They are not ordered as one, because common operations could then be shared: bits of the response would
 /// depend on the domain.
 pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program> {
-    let constants = constants(declaration, parts);
+    let ordered = joined(parts);
+    let constants = constants(declaration, &ordered);
     let mut registers: [Registers; 5] = Default::default();
     // Two values may be one constant, so that these are enough.
     registers[Kind::Number as usize].first = constants.len();
     let mut lowering = Lowering {
         declaration,
-        lives: lives(parts),
+        lives: lives(&ordered),
         constants,
         places: BTreeMap::new(),
         filled: HashMap::new(),
         registers,
-        part: 0,
         latest: None,
         preparations: Vec::new(),
         program: Program::default(),
     };
-    for (part, ordered) in parts.iter().enumerate() {
-        lowering.part = part;
-        lowering.inputs(ordered);
-    }
+    lowering.inputs(&ordered);
     let mut time = 0;
-    let mut outputs = [Vec::new(), Vec::new()];
-    for (part, ordered) in parts.iter().enumerate() {
-        lowering.part = part;
-        for statement in &ordered.statements {
-            lowering.statement(statement, &mut time);
-        }
-        outputs[part] = ordered.outputs.iter().map(|&output| lowering.read(output)).collect();
+    for statement in &ordered.statements {
+        lowering.statement(statement, &mut time);
     }
-    let [results, bounds] = outputs;
-    let stretches = [0, 1, 2].map(|i| lowering.register(Name::Stretch(i)));
+    let mut results: Vec<_> = ordered.outputs.iter().map(|&output| lowering.register(output)).collect();
+    let bounds = results.split_off(parts[0].outputs.len());
+    let stretches = STRETCHES.map(|stretch| lowering.register(stretch));
     let preparations = lowering.preparations.len();
     lowering.program.operations.splice(..0, lowering.preparations);
     let constants = lowering.constants.len();
@@ -66,90 +59,86 @@ pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Opti
     (most <= MOST_REGISTERS).then_some(program)
 }
 
-/// A value of a part of the program, or a stretch, which an operation may read that does not name it.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Name {
-    Value(usize, Value),
-    Stretch(usize),
+/// The stretches in a program of all parts, which an operation may read without naming them.
+const STRETCHES: [Value; 3] = [Value(0), Value(1), Value(2)];
+
+/// The parts as one program, in which a stretch is one value.
+fn joined(parts: &[&Ordered]) -> Ordered {
+    let mut all = Ordered { statements: Vec::new(), outputs: Vec::new() };
+    for (part, &ordered) in parts.iter().enumerate() {
+        let stretch = |(value, op): (Value, Op)| match op {
+            Op::Stretch(i) => Some((value, STRETCHES[i])),
+            _ => None,
+        };
+        let stretches: HashMap<_, _> = ordered.operations().filter_map(stretch).collect();
+        let mut ordered = ordered.clone();
+        ordered.rename(|value| {
+            let other = Value(STRETCHES.len() + parts.len() * value.0 + part);
+            stretches.get(&value).copied().unwrap_or(other)
+        });
+        all.statements.append(&mut ordered.statements);
+        all.outputs.append(&mut ordered.outputs);
+    }
+    all
 }
 
 /// The time at which each value is read last. Each operation has a time of its own, and so has the end of
 /// each loop; results are read after all.
-fn lives(parts: &[&Ordered]) -> BTreeMap<Name, usize> {
+fn lives(ordered: &Ordered) -> BTreeMap<Value, usize> {
     let mut last = BTreeMap::new();
     let mut time = 0;
-    for (part, ordered) in parts.iter().enumerate() {
-        let named = |value: Value| Name::Value(part, value);
-        for statement in &ordered.statements {
-            match statement {
-                Statement::Let(_, op) => {
+    for statement in &ordered.statements {
+        match statement {
+            Statement::Let(_, op) => {
+                time += 1;
+                last.extend(reads(op).map(|value| (value, time)));
+            }
+            Statement::Loop { body, totals, .. } => {
+                let inside: BTreeSet<_> = body.iter().map(|&(value, _)| value).collect();
+                let end = time + body.len() + 1;
+                for (_, op) in body {
                     time += 1;
-                    last.extend(reads(part, op).map(|name| (name, time)));
+                    let until = |value: Value| if inside.contains(&value) { time } else { end };
+                    last.extend(reads(op).map(|value| (value, until(value))));
                 }
-                Statement::Loop { body, totals, .. } => {
-                    let inside: BTreeSet<_> = body.iter().map(|&(value, _)| named(value)).collect();
-                    let end = time + body.len() + 1;
-                    for (_, op) in body {
-                        time += 1;
-                        let until = |name| if inside.contains(&name) { time } else { end };
-                        last.extend(reads(part, op).map(|name| (name, until(name))));
-                    }
-                    time = end;
-                    for name in totals.iter().flat_map(|&(total, term)| [total, term]).map(named) {
-                        last.insert(name, end);
-                    }
-                }
+                time = end;
+                last.extend(totals.iter().flat_map(|&(total, term)| [(total, end), (term, end)]));
             }
         }
-        last.extend(ordered.outputs.iter().map(|&output| (named(output), usize::MAX)));
     }
-    // A stretch is in one register under all its names.
-    for i in 0..3 {
-        let mut names = vec![Name::Stretch(i)];
-        for (part, ordered) in parts.iter().enumerate() {
-            let values = ordered.operations().filter(|&(_, op)| op == Op::Stretch(i));
-            names.extend(values.map(|(value, _)| Name::Value(part, value)));
-        }
-        if let Some(latest) = names.iter().filter_map(|name| last.get(name).copied()).max() {
-            last.extend(names.into_iter().map(|name| (name, latest)));
-        }
-    }
+    last.extend(ordered.outputs.iter().map(|&output| (output, usize::MAX)));
     last
 }
 
 /// The values that are the same at every point: those of the declaration and its parameters, and those
 /// computed from them.
-fn constants(declaration: &Declaration, parts: &[&Ordered]) -> BTreeSet<Name> {
+fn constants(declaration: &Declaration, ordered: &Ordered) -> BTreeSet<Value> {
     let mut constants = BTreeSet::new();
     let is_whole = |k: usize| declaration.parameters[k].is_whole;
-    for (part, ordered) in parts.iter().enumerate() {
-        for (value, op) in ordered.operations() {
-            let mut operands = op.operands().into_iter();
-            let mut are_constant = || operands.all(|operand| constants.contains(&Name::Value(part, operand)));
-            let is_constant = match op {
-                Op::Literal(_) | Op::Epsilon => true,
-                Op::Parameter(k) | Op::Entry(k) => !is_whole(k),
-                Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) => are_constant(),
-                Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => are_constant(),
-                _ => false,
-            };
-            if is_constant {
-                constants.insert(Name::Value(part, value));
-            }
+    for (value, op) in ordered.operations() {
+        let are_constant = || op.operands().iter().all(|operand| constants.contains(operand));
+        let is_constant = match op {
+            Op::Literal(_) | Op::Epsilon => true,
+            Op::Parameter(k) | Op::Entry(k) => !is_whole(k),
+            Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) => are_constant(),
+            Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => are_constant(),
+            _ => false,
+        };
+        if is_constant {
+            constants.insert(value);
         }
     }
     constants
 }
 
-/// The names that an operation of a part reads.
-fn reads(part: usize, op: &Op) -> impl Iterator<Item = Name> {
-    let stretches = if *op == Op::PoleFloor { 0..3 } else { 0..0 };
-    let values = op.operands().into_iter().map(move |value| Name::Value(part, value));
-    values.chain(stretches.map(Name::Stretch))
+/// The values that an operation reads.
+fn reads(op: &Op) -> impl Iterator<Item = Value> {
+    let unnamed = if *op == Op::PoleFloor { STRETCHES.len() } else { 0 };
+    op.operands().into_iter().chain(STRETCHES.into_iter().take(unnamed))
 }
 
 /// The kind of a register.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Number,
     Constant,
@@ -174,39 +163,32 @@ type Place = (Kind, Register);
 struct Lowering<'a> {
     declaration: &'a Declaration,
     /// The time at which each value is read last.
-    lives: BTreeMap<Name, usize>,
+    lives: BTreeMap<Value, usize>,
     /// Location of each value, or its location when it was read last.
-    places: BTreeMap<Name, Place>,
+    places: BTreeMap<Value, Place>,
     /// The registers of constants that are filled before the first operation.
     filled: HashMap<Op<Register>, Register>,
     /// The values that are constants.
-    constants: BTreeSet<Name>,
+    constants: BTreeSet<Value>,
     registers: [Registers; 5],
-    /// The part of the program that is being lowered.
-    part: usize,
     /// The value of the last operation.
-    latest: Option<Name>,
+    latest: Option<Value>,
     /// Operations that compute constants.
     preparations: Vec<Operation>,
     program: Program,
 }
 
 impl Lowering<'_> {
-    fn named(&self, value: Value) -> Name {
-        Name::Value(self.part, value)
-    }
-
     /// Fills registers before the first operation.
     fn inputs(&mut self, ordered: &Ordered) {
         let mut input = |value: Value, op: Op, is_in_loop: bool| {
-            let name = self.named(value);
             let is_whole = |k: usize| self.declaration.parameters[k].is_whole;
             let place = match op {
                 Op::Parameter(k) | Op::Entry(k) if is_whole(k) => self.exponent(k),
-                Op::Stretch(i) => (Kind::Number, self.stretch(i)),
-                Op::PoleFloor => return (0..3).for_each(|i| _ = self.stretch(i)),
+                Op::Stretch(i) => return self.stretch(i),
+                Op::PoleFloor => return (0..3).for_each(|i| self.stretch(i)),
                 Op::Strain(i) => {
-                    let register = self.make(Kind::Number, name);
+                    let register = self.make(Kind::Number, value);
                     return self.program.arguments.push((register, 3 + i));
                 }
                 Op::Literal(bits) => self.constant(Op::Literal(bits)),
@@ -215,7 +197,7 @@ impl Lowering<'_> {
                 Op::Epsilon => self.constant(Op::Epsilon),
                 _ => return,
             };
-            self.places.insert(name, place);
+            self.places.insert(value, place);
         };
         for statement in &ordered.statements {
             match statement {
@@ -241,19 +223,17 @@ impl Lowering<'_> {
         (Kind::Exponent, self.registers[Kind::Exponent as usize].add())
     }
 
-    /// The register of a stretch.
-    fn stretch(&mut self, i: usize) -> Register {
-        if let Some(&(_, register)) = self.places.get(&Name::Stretch(i)) {
-            return register;
+    /// Gives a stretch its register.
+    fn stretch(&mut self, i: usize) {
+        if !self.places.contains_key(&STRETCHES[i]) {
+            let register = self.make(Kind::Number, STRETCHES[i]);
+            self.program.arguments.push((register, i));
         }
-        let register = self.make(Kind::Number, Name::Stretch(i));
-        self.program.arguments.push((register, i));
-        register
     }
 
     fn statement(&mut self, statement: &Statement, time: &mut usize) {
         match statement {
-            Statement::Let(value, op) if self.constants.contains(&self.named(*value)) => {
+            Statement::Let(value, op) if self.constants.contains(value) => {
                 *time += 1;
                 let operation = self.operation(*value, op, *time);
                 self.preparations.extend(operation);
@@ -262,14 +242,13 @@ impl Lowering<'_> {
             Statement::Loop { length, body, totals } => {
                 let parameters = &self.declaration.parameters;
                 let list = parameters.iter().position(|parameter| parameter.length() == Some(*length));
-                let mut sum = |total: Value| self.make(Kind::Number, self.named(total));
-                let sums: Vec<_> = totals.iter().map(|&(total, _)| sum(total)).collect();
+                let sums: Vec<_> = totals.iter().map(|&(total, _)| self.make(Kind::Number, total)).collect();
                 let mut entries = Vec::new();
                 for &(value, op) in body {
                     if let Op::Entry(k) = op
                         && !parameters[k].is_whole
                     {
-                        entries.push((self.make(Kind::Constant, self.named(value)), k));
+                        entries.push((self.make(Kind::Constant, value), k));
                     }
                 }
                 let place = self.program.loops.len();
@@ -281,10 +260,11 @@ impl Lowering<'_> {
                 let length = self.program.operations.len() - begin;
                 self.program.operations.push(Operation::End(place));
                 *time += 1;
-                let totals = sums.into_iter().zip(totals.iter().map(|&(_, term)| self.read(term))).collect();
+                let totals =
+                    sums.into_iter().zip(totals.iter().map(|&(_, term)| self.register(term))).collect();
                 let list = list.unwrap_or_default();
                 self.program.loops.push(Loop { list, entries, totals, length });
-                let is_over = |name: &&Name| self.lives.get(*name) == Some(time);
+                let is_over = |value: &&Value| self.lives.get(*value) == Some(time);
                 let over = self.places.keys().filter(is_over).copied().collect();
                 self.free(over);
             }
@@ -295,9 +275,10 @@ impl Lowering<'_> {
     fn step(&mut self, value: Value, op: &Op, time: &mut usize) {
         *time += 1;
         let Some(operation) = self.operation(value, op, *time) else { return };
-        let before = self.latest.replace(self.named(value));
+        let before = self.latest.replace(value);
         // A constant is computed once for all points, and stays apart.
-        let is_passed = |name: Name| self.lives.get(&name) == Some(time) && !self.constants.contains(&name);
+        let is_passed =
+            |value: Value| self.lives.get(&value) == Some(time) && !self.constants.contains(&value);
         let operations = &mut self.program.operations;
         let last = operations.last_mut().filter(|_| before.is_some_and(is_passed));
         match last.and_then(|last| Some((fused(*last, operation)?, last))) {
@@ -313,42 +294,41 @@ impl Lowering<'_> {
             Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => return None,
             Op::Logarithm(_) => Kind::Logarithm,
             Op::Pair { .. } => Kind::Pair,
-            _ if self.constants.contains(&self.named(value)) => Kind::Constant,
+            _ if self.constants.contains(&value) => Kind::Constant,
             _ => Kind::Number,
         };
-        let over = reads(self.part, op).filter(|name| self.lives.get(name) == Some(&time)).collect();
+        let over = reads(op).filter(|operand| self.lives.get(operand) == Some(&time)).collect();
         self.free(over);
-        let to = self.make(kind, self.named(value));
-        Some(Operation::One(to, op.map(|value| self.read(value))))
+        let to = self.make(kind, value);
+        Some(Operation::One(to, op.map(|operand| self.register(operand))))
     }
 
     /// The register of a value, which the order of the operations has filled.
-    fn read(&self, value: Value) -> Register {
-        self.register(self.named(value))
-    }
-
-    fn register(&self, name: Name) -> Register {
-        self.places.get(&name).map_or(0, |&(_, register)| register)
+    fn register(&self, value: Value) -> Register {
+        self.places.get(&value).map_or(0, |&(_, register)| register)
     }
 
     /// A free register for a value; constants keep theirs.
-    fn make(&mut self, kind: Kind, name: Name) -> Register {
+    fn make(&mut self, kind: Kind, value: Value) -> Register {
         let registers = &mut self.registers[kind as usize];
         let register = registers.free.pop().unwrap_or_else(|| registers.add());
-        self.places.insert(name, (kind, register));
+        self.places.insert(value, (kind, register));
         // A value that nothing reads is still written.
-        if kind != Kind::Constant && !self.lives.contains_key(&name) {
+        if kind != Kind::Constant && !self.lives.contains_key(&value) {
             registers.free.push(register);
         }
         register
     }
 
     /// Frees the registers of values that nothing reads any more.
-    fn free(&mut self, over: BTreeSet<Name>) {
-        let places = over.iter().filter_map(|name| self.places.get(name).copied());
-        // Two names may be one register.
-        let registers: BTreeSet<_> = places.filter(|&(kind, _)| kind != Kind::Constant).collect();
-        registers.into_iter().for_each(|(kind, register)| self.registers[kind as usize].free.push(register));
+    fn free(&mut self, over: BTreeSet<Value>) {
+        for value in over {
+            if let Some(&(kind, register)) = self.places.get(&value)
+                && kind != Kind::Constant
+            {
+                self.registers[kind as usize].free.push(register);
+            }
+        }
     }
 }
 

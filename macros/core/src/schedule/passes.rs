@@ -68,21 +68,7 @@ pub(super) fn renumber(mut program: Program, values: usize) -> Program {
     for (k, value) in named.into_iter().chain(inlined).enumerate() {
         names[value.0] = Value(k);
     }
-    let new = |value: Value| names[value.0];
-    for statement in &mut program.statements {
-        match statement {
-            Statement::Let(value, op) => (*value, *op) = (new(*value), op.map(new)),
-            Statement::Loop { body, totals, .. } => {
-                for (value, op) in body {
-                    (*value, *op) = (new(*value), op.map(new));
-                }
-                for (total, term) in totals {
-                    (*total, *term) = (new(*total), new(*term));
-                }
-            }
-        }
-    }
-    program.outputs.iter_mut().for_each(|output| *output = new(*output));
+    program.rename(|value| names[value.0]);
     program
 }
 

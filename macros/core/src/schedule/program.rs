@@ -207,6 +207,24 @@ impl Program {
         })
     }
 
+    /// Replaces each value by what a function returns for it.
+    pub fn rename(&mut self, new: impl Fn(Value) -> Value) {
+        for statement in &mut self.statements {
+            match statement {
+                Statement::Let(value, op) => (*value, *op) = (new(*value), op.map(&new)),
+                Statement::Loop { body, totals, .. } => {
+                    for (value, op) in body {
+                        (*value, *op) = (new(*value), op.map(&new));
+                    }
+                    for (total, term) in totals {
+                        (*total, *term) = (new(*total), new(*term));
+                    }
+                }
+            }
+        }
+        self.outputs.iter_mut().for_each(|output| *output = new(*output));
+    }
+
     /// Calls a function for each value that operations and totals read, and for each output.
     pub(crate) fn each_read(&self, mut show: impl FnMut(Value)) {
         for (_, op) in self.operations() {
