@@ -72,35 +72,18 @@ impl Constructor {
         self.admissible.iter().chain(self.extend.iter().flatten().filter(move |_| extended))
     }
 
-    /// The values of the parameters, each in its form.
+    /// The values of the parameters, each in its form; functions of the old values, if there are some, get
+    /// the values that a fit changes.
     pub(crate) fn values(
         &self,
         description: &Description,
         given: &[&[f64]],
+        old: &[Value],
     ) -> Result<ParameterValues, MaterialError> {
-        self.each(description, given, |_, list| Spline::from_values(list))
-    }
-
-    /// Material with other values of the parameters, in the form that a fit changes.
-    pub(crate) fn changed_values(
-        &self,
-        description: &Description,
-        old: &ParameterValues,
-        given: &[Vec<f64>],
-    ) -> Result<ParameterValues, MaterialError> {
-        let given: Vec<_> = given.iter().map(Vec::as_slice).collect();
-        self.each(description, &given, |k, list| match old.all().get(k) {
+        let function = |k: usize, list: &[f64]| match old.get(k) {
             Some(Value::Function(function)) => function.with_values(list),
             _ => Spline::from_values(list),
-        })
-    }
-
-    fn each(
-        &self,
-        description: &Description,
-        given: &[&[f64]],
-        function: impl Fn(usize, &[f64]) -> Result<Spline, MaterialError>,
-    ) -> Result<ParameterValues, MaterialError> {
+        };
         let mut read = Values::new(given, Cow::Borrowed(&description.parameters))?;
         let mut firsts: Vec<Option<(&Text, usize)>> = vec![None; self.stated.len()];
         let mut values = Vec::new();

@@ -41,17 +41,9 @@ impl FromStr for Target {
     type Err = UnknownWord;
 
     fn from_str(word: &str) -> Result<Self, UnknownWord> {
-        match word {
-            "c" => Ok(Self::C),
-            "cuda" => Ok(Self::Cuda),
-            "opencl" => Ok(Self::OpenCl),
-            "wgsl" => Ok(Self::Wgsl),
-            _ => Err(UnknownWord {
-                kind: "target",
-                word: word.to_owned(),
-                known: "c, which C++ reads as well; cuda, also for HIP and Warp; opencl; wgsl".to_owned(),
-            }),
-        }
+        let all = [("c", Self::C), ("cuda", Self::Cuda), ("opencl", Self::OpenCl), ("wgsl", Self::Wgsl)];
+        let known = "c, which C++ reads as well; cuda, also for HIP and Warp; opencl; wgsl";
+        choice("target", word, &all, known)
     }
 }
 
@@ -69,11 +61,7 @@ impl FromStr for Precision {
     type Err = UnknownWord;
 
     fn from_str(word: &str) -> Result<Self, UnknownWord> {
-        match word {
-            "f32" => Ok(Self::F32),
-            "f64" => Ok(Self::F64),
-            _ => Err(UnknownWord { kind: "precision", word: word.to_owned(), known: "f32, f64".to_owned() }),
-        }
+        choice("precision", word, &[("f32", Self::F32), ("f64", Self::F64)], "f32, f64")
     }
 }
 
@@ -135,11 +123,8 @@ impl FromStr for PointFunction {
     type Err = UnknownWord;
 
     fn from_str(word: &str) -> Result<Self, UnknownWord> {
-        Self::ALL.into_iter().find(|function| function.name() == word).ok_or_else(|| UnknownWord {
-            kind: "function",
-            word: word.to_owned(),
-            known: Self::ALL.map(Self::name).join(", "),
-        })
+        let all = Self::ALL.map(|function| (function.name(), function));
+        choice("function", word, &all, &Self::ALL.map(Self::name).join(", "))
     }
 }
 
@@ -150,6 +135,13 @@ pub struct UnknownWord {
     kind: &'static str,
     word: String,
     known: String,
+}
+
+/// The meaning of a word, one of these.
+fn choice<T: Copy>(kind: &'static str, word: &str, all: &[(&str, T)], known: &str) -> Result<T, UnknownWord> {
+    let found = all.iter().find(|(name, _)| *name == word);
+    let unknown = || UnknownWord { kind, word: word.to_owned(), known: known.to_owned() };
+    found.map(|&(_, meaning)| meaning).ok_or_else(unknown)
 }
 
 /// Contents of a file, and its names.
@@ -279,19 +271,14 @@ impl Energy {
             return Err(EmitError::Precision);
         }
         // In `f32` a file has the numbers that are nearest, for which the conditions must hold as well.
-        let rounded: Vec<Vec<f64>> = match emission.precision {
-            Precision::F64 => values.iter().map(|list| list.to_vec()).collect(),
-            Precision::F32 => {
-                values.iter().map(|list| list.iter().map(|&x| f64::from(x as f32)).collect()).collect()
-            }
+        let (format, nearest): (_, fn(&f64) -> f64) = match emission.precision {
+            Precision::F64 => (record::Format::F64, |&x| x),
+            Precision::F32 => (record::Format::F32, |&x| f64::from(x as f32)),
         };
+        let rounded: Vec<Vec<f64>> = values.iter().map(|list| list.iter().map(nearest).collect()).collect();
         let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
         let material = self.with_marked_parameters(&self.material(&values, inversion)?);
         let Emission { target, precision, .. } = *emission;
-        let format = match precision {
-            Precision::F64 => record::Format::F64,
-            Precision::F32 => record::Format::F32,
-        };
         let mut wanted = emission.functions.clone();
         wanted.sort_unstable();
         wanted.dedup();

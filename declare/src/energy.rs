@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use piola::__private::interpreter::{ByInvariants, Calls, ParameterValues, Programs, Value, Variant, Volume};
+use piola::__private::interpreter::{ByInvariants, Calls, ParameterValues, Programs, Value, Variant};
 use piola::__private::{Condition, record};
 use piola::contract::Notation;
 use piola::interpreter::Interpreted;
@@ -141,7 +141,7 @@ impl Energy {
     /// [`MaterialError`] of the compiled energy's constructor.
     pub fn material(&self, values: &[&[f64]], inversion: Inversion) -> Result<Interpreted, MaterialError> {
         let Compiled { description, programs, constructor, .. } = &*self.0;
-        let values = constructor.values(description, values)?;
+        let values = constructor.values(description, values, &[])?;
         constructor.build(description, programs, values, inversion)
     }
 
@@ -182,7 +182,8 @@ impl Energy {
         values: &[Vec<f64>],
     ) -> Result<Interpreted, MaterialError> {
         let Compiled { description, programs, constructor, .. } = &*self.0;
-        let values = constructor.changed_values(description, material.values(), values)?;
+        let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
+        let values = constructor.values(description, &values, material.values().all())?;
         constructor.build(description, programs, values, Inversion::Refuse)
     }
 
@@ -279,11 +280,7 @@ pub fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs
         extended,
         at_strains: program(model, &model.at_strains.clone())?,
         bounds: program(model, &model.bounds.clone())?,
-        volume: match model.volume {
-            read::domain::Volume::Any => Volume::Any,
-            read::domain::Volume::Positive => Volume::Positive,
-            read::domain::Volume::Nonzero => Volume::Nonzero,
-        },
+        volume: model.volume,
         by_invariants,
         moduli: program(model, &model.moduli.clone())?,
         are_whole: declaration.parameters.iter().map(|parameter| parameter.is_whole).collect(),

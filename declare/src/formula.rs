@@ -164,7 +164,6 @@ impl Parsed {
     /// The declared function.
     fn item(&self) -> TokenStream {
         let Self { parameters, body, .. } = self;
-        let parameters = parameters.iter().map(|parameter| parameter.tokens());
         let [l1, l2, l3] = parse::STRETCHES.map(|stretch| Ident::new(stretch, Span::call_site()));
         quote! {
             #[doc = " Energy of a formula."]

@@ -4,10 +4,9 @@
 //! values one after the other: fewer registers stay in the innermost cache. What a loop reads of values from
 //! outside of it, it reads for every entry, so that these keep their registers until its end.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use piola::__private::interpreter::{Elementary, Exponent, Loop, Operation, Program, Register, Sizes};
-use piola_codegen::algebra::expr::Elementary as Function;
+use piola::__private::interpreter::{Loop, Operation, Program, Register, Sizes};
 use piola_codegen::read::parse::Declaration;
 use piola_codegen::schedule::{Op, Program as Ordered, Statement, Value};
 
@@ -25,154 +24,128 @@ pub(crate) fn lower(declaration: &Declaration, ordered: &Ordered) -> Option<Prog
 /// They are not ordered as one, because common operations could then be shared: bits of the response would
 /// depend on the domain.
 pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Option<Program> {
-    let constants = constants(declaration, parts);
-    let mut registers = Kind::ALL.map(|_| Registers::default());
+    let ordered = joined(parts);
+    let constants = constants(declaration, &ordered);
+    let mut registers: [Registers; 5] = Default::default();
     // Two values may be one constant, so that these are enough.
     registers[Kind::Number as usize].first = constants.len();
     let mut lowering = Lowering {
         declaration,
-        lives: lives(parts),
+        lives: lives(&ordered),
         constants,
         places: BTreeMap::new(),
-        filled: BTreeMap::new(),
+        filled: HashMap::new(),
         registers,
-        part: 0,
         latest: None,
         preparations: Vec::new(),
         program: Program::default(),
     };
-    for (part, ordered) in parts.iter().enumerate() {
-        lowering.part = part;
-        lowering.inputs(ordered);
-    }
+    lowering.inputs(&ordered);
     let mut time = 0;
-    let mut outputs = [Vec::new(), Vec::new()];
-    for (part, ordered) in parts.iter().enumerate() {
-        lowering.part = part;
-        for statement in &ordered.statements {
-            lowering.statement(statement, &mut time);
-        }
-        outputs[part] = ordered.outputs.iter().map(|&output| lowering.read(output)).collect();
+    for statement in &ordered.statements {
+        lowering.statement(statement, &mut time);
     }
-    let [results, bounds] = outputs;
+    let mut results: Vec<_> = ordered.outputs.iter().map(|&output| lowering.register(output)).collect();
+    let bounds = results.split_off(parts[0].outputs.len());
+    let stretches = STRETCHES.map(|stretch| lowering.register(stretch));
     let preparations = lowering.preparations.len();
     lowering.program.operations.splice(..0, lowering.preparations);
     let constants = lowering.constants.len();
-    let [numbers, _, logarithms, pairs] =
+    let [numbers, _, logarithms, pairs, _] =
         lowering.registers.map(|registers| registers.first + registers.count);
     let sizes = Sizes { numbers, constants, logarithms, pairs };
     let most = numbers.max(logarithms).max(pairs);
-    (most <= MOST_REGISTERS).then_some(Program { preparations, results, bounds, sizes, ..lowering.program })
+    let program = Program { stretches, preparations, results, bounds, sizes, ..lowering.program };
+    (most <= MOST_REGISTERS).then_some(program)
 }
 
-/// A value of a part of the program, or a stretch, which an operation may read that does not name it.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Name {
-    Value(usize, Value),
-    Stretch(usize),
-}
+/// The stretches in a program of all parts, which an operation may read without naming them.
+const STRETCHES: [Value; 3] = [Value(0), Value(1), Value(2)];
 
-/// A number that is the same at every point.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Constant {
-    Literal(u64),
-    Parameter(usize),
-    /// The entry of a list that the caller names.
-    Entry(usize),
-    Epsilon,
+/// The parts as one program, in which a stretch is one value.
+fn joined(parts: &[&Ordered]) -> Ordered {
+    let mut all = Ordered { statements: Vec::new(), outputs: Vec::new() };
+    for (part, &ordered) in parts.iter().enumerate() {
+        let stretch = |(value, op): (Value, Op)| match op {
+            Op::Stretch(i) => Some((value, STRETCHES[i])),
+            _ => None,
+        };
+        let stretches: HashMap<_, _> = ordered.operations().filter_map(stretch).collect();
+        let mut ordered = ordered.clone();
+        ordered.rename(|value| {
+            let other = Value(STRETCHES.len() + parts.len() * value.0 + part);
+            stretches.get(&value).copied().unwrap_or(other)
+        });
+        all.statements.append(&mut ordered.statements);
+        all.outputs.append(&mut ordered.outputs);
+    }
+    all
 }
 
 /// The time at which each value is read last. Each operation has a time of its own, and so has the end of
 /// each loop; results are read after all.
-fn lives(parts: &[&Ordered]) -> BTreeMap<Name, usize> {
+fn lives(ordered: &Ordered) -> BTreeMap<Value, usize> {
     let mut last = BTreeMap::new();
     let mut time = 0;
-    for (part, ordered) in parts.iter().enumerate() {
-        let named = |value: Value| Name::Value(part, value);
-        for statement in &ordered.statements {
-            match statement {
-                Statement::Let(_, op) => {
+    for statement in &ordered.statements {
+        match statement {
+            Statement::Let(_, op) => {
+                time += 1;
+                last.extend(reads(op).map(|value| (value, time)));
+            }
+            Statement::Loop { body, totals, .. } => {
+                let inside: BTreeSet<_> = body.iter().map(|&(value, _)| value).collect();
+                let end = time + body.len() + 1;
+                for (_, op) in body {
                     time += 1;
-                    reads(op, named, |name| _ = last.insert(name, time));
+                    let until = |value: Value| if inside.contains(&value) { time } else { end };
+                    last.extend(reads(op).map(|value| (value, until(value))));
                 }
-                Statement::Loop { body, totals, .. } => {
-                    let inside: BTreeSet<_> = body.iter().map(|&(value, _)| named(value)).collect();
-                    let end = time + body.len() + 1;
-                    for (_, op) in body {
-                        time += 1;
-                        let until = |name| if inside.contains(&name) { time } else { end };
-                        reads(op, named, |name| _ = last.insert(name, until(name)));
-                    }
-                    time = end;
-                    for name in totals.iter().flat_map(|&(total, term)| [total, term]).map(named) {
-                        last.insert(name, end);
-                    }
-                }
+                time = end;
+                last.extend(totals.iter().flat_map(|&(total, term)| [(total, end), (term, end)]));
             }
         }
-        last.extend(ordered.outputs.iter().map(|&output| (named(output), usize::MAX)));
     }
-    // A stretch is in one register under all its names.
-    for i in 0..3 {
-        let of_stretch = |(part, ordered): (usize, &&Ordered)| {
-            let values = ordered.statements.iter().filter_map(move |statement| match *statement {
-                Statement::Let(value, Op::Stretch(k)) if k == i => Some(Name::Value(part, value)),
-                _ => None,
-            });
-            values.collect::<Vec<_>>()
-        };
-        let names = parts.iter().enumerate().flat_map(of_stretch).chain([Name::Stretch(i)]);
-        let names: Vec<_> = names.collect();
-        if let Some(latest) = names.iter().filter_map(|name| last.get(name).copied()).max() {
-            last.extend(names.into_iter().map(|name| (name, latest)));
-        }
-    }
+    last.extend(ordered.outputs.iter().map(|&output| (output, usize::MAX)));
     last
 }
 
 /// The values that are the same at every point: those of the declaration and its parameters, and those
 /// computed from them.
-fn constants(declaration: &Declaration, parts: &[&Ordered]) -> BTreeSet<Name> {
+fn constants(declaration: &Declaration, ordered: &Ordered) -> BTreeSet<Value> {
     let mut constants = BTreeSet::new();
     let is_whole = |k: usize| declaration.parameters[k].is_whole;
-    for (part, ordered) in parts.iter().enumerate() {
-        for (value, op) in ordered.operations() {
-            let mut operands = op.operands().into_iter();
-            let mut are_constant = || operands.all(|operand| constants.contains(&Name::Value(part, operand)));
-            let is_constant = match op {
-                Op::Literal(_) | Op::Epsilon => true,
-                Op::Parameter(k) | Op::Entry(k) => !is_whole(k),
-                Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) => are_constant(),
-                Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => are_constant(),
-                _ => false,
-            };
-            if is_constant {
-                constants.insert(Name::Value(part, value));
-            }
+    for (value, op) in ordered.operations() {
+        let are_constant = || op.operands().iter().all(|operand| constants.contains(operand));
+        let is_constant = match op {
+            Op::Literal(_) | Op::Epsilon => true,
+            Op::Parameter(k) | Op::Entry(k) => !is_whole(k),
+            Op::Neg(_) | Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Div(..) => are_constant(),
+            Op::MulAdd(..) | Op::NegMulAdd(..) | Op::MulSub(..) => are_constant(),
+            _ => false,
+        };
+        if is_constant {
+            constants.insert(value);
         }
     }
     constants
 }
 
-/// Shows the names that an operation reads.
-fn reads(op: &Op, named: impl Fn(Value) -> Name, mut show: impl FnMut(Name)) {
-    op.operands().into_iter().for_each(|value| show(named(value)));
-    if *op == Op::PoleFloor {
-        (0..3).for_each(|i| show(Name::Stretch(i)));
-    }
+/// The values that an operation reads.
+fn reads(op: &Op) -> impl Iterator<Item = Value> {
+    let unnamed = if *op == Op::PoleFloor { STRETCHES.len() } else { 0 };
+    op.operands().into_iter().chain(STRETCHES.into_iter().take(unnamed))
 }
 
 /// The kind of a register.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Number,
     Constant,
     Logarithm,
     Pair,
-}
-
-impl Kind {
-    const ALL: [Self; 4] = [Self::Number, Self::Constant, Self::Logarithm, Self::Pair];
+    /// A whole exponent, which is read from the parameters.
+    Exponent,
 }
 
 /// Registers of one kind.
@@ -185,59 +158,46 @@ struct Registers {
 }
 
 /// Location of a value.
-#[derive(Clone, Copy)]
-enum Place {
-    Register(Kind, Register),
-    /// A whole exponent, which is read from the parameters.
-    Whole(Exponent),
-}
+type Place = (Kind, Register);
 
 struct Lowering<'a> {
     declaration: &'a Declaration,
     /// The time at which each value is read last.
-    lives: BTreeMap<Name, usize>,
+    lives: BTreeMap<Value, usize>,
     /// Location of each value, or its location when it was read last.
-    places: BTreeMap<Name, Place>,
+    places: BTreeMap<Value, Place>,
     /// The registers of constants that are filled before the first operation.
-    filled: BTreeMap<Constant, Register>,
+    filled: HashMap<Op<Register>, Register>,
     /// The values that are constants.
-    constants: BTreeSet<Name>,
-    registers: [Registers; 4],
-    /// The part of the program that is being lowered.
-    part: usize,
+    constants: BTreeSet<Value>,
+    registers: [Registers; 5],
     /// The value of the last operation.
-    latest: Option<Name>,
+    latest: Option<Value>,
     /// Operations that compute constants.
     preparations: Vec<Operation>,
     program: Program,
 }
 
 impl Lowering<'_> {
-    fn named(&self, value: Value) -> Name {
-        Name::Value(self.part, value)
-    }
-
     /// Fills registers before the first operation.
     fn inputs(&mut self, ordered: &Ordered) {
         let mut input = |value: Value, op: Op, is_in_loop: bool| {
-            let name = self.named(value);
             let is_whole = |k: usize| self.declaration.parameters[k].is_whole;
             let place = match op {
-                Op::Parameter(k) if is_whole(k) => Place::Whole(Exponent::Parameter(k)),
-                Op::Entry(k) if is_whole(k) => Place::Whole(Exponent::Entry(k)),
-                Op::Stretch(i) => Place::Register(Kind::Number, self.stretch(i)),
-                Op::PoleFloor => return (0..3).for_each(|i| _ = self.stretch(i)),
+                Op::Parameter(k) | Op::Entry(k) if is_whole(k) => self.exponent(k),
+                Op::Stretch(i) => return self.stretch(i),
+                Op::PoleFloor => return (0..3).for_each(|i| self.stretch(i)),
                 Op::Strain(i) => {
-                    let register = self.make(Kind::Number, name);
+                    let register = self.make(Kind::Number, value);
                     return self.program.arguments.push((register, 3 + i));
                 }
-                Op::Literal(bits) => self.constant(Constant::Literal(bits)),
-                Op::Parameter(k) => self.constant(Constant::Parameter(k)),
-                Op::Entry(k) if !is_in_loop => self.constant(Constant::Entry(k)),
-                Op::Epsilon => self.constant(Constant::Epsilon),
+                Op::Literal(bits) => self.constant(Op::Literal(bits)),
+                Op::Parameter(k) => self.constant(Op::Parameter(k)),
+                Op::Entry(k) if !is_in_loop => self.constant(Op::Entry(k)),
+                Op::Epsilon => self.constant(Op::Epsilon),
                 _ => return,
             };
-            self.places.insert(name, place);
+            self.places.insert(value, place);
         };
         for statement in &ordered.statements {
             match statement {
@@ -248,38 +208,32 @@ impl Lowering<'_> {
     }
 
     /// The place of a constant that is filled before the first operation.
-    fn constant(&mut self, constant: Constant) -> Place {
-        let register = match self.filled.get(&constant) {
-            Some(&register) => register,
-            None => {
-                let register = self.registers[Kind::Constant as usize].add();
-                let program = &mut self.program;
-                match constant {
-                    Constant::Literal(bits) => program.literals.push((register, f64::from_bits(bits))),
-                    Constant::Parameter(k) => program.parameters.push((register, k)),
-                    Constant::Entry(k) => program.entries.push((register, k)),
-                    Constant::Epsilon => program.epsilon = Some(register),
-                }
-                self.filled.insert(constant, register);
-                register
-            }
-        };
-        Place::Register(Kind::Constant, register)
+    fn constant(&mut self, constant: Op<Register>) -> Place {
+        let (registers, program) = (&mut self.registers, &mut self.program);
+        let register = *self.filled.entry(constant).or_insert_with(|| {
+            let register = registers[Kind::Constant as usize].add();
+            program.filled.push((register, constant));
+            register
+        });
+        (Kind::Constant, register)
     }
 
-    /// The register of a stretch.
-    fn stretch(&mut self, i: usize) -> Register {
-        if let Some(&Place::Register(_, register)) = self.places.get(&Name::Stretch(i)) {
-            return register;
+    fn exponent(&mut self, parameter: usize) -> Place {
+        self.program.exponents.push(parameter);
+        (Kind::Exponent, self.registers[Kind::Exponent as usize].add())
+    }
+
+    /// Gives a stretch its register.
+    fn stretch(&mut self, i: usize) {
+        if !self.places.contains_key(&STRETCHES[i]) {
+            let register = self.make(Kind::Number, STRETCHES[i]);
+            self.program.arguments.push((register, i));
         }
-        let register = self.make(Kind::Number, Name::Stretch(i));
-        self.program.arguments.push((register, i));
-        register
     }
 
     fn statement(&mut self, statement: &Statement, time: &mut usize) {
         match statement {
-            Statement::Let(value, op) if self.constants.contains(&self.named(*value)) => {
+            Statement::Let(value, op) if self.constants.contains(value) => {
                 *time += 1;
                 let operation = self.operation(*value, op, *time);
                 self.preparations.extend(operation);
@@ -288,14 +242,13 @@ impl Lowering<'_> {
             Statement::Loop { length, body, totals } => {
                 let parameters = &self.declaration.parameters;
                 let list = parameters.iter().position(|parameter| parameter.length() == Some(*length));
-                let mut sum = |total: Value| self.make(Kind::Number, self.named(total));
-                let sums: Vec<_> = totals.iter().map(|&(total, _)| sum(total)).collect();
+                let sums: Vec<_> = totals.iter().map(|&(total, _)| self.make(Kind::Number, total)).collect();
                 let mut entries = Vec::new();
                 for &(value, op) in body {
                     if let Op::Entry(k) = op
                         && !parameters[k].is_whole
                     {
-                        entries.push((self.make(Kind::Constant, self.named(value)), k));
+                        entries.push((self.make(Kind::Constant, value), k));
                     }
                 }
                 let place = self.program.loops.len();
@@ -307,10 +260,11 @@ impl Lowering<'_> {
                 let length = self.program.operations.len() - begin;
                 self.program.operations.push(Operation::End(place));
                 *time += 1;
-                let totals = sums.into_iter().zip(totals.iter().map(|&(_, term)| self.read(term))).collect();
+                let totals =
+                    sums.into_iter().zip(totals.iter().map(|&(_, term)| self.register(term))).collect();
                 let list = list.unwrap_or_default();
                 self.program.loops.push(Loop { list, entries, totals, length });
-                let is_over = |name: &&Name| self.lives.get(*name) == Some(time);
+                let is_over = |value: &&Value| self.lives.get(*value) == Some(time);
                 let over = self.places.keys().filter(is_over).copied().collect();
                 self.free(over);
             }
@@ -321,9 +275,10 @@ impl Lowering<'_> {
     fn step(&mut self, value: Value, op: &Op, time: &mut usize) {
         *time += 1;
         let Some(operation) = self.operation(value, op, *time) else { return };
-        let before = self.latest.replace(self.named(value));
+        let before = self.latest.replace(value);
         // A constant is computed once for all points, and stays apart.
-        let is_passed = |name: Name| self.lives.get(&name) == Some(time) && !self.constants.contains(&name);
+        let is_passed =
+            |value: Value| self.lives.get(&value) == Some(time) && !self.constants.contains(&value);
         let operations = &mut self.program.operations;
         let last = operations.last_mut().filter(|_| before.is_some_and(is_passed));
         match last.and_then(|last| Some((fused(*last, operation)?, last))) {
@@ -339,117 +294,41 @@ impl Lowering<'_> {
             Op::Parameter(_) | Op::Entry(_) | Op::Epsilon => return None,
             Op::Logarithm(_) => Kind::Logarithm,
             Op::Pair { .. } => Kind::Pair,
-            _ if self.constants.contains(&self.named(value)) => Kind::Constant,
+            _ if self.constants.contains(&value) => Kind::Constant,
             _ => Kind::Number,
         };
-        let mut over = BTreeSet::new();
-        reads(
-            op,
-            |value| self.named(value),
-            |name| {
-                if self.lives.get(&name) == Some(&time) {
-                    over.insert(name);
-                }
-            },
-        );
+        let over = reads(op).filter(|operand| self.lives.get(operand) == Some(&time)).collect();
         self.free(over);
-        let to = self.make(kind, self.named(value));
-        let r = |value: Value| self.read(value);
-        Some(match *op {
-            Op::Neg(a) => Operation::Neg(to, r(a)),
-            Op::Add(a, b) => Operation::Add(to, r(a), r(b)),
-            Op::Sub(a, b) => Operation::Sub(to, r(a), r(b)),
-            Op::Mul(a, b) => Operation::Mul(to, r(a), r(b)),
-            Op::Div(a, b) => Operation::Div(to, r(a), r(b)),
-            Op::MulAdd(a, b, c) => Operation::MulAdd(to, [a, b, c].map(r)),
-            Op::NegMulAdd(a, b, c) => Operation::NegMulAdd(to, [a, b, c].map(r)),
-            Op::MulSub(a, b, c) => Operation::MulSub(to, [a, b, c].map(r)),
-            Op::Sqrt(a) => Operation::Sqrt(to, r(a)),
-            Op::Cbrt(a) => Operation::Cbrt(to, r(a)),
-            Op::Ln(a) => Operation::Ln(to, r(a)),
-            Op::Exp(a) => Operation::Exp(to, r(a)),
-            Op::Max(a, b) => Operation::Max(to, r(a), r(b)),
-            Op::Below(a, b) => Operation::Below(to, r(a), r(b)),
-            Op::AboveZero(a) => Operation::AboveZero(to, r(a)),
-            Op::WhereNegative(a, b, c) => Operation::WhereNegative(to, [a, b, c].map(r)),
-            Op::ShareAbove(a, b, c) => Operation::ShareAbove(to, [a, b, c].map(r)),
-            Op::ShareBelow(a, b, c) => Operation::ShareBelow(to, [a, b, c].map(r)),
-            Op::PoleFloor => Operation::PoleFloor(to, [0, 1, 2].map(|i| self.register(Name::Stretch(i)))),
-            Op::LnProduct(factors) => Operation::LnProduct(to, factors.map(r)),
-            Op::Elementary(function, a) => Operation::Elementary(elementary(function), to, r(a)),
-            Op::ElementaryQuotient(function, a, b) => {
-                Operation::ElementaryQuotient(elementary(function), to, r(a), r(b))
-            }
-            Op::Logarithm(a) => Operation::Logarithm(to, r(a)),
-            Op::Power(logarithm, exponent) => Operation::Power(to, r(logarithm), r(exponent)),
-            Op::Pair { values, reciprocals, logarithms } => Operation::Pair {
-                to,
-                values: values.map(r),
-                reciprocals: reciprocals.map(r),
-                logarithms: logarithms.map(r),
-            },
-            Op::LnQuotient(pair) => Operation::LnQuotient(to, r(pair)),
-            Op::PowerQuotient { pair, powers, exponent } => {
-                Operation::PowerQuotient { to, pair: r(pair), powers: powers.map(r), exponent: r(exponent) }
-            }
-            Op::ExpQuotient { values: [a, b], exponentials: [a_exp, b_exp] } => {
-                Operation::ExpQuotient(to, [a, a_exp].map(r), [b, b_exp].map(r))
-            }
-            Op::WholePower(a, n, order) => Operation::WholePower(to, r(a), self.whole(n), order),
-            Op::WholePowerQuotient(bases, n, order) => {
-                Operation::WholePowerQuotient(to, bases.map(r), self.whole(n), order)
-            }
-            Op::Function(k, order, a) => Operation::Function(to, k, order, r(a)),
-            Op::FunctionQuotient(k, order, a, b) => Operation::FunctionQuotient(to, k, order, [a, b].map(r)),
-            Op::Literal(_)
-            | Op::Stretch(_)
-            | Op::Strain(_)
-            | Op::Parameter(_)
-            | Op::Entry(_)
-            | Op::Epsilon => return None,
-        })
+        let to = self.make(kind, value);
+        Some(Operation::One(to, op.map(|operand| self.register(operand))))
     }
 
     /// The register of a value, which the order of the operations has filled.
-    fn read(&self, value: Value) -> Register {
-        self.register(self.named(value))
-    }
-
-    fn register(&self, name: Name) -> Register {
-        match self.places.get(&name) {
-            Some(&Place::Register(_, register)) => register,
-            _ => 0,
-        }
-    }
-
-    fn whole(&self, value: Value) -> Exponent {
-        match self.places.get(&self.named(value)) {
-            Some(&Place::Whole(exponent)) => exponent,
-            _ => Exponent::Parameter(0),
-        }
+    fn register(&self, value: Value) -> Register {
+        self.places.get(&value).map_or(0, |&(_, register)| register)
     }
 
     /// A free register for a value; constants keep theirs.
-    fn make(&mut self, kind: Kind, name: Name) -> Register {
+    fn make(&mut self, kind: Kind, value: Value) -> Register {
         let registers = &mut self.registers[kind as usize];
         let register = registers.free.pop().unwrap_or_else(|| registers.add());
-        self.places.insert(name, Place::Register(kind, register));
+        self.places.insert(value, (kind, register));
         // A value that nothing reads is still written.
-        if kind != Kind::Constant && !self.lives.contains_key(&name) {
+        if kind != Kind::Constant && !self.lives.contains_key(&value) {
             registers.free.push(register);
         }
         register
     }
 
     /// Frees the registers of values that nothing reads any more.
-    fn free(&mut self, over: BTreeSet<Name>) {
-        let places = over.into_iter().filter_map(|name| match self.places.get(&name) {
-            Some(&Place::Register(kind, register)) if kind != Kind::Constant => Some((kind, register)),
-            _ => None,
-        });
-        // Two names may be one register.
-        let registers: BTreeSet<_> = places.collect();
-        registers.into_iter().for_each(|(kind, register)| self.registers[kind as usize].free.push(register));
+    fn free(&mut self, over: BTreeSet<Value>) {
+        for value in over {
+            if let Some(&(kind, register)) = self.places.get(&value)
+                && kind != Kind::Constant
+            {
+                self.registers[kind as usize].free.push(register);
+            }
+        }
     }
 }
 
@@ -464,13 +343,11 @@ impl Registers {
 /// Two operations that follow each other as one, if the second reads once what the first has computed, and
 /// nothing else does: that value then needs no register.
 fn fused(first: Operation, second: Operation) -> Option<Operation> {
-    let (Operation::Mul(passed, ..)
-    | Operation::MulMul(passed, _)
-    | Operation::MulAdd(passed, _)
-    | Operation::NegMulAdd(passed, _)) = first
-    else {
+    use Operation::{MulAddMul, MulMul, MulMulAdd, MulMulMul, NegMul, NegMulAddMul, NegMulMulAdd, One};
+    let (One(passed, Op::Mul(..) | Op::MulAdd(..) | Op::NegMulAdd(..)) | MulMul(passed, _)) = first else {
         return None;
     };
+    let One(to, second) = second else { return None };
     let factor = |x: Register, y: Register| match (x == passed, y == passed) {
         (true, false) => Some(y),
         (false, true) => Some(x),
@@ -478,40 +355,15 @@ fn fused(first: Operation, second: Operation) -> Option<Operation> {
     };
     let addend = |z: Register| Some(z).filter(|&z| z != passed);
     Some(match (first, second) {
-        (Operation::Mul(_, a, b), Operation::Neg(to, _)) => Operation::NegMul(to, a, b),
-        (Operation::Mul(_, a, b), Operation::Mul(to, x, y)) => Operation::MulMul(to, [a, b, factor(x, y)?]),
-        (Operation::MulMul(_, [a, b, c]), Operation::Mul(to, x, y)) => {
-            Operation::MulMulMul(to, [a, b, c, factor(x, y)?])
-        }
-        (Operation::MulAdd(_, [a, b, c]), Operation::Mul(to, x, y)) => {
-            Operation::MulAddMul(to, [a, b, c, factor(x, y)?])
-        }
-        (Operation::NegMulAdd(_, [a, b, c]), Operation::Mul(to, x, y)) => {
-            Operation::NegMulAddMul(to, [a, b, c, factor(x, y)?])
-        }
-        (Operation::Mul(_, a, b), Operation::MulAdd(to, [x, y, z])) => {
-            Operation::MulMulAdd(to, [a, b, factor(x, y)?, addend(z)?])
-        }
-        (Operation::Mul(_, a, b), Operation::NegMulAdd(to, [x, y, z])) => {
-            Operation::NegMulMulAdd(to, [a, b, factor(x, y)?, addend(z)?])
+        (One(_, Op::Mul(a, b)), Op::Neg(_)) => NegMul(to, a, b),
+        (One(_, Op::Mul(a, b)), Op::Mul(x, y)) => MulMul(to, [a, b, factor(x, y)?]),
+        (MulMul(_, [a, b, c]), Op::Mul(x, y)) => MulMulMul(to, [a, b, c, factor(x, y)?]),
+        (One(_, Op::MulAdd(a, b, c)), Op::Mul(x, y)) => MulAddMul(to, [a, b, c, factor(x, y)?]),
+        (One(_, Op::NegMulAdd(a, b, c)), Op::Mul(x, y)) => NegMulAddMul(to, [a, b, c, factor(x, y)?]),
+        (One(_, Op::Mul(a, b)), Op::MulAdd(x, y, z)) => MulMulAdd(to, [a, b, factor(x, y)?, addend(z)?]),
+        (One(_, Op::Mul(a, b)), Op::NegMulAdd(x, y, z)) => {
+            NegMulMulAdd(to, [a, b, factor(x, y)?, addend(z)?])
         }
         _ => return None,
     })
-}
-
-fn elementary(function: Function) -> Elementary {
-    match function {
-        Function::Asinh => Elementary::Asinh,
-        Function::Atan => Elementary::Atan,
-        Function::Cos => Elementary::Cos,
-        Function::Cosh => Elementary::Cosh,
-        Function::Erf => Elementary::Erf,
-        Function::ExpM1 => Elementary::ExpM1,
-        Function::Ln1p => Elementary::Ln1p,
-        Function::Sigmoid => Elementary::Sigmoid,
-        Function::Sin => Elementary::Sin,
-        Function::Sinh => Elementary::Sinh,
-        Function::Softplus => Elementary::Softplus,
-        Function::Tanh => Elementary::Tanh,
-    }
 }

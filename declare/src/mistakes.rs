@@ -54,11 +54,9 @@ impl Mistakes {
             |error: syn::Error| Mistake { message: error.to_string(), place: Place::of(text, error.span()) };
         let mut errors = error.into_iter();
         let mut list: Vec<_> = errors.by_ref().take(MOST).map(mistake).collect();
-        match errors.count() {
-            0 => {}
-            left => {
-                list.push(Mistake { message: format!("{left} more mistakes are not shown"), place: None })
-            }
+        let left = errors.count();
+        if left > 0 {
+            list.push(Mistake { message: format!("{left} more mistakes are not shown"), place: None });
         }
         Self::new(text, list)
     }

@@ -28,7 +28,11 @@ impl Energy {
     /// # Errors
     /// All [`Mistakes`], the messages of the attribute.
     pub fn from_rust(text: &str) -> Result<Self, Mistakes> {
-        let mut energies = Self::all_from_rust(text)?;
+        check_size(text)?;
+        let declarations =
+            piola_codegen::declarations(text).map_err(|error| Mistakes::from_syn(text, error))?;
+        let energies = declarations.into_iter().map(|(arguments, item)| compile(text, arguments, item));
+        let mut energies = energies.collect::<Result<Vec<_>, _>>()?;
         match (energies.pop(), energies.len()) {
             (Some(energy), 0) => Ok(energy),
             (None, _) => Err(Mistakes::of_all(
@@ -42,17 +46,6 @@ impl Energy {
                 format!("{} energies are declared here, `{}` the last of them: keep one", more + 1, last.description().name),
             )),
         }
-    }
-
-    /// The energies of all declarations in a text.
-    ///
-    /// # Errors
-    /// All [`Mistakes`] of the first declaration that has some, or a syntax error.
-    pub fn all_from_rust(text: &str) -> Result<Vec<Self>, Mistakes> {
-        check_size(text)?;
-        let declarations =
-            piola_codegen::declarations(text).map_err(|error| Mistakes::from_syn(text, error))?;
-        declarations.into_iter().map(|(arguments, item)| compile(text, arguments, item)).collect()
     }
 }
 

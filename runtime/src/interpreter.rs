@@ -10,10 +10,11 @@
 //!                                   → Program      → Interpreted          at run time
 //! ```
 //!
-//! This module is independent of declarations and of the meaning of an energy.
+//! Of the compiler this module has the operations and the volumes of a domain. It is independent of
+//! declarations and of the meaning of an energy.
 
 mod compute;
-pub(crate) mod domain;
+mod domain;
 mod execute;
 pub(crate) mod material;
 pub(crate) mod parameters;

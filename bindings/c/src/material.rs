@@ -130,17 +130,9 @@ fn at(spec: MaterialSpec, given: &[Given<'_>], point: usize) -> MaterialSpec {
     given.iter().fold(spec, |spec, given| spec.with_parameter(given.name, given.at(point)))
 }
 
-/// The materials of all points.
-fn varied(
-    points: usize,
-    material: impl Fn(usize) -> Result<Interpreted, Failure>,
-) -> Result<PerPoint<Interpreted, Arc<[Interpreted]>>, Failure> {
-    let material = |point| material(point).map_err(|failure| of_point(failure, point, points));
-    Ok(PerPoint::new((0..points).map(material).collect::<Result<_, _>>()?)?)
-}
-
 /// The failure of a point, where there are several.
-fn of_point(failure: Failure, point: usize, points: usize) -> Failure {
+fn of_point(failure: impl Into<Failure>, point: usize, points: usize) -> Failure {
+    let failure = failure.into();
     match points {
         0 => failure,
         _ => Failure { message: format!("point {point} (from 0): {}", failure.message), ..failure },
@@ -169,12 +161,16 @@ impl Material {
     ) -> Result<Self, Failure> {
         let energy = with_extension(energy.clone(), extension);
         let spec = at(energy.clone(), given, 0);
-        let info = spec.build().map_err(|error| of_point(error.into(), 0, points))?;
+        let info = spec.build().map_err(|error| of_point(error, 0, points))?;
         let MaterialInfo { elements, moduli, .. } = info;
         let kind = if points == 0 {
             Kind::Uniform { spec, elements, interpreted: OnceLock::new() }
         } else {
-            Kind::Varied(varied(points, |point| Ok(at(energy.clone(), given, point).interpreted()?))?)
+            let material = |point| {
+                let material = at(energy.clone(), given, point).interpreted();
+                material.map_err(|error| of_point(error, point, points))
+            };
+            Kind::Varied(PerPoint::new((0..points).map(material).collect::<Result<_, _>>()?)?)
         };
         Ok(Self { moduli, kind })
     }

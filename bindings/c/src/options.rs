@@ -106,9 +106,6 @@ impl From<PointSurvey> for Survey {
     }
 }
 
-/// The filters in the order of [`Filter`].
-const FILTERS: [PointFilter; 3] = [PointFilter::None, PointFilter::Clamp, PointFilter::Absolute];
-
 /// Options of a call, read and checked.
 #[derive(Default)]
 pub(crate) struct Chosen<'call> {
@@ -157,9 +154,10 @@ pub(crate) unsafe fn read<'call>(
     // SAFETY: that of this function.
     let statuses = unsafe { arrays.output("options->statuses", options.statuses, options.statuses_length) }?;
     let statuses: *const [u8] = statuses;
+    let filters = [PointFilter::None, PointFilter::Clamp, PointFilter::Absolute];
     let is_portable = lent::choice("options->instructions", options.instructions, [false, true])?;
     Ok(Chosen {
-        filter: lent::choice("options->filter", options.filter, FILTERS)?,
+        filter: lent::choice("options->filter", options.filter, filters)?,
         layout: lent::choice("options->layout", options.layout, [Layout::Points, Layout::Lines])?,
         backend: is_portable.then(Backend::portable),
         threads: lent::choice("options->threads", options.threads, [false, true])?,

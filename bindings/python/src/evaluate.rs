@@ -167,38 +167,30 @@ fn outside(survey: Survey, first: usize, points: &[usize]) -> PyErr {
 }
 
 pub(crate) fn filter(name: Option<&str>) -> PyResult<Filter> {
-    match name {
-        None => Ok(Filter::None),
-        Some("clamp") => Ok(Filter::Clamp),
-        Some("absolute") => Ok(Filter::Absolute),
-        Some(other) => {
-            Err(value_error(format!("filter is {other:?}; it must be \"clamp\", \"absolute\" or None")))
-        }
-    }
+    let filters = [("clamp", Filter::Clamp), ("absolute", Filter::Absolute)];
+    name.map_or(Ok(Filter::None), |name| choice("filter", name, &filters, r#""clamp", "absolute" or None"#))
 }
 
 fn measure(name: &str) -> PyResult<Measure> {
-    Ok(match name {
-        "second_piola" => Measure::SecondPiola,
-        "kirchhoff" => Measure::Kirchhoff,
-        "cauchy" => Measure::Cauchy,
-        "jaumann" => Measure::Jaumann,
-        "green_naghdi" => Measure::GreenNaghdi,
-        other => {
-            return Err(value_error(format!(
-                "measure is {other:?}; it must be \"second_piola\", \"kirchhoff\", \"cauchy\", \"jaumann\" or \
-                 \"green_naghdi\""
-            )));
-        }
-    })
+    let measures = [
+        ("second_piola", Measure::SecondPiola),
+        ("kirchhoff", Measure::Kirchhoff),
+        ("cauchy", Measure::Cauchy),
+        ("jaumann", Measure::Jaumann),
+        ("green_naghdi", Measure::GreenNaghdi),
+    ];
+    let known = r#""second_piola", "kirchhoff", "cauchy", "jaumann" or "green_naghdi""#;
+    choice("measure", name, &measures, known)
 }
 
 fn order(name: &str) -> PyResult<Order> {
-    match name {
-        "voigt" => Ok(Order::Voigt),
-        "abaqus" => Ok(Order::Abaqus),
-        other => Err(value_error(format!("order is {other:?}; it must be \"voigt\" or \"abaqus\""))),
-    }
+    choice("order", name, &[("voigt", Order::Voigt), ("abaqus", Order::Abaqus)], r#""voigt" or "abaqus""#)
+}
+
+/// The meaning of the word that an argument is, one of these.
+fn choice<T: Copy>(argument: &str, word: &str, all: &[(&str, T)], known: &str) -> PyResult<T> {
+    let found = all.iter().find(|(name, _)| *name == word).map(|&(_, meaning)| meaning);
+    found.ok_or_else(|| value_error(format!("{argument} is {word:?}; it must be {known}")))
 }
 
 /// The arrays that a caller gives for several results.

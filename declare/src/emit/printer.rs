@@ -45,7 +45,6 @@ pub(super) fn print(file: &File<'_>) -> String {
 struct Printer<'a> {
     file: &'a File<'a>,
     language: Language,
-    prefix: &'a str,
     /// The name of each parameter.
     fields: Vec<String>,
     /// Text of each number among the parameters; whole exponents have no place.
@@ -64,13 +63,13 @@ impl<'a> Printer<'a> {
                 parameters.push(language.parameter(name, is_list.then_some(k)));
             }
         }
-        Self { file, language, prefix: &file.prefix, fields, parameters }
+        Self { file, language, fields, parameters }
     }
 
     /// The description of the file and its use.
     fn comment(&self) -> String {
-        let Self { file, language, prefix, .. } = self;
-        let description = file.energy.description();
+        let Self { file, language, .. } = self;
+        let (description, prefix) = (file.energy.description(), &file.prefix);
         let mut text = format!(
             "/* {}: an isotropic hyperelastic energy, by piola {}.\n *\n * {}\n *\n * psi = {}\n",
             safe(&description.name),

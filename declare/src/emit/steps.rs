@@ -3,7 +3,7 @@
 //! A selection by a mask that the computation has tested is a branch: it contains the operations that only
 //! one of its values needs. Otherwise the order of the record is kept.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashSet};
 
 use piola::__private::record::{Id, RecordedOperation, RecordedProgram};
 
@@ -11,8 +11,9 @@ use piola::__private::record::{Id, RecordedOperation, RecordedProgram};
 pub(super) enum Step {
     /// Computes an operation.
     Compute(Id),
-    /// Computes the values of selections by the mask where it holds, and where it does not.
-    Branch { mask: Id, selections: Vec<Id>, yes: Vec<Step>, no: Vec<Step> },
+    /// Selections by a mask, each with its values where that holds and where it does not, and the statements
+    /// that compute these.
+    Branch { mask: Id, selections: Vec<(Id, [Id; 2])>, inner: [Vec<Step>; 2] },
 }
 
 /// The statements of a program, and those whose results are needed outside of the branch that has them.
@@ -31,125 +32,60 @@ impl Steps {
     pub(super) fn of(program: &RecordedProgram) -> Self {
         let mut order = Order::new(program);
         let all: BTreeSet<Id> = (0..program.operations.len() as Id).collect();
-        let all = order.steps(ROOT, &all);
-        let mut scopes =
-            Scopes { program, parents: vec![0], defined: HashMap::new(), escaping: BTreeSet::new() };
-        scopes.visit(&all, 0);
-        for &result in &program.results {
-            scopes.uses(result, 0);
-        }
+        let all = order.steps(&[], &all);
+        let mut scopes = Scopes { program, hidden: HashSet::new(), escaping: BTreeSet::new() };
+        scopes.visit(&all);
+        program.results.iter().for_each(|&result| scopes.uses(result));
         Self { all, escaping: scopes.escaping }
     }
 }
 
-/// A place in the tree of conditions.
-type Node = usize;
-const ROOT: Node = 0;
-
-/// A condition under which operations are needed, within another one.
-struct Condition {
-    parent: Node,
-    mask: Id,
-}
+/// Conditions under which operations are needed: masks that hold or do not, the outermost first.
+type Path = Vec<(Id, bool)>;
 
 struct Order<'a> {
     program: &'a RecordedProgram,
-    /// All but the root, whose place comes first.
-    conditions: Vec<Condition>,
-    places: HashMap<(Node, Id, bool), Node>,
-    /// The condition under which each operation is needed.
-    needed: Vec<Node>,
+    /// The conditions under which each operation is needed.
+    needed: Vec<Path>,
     is_done: Vec<bool>,
 }
 
 impl<'a> Order<'a> {
     fn new(program: &'a RecordedProgram) -> Self {
         let count = program.operations.len();
-        let root = Condition { parent: ROOT, mask: 0 };
-        let mut order = Self {
-            program,
-            conditions: vec![root],
-            places: HashMap::new(),
-            needed: Vec::new(),
-            is_done: vec![false; count],
-        };
-        let mut needed: Vec<Option<Node>> = vec![None; count];
+        let mut needed: Vec<Option<Path>> = vec![None; count];
         for &result in &program.results {
-            needed[result as usize] = Some(ROOT);
+            needed[result as usize] = Some(Path::new());
         }
         for k in (0..count).rev() {
-            let node = needed[k].unwrap_or(ROOT);
-            let mut need = |order: &Self, id: Id, node: Node| {
-                let old = needed[id as usize];
-                needed[id as usize] = Some(old.map_or(node, |old| order.common(old, node)));
+            let path = needed[k].clone().unwrap_or_default();
+            let mut need = |id: Id, path: &[(Id, bool)]| {
+                let old = needed[id as usize].take();
+                needed[id as usize] = Some(old.map_or(path.to_vec(), |old| common(&old, path)));
             };
-            match order.guarded(k as Id) {
+            match guarded(program, k as Id) {
                 Some((mask, yes, no)) => {
-                    let [if_yes, if_no] = [true, false].map(|holds| order.within(node, mask, holds));
-                    need(&order, mask, node);
-                    need(&order, yes, if_yes);
-                    need(&order, no, if_no);
+                    need(mask, &path);
+                    need(yes, &within(&path, mask, true));
+                    need(no, &within(&path, mask, false));
                 }
-                None => program.operations[k].for_each_operand(|id| need(&order, id, node)),
+                None => program.operations[k].for_each_operand(|id| need(id, &path)),
             }
         }
-        order.needed = needed.into_iter().map(|node| node.unwrap_or(ROOT)).collect();
-        order
+        let needed = needed.into_iter().map(Option::unwrap_or_default).collect();
+        Self { program, needed, is_done: vec![false; count] }
     }
 
-    /// Mask and values of a selection that is a branch.
-    fn guarded(&self, id: Id) -> Option<(Id, Id, Id)> {
-        match self.program.operations[id as usize] {
-            RecordedOperation::Select(mask, yes, no) if self.program.guards.contains(&mask) => {
-                Some((mask, yes, no))
-            }
-            _ => None,
-        }
-    }
-
-    /// The condition that a mask holds or not, within another one.
-    fn within(&mut self, node: Node, mask: Id, holds: bool) -> Node {
-        if self.ancestors(node).any(|node| node != ROOT && self.conditions[node].mask == mask) {
-            return node;
-        }
-        *self.places.entry((node, mask, holds)).or_insert_with(|| {
-            self.conditions.push(Condition { parent: node, mask });
-            self.conditions.len() - 1
-        })
-    }
-
-    /// A condition and those that it is within, the root last.
-    fn ancestors(&self, node: Node) -> impl Iterator<Item = Node> + Clone {
-        std::iter::successors(Some(node), |&node| (node != ROOT).then(|| self.conditions[node].parent))
-    }
-
-    /// The innermost condition that both are within.
-    fn common(&self, one: Node, other: Node) -> Node {
-        let of_other = self.ancestors(other);
-        self.ancestors(one).find(|&node| of_other.clone().any(|other| other == node)).unwrap_or(ROOT)
-    }
-
-    /// True if a condition is within another one and differs from it.
-    fn is_below(&self, node: Node, other: Node) -> bool {
-        node != other && self.ancestors(node).any(|node| node == other)
-    }
-
-    /// Statements under a condition, of these operations.
-    fn steps(&mut self, node: Node, operations: &BTreeSet<Id>) -> Vec<Step> {
+    /// Statements under conditions, of these operations.
+    fn steps(&mut self, path: &[(Id, bool)], operations: &BTreeSet<Id>) -> Vec<Step> {
         let mut steps = Vec::new();
         let here: Vec<_> =
-            operations.iter().copied().filter(|&id| self.needed[id as usize] == node).collect();
-        let mut by_mask: HashMap<Id, Vec<Id>> = HashMap::new();
-        for &id in &here {
-            if let Some((mask, ..)) = self.guarded(id) {
-                by_mask.entry(mask).or_default().push(id);
-            }
-        }
+            operations.iter().copied().filter(|&id| self.needed[id as usize] == path).collect();
         for &id in &here {
             if self.is_done[id as usize] {
                 continue;
             }
-            let Some((mask, ..)) = self.guarded(id) else {
+            let Some((mask, ..)) = guarded(self.program, id) else {
                 self.is_done[id as usize] = true;
                 if !is_inline(&self.program.operations[id as usize]) {
                     steps.push(Step::Compute(id));
@@ -158,51 +94,42 @@ impl<'a> Order<'a> {
             };
             let mut selections = Vec::new();
             let mut inside = [BTreeSet::new(), BTreeSet::new()];
-            for &other in &by_mask[&mask] {
-                let Some((_, yes, no)) = self.guarded(other) else { continue };
-                if self.is_done[other as usize] {
-                    continue;
-                }
-                let mut added = [Vec::new(), Vec::new()];
-                let is_ready = [yes, no]
-                    .iter()
-                    .enumerate()
-                    .all(|(k, &value)| self.collect(value, node, &mut inside[k], &mut added[k]));
-                if is_ready {
-                    selections.push(other);
-                } else {
-                    for (inside, added) in inside.iter_mut().zip(&added) {
-                        added.iter().for_each(|id| _ = inside.remove(id));
-                    }
+            for &other in here.iter().filter(|&&other| !self.is_done[other as usize]) {
+                let same = guarded(self.program, other).filter(|&(other_mask, ..)| other_mask == mask);
+                let Some((_, yes, no)) = same else { continue };
+                let mut further = inside.clone();
+                let is_ready = |(value, inside): (Id, &mut BTreeSet<Id>)| self.collect(value, path, inside);
+                if [yes, no].into_iter().zip(&mut further).all(is_ready) {
+                    selections.push((other, [yes, no]));
+                    inside = further;
                 }
             }
-            let [yes, no] = [true, false].map(|holds| {
-                let within = self.within(node, mask, holds);
-                match within == node {
+            let inner = [true, false].map(|holds| {
+                let within = within(path, mask, holds);
+                match within == path {
                     true => Vec::new(),
-                    false => self.steps(within, &inside[usize::from(!holds)]),
+                    false => self.steps(&within, &inside[usize::from(!holds)]),
                 }
             });
-            for &selection in &selections {
+            for &(selection, _) in &selections {
                 self.is_done[selection as usize] = true;
             }
-            steps.push(Step::Branch { mask, selections, yes, no });
+            steps.push(Step::Branch { mask, selections, inner });
         }
         steps
     }
 
-    /// Collects what a value needs under a condition within this one; false if it needs more that has not
+    /// Collects what a value needs under further conditions than these; false if it needs more that has not
     /// been computed.
-    fn collect(&self, id: Id, node: Node, to: &mut BTreeSet<Id>, added: &mut Vec<Id>) -> bool {
+    fn collect(&self, id: Id, path: &[(Id, bool)], to: &mut BTreeSet<Id>) -> bool {
         let mut open = vec![id];
         while let Some(id) = open.pop() {
             if self.is_done[id as usize] || to.contains(&id) {
                 continue;
             }
-            let operation = &self.program.operations[id as usize];
-            if self.is_below(self.needed[id as usize], node) {
+            let (operation, needed) = (&self.program.operations[id as usize], &self.needed[id as usize]);
+            if needed.len() > path.len() && needed.starts_with(path) {
                 to.insert(id);
-                added.push(id);
             } else if !is_inline(operation) {
                 return false;
             }
@@ -212,57 +139,63 @@ impl<'a> Order<'a> {
     }
 }
 
-/// List of statements that each result is defined in.
+/// Mask and values of a selection that is a branch.
+fn guarded(program: &RecordedProgram, id: Id) -> Option<(Id, Id, Id)> {
+    match program.operations[id as usize] {
+        RecordedOperation::Select(mask, yes, no) if program.guards.contains(&mask) => Some((mask, yes, no)),
+        _ => None,
+    }
+}
+
+/// These conditions and that a mask holds or not, unless they decide on it already.
+fn within(path: &[(Id, bool)], mask: Id, holds: bool) -> Path {
+    let is_decided = path.iter().any(|&(known, _)| known == mask);
+    path.iter().copied().chain((!is_decided).then_some((mask, holds))).collect()
+}
+
+/// The conditions that both are within.
+fn common(one: &[(Id, bool)], other: &[(Id, bool)]) -> Path {
+    one.iter().zip(other).take_while(|(one, other)| one == other).map(|(&one, _)| one).collect()
+}
+
+/// Results that are used outside of the list of statements that defines them.
 struct Scopes<'a> {
     program: &'a RecordedProgram,
-    /// The list around each list.
-    parents: Vec<usize>,
-    defined: HashMap<Id, usize>,
+    /// Results that are defined in lists whose statements have all been visited.
+    hidden: HashSet<Id>,
     escaping: BTreeSet<Id>,
 }
 
 impl Scopes<'_> {
     /// Visits the statements of a list in their order, each of which uses what others before it have defined.
-    fn visit(&mut self, steps: &[Step], scope: usize) {
+    /// Returns the results that the list itself defines.
+    fn visit(&mut self, steps: &[Step]) -> Vec<Id> {
+        let mut defined = Vec::new();
         for step in steps {
             match step {
                 Step::Compute(id) => {
-                    self.program.operations[*id as usize]
-                        .for_each_operand(|operand| self.uses(operand, scope));
-                    self.defined.insert(*id, scope);
+                    self.program.operations[*id as usize].for_each_operand(|operand| self.uses(operand));
+                    defined.push(*id);
                 }
-                Step::Branch { mask, selections, yes, no } => {
-                    self.uses(*mask, scope);
-                    for (k, inner) in [yes, no].into_iter().enumerate() {
-                        self.parents.push(scope);
-                        let here = self.parents.len() - 1;
-                        self.visit(inner, here);
-                        for &selection in selections {
-                            if let RecordedOperation::Select(_, yes, no) =
-                                self.program.operations[selection as usize]
-                            {
-                                self.uses([yes, no][k], here);
-                            }
-                        }
+                Step::Branch { mask, selections, inner } => {
+                    self.uses(*mask);
+                    for (k, inner) in inner.iter().enumerate() {
+                        let inside = self.visit(inner);
+                        selections.iter().for_each(|&(_, values)| self.uses(values[k]));
+                        self.hidden.extend(inside);
                     }
-                    self.defined.extend(selections.iter().map(|&selection| (selection, scope)));
+                    defined.extend(selections.iter().map(|&(selection, _)| selection));
                 }
             }
         }
+        defined
     }
 
-    fn uses(&mut self, id: Id, scope: usize) {
-        if let RecordedOperation::Second(call) = self.program.operations[id as usize] {
-            return self.uses(call, scope);
-        }
-        let Some(&defined) = self.defined.get(&id) else { return };
-        let mut at = scope;
-        while at != defined {
-            if at == 0 {
-                self.escaping.insert(id);
-                return;
-            }
-            at = self.parents[at];
+    fn uses(&mut self, id: Id) {
+        match self.program.operations[id as usize] {
+            RecordedOperation::Second(call) => self.uses(call),
+            _ if self.hidden.contains(&id) => _ = self.escaping.insert(id),
+            _ => {}
         }
     }
 }

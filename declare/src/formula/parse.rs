@@ -38,32 +38,13 @@ const MOST_ASKED: usize = 20;
 
 /// A formula as the parts of a declaration.
 pub(super) struct Parsed {
-    pub(super) parameters: Vec<Parameter>,
+    /// The arguments of the function.
+    pub(super) parameters: Vec<TokenStream>,
     pub(super) body: TokenStream,
     /// Conditions of the domain.
     pub(super) domain: Vec<TokenStream>,
     /// Conditions on parameters alone.
     pub(super) admissible: Vec<TokenStream>,
-}
-
-/// A name that stands for a parameter.
-pub(super) struct Parameter {
-    name: Ident,
-    doc: String,
-    is_list: bool,
-}
-
-impl Parameter {
-    /// The argument of the function.
-    pub(super) fn tokens(&self) -> TokenStream {
-        let Self { name, doc, is_list } = self;
-        let doc = (!doc.is_empty()).then(|| {
-            let doc = format!(" {doc}");
-            quote!(#[doc = #doc])
-        });
-        let ty = if *is_list { quote!(Vec<f64>) } else { quote!(f64) };
-        quote!(#doc #name: #ty)
-    }
 }
 
 /// Reads a formula.
@@ -78,13 +59,8 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
         })
     });
     let bulk = bulk.transpose()?;
-    let given: HashSet<String> = options
-        .parameters
-        .iter()
-        .flatten()
-        .map(|(name, _)| name.clone())
-        .chain(options.bulk.clone())
-        .collect();
+    let names = options.parameters.iter().flatten().map(|(name, _)| name);
+    let given: HashSet<String> = names.chain(&options.bulk).cloned().collect();
     let spelled_out = given.iter().filter_map(|name| Some((spelled_out(name), syn::parse_str(name).ok()?)));
     let mut parser = Parser {
         tokens: Tokens::new(tokens),
@@ -127,10 +103,13 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
         options.parameters.iter().flatten().map(|(name, doc)| (name.as_str(), doc.as_str())).collect();
     let is_declared = |name: &str| parser.given.contains(name) || advice(name).is_none();
     let parameters = parser.names.iter().filter(|(_, _, name)| is_declared(name));
-    let parameters = parameters.map(|(name, is_list, plain)| Parameter {
-        name: name.clone(),
-        doc: docs.get(plain.as_str()).copied().unwrap_or_default().to_owned(),
-        is_list: *is_list,
+    let parameters = parameters.map(|(name, is_list, plain)| {
+        let doc = docs.get(plain.as_str()).filter(|doc| !doc.is_empty()).map(|doc| {
+            let doc = format!(" {doc}");
+            quote!(#[doc = #doc])
+        });
+        let ty = if *is_list { quote!(Vec<f64>) } else { quote!(f64) };
+        quote!(#doc #name: #ty)
     });
     Ok(Parsed {
         parameters: parameters.collect(),
@@ -251,7 +230,7 @@ impl Parser {
     /// A name, with its argument if it is that of a function.
     fn name(&mut self, mut name: Ident) -> syn::Result<TokenStream> {
         while !self.given.contains(&name.to_string())
-            && spellings::is_module(&name.to_string())
+            && spellings::MODULES.contains(&name.to_string().as_str())
             && let Some(function) = self.tokens.take_member()
         {
             name = function;
@@ -329,7 +308,7 @@ impl Parser {
         if let Some(invariant) = spellings::invariant(&text) {
             return self.invariant(invariant, name, group);
         }
-        if spellings::is_power(&text) {
+        if spellings::POWERS.contains(&text.as_str()) {
             let (base, exponent) = self.inside(group, |parser| {
                 let base = parser.sum()?;
                 if parser.tokens.take_sign(",").is_none() {
@@ -438,19 +417,14 @@ impl Parser {
         let mut mistakes = Diagnostics::default();
         for (name, _, text) in missing.take(MOST_ASKED) {
             let near = nearest(text, self.given.iter().map(String::as_str));
-            let hint = match (near, &options.value, advice(text)) {
-                (Some(near), ..) => format!("did you mean `{near}`?"),
-                (None, value, advice) => {
-                    let value = value.map(|form| form.replace("NAME", text));
-                    let value =
-                        value.map_or("give it one".to_owned(), |form| format!("give it one by `{form}`"));
-                    match advice {
-                        Some(advice) => {
-                            format!("{value}, or, if it has its usual meaning in papers, {advice}")
-                        }
-                        None => value,
-                    }
+            let form = options.value.map(|form| form.replace("NAME", text));
+            let value = form.map_or("give it one".to_owned(), |form| format!("give it one by `{form}`"));
+            let hint = match (near, advice(text)) {
+                (Some(near), _) => format!("did you mean `{near}`?"),
+                (None, Some(advice)) => {
+                    format!("{value}, or, if it has its usual meaning in papers, {advice}")
                 }
+                (None, None) => value,
             };
             mistakes.error(name, format!("`{text}` has no value: {hint}"));
         }

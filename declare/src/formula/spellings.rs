@@ -44,8 +44,8 @@ const FUNCTIONS: [Spelling; 17] = [
     ("sigmoid", "1/(1 + exp(−x))", "sigmoid logistic expit"),
 ];
 
-/// Functions of two arguments: powers.
-const POWERS: [&str; 2] = ["pow", "power"];
+/// Functions of two arguments: powers of the first by the second.
+pub(super) const POWERS: [&str; 2] = ["pow", "power"];
 
 /// Functions of tensors, each with its meaning and its spellings.
 const TENSOR_FUNCTIONS: [(Invariant, &str, &str); 3] = [
@@ -77,7 +77,7 @@ const RIGHT_AND_LEFT: [&str; 14] = [
 ];
 
 /// Modules whose name may stand before functions and constants, as in `np.log`, `std::log`.
-const MODULES: [&str; 14] = [
+pub(super) const MODULES: [&str; 14] = [
     "np", "numpy", "jnp", "jax", "math", "cmath", "Math", "std", "sp", "sympy", "ufl", "torch", "tf",
     "special",
 ];
@@ -108,19 +108,9 @@ fn find<T: Copy>(table: &[(T, &str, &str)], name: &str) -> Option<T> {
     table.iter().find(|(.., spellings)| is_meant(spellings)).map(|&(meant, ..)| meant)
 }
 
-/// True if a function is a power of its first argument by its second.
-pub(super) fn is_power(name: &str) -> bool {
-    POWERS.contains(&name)
-}
-
 /// The function of tensors that a name stands for.
 pub(super) fn invariant(name: &str) -> Option<Invariant> {
     find(&TENSOR_FUNCTIONS, name)
-}
-
-/// True if a name is that of a module.
-pub(super) fn is_module(name: &str) -> bool {
-    MODULES.contains(&name)
 }
 
 /// The name that stands for each stretch in the sums of traces.

@@ -12,7 +12,7 @@ use piola_wgpu::tetrahedra::Elements;
 use piola_wgpu::{Error, PREFIX, mesh, points};
 
 const USAGE: &str = "usage: piola-wgpu [--cells 200x40x25] [--projected] [FORMULA NAME=V[,V…]…]
-       piola-wgpu judge FILE.wgsl POINTS RESULTS [COUNT]
+       piola-wgpu judge FILE.wgsl POINTS RESULTS COUNT
        piola-wgpu adapter";
 
 const FORMULA: [&str; 3] = ["mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2", "mu=1e6", "lambda=5e6"];
@@ -22,8 +22,7 @@ fn main() -> ExitCode {
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let result = match arguments[..] {
         ["adapter"] => Device::open().map(|device| println!("{}", device.name)),
-        ["judge", energy, points, results] => judge(energy, points, results, None),
-        ["judge", energy, points, results, count] => judge(energy, points, results, Some(count)),
+        ["judge", energy, points, results, count] => judge(energy, points, results, count),
         _ => bar(&arguments),
     };
     match result {
@@ -35,15 +34,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn judge(energy: &str, from: &str, to: &str, count: Option<&str>) -> Result<(), Error> {
+fn judge(energy: &str, from: &str, to: &str, count: &str) -> Result<(), Error> {
     let device = Device::open()?;
     let numbers: Vec<f32> = bytemuck::pod_collect_to_vec(&std::fs::read(from)?);
-    let results = points::results(
-        &device,
-        &std::fs::read_to_string(energy)?,
-        &numbers,
-        count.map(str::parse).transpose()?,
-    )?;
+    let results = points::results(&device, &std::fs::read_to_string(energy)?, &numbers, count.parse()?)?;
     Ok(std::fs::write(to, bytemuck::cast_slice(&results))?)
 }
 

@@ -4,38 +4,21 @@ use crate::device::Device;
 use crate::{Error, PREFIX};
 
 /// The functions with the names and lengths of what they compute, in the order of the results.
-const FUNCTIONS: [Function; 7] = [
+const FUNCTIONS: [(&str, &[(&str, usize)]); 4] = [
     ("energy", &[("psi", 1)]),
     ("stress", &[("P", 9)]),
     ("tangent", &[("P", 9), ("A", 81)]),
     ("projected", &[("P", 9), ("A", 81)]),
-    ("absolute", &[("P", 9), ("A", 81)]),
-    ("svd", &[("U", 9), ("l", 3), ("V", 9)]),
-    ("blocks", &[("blocks", 15)]),
 ];
 
-/// A function with what it computes.
-type Function = (&'static str, &'static [(&'static str, usize)]);
-
 /// Words of the results at a point: what each function computes, and its status.
-fn words(functions: &[Function]) -> usize {
-    let numbers = functions.iter().flat_map(|(_, outputs)| *outputs).map(|(_, count)| count);
-    numbers.sum::<usize>() + functions.len()
-}
-
-/// Offset of the stretches that `blocks` takes.
-const STRETCHES: usize = 285 + 9;
+const WORDS: usize = 1 + 9 + 2 * (9 + 81) + FUNCTIONS.len();
 
 /// The program for an energy: its own text, and an entry point for each function.
-fn shader(energy: &str, functions: &[Function], has_parameters: bool) -> String {
-    let words = words(functions);
-    let (field, parameters) = match has_parameters {
-        true => (format!("parameters: {PREFIX}_parameters, "), "points[id.x].parameters".to_owned()),
-        false => (String::new(), format!("{PREFIX}_example()")),
-    };
+fn shader(energy: &str) -> String {
     let mut text = format!(
         "{energy}
-struct Point {{ {field}F: array<f32, 9> }}
+struct Point {{ parameters: {PREFIX}_parameters, F: array<f32, 9> }}
 @group(0) @binding(0) var<storage, read> points: array<Point>;
 @group(0) @binding(1) var<storage, read_write> results: array<u32>;
 
@@ -46,11 +29,7 @@ fn check() {{
 "
     );
     let mut offset = 0;
-    for &(function, outputs) in functions {
-        let (input, count, source) = match function {
-            "blocks" => ("l", 3, format!("bitcast<f32>(results[at + {STRETCHES}u + k])")),
-            _ => ("F", 9, "points[id.x].F[k]".to_owned()),
-        };
+    for (function, outputs) in FUNCTIONS {
         let (mut declared, mut stored, mut arguments) = (String::new(), String::new(), String::new());
         for &(name, count) in outputs {
             let (kind, value) = match count {
@@ -69,37 +48,28 @@ fn check() {{
 @compute @workgroup_size(64)
 fn at_{function}(@builtin(global_invocation_id) id: vec3<u32>) {{
     if id.x >= arrayLength(&points) {{ return; }}
-    let at = {words}u * id.x;
-    var {input}: array<f32, {count}>;
-    for (var k = 0u; k < {count}u; k++) {{ {input}[k] = {source}; }}
-{declared}    results[at + {}u] = {PREFIX}_{function}({parameters}, {input}{arguments});
+    let at = {WORDS}u * id.x;
+    var F: array<f32, 9>;
+    for (var k = 0u; k < 9u; k++) {{ F[k] = points[id.x].F[k]; }}
+{declared}    results[at + {offset}u] = {PREFIX}_{function}(points[id.x].parameters, F{arguments});
 {stored}}}
-",
-            offset
+"
         );
         offset += 1;
     }
     text
 }
 
-/// Results at deformation gradients, nine numbers each: of all functions, with the parameters of the text.
-/// With a count of points each F has its parameters before it, and the results are those of the first four
-/// functions.
+/// Results of the functions at `count` points: the parameters of each, and its deformation gradient, nine
+/// numbers.
 ///
 /// # Errors
 /// The device does not compile the text, or the points are too many for it; the parameters are refused.
-pub fn results(
-    device: &Device,
-    energy: &str,
-    points: &[f32],
-    count: Option<usize>,
-) -> Result<Vec<u32>, Error> {
-    let functions = if count.is_some() { &FUNCTIONS[..4] } else { &FUNCTIONS[..] };
-    let names: Vec<_> = functions.iter().map(|(function, _)| format!("at_{function}")).collect();
+pub fn results(device: &Device, energy: &str, points: &[f32], count: usize) -> Result<Vec<u32>, Error> {
+    let names = FUNCTIONS.map(|(function, _)| format!("at_{function}"));
     let names: Vec<&str> = names.iter().map(String::as_str).chain(["check"]).collect();
-    let programs = device.programs(&shader(energy, functions, count.is_some()), &names)?;
-    let count = count.unwrap_or(points.len() / 9);
-    let bytes = (4 * words(functions) * count) as u64;
+    let programs = device.programs(&shader(energy), &names)?;
+    let bytes = (4 * WORDS * count) as u64;
     if count == 0 || bytes > device.limits.max_storage_buffer_binding_size {
         return Err(format!("{count} points: there must be some, and room for {bytes} bytes").into());
     }

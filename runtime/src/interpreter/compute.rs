@@ -1,7 +1,10 @@
 //! The operations of programs: each is the one that the emitted Rust of the same declaration performs.
 
+use piola_codegen::algebra::expr::Elementary;
+use piola_codegen::schedule::Op;
+
 use super::parameters::Parameters;
-use super::program::{Elementary, Exponent, Operation};
+use super::program::{Operation, Program, Register};
 use super::registers::{Each, Files};
 use crate::lanes::Real;
 use crate::quotient::{
@@ -26,7 +29,8 @@ impl<R: Real> Same<R> {
 /// Computes one operation at all groups.
 #[inline(always)]
 pub(super) fn compute<R: Real, const G: usize>(
-    operation: &Operation,
+    program: &Program,
+    operation: Operation,
     file: &Files<'_, R, G>,
     parameters: &Parameters<'_>,
     entry: usize,
@@ -83,51 +87,58 @@ pub(super) fn compute<R: Real, const G: usize>(
             }
         };
     }
-    let whole = |exponent: Exponent| match exponent {
-        Exponent::Parameter(k) => parameters.whole(k, 0),
-        Exponent::Entry(k) => parameters.whole(k, entry),
-    };
-    match *operation {
+    let (to, op) = match operation {
         // The order of the operations, which is not theirs to decide.
-        Operation::Begin(_) | Operation::End(_) => {}
-        Operation::Neg(to, a) => arithmetic!(to, [x: a] -x),
-        Operation::Add(to, a, b) => arithmetic!(to, [x: a, y: b] x + y),
-        Operation::Sub(to, a, b) => arithmetic!(to, [x: a, y: b] x - y),
-        Operation::Mul(to, a, b) => arithmetic!(to, [x: a, y: b] x * y),
-        Operation::Div(to, a, b) => arithmetic!(to, [x: a, y: b] x / y),
-        Operation::MulAdd(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] x.mul_add(y, z)),
-        Operation::NegMulAdd(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] (-x).mul_add(y, z)),
-        Operation::MulSub(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] x.mul_add(y, -z)),
-        Operation::MulMul(to, [a, b, c]) => arithmetic!(to, [x: a, y: b, z: c] x * y * z),
-        Operation::MulMulMul(to, [a, b, c, d]) => arithmetic!(to, [x: a, y: b, z: c, w: d] x * y * z * w),
+        Operation::Begin(_) | Operation::End(_) => return,
+        Operation::MulMul(to, [a, b, c]) => return arithmetic!(to, [x: a, y: b, z: c] x * y * z),
+        Operation::MulMulMul(to, [a, b, c, d]) => {
+            return arithmetic!(to, [x: a, y: b, z: c, w: d] x * y * z * w);
+        }
         Operation::MulMulAdd(to, [a, b, c, d]) => {
-            arithmetic!(to, [x: a, y: b, z: c, w: d] (x * y).mul_add(z, w));
+            return arithmetic!(to, [x: a, y: b, z: c, w: d] (x * y).mul_add(z, w));
         }
         Operation::NegMulMulAdd(to, [a, b, c, d]) => {
-            arithmetic!(to, [x: a, y: b, z: c, w: d] (-(x * y)).mul_add(z, w));
+            return arithmetic!(to, [x: a, y: b, z: c, w: d] (-(x * y)).mul_add(z, w));
         }
         Operation::MulAddMul(to, [a, b, c, d]) => {
-            arithmetic!(to, [x: a, y: b, z: c, w: d] x.mul_add(y, z) * w)
+            return arithmetic!(to, [x: a, y: b, z: c, w: d] x.mul_add(y, z) * w);
         }
         Operation::NegMulAddMul(to, [a, b, c, d]) => {
-            arithmetic!(to, [x: a, y: b, z: c, w: d] (-x).mul_add(y, z) * w)
+            return arithmetic!(to, [x: a, y: b, z: c, w: d] (-x).mul_add(y, z) * w);
         }
-        Operation::NegMul(to, a, b) => arithmetic!(to, [x: a, y: b] -(x * y)),
-        Operation::Sqrt(to, a) => each!(to, [x: a] x.sqrt()),
-        Operation::Cbrt(to, a) => each!(to, [x: a] x.cbrt()),
-        Operation::Ln(to, a) => each!(to, [x: a] x.ln()),
-        Operation::Exp(to, a) => each!(to, [x: a] x.exp()),
-        Operation::Max(to, a, b) => each!(to, [x: a, y: b] x.max(y)),
-        Operation::Below(to, a, b) => each!(to, [x: a, y: b] (x - y).min(R::splat(0.0))),
-        Operation::AboveZero(to, a) => each!(to, [x: a] above_zero(x)),
-        Operation::WhereNegative(to, [a, b, c]) => {
+        Operation::NegMul(to, a, b) => return arithmetic!(to, [x: a, y: b] -(x * y)),
+        Operation::One(to, op) => (to, op),
+    };
+    let whole = |exponent: Register| parameters.whole(program.exponents[usize::from(exponent)], entry);
+    match op {
+        // They fill registers before the first operation.
+        Op::Literal(_) | Op::Parameter(_) | Op::Entry(_) | Op::Epsilon | Op::Stretch(_) | Op::Strain(_) => {}
+        Op::Neg(a) => arithmetic!(to, [x: a] -x),
+        Op::Add(a, b) => arithmetic!(to, [x: a, y: b] x + y),
+        Op::Sub(a, b) => arithmetic!(to, [x: a, y: b] x - y),
+        Op::Mul(a, b) => arithmetic!(to, [x: a, y: b] x * y),
+        Op::Div(a, b) => arithmetic!(to, [x: a, y: b] x / y),
+        Op::MulAdd(a, b, c) => arithmetic!(to, [x: a, y: b, z: c] x.mul_add(y, z)),
+        Op::NegMulAdd(a, b, c) => arithmetic!(to, [x: a, y: b, z: c] (-x).mul_add(y, z)),
+        Op::MulSub(a, b, c) => arithmetic!(to, [x: a, y: b, z: c] x.mul_add(y, -z)),
+        Op::Sqrt(a) => each!(to, [x: a] x.sqrt()),
+        Op::Cbrt(a) => each!(to, [x: a] x.cbrt()),
+        Op::Ln(a) => each!(to, [x: a] x.ln()),
+        Op::Exp(a) => each!(to, [x: a] x.exp()),
+        Op::Max(a, b) => each!(to, [x: a, y: b] x.max(y)),
+        Op::Below(a, b) => each!(to, [x: a, y: b] (x - y).min(R::splat(0.0))),
+        Op::AboveZero(a) => each!(to, [x: a] above_zero(x)),
+        Op::WhereNegative(a, b, c) => {
             each!(to, [x: a, y: b, z: c] R::select(x.less(R::splat(0.0)), y, z))
         }
-        Operation::ShareAbove(to, [a, b, c]) => each!(to, [x: a, y: b, z: c] share_above(x, y, z)),
-        Operation::ShareBelow(to, [a, b, c]) => each!(to, [x: a, y: b, z: c] share_below(x, y, z)),
-        Operation::PoleFloor(to, [a, b, c]) => each!(to, [x: a, y: b, z: c] pole_floor([x, y, z])),
-        Operation::LnProduct(to, [a, b, c]) => each!(to, [x: a, y: b, z: c] ln_product([x, y, z])),
-        Operation::Elementary(function, to, a) => match function {
+        Op::ShareAbove(a, b, c) => each!(to, [x: a, y: b, z: c] share_above(x, y, z)),
+        Op::ShareBelow(a, b, c) => each!(to, [x: a, y: b, z: c] share_below(x, y, z)),
+        Op::PoleFloor => {
+            let [a, b, c] = program.stretches;
+            each!(to, [x: a, y: b, z: c] pole_floor([x, y, z]));
+        }
+        Op::LnProduct([a, b, c]) => each!(to, [x: a, y: b, z: c] ln_product([x, y, z])),
+        Op::Elementary(function, a) => match function {
             Elementary::Asinh => each!(to, [x: a] x.asinh()),
             Elementary::Atan => each!(to, [x: a] x.atan()),
             Elementary::Cos => each!(to, [x: a] x.cos()),
@@ -141,7 +152,7 @@ pub(super) fn compute<R: Real, const G: usize>(
             Elementary::Softplus => each!(to, [x: a] x.softplus()),
             Elementary::Tanh => each!(to, [x: a] x.tanh()),
         },
-        Operation::ElementaryQuotient(function, to, a, b) => match function {
+        Op::ElementaryQuotient(function, a, b) => match function {
             Elementary::Asinh => each!(to, [x: a, y: b] asinh_quotient(x, y)),
             Elementary::Atan => each!(to, [x: a, y: b] atan_quotient(x, y)),
             Elementary::Cos => each!(to, [x: a, y: b] cos_quotient(x, y)),
@@ -155,39 +166,39 @@ pub(super) fn compute<R: Real, const G: usize>(
             Elementary::Softplus => each!(to, [x: a, y: b] softplus_quotient(x, y)),
             Elementary::Tanh => each!(to, [x: a, y: b] tanh_quotient(x, y)),
         },
-        Operation::Logarithm(to, a) => each!(logarithm to, [number x: a] x.logarithm()),
-        Operation::Power(to, logarithm, exponent) => {
+        Op::Logarithm(a) => each!(logarithm to, [number x: a] x.logarithm()),
+        Op::Power(logarithm, exponent) => {
             each!(number to, [logarithm ln: logarithm, number r: exponent] R::power(ln, r));
         }
-        Operation::Pair { to, values: [a, b], reciprocals: [ra, rb], logarithms: [la, lb] } => {
+        Op::Pair { values: [a, b], reciprocals: [ra, rb], logarithms: [la, lb] } => {
             each!(pair to, [number a: a, number b: b, number ra: ra, number rb: rb, logarithm la: la, logarithm lb: lb] {
                 Pair::new([a, b], [ra, rb], [la, lb])
             });
         }
-        Operation::LnQuotient(to, pair) => each!(number to, [pair both: pair] both.ln_quotient()),
-        Operation::PowerQuotient { to, pair, powers: [a, b], exponent } => {
+        Op::LnQuotient(pair) => each!(number to, [pair both: pair] both.ln_quotient()),
+        Op::PowerQuotient { pair, powers: [a, b], exponent } => {
             each!(number to, [pair both: pair, number a: a, number b: b, number r: exponent] {
                 both.power_quotient([a, b], r)
             });
         }
-        Operation::ExpQuotient(to, [a, ea], [b, eb]) => {
+        Op::ExpQuotient { values: [a, b], exponentials: [ea, eb] } => {
             each!(to, [a: a, ea: ea, b: b, eb: eb] exp_quotient([a, ea], [b, eb]));
         }
-        Operation::WholePower(to, a, exponent, order) => {
+        Op::WholePower(a, exponent, order) => {
             let n = whole(exponent);
             each!(to, [x: a] whole_power(x, n, u32::from(order)));
         }
-        Operation::WholePowerQuotient(to, [a, b], exponent, order) => {
+        Op::WholePowerQuotient([a, b], exponent, order) => {
             let n = whole(exponent);
             each!(to, [x: a, y: b] whole_power_quotient([x, y], n, u32::from(order)));
         }
-        Operation::Function(to, k, order, a) => match (order, parameters.function(k)) {
+        Op::Function(k, order, a) => match (order, parameters.function(k)) {
             (0, Some(function)) => each!(to, [x: a] function.value(x)),
             (1, Some(function)) => each!(to, [x: a] function.derivative(x)),
             (2, Some(function)) => each!(to, [x: a] function.second_derivative(x)),
             _ => each!(to, [_x: a] R::splat(f64::NAN)),
         },
-        Operation::FunctionQuotient(to, k, order, [a, b]) => match (order, parameters.function(k)) {
+        Op::FunctionQuotient(k, order, a, b) => match (order, parameters.function(k)) {
             (0, Some(function)) => each!(to, [x: a, y: b] function.quotient(x, y)),
             (1, Some(function)) => each!(to, [x: a, y: b] function.derivative_quotient(x, y)),
             _ => each!(to, [_x: a] R::splat(f64::NAN)),

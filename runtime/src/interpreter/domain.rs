@@ -1,18 +1,9 @@
 //! The volumes for which an energy is defined.
 
+use piola_codegen::read::domain::Volume;
+
 use crate::lanes::{Mask, Real};
 use crate::material::Inversion;
-
-/// The volumes J for which an energy is defined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Volume {
-    /// All of them.
-    Any,
-    /// J > 0.
-    Positive,
-    /// J ≠ 0.
-    Nonzero,
-}
 
 /// Volumes for which a material is defined, as a condition on the arguments of a response.
 #[derive(Clone, Copy)]

@@ -4,6 +4,8 @@
 //! computing. Each is the one that the emitted Rust of the same declaration performs, in the same order, so
 //! that results have the same bits.
 
+use piola_codegen::schedule::Op;
+
 use super::compute::compute;
 use super::domain::VolumeBound;
 use super::parameters::Context;
@@ -177,17 +179,14 @@ fn execute<R: Real, const G: usize>(
     let mut next = program.preparations;
     if !is_prepared {
         next = 0;
-        for &(register, value) in &program.literals {
-            file.number(register).fill(R::splat(value));
-        }
-        if let Some(register) = program.epsilon {
-            file.number(register).fill(R::splat(epsilon));
-        }
-        for &(register, parameter) in &program.parameters {
-            file.load(register, parameters, parameter, 0);
-        }
-        for &(register, list) in &program.entries {
-            file.load(register, parameters, list, entry);
+        for &(register, constant) in &program.filled {
+            match constant {
+                Op::Literal(bits) => file.number(register).fill(R::splat(f64::from_bits(bits))),
+                Op::Epsilon => file.number(register).fill(R::splat(epsilon)),
+                Op::Parameter(parameter) => file.load(register, parameters, parameter, 0),
+                Op::Entry(list) => file.load(register, parameters, list, entry),
+                _ => {}
+            }
         }
     }
     let outside = entry;
@@ -225,7 +224,7 @@ fn execute<R: Real, const G: usize>(
                     entry = outside;
                 }
             }
-            _ => compute(operation, file, parameters, entry),
+            operation => compute(program, operation, file, parameters, entry),
         }
     }
 }

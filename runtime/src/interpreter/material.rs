@@ -3,7 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::domain::{Volume, VolumeBound};
+use piola_codegen::read::domain::Volume;
+
+use super::domain::VolumeBound;
 use super::execute::{Request, execute_alone, execute_tile};
 use super::parameters::{Context, ParameterValues, Parameters};
 use super::program::{Program, Sizes};

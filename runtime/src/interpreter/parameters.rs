@@ -86,8 +86,9 @@ impl<'a> Parameters<'a> {
         }
     }
 
-    /// A whole exponent.
+    /// A whole exponent, or the entry of a list of them.
     pub(super) fn whole(&self, parameter: usize, entry: usize) -> u32 {
+        let entry = if self.length(parameter) == 1 { 0 } else { entry };
         self.some.number(parameter, entry) as u32
     }
 

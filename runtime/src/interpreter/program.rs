@@ -1,6 +1,8 @@
 //! Programs as data: operations on registers, in order, and loops over lists.
 
-/// A register: its place among those of its kind, numbers, logarithms or pairs.
+use piola_codegen::schedule::Op;
+
+/// A register: its place among those of its kind, numbers, logarithms, pairs or whole exponents.
 ///
 /// The first registers for numbers are constants: the same at every point, unless parameters differ between
 /// the points. Only the first group of a constant is written and read, so that it takes one place in the
@@ -12,16 +14,15 @@ pub type Register = u16;
 /// A register may hold several values one after the other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program {
-    /// Constants that the declaration writes as numbers.
-    pub literals: Vec<(Register, f64)>,
     /// Registers that hold an argument: its place among the arguments.
     pub arguments: Vec<(Register, usize)>,
-    /// Constants that are a parameter: its place in the declaration.
-    pub parameters: Vec<(Register, usize)>,
-    /// Constants that are the entry of a list which the caller names: the list's place in the declaration.
-    pub entries: Vec<(Register, usize)>,
-    /// The constant that is the threshold ε of an extension.
-    pub epsilon: Option<Register>,
+    /// Constants that are filled before the first operation: a literal, a parameter, the entry of a list that
+    /// the caller names, or the threshold ε of an extension.
+    pub filled: Vec<(Register, Op<Register>)>,
+    /// Whole exponents, and lists of them, by their registers: the place in the declaration.
+    pub exponents: Vec<usize>,
+    /// The registers of the three stretches, if an operation reads them without naming them.
+    pub stretches: [Register; 3],
     /// The operations, in order.
     pub operations: Vec<Operation>,
     /// Number of operations at the start that compute constants: once for all tiles that follow each other.
@@ -63,38 +64,15 @@ pub struct Loop {
     pub length: usize,
 }
 
-/// A whole exponent, read from the parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Exponent {
-    /// A parameter, by its place in the declaration.
-    Parameter(usize),
-    /// The current entry of a list, by its place in the declaration.
-    Entry(usize),
-}
-
-/// An operation: the register of the result comes first, then those of its operands.
+/// A step of a program. The register of a result comes first, then those of the operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// The begin of a loop, by its place among the loops.
     Begin(usize),
     /// The end of the loop that has begun.
     End(usize),
-    /// −a.
-    Neg(Register, Register),
-    /// a + b.
-    Add(Register, Register, Register),
-    /// a − b.
-    Sub(Register, Register, Register),
-    /// a b.
-    Mul(Register, Register, Register),
-    /// a/b.
-    Div(Register, Register, Register),
-    /// a b + c.
-    MulAdd(Register, [Register; 3]),
-    /// c − a b.
-    NegMulAdd(Register, [Register; 3]),
-    /// a b − c.
-    MulSub(Register, [Register; 3]),
+    /// An operation of the compiler that reads values: the others fill registers before the first.
+    One(Register, Op<Register>),
     /// (a b) c. This and the next six are two or three operations in one: no other operation reads the
     /// results between them, which need no register.
     MulMul(Register, [Register; 3]),
@@ -110,88 +88,4 @@ pub enum Operation {
     NegMulAddMul(Register, [Register; 4]),
     /// −(a b).
     NegMul(Register, Register, Register),
-    /// √a.
-    Sqrt(Register, Register),
-    /// ∛a.
-    Cbrt(Register, Register),
-    /// ln a.
-    Ln(Register, Register),
-    /// eᵃ.
-    Exp(Register, Register),
-    /// The larger of a and b.
-    Max(Register, Register, Register),
-    /// min(a − b, 0).
-    Below(Register, Register, Register),
-    /// a, kept from zero.
-    AboveZero(Register, Register),
-    /// b where a is negative, else c.
-    WhereNegative(Register, [Register; 3]),
-    /// Fraction of the interval between a and b that lies above c.
-    ShareAbove(Register, [Register; 3]),
-    /// Fraction of the interval between a and b that lies below c.
-    ShareBelow(Register, [Register; 3]),
-    /// Smallest denominator of a quotient at a pole, from the three stretches.
-    PoleFloor(Register, [Register; 3]),
-    /// ln (a b c).
-    LnProduct(Register, [Register; 3]),
-    /// φ(a).
-    Elementary(Elementary, Register, Register),
-    /// φ\[a, b\].
-    ElementaryQuotient(Elementary, Register, Register, Register),
-    /// The logarithm of a number, into a register for logarithms.
-    Logarithm(Register, Register),
-    /// The power from the register of a logarithm and an exponent.
-    Power(Register, Register, Register),
-    /// The common part of the divided differences of a and b, into a register for pairs.
-    Pair {
-        /// The register for pairs.
-        to: Register,
-        /// a, b.
-        values: [Register; 2],
-        /// 1/a, 1/b.
-        reciprocals: [Register; 2],
-        /// Registers of the logarithms of a and b.
-        logarithms: [Register; 2],
-    },
-    /// (ln a − ln b)/(a − b), from the register of their pair.
-    LnQuotient(Register, Register),
-    /// (aʳ − bʳ)/(a − b).
-    PowerQuotient {
-        /// The register of the result.
-        to: Register,
-        /// The register of the pair.
-        pair: Register,
-        /// aʳ, bʳ.
-        powers: [Register; 2],
-        /// r.
-        exponent: Register,
-    },
-    /// (eᵃ − eᵇ)/(a − b), from a, eᵃ and b, e^b.
-    ExpQuotient(Register, [Register; 2], [Register; 2]),
-    /// The derivative of the given order of xⁿ.
-    WholePower(Register, Register, Exponent, u8),
-    /// The divided difference of such a derivative.
-    WholePowerQuotient(Register, [Register; 2], Exponent, u8),
-    /// The derivative of the given order of a function that is a parameter, by its place in the declaration.
-    Function(Register, usize, u8, Register),
-    /// The divided difference of such a derivative.
-    FunctionQuotient(Register, usize, u8, [Register; 2]),
-}
-
-/// An elementary function with a divided difference of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "each is named like the method of `Real`")]
-pub enum Elementary {
-    Asinh,
-    Atan,
-    Cos,
-    Cosh,
-    Erf,
-    ExpM1,
-    Ln1p,
-    Sigmoid,
-    Sin,
-    Sinh,
-    Softplus,
-    Tanh,
 }

@@ -91,14 +91,17 @@ fn links_of_documents_lead_to_files() {
     assert!(judged > 5, "{judged} links");
 }
 
-/// The README shows a program that the test target `readme` of `piola-tests` compiles and runs.
+/// Programs of a README are files that are compiled: the first is the test target `readme` of `piola-tests`.
 #[test]
-fn the_readme_shows_the_example() {
-    let (readme, example) =
-        (read(Path::new("README.md")), read(Path::new("materials/examples/own_energy.rs")));
-    let (_, rest) = readme.split_once("```rust\n").expect("a Rust block in the README");
-    let (shown, _) = rest.split_once("```").expect("the end of the block");
-    assert_eq!(shown, example, "README.md and materials/examples/own_energy.rs differ");
+fn readmes_show_programs_that_are_compiled() {
+    for (readme, language, program) in [
+        ("README.md", "rust", "materials/examples/own_energy.rs"),
+        ("bindings/c/README.md", "c", "bindings/c/clients/example.c"),
+        ("bindings/c/README.md", "cpp", "bindings/c/clients/example.cpp"),
+    ] {
+        let block = format!("```{language}\n{}```", read(Path::new(program)));
+        assert!(read(Path::new(readme)).contains(&block), "{readme} has another program than {program}");
+    }
 }
 
 /// The first table of `docs/embedding.md` quotes lines of files that it links to, and that are tested.

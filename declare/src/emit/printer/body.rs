@@ -60,22 +60,18 @@ impl<'a> Body<'a> {
                     };
                     let _ = writeln!(text, "{margin}{statement}");
                 }
-                Step::Branch { mask, selections, yes, no } => {
-                    for &id in selections.iter().filter(|id| !self.steps.escaping.contains(id)) {
+                Step::Branch { mask, selections, inner } => {
+                    for &(id, _) in selections.iter().filter(|(id, _)| !self.steps.escaping.contains(id)) {
                         let _ = writeln!(text, "{margin}{}", variable(self.kind(id), &format!("t{id}")));
                     }
                     let _ = writeln!(text, "{margin}if ({}) {{", self.operand(*mask));
-                    for (k, inner) in [yes, no].into_iter().enumerate() {
+                    for (k, inner) in inner.iter().enumerate() {
                         if k == 1 {
                             let _ = writeln!(text, "{margin}}} else {{");
                         }
                         self.write(inner, depth + 1, text);
-                        for &id in selections {
-                            if let RecordedOperation::Select(_, yes, no) =
-                                self.program.operations[id as usize]
-                            {
-                                let _ = writeln!(text, "{margin}    t{id} = {};", self.operand([yes, no][k]));
-                            }
+                        for (id, values) in selections {
+                            let _ = writeln!(text, "{margin}    t{id} = {};", self.operand(values[k]));
                         }
                     }
                     let _ = writeln!(text, "{margin}}}");
@@ -113,7 +109,7 @@ impl<'a> Body<'a> {
     }
 
     fn expression(&self, id: Id) -> String {
-        let prefix = self.printer.prefix;
+        let prefix = &self.printer.file.prefix;
         let language = self.language();
         let o = |id: Id| self.operand(id);
         let rounded = |result| language.rounded(result);

@@ -68,26 +68,7 @@ pub(super) fn renumber(mut program: Program, values: usize) -> Program {
     for (k, value) in named.into_iter().chain(inlined).enumerate() {
         names[value.0] = Value(k);
     }
-    let new = |value: &mut Value| *value = names[value.0];
-    for statement in &mut program.statements {
-        match statement {
-            Statement::Let(value, op) => {
-                new(value);
-                op.each_operand(new);
-            }
-            Statement::Loop { body, totals, .. } => {
-                for (value, op) in body {
-                    new(value);
-                    op.each_operand(new);
-                }
-                for (total, term) in totals {
-                    new(total);
-                    new(term);
-                }
-            }
-        }
-    }
-    program.outputs.iter_mut().for_each(new);
+    program.rename(|value| names[value.0]);
     program
 }
 

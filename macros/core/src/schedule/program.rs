@@ -6,9 +6,9 @@ use crate::algebra::expr::{Elementary, Length, ParameterIndex, Stretch};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Value(pub usize);
 
-/// One operation on values.
+/// One operation on values, or on the registers that an interpreter keeps them in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Op {
+pub enum Op<V = Value> {
     /// The bits of an `f64`.
     Literal(u64),
     /// λ1, λ2 or λ3.
@@ -24,145 +24,149 @@ pub enum Op {
     /// Smallest denominator of a quotient at a pole.
     PoleFloor,
     /// −a.
-    Neg(Value),
+    Neg(V),
     /// First + second.
-    Add(Value, Value),
+    Add(V, V),
     /// First − second.
-    Sub(Value, Value),
+    Sub(V, V),
     /// First · second.
-    Mul(Value, Value),
+    Mul(V, V),
     /// First / second.
-    Div(Value, Value),
+    Div(V, V),
     /// First · second + third.
-    MulAdd(Value, Value, Value),
+    MulAdd(V, V, V),
     /// Third − first · second.
-    NegMulAdd(Value, Value, Value),
+    NegMulAdd(V, V, V),
     /// First · second − third.
-    MulSub(Value, Value, Value),
+    MulSub(V, V, V),
     /// Square root.
-    Sqrt(Value),
+    Sqrt(V),
     /// Cube root.
-    Cbrt(Value),
+    Cbrt(V),
     /// Natural logarithm.
-    Ln(Value),
+    Ln(V),
     /// Exponential function.
-    Exp(Value),
+    Exp(V),
     /// The logarithm from which all powers of a value are computed.
-    Logarithm(Value),
+    Logarithm(V),
     /// A power from such a logarithm and the exponent.
-    Power(Value, Value),
+    Power(V, V),
     /// The logarithm of a product of three values.
-    LnProduct([Value; 3]),
+    LnProduct([V; 3]),
     /// An elementary function.
-    Elementary(Elementary, Value),
+    Elementary(Elementary, V),
     /// Divided difference of an elementary function.
-    ElementaryQuotient(Elementary, Value, Value),
+    ElementaryQuotient(Elementary, V, V),
     /// Derivative of the given order of a function that is a parameter.
-    Function(ParameterIndex, u8, Value),
+    Function(ParameterIndex, u8, V),
     /// Divided difference of such a derivative.
-    FunctionQuotient(ParameterIndex, u8, Value, Value),
+    FunctionQuotient(ParameterIndex, u8, V, V),
     /// Derivative of the given order of a power: the base, and the whole exponent, which is read as such.
-    WholePower(Value, Value, u8),
+    WholePower(V, V, u8),
     /// Divided difference of such a derivative.
-    WholePowerQuotient([Value; 2], Value, u8),
+    WholePowerQuotient([V; 2], V, u8),
     /// The larger of two values.
-    Max(Value, Value),
+    Max(V, V),
     /// The value, or the smallest positive number if that is larger.
-    AboveZero(Value),
+    AboveZero(V),
     /// min(first − second, 0).
-    Below(Value, Value),
+    Below(V, V),
     /// The second value if the first is negative, else the third.
-    WhereNegative(Value, Value, Value),
+    WhereNegative(V, V, V),
     /// Fraction of the interval between the first two that lies above the third.
-    ShareAbove(Value, Value, Value),
+    ShareAbove(V, V, V),
     /// Fraction of the interval between the first two that lies below the third.
-    ShareBelow(Value, Value, Value),
+    ShareBelow(V, V, V),
     /// The common part of the divided differences of logarithms and powers of two values a, b.
     Pair {
         /// a, b.
-        values: [Value; 2],
+        values: [V; 2],
         /// 1/a, 1/b.
-        reciprocals: [Value; 2],
+        reciprocals: [V; 2],
         /// The [`Logarithm`](Self::Logarithm)s of a and b.
-        logarithms: [Value; 2],
+        logarithms: [V; 2],
     },
     /// The divided difference (ln a − ln b) / (a − b), from their pair.
-    LnQuotient(Value),
+    LnQuotient(V),
     /// The divided difference (a^r − b^r) / (a − b).
     PowerQuotient {
         /// The pair of a and b.
-        pair: Value,
+        pair: V,
         /// a^r, b^r.
-        powers: [Value; 2],
+        powers: [V; 2],
         /// r.
-        exponent: Value,
+        exponent: V,
     },
     /// The divided difference (eᵃ − eᵇ) / (a − b).
     ExpQuotient {
         /// a, b.
-        values: [Value; 2],
+        values: [V; 2],
         /// eᵃ, eᵇ.
-        exponentials: [Value; 2],
+        exponentials: [V; 2],
     },
 }
 
-impl Op {
-    /// The values that the operation reads.
-    #[must_use]
-    pub fn operands(mut self) -> Vec<Value> {
-        let mut all = Vec::new();
-        self.each_operand(|value| all.push(*value));
-        all
-    }
-
-    /// Calls a function for each value that the operation reads, to count or replace it.
-    pub(super) fn each_operand(&mut self, mut show: impl FnMut(&mut Value)) {
+impl<V> Op<V> {
+    /// The same operation on what a function returns for each operand, in their order.
+    pub fn map<W>(self, mut to: impl FnMut(V) -> W) -> Op<W> {
         match self {
-            Self::Literal(_)
-            | Self::Stretch(_)
-            | Self::Strain(_)
-            | Self::Parameter(_)
-            | Self::Entry(_)
-            | Self::Epsilon
-            | Self::PoleFloor => {}
-            Self::Neg(a)
-            | Self::Sqrt(a)
-            | Self::Cbrt(a)
-            | Self::Ln(a)
-            | Self::Logarithm(a)
-            | Self::Exp(a)
-            | Self::LnQuotient(a)
-            | Self::AboveZero(a)
-            | Self::Elementary(_, a)
-            | Self::Function(.., a) => show(a),
-            Self::Add(a, b)
-            | Self::Sub(a, b)
-            | Self::Mul(a, b)
-            | Self::Div(a, b)
-            | Self::Power(a, b)
-            | Self::Max(a, b)
-            | Self::Below(a, b)
-            | Self::WholePower(a, b, _)
-            | Self::ElementaryQuotient(_, a, b)
-            | Self::FunctionQuotient(.., a, b) => [a, b].into_iter().for_each(show),
-            Self::WholePowerQuotient([a, b], c, _)
-            | Self::LnProduct([a, b, c])
-            | Self::MulAdd(a, b, c)
-            | Self::NegMulAdd(a, b, c)
-            | Self::MulSub(a, b, c)
-            | Self::WhereNegative(a, b, c)
-            | Self::ShareAbove(a, b, c)
-            | Self::ShareBelow(a, b, c) => [a, b, c].into_iter().for_each(show),
-            Self::Pair { values, reciprocals, logarithms } => {
-                [values, reciprocals, logarithms].into_iter().flatten().for_each(show);
+            Self::Literal(bits) => Op::Literal(bits),
+            Self::Stretch(i) => Op::Stretch(i),
+            Self::Strain(i) => Op::Strain(i),
+            Self::Parameter(k) => Op::Parameter(k),
+            Self::Entry(k) => Op::Entry(k),
+            Self::Epsilon => Op::Epsilon,
+            Self::PoleFloor => Op::PoleFloor,
+            Self::Neg(a) => Op::Neg(to(a)),
+            Self::Add(a, b) => Op::Add(to(a), to(b)),
+            Self::Sub(a, b) => Op::Sub(to(a), to(b)),
+            Self::Mul(a, b) => Op::Mul(to(a), to(b)),
+            Self::Div(a, b) => Op::Div(to(a), to(b)),
+            Self::MulAdd(a, b, c) => Op::MulAdd(to(a), to(b), to(c)),
+            Self::NegMulAdd(a, b, c) => Op::NegMulAdd(to(a), to(b), to(c)),
+            Self::MulSub(a, b, c) => Op::MulSub(to(a), to(b), to(c)),
+            Self::Sqrt(a) => Op::Sqrt(to(a)),
+            Self::Cbrt(a) => Op::Cbrt(to(a)),
+            Self::Ln(a) => Op::Ln(to(a)),
+            Self::Exp(a) => Op::Exp(to(a)),
+            Self::Logarithm(a) => Op::Logarithm(to(a)),
+            Self::Power(a, b) => Op::Power(to(a), to(b)),
+            Self::LnProduct(factors) => Op::LnProduct(factors.map(to)),
+            Self::Elementary(function, a) => Op::Elementary(function, to(a)),
+            Self::ElementaryQuotient(function, a, b) => Op::ElementaryQuotient(function, to(a), to(b)),
+            Self::Function(k, order, a) => Op::Function(k, order, to(a)),
+            Self::FunctionQuotient(k, order, a, b) => Op::FunctionQuotient(k, order, to(a), to(b)),
+            Self::WholePower(a, n, order) => Op::WholePower(to(a), to(n), order),
+            Self::WholePowerQuotient(bases, n, order) => {
+                Op::WholePowerQuotient(bases.map(&mut to), to(n), order)
             }
-            Self::PowerQuotient { pair, powers: [a, b], exponent } => {
-                [pair, a, b, exponent].into_iter().for_each(show);
+            Self::Max(a, b) => Op::Max(to(a), to(b)),
+            Self::AboveZero(a) => Op::AboveZero(to(a)),
+            Self::Below(a, b) => Op::Below(to(a), to(b)),
+            Self::WhereNegative(a, b, c) => Op::WhereNegative(to(a), to(b), to(c)),
+            Self::ShareAbove(a, b, c) => Op::ShareAbove(to(a), to(b), to(c)),
+            Self::ShareBelow(a, b, c) => Op::ShareBelow(to(a), to(b), to(c)),
+            Self::Pair { values, reciprocals, logarithms } => Op::Pair {
+                values: values.map(&mut to),
+                reciprocals: reciprocals.map(&mut to),
+                logarithms: logarithms.map(to),
+            },
+            Self::LnQuotient(pair) => Op::LnQuotient(to(pair)),
+            Self::PowerQuotient { pair, powers, exponent } => {
+                Op::PowerQuotient { pair: to(pair), powers: powers.map(&mut to), exponent: to(exponent) }
             }
             Self::ExpQuotient { values, exponentials } => {
-                [values, exponentials].into_iter().flatten().for_each(show);
+                Op::ExpQuotient { values: values.map(&mut to), exponentials: exponentials.map(to) }
             }
         }
+    }
+
+    /// The values that the operation reads.
+    #[must_use]
+    pub fn operands(self) -> Vec<V> {
+        let mut all = Vec::new();
+        self.map(|value| all.push(value));
+        all
     }
 }
 
@@ -203,10 +207,28 @@ impl Program {
         })
     }
 
+    /// Replaces each value by what a function returns for it.
+    pub fn rename(&mut self, new: impl Fn(Value) -> Value) {
+        for statement in &mut self.statements {
+            match statement {
+                Statement::Let(value, op) => (*value, *op) = (new(*value), op.map(&new)),
+                Statement::Loop { body, totals, .. } => {
+                    for (value, op) in body {
+                        (*value, *op) = (new(*value), op.map(&new));
+                    }
+                    for (total, term) in totals {
+                        (*total, *term) = (new(*total), new(*term));
+                    }
+                }
+            }
+        }
+        self.outputs.iter_mut().for_each(|output| *output = new(*output));
+    }
+
     /// Calls a function for each value that operations and totals read, and for each output.
     pub(crate) fn each_read(&self, mut show: impl FnMut(Value)) {
-        for (_, mut op) in self.operations() {
-            op.each_operand(|value| show(*value));
+        for (_, op) in self.operations() {
+            op.map(&mut show);
         }
         for statement in &self.statements {
             if let Statement::Loop { totals, .. } = statement {
