@@ -52,17 +52,7 @@ pub fn Fixed<const N: usize>(
 //@ values [1e5, 1e5, 1e5], [1e6], [1e4, 2e4], [1e3]
 //@ values [1], [], [0, 0], [0]
 #[piola::material(domain(J > 0.0), fit)]
-pub fn Groups(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    a: Vec<f64>,
-    /** Pa. */
-    b: std::vec::Vec<f64>,
-    /** Pa. */
-    c: [f64; 2],
-    /** Pa. */
-    d: [f64; 1],
-) -> f64 {
+pub fn Groups([l1, l2, l3]: [f64; 3], a: Vec<f64>, b: std::vec::Vec<f64>, c: [f64; 2], d: [f64; 1]) -> f64 {
     sum(|p| a[p]) * (I1 - 3.0 - 2.0 * J.ln())
         + (sum(|q| b[q]) + sum(|p| d[p])) * (J - 1.0).powi(2)
         + sum(|p| c[p]) * (I1 - 3.0 - 2.0 * J.ln()).powi(2)
@@ -198,17 +188,7 @@ pub fn Literal([l1, l2, l3]: [f64; 3], mu: f64) -> f64 {
 //@ values 1e5, [0.2, 0.3], [0.7, 0.1], 1e6
 //@ points 16
 #[piola::material(domain(J > 0.0), extend)]
-pub fn Elementary(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Dimensionless. */
-    a: Vec<f64>,
-    /** Dimensionless. */
-    b: Vec<f64>,
-    /** Pa. */
-    kappa: f64,
-) -> f64 {
+pub fn Elementary([l1, l2, l3]: [f64; 3], mu: f64, a: Vec<f64>, b: Vec<f64>, kappa: f64) -> f64 {
     let x = (I1b - 3.0) / 10.0;
     let first =
         sum(|p| (a[p] * x).softplus() + (b[p] * x).tanh() + (a[p] * x + b[p]).sigmoid() + (b[p] * x).asinh());
@@ -223,17 +203,7 @@ pub fn Elementary(
 //@ values 1e5, 10, 2.59, 1e6
 //@ points 16
 #[piola::material(domain(J > 0.0, (I1b - 3.0).sqrt() < lm), admissible(lm > 1.0, k > 0.0))]
-pub fn Roots(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Dimensionless. */
-    lm: f64,
-    /** Dimensionless. */
-    k: f64,
-    /** Pa. */
-    kappa: f64,
-) -> f64 {
+pub fn Roots([l1, l2, l3]: [f64; 3], mu: f64, lm: f64, k: f64, kappa: f64) -> f64 {
     let root = (I1b - 3.0).sqrt() / lm;
     let constraint = sum(|l| {
         let s = (l / J.cbrt()).powi(2);
@@ -249,15 +219,7 @@ pub fn Roots(
 //@ values 1e5, [0.5, 1.5], [0.1, -5e5, 1, 0, 2, 3e5, 9, 4e6]
 //@ points 16
 #[piola::material(domain(J > 0.0), prestressed, extend)]
-pub fn Functions(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Dimensionless. */
-    a: Vec<f64>,
-    /** Pa. */
-    f: piola::Spline,
-) -> f64 {
+pub fn Functions([l1, l2, l3]: [f64; 3], mu: f64, a: Vec<f64>, f: piola::Spline) -> f64 {
     let listed =
         sum(|p| f(1.0 + a[p] * (l1 - 1.0)) + f(1.0 + a[p] * (l2 - 1.0)) + f(1.0 + a[p] * (l3 - 1.0)));
     let volume = f(J) + f(1.0 + J.ln().powi(2)) + f(1.0 + f(J) / 1e6);
@@ -268,14 +230,6 @@ pub fn Functions(
 //@ values [0, 1e5, 3, 1.2e5, 10, 2e5], [0, 1e4, 3, 2e4, 10, 2e4], 1e6
 //@ points 16
 #[piola::material(domain(J > 0.0))]
-pub fn FunctionsOfInvariants(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    f: piola::Spline,
-    /** Pa. */
-    g: piola::Spline,
-    /** Pa. */
-    kappa: f64,
-) -> f64 {
+pub fn FunctionsOfInvariants([l1, l2, l3]: [f64; 3], f: piola::Spline, g: piola::Spline, kappa: f64) -> f64 {
     f(I1b) + f(I1b - 3.0) + g(I2b) + kappa / 2.0 * (J - 1.0).powi(2)
 }

@@ -10,14 +10,7 @@
     admissible(lambda_m.powi(2) > 3.0, beta >= 0.0, beta <= 1.0),
     typical("arbitrary", mu = 4e5, lambda_m = 10.0, a = 0.3, beta = 0.2, kappa = 2e7)
 )]
-fn VanDerWaals(
-    [l1, l2, l3]: [f64; 3],
-    mu: f64,
-    lambda_m: f64,
-    a: f64,
-    beta: f64,
-    kappa: f64,
-) -> f64 {
+fn VanDerWaals([l1, l2, l3]: [f64; 3], mu: f64, lambda_m: f64, a: f64, beta: f64, kappa: f64) -> f64 {
     let limit = lambda_m.powi(2) - 3.0;
     let strain = (1.0 - beta) * I1b + beta * I2b - 3.0;
     let near = strain.powf(0.5) / limit.sqrt();
@@ -36,14 +29,7 @@ fn VanDerWaals(
         f = [1.0, 1.0e5, 3.0, 1.0e5, 10.0, 1.4e5, 40.0, 9.0e5], c2 = 2e5, gamma = 0.7, c3 = 1e4, kappa = 2e7
     )
 )]
-fn Alexander(
-    [l1, l2, l3]: [f64; 3],
-    f: Spline,
-    c2: f64,
-    gamma: f64,
-    c3: f64,
-    kappa: f64,
-) -> f64 {
+fn Alexander([l1, l2, l3]: [f64; 3], f: Spline, c2: f64, gamma: f64, c3: f64, kappa: f64) -> f64 {
     let y = I2b - 3.0;
     f(I1b) + c2 * (1.0 + y / gamma).ln() + c3 * y + kappa / 2.0 * (J - 1.0).powi(2)
 }
@@ -82,14 +68,7 @@ fn DianiRey([l1, l2, l3]: [f64; 3], f: Spline, g: Spline, kappa: f64) -> f64 {
     admissible(n > 0.0),
     typical("arbitrary", C1 = 2e5, C2 = 3e4, C3 = 5e3, n = 0.6, kappa = 2e7)
 )]
-fn YamashitaKawabata(
-    [l1, l2, l3]: [f64; 3],
-    C1: f64,
-    C2: f64,
-    C3: f64,
-    n: f64,
-    kappa: f64,
-) -> f64 {
+fn YamashitaKawabata([l1, l2, l3]: [f64; 3], C1: f64, C2: f64, C3: f64, n: f64, kappa: f64) -> f64 {
     let shape = C1 * (I1b - 3.0) + C2 * (I2b - 3.0) + C3 / (n + 1.0) * (I1b - 3.0).powf(n + 1.0);
     shape + kappa / 2.0 * (J - 1.0).powi(2)
 }
@@ -102,16 +81,7 @@ fn YamashitaKawabata(
     admissible(C > 0.0, D > 0.0, n < 2.0, m > -2.0),
     typical("arbitrary", A = 2e5, B = 1e4, C = 0.1, D = 1.5, n = 0.5, m = 1.0, kappa = 2e7)
 )]
-fn Gregory(
-    [l1, l2, l3]: [f64; 3],
-    A: f64,
-    B: f64,
-    C: f64,
-    D: f64,
-    n: f64,
-    m: f64,
-    kappa: f64,
-) -> f64 {
+fn Gregory([l1, l2, l3]: [f64; 3], A: f64, B: f64, C: f64, D: f64, n: f64, m: f64, kappa: f64) -> f64 {
     let x = I1b - 3.0;
     let soft = A / (2.0 - n) * (x + C * C).powf(1.0 - n / 2.0);
     let stiff = B / (2.0 + m) * (x + D * D).powf(1.0 + m / 2.0);
@@ -196,14 +166,7 @@ fn ConstitutiveNetwork(
     admissible(k > 4.0, q > 0.0),
     typical("arbitrary", mu_c = 1e5, k = 40.0, q = 1.1, mu_t = 3e5, kappa = 2e7)
 )]
-fn KhiemItskov(
-    [l1, l2, l3]: [f64; 3],
-    mu_c: f64,
-    k: f64,
-    q: f64,
-    mu_t: f64,
-    kappa: f64,
-) -> f64 {
+fn KhiemItskov([l1, l2, l3]: [f64; 3], mu_c: f64, k: f64, q: f64, mu_t: f64, kappa: f64) -> f64 {
     let at_rest = PI / k.sqrt();
     let stretch = (I1b / 3.0).powf(q / 2.0);
     let chains = mu_c * k * (at_rest.sin() * stretch / (at_rest * stretch).sin()).ln();
@@ -273,13 +236,7 @@ fn Bimodular([l1, l2, l3]: [f64; 3], f: Spline, lambda: f64) -> f64 {
     domain(J > 0.0),
     typical("arbitrary", C = [2e5, 1e4, -5e2, 3e1], i = [1, 0, 1, 3], j = [0, 1, 1, 0], kappa = 2e7)
 )]
-fn Rivlin(
-    [l1, l2, l3]: [f64; 3],
-    C: Vec<f64>,
-    i: Vec<u32>,
-    j: Vec<u32>,
-    kappa: f64,
-) -> f64 {
+fn Rivlin([l1, l2, l3]: [f64; 3], C: Vec<f64>, i: Vec<u32>, j: Vec<u32>, kappa: f64) -> f64 {
     let shape = sum(|p| C[p] * (I1b - 3.0).powi(i[p]) * (I2b - 3.0).powi(j[p]));
     shape + kappa / 2.0 * (J - 1.0).powi(2)
 }
