@@ -16,7 +16,7 @@
 //!   `STABILITY.md`;
 //! * `speed/`, a crate of its own: what is timed and counted;
 //! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
-//! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
+//! * `tests/bits.rs`: the catalogue at random patterns of bits;
 //! * `tests/declarations/`: contract, expressions, batches, constructors and printed C of the catalogue and
 //!   of the folder `declarations/`, and the messages about mistaken declarations;
 //! * `tests/oracles/`: the oracles themselves, against known values;

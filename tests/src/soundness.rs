@@ -99,8 +99,6 @@ impl fmt::Display for Fault {
     }
 }
 
-impl std::error::Error for Fault {}
-
 /// For any entries of F a clean status means finite numbers, and the status does not depend on the requested
 /// results.
 ///
