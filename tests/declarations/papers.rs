@@ -4,7 +4,6 @@
 //! derivative or an integral is a spline here: its numbers are arbitrary.
 
 /// Rubber as a gas of chains [Kilian, *Equation of state of real networks*, Polymer 22, 1981].
-//@ points 16
 #[material(
     domain(J > 0.0, (1.0 - beta) * I1b + beta * I2b < lambda_m.powi(2)),
     admissible(lambda_m.powi(2) > 3.0, beta >= 0.0, beta <= 1.0),
@@ -20,7 +19,6 @@ fn VanDerWaals([l1, l2, l3]: [f64; 3], mu: f64, lambda_m: f64, a: f64, beta: f64
 
 /// A constitutive relation for rubberlike materials [Alexander, Int. J. Eng. Sci. 6, 1968]; its
 /// integral of exp(k (I1 − 3)²) is a spline.
-//@ points 16
 #[material(
     domain(J > 0.0),
     admissible(gamma > 0.0),
@@ -36,7 +34,6 @@ fn Alexander([l1, l2, l3]: [f64; 3], f: Spline, c2: f64, gamma: f64, c3: f64, ka
 
 /// A sum over the stretches [Shariff, *Strain energy function for filled and unfilled rubberlike
 /// material*, Rubber Chem. Technol. 73, 2000].
-//@ points 16
 #[material(
     domain(J > 0.0),
     typical("arbitrary", phi = [0.1, -4e5, 0.5, -1.5e5, 1.0, 0.0, 2.0, 1.2e5, 5.0, 4e5], kappa = 2e7)
@@ -47,7 +44,6 @@ fn Shariff([l1, l2, l3]: [f64; 3], phi: Spline, kappa: f64) -> f64 {
 
 /// A function of each invariant [Lambert-Diani, Rey, *New phenomenological behavior laws for rubbers
 /// and thermoplastic elastomers*, Eur. J. Mech. A 18, 1999].
-//@ points 16
 #[material(
     domain(J > 0.0),
     typical(
@@ -62,7 +58,6 @@ fn DianiRey([l1, l2, l3]: [f64; 3], f: Spline, g: Spline, kappa: f64) -> f64 {
 
 /// A real power of the first invariant [Yamashita, Kawabata, *Approximated form of the strain
 /// energy-density function of carbon-black filled rubbers*, Int. Polym. Sci. Technol. 20, 1993].
-//@ points 16
 #[material(
     domain(J > 0.0),
     admissible(n > 0.0),
@@ -75,7 +70,6 @@ fn YamashitaKawabata([l1, l2, l3]: [f64; 3], C1: f64, C2: f64, C3: f64, n: f64, 
 
 /// Filled rubber [Gregory, *The stress/strain behaviour of filled rubbers at moderate strains*,
 /// Plast. Rubber Mater. Appl. 4, 1979].
-//@ points 16
 #[material(
     domain(J > 0.0),
     admissible(C > 0.0, D > 0.0, n < 2.0, m > -2.0),
@@ -90,7 +84,6 @@ fn Gregory([l1, l2, l3]: [f64; 3], A: f64, B: f64, C: f64, D: f64, n: f64, m: f6
 
 /// Neo-Hookean shape with the volume of Simo, Taylor [*Penalty function formulations for
 /// incompressible nonlinear elastostatics*, Comput. Methods Appl. Mech. Eng. 35, 1982].
-//@ points 16
 #[material(domain(J > 0.0), extend(mu > 0.0, kappa > 0.0), typical("arbitrary", mu = 4e5, kappa = 2e6))]
 fn SimoTaylor([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64) -> f64 {
     mu / 2.0 * (I1b - 3.0) + kappa / 4.0 * ((J - 1.0).powi(2) + J.ln().powi(2))
@@ -99,7 +92,6 @@ fn SimoTaylor([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64) -> f64 {
 /// The volume by a hyperbolic cosine [Hartmann, Neff, *Polyconvexity of generalized polynomial-type
 /// hyperelastic strain energy functions for near-incompressibility*, Int. J. Solids Struct. 40,
 /// 2003, table 4].
-//@ points 16
 #[material(domain(J > 0.0), typical("arbitrary", mu = 4e5, kappa = 2e6))]
 fn HyperbolicVolume([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64) -> f64 {
     mu / 2.0 * (I1b - 3.0) + kappa / 4.0 * ((2.0 * J.ln()).cosh() - 1.0)
@@ -107,7 +99,6 @@ fn HyperbolicVolume([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64) -> f64 {
 
 /// A small network, convex in the invariants [Thakolkaran, Joshi, Zheng, Flaschel, De Lorenzis,
 /// Kumar, *NN-EUCLID*, J. Mech. Phys. Solids 169, 2022].
-//@ points 16
 #[material(
     domain(J > 0.0),
     typical("arbitrary", w = [2e5, 4e4], a = [0.7, 0.1], b = [0.1, 0.6], c = [-0.3, 0.2], kappa = 2e6)
@@ -126,7 +117,6 @@ fn InputConvexNetwork(
 
 /// A constitutive artificial neural network [Linka, Kuhl, *A new family of constitutive artificial
 /// neural networks*, Comput. Methods Appl. Mech. Eng. 403, 2023, eq. 36].
-//@ points 16
 #[material(
     domain(J > 0.0),
     typical(
@@ -160,7 +150,6 @@ fn ConstitutiveNetwork(
 
 /// Averages over a network [Khiêm, Itskov, *Analytical network-averaging of the tube model*, J.
 /// Mech. Phys. Solids 95, 2016].
-//@ points 16
 #[material(
     domain(J > 0.0, (I1b / 3.0).powf(q / 2.0) < k.sqrt()),
     admissible(k > 4.0, q > 0.0),
@@ -175,7 +164,6 @@ fn KhiemItskov([l1, l2, l3]: [f64; 3], mu_c: f64, k: f64, q: f64, mu_t: f64, kap
 
 /// The eight-chain solid with the inverse Langevin function of Cohen [*A Padé approximant to the
 /// inverse Langevin function*, Rheol. Acta 30, 1991].
-//@ points 16
 #[material(
     domain(J > 0.0, I1b < 3.0 * n),
     admissible(n > 1.0),
@@ -191,7 +179,6 @@ fn EightChainsByCohen([l1, l2, l3]: [f64; 3], mu: f64, n: f64, kappa: f64) -> f6
 /// Commun. Numer. Methods Eng. 25, 2009].
 // The rule on quotients integrates between two stretches, which is not exact across a knot.
 //@ breaks flips and twists keep their digits
-//@ points 16
 #[material(
     domain(J > 0.0),
     typical("arbitrary", w = [-2.0, -2e6, -0.5, -4e5, 0.0, 0.0, 0.5, 3e5, 2.0, 4e6], kappa = 2e7)
@@ -203,7 +190,6 @@ fn SussmanBathe([l1, l2, l3]: [f64; 3], w: Spline, kappa: f64) -> f64 {
 /// The elastic part of a clay: stiffer under pressure [Borja, Tamagnini, *Cam-Clay plasticity part
 /// III*, Comput. Methods Appl. Mech. Eng. 155, 1998, eq. 2.3].
 //@ range 0.85 1.2
-//@ points 16
 #[material(
     domain(J > 0.0),
     prestressed,
@@ -220,7 +206,6 @@ fn CamClay([l1, l2, l3]: [f64; 3], p: f64, k: f64, mu: f64, alpha: f64) -> f64 {
 /// Stiffer in compression than in tension [Ambartsumyan, *The axisymmetric problem of a circular
 /// cylindrical shell made of materials with different stiffness in tension and compression*, 1965],
 /// by a spline with a bend at rest.
-//@ points 16
 #[material(
     domain(J > 0.0),
     typical("arbitrary", f = [0.2, -8e5, 0.9, -1e5, 1.0, 0.0, 1.1, 4e4, 4.0, 1.2e6], lambda = 1e6)
@@ -231,7 +216,6 @@ fn Bimodular([l1, l2, l3]: [f64; 3], f: Spline, lambda: f64) -> f64 {
 
 /// Terms of both invariants, as many as there are data [Rivlin, *Large elastic deformations of
 /// isotropic materials IV*, Phil. Trans. R. Soc. A 241, 1948].
-//@ points 16
 #[material(
     domain(J > 0.0),
     typical("arbitrary", C = [2e5, 1e4, -5e2, 3e1], i = [1, 0, 1, 3], j = [0, 1, 1, 0], kappa = 2e7)
@@ -243,7 +227,6 @@ fn Rivlin([l1, l2, l3]: [f64; 3], C: Vec<f64>, i: Vec<u32>, j: Vec<u32>, kappa: 
 
 /// Resistance to extension and to its inverse [Gao, *Large deformation field near a crack tip in
 /// rubber-like material*, Theor. Appl. Fract. Mech. 26, 1997].
-//@ points 16
 #[material(
     domain(J > 0.0),
     admissible(n > 0.0),
@@ -255,7 +238,6 @@ fn Gao([l1, l2, l3]: [f64; 3], a: f64, n: f64) -> f64 {
 }
 
 /// Roots within roots and logarithms of sums, of no paper.
-//@ points 16
 #[material(domain(J > 0.0), typical("arbitrary", mu = 4e5, kappa = 2e6))]
 fn NestedRoots([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64) -> f64 {
     let root = (1.0 + (I1b + I2b.sqrt()).sqrt()).ln();
@@ -264,7 +246,6 @@ fn NestedRoots([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64) -> f64 {
 
 /// Hooke's law of any strain of the family [Hill, *On constitutive inequalities for simple
 /// materials*, J. Mech. Phys. Solids 16, 1968].
-//@ points 16
 #[material(
     domain(J > 0.0),
     admissible(m != 0.0),
@@ -277,7 +258,6 @@ fn SethHill([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64, m: f64) -> f64 {
 }
 
 /// A modulus that saturates by a hyperbolic tangent and an arctangent, of no paper.
-//@ points 16
 #[material(domain(J > 0.0), typical("arbitrary", mu = 4e5, c = 3.0, kappa = 2e6))]
 fn Saturating([l1, l2, l3]: [f64; 3], mu: f64, c: f64, kappa: f64) -> f64 {
     let x = (I1b - 3.0) / c;
@@ -286,7 +266,6 @@ fn Saturating([l1, l2, l3]: [f64; 3], mu: f64, c: f64, kappa: f64) -> f64 {
 
 /// A volume that a drawn barrier keeps from vanishing [Li et al., *Incremental potential contact*,
 /// ACM Trans. Graph. 39, 2020, has such barriers of distances].
-//@ points 16
 #[material(
     domain(J > 0.0),
     typical("arbitrary", mu = 4e5, b = [0.0, -9e6, 0.2, -2e6, 0.6, -2e5, 1.0, 0.0, 2.0, 1e6])

@@ -50,7 +50,8 @@ fn settings(sample: &Sample) -> Settings {
         _ => sample.text.pair("range").unwrap_or(default.range),
     };
     // Interpreted with dual numbers, long energies take seconds.
-    let points = sample.text.number("points").map_or(default.points, |points| points as usize);
+    let few = if sample.is_of_catalogue { default.points } else { 16 };
+    let points = sample.text.number("points").map_or(few, |points| points as usize);
     Settings { points, range, stress_free_at_rest: !sample.is_prestressed(), ..default }
 }
 
