@@ -5,6 +5,7 @@
 //! * [`declared`]: an energy's expressions, for what its compiled form cannot say;
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
+//! * [`ways`]: functions of numbers by every back end;
 //! * [`energies`]: the catalogue behind pointers; [`compiled`]: the evaluation of a point, compiled once;
 //! * [`answers`]: all that a batch computes;
 //! * [`twins`]: compiled and interpreted materials, compared;
@@ -37,6 +38,7 @@ pub mod quotients;
 pub mod random;
 pub mod soundness;
 pub mod twins;
+pub mod ways;
 
 /// True if the tests judge all cases that they have: with `PIOLA_FULL` in the environment.
 #[must_use]
