@@ -256,13 +256,13 @@ impl Judge<'_> {
             Precision::F64 => ("f64", f64::UNIT_ROUNDOFF, f64::is_finite),
             Precision::F32 => ("f32", f32::UNIT_ROUNDOFF, |x| (x as f32).is_finite()),
         };
-        let Answer { energy: (energy, of_energy), stress: (stress, of_stress), tangent, projected } = answer;
+        let [(energy, of_energy), (stress, of_stress), (plain, of_plain), (clamped, of_clamped)] = answer;
         let results = [
-            (Quantity::Energy, of_energy, vec![energy]),
+            (Quantity::Energy, of_energy, energy),
             (Quantity::Stress, of_stress, stress),
-            (Quantity::Stress, tangent.2, tangent.0),
-            (Quantity::Tangent, tangent.2, tangent.1),
-            (Quantity::Projected, projected.2, projected.1),
+            (Quantity::Stress, of_plain, plain[..9].to_vec()),
+            (Quantity::Tangent, of_plain, plain[9..].to_vec()),
+            (Quantity::Projected, of_clamped, clamped[9..].to_vec()),
         ];
         self.verdicts(name, unit_roundoff, holds, results)
     }
