@@ -2,14 +2,8 @@
 //! under a clean status, no clean result flagged. What has entries that are not finite is flagged.
 //!
 //! 30 000 patterns for each energy and precision, shared by its ways of inversion, 10⁵ with `PIOLA_FULL`.
-//! `PIOLA_BITS` asks for another number, and with `PIOLA_BITS_ALONE` each precision is only judged by itself,
-//! without the slower comparison of the two:
-//!
-//! ```text
-//! PIOLA_BITS=3125000 PIOLA_BITS_ALONE=1 cargo test -p piola-tests --test bits -- --nocapture
-//! ```
-//!
-//! prints what was found at 10⁸ patterns of each and the time.
+//! `PIOLA_BITS` asks for another number: `PIOLA_BITS=3125000 cargo test -p piola-tests --test bits --
+//! --nocapture` prints what was found at 10⁸ patterns of each and the time.
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 #![expect(clippy::print_stdout, reason = "a count and a time to show")]
@@ -17,7 +11,6 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::OnceLock;
 use std::time::Instant;
 
 use piola::__private::random::Random;
@@ -81,11 +74,6 @@ fn patterns() -> usize {
     std::env::var("PIOLA_BITS").ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-fn alone() -> bool {
-    static ALONE: OnceLock<bool> = OnceLock::new();
-    *ALONE.get_or_init(|| std::env::var_os("PIOLA_BITS_ALONE").is_some())
-}
-
 fn every_entry<R: Judged>() {
     let start = Instant::now();
     let mut total = Tally::default();
@@ -123,8 +111,10 @@ trait Judged: Format {
     /// `closely` adds the slowest judge.
     fn judge(subject: &Subject, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault>;
 
-    /// Judges elements: the faults, each with its index.
-    fn judge_elements(subject: &Subject, F: &[Matrix3<Self>]) -> Vec<(usize, Fault)>;
+    /// Judges elements, if there are any of this precision: the faults, each with its index.
+    fn judge_elements(_: &Subject, _: &[Matrix3<Self>]) -> Vec<(usize, Fault)> {
+        Vec::new()
+    }
 }
 
 impl Judged for f64 {
@@ -133,25 +123,18 @@ impl Judged for f64 {
     }
 
     fn judge_elements(subject: &Subject, F: &[Matrix3<Self>]) -> Vec<(usize, Fault)> {
-        if alone() { Vec::new() } else { check_elements(&*subject.double, F) }
+        check_elements(&*subject.double, F)
     }
 }
 
 impl Judged for f32 {
     fn judge(subject: &Subject, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault> {
         let answer = check(Self::of(subject), F)?;
-        if alone() {
-            return Ok(answer);
-        }
         let is_flagged_early = check_single(subject, F)?;
         if closely {
             check_single_accuracy(subject, F)?;
         }
         Ok(if is_flagged_early { Answer::FlaggedEarly } else { answer })
-    }
-
-    fn judge_elements(_: &Subject, _: &[Matrix3<Self>]) -> Vec<(usize, Fault)> {
-        Vec::new()
     }
 }
 
