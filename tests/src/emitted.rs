@@ -104,7 +104,8 @@ impl Runner {
         let folder = tempfile::tempdir().map_err(|error| fail(&error))?;
         let [source, from, to] = ["energy.h", "points", "results"].map(|name| folder.path().join(name));
         std::fs::write(&source, text).map_err(|error| fail(&error))?;
-        let bytes: Vec<u8> = points.iter().flat_map(|&x| self.bytes(x)).collect();
+        let mut bytes = Vec::new();
+        points.iter().for_each(|&x| put(x, self.precision, &mut bytes));
         std::fs::write(&from, bytes).map_err(|error| fail(&error))?;
         let output = Command::new(&self.program)
             .args([&source, &from, &to])
@@ -124,12 +125,13 @@ impl Runner {
         }
         Ok(bytes.chunks_exact(of_point).map(|bytes| answer(bytes, size)).collect())
     }
+}
 
-    fn bytes(&self, number: f64) -> Vec<u8> {
-        match self.precision {
-            Precision::F32 => (number as f32).to_ne_bytes().to_vec(),
-            Precision::F64 => number.to_ne_bytes().to_vec(),
-        }
+/// Appends a number in the format of a text.
+pub fn put(number: f64, precision: Precision, to: &mut Vec<u8>) {
+    match precision {
+        Precision::F32 => to.extend((number as f32).to_ne_bytes()),
+        Precision::F64 => to.extend(number.to_ne_bytes()),
     }
 }
 
