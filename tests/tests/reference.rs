@@ -127,32 +127,33 @@ struct Table {
     passed: usize,
     flagged: usize,
     failed: usize,
-    worst: BTreeMap<(&'static str, &'static str, Quantity), Worst>,
+    /// The largest error of each energy, format and quantity, with its case.
+    worst: BTreeMap<(&'static str, &'static str, Quantity), (f64, String)>,
 }
 
 impl Table {
     /// Counts one result; returns what is wrong with it.
     fn add(&mut self, energy: &'static str, case: &Case, judgement: &Judgement) -> Option<String> {
         let complaint = match judgement.verdict {
-            Verdict::Error(error) => {
+            Ok(Some(error)) => {
                 let key = (energy, judgement.precision, judgement.quantity);
-                self.keep_worse(key, Worst { error, case: format!("{} {}", case.id, case.tag) });
+                self.keep_worse(key, (error, format!("{} {}", case.id, case.tag)));
                 // A NaN is not an error within the bound.
                 if error <= C { None } else { Some(format!("{error:.1}")) }
             }
-            Verdict::Flagged => {
+            Ok(None) => {
                 self.flagged += 1;
                 return None;
             }
-            Verdict::Status(complaint) => Some(complaint.to_owned()),
+            Err(complaint) => Some(complaint.to_owned()),
         };
         *(if complaint.is_none() { &mut self.passed } else { &mut self.failed }) += 1;
         complaint
     }
 
-    fn keep_worse(&mut self, key: (&'static str, &'static str, Quantity), found: Worst) {
+    fn keep_worse(&mut self, key: (&'static str, &'static str, Quantity), found: (f64, String)) {
         let worst = self.worst.entry(key).or_default();
-        if found.error >= worst.error {
+        if found.0 >= worst.0 {
             *worst = found;
         }
     }
@@ -171,7 +172,7 @@ impl Table {
             "Worst errors in units of u (‖X‖ + sens), for ψ of u (|ψ| + sens + Σ|terms|); each may reach {C}.\n"
         );
         println!("{:21} {:9} {:10} {:>10}  case", "material", "", "quantity", "error");
-        for ((material, precision, quantity), Worst { error, case }) in &self.worst {
+        for ((material, precision, quantity), (error, case)) in &self.worst {
             println!("{material:21} {precision:9} {:10} {error:10.3}  {case}", format!("{quantity:?}"));
         }
         let Self { cases, energies, passed, flagged, failed, .. } = self;
@@ -180,26 +181,13 @@ impl Table {
     }
 }
 
-#[derive(Default)]
-struct Worst {
-    error: f64,
-    case: String,
-}
-
 /// One result of one case.
 struct Judgement {
     precision: &'static str,
     quantity: Quantity,
-    verdict: Verdict,
-}
-
-enum Verdict {
-    /// In units of what the arithmetic can reach.
-    Error(f64),
-    /// Beyond the format, with a status to match.
-    Flagged,
-    /// The status is not the expected one.
-    Status(&'static str),
+    /// The error in units of what the arithmetic can reach, none if the result is beyond the format and its
+    /// status says so; or what is wrong with the status.
+    verdict: Result<Option<f64>, &'static str>,
 }
 
 /// A few energies for batches in single precision: polynomial, logarithmic, with real powers, with a pole.
@@ -326,20 +314,15 @@ impl Judge<'_> {
                 _ => leaves(Quantity::Stress) || leaves(Quantity::Tangent),
             };
             let verdict = match status {
-                Status { refused: true, .. } => Verdict::Status("refused, though inside the domain"),
+                Status { refused: true, .. } => Err("refused, though inside the domain"),
                 Status { nonfinite: true, .. } if !something_leaves => {
-                    Verdict::Status("flagged, though the format holds it")
+                    Err("flagged, though the format holds it")
                 }
-                Status { nonfinite, .. } if leaves(quantity) => {
-                    if nonfinite {
-                        Verdict::Flagged
-                    } else {
-                        Verdict::Status("not flagged as beyond the format")
-                    }
-                }
+                Status { nonfinite: true, .. } if leaves(quantity) => Ok(None),
+                _ if leaves(quantity) => Err("not flagged as beyond the format"),
                 _ => {
                     let noise = if quantity == Quantity::Energy { self.terms } else { 0.0 };
-                    Verdict::Error(self.case.error(quantity, &values, noise, unit_roundoff))
+                    Ok(Some(self.case.error(quantity, &values, noise, unit_roundoff)))
                 }
             };
             Judgement { precision, quantity, verdict }
