@@ -41,17 +41,11 @@ impl Text {
         self.remarks.iter().map(split).filter(move |(first, _)| *first == word).map(|(_, rest)| rest)
     }
 
-    /// The two numbers that follow a word, if it is among the remarks.
+    /// The numbers that follow a word, if it is among the remarks.
     #[must_use]
-    pub fn pair(&self, word: &str) -> Option<(f64, f64)> {
-        let (one, other) = self.remarks(word).next()?.split_once(' ').expect("two numbers");
-        Some((one.parse().expect("a number"), other.parse().expect("a number")))
-    }
-
-    /// The number that follows a word, if it is among the remarks.
-    #[must_use]
-    pub fn number(&self, word: &str) -> Option<f64> {
-        self.remarks(word).next().map(|number| number.parse().expect("a number"))
+    pub fn numbers<const N: usize>(&self, word: &str) -> Option<[f64; N]> {
+        let mut numbers = self.remarks(word).next()?.split(' ').map(|number| number.parse().ok());
+        Some(std::array::from_fn(|_| numbers.next().flatten().expect("numbers")))
     }
 }
 

@@ -11,7 +11,6 @@
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use piola::StatusCell;
 use piola::batch::{Batch, TileMaterial};
@@ -80,23 +79,6 @@ pub enum Fault {
     Inexact(Quantity),
     /// A panic.
     Panic,
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unflagged(quantity) => write!(f, "{quantity:?} is not finite and its status is clean"),
-            Self::Disagreement => write!(f, "energy, stress and tangent disagree on the domain"),
-            Self::Asymmetric => write!(f, "the tangent is not symmetric"),
-            Self::Indefinite => write!(f, "the filtered tangent has a negative eigenvalue"),
-            Self::FlaggedInRange(quantity) => write!(f, "{quantity:?} is flagged and fits the format"),
-            Self::RefusedInside => write!(f, "refused inside the domain"),
-            Self::AdmittedOutside => write!(f, "admitted outside the domain"),
-            Self::BoundedFarFromPole => write!(f, "bounded far from a pole"),
-            Self::Inexact(quantity) => write!(f, "{quantity:?} is off by more than rounding"),
-            Self::Panic => write!(f, "panic"),
-        }
-    }
 }
 
 /// For any entries of F a clean status means finite numbers, and the status does not depend on the requested

@@ -90,7 +90,7 @@ fn every_entry<R: Judged>() {
     for (name, tallies) in tallies {
         for (inversion, tally) in tallies {
             for (fault, (count, F)) in &tally.faults {
-                let _ = writeln!(report, "{count:7} × {name} {} {inversion:?}: {fault}: {F}", R::NAME);
+                let _ = writeln!(report, "{count:7} × {name} {} {inversion:?}: {fault:?}: {F}", R::NAME);
             }
             total.add(tally);
         }
