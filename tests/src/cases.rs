@@ -107,20 +107,10 @@ impl Case {
         }
         for case in &file.cases {
             for quantity in Quantity::ALL {
-                let length = match quantity {
-                    Quantity::Energy => 1,
-                    Quantity::Stress => 9,
-                    Quantity::Tangent | Quantity::Projected => 81,
-                };
-                match case.expected(quantity) {
-                    Some(values) if values.len() == length => {}
-                    _ => {
-                        return Err(format!(
-                            "{}: {}: {quantity:?} is not {length} numbers",
-                            path.display(),
-                            case.id
-                        ));
-                    }
+                let (length, values) = (case.stated(quantity).0, case.reference(quantity));
+                if values.len() != length || values.iter().any(|value| value.is_nan()) {
+                    let (path, id) = (path.display(), &case.id);
+                    return Err(format!("{path}: {id}: {quantity:?} is not {length} numbers"));
                 }
             }
         }
@@ -157,20 +147,20 @@ impl Case {
         triple.ok_or_else(|| format!("{}: the stretches are not 3 numbers", self.id))
     }
 
-    fn expected(&self, quantity: Quantity) -> Option<Vec<f64>> {
-        let texts = match quantity {
-            Quantity::Energy => std::slice::from_ref(&self.psi),
-            Quantity::Stress => &self.stress,
-            Quantity::Tangent => &self.tangent,
-            Quantity::Projected => &self.projected,
-        };
-        texts.iter().map(|text| text.parse().ok()).collect()
+    /// How many reference values there must be, the values, and their sensitivity.
+    fn stated(&self, quantity: Quantity) -> (usize, &[String], f64) {
+        match quantity {
+            Quantity::Energy => (1, std::slice::from_ref(&self.psi), self.sens.psi),
+            Quantity::Stress => (9, &self.stress, self.sens.stress),
+            Quantity::Tangent => (81, &self.tangent, self.sens.tangent),
+            Quantity::Projected => (81, &self.projected, self.sens.psd),
+        }
     }
 
     /// The reference values, nearest `f64`.
     #[must_use]
     pub fn reference(&self, quantity: Quantity) -> Vec<f64> {
-        self.expected(quantity).unwrap_or_default()
+        self.stated(quantity).1.iter().map(|text| text.parse().unwrap_or(f64::NAN)).collect()
     }
 
     /// ‖X − X*‖ in units of u (‖X*‖ + sens + noise); infinite for NaN. Rounding the reference to `f64` costs
@@ -181,12 +171,7 @@ impl Case {
     #[must_use]
     pub fn error(&self, quantity: Quantity, values: &[f64], noise: f64, unit_roundoff: f64) -> f64 {
         let expected = self.reference(quantity);
-        let sensitivity = match quantity {
-            Quantity::Energy => self.sens.psi,
-            Quantity::Stress => self.sens.stress,
-            Quantity::Tangent => self.sens.tangent,
-            Quantity::Projected => self.sens.psd,
-        };
+        let (.., sensitivity) = self.stated(quantity);
         let distance = norm(values.iter().zip(&expected).map(|(x, y)| x - y));
         let scale = norm(expected.iter().copied()) + sensitivity + noise;
         // An infinite scale would excuse everything.
