@@ -75,7 +75,6 @@ pub(super) fn number((numerator, denominator): (i32, i32)) -> Expression {
     Expression::new(format!("{:?}", numerator / denominator), value)
 }
 
-/// A parameter that is a number.
 pub(super) fn parameter(name: &str, value: f64) -> Expression {
     Expression::new(name.to_owned(), move |_| Quantity::constant(value))
 }
@@ -116,22 +115,18 @@ fn binary(
     })
 }
 
-/// a + b.
 pub(super) fn add(a: Expression, b: Expression) -> Expression {
     binary('+', a, b, |a, b| a + b)
 }
 
-/// a − b.
 pub(super) fn sub(a: Expression, b: Expression) -> Expression {
     binary('-', a, b, |a, b| a + b * Quantity::constant(-1.0))
 }
 
-/// a b.
 pub(super) fn mul(a: Expression, b: Expression) -> Expression {
     binary('*', a, b, |a, b| a * b)
 }
 
-/// a/b.
 pub(super) fn div(a: Expression, b: Expression) -> Expression {
     binary('/', a, b, |a, b| a * b.power(-1))
 }
@@ -149,7 +144,6 @@ pub(super) fn real(a: Expression, exponent: Expression) -> Expression {
     })
 }
 
-/// A function.
 pub(super) fn of(function: Function, a: Expression) -> Expression {
     Expression::new(format!("{}.{}()", a.text, function.name()), move |scope| {
         let a = a.at(scope);
