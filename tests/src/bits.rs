@@ -50,7 +50,6 @@ impl Precision for f32 {
 }
 
 /// Every entry as a double.
-#[must_use]
 pub fn widen<R: Precision>(F: &Matrix3<R>) -> Matrix3<f64> {
     F.map(|row| row.map(R::widen))
 }

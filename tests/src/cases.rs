@@ -131,7 +131,6 @@ impl Case {
     }
 
     /// The deformation gradient, rounded to a format.
-    #[must_use]
     #[expect(non_snake_case, reason = "F as in the literature")]
     pub fn F<R: Real>(&self) -> Matrix3<R> {
         [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(self.deformation[3 * i + j])))
@@ -158,7 +157,6 @@ impl Case {
     }
 
     /// The reference values, nearest `f64`.
-    #[must_use]
     pub fn reference(&self, quantity: Quantity) -> Vec<f64> {
         self.stated(quantity).1.iter().map(|text| text.parse().unwrap_or(f64::NAN)).collect()
     }
@@ -168,7 +166,6 @@ impl Case {
     ///
     /// The noise is Σ|terms| of the energy's formula for ψ, whose terms cancel near rest, and zero for the
     /// others.
-    #[must_use]
     pub fn error(&self, quantity: Quantity, values: &[f64], noise: f64, unit_roundoff: f64) -> f64 {
         let expected = self.reference(quantity);
         let (.., sensitivity) = self.stated(quantity);
@@ -186,7 +183,6 @@ impl Case {
 }
 
 /// √Σx², scaled by the largest entry, so that squares neither overflow nor vanish; NaN if an entry is.
-#[must_use]
 pub fn norm(entries: impl IntoIterator<Item = f64>) -> f64 {
     let entries: Vec<f64> = entries.into_iter().collect();
     let largest = entries.iter().fold(0.0, |a: f64, b| if b.is_nan() { f64::NAN } else { a.max(b.abs()) });

@@ -44,7 +44,6 @@ pub fn evaluate_stress<D: Deformation>(
 
 /// [`point::svd()`].
 #[inline(never)]
-#[must_use]
 pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
     point::svd(F)
 }

@@ -40,7 +40,6 @@ impl Declared {
     }
 
     /// Values for the parameters of a declaration.
-    #[must_use]
     pub fn new(declaration: &Declaration, model: Model, values: &[&[f64]], inversion: Inversion) -> Self {
         let lengths = declaration.parameters.iter().map(|parameter| parameter.length()).collect();
         let (is_extended, epsilon) = match inversion {
@@ -65,19 +64,16 @@ impl Declared {
 
     /// Σ|terms| of ψ as written inside its domain, for any parameters: every subtraction in the formula
     /// replaced by an addition of magnitudes, J/m³.
-    #[must_use]
     pub fn energy_terms(&self, values: &[&[f64]], stretches: [f64; 3]) -> f64 {
         evaluate(&self.model.graph, self.model.energy, &self.point(values, stretches)).magnitude
     }
 
     /// Σ|terms| of an expression of the model.
-    #[must_use]
     pub fn terms_of(&self, root: Id, stretches: [f64; 3]) -> f64 {
         evaluate(&self.model.graph, root, &Point { stretches, ..self.point.clone() }).magnitude
     }
 
     /// Σ|terms| of the flips and twists of the pairs, Pa.
-    #[must_use]
     pub fn terms(&self, stretches: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let variant = match &self.model.extended {
             Some(extended) if self.is_extended => extended,

@@ -47,7 +47,6 @@ impl<const LIMBS: usize> Multiprecision<LIMBS> {
     };
 
     /// The nearest `f64`: infinite where it overflows.
-    #[must_use]
     pub fn to_f64(self) -> f64 {
         match self.kind {
             Kind::Zero => 0.0,

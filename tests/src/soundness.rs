@@ -156,10 +156,6 @@ fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
 
 /// Checks a batch of tetrahedra with the corner shape at rest: where the status of one is clean, its energy,
 /// stress, forces and stiffness are finite. Returns the first fault of each that has one, by its index.
-///
-/// # Panics
-/// If the lengths are not those of the batch.
-#[must_use]
 pub fn check_elements(material: &dyn TileMaterial<f64>, F: &[Matrix3<f64>]) -> Vec<(usize, Fault)> {
     const REST: [f64; 10] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
     const FITS: &str = "the lengths are those of the points";

@@ -29,7 +29,6 @@ pub struct Scope {
 
 impl Scope {
     /// That of a whole energy.
-    #[must_use]
     pub fn new(stretches: [Quantity; 3]) -> Self {
         Self { stretches, bound: [0; 2], entry: 0 }
     }
@@ -62,7 +61,6 @@ impl Expression {
     }
 
     /// What it must be.
-    #[must_use]
     pub fn at(&self, scope: &Scope) -> Quantity {
         (self.value)(scope)
     }
@@ -85,7 +83,6 @@ pub(super) fn entry(name: &str, values: Vec<f64>) -> Expression {
 }
 
 /// An invariant.
-#[must_use]
 pub fn invariant(invariant: Invariant) -> Expression {
     Expression::new(format!("{invariant:?}"), move |scope| scope.invariant(invariant))
 }
@@ -132,7 +129,6 @@ pub(super) fn div(a: Expression, b: Expression) -> Expression {
 }
 
 /// A whole power.
-#[must_use]
 pub fn whole(a: Expression, n: i32) -> Expression {
     Expression::new(format!("{}.powi({n})", a.text), move |scope| a.at(scope).power(n))
 }

@@ -39,7 +39,6 @@ pub struct Declaration {
 
 impl Declaration {
     /// The declaration of a seed.
-    #[must_use]
     pub fn random(seed: u64) -> Self {
         let mut random = Random::new(seed);
         let is_positive = !random.once_in(6);
@@ -65,7 +64,6 @@ impl Declaration {
     }
 
     /// The declaration as it can be pasted, with the values of its parameters.
-    #[must_use]
     pub fn source(&self) -> String {
         let above = |Parameter { name, values, above }: &Parameter| {
             let index = if values.len() > 1 { "[p]" } else { "" };

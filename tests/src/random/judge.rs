@@ -70,7 +70,6 @@ pub struct Tally {
 
 impl Tally {
     /// Number of values with any of these verdicts.
-    #[must_use]
     pub fn count(&self, verdicts: &[Verdict]) -> usize {
         verdicts.iter().filter_map(|verdict| self.values.get(verdict)).sum()
     }
@@ -95,7 +94,6 @@ impl fmt::Display for Tally {
 }
 
 /// Judges the declaration of a seed at this many stretches.
-#[must_use]
 pub fn judge(seed: u64, points: usize) -> Tally {
     let declaration = Declaration::random(seed);
     let mut tally = Tally { declarations: 1, ..Tally::default() };

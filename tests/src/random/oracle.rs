@@ -51,7 +51,6 @@ const NUDGE: f64 = 1.0 / (1u128 << 70) as f64;
 const WIDE: f64 = 0.1;
 
 /// All values at stretches, none of which is zero.
-#[must_use]
 pub fn at_stretches(declaration: &Declaration, stretches: [f64; 3]) -> Point {
     let moved: [Number; 3] = std::array::from_fn(|k| {
         let factor = Number::splat(1.0) + Number::splat([2.0, -1.0, 0.5][k] * NUDGE);
@@ -97,7 +96,6 @@ pub fn at_stretches(declaration: &Declaration, stretches: [f64; 3]) -> Point {
 }
 
 /// ψ1, ψ2, ψ3 at principal strains, which are exact and may be far below u.
-#[must_use]
 pub fn at_strains(declaration: &Declaration, strains: [f64; 3]) -> [Expected; 3] {
     let is_stressed = declaration.words.contains(&"prestressed");
     let psi = energy(declaration, strains.map(|strain| Number::splat(1.0) + Number::splat(strain)));

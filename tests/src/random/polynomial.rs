@@ -40,13 +40,11 @@ pub struct Polynomial<R, const N: usize>(pub [R; N]);
 
 impl<R: Real, const N: usize> Polynomial<R, N> {
     /// A constant.
-    #[must_use]
     pub fn constant(value: R) -> Self {
         Self(std::array::from_fn(|k| if k == 0 { value } else { R::splat(0.0) }))
     }
 
     /// A stretch: its value, and one for its change.
-    #[must_use]
     pub fn stretch(k: usize, value: R) -> Self {
         let mut stretch = Self::constant(value);
         stretch.0[1 + k] = R::splat(1.0);
@@ -54,7 +52,6 @@ impl<R: Real, const N: usize> Polynomial<R, N> {
     }
 
     /// φ of the polynomial, from the coefficients φ⁽ᵏ⁾/k! of φ at its constant part.
-    #[must_use]
     pub fn compose(self, taylor: [R; 4]) -> Self {
         let mut change = self;
         change.0[0] = R::splat(0.0);
@@ -67,7 +64,6 @@ impl<R: Real, const N: usize> Polynomial<R, N> {
     }
 
     /// The derivative by the stretches of these numbers.
-    #[must_use]
     pub fn derivative(&self, by: &[usize]) -> R {
         let monomial: u32 = by.iter().map(|&k| MONOMIALS[1 + k]).sum();
         let factorials = [8, 4, 0].map(|digit| (1..=monomial >> digit & 0xf).product::<u32>());
@@ -111,7 +107,6 @@ macro_rules! functions {
             pub const ALL: &[Self] = &[$(Self::$Function,)*];
 
             /// Its name as a method.
-            #[must_use]
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$Function => stringify!($method),)*
@@ -119,7 +114,6 @@ macro_rules! functions {
             }
 
             /// φ at x.
-            #[must_use]
             pub fn of<R: Real>(self, x: R) -> R {
                 match self {
                     $(Self::$Function => x.$method(),)*
@@ -136,7 +130,6 @@ functions! {
 
 impl Function {
     /// φ, φ′, φ″/2, φ‴/6 at x.
-    #[must_use]
     pub fn taylor<R: Real>(self, x: R) -> [R; 4] {
         let n = R::splat;
         let (one, square) = (n(1.0), x * x);
@@ -196,7 +189,6 @@ fn sigmoid_slopes<R: Real>(x: R) -> (R, R) {
 }
 
 /// xʳ, and its derivatives over factorials, for a real exponent r and x > 0.
-#[must_use]
 pub fn real_power<R: Real>(x: R, exponent: R) -> [R; 4] {
     binomial_series(x.powf(exponent), x, exponent)
 }
@@ -212,7 +204,6 @@ fn binomial_series<R: Real>(power: R, x: R, exponent: R) -> [R; 4] {
 }
 
 /// xⁿ, and its derivatives over factorials, for a whole exponent n.
-#[must_use]
 pub fn whole_power<R: Real>(x: R, n: i32) -> [R; 4] {
     let one = R::splat(1.0);
     let power = |n: i32| {
