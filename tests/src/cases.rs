@@ -84,9 +84,6 @@ pub const FILES: [&str; 4] = ["cases", "cases-more", "cases-further", "cases-ord
 
 impl Case {
     /// Reads some of the [`FILES`].
-    ///
-    /// # Errors
-    /// Those of [`Self::read`].
     pub fn own(files: &[&str]) -> Result<Vec<Self>, String> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
         let cases: Result<Vec<_>, _> =
@@ -95,9 +92,6 @@ impl Case {
     }
 
     /// Reads a file of cases.
-    ///
-    /// # Errors
-    /// Where the file cannot be read or does not follow the schema; says which and why.
     pub fn read(path: &Path) -> Result<Vec<Self>, String> {
         let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
         let file: File =
@@ -118,9 +112,6 @@ impl Case {
     }
 
     /// The parameters in the order of a description.
-    ///
-    /// # Errors
-    /// Where one is missing.
     pub fn values(&self, description: &Description) -> Result<Vec<Vec<f64>>, String> {
         let value = |name: &str| match self.params.get(name) {
             Some(Value::Number(value)) => Ok(vec![*value]),
@@ -137,9 +128,6 @@ impl Case {
     }
 
     /// λ1 ≥ λ2 ≥ |λ3|, nearest `f64`.
-    ///
-    /// # Errors
-    /// Where they are not three numbers.
     pub fn stretches(&self) -> Result<[f64; 3], String> {
         let numbers: Option<Vec<f64>> = self.stretches.iter().map(|text| text.parse().ok()).collect();
         let triple = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());

@@ -7,9 +7,6 @@ use piola_codegen::model::Model;
 use piola_codegen::read::parse::Declaration;
 
 /// The declaration of a text, and its expressions.
-///
-/// # Errors
-/// Where the text is not one declaration that is understood; says why.
 pub fn understood(text: &str) -> Result<(Declaration, Model), String> {
     let mut all = piola_codegen::declarations(text).map_err(|error| format!("{error}: {text}"))?;
     let (Some((arguments, item)), true) = (all.pop(), all.is_empty()) else {
@@ -31,9 +28,6 @@ pub struct Declared {
 
 impl Declared {
     /// Reads the declaration of a text.
-    ///
-    /// # Errors
-    /// Those of [`understood`].
     pub fn read(text: &str, values: &[&[f64]], inversion: Inversion) -> Result<Self, String> {
         let (declaration, model) = understood(text)?;
         Ok(Self::new(&declaration, model, values, inversion))

@@ -33,9 +33,6 @@ const COUNTS: [usize; 4] = [1, 9, 90, 90];
 
 impl Runner {
     /// The program that the variable `PIOLA_EMITTED` names: target, precision, and path.
-    ///
-    /// # Errors
-    /// If the variable is not three words, or the first two are unknown.
     pub fn from_environment() -> Result<Option<Self>, String> {
         let Ok(text) = std::env::var("PIOLA_EMITTED") else { return Ok(None) };
         let words: Vec<_> = text.split_ascii_whitespace().collect();
@@ -50,9 +47,6 @@ impl Runner {
     }
 
     /// Results of all cases of one energy, in their order.
-    ///
-    /// # Errors
-    /// If the energy cannot be printed, or the program fails.
     pub fn answers(&self, energy: &Judged, cases: &[Case]) -> Result<Vec<Answer>, String> {
         // What the text fixes: lengths of lists and whole exponents.
         let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();

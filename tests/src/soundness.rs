@@ -83,9 +83,6 @@ pub enum Fault {
 
 /// For any entries of F a clean status means finite numbers, and the status does not depend on the requested
 /// results.
-///
-/// # Errors
-/// The first fault found.
 pub fn check<R: Precision>(material: &dyn Response<R>, F: &Matrix3<R>) -> Result<Answer, Fault> {
     let EnergyPoint { energy, status: energy_status } = evaluate_energy(material, F);
     let StressPoint { stress, status: stress_status } = evaluate_stress(material, F);
@@ -196,9 +193,6 @@ pub const ORDINARY: f64 = 30.0;
 
 /// `f32` against `f64` on the same numbers; whether it is flagged early, at stretches that are not
 /// [`ORDINARY`].
-///
-/// # Errors
-/// The first fault found.
 pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> {
     let Subject { double: material, single, .. } = subject;
     let material: &dyn Response<f64> = &**material;
@@ -241,9 +235,6 @@ pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> 
 /// outside the format, nor where they lie around the end of a domain at zero volume or a pole. A modulus
 /// times a few of the smallest numbers is allowed for intermediate numbers that underflow and a logarithm of
 /// up to 88 that multiplies them.
-///
-/// # Errors
-/// Which quantity is off.
 pub fn check_single_accuracy(subject: &Subject, F: &Matrix3<f32>) -> Result<(), Fault> {
     let single = evaluate(&*subject.single, F, Filter::None);
     let material: &dyn Response<f64> = &*subject.double;

@@ -81,9 +81,6 @@ fn own_cases() -> Result<Vec<Case>, String> {
 }
 
 /// The table of all cases of one energy, and the results that fail.
-///
-/// # Errors
-/// Why a case cannot be judged.
 fn judge_energy(
     name: &str,
     mut cases: Vec<Case>,

@@ -112,8 +112,7 @@ pub fn judge(seed: u64, points: usize) -> Tally {
     tally
 }
 
-/// # Errors
-/// The message of a refusal.
+/// Returns the message of a refusal.
 fn compile_and_run(
     declaration: &Declaration,
     seed: u64,
