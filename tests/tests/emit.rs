@@ -14,7 +14,7 @@ use std::process::Command;
 
 use piola::batch::{Batch, Kernels, Tetrahedra};
 use piola::lanes::Backend;
-use piola::point::{Filter, Matrix3};
+use piola::point::{self, Filter, Matrix3};
 use piola::{Inversion, Material, Status};
 use piola_declare::emit::{Emission, EmitError, PointFunction, Precision, Target};
 use piola_tests::cases::{Case, FILES};
@@ -77,11 +77,11 @@ fn results<R: Format + Kernels>(energy: &Judged, inversion: Inversion, F: &Matri
     let at = compiled::evaluate_stress(material, F);
     all.push((at.stress.as_flattened().to_vec(), bits(at.status)));
     for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
-        let at = compiled::evaluate_dense(material, F, filter);
+        let at = point::evaluate_dense(material, F, filter);
         all.push(([at.stress.as_flattened(), at.tangent.as_flattened()].concat(), bits(at.status)));
     }
     let finite = |numbers: &[R]| numbers.iter().all(|number| number.is_finite());
-    let svd = compiled::svd(F);
+    let svd = point::svd(F);
     let numbers = [svd.U.as_flattened(), &svd.stretches, svd.V.as_flattened()].concat();
     all.push((numbers, if finite(&svd.stretches) { 0 } else { 4 }));
     let blocks = subject.exact.blocks(svd.stretches);

@@ -16,12 +16,12 @@ use std::process::ExitCode;
 
 use piola::batch::{Batch, Kernels, TileMaterial};
 use piola::lanes::Backend;
-use piola::point::{EnergyPoint, Filter, StressPoint};
+use piola::point::{EnergyPoint, Filter, StressPoint, evaluate_dense};
 use piola::{Inversion, Real, Status};
 use piola_declare::emit::Precision;
 use piola_tests::answers::Answers;
 use piola_tests::cases::{Case, FILES, Quantity};
-use piola_tests::compiled::{evaluate, evaluate_dense, evaluate_energy, evaluate_stress};
+use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
 use piola_tests::declared::Declared;
 use piola_tests::emitted::{Answer, Runner};
 use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find, is_asked_for};
