@@ -145,6 +145,9 @@ fn compile_and_run(
     Ok(())
 }
 
+/// A name, values, what they must be, and their expressions.
+type Group<'a> = (&'a str, &'a [f64], &'a [Expected], &'a [Id]);
+
 /// Judges all programs at stretches.
 fn judge_stretches(
     declaration: &Declaration,
@@ -160,7 +163,7 @@ fn judge_stretches(
     for (word, variant, material) in plain.into_iter().chain(extended) {
         let (energy, gradient, blocks) =
             (material.energy(stretches), material.gradient(stretches), material.blocks(stretches));
-        let groups: [(&str, &[f64], &[Expected], &[Id]); 6] = [
+        let groups: [Group<'_>; 6] = [
             ("ψ", &[energy], &[point.energy], &[variant.energy]),
             ("ψi", &gradient, &point.gradient, &variant.gradient),
             ("ψi of blocks", &blocks.gradient, &point.gradient, &variant.gradient),
