@@ -16,7 +16,7 @@ use std::time::Instant;
 use piola::__private::random::Random;
 use piola::Inversion;
 use piola::point::Matrix3;
-use piola_tests::bits::Family;
+use piola_tests::bits::{FAMILIES, draw};
 use piola_tests::energies::{self, ENERGIES, Format, Subject};
 use piola_tests::soundness::{Answer, Fault, check, check_elements, check_single, check_single_accuracy};
 use rayon::prelude::*;
@@ -42,7 +42,7 @@ fn what_is_not_finite_is_said_to_be() {
     fn judge<R: Judged>(subject: &Subject, what: &str) {
         let mut random = Random::new(384);
         for _ in 0..384 {
-            let F = Family::Moderate.draw::<R>(&mut random);
+            let F: Matrix3<R> = random.matrix().map(|row| row.map(|x| R::splat(2.0 * x)));
             for entry in 0..9 {
                 for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                     let mut F = F;
@@ -165,16 +165,14 @@ fn trial<R: Judged>(subject: &Subject, seed: u64, patterns: usize) -> Tally {
     let mut tally = Tally::default();
     let all: Vec<usize> = (0..patterns).collect();
     for patterns in all.chunks(TOGETHER) {
-        let draw = |&pattern: &usize| Family::ALL[pattern % Family::ALL.len()].draw::<R>(&mut random);
-        let together: Vec<Matrix3<R>> = patterns.iter().map(draw).collect();
+        let together: Vec<Matrix3<R>> = patterns.iter().map(|&pattern| draw(pattern, &mut random)).collect();
         let mut faults = judge_elements(subject, &together);
         // A batch of few points has kernels of its own; another place in turn, so that it meets all families.
         let place = patterns[0] / TOGETHER % together.len();
         let alone = judge_elements(subject, &together[place..=place]);
         faults.extend(alone.into_iter().map(|(_, fault)| (place, fault)));
         for (at, (pattern, F)) in patterns.iter().zip(&together).enumerate() {
-            let round = pattern / Family::ALL.len();
-            match judge(subject, F, round.is_multiple_of(8)) {
+            match judge(subject, F, (pattern / FAMILIES).is_multiple_of(8)) {
                 Ok(answer) => *tally.answers.entry(answer).or_default() += 1,
                 Err(fault) => faults.push((at, fault)),
             }

@@ -18,7 +18,7 @@ use piola::point::Filter;
 use piola_declare::Energy;
 use piola_materials::{CATALOGUE, Entry, Visitor};
 use piola_tests::answers::Answers;
-use piola_tests::bits::{Family, Precision};
+use piola_tests::bits::{Precision, draw};
 use piola_tests::energies::{ENERGIES, Judged, Subject, find};
 use piola_tests::twins::{check, check_fit, responses, stretches};
 
@@ -33,8 +33,7 @@ fn compiled() -> impl Iterator<Item = (&'static Judged, &'static Entry)> {
 /// Deformation gradients of all kinds.
 fn deformations<E: Precision>(seed: u64) -> Vec<E> {
     let mut random = Random::new(seed);
-    let draw = |k: usize| Family::ALL[k % Family::ALL.len()].draw::<E>(&mut random);
-    (0..POINTS).flat_map(draw).flatten().collect()
+    (0..POINTS).flat_map(|turn| draw(turn, &mut random)).flatten().collect()
 }
 
 fn check_batches<E: Kernels + Precision>(
