@@ -51,7 +51,7 @@ fuzz_target!(|input: &[u8]| {
     // A refusal of the parameters is an answer; what it may not be is a panic.
     let Ok(subject) = energy.subject(&parameters, inversion) else { return };
     if let Err((fault, F)) = judge(&subject, switches & 1 == 1, is_typical, input) {
-        panic!("{} {parameters:?} {inversion:?}: {fault} at {F}", energy.name);
+        panic!("{} {parameters:?} {inversion:?}: {fault:?} at {F}", energy.name);
     }
 });
 

@@ -4,7 +4,6 @@
 /// A series in the isochoric invariants.
 //@ values [1, 2, 3], [1, 0, 3], [0, 2, 1], 0.7
 //@ exponents [1, 0, 3], [0, 2, 1]
-//@ points 16
 #[material(domain(J > 0.0), extend)]
 fn Isochoric([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f64) -> f64 {
     sum(|p| c[p] * (I1b - 3.0).powi(i[p]) * (I2b - 3.0).powi(j[p]))
@@ -15,7 +14,6 @@ fn Isochoric([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f
 //@ values [1.8e5, 2.1e4, 3e3, 1.1e3, 5e2, 7e2, 1.3e2, 22, 40], [1, 0, 2, 1, 0, 3, 2, 1, 0],
 //@   [0, 1, 0, 1, 2, 0, 1, 2, 3], 1e6
 //@ exponents [1, 0, 2, 1, 0, 3, 2, 1, 0], [0, 1, 0, 1, 2, 0, 1, 2, 3]
-//@ points 16
 #[material(domain(J > 0.0), extend, fit)]
 fn Rivlin([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f64) -> f64 {
     sum(|p| c[p] * (I1b - 3.0).powi(i[p]) * (I2b - 3.0).powi(j[p]))
@@ -25,7 +23,6 @@ fn Rivlin([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f64)
 /// A series in I1 and the volume.
 //@ values [1, 2, 3], [1, 0, 3], [0, 2, 1], 0.7
 //@ exponents [1, 0, 3], [0, 2, 1]
-//@ points 16
 #[material(prestressed)]
 fn Stressed([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f64) -> f64 {
     sum(|p| c[p] * (I1 - 3.0).powi(i[p]) * (J - 1.0).powi(j[p]))
@@ -35,7 +32,6 @@ fn Stressed([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f6
 /// Products of powers of each stretch.
 //@ values [1, 2, 3], [1, 0, 3], [0, 2, 1], 0.7
 //@ exponents [1, 0, 3], [0, 2, 1]
-//@ points 16
 #[material(prestressed)]
 fn OfEach([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f64) -> f64 {
     sum(|p| c[p] * sum(|l| (l - 1.0).powi(i[p]) * (l * l - 1.0).powi(j[p])))
@@ -45,7 +41,6 @@ fn OfEach([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f64)
 /// The same, for positive volumes.
 //@ values [1, 2, 3], [1, 0, 3], [0, 2, 1], 0.7
 //@ exponents [1, 0, 3], [0, 2, 1]
-//@ points 16
 #[material(prestressed, domain(J > 0.0))]
 fn OfEachInside([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f64) -> f64 {
     sum(|p| c[p] * sum(|l| (l - 1.0).powi(i[p]) * (l * l - 1.0).powi(j[p])))
@@ -56,7 +51,6 @@ fn OfEachInside([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k
 //@ values [1, 2, 3], [1, 0, 3], [0, 2, 1], 0.7
 //@ breaks shear is resisted there
 //@ exponents [1, 0, 3], [0, 2, 1]
-//@ points 16
 #[material(prestressed, domain(J > 0.0))]
 fn OfSum([l1, l2, l3]: [f64; 3], c: Vec<f64>, i: Vec<u32>, j: Vec<u32>, k: f64) -> f64 {
     sum(|p| c[p] * (l1 + l2 + l3 - 3.0).powi(i[p]) * (l1 * l2 * l3.powi(3) * l2.powi(2) * l1.powi(2)).powi(j[p]))

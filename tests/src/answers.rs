@@ -25,10 +25,6 @@ pub struct Answers<E> {
 
 impl<E: Kernels> Answers<E> {
     /// The results of a batch at deformation gradients, point by point.
-    ///
-    /// # Panics
-    /// If there are not nine entries for each point.
-    #[must_use]
     pub fn of(batch: Batch<'_, E>, F: &[E]) -> Self {
         let (n, zero) = (F.len() / 9, E::splat(0.0));
         let cells = [(); 3].map(|()| (0..n).map(|_| StatusCell::default()).collect::<Vec<_>>());
@@ -45,7 +41,6 @@ impl<E: Kernels> Answers<E> {
     }
 
     /// All numbers, one kind after the other.
-    #[must_use]
     pub fn numbers(&self) -> Vec<E> {
         [&self.energies[..], &self.stresses, &self.beside, &self.tangents].concat()
     }
@@ -78,7 +73,6 @@ pub const COUNT: usize = 150;
 pub const HUGE: usize = 41;
 
 /// Deformation gradients from gentle to inside out, a rank-deficient one and a huge one.
-#[must_use]
 pub fn deformations() -> Vec<[f64; 9]> {
     let mut all: Vec<[f64; 9]> = (0..COUNT)
         .map(|p| {

@@ -50,94 +50,67 @@ impl Precision for f32 {
 }
 
 /// Every entry as a double.
-#[must_use]
 pub fn widen<R: Precision>(F: &Matrix3<R>) -> Matrix3<f64> {
     F.map(|row| row.map(R::widen))
 }
 
-/// Distribution from which a deformation gradient is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Family {
-    /// Nine independent patterns of bits.
-    Bits,
-    /// Nine patterns of bits with the exponent in common.
-    OneMagnitude,
-    /// Entries from a few special numbers, hence duplicates, zeros, subnormal and largest numbers.
-    Palette,
-    /// A permuted diagonal matrix of independent patterns of bits.
-    Diagonal,
-    /// Rotation times stretches of chosen spread times rotation, some of them equal, opposite, zero or
-    /// reflected.
-    Frames,
-    /// Sums of one or two products of vectors: rank 1 and, up to rounding, rank 2.
-    Deficient,
-    /// A rotation, or the identity, with a disturbance of any smaller magnitude.
-    NearRest,
-    /// Entries uniform in −2 … 2.
-    Moderate,
-}
+/// Number of families of deformation gradients.
+pub const FAMILIES: usize = 8;
 
-impl Family {
-    /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::Bits,
-        Self::OneMagnitude,
-        Self::Palette,
-        Self::Diagonal,
-        Self::Frames,
-        Self::Deficient,
-        Self::NearRest,
-        Self::Moderate,
-    ];
-
-    /// A deformation gradient with finite entries.
-    pub fn draw<R: Precision>(self, random: &mut Random) -> Matrix3<R> {
-        loop {
-            let F = self.candidate(random);
-            // Products of large numbers may have overflowed.
-            if F.iter().flatten().all(|x: &R| x.is_finite()) {
-                return F;
-            }
+/// A deformation gradient with finite entries, of each of the [`FAMILIES`] in turn.
+pub fn draw<R: Precision>(turn: usize, random: &mut Random) -> Matrix3<R> {
+    loop {
+        let F = candidate(turn % FAMILIES, random);
+        // Products of large numbers may have overflowed.
+        if F.iter().flatten().all(|x: &R| x.is_finite()) {
+            return F;
         }
     }
+}
 
-    fn candidate<R: Precision>(self, random: &mut Random) -> Matrix3<R> {
-        match self {
-            Self::Bits => matrix(|_, _| finite(random)),
-            Self::OneMagnitude => {
-                let power = magnitude(random, full_range::<R>());
-                matrix(|_, _| R::splat(power * random.uniform(-2.0, 2.0)))
-            }
-            Self::Palette => {
-                let palette: [R; 3] = std::array::from_fn(|_| special(random));
-                matrix(|_, _| palette[random.below(3)])
-            }
-            Self::Diagonal => {
-                let shift = random.below(3);
-                matrix(|i, j| if (i + shift) % 3 == j { finite(random) } else { R::splat(0.0) })
-            }
-            Self::Frames => frames(random),
-            Self::Deficient => {
-                let power = magnitude(random, full_range::<R>());
-                let spread = random.below(40) as i32;
-                let mut vector = || -> [f64; 3] {
-                    std::array::from_fn(|_| {
-                        // Small integers make the products exact, so that the rank is.
-                        let integer = random.below(9) as f64 - 4.0;
-                        integer * 2f64.powi(random.below(spread as usize + 1) as i32)
-                    })
-                };
-                let (a, b, c, d) = (vector(), vector(), vector(), vector());
-                let second = if random.once_in(2) { 0.0 } else { 1.0 };
-                matrix(|i, j| R::splat(power * (a[i] * b[j] + second * c[i] * d[j])))
-            }
-            Self::NearRest => {
-                let rest = if random.once_in(2) { IDENTITY } else { random.rotation() };
-                let size = 2f64.powi(-(random.below(70) as i32));
-                matrix(|i, j| R::splat(rest[i][j] + size * random.uniform(-1.0, 1.0)))
-            }
-            Self::Moderate => matrix(|_, _| R::splat(random.uniform(-2.0, 2.0))),
+fn candidate<R: Precision>(family: usize, random: &mut Random) -> Matrix3<R> {
+    match family {
+        // Nine independent patterns of bits.
+        0 => matrix(|_, _| finite(random)),
+        // Nine patterns of bits with the exponent in common.
+        1 => {
+            let power = magnitude(random, full_range::<R>());
+            matrix(|_, _| R::splat(power * random.uniform(-2.0, 2.0)))
         }
+        // Entries from a few special numbers, hence duplicates, zeros, subnormal and largest numbers.
+        2 => {
+            let palette: [R; 3] = std::array::from_fn(|_| special(random));
+            matrix(|_, _| palette[random.below(3)])
+        }
+        // A permuted diagonal matrix of independent patterns of bits.
+        3 => {
+            let shift = random.below(3);
+            matrix(|i, j| if (i + shift) % 3 == j { finite(random) } else { R::splat(0.0) })
+        }
+        4 => frames(random),
+        // Sums of one or two products of vectors: rank 1 and, up to rounding, rank 2.
+        5 => {
+            let power = magnitude(random, full_range::<R>());
+            let spread = random.below(40) as i32;
+            let mut vector = || -> [f64; 3] {
+                std::array::from_fn(|_| {
+                    // Small integers make the products exact, so that the rank is.
+                    let integer = random.below(9) as f64 - 4.0;
+                    integer * 2f64.powi(random.below(spread as usize + 1) as i32)
+                })
+            };
+            let (a, b, c, d) = (vector(), vector(), vector(), vector());
+            let second = if random.once_in(2) { 0.0 } else { 1.0 };
+            matrix(|i, j| R::splat(power * (a[i] * b[j] + second * c[i] * d[j])))
+        }
+        // A rotation, or the identity, with a disturbance of any smaller magnitude.
+        6 => {
+            let rest = if random.once_in(2) { IDENTITY } else { random.rotation() };
+            let size = 2f64.powi(-(random.below(70) as i32));
+            matrix(|i, j| R::splat(rest[i][j] + size * random.uniform(-1.0, 1.0)))
+        }
+        // Moderate entries.
+        _ => matrix(|_, _| R::splat(random.uniform(-2.0, 2.0))),
     }
 }
 
@@ -187,7 +160,8 @@ fn special<R: Precision>(random: &mut Random) -> R {
     if random.once_in(2) { -magnitude } else { magnitude }
 }
 
-/// U diag(λ) Vᵀ, where the λ lie within a window of exponents.
+/// U diag(λ) Vᵀ, where the λ lie within a window of exponents, some of them equal, opposite, zero or
+/// reflected.
 fn frames<R: Precision>(random: &mut Random) -> Matrix3<R> {
     let (low, high) = full_range::<R>();
     let width = [2, 12, 60, high - low][random.below(4)];

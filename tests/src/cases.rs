@@ -84,9 +84,6 @@ pub const FILES: [&str; 4] = ["cases", "cases-more", "cases-further", "cases-ord
 
 impl Case {
     /// Reads some of the [`FILES`].
-    ///
-    /// # Errors
-    /// Those of [`Self::read`].
     pub fn own(files: &[&str]) -> Result<Vec<Self>, String> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
         let cases: Result<Vec<_>, _> =
@@ -95,9 +92,6 @@ impl Case {
     }
 
     /// Reads a file of cases.
-    ///
-    /// # Errors
-    /// Where the file cannot be read or does not follow the schema; says which and why.
     pub fn read(path: &Path) -> Result<Vec<Self>, String> {
         let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
         let file: File =
@@ -107,20 +101,10 @@ impl Case {
         }
         for case in &file.cases {
             for quantity in Quantity::ALL {
-                let length = match quantity {
-                    Quantity::Energy => 1,
-                    Quantity::Stress => 9,
-                    Quantity::Tangent | Quantity::Projected => 81,
-                };
-                match case.expected(quantity) {
-                    Some(values) if values.len() == length => {}
-                    _ => {
-                        return Err(format!(
-                            "{}: {}: {quantity:?} is not {length} numbers",
-                            path.display(),
-                            case.id
-                        ));
-                    }
+                let (length, values) = (case.stated(quantity).0, case.reference(quantity));
+                if values.len() != length || values.iter().any(|value| value.is_nan()) {
+                    let (path, id) = (path.display(), &case.id);
+                    return Err(format!("{path}: {id}: {quantity:?} is not {length} numbers"));
                 }
             }
         }
@@ -128,9 +112,6 @@ impl Case {
     }
 
     /// The parameters in the order of a description.
-    ///
-    /// # Errors
-    /// Where one is missing.
     pub fn values(&self, description: &Description) -> Result<Vec<Vec<f64>>, String> {
         let value = |name: &str| match self.params.get(name) {
             Some(Value::Number(value)) => Ok(vec![*value]),
@@ -141,36 +122,31 @@ impl Case {
     }
 
     /// The deformation gradient, rounded to a format.
-    #[must_use]
     #[expect(non_snake_case, reason = "F as in the literature")]
     pub fn F<R: Real>(&self) -> Matrix3<R> {
         [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(self.deformation[3 * i + j])))
     }
 
     /// λ1 ≥ λ2 ≥ |λ3|, nearest `f64`.
-    ///
-    /// # Errors
-    /// Where they are not three numbers.
     pub fn stretches(&self) -> Result<[f64; 3], String> {
         let numbers: Option<Vec<f64>> = self.stretches.iter().map(|text| text.parse().ok()).collect();
         let triple = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
         triple.ok_or_else(|| format!("{}: the stretches are not 3 numbers", self.id))
     }
 
-    fn expected(&self, quantity: Quantity) -> Option<Vec<f64>> {
-        let texts = match quantity {
-            Quantity::Energy => std::slice::from_ref(&self.psi),
-            Quantity::Stress => &self.stress,
-            Quantity::Tangent => &self.tangent,
-            Quantity::Projected => &self.projected,
-        };
-        texts.iter().map(|text| text.parse().ok()).collect()
+    /// How many reference values there must be, the values, and their sensitivity.
+    fn stated(&self, quantity: Quantity) -> (usize, &[String], f64) {
+        match quantity {
+            Quantity::Energy => (1, std::slice::from_ref(&self.psi), self.sens.psi),
+            Quantity::Stress => (9, &self.stress, self.sens.stress),
+            Quantity::Tangent => (81, &self.tangent, self.sens.tangent),
+            Quantity::Projected => (81, &self.projected, self.sens.psd),
+        }
     }
 
     /// The reference values, nearest `f64`.
-    #[must_use]
     pub fn reference(&self, quantity: Quantity) -> Vec<f64> {
-        self.expected(quantity).unwrap_or_default()
+        self.stated(quantity).1.iter().map(|text| text.parse().unwrap_or(f64::NAN)).collect()
     }
 
     /// ‖X − X*‖ in units of u (‖X*‖ + sens + noise); infinite for NaN. Rounding the reference to `f64` costs
@@ -178,15 +154,9 @@ impl Case {
     ///
     /// The noise is Σ|terms| of the energy's formula for ψ, whose terms cancel near rest, and zero for the
     /// others.
-    #[must_use]
     pub fn error(&self, quantity: Quantity, values: &[f64], noise: f64, unit_roundoff: f64) -> f64 {
         let expected = self.reference(quantity);
-        let sensitivity = match quantity {
-            Quantity::Energy => self.sens.psi,
-            Quantity::Stress => self.sens.stress,
-            Quantity::Tangent => self.sens.tangent,
-            Quantity::Projected => self.sens.psd,
-        };
+        let (.., sensitivity) = self.stated(quantity);
         let distance = norm(values.iter().zip(&expected).map(|(x, y)| x - y));
         let scale = norm(expected.iter().copied()) + sensitivity + noise;
         // An infinite scale would excuse everything.
@@ -201,7 +171,6 @@ impl Case {
 }
 
 /// √Σx², scaled by the largest entry, so that squares neither overflow nor vanish; NaN if an entry is.
-#[must_use]
 pub fn norm(entries: impl IntoIterator<Item = f64>) -> f64 {
     let entries: Vec<f64> = entries.into_iter().collect();
     let largest = entries.iter().fold(0.0, |a: f64, b| if b.is_nan() { f64::NAN } else { a.max(b.abs()) });

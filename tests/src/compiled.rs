@@ -2,11 +2,8 @@
 //!
 //! In `piola` it is inlined wherever it is called, for the sake of speed. A judge calls it at many places.
 
-#![expect(non_snake_case, reason = "F as in the literature")]
-
-use piola::Real;
 use piola::material::Response;
-use piola::point::{self, Deformation, DensePoint, EnergyPoint, Filter, Matrix3, Point, StressPoint, Svd};
+use piola::point::{self, Deformation, EnergyPoint, Filter, Point, StressPoint};
 
 /// [`point::evaluate`].
 #[inline(never)]
@@ -16,12 +13,6 @@ pub fn evaluate<D: Deformation>(
     filter: Filter,
 ) -> Point<D::Real> {
     point::evaluate(material, deformation, filter)
-}
-
-/// [`point::evaluate_dense`].
-#[inline(never)]
-pub fn evaluate_dense<R: Real>(material: &dyn Response<R>, F: &Matrix3<R>, filter: Filter) -> DensePoint<R> {
-    point::evaluate_dense(material, F, filter)
 }
 
 /// [`point::evaluate_energy`].
@@ -40,11 +31,4 @@ pub fn evaluate_stress<D: Deformation>(
     deformation: D,
 ) -> StressPoint<D::Real> {
     point::evaluate_stress(material, deformation)
-}
-
-/// [`point::svd()`].
-#[inline(never)]
-#[must_use]
-pub fn svd<R: Real>(F: &Matrix3<R>) -> Svd<R> {
-    point::svd(F)
 }

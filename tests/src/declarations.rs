@@ -41,25 +41,14 @@ impl Text {
         self.remarks.iter().map(split).filter(move |(first, _)| *first == word).map(|(_, rest)| rest)
     }
 
-    /// The two numbers that follow a word, if it is among the remarks.
-    #[must_use]
-    pub fn pair(&self, word: &str) -> Option<(f64, f64)> {
-        let (one, other) = self.remarks(word).next()?.split_once(' ').expect("two numbers");
-        Some((one.parse().expect("a number"), other.parse().expect("a number")))
-    }
-
-    /// The number that follows a word, if it is among the remarks.
-    #[must_use]
-    pub fn number(&self, word: &str) -> Option<f64> {
-        self.remarks(word).next().map(|number| number.parse().expect("a number"))
+    /// The numbers that follow a word, if it is among the remarks.
+    pub fn numbers<const N: usize>(&self, word: &str) -> Option<[f64; N]> {
+        let mut numbers = self.remarks(word).next()?.split(' ').map(|number| number.parse().ok());
+        Some(std::array::from_fn(|_| numbers.next().flatten().expect("numbers")))
     }
 }
 
 /// Values as a remark has them: numbers, `"inf"` and `"NaN"` among them, and lists of these.
-///
-/// # Panics
-/// If they are not.
-#[must_use]
 pub fn values(text: &str) -> Values {
     let number = |value: &Value| match value {
         Value::String(word) => word.parse().expect("inf or NaN"),
@@ -74,16 +63,11 @@ pub fn values(text: &str) -> Values {
 }
 
 /// Slices of values, as constructors take them.
-#[must_use]
 pub fn slices(values: &Values) -> Vec<&[f64]> {
     values.iter().map(Vec::as_slice).collect()
 }
 
 /// All declarations of a file of the folder.
-///
-/// # Panics
-/// If the file cannot be read.
-#[must_use]
 pub fn texts(file: &str) -> Vec<Text> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("declarations").join(format!("{file}.rs"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
@@ -104,7 +88,6 @@ pub struct Sample {
 
 impl Sample {
     /// An energy of the catalogue.
-    #[must_use]
     pub fn of_catalogue(judged: &'static Judged) -> Self {
         let text = Text { source: judged.energy.text().to_owned(), remarks: Vec::new() };
         Self { judged, text, is_of_catalogue: true }
@@ -118,7 +101,6 @@ impl Sample {
     }
 
     /// The sets of parameters that are to be judged: the typical one, and those of the remarks.
-    #[must_use]
     pub fn values(&self) -> Vec<Values> {
         let typical: Values = self.judged.typical().into_iter().map(<[f64]>::to_vec).collect();
         let is_given = self.judged.description().parameters.len() == typical.len();
@@ -127,30 +109,23 @@ impl Sample {
     }
 
     /// True if these are the typical values.
-    #[must_use]
     pub fn is_typical(&self, values: &Values) -> bool {
         self.judged.typical() == slices(values)
     }
 
     /// True if a parameter is a function.
-    #[must_use]
     pub fn has_functions(&self) -> bool {
         let mut parameters = self.judged.description().parameters.iter();
         parameters.any(|parameter| matches!(parameter.form, Form::Function | Form::Points))
     }
 
     /// True if the rest state may carry a stress.
-    #[must_use]
     pub fn is_prestressed(&self) -> bool {
         self.text.source.contains("prestressed")
     }
 }
 
 /// The energies of the files.
-///
-/// # Panics
-/// If a file cannot be read, or a declaration has a mistake.
-#[must_use]
 pub fn samples(files: &[&str]) -> Vec<Sample> {
     let of =
         |file: &&str| texts(file).into_iter().map(|text| Sample::declared(file, text)).collect::<Vec<_>>();
@@ -158,10 +133,6 @@ pub fn samples(files: &[&str]) -> Vec<Sample> {
 }
 
 /// The energy of that name in a file.
-///
-/// # Panics
-/// If there is none.
-#[must_use]
 pub fn find(file: &str, name: &str) -> Sample {
     let text = texts(file).into_iter().find(|text| text.source.contains(&format!("fn {name}")));
     Sample::declared(file, text.unwrap_or_else(|| panic!("{file}: {name}")))

@@ -1,14 +1,12 @@
 //! An energy in the form that its compiler reads, for checks of its expressions.
 
 use piola::Inversion;
-use piola_codegen::algebra::interpret::{Memo, Point, evaluate, evaluate_with};
+use piola_codegen::algebra::expr::Id;
+use piola_codegen::algebra::interpret::{Point, evaluate};
 use piola_codegen::model::Model;
 use piola_codegen::read::parse::Declaration;
 
 /// The declaration of a text, and its expressions.
-///
-/// # Errors
-/// Where the text is not one declaration that is understood; says why.
 pub fn understood(text: &str) -> Result<(Declaration, Model), String> {
     let mut all = piola_codegen::declarations(text).map_err(|error| format!("{error}: {text}"))?;
     let (Some((arguments, item)), true) = (all.pop(), all.is_empty()) else {
@@ -20,7 +18,8 @@ pub fn understood(text: &str) -> Result<(Declaration, Model), String> {
 /// An energy with parameters, as expressions.
 #[derive(Debug)]
 pub struct Declared {
-    model: Model,
+    /// The expressions.
+    pub model: Model,
     /// Length of the list of each parameter; `None` for scalars.
     lengths: Vec<Option<usize>>,
     point: Point,
@@ -29,11 +28,13 @@ pub struct Declared {
 
 impl Declared {
     /// Reads the declaration of a text.
-    ///
-    /// # Errors
-    /// Those of [`understood`].
     pub fn read(text: &str, values: &[&[f64]], inversion: Inversion) -> Result<Self, String> {
         let (declaration, model) = understood(text)?;
+        Ok(Self::new(&declaration, model, values, inversion))
+    }
+
+    /// Values for the parameters of a declaration.
+    pub fn new(declaration: &Declaration, model: Model, values: &[&[f64]], inversion: Inversion) -> Self {
         let lengths = declaration.parameters.iter().map(|parameter| parameter.length()).collect();
         let (is_extended, epsilon) = match inversion {
             Inversion::Refuse => (false, 0.0),
@@ -41,7 +42,7 @@ impl Declared {
         };
         let point = Point { epsilon, ..Point::default() };
         let declared = Self { model, lengths, point, is_extended };
-        Ok(Self { point: declared.point(values, [1.0; 3]), ..declared })
+        Self { point: declared.point(values, [1.0; 3]), ..declared }
     }
 
     fn point(&self, values: &[&[f64]], stretches: [f64; 3]) -> Point {
@@ -57,22 +58,22 @@ impl Declared {
 
     /// Σ|terms| of ψ as written inside its domain, for any parameters: every subtraction in the formula
     /// replaced by an addition of magnitudes, J/m³.
-    #[must_use]
     pub fn energy_terms(&self, values: &[&[f64]], stretches: [f64; 3]) -> f64 {
         evaluate(&self.model.graph, self.model.energy, &self.point(values, stretches)).magnitude
     }
 
-    /// Σ|terms| of the flips and twists of the pairs, every subtraction inside them replaced by an addition
-    /// of magnitudes, Pa.
-    #[must_use]
+    /// Σ|terms| of an expression of the model.
+    pub fn terms_of(&self, root: Id, stretches: [f64; 3]) -> f64 {
+        evaluate(&self.model.graph, root, &Point { stretches, ..self.point.clone() }).magnitude
+    }
+
+    /// Σ|terms| of the flips and twists of the pairs, Pa.
     pub fn terms(&self, stretches: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let variant = match &self.model.extended {
             Some(extended) if self.is_extended => extended,
             _ => &self.model.plain,
         };
-        let point = Point { stretches, ..self.point.clone() };
-        let mut memo = Memo::default();
-        let mut terms = |id| evaluate_with(&self.model.graph, id, &point, &mut memo).magnitude;
-        (variant.flip.map(&mut terms), variant.twist.map(&mut terms))
+        let terms = |id| self.terms_of(id, stretches);
+        (variant.flip.map(terms), variant.twist.map(terms))
     }
 }

@@ -25,24 +25,14 @@ pub struct Runner {
     program: PathBuf,
 }
 
-/// Results at a point.
-#[derive(Clone, Debug)]
-pub struct Answer {
-    /// ψ.
-    pub energy: (f64, Status<bool>),
-    /// P alone.
-    pub stress: (Vec<f64>, Status<bool>),
-    /// P and dP/dF.
-    pub tangent: (Vec<f64>, Vec<f64>, Status<bool>),
-    /// P and dP/dF projected.
-    pub projected: (Vec<f64>, Vec<f64>, Status<bool>),
-}
+/// Results at a point, each with its status: ψ; P alone; P, then dP/dF; P, then dP/dF projected.
+pub type Answer = [(Vec<f64>, Status<bool>); 4];
+
+/// Numbers of the results at a point.
+const COUNTS: [usize; 4] = [1, 9, 90, 90];
 
 impl Runner {
     /// The program that the variable `PIOLA_EMITTED` names: target, precision, and path.
-    ///
-    /// # Errors
-    /// If the variable is not three words, or the first two are unknown.
     pub fn from_environment() -> Result<Option<Self>, String> {
         let Ok(text) = std::env::var("PIOLA_EMITTED") else { return Ok(None) };
         let words: Vec<_> = text.split_ascii_whitespace().collect();
@@ -57,9 +47,6 @@ impl Runner {
     }
 
     /// Results of all cases of one energy, in their order.
-    ///
-    /// # Errors
-    /// If the energy cannot be printed, or the program fails.
     pub fn answers(&self, energy: &Judged, cases: &[Case]) -> Result<Vec<Answer>, String> {
         // What the text fixes: lengths of lists and whole exponents.
         let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
@@ -111,7 +98,8 @@ impl Runner {
         let folder = tempfile::tempdir().map_err(|error| fail(&error))?;
         let [source, from, to] = ["energy.h", "points", "results"].map(|name| folder.path().join(name));
         std::fs::write(&source, text).map_err(|error| fail(&error))?;
-        let bytes: Vec<u8> = points.iter().flat_map(|&x| self.bytes(x)).collect();
+        let mut bytes = Vec::new();
+        points.iter().for_each(|&x| put(x, self.precision, &mut bytes));
         std::fs::write(&from, bytes).map_err(|error| fail(&error))?;
         let output = Command::new(&self.program)
             .args([&source, &from, &to])
@@ -124,56 +112,35 @@ impl Runner {
             return Err(format!("{}: {} fails: {said}", energy.name, self.program.display()));
         }
         let bytes = std::fs::read(&to).map_err(|error| fail(&error))?;
-        let mut rest = &bytes[..];
-        let answers = cases.iter().map(|_| self.answer(&mut rest)).collect::<Option<Vec<_>>>();
-        match answers {
-            Some(answers) if rest.is_empty() => Ok(answers),
-            _ => Err(fail(&format!("{} bytes of results", bytes.len()))),
+        let size = if self.precision == Precision::F32 { 4 } else { 8 };
+        let of_point: usize = COUNTS.iter().map(|count| count * size + 4).sum();
+        if bytes.len() != cases.len() * of_point {
+            return Err(fail(&format!("{} bytes of results", bytes.len())));
         }
-    }
-
-    fn answer(&self, bytes: &mut &[u8]) -> Option<Answer> {
-        let energy = (self.numbers(bytes, 1)?[0], status(bytes)?);
-        let stress = (self.numbers(bytes, 9)?, status(bytes)?);
-        let mut dense = || Some((self.numbers(bytes, 9)?, self.numbers(bytes, 81)?, status(bytes)?));
-        let (tangent, projected) = (dense()?, dense()?);
-        Some(Answer { energy, stress, tangent, projected })
-    }
-
-    fn bytes(&self, number: f64) -> Vec<u8> {
-        match self.precision {
-            Precision::F32 => (number as f32).to_ne_bytes().to_vec(),
-            Precision::F64 => number.to_ne_bytes().to_vec(),
-        }
-    }
-
-    fn numbers(&self, bytes: &mut &[u8], count: usize) -> Option<Vec<f64>> {
-        let mut numbers = Vec::new();
-        for _ in 0..count {
-            numbers.push(match self.precision {
-                Precision::F32 => f64::from(f32::from_ne_bytes(*bytes.split_off_chunk()?)),
-                Precision::F64 => f64::from_ne_bytes(*bytes.split_off_chunk()?),
-            });
-        }
-        Some(numbers)
+        Ok(bytes.chunks_exact(of_point).map(|bytes| answer(bytes, size)).collect())
     }
 }
 
-/// The first bytes of a slice, which are taken from it.
-trait SplitOff {
-    fn split_off_chunk<const N: usize>(&mut self) -> Option<&[u8; N]>;
-}
-
-impl SplitOff for &[u8] {
-    fn split_off_chunk<const N: usize>(&mut self) -> Option<&[u8; N]> {
-        let (chunk, rest) = self.split_first_chunk()?;
-        *self = rest;
-        Some(chunk)
+/// Appends a number in the format of a text.
+pub fn put(number: f64, precision: Precision, to: &mut Vec<u8>) {
+    match precision {
+        Precision::F32 => to.extend((number as f32).to_ne_bytes()),
+        Precision::F64 => to.extend(number.to_ne_bytes()),
     }
 }
 
-fn status(bytes: &mut &[u8]) -> Option<Status<bool>> {
-    let bits = u32::from_ne_bytes(*bytes.split_off_chunk()?);
-    let [refused, bounded, nonfinite, filtered] = [0, 1, 2, 3].map(|k| bits >> k & 1 == 1);
-    Some(Status { refused, bounded, nonfinite, filtered })
+/// Results at a point, of numbers of this many bytes.
+fn answer(mut bytes: &[u8], size: usize) -> Answer {
+    COUNTS.map(|count| {
+        let (numbers, rest) = bytes.split_at(count * size);
+        let (status, rest) = rest.split_at(4);
+        bytes = rest;
+        let number = |bytes: &[u8]| match bytes {
+            &[a, b, c, d] => f64::from(f32::from_ne_bytes([a, b, c, d])),
+            bytes => f64::from_ne_bytes(bytes.try_into().expect("eight bytes")),
+        };
+        let bits = u32::from_ne_bytes(status.try_into().expect("four bytes"));
+        let [refused, bounded, nonfinite, filtered] = [0, 1, 2, 3].map(|k| bits >> k & 1 == 1);
+        (numbers.chunks_exact(size).map(number).collect(), Status { refused, bounded, nonfinite, filtered })
+    })
 }

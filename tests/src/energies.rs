@@ -27,14 +27,12 @@ pub static ENERGIES: LazyLock<Vec<Judged>> = LazyLock::new(|| {
 });
 
 /// The energy of that name.
-#[must_use]
 pub fn find(name: &str) -> Option<&'static Judged> {
     ENERGIES.iter().find(|energy| energy.name == name)
 }
 
 /// True if the arguments of the program have no name, or one that is part of `trial`: the filter of tests
 /// without a harness.
-#[must_use]
 pub fn is_asked_for(trial: &str) -> bool {
     let mut names = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
     names.peek().is_none() || names.any(|name| trial.contains(&name))
@@ -53,13 +51,11 @@ pub struct Judged {
 
 impl Judged {
     /// Formula, parameters, domain.
-    #[must_use]
     pub fn description(&self) -> &Description {
         self.energy.description()
     }
 
     /// Typical parameters as declared, one slice for each.
-    #[must_use]
     pub fn typical(&self) -> Vec<&[f64]> {
         self.energy.typical()
     }

@@ -5,6 +5,7 @@
 //! * [`declared`]: an energy's expressions, for what its compiled form cannot say;
 //! * [`multiprecision`]: a real number of 100 digits and more, in which gradients are oracles for quotients;
 //! * [`mod@quotients`]: what flips and twists must be, to more digits than any format holds;
+//! * [`ways`]: functions of numbers by every back end;
 //! * [`energies`]: the catalogue behind pointers; [`compiled`]: the evaluation of a point, compiled once;
 //! * [`answers`]: all that a batch computes;
 //! * [`twins`]: compiled and interpreted materials, compared;
@@ -16,7 +17,7 @@
 //!   `STABILITY.md`;
 //! * `speed/`, a crate of its own: what is timed and counted;
 //! * `tests/reference.rs`: all reference cases, with a table of the worst errors;
-//! * `tests/bits.rs`: the catalogue at random patterns of bits; `tests/properties.rs`: its invariances;
+//! * `tests/bits.rs`: the catalogue at random patterns of bits;
 //! * `tests/declarations/`: contract, expressions, batches, constructors and printed C of the catalogue and
 //!   of the folder `declarations/`, and the messages about mistaken declarations;
 //! * `tests/oracles/`: the oracles themselves, against known values;
@@ -37,9 +38,9 @@ pub mod quotients;
 pub mod random;
 pub mod soundness;
 pub mod twins;
+pub mod ways;
 
 /// True if the tests judge all cases that they have: with `PIOLA_FULL` in the environment.
-#[must_use]
 pub fn is_full() -> bool {
     std::env::var_os("PIOLA_FULL").is_some()
 }

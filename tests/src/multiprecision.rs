@@ -38,11 +38,15 @@ enum Kind {
 }
 
 impl<const LIMBS: usize> Multiprecision<LIMBS> {
-    pub(super) const ZERO: Self = Self { kind: Kind::Zero, negative: false, exponent: 0, limbs: [0; LIMBS] };
-    pub(super) const NOT_A_NUMBER: Self = Self { kind: Kind::NotANumber, ..Self::ZERO };
+    const ZERO: Self = Self { kind: Kind::Zero, negative: false, exponent: 0, limbs: [0; LIMBS] };
+    const NOT_A_NUMBER: Self = Self { kind: Kind::NotANumber, ..Self::ZERO };
+    const ONE: Self = {
+        let mut limbs = [0; LIMBS];
+        limbs[LIMBS - 1] = 1 << 63;
+        Self { kind: Kind::Finite, negative: false, exponent: 1, limbs }
+    };
 
     /// The nearest `f64`: infinite where it overflows.
-    #[must_use]
     pub fn to_f64(self) -> f64 {
         match self.kind {
             Kind::Zero => 0.0,
@@ -228,172 +232,5 @@ impl<const LIMBS: usize> Div for Multiprecision<LIMBS> {
 impl<const LIMBS: usize> fmt::Debug for Multiprecision<LIMBS> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:e}", self.to_f64())
-    }
-}
-
-/// 2⁻ⁿ; exact down to the smallest normal number, n ≤ 1022.
-const fn negative_power_of_two(n: usize) -> f64 {
-    let mut power = 1.0;
-    let mut k = 0;
-    while k < n {
-        power *= 0.5;
-        k += 1;
-    }
-    power
-}
-
-/// Methods of [`Real`] that functions of [`elementary`] compute.
-macro_rules! computed {
-    ($($method:ident $function:ident,)*) => {$(
-        fn $method(self) -> Self {
-            self.$function()
-        }
-    )*};
-}
-
-impl<const LIMBS: usize> Real for Multiprecision<LIMBS> {
-    type Mask = bool;
-    type Logarithm = Self;
-
-    const UNIT_ROUNDOFF: f64 = negative_power_of_two(64 * LIMBS - 8);
-    const MIN_POSITIVE: f64 = f64::MIN_POSITIVE;
-
-    fn from_fn(value: impl Fn(usize) -> f64) -> Self {
-        Self::splat(value(0))
-    }
-
-    fn splat(value: f64) -> Self {
-        if value == 0.0 {
-            return Self { negative: value.is_sign_negative(), ..Self::ZERO };
-        }
-        if !value.is_finite() {
-            return Self::NOT_A_NUMBER;
-        }
-        let biased = value.to_bits() >> 52 & 0x7ff;
-        let fraction = value.to_bits() & ((1 << 52) - 1);
-        let significand = if biased == 0 { fraction } else { fraction | 1 << 52 };
-        let mut limbs = [0; LIMBS];
-        limbs[LIMBS - 1] = significand;
-        // significand · 2^(biased − 1075), read as 0.limbs · 2^(… + 64).
-        let exponent = biased.max(1) as i64 - 1075 + 64;
-        Self::normalized(value < 0.0, exponent, limbs, [0; LIMBS])
-    }
-
-    fn mul_add(self, factor: Self, addend: Self) -> Self {
-        self * factor + addend
-    }
-
-    fn sqrt(self) -> Self {
-        if self.kind == Kind::Zero { self } else { self * self.inverse_root(2) }
-    }
-
-    fn cbrt(self) -> Self {
-        let root = self.abs().inverse_root(3);
-        if self.kind == Kind::Zero { self } else { self * root * root }
-    }
-
-    computed! {
-        ln natural_logarithm, exp exponential, ln_1p logarithm_of_one_more, exp_m1 exponential_less_one,
-        sinh hyperbolic_sine, tanh hyperbolic_tangent, asinh inverse_hyperbolic_sine, atan arctangent,
-        erf error_function,
-    }
-
-    fn cosh(self) -> Self {
-        let exponential = self.abs().exponential();
-        (exponential + exponential.inverse_root(1)).scaled(-1)
-    }
-
-    fn sin(self) -> Self {
-        self.sine_after_quarters(0)
-    }
-
-    fn cos(self) -> Self {
-        self.sine_after_quarters(1)
-    }
-
-    fn softplus(self) -> Self {
-        let positive = if self.negative { Self::ZERO } else { self };
-        positive + (-self.abs()).exponential().logarithm_of_one_more()
-    }
-
-    fn sigmoid(self) -> Self {
-        let exponential = (-self.abs()).exponential();
-        let numerator = if self.negative { exponential } else { Self::splat(1.0) };
-        numerator / (Self::splat(1.0) + exponential)
-    }
-
-    fn logarithm(self) -> Self {
-        self.natural_logarithm()
-    }
-
-    fn power(logarithm: Self, exponent: Self) -> Self {
-        (exponent * logarithm).exponential()
-    }
-
-    fn logarithm_of_ratio(a: Self, b: Self) -> Self {
-        a - b
-    }
-
-    fn abs(self) -> Self {
-        Self { negative: false, ..self }
-    }
-
-    fn max(self, other: Self) -> Self {
-        if self.kind == Kind::NotANumber || self.less(other) { other } else { self }
-    }
-
-    fn min(self, other: Self) -> Self {
-        if self.kind == Kind::NotANumber || other.less(self) { other } else { self }
-    }
-
-    fn copysign(self, sign: Self) -> Self {
-        Self { negative: sign.negative, ..self }
-    }
-
-    fn less(self, other: Self) -> bool {
-        if self.kind == Kind::NotANumber || other.kind == Kind::NotANumber {
-            return false;
-        }
-        let is_negative = |x: Self| x.negative && x.kind == Kind::Finite;
-        match (is_negative(self), is_negative(other)) {
-            (true, false) => true,
-            (false, true) => false,
-            (false, false) => self.compare_magnitudes(other).is_lt(),
-            (true, true) => self.compare_magnitudes(other).is_gt(),
-        }
-    }
-
-    fn is_finite(self) -> bool {
-        self.kind != Kind::NotANumber
-    }
-
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
-
-    fn two_product(self, other: Self) -> (Self, Self) {
-        match (self.kind, other.kind) {
-            (Kind::NotANumber, _) | (_, Kind::NotANumber) => (Self::NOT_A_NUMBER, Self::NOT_A_NUMBER),
-            (Kind::Zero, _) | (_, Kind::Zero) => (Self::ZERO, Self::ZERO),
-            (Kind::Finite, Kind::Finite) => {
-                let negative = self.negative != other.negative;
-                let exponent = self.exponent + other.exponent;
-                let [mut below, limbs] = self.multiply_limbs(other);
-                let product = Self::normalized(negative, exponent, limbs, below);
-                // One bit of the lower half may have moved up; the rest of it is the exact error.
-                if limbs[LIMBS - 1] >> 63 == 0 {
-                    below[LIMBS - 1] &= u64::MAX >> 1;
-                }
-                (product, Self::normalized(negative, exponent - 64 * LIMBS as i64, below, [0; LIMBS]))
-            }
-        }
-    }
-
-    fn power_of_two_scale(self) -> (Self, Self) {
-        if self.kind != Kind::Finite {
-            return (Self::splat(1.0), Self::splat(1.0));
-        }
-        let one = Self::splat(1.0);
-        (one.scaled(1 - self.exponent), one.scaled(self.exponent - 1))
     }
 }

@@ -26,7 +26,6 @@ pub struct Quotient {
 
 impl Quotient {
     /// |found − D| in units of u: of the scale alone, and of scale + sensitivity. Infinite where `found` is not finite.
-    #[must_use]
     pub fn error(&self, found: f64, unit_roundoff: f64) -> Error {
         let distance = (Number::splat(found) - self.value).abs();
         if !distance.is_finite() {
@@ -40,14 +39,12 @@ impl Quotient {
     }
 
     /// Adds |ε ∂D/∂ε| to the sensitivity, from the value `moved` of D where ε is larger by this fraction.
-    #[must_use]
     pub fn with_threshold(self, moved: Number, fraction: f64) -> Self {
         let change = (moved - self.value).abs() / Number::splat(fraction);
         Self { sensitivity: self.sensitivity + change, ..self }
     }
 
     /// Raises the scale to Σ|terms|, Pa, if that is larger.
-    #[must_use]
     pub fn with_terms(self, terms: f64) -> Self {
         Self { scale: self.scale.max(Number::splat(terms)), ..self }
     }
@@ -99,7 +96,6 @@ pub fn expected(material: &impl Material, stretches: [f64; 3]) -> ([Quotient; 3]
 ///
 /// `scales` are sizes of the close pair. With `signed`, λ3 may be negative or zero. With a `threshold`, pairs
 /// also stand on either side of it, on it, and below it.
-#[must_use]
 pub fn samples(scales: &[f64], signed: bool, threshold: Option<f64>) -> Vec<[f64; 3]> {
     let mut samples = Vec::new();
     for gap in gaps() {

@@ -11,7 +11,6 @@
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use piola::StatusCell;
 use piola::batch::{Batch, TileMaterial};
@@ -82,30 +81,8 @@ pub enum Fault {
     Panic,
 }
 
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unflagged(quantity) => write!(f, "{quantity:?} is not finite and its status is clean"),
-            Self::Disagreement => write!(f, "energy, stress and tangent disagree on the domain"),
-            Self::Asymmetric => write!(f, "the tangent is not symmetric"),
-            Self::Indefinite => write!(f, "the filtered tangent has a negative eigenvalue"),
-            Self::FlaggedInRange(quantity) => write!(f, "{quantity:?} is flagged and fits the format"),
-            Self::RefusedInside => write!(f, "refused inside the domain"),
-            Self::AdmittedOutside => write!(f, "admitted outside the domain"),
-            Self::BoundedFarFromPole => write!(f, "bounded far from a pole"),
-            Self::Inexact(quantity) => write!(f, "{quantity:?} is off by more than rounding"),
-            Self::Panic => write!(f, "panic"),
-        }
-    }
-}
-
-impl std::error::Error for Fault {}
-
 /// For any entries of F a clean status means finite numbers, and the status does not depend on the requested
 /// results.
-///
-/// # Errors
-/// The first fault found.
 pub fn check<R: Precision>(material: &dyn Response<R>, F: &Matrix3<R>) -> Result<Answer, Fault> {
     let EnergyPoint { energy, status: energy_status } = evaluate_energy(material, F);
     let StressPoint { stress, status: stress_status } = evaluate_stress(material, F);
@@ -176,10 +153,6 @@ fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
 
 /// Checks a batch of tetrahedra with the corner shape at rest: where the status of one is clean, its energy,
 /// stress, forces and stiffness are finite. Returns the first fault of each that has one, by its index.
-///
-/// # Panics
-/// If the lengths are not those of the batch.
-#[must_use]
 pub fn check_elements(material: &dyn TileMaterial<f64>, F: &[Matrix3<f64>]) -> Vec<(usize, Fault)> {
     const REST: [f64; 10] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0 / 6.0];
     const FITS: &str = "the lengths are those of the points";
@@ -220,9 +193,6 @@ pub const ORDINARY: f64 = 30.0;
 
 /// `f32` against `f64` on the same numbers; whether it is flagged early, at stretches that are not
 /// [`ORDINARY`].
-///
-/// # Errors
-/// The first fault found.
 pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> {
     let Subject { double: material, single, .. } = subject;
     let material: &dyn Response<f64> = &**material;
@@ -265,9 +235,6 @@ pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> 
 /// outside the format, nor where they lie around the end of a domain at zero volume or a pole. A modulus
 /// times a few of the smallest numbers is allowed for intermediate numbers that underflow and a logarithm of
 /// up to 88 that multiplies them.
-///
-/// # Errors
-/// Which quantity is off.
 pub fn check_single_accuracy(subject: &Subject, F: &Matrix3<f32>) -> Result<(), Fault> {
     let single = evaluate(&*subject.single, F, Filter::None);
     let material: &dyn Response<f64> = &*subject.double;

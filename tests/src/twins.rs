@@ -23,7 +23,6 @@ pub fn stretches(random: &mut Random) -> [f64; 3] {
 }
 
 /// All responses at one triple of stretches, as one row.
-#[must_use]
 pub fn responses<R: Precision>(material: &dyn Response<R>, at: [R; 3]) -> Vec<R> {
     let truth = |value: bool| R::splat(f64::from(u8::from(value)));
     let blocks = material.blocks(at);

@@ -14,11 +14,12 @@ use std::process::Command;
 
 use piola::batch::{Batch, Kernels, Tetrahedra};
 use piola::lanes::Backend;
-use piola::point::{Filter, Matrix3};
+use piola::point::{self, Filter, Matrix3};
 use piola::{Inversion, Material, Status};
 use piola_declare::emit::{Emission, EmitError, PointFunction, Precision, Target};
 use piola_tests::cases::{Case, FILES};
 use piola_tests::compiled;
+use piola_tests::emitted::put;
 use piola_tests::energies::{Format, Judged, find};
 
 const STRICT: [&str; 6] = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off"];
@@ -55,32 +56,13 @@ int main(void) {
 /// Dm⁻¹ and the volume of a tetrahedron.
 const REST: [f64; 10] = [1.25, -0.5, 0.25, 0.0, 0.75, -0.125, 0.5, 0.25, 1.5, 0.375];
 
-/// A number of a file of results.
-trait Number: Format + Kernels {
-    const PRECISION: Precision;
-    const NAME_IN_C: &'static str;
-    fn put(self, to: &mut Vec<u8>);
-}
-
-impl Number for f64 {
-    const PRECISION: Precision = Precision::F64;
-    const NAME_IN_C: &'static str = "double";
-    fn put(self, to: &mut Vec<u8>) {
-        to.extend(self.to_ne_bytes());
-    }
-}
-
-#[cfg(feature = "full")]
-impl Number for f32 {
-    const PRECISION: Precision = Precision::F32;
-    const NAME_IN_C: &'static str = "float";
-    fn put(self, to: &mut Vec<u8>) {
-        to.extend(self.to_ne_bytes());
-    }
+/// The format of texts for a number.
+fn precision<R: Format>() -> Precision {
+    R::NAME.parse().expect("a format of texts")
 }
 
 /// Results at a point: their bytes, and which of them mean nothing.
-fn results<R: Number>(energy: &Judged, inversion: Inversion, F: &Matrix3<R>) -> Vec<(Vec<R>, u32)> {
+fn results<R: Format + Kernels>(energy: &Judged, inversion: Inversion, F: &Matrix3<R>) -> Vec<(Vec<R>, u32)> {
     let values = energy.typical();
     let subject = energy.subject(&values, inversion).expect("typical parameters");
     let material = R::of(&subject);
@@ -95,11 +77,11 @@ fn results<R: Number>(energy: &Judged, inversion: Inversion, F: &Matrix3<R>) -> 
     let at = compiled::evaluate_stress(material, F);
     all.push((at.stress.as_flattened().to_vec(), bits(at.status)));
     for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
-        let at = compiled::evaluate_dense(material, F, filter);
+        let at = point::evaluate_dense(material, F, filter);
         all.push(([at.stress.as_flattened(), at.tangent.as_flattened()].concat(), bits(at.status)));
     }
     let finite = |numbers: &[R]| numbers.iter().all(|number| number.is_finite());
-    let svd = compiled::svd(F);
+    let svd = point::svd(F);
     let numbers = [svd.U.as_flattened(), &svd.stretches, svd.V.as_flattened()].concat();
     all.push((numbers, if finite(&svd.stretches) { 0 } else { 4 }));
     let blocks = subject.exact.blocks(svd.stretches);
@@ -131,12 +113,14 @@ fn compile(folder: &Path, arguments: &[&str]) {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
-fn print<R: Number>(energy: &Judged, target: Target, inversion: Inversion) -> Result<String, EmitError> {
-    let emission = Emission::new(target).with_prefix("energy").with_precision(R::PRECISION);
+fn print<R: Format>(energy: &Judged, target: Target, inversion: Inversion) -> Result<String, EmitError> {
+    let emission = Emission::new(target).with_prefix("energy").with_precision(precision::<R>());
     energy.energy.emit(&energy.typical(), inversion, &emission)
 }
 
-fn check<R: Number>(name: &str, target: Target) {
+fn check<R: Format + Kernels>(name: &str, target: Target) {
+    let precision = precision::<R>();
+    let (in_c, level) = if precision == Precision::F64 { ("double", "-O1") } else { ("float", "-O0") };
     let energy = find(name).expect("in the catalogue");
     let folder = tempfile::tempdir().expect("a folder");
     let cases = Case::own(&FILES).expect("reference cases");
@@ -146,12 +130,12 @@ fn check<R: Number>(name: &str, target: Target) {
         let text = print::<R>(energy, target, inversion).expect("an energy that can be printed");
         std::fs::write(folder.path().join("energy.h"), text).expect("a file");
         let rest = format!("{REST:?}").replace('[', "{").replace(']', "}");
-        let program = PROGRAM.replace("NUMBER", R::NAME_IN_C).replace("REST", &rest);
+        let program = PROGRAM.replace("NUMBER", in_c).replace("REST", &rest);
         std::fs::write(folder.path().join("main.c"), program).expect("a file");
         let mut bytes = Vec::new();
-        points.iter().for_each(|F| F.as_flattened().iter().for_each(|number| number.put(&mut bytes)));
+        let numbers = points.as_flattened().as_flattened();
+        numbers.iter().for_each(|number| put(number.widen(), precision, &mut bytes));
         std::fs::write(folder.path().join("points"), bytes).expect("a file");
-        let level = if R::PRECISION == Precision::F64 { "-O1" } else { "-O0" };
         compile(folder.path(), &["-std=c99", level, "main.c", "-lm", "-o", "main"]);
         let status = Command::new(folder.path().join("main")).current_dir(folder.path()).status();
         assert!(status.expect("the program").success());
@@ -162,7 +146,7 @@ fn check<R: Number>(name: &str, target: Target) {
         for F in &points {
             for (function, (numbers, status)) in results(energy, inversion, F).into_iter().enumerate() {
                 let mut wanted = Vec::new();
-                numbers.iter().for_each(|number| number.put(&mut wanted));
+                numbers.iter().for_each(|number| put(number.widen(), precision, &mut wanted));
                 let (results, rest) = found.split_at(wanted.len());
                 let (word, rest) = rest.split_at(4);
                 found = rest;
@@ -281,18 +265,14 @@ fn a_file_checks_parameters_as_the_constructor_does() {
 /// decomposed.
 #[test]
 fn branches_hold_what_only_they_need() {
-    for (name, function) in [("neo_hookean", PointFunction::Stress), ("neo_hookean", PointFunction::Tangent)]
-    {
-        let energy = find(name).expect("in the catalogue");
+    let energy = find("neo_hookean").expect("in the catalogue");
+    for function in [PointFunction::Stress, PointFunction::Tangent] {
         let emission = Emission::new(Target::C).with_prefix("energy").with_functions([function]);
         let text = energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission).expect("text");
         let (_, body) = text.split_once(&format!("energy_{}(const", function.name())).expect("the function");
         let inside = body.lines().filter(|line| line.starts_with("        ")).count();
-        assert!(
-            2 * inside > body.lines().count(),
-            "{name} {function:?}: {inside} of {}",
-            body.lines().count()
-        );
+        let all = body.lines().count();
+        assert!(2 * inside > all, "{function:?}: {inside} of {all}");
     }
 }
 

@@ -18,7 +18,7 @@ use piola::point::Filter;
 use piola_declare::Energy;
 use piola_materials::{CATALOGUE, Entry, Visitor};
 use piola_tests::answers::Answers;
-use piola_tests::bits::{Family, Precision};
+use piola_tests::bits::{Precision, draw};
 use piola_tests::energies::{ENERGIES, Judged, Subject, find};
 use piola_tests::twins::{check, check_fit, responses, stretches};
 
@@ -33,18 +33,7 @@ fn compiled() -> impl Iterator<Item = (&'static Judged, &'static Entry)> {
 /// Deformation gradients of all kinds.
 fn deformations<E: Precision>(seed: u64) -> Vec<E> {
     let mut random = Random::new(seed);
-    let draw = |k: usize| Family::ALL[k % Family::ALL.len()].draw::<E>(&mut random);
-    (0..POINTS).flat_map(draw).flatten().collect()
-}
-
-/// All results of a batch.
-fn results<E: Kernels>(
-    material: &dyn TileMaterial<E>,
-    backend: Backend,
-    filter: Filter,
-    F: &[E],
-) -> Answers<E> {
-    Answers::of(Batch::new(material).with_backend(backend).with_filter(filter), F)
+    (0..POINTS).flat_map(|turn| draw(turn, &mut random)).flatten().collect()
 }
 
 fn check_batches<E: Kernels + Precision>(
@@ -55,8 +44,9 @@ fn check_batches<E: Kernels + Precision>(
     let F = deformations::<E>(name.len() as u64);
     for backend in Backend::available() {
         for filter in [Filter::None, Filter::Clamp] {
-            let [found, expected] =
-                [interpreted, compiled].map(|material| results(material, backend, filter, &F));
+            let [found, expected] = [interpreted, compiled].map(|material| {
+                Answers::of(Batch::new(material).with_backend(backend).with_filter(filter), &F)
+            });
             let what = format!("{name} in {} on {backend}, {filter:?}", E::NAME);
             assert_eq!(found.statuses, expected.statuses, "{what}");
             check(&what, &found.numbers(), &expected.numbers());
@@ -155,12 +145,12 @@ fn materials_of_one_energy_do_not_mix_their_constants() {
     let F = deformations::<f64>(3);
     let alone = materials.each_ref().map(|material| {
         std::thread::scope(|scope| {
-            let stresses = scope.spawn(|| results::<f64>(material, Backend::best(), Filter::None, &F));
+            let stresses = scope.spawn(|| Answers::of(Batch::<f64>::new(material), &F));
             stresses.join().expect("no panic")
         })
     });
     for k in [0, 1, 1, 0, 1] {
-        let found = results::<f64>(&materials[k], Backend::best(), Filter::None, &F);
+        let found = Answers::of(Batch::<f64>::new(&materials[k]), &F);
         check(&format!("material {k}"), &found.numbers(), &alone[k].numbers());
     }
     assert!(

@@ -6,7 +6,8 @@ use piola::Inversion;
 use piola::batch::Batch;
 use piola::material::{MaterialError, Moduli};
 use piola_materials::matching;
-use piola_tests::energies::{ENERGIES, Judged, find};
+use piola_tests::declarations::slices;
+use piola_tests::energies::{ENERGIES, Judged, Subject, find};
 
 /// Roundings of a dozen operations in the moduli, magnified where λ is a difference.
 const TOLERANCE: f64 = 1e-12;
@@ -20,14 +21,13 @@ fn matched(energy: &Judged, wanted: Moduli) -> Result<Vec<Vec<f64>>, MaterialErr
     matching(energy.description(), moduli, wanted)
 }
 
-fn moduli(energy: &Judged, values: &[Vec<f64>]) -> Result<Moduli, MaterialError> {
-    let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
-    energy.subject(&values, Inversion::Refuse).map(|subject| subject.moduli)
+/// The material whose parameters match.
+fn subject(energy: &Judged, wanted: Moduli) -> Result<Subject, MaterialError> {
+    energy.subject(&slices(&matched(energy, wanted)?), Inversion::Refuse)
 }
 
-fn stress(energy: &Judged, values: &[Vec<f64>]) -> Result<[f64; 9], Box<dyn std::error::Error>> {
-    let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
-    let material = energy.subject(&values, Inversion::Refuse)?.double;
+fn stress(energy: &Judged, wanted: Moduli) -> Result<[f64; 9], Box<dyn std::error::Error>> {
+    let material = subject(energy, wanted)?.double;
     let mut P = [0.0; 9];
     assert!(Batch::new(&*material).stresses(&F, &mut P)?.is_clean(), "{}", energy.name);
     Ok(P)
@@ -36,8 +36,8 @@ fn stress(energy: &Judged, values: &[Vec<f64>]) -> Result<[f64; 9], Box<dyn std:
 #[test]
 fn stress_follows_young_at_any_strain() -> Result<(), Box<dyn std::error::Error>> {
     for energy in ENERGIES.iter() {
-        let soft = stress(energy, &matched(energy, Moduli::from_young_poisson(1e6, 0.45)?)?)?;
-        let stiff = stress(energy, &matched(energy, Moduli::from_young_poisson(3e6, 0.45)?)?)?;
+        let soft = stress(energy, Moduli::from_young_poisson(1e6, 0.45)?)?;
+        let stiff = stress(energy, Moduli::from_young_poisson(3e6, 0.45)?)?;
         let scale = stiff.iter().fold(0.0, |scale: f64, entry| scale.max(entry.abs()));
         for (soft, stiff) in soft.iter().zip(stiff) {
             assert!((3.0 * soft - stiff).abs() < TOLERANCE * scale, "{}: {soft} {stiff}", energy.name);
@@ -60,7 +60,7 @@ fn every_material_is_as_stiff_as_asked_and_a_volumetric_parameter_brings_poisson
         "symmetric_dirichlet",
     ];
     for energy in ENERGIES.iter() {
-        let found = moduli(energy, &matched(energy, Moduli::from_young_poisson(1e6, 0.45)?)?)?;
+        let found = subject(energy, Moduli::from_young_poisson(1e6, 0.45)?)?.moduli;
         assert!((found.young() / 1e6 - 1.0).abs() < TOLERANCE, "{}: {found:?}", energy.name);
         let matches = (found.poisson() - 0.45).abs() < TOLERANCE;
         assert_eq!(matches, !without.contains(&energy.name), "{}: {found:?}", energy.name);

@@ -16,12 +16,12 @@ use std::process::ExitCode;
 
 use piola::batch::{Batch, Kernels, TileMaterial};
 use piola::lanes::Backend;
-use piola::point::{EnergyPoint, Filter, StressPoint};
+use piola::point::{EnergyPoint, Filter, StressPoint, evaluate_dense};
 use piola::{Inversion, Real, Status};
 use piola_declare::emit::Precision;
 use piola_tests::answers::Answers;
 use piola_tests::cases::{Case, FILES, Quantity};
-use piola_tests::compiled::{evaluate, evaluate_dense, evaluate_energy, evaluate_stress};
+use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
 use piola_tests::declared::Declared;
 use piola_tests::emitted::{Answer, Runner};
 use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find, is_asked_for};
@@ -81,9 +81,6 @@ fn own_cases() -> Result<Vec<Case>, String> {
 }
 
 /// The table of all cases of one energy, and the results that fail.
-///
-/// # Errors
-/// Why a case cannot be judged.
 fn judge_energy(
     name: &str,
     mut cases: Vec<Case>,
@@ -127,32 +124,33 @@ struct Table {
     passed: usize,
     flagged: usize,
     failed: usize,
-    worst: BTreeMap<(&'static str, &'static str, Quantity), Worst>,
+    /// The largest error of each energy, format and quantity, with its case.
+    worst: BTreeMap<(&'static str, &'static str, Quantity), (f64, String)>,
 }
 
 impl Table {
     /// Counts one result; returns what is wrong with it.
     fn add(&mut self, energy: &'static str, case: &Case, judgement: &Judgement) -> Option<String> {
         let complaint = match judgement.verdict {
-            Verdict::Error(error) => {
+            Ok(Some(error)) => {
                 let key = (energy, judgement.precision, judgement.quantity);
-                self.keep_worse(key, Worst { error, case: format!("{} {}", case.id, case.tag) });
+                self.keep_worse(key, (error, format!("{} {}", case.id, case.tag)));
                 // A NaN is not an error within the bound.
                 if error <= C { None } else { Some(format!("{error:.1}")) }
             }
-            Verdict::Flagged => {
+            Ok(None) => {
                 self.flagged += 1;
                 return None;
             }
-            Verdict::Status(complaint) => Some(complaint.to_owned()),
+            Err(complaint) => Some(complaint.to_owned()),
         };
         *(if complaint.is_none() { &mut self.passed } else { &mut self.failed }) += 1;
         complaint
     }
 
-    fn keep_worse(&mut self, key: (&'static str, &'static str, Quantity), found: Worst) {
+    fn keep_worse(&mut self, key: (&'static str, &'static str, Quantity), found: (f64, String)) {
         let worst = self.worst.entry(key).or_default();
-        if found.error >= worst.error {
+        if found.0 >= worst.0 {
             *worst = found;
         }
     }
@@ -171,7 +169,7 @@ impl Table {
             "Worst errors in units of u (‖X‖ + sens), for ψ of u (|ψ| + sens + Σ|terms|); each may reach {C}.\n"
         );
         println!("{:21} {:9} {:10} {:>10}  case", "material", "", "quantity", "error");
-        for ((material, precision, quantity), Worst { error, case }) in &self.worst {
+        for ((material, precision, quantity), (error, case)) in &self.worst {
             println!("{material:21} {precision:9} {:10} {error:10.3}  {case}", format!("{quantity:?}"));
         }
         let Self { cases, energies, passed, flagged, failed, .. } = self;
@@ -180,26 +178,13 @@ impl Table {
     }
 }
 
-#[derive(Default)]
-struct Worst {
-    error: f64,
-    case: String,
-}
-
 /// One result of one case.
 struct Judgement {
     precision: &'static str,
     quantity: Quantity,
-    verdict: Verdict,
-}
-
-enum Verdict {
-    /// In units of what the arithmetic can reach.
-    Error(f64),
-    /// Beyond the format, with a status to match.
-    Flagged,
-    /// The status is not the expected one.
-    Status(&'static str),
+    /// The error in units of what the arithmetic can reach, none if the result is beyond the format and its
+    /// status says so; or what is wrong with the status.
+    verdict: Result<Option<f64>, &'static str>,
 }
 
 /// A few energies for batches in single precision: polynomial, logarithmic, with real powers, with a pole.
@@ -256,13 +241,13 @@ impl Judge<'_> {
             Precision::F64 => ("f64", f64::UNIT_ROUNDOFF, f64::is_finite),
             Precision::F32 => ("f32", f32::UNIT_ROUNDOFF, |x| (x as f32).is_finite()),
         };
-        let Answer { energy: (energy, of_energy), stress: (stress, of_stress), tangent, projected } = answer;
+        let [(energy, of_energy), (stress, of_stress), (plain, of_plain), (clamped, of_clamped)] = answer;
         let results = [
-            (Quantity::Energy, of_energy, vec![energy]),
+            (Quantity::Energy, of_energy, energy),
             (Quantity::Stress, of_stress, stress),
-            (Quantity::Stress, tangent.2, tangent.0),
-            (Quantity::Tangent, tangent.2, tangent.1),
-            (Quantity::Projected, projected.2, projected.1),
+            (Quantity::Stress, of_plain, plain[..9].to_vec()),
+            (Quantity::Tangent, of_plain, plain[9..].to_vec()),
+            (Quantity::Projected, of_clamped, clamped[9..].to_vec()),
         ];
         self.verdicts(name, unit_roundoff, holds, results)
     }
@@ -326,20 +311,15 @@ impl Judge<'_> {
                 _ => leaves(Quantity::Stress) || leaves(Quantity::Tangent),
             };
             let verdict = match status {
-                Status { refused: true, .. } => Verdict::Status("refused, though inside the domain"),
+                Status { refused: true, .. } => Err("refused, though inside the domain"),
                 Status { nonfinite: true, .. } if !something_leaves => {
-                    Verdict::Status("flagged, though the format holds it")
+                    Err("flagged, though the format holds it")
                 }
-                Status { nonfinite, .. } if leaves(quantity) => {
-                    if nonfinite {
-                        Verdict::Flagged
-                    } else {
-                        Verdict::Status("not flagged as beyond the format")
-                    }
-                }
+                Status { nonfinite: true, .. } if leaves(quantity) => Ok(None),
+                _ if leaves(quantity) => Err("not flagged as beyond the format"),
                 _ => {
                     let noise = if quantity == Quantity::Energy { self.terms } else { 0.0 };
-                    Verdict::Error(self.case.error(quantity, &values, noise, unit_roundoff))
+                    Ok(Some(self.case.error(quantity, &values, noise, unit_roundoff)))
                 }
             };
             Judgement { precision, quantity, verdict }

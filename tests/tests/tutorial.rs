@@ -8,38 +8,23 @@ fn read(path: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// Each block of Rust with the last line of text before it.
-fn blocks(tutorial: &str) -> Vec<(&str, &str)> {
-    let mut parts = tutorial.split("```rust\n");
-    let mut before = parts.next().unwrap_or_default();
-    let mut blocks = Vec::new();
-    for part in parts {
-        let (code, after) = part.split_once("```\n").expect("the end of a block");
-        blocks.push((before.trim_end().lines().last().unwrap_or_default(), code));
-        before = after;
-    }
-    blocks
-}
-
 #[test]
 fn it_shows_the_files_of_its_crate() {
     let tutorial = read("docs/your-first-material.md");
-    let mut shown = Vec::new();
-    for (before, code) in blocks(&tutorial) {
-        let Some(file) = before.strip_prefix('`').and_then(|line| line.strip_suffix("`:")) else { continue };
-        assert_eq!(code, read(&format!("docs/biderman/{file}")), "{file} and the tutorial differ");
-        shown.push(file);
+    let files =
+        ["src/lib.rs", "tests/contract.rs", "examples/fit.rs", "examples/horse.rs", "examples/curve.rs"];
+    for file in files {
+        let shown = format!("\n`{file}`:\n\n```rust\n{}```\n", read(&format!("docs/biderman/{file}")));
+        assert!(tutorial.contains(&shown), "{file} and the tutorial differ");
     }
-    assert_eq!(
-        shown,
-        ["src/lib.rs", "tests/contract.rs", "examples/fit.rs", "examples/horse.rs", "examples/curve.rs"]
-    );
+    assert_eq!(tutorial.matches("`:\n\n```rust\n").count(), files.len());
 }
 
 #[test]
 fn the_first_attempt_is_refused_as_it_says() {
     let tutorial = read("docs/your-first-material.md");
-    let (_, attempt) = blocks(&tutorial)[0];
+    let (_, attempt) = tutorial.split_once("```rust\n").expect("a block");
+    let (attempt, _) = attempt.split_once("```\n").expect("the end of a block");
     let declarations = piola_codegen::declarations(attempt).expect("Rust");
     let [(arguments, item)] = &declarations[..] else { panic!("one declaration") };
     let Err(error) = piola_codegen::analyse(arguments.clone(), item.clone(), None) else {

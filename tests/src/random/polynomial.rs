@@ -9,28 +9,10 @@ use std::sync::LazyLock;
 use piola::Real;
 
 /// The monomials up to degree 3, in the order of the coefficients; the first [`QUADRATIC`] have degree 2 at
-/// most.
-pub const MONOMIALS: [[u8; 3]; 20] = [
-    [0, 0, 0],
-    [1, 0, 0],
-    [0, 1, 0],
-    [0, 0, 1],
-    [2, 0, 0],
-    [0, 2, 0],
-    [0, 0, 2],
-    [1, 1, 0],
-    [1, 0, 1],
-    [0, 1, 1],
-    [3, 0, 0],
-    [0, 3, 0],
-    [0, 0, 3],
-    [2, 1, 0],
-    [2, 0, 1],
-    [1, 2, 0],
-    [0, 2, 1],
-    [1, 0, 2],
-    [0, 1, 2],
-    [1, 1, 1],
+/// most. The digits are the exponents of the stretches, so that a product of monomials is a sum.
+const MONOMIALS: [u32; CUBIC] = [
+    0x000, 0x100, 0x010, 0x001, 0x200, 0x020, 0x002, 0x110, 0x101, 0x011, 0x300, 0x030, 0x003, 0x210, 0x201,
+    0x120, 0x021, 0x102, 0x012, 0x111,
 ];
 
 /// Number of coefficients of a polynomial of degree 2.
@@ -41,15 +23,14 @@ pub const CUBIC: usize = 20;
 
 /// Products of monomials: the places of both factors and of the product, by the last one.
 static PRODUCTS: LazyLock<Vec<[usize; 3]>> = LazyLock::new(|| {
-    let sum = |a: usize, b: usize| std::array::from_fn(|k| MONOMIALS[a][k] + MONOMIALS[b][k]);
-    let pairs = (0..CUBIC).flat_map(|a| (0..CUBIC).map(move |b| (a, b)));
-    let mut all: Vec<_> =
-        pairs.filter_map(|(a, b)| place(sum(a, b)).map(|product| [a, b, product])).collect();
+    let pairs = (0..CUBIC).flat_map(|a| (0..CUBIC).map(move |b| [a, b]));
+    let product = |[a, b]: [usize; 2]| Some([a, b, place(MONOMIALS[a] + MONOMIALS[b])?]);
+    let mut all: Vec<_> = pairs.filter_map(product).collect();
     all.sort_by_key(|[a, b, product]| (*product, *a, *b));
     all
 });
 
-fn place(monomial: [u8; 3]) -> Option<usize> {
+fn place(monomial: u32) -> Option<usize> {
     MONOMIALS.iter().position(|other| *other == monomial)
 }
 
@@ -59,13 +40,11 @@ pub struct Polynomial<R, const N: usize>(pub [R; N]);
 
 impl<R: Real, const N: usize> Polynomial<R, N> {
     /// A constant.
-    #[must_use]
     pub fn constant(value: R) -> Self {
         Self(std::array::from_fn(|k| if k == 0 { value } else { R::splat(0.0) }))
     }
 
     /// A stretch: its value, and one for its change.
-    #[must_use]
     pub fn stretch(k: usize, value: R) -> Self {
         let mut stretch = Self::constant(value);
         stretch.0[1 + k] = R::splat(1.0);
@@ -73,7 +52,6 @@ impl<R: Real, const N: usize> Polynomial<R, N> {
     }
 
     /// φ of the polynomial, from the coefficients φ⁽ᵏ⁾/k! of φ at its constant part.
-    #[must_use]
     pub fn compose(self, taylor: [R; 4]) -> Self {
         let mut change = self;
         change.0[0] = R::splat(0.0);
@@ -86,12 +64,11 @@ impl<R: Real, const N: usize> Polynomial<R, N> {
     }
 
     /// The derivative by the stretches of these numbers.
-    #[must_use]
     pub fn derivative(&self, by: &[usize]) -> R {
-        let mut monomial = [0; 3];
-        by.iter().for_each(|&k| monomial[k] += 1);
-        let factorials: u8 = monomial.iter().map(|&n| (1..=n).product::<u8>()).product();
-        place(monomial).map_or(R::splat(0.0), |k| self.0[k] * R::splat(f64::from(factorials)))
+        let monomial: u32 = by.iter().map(|&k| MONOMIALS[1 + k]).sum();
+        let factorials = [8, 4, 0].map(|digit| (1..=monomial >> digit & 0xf).product::<u32>());
+        let factor = R::splat(f64::from(factorials.into_iter().product::<u32>()));
+        place(monomial).map_or(R::splat(0.0), |k| self.0[k] * factor)
     }
 }
 
@@ -130,7 +107,6 @@ macro_rules! functions {
             pub const ALL: &[Self] = &[$(Self::$Function,)*];
 
             /// Its name as a method.
-            #[must_use]
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$Function => stringify!($method),)*
@@ -138,7 +114,6 @@ macro_rules! functions {
             }
 
             /// φ at x.
-            #[must_use]
             pub fn of<R: Real>(self, x: R) -> R {
                 match self {
                     $(Self::$Function => x.$method(),)*
@@ -155,82 +130,53 @@ functions! {
 
 impl Function {
     /// φ, φ′, φ″/2, φ‴/6 at x.
-    #[must_use]
     pub fn taylor<R: Real>(self, x: R) -> [R; 4] {
         let n = R::splat;
-        let one = n(1.0);
-        let [value, first, second, third] = match self {
-            Self::Ln => {
-                let r = one / x;
-                [x.ln(), r, -r * r, n(2.0) * r * r * r]
+        let (one, square) = (n(1.0), x * x);
+        let [first, second, third] = match self {
+            Self::Sqrt => return binomial_series(x.sqrt(), x, n(0.5)),
+            Self::Cbrt => return binomial_series(x.cbrt(), x, one / n(3.0)),
+            Self::Ln | Self::Ln1p => {
+                let r = one / if self == Self::Ln { x } else { one + x };
+                [r, -r * r, n(2.0) * r * r * r]
             }
-            Self::Ln1p => {
-                let r = one / (one + x);
-                [x.ln_1p(), r, -r * r, n(2.0) * r * r * r]
-            }
-            Self::Exp => [x.exp(); 4],
-            Self::ExpM1 => {
-                let e = x.exp();
-                [x.exp_m1(), e, e, e]
-            }
-            Self::Sqrt => {
-                let y = x.sqrt();
-                let r = one / x;
-                [y, n(0.5) * y * r, n(-0.25) * y * r * r, n(0.375) * y * r * r * r]
-            }
-            Self::Cbrt => {
-                let y = x.cbrt();
-                let (r, ninth) = (one / x, y / n(9.0));
-                [y, n(3.0) * ninth * r, n(-2.0) * ninth * r * r, n(10.0) / n(3.0) * ninth * r * r * r]
-            }
-            Self::Sinh => {
+            Self::Exp | Self::ExpM1 => [x.exp(); 3],
+            Self::Sinh | Self::Cosh => {
                 let (s, c) = (x.sinh(), x.cosh());
-                [s, c, s, c]
-            }
-            Self::Cosh => {
-                let (s, c) = (x.sinh(), x.cosh());
-                [c, s, c, s]
+                if self == Self::Sinh { [c, s, c] } else { [s, c, s] }
             }
             Self::Tanh => {
-                let t = x.tanh();
                 let q = (n(-2.0) * x.abs()).exp();
                 let slope = n(4.0) * q / ((one + q) * (one + q));
-                [t, slope, n(-2.0) * t * slope, slope * (n(4.0) - n(6.0) * slope)]
+                [slope, n(-2.0) * x.tanh() * slope, slope * (n(4.0) - n(6.0) * slope)]
             }
             Self::Sigmoid => {
                 let (slope, bend) = sigmoid_slopes(x);
-                [x.sigmoid(), slope, bend, slope * (one - n(6.0) * slope)]
+                [slope, bend, slope * (one - n(6.0) * slope)]
             }
             Self::Softplus => {
                 let (slope, bend) = sigmoid_slopes(x);
-                [x.softplus(), x.sigmoid(), slope, bend]
+                [x.sigmoid(), slope, bend]
             }
             Self::Asinh => {
-                let square = x * x;
                 let w = one / (one + square).sqrt();
                 let cube = w * w * w;
-                [x.asinh(), w, -x * cube, (n(2.0) * square - one) * cube * w * w]
+                [w, -x * cube, (n(2.0) * square - one) * cube * w * w]
             }
             Self::Atan => {
-                let square = x * x;
                 let v = one / (one + square);
-                [x.atan(), v, n(-2.0) * x * v * v, (n(6.0) * square - n(2.0)) * v * v * v]
+                [v, n(-2.0) * x * v * v, (n(6.0) * square - n(2.0)) * v * v * v]
             }
             Self::Erf => {
-                let square = x * x;
                 let slope = (-square).exp() / one.atan().sqrt();
-                [x.erf(), slope, n(-2.0) * x * slope, (n(4.0) * square - n(2.0)) * slope]
+                [slope, n(-2.0) * x * slope, (n(4.0) * square - n(2.0)) * slope]
             }
-            Self::Sin => {
+            Self::Sin | Self::Cos => {
                 let (s, c) = (x.sin(), x.cos());
-                [s, c, -s, -c]
-            }
-            Self::Cos => {
-                let (s, c) = (x.sin(), x.cos());
-                [c, -s, -c, s]
+                if self == Self::Sin { [c, -s, -c] } else { [-s, -c, s] }
             }
         };
-        [value, first, second / n(2.0), third / n(6.0)]
+        [self.of(x), first, second / n(2.0), third / n(6.0)]
     }
 }
 
@@ -243,20 +189,21 @@ fn sigmoid_slopes<R: Real>(x: R) -> (R, R) {
 }
 
 /// xʳ, and its derivatives over factorials, for a real exponent r and x > 0.
-#[must_use]
 pub fn real_power<R: Real>(x: R, exponent: R) -> [R; 4] {
+    binomial_series(x.powf(exponent), x, exponent)
+}
+
+fn binomial_series<R: Real>(power: R, x: R, exponent: R) -> [R; 4] {
     let reciprocal = R::splat(1.0) / x;
-    let mut coefficients = [x.powf(exponent); 4];
+    let mut coefficients = [power; 4];
     for k in 1..4 {
-        let before = R::splat(f64::from(k as u8) - 1.0);
-        coefficients[k] =
-            coefficients[k - 1] * (exponent - before) * reciprocal / R::splat(f64::from(k as u8));
+        let before = exponent - R::splat(f64::from(k as u8) - 1.0);
+        coefficients[k] = coefficients[k - 1] * before * reciprocal / R::splat(f64::from(k as u8));
     }
     coefficients
 }
 
 /// xⁿ, and its derivatives over factorials, for a whole exponent n.
-#[must_use]
 pub fn whole_power<R: Real>(x: R, n: i32) -> [R; 4] {
     let one = R::splat(1.0);
     let power = |n: i32| {

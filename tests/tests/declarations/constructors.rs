@@ -5,10 +5,6 @@ use piola_tests::declarations::{Sample, slices, values};
 
 const EXTEND: Inversion = Inversion::Extend { epsilon: 0.5 };
 
-/// Trials that are not about each energy.
-pub(crate) const TRIALS: [(&str, fn()); 1] =
-    [("constructors::compiled_ones_refuse_what_is_inadmissible", compiled_ones_refuse_what_is_inadmissible)];
-
 /// What must be refused is, and what a material is made of is what it returns.
 pub(crate) fn judge(sample: &Sample) {
     let energy = &sample.judged.energy;
@@ -30,7 +26,7 @@ pub(crate) fn judge(sample: &Sample) {
 }
 
 /// What no remark of a text says: messages about the energies of the catalogue, and by name.
-fn compiled_ones_refuse_what_is_inadmissible() {
+pub(crate) fn compiled_ones_refuse_what_is_inadmissible() {
     let message = |name: &str, values: &[&[f64]], inversion| {
         // Of the compiled constructor: the lists of the catalogue have a few lengths only.
         let entry = piola_materials::find(name).expect("compiled by default");

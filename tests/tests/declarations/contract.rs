@@ -47,10 +47,11 @@ fn settings(sample: &Sample) -> Settings {
     let range = match sample.judged.name {
         // Beyond, the exponential amplifies rounding errors by its exponent.
         "fung" | "veronda_westmann" => (0.5, 1.6),
-        _ => sample.text.pair("range").unwrap_or(default.range),
+        _ => sample.text.numbers("range").map_or(default.range, |[low, high]| (low, high)),
     };
     // Interpreted with dual numbers, long energies take seconds.
-    let points = sample.text.number("points").map_or(default.points, |points| points as usize);
+    let few = if sample.is_of_catalogue { default.points } else { 16 };
+    let points = sample.text.numbers("points").map_or(few, |[points]| points as usize);
     Settings { points, range, stress_free_at_rest: !sample.is_prestressed(), ..default }
 }
 
@@ -74,7 +75,9 @@ pub(crate) fn judge(sample: &Sample) {
     let further = further.map(|(_, values)| values.iter().map(|list| list.to_vec()).collect::<Values>());
     let mut broken = String::new();
     for values in sample.values().into_iter().chain(further) {
-        for inversion in sample.judged.inversions(sample.text.number("epsilon").unwrap_or(EPSILON)) {
+        for inversion in
+            sample.judged.inversions(sample.text.numbers("epsilon").map_or(EPSILON, |[epsilon]| epsilon))
+        {
             match verdict(sample, &values, inversion) {
                 Ok(Ok(())) => {}
                 Ok(Err(violations)) => broken += &format!("{values:?} {inversion:?}:\n{violations}\n"),

@@ -38,12 +38,8 @@ pub(crate) fn judge(sample: &Sample) {
                 assert_ne!(compiler, "cc", "a C compiler is needed");
                 continue;
             };
-            running
-                .stdin
-                .take()
-                .expect("its input")
-                .write_all(text.as_bytes())
-                .expect("read by the compiler");
+            let input = running.stdin.take();
+            input.expect("its input").write_all(text.as_bytes()).expect("read by the compiler");
             assert!(running.wait().expect("the compiler").success(), "{compiler}: {text}");
         }
     }

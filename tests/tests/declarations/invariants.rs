@@ -9,10 +9,6 @@ const STRETCHES: [[f64; 3]; 3] = [[1.25, 1.0625, 0.875], [1.0 + 1e-3, 1.0, 1.0 -
 
 const EPSILON: f64 = 0.25;
 
-/// Trials that are not about each energy.
-pub(crate) const TRIALS: [(&str, fn()); 1] =
-    [("invariants::below_the_threshold_they_do_not_hold", below_the_threshold_invariants_do_not_hold)];
-
 /// Where an energy with invariants is defined, they are admitted. Its values there are compared with those by
 /// stretches by the contract.
 pub(crate) fn judge(sample: &Sample) {
@@ -33,7 +29,7 @@ pub(crate) fn judge(sample: &Sample) {
 }
 
 /// λ3 ≥ 2J/I1, so that 2J > ε I1 excludes every point below the threshold.
-fn below_the_threshold_invariants_do_not_hold() {
+pub(crate) fn below_the_threshold_invariants_do_not_hold() {
     let neo_hookean = find("neo_hookean").expect("in the catalogue");
     let solid = |inversion| neo_hookean.subject(&[&[1.0], &[1.5]], inversion).expect("admissible");
     let (rubber, extended) = (solid(Inversion::Refuse), solid(Inversion::Extend { epsilon: EPSILON }));

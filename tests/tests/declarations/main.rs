@@ -44,18 +44,34 @@ fn main() -> ExitCode {
     for sample in catalogue.chain(samples) {
         for (judge, run) in JUDGES {
             let (name, sample) = (format!("{judge}::{}", sample.judged.name), sample.clone());
-            trials.push(Trial::test(name, move || {
-                run(&sample);
-                Ok(())
-            }));
+            trials.push(trial(&name, move || run(&sample)));
         }
     }
-    let further = [&constructors::TRIALS[..], &invariants::TRIALS, &powers::TRIALS, &printed::TRIALS];
-    trials.extend(further.concat().into_iter().map(|(name, run)| {
-        Trial::test(name, move || {
-            run();
-            Ok(())
-        })
-    }));
+    trials.extend([
+        further(constructors::compiled_ones_refuse_what_is_inadmissible),
+        further(invariants::below_the_threshold_invariants_do_not_hold),
+        further(powers::a_series_has_the_digits_of_its_terms),
+        further(powers::a_constant_term_counts_as_written),
+        further(powers::small_ones_keep_their_digits),
+        further(printed::domains_with_a_root_of_the_excess),
+        further(printed::a_small_constant_beside_the_excess),
+        further(printed::fractions_that_cancel_on_flat_elements),
+        further(printed::an_empty_list_is_a_sum_without_terms),
+        further(printed::descriptions_tell_lists_and_exponents),
+        further(printed::constraints_are_as_many_as_entries),
+    ]);
     libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
+}
+
+fn trial(name: &str, run: impl FnOnce() + Send + 'static) -> Trial {
+    Trial::test(name, move || {
+        run();
+        Ok(())
+    })
+}
+
+/// A trial that is not about each energy, by the name of its function.
+fn further<F: FnOnce() + Send + 'static>(run: F) -> Trial {
+    let path = std::any::type_name::<F>();
+    trial(path.split_once("::").map_or(path, |(_, name)| name), run)
 }

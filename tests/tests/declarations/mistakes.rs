@@ -8,12 +8,7 @@ use piola_tests::declarations::{Text, texts};
 pub(crate) fn trials() -> Vec<Trial> {
     let all = texts("mistakes");
     assert!(all.len() >= 50, "{} mistaken declarations", all.len());
-    let trial = |(k, text): (usize, Text)| {
-        Trial::test(format!("mistakes::{k}"), move || {
-            judge(&text);
-            Ok(())
-        })
-    };
+    let trial = |(k, text): (usize, Text)| crate::trial(&format!("mistakes::{k}"), move || judge(&text));
     all.into_iter().enumerate().map(trial).collect()
 }
 

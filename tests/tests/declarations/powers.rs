@@ -10,13 +10,6 @@ use piola_declare::Energy;
 use piola_tests::declarations::{Sample, Text, Values, find, slices, values};
 use piola_tests::declared::understood;
 
-/// Trials that are not about each energy.
-pub(crate) const TRIALS: [(&str, fn()); 3] = [
-    ("powers::a_series_has_the_digits_of_its_terms_written_out", a_series_has_the_digits_of_its_terms),
-    ("powers::a_constant_term_counts_as_written", a_constant_term_counts_as_written),
-    ("powers::those_that_are_small_at_rest_keep_their_digits", small_ones_keep_their_digits),
-];
-
 /// Stretches apart, pairwise equal, at rest, nearly at rest, and flat.
 const STRETCHES: [[f64; 3]; 7] = [
     [1.7, 1.2, 0.6],
@@ -119,7 +112,7 @@ fn check(found: &[f64], expected: &[f64], scale: f64, what: &str) {
     }
 }
 
-fn a_series_has_the_digits_of_its_terms() {
+pub(crate) fn a_series_has_the_digits_of_its_terms() {
     let sample = find("powers", "Rivlin");
     let values = sample.values().remove(0);
     let text = written(&sample.text, &vec![values[1].clone(), values[2].clone()]);
@@ -159,7 +152,7 @@ fn a_series_has_the_digits_of_its_terms() {
     check(&[a.mu, a.lambda], &[b.mu, b.lambda], 0.0, "moduli");
 }
 
-fn a_constant_term_counts_as_written() {
+pub(crate) fn a_constant_term_counts_as_written() {
     let series = find("compiled", "Series");
     let values = [&[5.0, 1.0][..], &[0.0, 1.0], &[0.0, 0.0], &[2.0]];
     let constant = series.judged.energy.material(&values, Inversion::Refuse).expect("admissible");
@@ -168,7 +161,7 @@ fn a_constant_term_counts_as_written() {
 }
 
 /// ψ1 = n sⁿ⁻¹ tᵐ + m sⁿ tᵐ⁻¹ 2 (1 + s) with t = 2 s + s², to a few u of each term.
-fn small_ones_keep_their_digits() {
+pub(crate) fn small_ones_keep_their_digits() {
     let products = find("compiled", "Products");
     for (n, m) in [(2, 0), (3, 0), (0, 2), (0, 4), (2, 1), (1, 2), (3, 3)] {
         let values = [&[1.0][..], &[f64::from(n)], &[f64::from(m)]];

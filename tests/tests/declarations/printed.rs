@@ -7,16 +7,6 @@ use piola_codegen::model::Model;
 use piola_tests::compiled::evaluate_stress;
 use piola_tests::declarations::{Sample, find};
 
-/// Trials that are not about each energy.
-pub(crate) const TRIALS: [(&str, fn()); 6] = [
-    ("printed::domains_with_a_root_of_the_excess", domains_with_a_root_of_the_excess),
-    ("printed::a_small_constant_beside_the_excess", a_small_constant_beside_the_excess),
-    ("printed::fractions_that_cancel_on_flat_elements", fractions_that_cancel_on_flat_elements),
-    ("printed::an_empty_list_is_a_sum_without_terms", an_empty_list_is_a_sum_without_terms),
-    ("printed::descriptions_tell_lists_and_exponents", descriptions_tell_lists_and_exponents),
-    ("printed::constraints_are_as_many_as_entries", constraints_are_as_many_as_entries),
-];
-
 /// The remarks about the printed forms.
 pub(crate) fn judge(sample: &Sample, model: &Model) {
     let description = sample.judged.description();
@@ -35,7 +25,7 @@ fn material(file: &str, name: &str, values: &[&[f64]]) -> Interpreted {
 }
 
 /// They contain rest, dilations and rotations.
-fn domains_with_a_root_of_the_excess() {
+pub(crate) fn domains_with_a_root_of_the_excess() {
     let root = material("printed", "VanDerWaals", &[&[1e5], &[2.1], &[1e6]]);
     let power = material("printed", "Ending", &[&[0.5]]);
     for k in 0..1000 {
@@ -56,7 +46,7 @@ fn domains_with_a_root_of_the_excess() {
     assert!(!power.has_invariants() && !power.admits([1.5f64, 0.8, 0.8]));
 }
 
-fn a_small_constant_beside_the_excess() {
+pub(crate) fn a_small_constant_beside_the_excess() {
     for (n, c) in [(0.4f64, 1e-1f64), (0.4, 1e-3), (1.7, 1e-2), (0.5, 1e-4)] {
         // The slope of the power, and so little resistance to changes of volume that nothing cancels.
         let slope = n * (c * c).powf(n - 1.0);
@@ -74,7 +64,7 @@ fn a_small_constant_beside_the_excess() {
     }
 }
 
-fn fractions_that_cancel_on_flat_elements() {
+pub(crate) fn fractions_that_cancel_on_flat_elements() {
     let [printed, by_hand] =
         ["FloryErman", "FloryErmanByHand"].map(|name| material("printed", name, &[&[4e5], &[2.59], &[2e7]]));
     for k in 1..=12 {
@@ -96,12 +86,12 @@ fn fractions_that_cancel_on_flat_elements() {
     }
 }
 
-fn an_empty_list_is_a_sum_without_terms() {
+pub(crate) fn an_empty_list_is_a_sum_without_terms() {
     let groups = |b: &[f64]| material("compiled", "Groups", &[&[1.0], b, &[0.0; 2], &[0.0]]);
     assert_eq!(groups(&[]).gradient([2.0, 1.0, 0.7]), groups(&[0.0]).gradient([2.0, 1.0, 0.7]));
 }
 
-fn descriptions_tell_lists_and_exponents() {
+pub(crate) fn descriptions_tell_lists_and_exponents() {
     let parameters = |name: &str| {
         let parameters = find("compiled", name).judged.description().parameters.to_vec();
         parameters.iter().map(|parameter| (parameter.form, parameter.unit)).collect::<Vec<_>>()
@@ -118,7 +108,7 @@ fn descriptions_tell_lists_and_exponents() {
     assert!(!find("compiled", "Springs").judged.description().parameters[2].is_list());
 }
 
-fn constraints_are_as_many_as_entries() {
+pub(crate) fn constraints_are_as_many_as_entries() {
     let groups = find("compiled", "Groups");
     let values = [&[1.0, 1.0][..], &[2.0; 3], &[0.0; 2], &[0.0]];
     let solid = groups.judged.energy.material(&values, Inversion::Refuse).expect("admissible");

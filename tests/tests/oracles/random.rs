@@ -1,15 +1,17 @@
 //! The oracle of random energies, and its calculus.
 
 use piola::Real;
-use piola_tests::random::generator::{Declaration, Domain, Expression, Invariant};
-use piola_tests::random::oracle::{Expected, Number, Point, at_stretches};
+use piola_tests::random::expression::{Invariant, invariant, whole};
+use piola_tests::random::generator::Declaration;
+use piola_tests::random::oracle::{Expected, Point, at_stretches};
 use piola_tests::random::polynomial::{CUBIC, Function, Polynomial, real_power, whole_power};
+use piola_tests::random::quantity::Number;
 
 #[test]
 fn values_are_those_of_a_formula_done_by_hand() {
     // ψ = I1²: ψi = 4 I1 λi, ψij = 8 λi λj + 4 I1 δij, D∓ = 4 I1 for both.
-    let terms = vec![Expression::Whole(Box::new(Expression::Invariant(Invariant::I1)), 2)];
-    let declaration = Declaration { parameters: Vec::new(), terms, domain: Domain::Whole, words: Vec::new() };
+    let terms = vec![whole(invariant(Invariant::I1), 2)];
+    let declaration = Declaration { parameters: Vec::new(), terms, is_positive: false, words: Vec::new() };
     let Point { energy, gradient, hessian, flip, twist, .. } = at_stretches(&declaration, [2.0, 1.0, 1.0]);
     let check = |found: &[Expected], expected: &[f64]| {
         for (found, expected) in found.iter().zip(expected) {
