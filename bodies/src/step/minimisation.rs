@@ -46,7 +46,7 @@ impl<M: Machine> NewtonWorkspace<M> {
     /// Adds the gradients of all machines at the nodes that this one owns.
     fn sum_gradient(&mut self) {
         let (nodes, gradient) = (self.machine.nodes_mut(), &mut self.gradient);
-        nodes.sum_vectors(gradient);
+        nodes.sum(gradient);
         let owned = gradient.len() - nodes.copies();
         gradient[owned..].fill([0.0; 3]);
     }
@@ -178,7 +178,7 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         let NewtonWorkspace { machine, gradient, direction, .. } = &mut *self.workspace;
         let solver = machine.solver();
         let solved = solver.solve(&self.objective, self.x, gradient, direction, tolerance, definiteness)?;
-        machine.nodes_mut().copy_vectors(direction);
+        machine.nodes_mut().copy(direction);
         Ok(solved)
     }
 

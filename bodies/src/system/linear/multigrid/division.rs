@@ -9,6 +9,8 @@
 
 use std::collections::HashMap;
 
+use piola::lanes::Real;
+
 use super::last::{Last, LastLevel, LastSolver};
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
@@ -32,16 +34,10 @@ pub trait Division: Sized {
     fn copies(&self) -> usize;
 
     /// Replaces the copies by the entries of their owners.
-    fn copy<const N: usize>(&mut self, rows: &mut [[f32; N]]);
+    fn copy<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]);
 
     /// Adds all copies of each owned row to the row.
-    fn sum<const N: usize>(&mut self, rows: &mut [[f32; N]]);
-
-    /// Replaces the copies by the vectors of their owners, in full precision.
-    fn copy_vectors(&mut self, rows: &mut [[f64; 3]]);
-
-    /// Adds all copies of each owned row to the row, in full precision.
-    fn sum_vectors(&mut self, rows: &mut [[f64; 3]]);
+    fn sum<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]);
 
     /// List, for each copy, that its owner writes for the row.
     fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>>;
@@ -99,13 +95,9 @@ impl Division for Undivided {
         0
     }
 
-    fn copy<const N: usize>(&mut self, _: &mut [[f32; N]]) {}
+    fn copy<E: Real + Into<f64>, const N: usize>(&mut self, _: &mut [[E; N]]) {}
 
-    fn sum<const N: usize>(&mut self, _: &mut [[f32; N]]) {}
-
-    fn copy_vectors(&mut self, _: &mut [[f64; 3]]) {}
-
-    fn sum_vectors(&mut self, _: &mut [[f64; 3]]) {}
+    fn sum<E: Real + Into<f64>, const N: usize>(&mut self, _: &mut [[E; N]]) {}
 
     fn lists_for_copies(&mut self, _: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {
         Vec::new()
