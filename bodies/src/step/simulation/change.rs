@@ -152,7 +152,7 @@ impl Simulation {
     /// # Errors
     /// [`SetupError`] with the error of the solver for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
-        Ok(self.set_choice(Choice::UserDefined(Arc::new(solver)))?)
+        Ok(self.set_choice(Choice::user_defined(solver))?)
     }
 
     fn set_choice(&mut self, choice: Choice) -> Result<(), LinearError> {

@@ -30,17 +30,18 @@ pub(super) struct Assembled<S> {
     solver: S,
 }
 
-impl<S> Assembled<S> {
+impl<S: SparseSolver> Assembled<S> {
     pub(super) fn new(
         body: &Body,
         pins: &Pins,
         pairs: &[[usize; 2]],
-        solver: impl FnOnce(&LowerTriangle) -> Result<S, LinearError>,
+        mut solver: S,
     ) -> Result<Self, LinearError> {
         let stiffness = NodalStiffness::with_elements(body, pairs)?;
         let matrix = LowerTriangle::new(&stiffness, pins)?;
+        solver.analyse(matrix.column_starts(), matrix.row_indices())?;
         Ok(Self {
-            solver: solver(&matrix)?,
+            solver,
             stiffness,
             free: matrix.free_nodes().to_vec(),
             held: Vec::new(),

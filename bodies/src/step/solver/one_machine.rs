@@ -71,11 +71,20 @@ impl Machine for OneMachine {
 #[derive(Clone)]
 pub(in crate::step) enum Choice {
     Setting(LinearSolver),
-    UserDefined(Arc<dyn SetUp>),
+    UserDefined(Arc<SetUp>),
 }
 
+/// Sets a solver up for the pairs of nodes of a body's elements, and for more pairs.
+type SetUp = dyn Fn(&Body, &Pins, &[[usize; 2]]) -> Result<Box<dyn OwnSolver>, LinearError> + Send + Sync;
+
 impl Choice {
-    /// Sets the solver up for the pairs of nodes of a body's elements, and for these.
+    pub(in crate::step) fn user_defined(solver: impl SparseSolver) -> Self {
+        Self::UserDefined(Arc::new(move |body: &Body, pins: &Pins, pairs: &[[usize; 2]]| {
+            let set_up: Box<dyn OwnSolver> = Box::new(Assembled::new(body, pins, pairs, solver.clone())?);
+            Ok(set_up)
+        }))
+    }
+
     fn set_up(
         &self,
         body: &Body,
@@ -84,33 +93,7 @@ impl Choice {
     ) -> Result<Box<dyn OwnSolver>, LinearError> {
         match self {
             Self::Setting(solver) => solver.set_up(body, pins, pairs),
-            Self::UserDefined(solver) => solver.set_up(body, pins, pairs),
+            Self::UserDefined(set_up) => set_up(body, pins, pairs),
         }
-    }
-}
-
-/// A [`SparseSolver`] of any type, before it is set up.
-pub(in crate::step) trait SetUp: Send + Sync {
-    fn set_up(
-        &self,
-        body: &Body,
-        pins: &Pins,
-        pairs: &[[usize; 2]],
-    ) -> Result<Box<dyn OwnSolver>, LinearError>;
-}
-
-impl<S: SparseSolver> SetUp for S {
-    fn set_up(
-        &self,
-        body: &Body,
-        pins: &Pins,
-        pairs: &[[usize; 2]],
-    ) -> Result<Box<dyn OwnSolver>, LinearError> {
-        let analysed = Assembled::new(body, pins, pairs, |matrix| {
-            let mut solver = self.clone();
-            solver.analyse(matrix.column_starts(), matrix.row_indices())?;
-            Ok(solver)
-        })?;
-        Ok(Box::new(analysed))
     }
 }
