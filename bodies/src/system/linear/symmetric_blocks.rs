@@ -14,6 +14,7 @@ use piola::lanes::Real;
 
 use super::LinearError;
 use crate::system::graph::Graph;
+use crate::system::lists::Lists;
 use crate::system::memory::{filled, reserved};
 use crate::system::parts::for_each_part;
 
@@ -38,9 +39,8 @@ pub(crate) struct Pattern {
     chunks: Vec<Chunk>,
     /// Chunk of each row, and place of the row in the chunk.
     place_of_row: Vec<Place>,
-    /// Start of the sums of each row, followed by the end of the last row.
-    starts: Vec<u32>,
-    sums: Vec<Place>,
+    /// Sums of each row, in the order of the chunks.
+    sums: Lists<Place>,
 }
 
 /// Chunk of rows, with the columns of their blocks.
@@ -54,7 +54,7 @@ struct Chunk {
 }
 
 /// Place of a row in a chunk.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Place {
     chunk: u32,
     place: u32,
@@ -91,7 +91,7 @@ impl Pattern {
             rank[row as usize] = at as u32;
         }
         let mut chunks: Vec<Chunk> = reserved(rows.div_ceil(ROWS))?;
-        let mut place_of_row = filled(rows, Place { chunk: 0, place: 0 })?;
+        let mut place_of_row = filled(rows, Place::default())?;
         let mut place_here = filled(rows, u32::MAX)?;
         let mut blocks = 0;
         let mut later: Vec<u32> = Vec::new();
@@ -123,22 +123,12 @@ impl Pattern {
         }
         u32::try_from(blocks).map_err(|_| LinearError::OutOfMemory)?;
 
-        let mut starts = filled(rows + 1, 0_u32)?;
-        for &row in chunks.iter().flat_map(|chunk| &chunk.rows) {
-            starts[row as usize + 1] += 1;
-        }
-        for row in 0..rows {
-            starts[row + 1] += starts[row];
-        }
-        let mut next = starts.clone();
-        let mut sums = filled(starts[rows] as usize, Place { chunk: 0, place: 0 })?;
-        for (number, chunk) in chunks.iter().enumerate() {
-            for (place, &row) in chunk.rows.iter().enumerate() {
-                sums[next[row as usize] as usize] = Place { chunk: number as u32, place: place as u32 };
-                next[row as usize] += 1;
-            }
-        }
-        Ok(Self { chunks, place_of_row, starts, sums })
+        let of_chunk = |chunk: usize| {
+            let place = move |place: usize| Place { chunk: chunk as u32, place: place as u32 };
+            chunks[chunk].rows.iter().enumerate().map(move |(at, &row)| (row as usize, place(at)))
+        };
+        let sums = Lists::new(rows, || (0..chunks.len()).flat_map(of_chunk))?;
+        Ok(Self { chunks, place_of_row, sums })
     }
 
     pub(crate) fn rows(&self) -> usize {
@@ -255,8 +245,7 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
         for_each_part(product, SUMS, |first, part| {
             for (total, row) in part.iter_mut().zip(first..) {
                 let mut sum = [E::splat(0.0); N];
-                let sums = pattern.starts[row] as usize..pattern.starts[row + 1] as usize;
-                for &Place { chunk, place } in &pattern.sums[sums] {
+                for &Place { chunk, place } in pattern.sums.of(row) {
                     let part = memory[chunk as usize].sums[place as usize];
                     for a in 0..N {
                         sum[a] = sum[a] + part[a];
