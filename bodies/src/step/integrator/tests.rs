@@ -1,6 +1,6 @@
 use super::*;
 use crate::mesh::TetMesh;
-use crate::step::testing::{distance, left_end, simulation};
+use crate::step::testing::{distance, left_end, settings, simulation};
 use crate::step::{NewtonSettings, Simulation, SimulationSettings};
 use crate::system::Pins;
 use crate::system::testing::{beam, neo_hookean};
@@ -38,11 +38,7 @@ impl Motion {
     /// Positions after [`DURATION`]. The bar is stretched and sheared by its velocities at the start.
     fn end(&self, integrator: Integrator, steps: usize) -> Vec<[f64; 3]> {
         let mesh = beam(3);
-        let settings = SimulationSettings::default()
-            .with_damping(self.damping)
-            .with_integrator(integrator)
-            .with_newton(NewtonSettings::default().with_tolerance(1e-12));
-        let mut simulation = bar(&mesh, self.is_held, settings);
+        let mut simulation = bar(&mesh, self.is_held, accurate(integrator).with_damping(self.damping));
         let velocities: Vec<[f64; 3]> =
             mesh.positions.iter().map(|&[x, y, _]| [2.0 * x, 1.0 * x * x - 0.3 * y * x, 0.5 * x]).collect();
         simulation.set_velocities(&velocities).expect("finite");
@@ -65,6 +61,10 @@ impl Motion {
         let errors = steps.map(|steps| distance(&self.end(integrator, steps), exact));
         [(errors[0] / errors[1]).log2(), (errors[1] / errors[2]).log2()]
     }
+}
+
+fn accurate(integrator: Integrator) -> SimulationSettings {
+    settings(NewtonSettings::default().with_tolerance(1e-12)).with_integrator(integrator)
 }
 
 fn bar(mesh: &TetMesh, is_held: bool, settings: SimulationSettings) -> Simulation {
@@ -106,9 +106,7 @@ fn moving_targets_of_springs_leave_second_order() {
     let mesh = beam(3);
     let tip = mesh.positions.len() - 1;
     let end = |integrator, steps: usize| {
-        let newton = NewtonSettings::default().with_tolerance(1e-12);
-        let settings = SimulationSettings::default().with_integrator(integrator).with_newton(newton);
-        let mut simulation = bar(&mesh, true, settings);
+        let mut simulation = bar(&mesh, true, accurate(integrator));
         let at = |t: f64| {
             let [x, y, z] = mesh.positions[tip];
             [Spring::on_node(tip, [x + t, y + 8.0 * t * t, z], 2000.0)]

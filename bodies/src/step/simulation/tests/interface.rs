@@ -82,15 +82,8 @@ fn the_solver_fits_the_body() {
 #[test]
 fn a_clone_is_independent_and_exact() {
     let mesh = beam(4);
-    for linear in
-        [LinearSolver::Cholesky, LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 }]
-    {
-        let newton = NewtonSettings::default().with_linear(linear);
-        let settings = SimulationSettings::default()
-            .with_gravity([0.0, -9.81, 0.0])
-            .with_damping(1.0)
-            .with_newton(newton);
-        let mut body = simulation(&mesh, neo_hookean(), &left_end(&mesh), settings);
+    for linear in solvers(1e-3) {
+        let mut body = held(&mesh, neo_hookean(), falling(solved_by(linear)).with_damping(1.0));
         body.step(0.01).expect("a step");
         let before = body.positions().to_vec();
         let mut copy = body.clone();
@@ -125,9 +118,8 @@ fn errors_convert_and_name_their_source() {
 #[test]
 fn materials_are_replaced_between_steps() {
     let mesh = beam(3);
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
-    let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
-    let mut simulation = Simulation::new(body, &left_end(&mesh), settings).expect("a simulation");
+    let settings = falling(NewtonSettings::default());
+    let mut simulation = held(&mesh, neo_hookean(), settings);
     simulation.equilibrate().expect("a hanging bar");
     let stiff = simulation.positions()[mesh.positions.len() - 1][1];
     let error = simulation.set_material(1, neo_hookean()).expect_err("no such part");
@@ -135,8 +127,7 @@ fn materials_are_replaced_between_steps() {
     simulation.set_material(0, kirchhoff()).expect("the only part");
     simulation.equilibrate().expect("a hanging bar");
     let softer = simulation.positions()[mesh.positions.len() - 1][1];
-    let body = Body::new(&mesh, kirchhoff(), 1000.0).expect("a body");
-    let mut fresh = Simulation::new(body, &left_end(&mesh), settings).expect("a simulation");
+    let mut fresh = held(&mesh, kirchhoff(), settings);
     fresh.equilibrate().expect("a hanging bar");
     let expected = fresh.positions()[mesh.positions.len() - 1][1];
     assert!(
