@@ -6,7 +6,7 @@
 use piola::NoSuchNode;
 
 use super::error::SetupError;
-use super::integrator::{Integrator, Method, Stages, State, on_the_way};
+use super::integrator::{Integrator, Method, Stage, State};
 use super::spring::Spring;
 
 /// State of the nodes of a body, or of the part of a machine, and the stages by which an [`Integrator`]
@@ -20,7 +20,7 @@ use super::spring::Spring;
 /// M a = −∇Ψ(x) + other forces at x and v, with v = (x − s)/τ and a = (v − w)/σ
 /// ```
 ///
-/// for the s, w, τ and σ of its [`Stage`](super::integrator::Stage).
+/// for the s, w, τ and σ of its [`Stage`].
 #[derive(Clone, Debug)]
 pub(super) struct StagedSteps {
     pub(super) integrator: Integrator,
@@ -31,7 +31,12 @@ pub(super) struct StagedSteps {
     /// State after the step in progress; its positions are those of the current stage, where the minimisation
     /// begins and which the minimum replaces.
     pub(super) next: State,
-    pub(super) stages: Stages,
+    /// The current stage.
+    pub(super) stage: Stage,
+    /// Springs with their targets in this stage.
+    pub(super) stage_springs: Vec<Spring>,
+    /// v, m/s, and a, m/s², of each completed stage except for the last.
+    done: Vec<[Vec<[f64; 3]>; 2]>,
     /// Indices of the pinned nodes, ascending.
     pub(super) pinned: Vec<usize>,
     /// Position of each pinned node, and only of those, after the next step, m.
@@ -61,27 +66,31 @@ impl StagedSteps {
         pinned.sort_unstable();
         pinned.dedup();
         let state = State::at_rest(positions);
-        Ok(Self {
+        let mut steps = Self {
             integrator,
             method: integrator.method(),
             dt: 0.0,
             next: state.clone(),
-            stages: Stages::new(integrator, nodes),
+            stage: Stage::at_rest(nodes),
+            stage_springs: Vec::new(),
+            done: Vec::new(),
             pinned,
             targets: positions.to_vec(),
             pins_move: vec![[0.0; 3]; nodes],
             springs: Vec::new(),
             targets_before: Vec::new(),
             state,
-        })
+        };
+        steps.set_integrator(integrator);
+        Ok(steps)
     }
 
     /// Replaces the integrator from the next step on.
     pub(super) fn set_integrator(&mut self, integrator: Integrator) {
-        if integrator != self.integrator {
-            self.integrator = integrator;
-            self.stages = Stages::new(integrator, self.state.x.len());
-        }
+        let zero = || vec![[0.0; 3]; self.state.x.len()];
+        self.integrator = integrator;
+        self.stage.is_second_order = integrator.order() > 1;
+        self.done.resize_with(integrator.method().rows.len() - 1, || [zero(), zero()]);
     }
 
     /// Replaces the pinned nodes. A node that was not pinned before is held where it is.
@@ -143,13 +152,22 @@ impl StagedSteps {
 
     /// Begins a stage of the step, counted from 0: pinned nodes and targets of springs are at its share of
     /// their motion through the step. Returns true if a pinned node moves.
-    ///
-    /// # Panics
-    /// If there is no such stage.
     pub(super) fn begin_stage(&mut self, stage: usize) -> bool {
-        self.stages.begin(&self.method, stage, self.dt, &self.state);
+        let State { x, v, a } = &self.state;
+        let Stage { start, velocities, lengths, accelerations, .. } = &mut self.stage;
+        *lengths = self.method.lengths(self.dt);
+        accelerations.copy_from_slice(stage.checked_sub(1).map_or(a, |before| &self.done[before][1]));
+        start.copy_from_slice(x);
+        velocities.copy_from_slice(v);
+        for (coefficient, [v, a]) in self.method.rows[stage].iter().zip(&self.done) {
+            add(start, self.dt * coefficient, v);
+            add(velocities, self.dt * coefficient, a);
+        }
         let share = self.method.share(stage);
-        self.stages.pull(&self.springs, &self.targets_before, share);
+        self.stage_springs.clone_from(&self.springs);
+        for (spring, &before) in self.stage_springs.iter_mut().zip(&self.targets_before) {
+            spring.target = on_the_way(before, spring.target, share);
+        }
         let mut is_moving = false;
         for &node in &self.pinned {
             let (target, before) = (self.targets[node], self.state.x[node]);
@@ -163,18 +181,17 @@ impl StagedSteps {
     }
 
     /// Ends a stage, with the positions of `next` at the minimum.
-    ///
-    /// # Panics
-    /// If there is no such stage.
     pub(super) fn end_stage(&mut self, stage: usize) {
-        if stage + 1 < self.method.stages() {
-            self.stages.end(stage, &self.next.x);
+        let is_last = stage + 1 == self.method.stages();
+        let State { x, v, a } = &mut self.next;
+        let [v, a] = if is_last { [v, a] } else { self.done[stage].each_mut() };
+        for (node, &x) in x.iter().enumerate() {
+            [v[node], a[node]] = self.stage.motion(node, x);
         }
     }
 
     /// Ends the step, at the end of its last stage.
     pub(super) fn finish(&mut self) {
-        self.stages.finish(&mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
         for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
             *before = spring.target;
@@ -215,6 +232,21 @@ impl StagedSteps {
             )));
         }
         Ok(())
+    }
+}
+
+/// Point at a share of the way between two points; exactly these at the ends.
+fn on_the_way(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
+    match share {
+        0.0 => from,
+        1.0 => to,
+        _ => std::array::from_fn(|c| from[c] + share * (to[c] - from[c])),
+    }
+}
+
+fn add(sum: &mut [[f64; 3]], factor: f64, x: &[[f64; 3]]) {
+    for (sum, x) in sum.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
+        *sum += factor * x;
     }
 }
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::mesh::TetMesh;
 use crate::step::testing::{distance, left_end, settings, simulation};
-use crate::step::{NewtonSettings, Simulation, SimulationSettings};
+use crate::step::{NewtonSettings, Simulation, SimulationSettings, Spring};
 use crate::system::Pins;
 use crate::system::testing::{beam, neo_hookean};
 

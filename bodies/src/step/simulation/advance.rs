@@ -114,8 +114,7 @@ impl<M: Machine> Simulation<M> {
         let own = [usize::from(pins_move), self.pinned().iter().filter(is_own).count()];
         let [moves, pinned] = nodes.totals(own.map(|number| number as f64));
         let (pins_move, may_drift) = (moves > 0.0, pinned < 3.0);
-        let StagedSteps { stages, pins_move: displacements, next, .. } = &mut self.steps;
-        let stage = &stages.current;
+        let StagedSteps { stage, stage_springs, pins_move: displacements, next, .. } = &mut self.steps;
         let [tau, sigma] = stage.lengths;
         let is_static = tau == f64::INFINITY;
         let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
@@ -131,7 +130,7 @@ impl<M: Machine> Simulation<M> {
                 gravity: self.settings.gravity,
                 forces: &self.forces,
             },
-            terms: Terms { springs: &stages.springs, others: &self.terms },
+            terms: Terms { springs: stage_springs, others: &self.terms },
             blocks: &mut self.blocks,
         };
         let mut minimisation =
