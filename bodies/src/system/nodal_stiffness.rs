@@ -17,12 +17,11 @@ use piola::point::Filter;
 
 use super::assemble::Elastic;
 use super::body::Body;
-use super::element::{Evaluated, pair};
+use super::element::{Evaluated, StiffnessBlocks, Tetrahedron, pair};
 use super::graph::Graph;
 use super::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use super::linear::{LinearError, fits};
 use super::memory::{filled, reserved};
-use super::stiffnesses::ElementStiffnesses;
 
 /// Tiles of a wave: 2.9 MB of stiffnesses.
 const WAVE: usize = 64;
@@ -38,8 +37,8 @@ const WAVE: usize = 64;
 pub struct NodalStiffness {
     shape: Arc<Shape>,
     matrix: SymmetricBlocks<f64, 3>,
-    /// Stiffnesses of the elements of a wave, or of the whole body.
-    elements: ElementStiffnesses,
+    /// Filtered stiffnesses, 720 bytes each, of the elements of a wave or of the whole body.
+    tiles: Vec<[StiffnessBlocks; TILE]>,
 }
 
 /// Graph, order and places, which depend on the mesh alone.
@@ -96,8 +95,7 @@ impl NodalStiffness {
         let graph = Graph::of_upper(&[])?;
         let pattern = Arc::new(Pattern::new(&graph, &[])?);
         let shape = Shape { elements: 0, tiles: 0, graph, order: Vec::new(), gather: Vec::new() };
-        let elements = ElementStiffnesses { tiles: Vec::new() };
-        Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, elements })
+        Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, tiles: Vec::new() })
     }
 
     /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
@@ -167,10 +165,10 @@ impl NodalStiffness {
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
         let matrix = SymmetricBlocks::new(pattern.clone())?;
         let gather = gather(body, &pattern)?;
-        let tiles = body.groups().count();
-        let elements = ElementStiffnesses { tiles: filled(tiles.min(most), [[[[0.0; 3]; 3]; 10]; TILE])? };
-        let shape = Shape { elements: body.elements().len(), tiles, graph, order, gather };
-        Ok(Self { shape: Arc::new(shape), matrix, elements })
+        let shape =
+            Shape { elements: body.elements().len(), tiles: body.groups().count(), graph, order, gather };
+        let tiles = filled(shape.tiles.min(most), [[[[0.0; 3]; 3]; 10]; TILE])?;
+        Ok(Self { shape: Arc::new(shape), matrix, tiles })
     }
 
     /// Numbers of nodes, elements and tiles of the body.
@@ -178,9 +176,42 @@ impl NodalStiffness {
         [self.matrix.pattern().rows(), self.shape.elements, self.shape.tiles]
     }
 
-    /// The stiffness of each element, if this was made by [`NodalStiffness::with_elements`].
-    pub(crate) fn elements(&self) -> &ElementStiffnesses {
-        &self.elements
+    /// Each element of the body with its stiffness, if this was made by [`NodalStiffness::with_elements`].
+    pub(super) fn of_elements<'a>(
+        &'a self,
+        body: &'a Body,
+    ) -> impl Iterator<Item = (&'a Tetrahedron, &'a StiffnessBlocks)> {
+        let tiles = body.groups().zip(&self.tiles);
+        tiles.flat_map(|((_, elements), tile)| body.elements()[elements].iter().zip(tile))
+    }
+
+    /// Adds K d to `total` for the displacement d of each node, if this was made by
+    /// [`NodalStiffness::with_elements`]. Nodes with d = 0 cost little.
+    pub(crate) fn add_product_of_elements(
+        &self,
+        body: &Body,
+        displacement: &[[f64; 3]],
+        total: &mut [[f64; 3]],
+    ) {
+        for (element, stiffness) in self.of_elements(body) {
+            for (j, &from) in element.nodes.iter().enumerate() {
+                let d = displacement[from];
+                if d == [0.0; 3] {
+                    continue;
+                }
+                for (i, &to) in element.nodes.iter().enumerate() {
+                    for a in 0..3 {
+                        for c in 0..3 {
+                            let entry = match i >= j {
+                                true => stiffness[pair(i, j)][a][c],
+                                false => stiffness[pair(j, i)][c][a],
+                            };
+                            total[to][a] += entry * d[c];
+                        }
+                    }
+                }
+            }
+        }
     }
 
     pub(crate) fn matrix(&self) -> &SymmetricBlocks<f64, 3> {
@@ -202,13 +233,13 @@ impl NodalStiffness {
 
     /// Computes gradients and the filtered stiffness at the last point of evaluation.
     pub(crate) fn linearise(&mut self, body: &Body, elastic: &mut Elastic, filter: Filter) -> Evaluated {
-        let Self { shape, matrix, elements } = self;
+        let Self { shape, matrix, tiles: all } = self;
         matrix.for_each_chunk(|_, _, blocks| blocks.fill([[0.0; 3]; 3]));
-        let keeps_all = elements.tiles.len() == shape.tiles;
+        let keeps_all = all.len() == shape.tiles;
         for (number, first) in (0..shape.tiles).step_by(WAVE).enumerate() {
             let range = first..shape.tiles.min(first + WAVE);
             let start = if keeps_all { first } else { 0 };
-            let tiles = &mut elements.tiles[start..start + range.len()];
+            let tiles = &mut all[start..start + range.len()];
             elastic.linearise(body, filter, first, tiles);
             let elements = tiles.as_flattened();
             matrix.for_each_chunk(|chunk, _, blocks| {

@@ -86,7 +86,7 @@ impl<S: SparseSolver> Solver for Assembled<S> {
     }
 
     fn add_product(&mut self, body: &Body, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        self.stiffness.elements().add_product(body, displacement, total);
+        self.stiffness.add_product_of_elements(body, displacement, total);
     }
 
     fn solve(
