@@ -6,7 +6,9 @@ use super::aggregation::Aggregates;
 use super::division::{Division, Numbers, ROWS, diagonals};
 use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, columns_of, graph_of};
 use crate::system::graph::Graph;
+use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
+use crate::system::lists::Lists;
 use crate::system::parts::for_each_part;
 
 /// Degree of the Chebyshev polynomials.
@@ -89,7 +91,7 @@ impl<const N: usize> Level<N> {
 
         let aggregates = Aggregates::new(graph, order, included, owned);
         let mut numbers = Numbers::new(division.first(aggregates.len()), aggregates.len());
-        let (mut tentative, motions) = orthonormal(&aggregates, motions);
+        let (mut tentative, motions) = orthonormal(&aggregates, motions)?;
         extend(&mut tentative, &mut numbers, division);
         let whole = WholeRows::new(matrix.pattern())?;
         let product = whole.multiply(matrix, included, &tentative, numbers.len());
@@ -344,50 +346,36 @@ fn times<const N: usize>(matrix: &[[f32; N]; N], x: &[f32; N]) -> [f32; N] {
 fn orthonormal<const N: usize>(
     aggregates: &Aggregates,
     motions: &[[[f64; 6]; N]],
-) -> (Rows<f64, N, 6>, Vec<[[f64; 6]; 6]>) {
+) -> Result<(Rows<f64, N, 6>, Vec<[[f64; 6]; 6]>), LinearError> {
     let mut blocks = motions.to_vec();
     let mut combinations = vec![[[0.0; 6]; 6]; aggregates.len()];
-    let members = || (0..motions.len()).filter_map(|row| Some((row, aggregates.of(row)?)));
-    // Products of one motion, for each aggregate.
-    let squared_lengths = |blocks: &[[[f64; 6]; N]], c: usize| {
-        let mut squares = vec![0.0; aggregates.len()];
-        for (row, aggregate) in members() {
-            squares[aggregate] += (0..N).map(|r| blocks[row][r][c] * blocks[row][r][c]).sum::<f64>();
-        }
-        squares
-    };
-    // Gram–Schmidt orthogonalisation, twice, for all aggregates at once.
-    for c in 0..6 {
-        let before = squared_lengths(&blocks, c);
-        for _ in 0..2 {
-            let mut along = vec![[0.0; 6]; aggregates.len()];
-            for (row, aggregate) in members() {
-                for k in 0..c {
-                    along[aggregate][k] += (0..N).map(|r| blocks[row][r][k] * blocks[row][r][c]).sum::<f64>();
-                }
-            }
-            for (row, aggregate) in members() {
-                for k in 0..c {
-                    for r in 0..N {
-                        blocks[row][r][c] -= along[aggregate][k] * blocks[row][r][k];
+    let members = || (0..motions.len()).filter_map(|row| Some((aggregates.of(row)?, row)));
+    let members = Lists::new(aggregates.len(), members)?;
+    // Gram–Schmidt orthogonalisation, twice.
+    for (aggregate, combination) in combinations.iter_mut().enumerate() {
+        let rows = members.of(aggregate);
+        let product = |blocks: &[[[f64; 6]; N]], k: usize, c: usize| {
+            let of_row = |&row: &usize| (0..N).map(|r| blocks[row][r][k] * blocks[row][r][c]).sum::<f64>();
+            rows.iter().map(of_row).sum::<f64>()
+        };
+        for c in 0..6 {
+            let before = product(&blocks, c, c);
+            for _ in 0..2 {
+                let along: Vec<f64> = (0..c).map(|k| product(&blocks, k, c)).collect();
+                for (k, along) in along.into_iter().enumerate() {
+                    for &row in rows {
+                        (0..N).for_each(|r| blocks[row][r][c] -= along * blocks[row][r][k]);
                     }
+                    combination[k][c] += along;
                 }
             }
-            for (combination, along) in combinations.iter_mut().zip(&along) {
-                for k in 0..c {
-                    combination[k][c] += along[k];
+            let after = product(&blocks, c, c);
+            let length = if after > DEPENDENT * DEPENDENT * before { after.sqrt() } else { 0.0 };
+            combination[c][c] = length;
+            for &row in rows {
+                for r in 0..N {
+                    blocks[row][r][c] = if length > 0.0 { blocks[row][r][c] / length } else { 0.0 };
                 }
-            }
-        }
-        let after = squared_lengths(&blocks, c);
-        for (aggregate, combination) in combinations.iter_mut().enumerate() {
-            let is_new = after[aggregate] > DEPENDENT * DEPENDENT * before[aggregate];
-            combination[c][c] = if is_new { after[aggregate].sqrt() } else { 0.0 };
-        }
-        for (row, aggregate) in members() {
-            let length = combinations[aggregate][c][c];
-            for r in 0..N {
-                blocks[row][r][c] = if length > 0.0 { blocks[row][r][c] / length } else { 0.0 };
             }
         }
     }
@@ -398,7 +386,7 @@ fn orthonormal<const N: usize>(
         }
         rows.end_row();
     }
-    (rows, combinations)
+    Ok((rows, combinations))
 }
 
 /// Adds the rows of copies, with the values of their owners.

@@ -91,22 +91,16 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
     {
         let Self { starts, columns, blocks } = self;
         let mut rest = blocks.as_mut_slice();
-        let mut parts = Vec::with_capacity(starts.len() / ROWS + 1);
-        let rows = starts.len() - 1;
-        for first in (0..rows).step_by(ROWS) {
-            let end = rows.min(first + ROWS);
-            let (part, after) = rest.split_at_mut(starts[end] - starts[first]);
-            parts.push((first..end, part));
+        let mut rows = Vec::with_capacity(starts.len() - 1);
+        for ends in starts.windows(2) {
+            let (row, after) = rest.split_at_mut(ends[1] - ends[0]);
+            rows.push(row);
             rest = after;
         }
-        for_each_part(&mut parts, 1, |_, parts| {
-            for (range, part) in parts {
-                for row in range.clone() {
-                    let (blocks, after) = std::mem::take(part).split_at_mut(starts[row + 1] - starts[row]);
-                    let columns = columns[starts[row]..starts[row + 1]].iter().map(|&column| column as usize);
-                    change(row, &mut columns.zip(blocks));
-                    *part = after;
-                }
+        for_each_part(&mut rows, ROWS, |first, rows| {
+            for (row, blocks) in (first..).zip(rows) {
+                let columns = columns[starts[row]..starts[row + 1]].iter().map(|&column| column as usize);
+                change(row, &mut columns.zip(blocks.iter_mut()));
             }
         });
     }
