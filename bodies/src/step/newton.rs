@@ -70,9 +70,6 @@ pub(super) struct Linearised {
 /// Moves x towards a minimum, and the pins with the first direction if `pins_move`.
 ///
 /// The energies must have been evaluated at x, and on success they have been again.
-///
-/// # Errors
-/// [`NewtonError::NotFinite`], [`NewtonError::LineSearch`], or an error of the minimisation.
 pub(super) fn minimize<M: Minimisation>(
     minimisation: &mut M,
     pins_move: bool,

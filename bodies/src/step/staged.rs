@@ -50,9 +50,6 @@ pub(super) struct StagedSteps {
 
 impl StagedSteps {
     /// State of nodes at rest at these positions, m, some of them pinned.
-    ///
-    /// # Errors
-    /// [`SetupError`] for a pin that is no node.
     pub(super) fn new(
         integrator: Integrator,
         positions: &[[f64; 3]],
@@ -106,9 +103,6 @@ impl StagedSteps {
     }
 
     /// Prescribes the position of a pinned node, m, after the next step and from then on.
-    ///
-    /// # Errors
-    /// [`SetupError`] for a node that is not pinned, or a position that is not finite.
     pub(super) fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
         if self.pinned.binary_search(&node).is_err() {
             return Err(SetupError(format!(
@@ -124,10 +118,6 @@ impl StagedSteps {
 
     /// Replaces the springs. If a spring has the same index and anchor as one before, its target moves evenly
     /// in the course of the next step.
-    ///
-    /// # Errors
-    /// [`SetupError`] for a node that does not exist, a negative stiffness or a component that is not finite.
-    /// The springs then stay as they were.
     pub(super) fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
         springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
         let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {

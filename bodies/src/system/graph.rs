@@ -10,9 +10,6 @@ pub(crate) struct Graph(Lists<u32>);
 
 impl Graph {
     /// Nodes that share a tetrahedron or are one of the pairs, each list ascending.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`], also for more nodes than a `u32` counts.
     pub(crate) fn of_tets(
         nodes: usize,
         tets: impl Iterator<Item = [usize; 4]> + Clone,
@@ -41,9 +38,6 @@ impl Graph {
     }
 
     /// The graph of a matrix of which the columns above the diagonal are given, row by row.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn of_upper(rows: &[Vec<u32>]) -> Result<Self, LinearError> {
         let above = || (0..rows.len()).flat_map(|row| rows[row].iter().map(move |&column| (row, column)));
         let both = |(row, column): (usize, u32)| [(row, column), (column as usize, row as u32)];

@@ -13,9 +13,6 @@ pub(crate) struct Lists<T> {
 
 impl<T: Copy + Default> Lists<T> {
     /// Sorts pairs of a key below `keys` and a value by their keys; `pairs` is called twice.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn new<I: Iterator<Item = (usize, T)>>(
         keys: usize,
         pairs: impl Fn() -> I,

@@ -143,17 +143,11 @@ impl NodalStiffness {
 
     /// Finds the places of all blocks, also of pairs of nodes that share no element, and allocates all memory
     /// that is needed.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn new(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
         Self::of_tiles(body, pairs, WAVE)
     }
 
     /// Like [`NodalStiffness::new`], but keeps the stiffness of each element.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn with_elements(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
         Self::of_tiles(body, pairs, usize::MAX)
     }

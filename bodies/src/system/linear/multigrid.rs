@@ -97,9 +97,6 @@ impl<D: Division> Multigrid<D> {
     ///
     /// `order` is the order of the aggregation, in which neighbours should be close to each other. Rows that
     /// are not `included` have zeros in right sides and solutions.
-    ///
-    /// # Errors
-    /// [`Division::Error`], also for an entry that is not finite.
     pub(crate) fn set_up(
         &mut self,
         matrix: &SymmetricBlocks<f64, 3>,

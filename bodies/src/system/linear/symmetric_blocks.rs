@@ -81,9 +81,6 @@ impl Chunk {
 
 impl Pattern {
     /// Pattern of a graph, with rows divided into chunks in this order.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn new(graph: &Graph, order: &[u32]) -> Result<Self, LinearError> {
         let rows = graph.rows();
         let mut rank = filled(rows, 0_u32)?;
@@ -182,9 +179,6 @@ impl Pattern {
 
 impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
     /// Matrix of zeros.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn new(pattern: Arc<Pattern>) -> Result<Self, LinearError> {
         let zero = E::splat(0.0);
         let memory = |chunk: &Chunk| {

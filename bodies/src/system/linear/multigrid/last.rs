@@ -177,10 +177,8 @@ fn subtract_product(a: &Block, b: &Block, block: &mut Block) {
     }
 }
 
-/// L⁻ᵀ of a symmetric block L Lᵀ, of which the entries (c, r) with c ≤ r are read.
-///
-/// # Errors
-/// The pivot that is not positive.
+/// L⁻ᵀ of a symmetric block L Lᵀ, of which the entries (c, r) with c ≤ r are read, or the pivot that is not
+/// positive.
 fn inverse_factor(block: &Block) -> Result<Block, usize> {
     // Lᵀ, row by row.
     let mut upper = [[0.0; 6]; 6];
