@@ -27,7 +27,7 @@ use crate::system::{Body, Cholesky, LinearError, LowerTriangle, NodalStiffness, 
 use super::error::NewtonError;
 use super::integrator::Stage;
 use super::minimisation::demand_admissible;
-use super::objective::{Objective, Quadratic};
+use super::objective::Objective;
 use super::simulation::Simulation;
 use super::term::NodeBlocks;
 
@@ -98,15 +98,6 @@ impl Equilibrium {
         let survey = elastic.evaluate(body, positions);
         demand_admissible(&Undivided, &survey, body, &elastic)?;
         let stage = Stage::at_rest(positions.len());
-        let quadratic = Quadratic {
-            masses: body.masses(),
-            stage: &stage,
-            damping: 0.0,
-            regularisation: 0.0,
-            guard: 0.0,
-            gravity: simulation.settings().gravity,
-            forces: simulation.forces(),
-        };
         let mut blocks = NodeBlocks::default();
         let terms = simulation.all_terms();
         terms.linearise(positions, &mut blocks);
@@ -117,7 +108,18 @@ impl Equilibrium {
         let mut stiffness = NodalStiffness::new(body, &pairs)?;
         let tangents = stiffness.linearise(body, &mut elastic, Filter::None);
         demand_admissible(&Undivided, &tangents, body, &elastic)?;
-        let objective = Objective { body, elastic: &mut elastic, quadratic, terms, blocks: &mut blocks };
+        let objective = Objective {
+            body,
+            elastic: &mut elastic,
+            stage: &stage,
+            damping: 0.0,
+            regularisation: 0.0,
+            guard: 0.0,
+            gravity: simulation.settings().gravity,
+            forces: simulation.forces(),
+            terms,
+            blocks: &mut blocks,
+        };
         let mut gradient = vec![[0.0; 3]; positions.len()];
         objective.gradient(positions, &mut gradient);
 

@@ -164,8 +164,7 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         objective.gradient(x, gradient);
         if pins_move {
             machine.solver().add_product(objective.body, self.pins_move, gradient);
-            objective.quadratic.add_product(self.pins_move, gradient);
-            objective.blocks.add_product(self.pins_move, gradient);
+            objective.add_product(self.pins_move, gradient);
         }
         workspace.sum_gradient();
         let residual = workspace.free_norm();
@@ -209,7 +208,7 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         let Self { objective, workspace: NewtonWorkspace { machine, gradient, direction, .. }, .. } = self;
         objective.elastic.set_base();
         objective.quadratic_gradient(self.x, gradient);
-        let own = [product(gradient, direction), objective.quadratic.curvature(direction)];
+        let own = [product(gradient, direction), objective.curvature(direction)];
         self.quadratic = machine.nodes().totals(own);
     }
 
@@ -230,7 +229,7 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
     }
 
     fn error_scale(&self) -> f64 {
-        let own = self.objective.quadratic.stage.error_scale(self.x);
+        let own = self.objective.stage.error_scale(self.x);
         self.workspace.machine.nodes().largest(own)
     }
 }

@@ -3,7 +3,7 @@
 use crate::step::error::{NewtonError, StepError};
 use crate::step::minimisation::StageMinimisation;
 use crate::step::newton::{NewtonReport, minimize};
-use crate::step::objective::{Objective, Quadratic, Terms};
+use crate::step::objective::{Objective, Terms};
 use crate::step::solver::Machine;
 use crate::step::staged::StagedSteps;
 use crate::system::element::Evaluated;
@@ -121,15 +121,12 @@ impl<M: Machine> Simulation<M> {
         let objective = Objective {
             body: &self.body,
             elastic: &mut self.elastic,
-            quadratic: Quadratic {
-                masses: self.body.masses(),
-                stage,
-                damping: self.settings.damping,
-                regularisation,
-                guard: if is_static && may_drift { DRIFT * regularisation } else { 0.0 },
-                gravity: self.settings.gravity,
-                forces: &self.forces,
-            },
+            stage,
+            damping: self.settings.damping,
+            regularisation,
+            guard: if is_static && may_drift { DRIFT * regularisation } else { 0.0 },
+            gravity: self.settings.gravity,
+            forces: &self.forces,
             terms: Terms { springs: stage_springs, others: &self.terms },
             blocks: &mut self.blocks,
         };

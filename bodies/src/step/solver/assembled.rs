@@ -107,11 +107,9 @@ impl<S: SparseSolver> Solver for Assembled<S> {
         for (unknown, _) in unknowns.chunks_exact_mut(3).zip(&*held).filter(|(_, is_held)| **is_held) {
             unknown.fill(0.0);
         }
-        let quadratic = &objective.quadratic;
         let mut shift = 0.0;
         let iterations = loop {
-            let diagonal =
-                |node: usize| quadratic.guarded_diagonal(node) + shift * quadratic.regularisation(node);
+            let diagonal = |node: usize| objective.inertia(node) + shift * objective.regularisation(node);
             matrix.fill(stiffness, diagonal)?;
             objective.blocks.add_to_triangle(matrix);
             matrix.hold(held);
