@@ -50,6 +50,13 @@ pub struct Group {
     pub tets: Vec<usize>,
 }
 
+#[cfg(test)]
+impl Group {
+    pub(crate) fn of(name: &str, dimension: usize, nodes: &[usize], tets: &[usize]) -> Self {
+        Self { name: name.to_owned(), dimension, nodes: nodes.to_vec(), tets: tets.to_vec() }
+    }
+}
+
 /// Shape of a tetrahedron at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestShape {
