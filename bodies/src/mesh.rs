@@ -6,7 +6,7 @@ mod boxes;
 mod elements;
 mod embed;
 mod io;
-pub(crate) mod tet;
+mod tet;
 
 pub use boxes::{BoxError, tetrahedral_box};
 pub use elements::ElementCounts;
