@@ -105,25 +105,6 @@ impl Body {
         Self { rest: Vec::new(), masses: Vec::new(), elements: Vec::new(), runs: Vec::new() }
     }
 
-    /// Replaces the material of a part, numbered as in [`Body::from_parts`]; [`Body::new`] makes a body of
-    /// one part.
-    ///
-    /// # Errors
-    /// [`BodyError`] if there is no such part, or the material has parameters for another number of points.
-    /// The material then stays as it was.
-    pub fn set_material(
-        &mut self,
-        part: usize,
-        material: impl TileMaterial<f64> + 'static,
-    ) -> Result<(), BodyError> {
-        let parts = self.runs.len();
-        let missing = || BodyError(format!("there is no part {part} (from 0) of a body of {parts}"));
-        let (_, elements) = self.materials().nth(part).ok_or_else(missing)?;
-        fits(&material, elements.len())?;
-        self.runs[part].material = Arc::new(material);
-        Ok(())
-    }
-
     /// Rest position of each node, m.
     #[must_use]
     pub fn rest(&self) -> &[[f64; 3]] {

@@ -113,25 +113,3 @@ fn errors_convert_and_name_their_source() {
     let error = SetupError::from(LinearError::OutOfMemory);
     assert_eq!(error.to_string(), LinearError::OutOfMemory.to_string());
 }
-
-/// Half the stiffness in the middle of a motion.
-#[test]
-fn materials_are_replaced_between_steps() {
-    let mesh = beam(3);
-    let settings = falling(NewtonSettings::default());
-    let mut simulation = held(&mesh, neo_hookean(), settings);
-    simulation.equilibrate().expect("a hanging bar");
-    let stiff = simulation.positions()[mesh.positions.len() - 1][1];
-    let error = simulation.set_material(1, neo_hookean()).expect_err("no such part");
-    assert_eq!(error.to_string(), "there is no part 1 (from 0) of a body of 1");
-    simulation.set_material(0, kirchhoff()).expect("the only part");
-    simulation.equilibrate().expect("a hanging bar");
-    let softer = simulation.positions()[mesh.positions.len() - 1][1];
-    let mut fresh = held(&mesh, kirchhoff(), settings);
-    fresh.equilibrate().expect("a hanging bar");
-    let expected = fresh.positions()[mesh.positions.len() - 1][1];
-    assert!(
-        (softer - expected).abs() <= 1e-7 && (softer - stiff).abs() > 1e-4,
-        "{stiff}, {softer}, {expected}"
-    );
-}
