@@ -17,7 +17,7 @@ use crate::system::linear::multigrid::Division;
 
 use super::error::NewtonError;
 use super::line_search::Line;
-use super::newton::{Linearised, Minimisation};
+use super::newton::Linearised;
 use super::objective::{Objective, product};
 use super::solver::{Definiteness, Machine, Solution};
 use super::term::EnergyChange;
@@ -65,8 +65,11 @@ impl<M: Machine> NewtonWorkspace<M> {
     }
 }
 
-/// The minimisation of a stage of a step.
-pub(super) struct StageMinimisation<'a, M> {
+/// The minimisation of a stage of a step: the objective with its variables x, the gradient g at x, a direction
+/// d, and the trial x + step d of a line search.
+///
+/// Each number that a method returns is the same on all machines.
+pub(super) struct Minimisation<'a, M> {
     objective: Objective<'a>,
     workspace: &'a mut NewtonWorkspace<M>,
     x: &'a mut [[f64; 3]],
@@ -78,7 +81,7 @@ pub(super) struct StageMinimisation<'a, M> {
     quadratic: [f64; 2],
 }
 
-impl<'a, M: Machine> StageMinimisation<'a, M> {
+impl<'a, M: Machine> Minimisation<'a, M> {
     /// Starts at `x`, where the energies have been evaluated last, with this survey.
     pub(super) fn new(
         objective: Objective<'a>,
@@ -101,7 +104,7 @@ impl<'a, M: Machine> StageMinimisation<'a, M> {
     }
 }
 
-impl<M: Machine> Line for StageMinimisation<'_, M> {
+impl<M: Machine> Line for Minimisation<'_, M> {
     type Error = NewtonError;
 
     fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, NewtonError> {
@@ -139,15 +142,18 @@ impl<M: Machine> Line for StageMinimisation<'_, M> {
     }
 }
 
-impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
-    fn gradient(&mut self) -> Result<f64, NewtonError> {
+impl<M: Machine> Minimisation<'_, M> {
+    /// Evaluates g after the energies; returns its norm over the free variables, N.
+    pub(super) fn gradient(&mut self) -> Result<f64, NewtonError> {
         self.objective.elastic.evaluate_gradients(self.objective.body);
         self.objective.gradient(self.x, &mut self.workspace.gradient);
         self.workspace.sum_gradient();
         Ok(self.workspace.free_norm())
     }
 
-    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, NewtonError> {
+    /// Evaluates g and the filtered second derivatives K; with `pins_move`, adds K times the displacement of
+    /// the pins to g.
+    pub(super) fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, NewtonError> {
         let Self { objective, workspace, x, .. } = self;
         objective.terms.linearise(x, objective.blocks);
         if let Some(node) = objective.blocks.missing() {
@@ -173,7 +179,13 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         Ok(Linearised { residual, filtered: filtered as usize, bounded: bounded as usize })
     }
 
-    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, NewtonError> {
+    /// Solves K d = −g. The relative tolerance takes effect if it is tighter than the solver's own.
+    /// Returns `None` if K is indefinite and [`Definiteness::Required`].
+    pub(super) fn solve(
+        &mut self,
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, NewtonError> {
         let NewtonWorkspace { machine, gradient, direction, .. } = &mut *self.workspace;
         let solver = machine.solver();
         let solved = solver.solve(&self.objective, self.x, gradient, direction, tolerance, definiteness)?;
@@ -181,7 +193,8 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         Ok(solved)
     }
 
-    fn move_pins(&mut self) -> Result<(), NewtonError> {
+    /// Moves the pins in x, and evaluates the energies there.
+    pub(super) fn move_pins(&mut self) -> Result<(), NewtonError> {
         for (x, d) in self.x.as_flattened_mut().iter_mut().zip(self.pins_move.as_flattened()) {
             *x += d;
         }
@@ -196,15 +209,18 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         }
     }
 
-    fn descent(&self) -> f64 {
+    /// g·d over the free variables, J.
+    pub(super) fn descent(&self) -> f64 {
         self.workspace.descent()
     }
 
-    fn longest_step(&self) -> f64 {
+    /// Share of the direction that a line search tries first, at most 1.
+    pub(super) fn longest_step(&self) -> f64 {
         self.objective.terms.longest_step(self.x, &self.workspace.direction)
     }
 
-    fn set_base(&mut self) {
+    /// Prepares [`Line::change`]: differences of energies are relative to x.
+    pub(super) fn set_base(&mut self) {
         let Self { objective, workspace: NewtonWorkspace { machine, gradient, direction, .. }, .. } = self;
         objective.elastic.set_base();
         objective.quadratic_gradient(self.x, gradient);
@@ -212,23 +228,27 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         self.quadratic = machine.nodes().totals(own);
     }
 
-    fn accept(&mut self) {
+    /// Replaces x by the trial evaluated last.
+    pub(super) fn accept(&mut self) {
         self.x.copy_from_slice(&self.workspace.trial);
         self.survey = self.objective.elastic.survey();
     }
 
-    fn reject(&mut self) -> f64 {
+    /// Evaluates the energies at x again; returns the rounding error of their differences there, J.
+    pub(super) fn reject(&mut self) -> f64 {
         self.survey = self.objective.evaluate(self.x);
         self.workspace.machine.nodes().total(self.objective.noise(self.x))
     }
 
-    fn displacement(&self) -> f64 {
+    /// Largest displacement of a node along d, m.
+    pub(super) fn displacement(&self) -> f64 {
         let square = |d: &[f64; 3]| d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         let own = self.workspace.direction.iter().map(square).fold(0.0, f64::max).sqrt();
         self.workspace.machine.nodes().largest(own)
     }
 
-    fn error_scale(&self) -> f64 {
+    /// Scale of the error in time of the step with the nodes at x, m.
+    pub(super) fn error_scale(&self) -> f64 {
         let own = self.objective.stage.error_scale(self.x);
         self.workspace.machine.nodes().largest(own)
     }

@@ -1,7 +1,7 @@
 //! A step from one state to the next, stage by stage.
 
 use crate::step::error::{NewtonError, StepError};
-use crate::step::minimisation::StageMinimisation;
+use crate::step::minimisation::Minimisation;
 use crate::step::newton::{NewtonReport, minimize};
 use crate::step::objective::{Objective, Terms};
 use crate::step::solver::Machine;
@@ -131,7 +131,7 @@ impl<M: Machine> Simulation<M> {
             blocks: &mut self.blocks,
         };
         let mut minimisation =
-            StageMinimisation::new(objective, &mut self.workspace, &mut next.x, displacements, survey)?;
+            Minimisation::new(objective, &mut self.workspace, &mut next.x, displacements, survey)?;
         let report = minimize(&mut minimisation, pins_move, &self.settings.newton)?;
         Ok((report, minimisation.survey()))
     }
