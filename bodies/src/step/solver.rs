@@ -86,12 +86,7 @@ impl LinearSolver {
 
     /// The rule that these settings break, if any.
     pub(super) fn broken_rule(&self) -> Option<&'static str> {
-        let (tolerance, max_iterations) = match *self {
-            Self::Automatic => return None,
-            #[cfg(feature = "faer")]
-            Self::Cholesky => return None,
-            Self::ConjugateGradients { tolerance, max_iterations } => (tolerance, max_iterations),
-        };
+        let Self::ConjugateGradients { tolerance, max_iterations } = *self else { return None };
         if !(tolerance > 0.0 && tolerance < 1.0) {
             Some("the tolerance of the linear solver must be between 0 and 1")
         } else if max_iterations == 0 {
