@@ -107,14 +107,12 @@ impl Embedding {
 #[error("{0}")]
 pub struct EmbedError(String);
 
-/// The tetrahedra at rest.
 struct Cage<'a> {
     mesh: &'a TetMesh,
     shapes: &'a [RestShape],
 }
 
 impl Cage<'_> {
-    /// Barycentric coordinates of a point.
     fn weights(&self, tet: usize, x: [f64; 3]) -> [f64; 4] {
         let from_origin = subtract(x, self.mesh.positions[self.mesh.tets[tet][0]]);
         let [a, b, c] = self.shapes[tet].inverse.map(|row| dot(row, from_origin));

@@ -53,7 +53,6 @@ pub(super) struct Method {
 }
 
 impl Integrator {
-    /// The method of a step.
     pub(super) fn method(self) -> Method {
         match self {
             Self::ImplicitEuler => Method { diagonal: 1.0, rows: &[&[]] },
@@ -77,7 +76,6 @@ impl Integrator {
 }
 
 impl Method {
-    /// The number of minimisations in a step.
     pub(super) fn stages(&self) -> usize {
         self.rows.len()
     }
@@ -108,7 +106,6 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Rest at these positions.
     pub(super) fn at_rest(positions: &[[f64; 3]]) -> Self {
         let zero = || vec![[0.0; 3]; positions.len()];
         Self { x: positions.to_vec(), v: zero(), a: zero() }

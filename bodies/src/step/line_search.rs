@@ -18,7 +18,6 @@ const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Factor from the length of one trial to the next.
 const SHRINK: f64 = 0.5;
 
-/// Maximum number of trials.
 const MAX_TRIALS: usize = 48;
 
 /// Objective along a line, relative to its start.
@@ -34,7 +33,6 @@ pub(super) trait Line {
     fn slope(&mut self) -> Result<f64, Self::Error>;
 }
 
-/// Result of a line search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Outcome {
     /// The step tried last was accepted.

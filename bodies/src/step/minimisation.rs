@@ -22,7 +22,6 @@ use super::objective::{Objective, product};
 use super::solver::{Definiteness, Machine, Solution};
 use super::term::EnergyChange;
 
-/// Memory of Newton's method.
 #[derive(Clone)]
 pub(super) struct NewtonWorkspace<M> {
     pub(super) machine: M,
@@ -32,7 +31,6 @@ pub(super) struct NewtonWorkspace<M> {
 }
 
 impl<M: Machine> NewtonWorkspace<M> {
-    /// Allocates the memory for a number of nodes.
     pub(super) fn new(machine: M, nodes: usize) -> Self {
         let zero = || vec![[0.0; 3]; nodes];
         Self { machine, gradient: zero(), direction: zero(), trial: zero() }
@@ -58,11 +56,6 @@ impl<M: Machine> NewtonWorkspace<M> {
         let own = free.iter().map(|&node| square(self.gradient[node])).sum::<f64>();
         self.machine.nodes().total(own).sqrt()
     }
-
-    /// Inner product of gradient and direction.
-    fn descent(&self) -> f64 {
-        self.machine.nodes().total(product(&self.gradient, &self.direction))
-    }
 }
 
 /// The minimisation of a stage of a step: the objective with its variables x, the gradient g at x, a direction
@@ -76,7 +69,7 @@ pub(super) struct Minimisation<'a, M> {
     /// Displacement of each pinned node, m; zero for others.
     pins_move: &'a [[f64; 3]],
     /// Survey of the energies evaluated last.
-    survey: Evaluated,
+    pub(super) survey: Evaluated,
     /// First and second derivative of the quadratic part along the direction.
     quadratic: [f64; 2],
 }
@@ -96,11 +89,6 @@ impl<'a, M: Machine> Minimisation<'a, M> {
         }
         workspace.machine.solver().begin();
         Ok(Self { objective, workspace, x, pins_move, survey, quadratic: [0.0; 2] })
-    }
-
-    /// Survey of the energies at the end.
-    pub(super) fn survey(&self) -> Evaluated {
-        self.survey
     }
 }
 
@@ -138,7 +126,7 @@ impl<M: Machine> Line for Minimisation<'_, M> {
         objective.elastic.evaluate_gradients(objective.body);
         objective.gradient(&workspace.trial, &mut workspace.gradient);
         workspace.sum_gradient();
-        Ok(workspace.descent())
+        Ok(self.descent())
     }
 }
 
@@ -211,7 +199,8 @@ impl<M: Machine> Minimisation<'_, M> {
 
     /// g·d over the free variables, J.
     pub(super) fn descent(&self) -> f64 {
-        self.workspace.descent()
+        let NewtonWorkspace { machine, gradient, direction, .. } = &*self.workspace;
+        machine.nodes().total(product(gradient, direction))
     }
 
     /// Share of the direction that a line search tries first, at most 1.

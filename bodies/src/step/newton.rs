@@ -16,7 +16,6 @@ mod settings;
 pub use report::{Convergence, NewtonReport};
 pub use settings::NewtonSettings;
 
-/// Outcome of a linearisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Linearised {
     /// Norm of the gradient over the free variables, N.
@@ -39,7 +38,6 @@ pub(super) fn minimize<M: Machine>(
     Newton { minimisation, settings, report, moved: None }.run(pins_move)
 }
 
-/// State of a running minimisation.
 struct Newton<'a, 'b, M> {
     minimisation: &'a mut Minimisation<'b, M>,
     settings: &'a NewtonSettings,
@@ -48,7 +46,6 @@ struct Newton<'a, 'b, M> {
     moved: Option<f64>,
 }
 
-/// Outcome of a line search.
 #[derive(PartialEq, Eq)]
 enum Progress {
     Decrease,

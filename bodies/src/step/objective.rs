@@ -25,7 +25,6 @@ use super::integrator::Stage;
 use super::spring::Spring;
 use super::term::{EnergyChange, NodeBlocks, Term};
 
-/// Springs and other terms of the energy.
 #[derive(Clone, Copy)]
 pub(crate) struct Terms<'a> {
     pub(crate) springs: &'a Vec<Spring>,

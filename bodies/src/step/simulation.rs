@@ -54,7 +54,6 @@ use settings::check_settings;
 pub struct Simulation<M: Machine = OneMachine> {
     body: Body,
     settings: SimulationSettings,
-    /// State of the nodes, pins and springs.
     steps: StagedSteps,
     terms: Vec<Arc<dyn Term>>,
     /// Second derivatives of springs and terms, where they were linearised last.
@@ -179,7 +178,6 @@ impl<M: Machine> Simulation<M> {
         *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, x))
     }
 
-    /// Springs and other terms.
     pub(super) fn all_terms(&self) -> Terms<'_> {
         Terms { springs: &self.steps.springs, others: &self.terms }
     }

@@ -26,12 +26,10 @@ pub(super) struct StagedSteps {
     pub(super) integrator: Integrator,
     method: Method,
     dt: f64,
-    /// State after the last step.
     pub(super) state: State,
     /// State after the step in progress; its positions are those of the current stage, where the minimisation
     /// begins and which the minimum replaces.
     pub(super) next: State,
-    /// The current stage.
     pub(super) stage: Stage,
     /// Springs with their targets in this stage.
     pub(super) stage_springs: Vec<Spring>,

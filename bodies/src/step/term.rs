@@ -141,7 +141,6 @@ impl NodeBlocks {
         self.missing
     }
 
-    /// The pairs of different nodes.
     pub(super) fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         self.blocks.iter().map(|&(row, column, _)| [row, column]).filter(|[row, column]| row != column)
     }

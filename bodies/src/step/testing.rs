@@ -8,7 +8,6 @@ use super::{NewtonSettings, Simulation, SimulationSettings};
 use crate::mesh::{Bounds, TetMesh};
 use crate::system::{Body, Pins};
 
-/// Nodes of the left end of a beam.
 pub(super) fn left_end(mesh: &TetMesh) -> Pins {
     Pins::in_box(mesh, Bounds { min: [-0.01; 3], max: [0.01, 1.0, 1.0] }).expect("the left end")
 }
@@ -32,7 +31,6 @@ pub(super) fn held(
     simulation(mesh, material, &left_end(mesh), settings)
 }
 
-/// Settings without gravity.
 pub(super) fn settings(newton: NewtonSettings) -> SimulationSettings {
     SimulationSettings::default().with_newton(newton)
 }

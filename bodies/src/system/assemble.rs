@@ -63,7 +63,6 @@ impl Elastic {
         Self { groups, base }
     }
 
-    /// Evaluates the energies at these positions.
     pub(crate) fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Evaluated {
         self.for_each_group(|state| {
             let mut min_det = f64::INFINITY;
@@ -102,7 +101,6 @@ impl Elastic {
         });
     }
 
-    /// Survey of the last evaluation.
     pub(crate) fn survey(&self) -> Evaluated {
         self.groups.iter().fold(Evaluated::NONE, |sum, state| sum + state.evaluated)
     }
@@ -115,7 +113,6 @@ impl Elastic {
         })
     }
 
-    /// Sum of the energies, J.
     pub(crate) fn energy(&self) -> f64 {
         self.energies().map(|(energy, _)| energy).collect::<Compensated>().value()
     }

@@ -123,7 +123,6 @@ impl Body {
         &self.elements
     }
 
-    /// The material of an element.
     pub(crate) fn material(&self, element: usize) -> &dyn TileMaterial<f64> {
         self.runs[self.runs.partition_point(|run| run.end <= element)].material.as_ref()
     }
@@ -158,7 +157,6 @@ fn fits(material: &dyn TileMaterial<f64>, elements: usize) -> Result<(), BodyErr
     }
 }
 
-/// The part of each tetrahedron.
 fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
     let mut assigned = vec![None; mesh.tets.len()];
     for (index, part) in parts.iter().enumerate() {

@@ -79,7 +79,6 @@ pub(crate) struct Evaluated {
 }
 
 impl Evaluated {
-    /// Result without elements.
     pub(crate) const NONE: Self = Self {
         survey: Survey { refused: 0, bounded: 0, nonfinite: 0, filtered: 0, first: None },
         min_det: f64::INFINITY,

@@ -37,7 +37,6 @@ struct Branch {
 /// The body nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Nearest {
-    /// Its index.
     pub(super) body: usize,
     /// Its distance, 0 if it holds the point.
     pub(super) distance: f64,
@@ -54,7 +53,6 @@ impl Nearest {
 }
 
 impl Tree {
-    /// The tree of bodies in these boxes.
     pub(super) fn new(mut boxes: Vec<Bounds>) -> Self {
         for bounds in &mut boxes {
             let growth = GROWTH * bounds.size().into_iter().fold(0.0, f64::max);

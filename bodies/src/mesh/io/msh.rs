@@ -117,7 +117,6 @@ fn may_hold_mesh(section: &str) -> bool {
     (name.contains("node") || name.contains("element")) && !WITHOUT_MESH.contains(&section)
 }
 
-/// Version of the format.
 #[derive(Clone, Copy)]
 enum Version {
     /// 2.2.
@@ -209,7 +208,6 @@ impl File {
         Ok(nodes)
     }
 
-    /// Puts a tetrahedron into a physical group.
     fn put_into_group(&mut self, tag: i64, tet: usize) {
         let group = self.groups.entry((3, tag)).or_default();
         group.nodes.extend(self.tets[tet]);
@@ -237,7 +235,6 @@ impl File {
     }
 }
 
-/// Skips a section.
 fn skip_section(cursor: &mut Cursor<'_>, name: &str) -> Result<(), Problem> {
     let end = format!("$End{name}");
     let expected = format!("`{}`", quoted(&end));

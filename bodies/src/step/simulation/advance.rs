@@ -133,6 +133,6 @@ impl<M: Machine> Simulation<M> {
         let mut minimisation =
             Minimisation::new(objective, &mut self.workspace, &mut next.x, displacements, survey)?;
         let report = minimize(&mut minimisation, pins_move, &self.settings.newton)?;
-        Ok((report, minimisation.survey()))
+        Ok((report, minimisation.survey))
     }
 }

@@ -101,7 +101,6 @@ pub(crate) trait OwnSolver: Solver + Send + Sync {
     /// Replaces the pins; returns false if a new solver has to be set up for them.
     fn set_pins(&mut self, pins: &Pins) -> bool;
 
-    /// A copy with memory of its own.
     fn boxed_clone(&self) -> Box<dyn OwnSolver>;
 }
 
@@ -112,7 +111,6 @@ impl Clone for Box<dyn OwnSolver> {
 }
 
 impl Solution {
-    /// The outcome of an iterative solver.
     pub(super) fn of(
         Iteration { iterations, end }: Iteration,
         definiteness: Definiteness,

@@ -26,7 +26,6 @@ impl OneMachine {
         Ok(Self { solver: choice.set_up(body, pins, &[])?, choice, pins: pins.clone(), nodes: Undivided })
     }
 
-    /// True if the linear solver is user-defined.
     pub(in crate::step) fn has_user_defined_solver(&self) -> bool {
         matches!(self.choice, Choice::UserDefined(_))
     }
