@@ -92,7 +92,9 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
                         quoted(section)
                     )));
                 }
-                skip_section(&mut cursor, &section[1..])?;
+                let end = format!("$End{}", &section[1..]);
+                let expected = format!("`{}`", quoted(&end));
+                while cursor.next(&expected)?.text.trim() != end {}
                 continue;
             }
             _ => {
@@ -233,13 +235,6 @@ impl File {
         let mesh = TetMesh { tags, groups, left_out, ..TetMesh::new(self.positions, self.tets) };
         Ok(mesh.without_unused_nodes())
     }
-}
-
-fn skip_section(cursor: &mut Cursor<'_>, name: &str) -> Result<(), Problem> {
-    let end = format!("$End{name}");
-    let expected = format!("`{}`", quoted(&end));
-    while cursor.next(&expected)?.text.trim() != end {}
-    Ok(())
 }
 
 #[cfg(test)]
