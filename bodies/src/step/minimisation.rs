@@ -58,8 +58,8 @@ impl<M: Machine> NewtonWorkspace<M> {
     }
 }
 
-/// The minimisation of a stage of a step: the objective with its variables x, the gradient g at x, a direction
-/// d, and the trial x + step d of a line search.
+/// The minimisation of a stage of a step: the objective with its variables x, the gradient g at x, a
+/// direction d, and the trial x + step d of a line search.
 ///
 /// Each number that a method returns is the same on all machines.
 pub(super) struct Minimisation<'a, M> {

@@ -5,7 +5,6 @@
 use piola::point::Filter;
 
 use super::error::NewtonError;
-use super::filtering::Filtering;
 use super::line_search::{Outcome, backtrack};
 use super::minimisation::Minimisation;
 use super::solver::{Definiteness, Machine};
@@ -14,7 +13,7 @@ mod report;
 mod settings;
 
 pub use report::{Convergence, NewtonReport};
-pub use settings::NewtonSettings;
+pub use settings::{Filtering, NewtonSettings};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Linearised {
@@ -135,13 +134,14 @@ impl<M: Machine> Newton<'_, '_, M> {
     /// that of the state before they move, when elements next to them are not yet distorted; the line search
     /// starts after the move.
     fn find_direction(&mut self, pins_move: bool, tolerance: f64) -> Result<bool, NewtonError> {
-        let filtering = self.settings.filtering;
-        let residual = self.linearise(filtering.choice(), pins_move)?;
+        let (filter, definiteness) = match self.settings.filtering {
+            Filtering::Always(filter) => (filter, Definiteness::Optional),
+            Filtering::OnDemand => (Filter::None, Definiteness::Required),
+        };
+        let residual = self.linearise(filter, pins_move)?;
         if !pins_move && self.report.iterations == 0 && self.report.note_residual(residual, self.settings)? {
             return Ok(false);
         }
-        let on_demand = filtering == Filtering::OnDemand;
-        let definiteness = if on_demand { Definiteness::Required } else { Definiteness::Optional };
         if !self.solve(tolerance, definiteness)? {
             self.linearise(Filter::Clamp, pins_move)?;
             self.solve(tolerance, Definiteness::Optional)?;
@@ -202,3 +202,6 @@ impl<M: Machine> Newton<'_, '_, M> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

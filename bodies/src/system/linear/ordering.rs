@@ -5,8 +5,8 @@ use crate::system::Pins;
 use crate::system::graph::Graph;
 use crate::system::memory::reserved;
 
-/// Orders the free nodes by approximate minimum degree; without the feature `faer`, where nothing of this crate
-/// factors a sparse matrix, by their numbers.
+/// Orders the free nodes by approximate minimum degree; without the feature `faer`, where nothing of this
+/// crate factors a sparse matrix, by their numbers.
 ///
 /// On bodies of this size minimum degree is better than nested dissection: METIS needs 1.75 times as many
 /// operations for a factor of the horse and 1.16 times as many for that of the dinosaur, dissection by planes

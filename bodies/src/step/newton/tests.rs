@@ -1,6 +1,5 @@
 use super::*;
 use crate::step::testing::{distance, held, settings};
-use crate::step::{Convergence, NewtonReport, NewtonSettings};
 use crate::system::testing::{beam, neo_hookean};
 
 /// A beam of which one end is held and the rest is scaled along x and thrown aside: its report and positions
