@@ -92,7 +92,7 @@ impl NodalStiffness {
     /// [`LinearError::OutOfMemory`].
     #[doc(hidden)]
     pub fn empty() -> Result<Self, LinearError> {
-        let graph = Graph::of_upper(&[])?;
+        let graph = Graph::of_upper(0, std::iter::empty)?;
         let pattern = Arc::new(Pattern::new(&graph, &[])?);
         let shape = Shape { elements: 0, tiles: 0, graph, order: Vec::new(), gather: Vec::new() };
         Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, tiles: Vec::new() })

@@ -290,7 +290,7 @@ mod tests {
 
     #[test]
     fn blocks_that_do_not_exist_are_not_found() {
-        let graph = Graph::of_upper(&[vec![2], vec![], vec![]]).expect("small");
+        let graph = Graph::of_upper(3, || [(0, 2)].into_iter()).expect("small");
         let pattern = Pattern::new(&graph, &[0, 1, 2]).expect("small");
         assert_eq!((pattern.rows(), pattern.len(), pattern.chunks()), (3, 4, 1));
         assert_eq!(pattern.block(0, 1), None);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::aggregation::Aggregates;
 use super::division::{Division, Numbers, ROWS, diagonals};
-use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, columns_of, graph_of};
+use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, columns_of};
 use crate::system::graph::Graph;
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
@@ -125,7 +125,11 @@ impl<const N: usize> Level<N> {
             _ => columns_of(&level.prolongation, numbers.len())?,
         };
 
-        let graph = graph_of(&upper)?;
+        let above = |row: usize| {
+            let columns = upper.row(row).map(move |(column, _)| (row, column as u32));
+            columns.filter(|&(row, column)| column as usize != row)
+        };
+        let graph = Graph::of_upper(upper.len(), || (0..upper.len()).flat_map(above))?;
         let order: Vec<u32> = (0..graph.rows() as u32).collect();
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
         let mut coarse = SymmetricBlocks::new(pattern.clone())?;

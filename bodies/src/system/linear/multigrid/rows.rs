@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
-use crate::system::graph::Graph;
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::lists::Lists;
@@ -265,13 +264,4 @@ pub(super) fn coarse_rows<const N: usize, const C: usize>(
         }
     };
     Rows::make(columns.len(), columns.len(), make, 0.0)
-}
-
-/// Graph of a symmetric matrix, from the rows of its upper half.
-pub(super) fn graph_of<E: Copy, const N: usize>(upper: &Rows<E, N, N>) -> Result<Graph, LinearError> {
-    let above = |row: usize| {
-        upper.row(row).map(|(column, _)| column as u32).filter(move |&column| column as usize != row)
-    };
-    let rows: Vec<Vec<u32>> = (0..upper.len()).map(|row| above(row).collect()).collect();
-    Graph::of_upper(&rows)
 }
