@@ -31,12 +31,10 @@ impl<T: Copy + Default> Lists<T> {
         Ok(Self { starts, values })
     }
 
-    /// Number of keys.
     pub(crate) fn len(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The values of a key.
     pub(crate) fn of(&self, key: usize) -> &[T] {
         &self.values[self.starts[key]..self.starts[key + 1]]
     }

@@ -27,14 +27,12 @@ pub struct LowerTriangle {
     values: Vec<f64>,
     /// Index of each entry among the scalars of the blocks of the stiffness.
     sources: Vec<u32>,
-    /// Number of blocks of the stiffness.
     blocks: usize,
     free_nodes: Vec<usize>,
     /// Index of each node in `free_nodes`; `None` for a pinned node.
     free_of_node: Vec<Option<usize>>,
 }
 
-/// Places of the entries.
 #[derive(Debug)]
 struct Pattern {
     column_starts: Vec<usize>,
@@ -155,7 +153,6 @@ impl LowerTriangle {
         &self.free_nodes
     }
 
-    /// Places of the entries of a column.
     fn column(&self, column: usize) -> Range<usize> {
         self.pattern.column_starts[column]..self.pattern.column_starts[column + 1]
     }

@@ -43,7 +43,6 @@ pub struct NodalStiffness {
 
 /// Graph, order and places, which depend on the mesh alone.
 struct Shape {
-    /// Number of elements.
     elements: usize,
     /// Number of tiles of these elements.
     tiles: usize,
@@ -165,7 +164,6 @@ impl NodalStiffness {
         Ok(Self { shape: Arc::new(shape), matrix, tiles })
     }
 
-    /// Numbers of nodes, elements and tiles of the body.
     pub(super) fn counts(&self) -> [usize; 3] {
         [self.matrix.pattern().rows(), self.shape.elements, self.shape.tiles]
     }

@@ -34,7 +34,6 @@ pub(crate) struct SymmetricBlocks<E, const N: usize> {
     memory: Vec<Memory<E, N>>,
 }
 
-/// Places of the blocks of a matrix.
 pub(crate) struct Pattern {
     chunks: Vec<Chunk>,
     /// Chunk of each row, and place of the row in the chunk.
@@ -132,17 +131,14 @@ impl Pattern {
         self.place_of_row.len()
     }
 
-    /// Number of blocks.
     pub(crate) fn len(&self) -> usize {
         self.chunks.last().map_or(0, |chunk| chunk.range().end)
     }
 
-    /// Number of chunks.
     pub(crate) fn chunks(&self) -> usize {
         self.chunks.len()
     }
 
-    /// Index of the first block of a chunk.
     pub(crate) fn first_block(&self, chunk: usize) -> usize {
         self.chunks[chunk].starts[0]
     }
@@ -162,7 +158,6 @@ impl Pattern {
         find(row, column).map(|block| (block, false)).or_else(|| find(column, row).map(|block| (block, true)))
     }
 
-    /// Chunk of a block.
     pub(crate) fn chunk_of(&self, block: usize) -> usize {
         self.chunks.partition_point(|chunk| chunk.range().end <= block)
     }
@@ -178,7 +173,6 @@ impl Pattern {
 }
 
 impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
-    /// Matrix of zeros.
     pub(crate) fn new(pattern: Arc<Pattern>) -> Result<Self, LinearError> {
         let zero = E::splat(0.0);
         let memory = |chunk: &Chunk| {
@@ -204,7 +198,6 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
         &mut self.blocks
     }
 
-    /// Block on the diagonal of a row.
     pub(crate) fn diagonal(&self, row: usize) -> &[[E; N]; N] {
         &self.blocks[self.pattern.diagonal(row)]
     }
@@ -224,7 +217,6 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
         });
     }
 
-    /// Computes the product with a vector.
     pub(crate) fn multiply(&mut self, x: &[[E; N]], product: &mut [[E; N]]) {
         let Self { pattern, blocks, memory } = self;
         for_each_part(memory, 1, |first, part| {

@@ -2,7 +2,6 @@
 
 use crate::system::graph::Graph;
 
-/// Aggregate of each row.
 pub(super) struct Aggregates {
     /// Aggregate of each row, `None` for rows that only the smoother corrects.
     of_row: Vec<Option<usize>>,

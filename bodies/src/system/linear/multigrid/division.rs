@@ -189,7 +189,6 @@ impl Numbers {
     }
 }
 
-/// Block with entries of these bits.
 fn block<const C: usize, const R: usize>(words: &[u64]) -> [[f64; C]; R] {
     std::array::from_fn(|r| std::array::from_fn(|c| f64::from_bits(words[C * r + c])))
 }

@@ -165,7 +165,6 @@ fn first(row: usize) -> usize {
     row * (row + 1) / 2
 }
 
-/// Subtracts aᵀ b.
 #[inline(always)]
 fn subtract_product(a: &Block, b: &Block, block: &mut Block) {
     for (a, b) in a.iter().zip(b) {

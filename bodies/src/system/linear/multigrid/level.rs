@@ -11,7 +11,6 @@ use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::lists::Lists;
 use crate::system::parts::for_each_part;
 
-/// Degree of the Chebyshev polynomials.
 const DEGREE: usize = 2;
 
 /// Smallest eigenvalue that a polynomial damps, relative to the largest eigenvalue.
@@ -42,7 +41,7 @@ pub(super) struct Level<const N: usize> {
     prolongation: Rows<f32, N, 6>,
     columns: Columns,
     /// Solution in the owned rows.
-    x: Vec<[f32; N]>,
+    pub(super) x: Vec<[f32; N]>,
     /// Residual b − A x in owned rows.
     residual: Vec<[f32; N]>,
     step: Vec<[f32; N]>,
@@ -208,11 +207,6 @@ impl<const N: usize> Level<N> {
         self.largest = (MARGIN * largest) as f32;
     }
 
-    /// Number of rows that this machine owns.
-    pub(super) fn owned(&self) -> usize {
-        self.x.len()
-    }
-
     /// Number of rows of the next level, copies included.
     pub(super) fn coarse_rows(&self) -> usize {
         self.columns.len()
@@ -259,11 +253,6 @@ impl<const N: usize> Level<N> {
         });
         self.follow(division);
         self.smooth(false, division);
-    }
-
-    /// Solution in the owned rows.
-    pub(super) fn x(&self) -> &[[f32; N]] {
-        &self.x
     }
 
     /// Adds the Chebyshev polynomial of D⁻¹A, times D⁻¹ r, to x; the residual is updated on demand.

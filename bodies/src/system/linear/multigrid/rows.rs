@@ -25,7 +25,6 @@ pub(super) struct Rows<E, const R: usize, const C: usize> {
 }
 
 impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
-    /// Matrix without rows.
     pub(super) fn new() -> Self {
         Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() }
     }
@@ -71,7 +70,6 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         sum
     }
 
-    /// Columns and blocks of a row.
     pub(super) fn row(&self, row: usize) -> impl Iterator<Item = (usize, &[[E; C]; R])> {
         let range = self.starts[row]..self.starts[row + 1];
         self.columns[range.clone()].iter().map(|&column| column as usize).zip(&self.blocks[range])
@@ -104,7 +102,6 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         });
     }
 
-    /// Replaces each entry by a function of the entry.
     pub(super) fn map<T>(self, change: impl Fn(E) -> T) -> Rows<T, R, C> {
         let Self { starts, columns, blocks } = self;
         let blocks = blocks.iter().map(|block| block.map(|row| row.map(&change))).collect();
@@ -228,7 +225,6 @@ impl WholeRows {
 /// Blocks of each column of a matrix in compressed rows: row, and index of the block.
 pub(super) type Columns = Lists<(u32, u32)>;
 
-/// The blocks of a matrix by columns.
 pub(super) fn columns_of<E: Copy, const R: usize, const C: usize>(
     matrix: &Rows<E, R, C>,
     columns: usize,
