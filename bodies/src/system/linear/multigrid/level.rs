@@ -78,8 +78,8 @@ impl<const N: usize> Level<N> {
             inverses: vec![[[0.0; N]; N]; owned],
             largest: 0.0,
             roughest: (0..included.len()).map(anything).collect(),
-            prolongation: Rows::new(),
-            columns: columns_of(&Rows::<f32, N, 6>::new(), 0)?,
+            prolongation: Rows::none(),
+            columns: columns_of(&Rows::<f32, N, 6>::none(), 0)?,
             x: zeros(owned),
             residual: zeros(owned),
             step: zeros(included.len()),
@@ -100,8 +100,8 @@ impl<const N: usize> Level<N> {
             let inverse = level.inverses[row].map(|row| row.map(|entry| damping * f64::from(entry)));
             for (column, block) in blocks {
                 let product = *block;
-                *block = match tentative.row(row).next() {
-                    Some((aggregate, tentative)) if aggregate == column => *tentative,
+                *block = match tentative.of(row).first() {
+                    Some((aggregate, tentative)) if *aggregate == *column => *tentative,
                     _ => [[0.0; 6]; N],
                 };
                 for r in 0..N {
@@ -372,12 +372,12 @@ fn orthonormal<const N: usize>(
             }
         }
     }
-    let mut rows = Rows::new();
+    let mut rows = Rows::none();
     for (row, block) in blocks.into_iter().enumerate() {
         if let Some(aggregate) = aggregates.of(row) {
             rows.push(aggregate, block);
         }
-        rows.end_row();
+        rows.end();
     }
     Ok((rows, combinations))
 }
@@ -387,7 +387,7 @@ fn extend<const N: usize>(rows: &mut Rows<f64, N, 6>, numbers: &mut Numbers, div
     let lists = division.lists_for_copies(|row, list| numbers.write(rows.row(row), list));
     for list in lists {
         numbers.read(&list).into_iter().for_each(|(column, block)| rows.push(column, block));
-        rows.end_row();
+        rows.end();
     }
 }
 
