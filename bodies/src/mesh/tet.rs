@@ -244,22 +244,6 @@ impl TetMesh {
     }
 }
 
-/// Lumped mass of each node, kg: a quarter of the mass of each tetrahedron around it.
-///
-/// `densities`, kg/m³, and `shapes`, those of [`TetMesh::rest_shapes`], hold one entry per tetrahedron.
-///
-/// # Panics
-/// If a tetrahedron names a node that does not exist.
-pub(crate) fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f64]) -> Vec<f64> {
-    let mut masses = vec![0.0; mesh.positions.len()];
-    for ((nodes, shape), density) in mesh.tets.iter().zip(shapes).zip(densities) {
-        for &node in nodes {
-            masses[node] += density * shape.volume / 4.0;
-        }
-    }
-    masses
-}
-
 /// Inverse edge matrix and volume of a tetrahedron; `element` is its tag.
 fn rest_shape(element: usize, [x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestShape, MeshError> {
     let edges = [subtract(x1, x0), subtract(x2, x0), subtract(x3, x0)];

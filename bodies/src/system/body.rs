@@ -10,7 +10,7 @@ use piola::batch::element::TILE;
 use thiserror::Error;
 
 use super::element::Tetrahedron;
-use crate::mesh::{MeshError, TetMesh, lumped_masses, no_such_group};
+use crate::mesh::{MeshError, TetMesh, no_such_group};
 
 /// Material and density of a part of a mesh.
 pub struct Part {
@@ -87,10 +87,22 @@ impl Body {
                 densities[tet] = density;
                 elements.push(Tetrahedron { nodes: mesh.tets[tet], shape: shapes[tet], tag: mesh.tag(tet) });
             }
-            fits(&*material, elements.len() - start)?;
+            let count = elements.len() - start;
+            if let Some(materials) = material.properties().points.filter(|&materials| materials != count) {
+                return Err(BodyError(format!(
+                    "there are {materials} materials for a part of {count} elements: give one for all, or one \
+                     for each"
+                )));
+            }
             runs.push(Run { material: material.into(), end: elements.len() });
         }
-        let masses = lumped_masses(mesh, &shapes, &densities);
+        // A quarter of the mass of each tetrahedron around a node.
+        let mut masses = vec![0.0; mesh.positions.len()];
+        for ((nodes, shape), density) in mesh.tets.iter().zip(&shapes).zip(densities) {
+            for &node in nodes {
+                masses[node] += density * shape.volume / 4.0;
+            }
+        }
         if let Some(node) = masses.iter().position(|mass| !mass.is_normal()) {
             let fault = if masses[node] > 1.0 { "overflows" } else { "underflows" };
             return Err(BodyError(format!(
@@ -144,16 +156,6 @@ impl Body {
         self.materials().flat_map(|(material, run)| {
             run.clone().step_by(TILE).map(move |start| (material, start..run.end.min(start + TILE)))
         })
-    }
-}
-
-/// Checks that a material is one for all elements of a part, or has one for each.
-fn fits(material: &dyn TileMaterial<f64>, elements: usize) -> Result<(), BodyError> {
-    match material.properties().points {
-        Some(materials) if materials != elements => Err(BodyError(format!(
-            "there are {materials} materials for a part of {elements} elements: give one for all, or one for each"
-        ))),
-        _ => Ok(()),
     }
 }
 
