@@ -17,7 +17,6 @@ use crate::system::linear::multigrid::Division;
 
 use super::error::NewtonError;
 use super::line_search::Line;
-use super::newton::Linearised;
 use super::objective::{Objective, product};
 use super::solver::{Definiteness, Machine, Solution};
 use super::term::EnergyChange;
@@ -72,6 +71,16 @@ pub(super) struct Minimisation<'a, M> {
     pub(super) survey: Evaluated,
     /// First and second derivative of the quadratic part along the direction.
     quadratic: [f64; 2],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Linearised {
+    /// Norm of the gradient over the free variables, N.
+    pub(super) residual: f64,
+    /// Number of elements whose tangent the filter changed.
+    pub(super) filtered: usize,
+    /// Number of elements whose tangent is at a pole.
+    pub(super) bounded: usize,
 }
 
 impl<'a, M: Machine> Minimisation<'a, M> {

@@ -6,7 +6,7 @@ use piola::point::Filter;
 
 use super::error::NewtonError;
 use super::line_search::{Outcome, backtrack};
-use super::minimisation::Minimisation;
+use super::minimisation::{Linearised, Minimisation};
 use super::solver::{Definiteness, Machine};
 
 mod report;
@@ -14,16 +14,6 @@ mod settings;
 
 pub use report::{Convergence, NewtonReport};
 pub use settings::{Filtering, NewtonSettings};
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Linearised {
-    /// Norm of the gradient over the free variables, N.
-    pub(super) residual: f64,
-    /// Number of elements whose tangent the filter changed.
-    pub(super) filtered: usize,
-    /// Number of elements whose tangent is at a pole.
-    pub(super) bounded: usize,
-}
 
 /// Moves x towards a minimum, and the pins with the first direction if `pins_move`.
 ///

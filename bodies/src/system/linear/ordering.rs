@@ -1,9 +1,9 @@
 //! Order of the unknowns of a sparse matrix in which a Cholesky factor stays sparse.
 
 use super::LinearError;
-use crate::system::Pins;
 use crate::system::graph::Graph;
 use crate::system::memory::reserved;
+use crate::system::pins::Pins;
 
 /// Orders the free nodes by approximate minimum degree; without the feature `faer`, where nothing of this
 /// crate factors a sparse matrix, by their numbers.
