@@ -17,7 +17,6 @@
 //! inertia). Factorisations of K ± σM, with a σ above all rounding errors, then separate stable from unstable
 //! and from undecided.
 
-use piola::NoSuchNode;
 use piola::point::Filter;
 
 use crate::system::assemble::Elastic;
@@ -100,10 +99,7 @@ impl Equilibrium {
         let stage = Stage::at_rest(positions.len());
         let mut blocks = NodeBlocks::default();
         let terms = simulation.all_terms();
-        terms.linearise(positions, &mut blocks);
-        if let Some(node) = blocks.missing() {
-            return Err(NoSuchNode { element: None, node, nodes: positions.len() }.into());
-        }
+        terms.linearise(positions, &mut blocks)?;
         let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
         let mut stiffness = NodalStiffness::new(body, &pairs)?;
         let tangents = stiffness.linearise(body, &mut elastic, Filter::None);

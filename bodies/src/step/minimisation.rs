@@ -6,7 +6,6 @@
 //! are sums and extrema over the machines, so that all make the same decisions: if an element of any machine
 //! refuses a point, the step is too long on all. On one machine nothing is added.
 
-use piola::NoSuchNode;
 use piola::lanes::Real;
 use piola::point::Filter;
 
@@ -152,10 +151,7 @@ impl<M: Machine> Minimisation<'_, M> {
     /// the pins to g.
     pub(super) fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, NewtonError> {
         let Self { objective, workspace, x, .. } = self;
-        objective.terms.linearise(x, objective.blocks);
-        if let Some(node) = objective.blocks.missing() {
-            return Err(NoSuchNode { element: None, node, nodes: x.len() }.into());
-        }
+        objective.terms.linearise(x, objective.blocks)?;
         workspace.machine.join(objective.body, objective.blocks)?;
         let mut tangents = Evaluated::NONE;
         let solver = workspace.machine.solver();

@@ -17,6 +17,8 @@
 use std::iter;
 use std::sync::Arc;
 
+use piola::NoSuchNode;
+
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
 use crate::system::{Body, NodalStiffness};
@@ -50,10 +52,14 @@ impl<'a> Terms<'a> {
         self.each().for_each(|term| term.add_gradient(x, total));
     }
 
-    /// Replaces the blocks by those at `x`.
-    pub(crate) fn linearise(self, x: &[[f64; 3]], blocks: &mut NodeBlocks) {
+    /// Replaces the blocks by those at `x`; an error for a block of a node that does not exist.
+    pub(crate) fn linearise(self, x: &[[f64; 3]], blocks: &mut NodeBlocks) -> Result<(), NoSuchNode> {
         blocks.begin(x.len());
         self.each().for_each(|term| term.add_second_derivatives(x, blocks));
+        match blocks.missing() {
+            Some(node) => Err(NoSuchNode { element: None, node, nodes: x.len() }),
+            None => Ok(()),
+        }
     }
 
     /// Share of a displacement, at most 1, that a line search tries first.
