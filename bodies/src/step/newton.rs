@@ -174,7 +174,7 @@ impl<M: Machine> Newton<'_, '_, M> {
         let first = self.minimisation.longest_step();
         self.minimisation.set_base();
         match backtrack(self.minimisation, first, slope)? {
-            Outcome::Accepted { step, difference, refused, by_slope, .. } => {
+            Outcome::Accepted { step, difference, refused, by_slope } => {
                 self.minimisation.accept();
                 self.report.step_lengths.push(step);
                 self.report.refused_trials += refused;

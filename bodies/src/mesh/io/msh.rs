@@ -86,7 +86,11 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
                 ));
             }
             _ if section.starts_with('$') && !section.starts_with("$End") => {
-                if may_hold_mesh(section) {
+                // Nodes or elements must not go unnoticed. Comments, periodicity and others add nothing to the
+                // body.
+                let name = section.to_ascii_lowercase();
+                let may_hold_mesh = name.contains("node") || name.contains("element");
+                if may_hold_mesh && !WITHOUT_MESH.contains(&section) {
                     return Err(line.problem(format!(
                         "the section `{}` is not known; nodes and elements are read from `$Nodes` and `$Elements`",
                         quoted(section)
@@ -110,13 +114,6 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
         }
     }
     file.into_mesh(cursor.number + 1)
-}
-
-/// True for the name of an unknown section that could hold nodes or elements, which must not go unnoticed.
-/// Others, such as comments and periodicity, add nothing to the body.
-fn may_hold_mesh(section: &str) -> bool {
-    let name = section.to_ascii_lowercase();
-    (name.contains("node") || name.contains("element")) && !WITHOUT_MESH.contains(&section)
 }
 
 #[derive(Clone, Copy)]
