@@ -22,6 +22,7 @@ use super::graph::Graph;
 use super::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use super::linear::{LinearError, fits};
 use super::memory::{filled, reserved};
+use crate::mesh::Bounds;
 
 /// Tiles of a wave: 2.9 MB of stiffnesses.
 const WAVE: usize = 64;
@@ -305,11 +306,8 @@ fn gather(body: &Body, pattern: &Pattern) -> Result<Vec<Gather>, LinearError> {
 ///
 /// [Mor66] Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, 1966.
 fn along_a_curve(positions: &[[f64; 3]]) -> Vec<u32> {
-    let bound =
-        |c: usize, of: fn(f64, f64) -> f64, start: f64| positions.iter().fold(start, |b, x| of(b, x[c]));
-    let min: [f64; 3] = std::array::from_fn(|c| bound(c, f64::min, f64::INFINITY));
-    let max: [f64; 3] = std::array::from_fn(|c| bound(c, f64::max, f64::NEG_INFINITY));
-    let size = (0..3).fold(0.0, |size: f64, c| size.max(max[c] - min[c]));
+    let bounds = Bounds::around(positions);
+    let (min, size) = (bounds.min, bounds.size().into_iter().fold(0.0, f64::max));
     let unit = if size > 0.0 { f64::from((1_u32 << 20) - 1) / size } else { 0.0 };
     let spread = |x: f64| {
         // Two zeros after each bit.

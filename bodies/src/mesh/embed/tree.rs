@@ -34,8 +34,8 @@ struct Branch {
     second: Option<usize>,
 }
 
-/// Distance of a body from a point, `None` if it holds the point, and its index: in this order the smallest is
-/// the nearest body, and the first of several.
+/// Distance of a body from a point, `None` if it holds the point, and its index: in this order the smallest
+/// is the nearest body, and the first of several.
 pub(super) type Nearest = (Option<f64>, usize);
 
 impl Tree {

@@ -86,8 +86,8 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
                 ));
             }
             _ if section.starts_with('$') && !section.starts_with("$End") => {
-                // Nodes or elements must not go unnoticed. Comments, periodicity and others add nothing to the
-                // body.
+                // Nodes or elements must not go unnoticed. Comments, periodicity and others add nothing to
+                // the body.
                 let name = section.to_ascii_lowercase();
                 let may_hold_mesh = name.contains("node") || name.contains("element");
                 if may_hold_mesh && !WITHOUT_MESH.contains(&section) {
