@@ -117,7 +117,7 @@ impl<M: Machine> Simulation<M> {
         pins: &Pins,
         settings: SimulationSettings,
     ) -> Result<Self, SetupError> {
-        let steps = StagedSteps::new(settings.integrator, body.rest(), pins.nodes())?;
+        let steps = StagedSteps::new(settings.integrator, body.rest(), pins)?;
         check_settings(&settings)?;
         let workspace = NewtonWorkspace::new(machine(&body)?, body.rest().len());
         Ok(Self {
@@ -163,7 +163,7 @@ impl<M: Machine> Simulation<M> {
     /// Indices of the pinned nodes, ascending.
     #[must_use]
     pub fn pinned(&self) -> &[usize] {
-        &self.steps.pinned
+        self.steps.pins.nodes()
     }
 
     /// Machine that simulates the body or its part.

@@ -8,6 +8,7 @@ use piola::NoSuchNode;
 use super::error::SetupError;
 use super::integrator::{Integrator, Method, Stage, State};
 use super::spring::Spring;
+use crate::system::Pins;
 
 /// State of the nodes of a body, or of the part of a machine, and the stages by which an [`Integrator`]
 /// advances it.
@@ -35,8 +36,7 @@ pub(super) struct StagedSteps {
     pub(super) stage_springs: Vec<Spring>,
     /// v, m/s, and a, m/s², of each completed stage except for the last.
     done: Vec<[Vec<[f64; 3]>; 2]>,
-    /// Indices of the pinned nodes, ascending.
-    pub(super) pinned: Vec<usize>,
+    pub(super) pins: Pins,
     /// Position of each pinned node, and only of those, after the next step, m.
     pub(super) targets: Vec<[f64; 3]>,
     /// Displacement of each pinned node in the current stage, m; zero for others.
@@ -51,15 +51,12 @@ impl StagedSteps {
     pub(super) fn new(
         integrator: Integrator,
         positions: &[[f64; 3]],
-        pinned: &[usize],
+        pins: &Pins,
     ) -> Result<Self, SetupError> {
         let nodes = positions.len();
-        if let Some(&node) = pinned.iter().find(|&&node| node >= nodes) {
+        if let Some(&node) = pins.nodes().iter().find(|&&node| node >= nodes) {
             return Err(NoSuchNode { element: None, node, nodes }.into());
         }
-        let mut pinned = pinned.to_vec();
-        pinned.sort_unstable();
-        pinned.dedup();
         let state = State::at_rest(positions);
         let mut steps = Self {
             integrator,
@@ -69,7 +66,7 @@ impl StagedSteps {
             stage: Stage::at_rest(nodes),
             stage_springs: Vec::new(),
             done: Vec::new(),
-            pinned,
+            pins: pins.clone(),
             targets: positions.to_vec(),
             pins_move: vec![[0.0; 3]; nodes],
             springs: Vec::new(),
@@ -89,20 +86,20 @@ impl StagedSteps {
     }
 
     /// Replaces the pinned nodes. A node that was not pinned before is held where it is.
-    pub(super) fn set_pinned(&mut self, pinned: &[usize]) {
+    pub(super) fn set_pins(&mut self, pins: &Pins) {
         for node in 0..self.state.x.len() {
-            let was_pinned = self.pinned.binary_search(&node).is_ok();
-            if !(was_pinned && pinned.binary_search(&node).is_ok()) {
+            let is_in = |pins: &Pins| pins.nodes().binary_search(&node).is_ok();
+            if !(is_in(&self.pins) && is_in(pins)) {
                 self.targets[node] = self.state.x[node];
                 self.pins_move[node] = [0.0; 3];
             }
         }
-        self.pinned = pinned.to_vec();
+        self.pins = pins.clone();
     }
 
     /// Prescribes the position of a pinned node, m, after the next step and from then on.
     pub(super) fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
-        if self.pinned.binary_search(&node).is_err() {
+        if self.pins.nodes().binary_search(&node).is_err() {
             return Err(SetupError(format!(
                 "node {node} (from 0) is not pinned, so its motion cannot be prescribed"
             )));
@@ -157,7 +154,7 @@ impl StagedSteps {
             spring.target = on_the_way(before, spring.target, share);
         }
         let mut is_moving = false;
-        for &node in &self.pinned {
+        for &node in self.pins.nodes() {
             let (target, before) = (self.targets[node], self.state.x[node]);
             let way: [f64; 3] = std::array::from_fn(|c| target[c] - before[c]);
             for c in 0..3 {
@@ -188,7 +185,7 @@ impl StagedSteps {
 
     /// Moves pinned nodes and springs from one share of the motion that `whole` prescribes to another.
     pub(super) fn drive(&mut self, whole: &Self, start: f64, end: f64) {
-        for &node in &whole.pinned {
+        for &node in whole.pins.nodes() {
             self.targets[node] = on_the_way(whole.state.x[node], whole.targets[node], end);
         }
         for (index, (before, spring)) in whole.targets_before.iter().zip(&whole.springs).enumerate() {

@@ -88,7 +88,7 @@ impl Simulation {
         }
         self.workspace.machine.set_pins(&self.body, pins)?;
         self.workspace.forget_direction();
-        self.steps.set_pinned(pins.nodes());
+        self.steps.set_pins(pins);
         Ok(())
     }
 
@@ -138,8 +138,7 @@ impl Simulation {
     }
 
     fn set_choice(&mut self, choice: Choice) -> Result<(), LinearError> {
-        let pins = Pins::at(self.pinned().iter().copied());
-        self.workspace.machine = OneMachine::new(&self.body, &pins, choice)?;
+        self.workspace.machine = OneMachine::new(&self.body, &self.steps.pins, choice)?;
         self.workspace.forget_direction();
         Ok(())
     }
