@@ -38,11 +38,6 @@ impl<'a> Terms<'a> {
         iter::once(self.springs as &dyn Term).chain(self.others.iter().map(Arc::as_ref))
     }
 
-    /// Energy of the terms except for the springs; NaN if a term has none.
-    pub(super) fn energy_of_others(self, x: &[[f64; 3]]) -> f64 {
-        self.others.iter().map(|term| term.energy(x).unwrap_or(f64::NAN)).sum()
-    }
-
     /// Index of the first term, springs aside, that refuses these positions.
     pub(super) fn refusing(self, x: &[[f64; 3]]) -> Option<usize> {
         self.others.iter().position(|term| term.energy(x).is_none_or(|energy| !energy.is_finite()))

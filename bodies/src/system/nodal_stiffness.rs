@@ -277,13 +277,13 @@ fn gather(body: &Body, pattern: &Pattern) -> Result<Vec<Gather>, LinearError> {
                     let Some((block, transposed)) = pattern.block(element.nodes[i], element.nodes[j]) else {
                         continue;
                     };
-                    let chunk = pattern.chunk_of(block);
+                    let (chunk, block) = pattern.chunk_of(block);
                     let gather = &mut all[chunk];
                     if gather.waves.last().is_none_or(|&(last, _)| last != wave) {
                         gather.waves.push((wave, gather.contributions.len() as u32));
                     }
                     gather.contributions.push(Contribution {
-                        block: (block - pattern.first_block(chunk)) as u32,
+                        block: block as u32,
                         element: (tile * TILE + lane) as u16,
                         pair: pair(i, j) as u8,
                         transposed,

@@ -120,7 +120,8 @@ impl Simulation {
     pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
         check_settings(&settings)?;
         let (new, old) = (&settings.newton, &self.settings.newton);
-        if new.linear != old.linear || self.workspace.machine.has_user_defined_solver() {
+        let is_user_defined = matches!(self.workspace.machine.choice, Choice::UserDefined(_));
+        if new.linear != old.linear || is_user_defined {
             self.set_choice(Choice::Setting(new.linear))?;
         }
         self.steps.set_integrator(settings.integrator);

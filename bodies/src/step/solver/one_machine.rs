@@ -15,7 +15,7 @@ use super::{LinearSolver, SparseSolver};
 #[derive(Clone)]
 pub struct OneMachine {
     solver: Box<dyn OwnSolver>,
-    choice: Choice,
+    pub(in crate::step) choice: Choice,
     pins: Pins,
     nodes: Undivided,
 }
@@ -24,10 +24,6 @@ impl OneMachine {
     /// Sets up the solver for a body with these pins.
     pub(in crate::step) fn new(body: &Body, pins: &Pins, choice: Choice) -> Result<Self, LinearError> {
         Ok(Self { solver: choice.set_up(body, pins, &[])?, choice, pins: pins.clone(), nodes: Undivided })
-    }
-
-    pub(in crate::step) fn has_user_defined_solver(&self) -> bool {
-        matches!(self.choice, Choice::UserDefined(_))
     }
 
     /// Replaces the pins; sets up a new solver if the present one cannot handle them.

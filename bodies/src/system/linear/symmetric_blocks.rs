@@ -139,10 +139,6 @@ impl Pattern {
         self.chunks.len()
     }
 
-    pub(crate) fn first_block(&self, chunk: usize) -> usize {
-        self.chunks[chunk].starts[0]
-    }
-
     /// Index of the block on the diagonal of a row.
     pub(crate) fn diagonal(&self, row: usize) -> usize {
         let Place { chunk, place } = self.place_of_row[row];
@@ -158,8 +154,10 @@ impl Pattern {
         find(row, column).map(|block| (block, false)).or_else(|| find(column, row).map(|block| (block, true)))
     }
 
-    pub(crate) fn chunk_of(&self, block: usize) -> usize {
-        self.chunks.partition_point(|chunk| chunk.range().end <= block)
+    /// Chunk of a block, and index of the block in it.
+    pub(crate) fn chunk_of(&self, block: usize) -> (usize, usize) {
+        let chunk = self.chunks.partition_point(|chunk| chunk.range().end <= block);
+        (chunk, block - self.chunks[chunk].starts[0])
     }
 
     /// Stored blocks of a row, each with its column: the block on the diagonal, then the later blocks.
@@ -288,6 +286,6 @@ mod tests {
         assert_eq!(pattern.block(0, 1), None);
         let (block, transposed) = pattern.block(2, 0).expect("neighbours");
         assert!(transposed && pattern.block(0, 2) == Some((block, false)));
-        assert_eq!((pattern.chunk_of(block), pattern.diagonal(1)), (0, 2));
+        assert_eq!((pattern.chunk_of(block), pattern.diagonal(1)), ((0, block), 2));
     }
 }
