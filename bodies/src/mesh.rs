@@ -6,11 +6,11 @@ mod boxes;
 mod elements;
 mod embed;
 mod io;
-pub(crate) mod tet;
+mod tet;
 
 pub use boxes::{BoxError, tetrahedral_box};
 pub use elements::ElementCounts;
 pub use embed::{Anchor, EmbedError, Embedding};
 pub use io::{ReadError, Surface, parse_msh, parse_surface_obj, read_msh, read_surface_obj, read_tetgen};
+pub(crate) use tet::no_such_group;
 pub use tet::{Bounds, Group, MeshError, RestShape, TetMesh};
-pub(crate) use tet::{lumped_masses, no_such_group};

@@ -19,7 +19,6 @@
 #[cfg(feature = "faer")]
 mod equilibrium;
 mod error;
-mod filtering;
 mod integrator;
 mod line_search;
 mod minimisation;
@@ -36,9 +35,8 @@ mod testing;
 #[cfg(feature = "faer")]
 pub use equilibrium::{Equilibrium, Stability};
 pub use error::{NewtonError, SetupError, StepError};
-pub use filtering::Filtering;
 pub use integrator::Integrator;
-pub use newton::{Convergence, NewtonReport, NewtonSettings};
+pub use newton::{Convergence, Filtering, NewtonReport, NewtonSettings};
 pub use simulation::{AdaptiveReport, Energies, Simulation, SimulationSettings, StepReport};
 pub use solver::{LinearSolver, SparseSolver};
 pub use spring::Spring;

@@ -15,7 +15,6 @@ pub(crate) mod nodal_stiffness;
 pub(crate) mod parts;
 mod pins;
 mod response;
-pub(crate) mod stiffnesses;
 #[cfg(test)]
 pub(crate) mod testing;
 

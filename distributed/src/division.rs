@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use piola::lanes::Real;
 use piola_bodies::step::divided::{Division, LastLevel};
 
 use crate::coarse::Coarse;
@@ -132,20 +133,12 @@ impl Division for RowsOfRank {
         self.numbers.len()
     }
 
-    fn copy<const N: usize>(&mut self, rows: &mut [[f32; N]]) {
-        self.with_vector::<N>(|vector| vector.copy(rows.as_flattened_mut(), |x| x as f32));
+    fn copy<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]) {
+        self.with_vector::<N>(|vector| vector.copy(rows.as_flattened_mut(), E::splat));
     }
 
-    fn sum<const N: usize>(&mut self, rows: &mut [[f32; N]]) {
-        self.with_vector::<N>(|vector| vector.sum(rows.as_flattened_mut(), |x| x as f32));
-    }
-
-    fn copy_vectors(&mut self, rows: &mut [[f64; 3]]) {
-        self.with_vector::<3>(|vector| vector.copy(rows.as_flattened_mut(), |x| x));
-    }
-
-    fn sum_vectors(&mut self, rows: &mut [[f64; 3]]) {
-        self.with_vector::<3>(|vector| vector.sum(rows.as_flattened_mut(), |x| x));
+    fn sum<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]) {
+        self.with_vector::<N>(|vector| vector.sum(rows.as_flattened_mut(), E::splat));
     }
 
     fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {

@@ -60,13 +60,14 @@ pub fn tetrahedral_box(cells: [usize; 3], size: [f64; 3]) -> Result<TetMesh, Box
     mesh.positions.try_reserve_exact(nodes).map_err(|_| too_many())?;
     mesh.tets.try_reserve_exact(tets).map_err(|_| too_many())?;
 
-    let axes = from_slow_to_fast(cells);
+    let mut axes = [0, 1, 2];
+    axes.sort_by_key(|&axis| std::cmp::Reverse(cells[axis]));
     let strides = strides(cells.map(|n| n + 1), axes);
-    for_each_place(cells.map(|n| n + 1), axes, |at| {
-        let coordinate = |c: usize| size[c] * (at[c] as f64 / cells[c] as f64);
-        mesh.positions.push([coordinate(0), coordinate(1), coordinate(2)]);
-    });
-    for_each_place(cells, axes, |at| {
+    mesh.positions.extend(
+        places(cells.map(|n| n + 1), axes)
+            .map(|at| -> [f64; 3] { std::array::from_fn(|c| size[c] * (at[c] as f64 / cells[c] as f64)) }),
+    );
+    for at in places(cells, axes) {
         let lowest = (0..3).map(|c| at[c] * strides[c]).sum();
         mesh.tets.extend(PATHS.map(|(path, is_odd)| {
             let mut tet = [lowest; 4];
@@ -78,19 +79,12 @@ pub fn tetrahedral_box(cells: [usize; 3], size: [f64; 3]) -> Result<TetMesh, Box
             }
             tet
         }));
-    });
+    }
     Ok(mesh)
 }
 
 fn product([x, y, z]: [Option<usize>; 3]) -> Option<usize> {
     x?.checked_mul(y?)?.checked_mul(z?)
-}
-
-/// The axes, that with the most cells first.
-fn from_slow_to_fast(cells: [usize; 3]) -> [usize; 3] {
-    let mut axes = [0, 1, 2];
-    axes.sort_by_key(|&axis| std::cmp::Reverse(cells[axis]));
-    axes
 }
 
 /// Distance in the numbering between two neighbours along each axis.
@@ -101,19 +95,10 @@ fn strides(counts: [usize; 3], [slow, middle, fast]: [usize; 3]) -> [usize; 3] {
     strides
 }
 
-/// Visits all places of a grid in the order of their numbers.
-fn for_each_place(counts: [usize; 3], [slow, middle, fast]: [usize; 3], mut visit: impl FnMut([usize; 3])) {
-    let mut at = [0; 3];
-    for i in 0..counts[slow] {
-        at[slow] = i;
-        for j in 0..counts[middle] {
-            at[middle] = j;
-            for k in 0..counts[fast] {
-                at[fast] = k;
-                visit(at);
-            }
-        }
-    }
+/// The places of a grid in the order of their numbers.
+fn places(counts: [usize; 3], axes: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+    let (strides, [x, y, z]) = (strides(counts, axes), counts);
+    (0..x * y * z).map(move |number| std::array::from_fn(|axis| number / strides[axis] % counts[axis]))
 }
 
 /// Reason why a box cannot be meshed, in words.

@@ -2,7 +2,6 @@
 
 use piola::__private::message::number;
 use thiserror::Error;
-use tree::{Nearest, Tree};
 
 use super::io::Surface;
 use super::tet::{Bounds, RestShape, TetMesh, cross, dot, norm, subtract};
@@ -61,7 +60,8 @@ impl Embedding {
         }
         let shapes = mesh.rest_shapes().map_err(|error| EmbedError(error.to_string()))?;
         let cage = Cage { mesh, shapes: &shapes };
-        let tree = cage.tree();
+        let boxes = (0..mesh.tets.len()).map(|tet| Bounds::around(&cage.corners(tet)));
+        let tree = tree::Tree::new(boxes.collect());
         let anchors = surface.positions.iter().enumerate().map(|(index, &x)| {
             let vertex = index + 1;
             if !x.iter().all(|c| c.is_finite()) {
@@ -69,11 +69,11 @@ impl Embedding {
                 return Err(EmbedError(problem));
             }
             match tree.nearest(x, |tet| cage.distance(tet, x)) {
-                Some(Nearest { body: tet, distance, .. }) if distance <= tolerance => {
+                Some((distance, tet)) if distance.unwrap_or(0.0) <= tolerance => {
                     Ok(Anchor { nodes: mesh.tets[tet], weights: cage.weights(tet, x) })
                 }
                 nearest => {
-                    let distance = nearest.map_or(f64::INFINITY, |nearest| nearest.distance);
+                    let distance = nearest.map_or(f64::INFINITY, |(distance, _)| distance.unwrap_or(0.0));
                     Err(EmbedError(format!(
                         "surface vertex {vertex} lies {distance:.3e} m outside the tetrahedral mesh; at most \
                          {tolerance:.3e} m is allowed"
@@ -107,14 +107,12 @@ impl Embedding {
 #[error("{0}")]
 pub struct EmbedError(String);
 
-/// The tetrahedra at rest.
 struct Cage<'a> {
     mesh: &'a TetMesh,
     shapes: &'a [RestShape],
 }
 
 impl Cage<'_> {
-    /// Barycentric coordinates of a point.
     fn weights(&self, tet: usize, x: [f64; 3]) -> [f64; 4] {
         let from_origin = subtract(x, self.mesh.positions[self.mesh.tets[tet][0]]);
         let [a, b, c] = self.shapes[tet].inverse.map(|row| dot(row, from_origin));
@@ -123,11 +121,6 @@ impl Cage<'_> {
 
     fn corners(&self, tet: usize) -> [[f64; 3]; 4] {
         self.mesh.tets[tet].map(|node| self.mesh.positions[node])
-    }
-
-    /// The tetrahedra in a tree.
-    fn tree(&self) -> Tree {
-        Tree::new((0..self.mesh.tets.len()).map(|tet| Bounds::around(&self.corners(tet))).collect())
     }
 
     /// Distance of a point from a tetrahedron; `None` for one that contains it.
@@ -224,12 +217,8 @@ mod tests {
 
     /// The first tetrahedron that contains a point, or else the nearest one, by looking at all of them.
     fn nearest(cage: &Cage<'_>, x: [f64; 3]) -> (usize, f64) {
-        let tets = 0..cage.mesh.tets.len();
-        let containing = tets.clone().find(|&tet| cage.distance(tet, x).is_none());
-        let others = tets.filter_map(|tet| Some((tet, cage.distance(tet, x)?)));
-        containing
-            .map(|tet| (tet, 0.0))
-            .unwrap_or_else(|| others.min_by(|one, other| one.1.total_cmp(&other.1)).expect("a tetrahedron"))
+        let all = (0..cage.mesh.tets.len()).map(|tet| (tet, cage.distance(tet, x).unwrap_or(-1.0)));
+        all.min_by(|one, other| one.1.total_cmp(&other.1)).expect("a tetrahedron")
     }
 
     /// Positions at rest come back, and the tree finds the same tetrahedra as a search through all of them,

@@ -50,6 +50,13 @@ pub struct Group {
     pub tets: Vec<usize>,
 }
 
+#[cfg(test)]
+impl Group {
+    pub(crate) fn of(name: &str, dimension: usize, nodes: &[usize], tets: &[usize]) -> Self {
+        Self { name: name.to_owned(), dimension, nodes: nodes.to_vec(), tets: tets.to_vec() }
+    }
+}
+
 /// Shape of a tetrahedron at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestShape {
@@ -127,7 +134,7 @@ impl TetMesh {
             }
             shapes.push(rest_shape(element, nodes.map(|node| self.positions[node]))?);
         }
-        if let Some(node) = self.unused_nodes().first() {
+        if let Some(node) = self.are_used().iter().position(|is_used| !is_used) {
             return Err(MeshError(format!(
                 "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
                  `TetMesh::without_unused_nodes` removes such nodes"
@@ -155,15 +162,15 @@ impl TetMesh {
         twice.map(|pair| [pair[0].1, pair[1].1]).min()
     }
 
-    /// Nodes that belong to no tetrahedron, ascending.
-    fn unused_nodes(&self) -> Vec<usize> {
-        let mut is_used = vec![false; self.positions.len()];
+    /// True for each node that belongs to a tetrahedron.
+    fn are_used(&self) -> Vec<bool> {
+        let mut are_used = vec![false; self.positions.len()];
         for &node in self.tets.as_flattened() {
-            if let Some(is_used) = is_used.get_mut(node) {
+            if let Some(is_used) = are_used.get_mut(node) {
                 *is_used = true;
             }
         }
-        (0..is_used.len()).filter(|&node| !is_used[node]).collect()
+        are_used
     }
 
     /// Number of tetrahedra of each connected component, the largest first: a body in one piece has one.
@@ -212,15 +219,12 @@ impl TetMesh {
     /// smaller numbers.
     #[must_use]
     pub fn without_unused_nodes(self) -> Self {
-        let unused = self.unused_nodes();
-        let mut renumbered = vec![None; self.positions.len()];
-        let mut positions = Vec::with_capacity(self.positions.len() - unused.len());
-        let mut next_unused = unused.iter().peekable();
-        for (node, position) in self.positions.into_iter().enumerate() {
-            if next_unused.next_if_eq(&&node).is_none() {
-                renumbered[node] = Some(positions.len());
-                positions.push(position);
-            }
+        let are_used = self.are_used();
+        let mut renumbered = vec![None; are_used.len()];
+        let mut positions = Vec::with_capacity(are_used.len());
+        for (node, position) in self.positions.into_iter().enumerate().filter(|&(node, _)| are_used[node]) {
+            renumbered[node] = Some(positions.len());
+            positions.push(position);
         }
         let number = |node: usize| renumbered.get(node).copied().flatten();
         let groups = self.groups.into_iter().map(|group| {
@@ -232,25 +236,9 @@ impl TetMesh {
         let groups = groups.collect();
         // A node that does not exist remains one, for the error to come.
         let tets = self.tets.iter().map(|tet| tet.map(|node| number(node).unwrap_or(node))).collect();
-        let dropped_nodes = self.dropped_nodes + unused.len();
+        let dropped_nodes = self.dropped_nodes + are_used.len() - positions.len();
         Self { positions, tets, groups, dropped_nodes, ..self }
     }
-}
-
-/// Lumped mass of each node, kg: a quarter of the mass of each tetrahedron around it.
-///
-/// `densities`, kg/m³, and `shapes`, those of [`TetMesh::rest_shapes`], hold one entry per tetrahedron.
-///
-/// # Panics
-/// If a tetrahedron names a node that does not exist.
-pub(crate) fn lumped_masses(mesh: &TetMesh, shapes: &[RestShape], densities: &[f64]) -> Vec<f64> {
-    let mut masses = vec![0.0; mesh.positions.len()];
-    for ((nodes, shape), density) in mesh.tets.iter().zip(shapes).zip(densities) {
-        for &node in nodes {
-            masses[node] += density * shape.volume / 4.0;
-        }
-    }
-    masses
 }
 
 /// Inverse edge matrix and volume of a tetrahedron; `element` is its tag.
@@ -438,14 +426,14 @@ mod tests {
     #[test]
     fn components_and_unused_nodes_are_counted() {
         let whole = crate::mesh::tetrahedral_box([3, 1, 1], [3.0, 1.0, 1.0]).expect("a box");
-        assert_eq!((whole.connected_components(), whole.unused_nodes()), (vec![18], vec![]));
+        assert_eq!(whole.connected_components(), [18]);
         // The middle cell is missing, and a corner stands far away by itself.
         let mut broken = whole.clone();
         broken.tets.drain(6..12);
         broken.positions.splice(0..0, [[1e7, 0.0, 0.0]]);
         broken.tets.as_flattened_mut().iter_mut().for_each(|node| *node += 1);
         broken.groups = vec![Group { nodes: vec![0, 5], ..Group::default() }];
-        assert_eq!((broken.connected_components(), broken.unused_nodes()), (vec![6, 6], vec![0]));
+        assert_eq!(broken.connected_components(), [6, 6]);
         let message = broken.rest_shapes().expect_err("an unused node").to_string();
         assert!(message.starts_with("node 0 (from 0) belongs to no tetrahedron"), "{message}");
         let cleaned = broken.without_unused_nodes();

@@ -17,7 +17,6 @@
 //! inertia). Factorisations of K ± σM, with a σ above all rounding errors, then separate stable from unstable
 //! and from undecided.
 
-use piola::NoSuchNode;
 use piola::point::Filter;
 
 use crate::system::assemble::Elastic;
@@ -27,7 +26,7 @@ use crate::system::{Body, Cholesky, LinearError, LowerTriangle, NodalStiffness, 
 use super::error::NewtonError;
 use super::integrator::Stage;
 use super::minimisation::demand_admissible;
-use super::objective::{Objective, Quadratic};
+use super::objective::Objective;
 use super::simulation::Simulation;
 use super::term::NodeBlocks;
 
@@ -98,26 +97,25 @@ impl Equilibrium {
         let survey = elastic.evaluate(body, positions);
         demand_admissible(&Undivided, &survey, body, &elastic)?;
         let stage = Stage::at_rest(positions.len());
-        let quadratic = Quadratic {
-            masses: body.masses(),
+        let mut blocks = NodeBlocks::default();
+        let terms = simulation.all_terms();
+        terms.linearise(positions, &mut blocks)?;
+        let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
+        let mut stiffness = NodalStiffness::new(body, &pairs)?;
+        let tangents = stiffness.linearise(body, &mut elastic, Filter::None);
+        demand_admissible(&Undivided, &tangents, body, &elastic)?;
+        let objective = Objective {
+            body,
+            elastic: &mut elastic,
             stage: &stage,
             damping: 0.0,
             regularisation: 0.0,
             guard: 0.0,
             gravity: simulation.settings().gravity,
             forces: simulation.forces(),
+            terms,
+            blocks: &mut blocks,
         };
-        let mut blocks = NodeBlocks::default();
-        let terms = simulation.all_terms();
-        terms.linearise(positions, &mut blocks);
-        if let Some(node) = blocks.missing() {
-            return Err(NoSuchNode { element: None, node, nodes: positions.len() }.into());
-        }
-        let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
-        let mut stiffness = NodalStiffness::new(body, &pairs)?;
-        let tangents = stiffness.linearise(body, &mut elastic, Filter::None);
-        demand_admissible(&Undivided, &tangents, body, &elastic)?;
-        let objective = Objective { body, elastic: &mut elastic, quadratic, terms, blocks: &mut blocks };
         let mut gradient = vec![[0.0; 3]; positions.len()];
         objective.gradient(positions, &mut gradient);
 

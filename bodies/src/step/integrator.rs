@@ -24,8 +24,6 @@
 //!
 //! \[Alexander77\] Alexander, *Diagonally implicit Runge–Kutta methods for stiff O.D.E.'s*, 1977.
 
-use super::spring::Spring;
-
 /// Integrator of a [`Simulation`](super::Simulation).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(
@@ -51,11 +49,10 @@ pub(super) struct Method {
     /// γ.
     diagonal: f64,
     /// aij of each stage, for j < i.
-    rows: &'static [&'static [f64]],
+    pub(super) rows: &'static [&'static [f64]],
 }
 
 impl Integrator {
-    /// The method of a step.
     pub(super) fn method(self) -> Method {
         match self {
             Self::ImplicitEuler => Method { diagonal: 1.0, rows: &[&[]] },
@@ -79,7 +76,6 @@ impl Integrator {
 }
 
 impl Method {
-    /// The number of minimisations in a step.
     pub(super) fn stages(&self) -> usize {
         self.rows.len()
     }
@@ -110,7 +106,6 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Rest at these positions.
     pub(super) fn at_rest(positions: &[[f64; 3]]) -> Self {
         let zero = || vec![[0.0; 3]; positions.len()];
         Self { x: positions.to_vec(), v: zero(), a: zero() }
@@ -130,7 +125,7 @@ pub(crate) struct Stage {
     /// where there was none.
     pub(crate) accelerations: Vec<[f64; 3]>,
     /// True if the leading error of steps is in changes of the accelerations, not in the accelerations.
-    is_second_order: bool,
+    pub(super) is_second_order: bool,
 }
 
 impl Stage {
@@ -164,81 +159,6 @@ impl Stage {
             (0..3).map(|c| change(c).powi(2)).sum::<f64>()
         };
         tau * sigma * (0..x.len()).map(size).fold(0.0, f64::max).sqrt()
-    }
-}
-
-/// The current stage of a step, and the results of the earlier ones.
-#[derive(Clone, Debug)]
-pub(super) struct Stages {
-    pub(super) current: Stage,
-    /// Springs with their targets in this stage.
-    pub(super) springs: Vec<Spring>,
-    /// v, m/s, and a, m/s², of each completed stage except for the last.
-    done: Vec<[Vec<[f64; 3]>; 2]>,
-}
-
-impl Stages {
-    /// Memory for the stages of an integrator.
-    pub(super) fn new(integrator: Integrator, nodes: usize) -> Self {
-        let zero = || vec![[0.0; 3]; nodes];
-        let done = (1..integrator.method().stages()).map(|_| [zero(), zero()]).collect();
-        let current = Stage { is_second_order: integrator.order() > 1, ..Stage::at_rest(nodes) };
-        Self { current, springs: Vec::new(), done }
-    }
-
-    /// Sets s, w, τ and σ of a stage of a step of `dt`.
-    pub(super) fn begin(&mut self, method: &Method, stage: usize, dt: f64, state: &State) {
-        let State { x, v, a } = state;
-        let Stage { start, velocities, lengths, accelerations, .. } = &mut self.current;
-        *lengths = method.lengths(dt);
-        accelerations.copy_from_slice(stage.checked_sub(1).map_or(a, |before| &self.done[before][1]));
-        start.copy_from_slice(x);
-        velocities.copy_from_slice(v);
-        for (coefficient, [v, a]) in method.rows[stage].iter().zip(&self.done) {
-            add(start, dt * coefficient, v);
-            add(velocities, dt * coefficient, a);
-        }
-    }
-
-    /// Sets the springs for this stage, with their targets at this share of their motion.
-    pub(super) fn pull(&mut self, springs: &[Spring], targets_before: &[[f64; 3]], share: f64) {
-        let at_share = |(&spring, &before): (&Spring, &[f64; 3])| Spring {
-            target: on_the_way(before, spring.target, share),
-            ..spring
-        };
-        self.springs.clear();
-        self.springs.extend(springs.iter().zip(targets_before).map(at_share));
-    }
-
-    /// Notes that a stage before the last has ended at `positions`.
-    pub(super) fn end(&mut self, stage: usize, positions: &[[f64; 3]]) {
-        for (node, &x) in positions.iter().enumerate() {
-            let [v, a] = self.current.motion(node, x);
-            self.done[stage][0][node] = v;
-            self.done[stage][1][node] = a;
-        }
-    }
-
-    /// Completes the state after a step, whose last stage has ended at `next.x`.
-    pub(super) fn finish(&self, next: &mut State) {
-        for node in 0..next.x.len() {
-            [next.v[node], next.a[node]] = self.current.motion(node, next.x[node]);
-        }
-    }
-}
-
-/// Point at a share of the way between two points; exactly these at the ends.
-pub(super) fn on_the_way(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
-    match share {
-        0.0 => from,
-        1.0 => to,
-        _ => std::array::from_fn(|c| from[c] + share * (to[c] - from[c])),
-    }
-}
-
-fn add(sum: &mut [[f64; 3]], factor: f64, x: &[[f64; 3]]) {
-    for (sum, x) in sum.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
-        *sum += factor * x;
     }
 }
 

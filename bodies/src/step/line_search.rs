@@ -18,7 +18,6 @@ const SUFFICIENT_DECREASE: f64 = 1e-4;
 /// Factor from the length of one trial to the next.
 const SHRINK: f64 = 0.5;
 
-/// Maximum number of trials.
 const MAX_TRIALS: usize = 48;
 
 /// Objective along a line, relative to its start.
@@ -34,7 +33,6 @@ pub(super) trait Line {
     fn slope(&mut self) -> Result<f64, Self::Error>;
 }
 
-/// Result of a line search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Outcome {
     /// The step tried last was accepted.
@@ -43,8 +41,6 @@ pub(super) enum Outcome {
         step: f64,
         /// The objective there minus that at the start.
         difference: f64,
-        /// Number of steps tried, this one included.
-        trials: usize,
         /// Number of trials outside the domain.
         refused: usize,
         /// True if the change of the objective was noise, so that the slope decided.
@@ -76,7 +72,7 @@ pub(super) fn backtrack<L: Line>(line: &mut L, first: f64, slope: f64) -> Result
                 // φ'(step) ≤ (2δ − 1) φ'(0) is equivalent to the sufficient decrease for a quadratic, without
                 // differences.
                 if (enough && !noisy) || (noisy && line.slope()? <= (2.0 * delta - 1.0) * slope) {
-                    return Ok(Outcome::Accepted { step, difference, trials, refused, by_slope: noisy });
+                    return Ok(Outcome::Accepted { step, difference, refused, by_slope: noisy });
                 }
             }
         }
@@ -132,7 +128,7 @@ mod tests {
             |s| Some(s * s / 2.0 - s),
             |s| s - 1.0,
             0.0,
-            Outcome::Accepted { step: 1.0, difference: -0.5, trials: 1, refused: 0, by_slope: false },
+            Outcome::Accepted { step: 1.0, difference: -0.5, refused: 0, by_slope: false },
         );
     }
 
@@ -142,25 +138,23 @@ mod tests {
             |s| Some(8.0 * s * s - s),
             |s| 16.0 * s - 1.0,
             0.0,
-            Outcome::Accepted { step: 0.0625, difference: -0.03125, trials: 5, refused: 0, by_slope: false },
+            Outcome::Accepted { step: 0.0625, difference: -0.03125, refused: 0, by_slope: false },
         );
         check(
             |s| (s < 0.3).then_some(-s),
             |_| -1.0,
             0.0,
-            Outcome::Accepted { step: 0.25, difference: -0.25, trials: 3, refused: 2, by_slope: false },
+            Outcome::Accepted { step: 0.25, difference: -0.25, refused: 2, by_slope: false },
         );
     }
 
     #[test]
     fn below_the_noise_the_slope_decides() {
         // The difference says "uphill", but it is noise: the minimum is at 1.
-        let accepted =
-            Outcome::Accepted { step: 1.0, difference: 1e-16, trials: 1, refused: 0, by_slope: true };
+        let accepted = Outcome::Accepted { step: 1.0, difference: 1e-16, refused: 0, by_slope: true };
         check(|_| Some(1e-16), |s| 1e-12 * (s - 1.0), 1e-15, accepted);
         // Here the slope at 1 is steeper than at 0: the minimum is at ⅓.
-        let halved =
-            Outcome::Accepted { step: 0.5, difference: 1e-16, trials: 2, refused: 0, by_slope: true };
+        let halved = Outcome::Accepted { step: 0.5, difference: 1e-16, refused: 0, by_slope: true };
         check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, halved);
     }
 

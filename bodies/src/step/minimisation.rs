@@ -6,7 +6,6 @@
 //! are sums and extrema over the machines, so that all make the same decisions: if an element of any machine
 //! refuses a point, the step is too long on all. On one machine nothing is added.
 
-use piola::NoSuchNode;
 use piola::lanes::Real;
 use piola::point::Filter;
 
@@ -17,12 +16,10 @@ use crate::system::linear::multigrid::Division;
 
 use super::error::NewtonError;
 use super::line_search::Line;
-use super::newton::{Linearised, Minimisation};
 use super::objective::{Objective, product};
 use super::solver::{Definiteness, Machine, Solution};
 use super::term::EnergyChange;
 
-/// Memory of Newton's method.
 #[derive(Clone)]
 pub(super) struct NewtonWorkspace<M> {
     pub(super) machine: M,
@@ -32,7 +29,6 @@ pub(super) struct NewtonWorkspace<M> {
 }
 
 impl<M: Machine> NewtonWorkspace<M> {
-    /// Allocates the memory for a number of nodes.
     pub(super) fn new(machine: M, nodes: usize) -> Self {
         let zero = || vec![[0.0; 3]; nodes];
         Self { machine, gradient: zero(), direction: zero(), trial: zero() }
@@ -46,7 +42,7 @@ impl<M: Machine> NewtonWorkspace<M> {
     /// Adds the gradients of all machines at the nodes that this one owns.
     fn sum_gradient(&mut self) {
         let (nodes, gradient) = (self.machine.nodes_mut(), &mut self.gradient);
-        nodes.sum_vectors(gradient);
+        nodes.sum(gradient);
         let owned = gradient.len() - nodes.copies();
         gradient[owned..].fill([0.0; 3]);
     }
@@ -58,27 +54,35 @@ impl<M: Machine> NewtonWorkspace<M> {
         let own = free.iter().map(|&node| square(self.gradient[node])).sum::<f64>();
         self.machine.nodes().total(own).sqrt()
     }
-
-    /// Inner product of gradient and direction.
-    fn descent(&self) -> f64 {
-        self.machine.nodes().total(product(&self.gradient, &self.direction))
-    }
 }
 
-/// The minimisation of a stage of a step.
-pub(super) struct StageMinimisation<'a, M> {
+/// The minimisation of a stage of a step: the objective with its variables x, the gradient g at x, a
+/// direction d, and the trial x + step d of a line search.
+///
+/// Each number that a method returns is the same on all machines.
+pub(super) struct Minimisation<'a, M> {
     objective: Objective<'a>,
     workspace: &'a mut NewtonWorkspace<M>,
     x: &'a mut [[f64; 3]],
     /// Displacement of each pinned node, m; zero for others.
     pins_move: &'a [[f64; 3]],
     /// Survey of the energies evaluated last.
-    survey: Evaluated,
+    pub(super) survey: Evaluated,
     /// First and second derivative of the quadratic part along the direction.
     quadratic: [f64; 2],
 }
 
-impl<'a, M: Machine> StageMinimisation<'a, M> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Linearised {
+    /// Norm of the gradient over the free variables, N.
+    pub(super) residual: f64,
+    /// Number of elements whose tangent the filter changed.
+    pub(super) filtered: usize,
+    /// Number of elements whose tangent is at a pole.
+    pub(super) bounded: usize,
+}
+
+impl<'a, M: Machine> Minimisation<'a, M> {
     /// Starts at `x`, where the energies have been evaluated last, with this survey.
     pub(super) fn new(
         objective: Objective<'a>,
@@ -94,14 +98,9 @@ impl<'a, M: Machine> StageMinimisation<'a, M> {
         workspace.machine.solver().begin();
         Ok(Self { objective, workspace, x, pins_move, survey, quadratic: [0.0; 2] })
     }
-
-    /// Survey of the energies at the end.
-    pub(super) fn survey(&self) -> Evaluated {
-        self.survey
-    }
 }
 
-impl<M: Machine> Line for StageMinimisation<'_, M> {
+impl<M: Machine> Line for Minimisation<'_, M> {
     type Error = NewtonError;
 
     fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, NewtonError> {
@@ -135,24 +134,24 @@ impl<M: Machine> Line for StageMinimisation<'_, M> {
         objective.elastic.evaluate_gradients(objective.body);
         objective.gradient(&workspace.trial, &mut workspace.gradient);
         workspace.sum_gradient();
-        Ok(workspace.descent())
+        Ok(self.descent())
     }
 }
 
-impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
-    fn gradient(&mut self) -> Result<f64, NewtonError> {
+impl<M: Machine> Minimisation<'_, M> {
+    /// Evaluates g after the energies; returns its norm over the free variables, N.
+    pub(super) fn gradient(&mut self) -> Result<f64, NewtonError> {
         self.objective.elastic.evaluate_gradients(self.objective.body);
         self.objective.gradient(self.x, &mut self.workspace.gradient);
         self.workspace.sum_gradient();
         Ok(self.workspace.free_norm())
     }
 
-    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, NewtonError> {
+    /// Evaluates g and the filtered second derivatives K; with `pins_move`, adds K times the displacement of
+    /// the pins to g.
+    pub(super) fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, NewtonError> {
         let Self { objective, workspace, x, .. } = self;
-        objective.terms.linearise(x, objective.blocks);
-        if let Some(node) = objective.blocks.missing() {
-            return Err(NoSuchNode { element: None, node, nodes: x.len() }.into());
-        }
+        objective.terms.linearise(x, objective.blocks)?;
         workspace.machine.join(objective.body, objective.blocks)?;
         let mut tangents = Evaluated::NONE;
         let solver = workspace.machine.solver();
@@ -164,8 +163,7 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         objective.gradient(x, gradient);
         if pins_move {
             machine.solver().add_product(objective.body, self.pins_move, gradient);
-            objective.quadratic.add_product(self.pins_move, gradient);
-            objective.blocks.add_product(self.pins_move, gradient);
+            objective.add_product(self.pins_move, gradient);
         }
         workspace.sum_gradient();
         let residual = workspace.free_norm();
@@ -174,15 +172,22 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         Ok(Linearised { residual, filtered: filtered as usize, bounded: bounded as usize })
     }
 
-    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, NewtonError> {
+    /// Solves K d = −g. The relative tolerance takes effect if it is tighter than the solver's own.
+    /// Returns `None` if K is indefinite and [`Definiteness::Required`].
+    pub(super) fn solve(
+        &mut self,
+        tolerance: f64,
+        definiteness: Definiteness,
+    ) -> Result<Option<Solution>, NewtonError> {
         let NewtonWorkspace { machine, gradient, direction, .. } = &mut *self.workspace;
         let solver = machine.solver();
         let solved = solver.solve(&self.objective, self.x, gradient, direction, tolerance, definiteness)?;
-        machine.nodes_mut().copy_vectors(direction);
+        machine.nodes_mut().copy(direction);
         Ok(solved)
     }
 
-    fn move_pins(&mut self) -> Result<(), NewtonError> {
+    /// Moves the pins in x, and evaluates the energies there.
+    pub(super) fn move_pins(&mut self) -> Result<(), NewtonError> {
         for (x, d) in self.x.as_flattened_mut().iter_mut().zip(self.pins_move.as_flattened()) {
             *x += d;
         }
@@ -197,40 +202,48 @@ impl<M: Machine> Minimisation for StageMinimisation<'_, M> {
         }
     }
 
-    fn descent(&self) -> f64 {
-        self.workspace.descent()
+    /// g·d over the free variables, J.
+    pub(super) fn descent(&self) -> f64 {
+        let NewtonWorkspace { machine, gradient, direction, .. } = &*self.workspace;
+        machine.nodes().total(product(gradient, direction))
     }
 
-    fn longest_step(&self) -> f64 {
+    /// Share of the direction that a line search tries first, at most 1.
+    pub(super) fn longest_step(&self) -> f64 {
         self.objective.terms.longest_step(self.x, &self.workspace.direction)
     }
 
-    fn set_base(&mut self) {
+    /// Prepares [`Line::change`]: differences of energies are relative to x.
+    pub(super) fn set_base(&mut self) {
         let Self { objective, workspace: NewtonWorkspace { machine, gradient, direction, .. }, .. } = self;
         objective.elastic.set_base();
         objective.quadratic_gradient(self.x, gradient);
-        let own = [product(gradient, direction), objective.quadratic.curvature(direction)];
+        let own = [product(gradient, direction), objective.curvature(direction)];
         self.quadratic = machine.nodes().totals(own);
     }
 
-    fn accept(&mut self) {
+    /// Replaces x by the trial evaluated last.
+    pub(super) fn accept(&mut self) {
         self.x.copy_from_slice(&self.workspace.trial);
         self.survey = self.objective.elastic.survey();
     }
 
-    fn reject(&mut self) -> f64 {
+    /// Evaluates the energies at x again; returns the rounding error of their differences there, J.
+    pub(super) fn reject(&mut self) -> f64 {
         self.survey = self.objective.evaluate(self.x);
         self.workspace.machine.nodes().total(self.objective.noise(self.x))
     }
 
-    fn displacement(&self) -> f64 {
+    /// Largest displacement of a node along d, m.
+    pub(super) fn displacement(&self) -> f64 {
         let square = |d: &[f64; 3]| d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         let own = self.workspace.direction.iter().map(square).fold(0.0, f64::max).sqrt();
         self.workspace.machine.nodes().largest(own)
     }
 
-    fn error_scale(&self) -> f64 {
-        let own = self.objective.quadratic.stage.error_scale(self.x);
+    /// Scale of the error in time of the step with the nodes at x, m.
+    pub(super) fn error_scale(&self) -> f64 {
+        let own = self.objective.stage.error_scale(self.x);
         self.workspace.machine.nodes().largest(own)
     }
 }

@@ -1,80 +1,25 @@
 //! Newton's method with filtered second derivatives and a line search.
 //!
-//! This module is independent of nodes, masses and terms: it uses a [`Minimisation`].
+//! This module is independent of nodes, masses and terms, which the methods of a [`Minimisation`] hide.
 
 use piola::point::Filter;
 
 use super::error::NewtonError;
-use super::filtering::Filtering;
-use super::line_search::{Line, Outcome, backtrack};
-use super::solver::{Definiteness, Solution};
+use super::line_search::{Outcome, backtrack};
+use super::minimisation::{Linearised, Minimisation};
+use super::solver::{Definiteness, Machine};
 
 mod report;
 mod settings;
 
 pub use report::{Convergence, NewtonReport};
-pub use settings::NewtonSettings;
-
-/// Objective with the memory to minimise it: its variables x, the gradient g at x, a direction d, and the
-/// trial x + step d of a line search.
-///
-/// If variables are divided among machines, each number that a method returns is the same on all of them.
-pub(super) trait Minimisation: Line<Error = NewtonError> {
-    /// Evaluates g after the energies; returns its norm over the free variables, N.
-    fn gradient(&mut self) -> Result<f64, NewtonError>;
-
-    /// Evaluates g and the filtered second derivatives K; with `pins_move`, adds K times the displacement of
-    /// the pins to g.
-    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, NewtonError>;
-
-    /// Solves K d = −g. The relative tolerance takes effect if it is tighter than the solver's own.
-    /// Returns `None` if K is indefinite and [`Definiteness::Required`].
-    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<Option<Solution>, NewtonError>;
-
-    /// Moves the pins in x, and evaluates the energies there.
-    fn move_pins(&mut self) -> Result<(), NewtonError>;
-
-    /// g·d over the free variables, J.
-    fn descent(&self) -> f64;
-
-    /// Share of the direction that a line search tries first, at most 1.
-    fn longest_step(&self) -> f64;
-
-    /// Prepares [`Line::change`]: differences of energies are relative to x.
-    fn set_base(&mut self);
-
-    /// Replaces x by the trial evaluated last.
-    fn accept(&mut self);
-
-    /// Evaluates the energies at x again; returns the rounding error of their differences there, J.
-    fn reject(&mut self) -> f64;
-
-    /// Largest displacement of a node along d, m.
-    fn displacement(&self) -> f64;
-
-    /// Scale of the error in time of the step with the nodes at x, m.
-    fn error_scale(&self) -> f64;
-}
-
-/// Outcome of a linearisation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Linearised {
-    /// Norm of the gradient over the free variables, N.
-    pub(super) residual: f64,
-    /// Number of elements whose tangent the filter changed.
-    pub(super) filtered: usize,
-    /// Number of elements whose tangent is at a pole.
-    pub(super) bounded: usize,
-}
+pub use settings::{Filtering, NewtonSettings};
 
 /// Moves x towards a minimum, and the pins with the first direction if `pins_move`.
 ///
 /// The energies must have been evaluated at x, and on success they have been again.
-///
-/// # Errors
-/// [`NewtonError::NotFinite`], [`NewtonError::LineSearch`], or an error of the minimisation.
-pub(super) fn minimize<M: Minimisation>(
-    minimisation: &mut M,
+pub(super) fn minimize<M: Machine>(
+    minimisation: &mut Minimisation<'_, M>,
     pins_move: bool,
     settings: &NewtonSettings,
 ) -> Result<NewtonReport, NewtonError> {
@@ -82,16 +27,14 @@ pub(super) fn minimize<M: Minimisation>(
     Newton { minimisation, settings, report, moved: None }.run(pins_move)
 }
 
-/// State of a running minimisation.
-struct Newton<'a, M> {
-    minimisation: &'a mut M,
+struct Newton<'a, 'b, M> {
+    minimisation: &'a mut Minimisation<'b, M>,
     settings: &'a NewtonSettings,
     report: NewtonReport,
     /// The largest displacement of a node in the iteration before, m.
     moved: Option<f64>,
 }
 
-/// Outcome of a line search.
 #[derive(PartialEq, Eq)]
 enum Progress {
     Decrease,
@@ -101,7 +44,7 @@ enum Progress {
     Nothing,
 }
 
-impl<M: Minimisation> Newton<'_, M> {
+impl<M: Machine> Newton<'_, '_, M> {
     fn run(mut self, mut pins_move: bool) -> Result<NewtonReport, NewtonError> {
         // Iterations in a row that have gained nothing beyond noise, neither in the objective nor in the
         // gradient.
@@ -181,13 +124,14 @@ impl<M: Minimisation> Newton<'_, M> {
     /// that of the state before they move, when elements next to them are not yet distorted; the line search
     /// starts after the move.
     fn find_direction(&mut self, pins_move: bool, tolerance: f64) -> Result<bool, NewtonError> {
-        let filtering = self.settings.filtering;
-        let residual = self.linearise(filtering.choice(), pins_move)?;
+        let (filter, definiteness) = match self.settings.filtering {
+            Filtering::Always(filter) => (filter, Definiteness::Optional),
+            Filtering::OnDemand => (Filter::None, Definiteness::Required),
+        };
+        let residual = self.linearise(filter, pins_move)?;
         if !pins_move && self.report.iterations == 0 && self.report.note_residual(residual, self.settings)? {
             return Ok(false);
         }
-        let on_demand = filtering == Filtering::OnDemand;
-        let definiteness = if on_demand { Definiteness::Required } else { Definiteness::Optional };
         if !self.solve(tolerance, definiteness)? {
             self.linearise(Filter::Clamp, pins_move)?;
             self.solve(tolerance, Definiteness::Optional)?;
@@ -230,7 +174,7 @@ impl<M: Minimisation> Newton<'_, M> {
         let first = self.minimisation.longest_step();
         self.minimisation.set_base();
         match backtrack(self.minimisation, first, slope)? {
-            Outcome::Accepted { step, difference, refused, by_slope, .. } => {
+            Outcome::Accepted { step, difference, refused, by_slope } => {
                 self.minimisation.accept();
                 self.report.step_lengths.push(step);
                 self.report.refused_trials += refused;
@@ -248,3 +192,6 @@ impl<M: Minimisation> Newton<'_, M> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

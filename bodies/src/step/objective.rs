@@ -17,93 +17,16 @@
 use std::iter;
 use std::sync::Arc;
 
+use piola::NoSuchNode;
+
 use crate::system::assemble::Elastic;
 use crate::system::element::Evaluated;
-use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::{Body, NodalStiffness};
 
 use super::integrator::Stage;
 use super::spring::Spring;
 use super::term::{EnergyChange, NodeBlocks, Term};
 
-/// The quadratic part of the objective.
-#[derive(Clone, Copy)]
-pub(crate) struct Quadratic<'a> {
-    pub(crate) masses: &'a [f64],
-    pub(crate) stage: &'a Stage,
-    /// α of mass-proportional damping, 1/s.
-    pub(crate) damping: f64,
-    /// Diagonal that a unit of regularisation adds for each mass, 1/s².
-    pub(crate) regularisation: f64,
-    /// Diagonal that is always added for each mass to the second derivatives, not to the objective, 1/s².
-    pub(crate) guard: f64,
-    /// g, m/s².
-    pub(crate) gravity: [f64; 3],
-    /// f of each node, N; empty without any.
-    pub(crate) forces: &'a [[f64; 3]],
-}
-
-impl Quadratic<'_> {
-    /// Second derivative in each coordinate of a node: m (1/σ + α)/τ.
-    fn diagonal(&self, node: usize) -> f64 {
-        let [tau, sigma] = self.stage.lengths;
-        self.masses[node] * (1.0 / sigma + self.damping) / tau
-    }
-
-    /// Second derivative in each coordinate of a node, with the guard against drift.
-    pub(crate) fn guarded_diagonal(&self, node: usize) -> f64 {
-        self.diagonal(node) + self.masses[node] * self.guard
-    }
-
-    /// Diagonal shift of a node; multiples of it are added until the Hessian is positive definite.
-    pub(crate) fn regularisation(&self, node: usize) -> f64 {
-        self.masses[node] * self.regularisation
-    }
-
-    /// Adds the gradient at `x`.
-    fn add_gradient(&self, x: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        for node in 0..x.len() {
-            let [v, acceleration] = self.stage.motion(node, x[node]);
-            for c in 0..3 {
-                total[node][c] +=
-                    self.masses[node] * (acceleration[c] + self.damping * v[c] - self.gravity[c]);
-            }
-        }
-        for (total, force) in total.iter_mut().zip(self.forces) {
-            for c in 0..3 {
-                total[c] -= force[c];
-            }
-        }
-    }
-
-    /// Adds the product of the second derivatives with a displacement.
-    pub(crate) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        for node in 0..d.len() {
-            for c in 0..3 {
-                total[node][c] += self.guarded_diagonal(node) * d[node][c];
-            }
-        }
-    }
-
-    /// Adds the second derivatives to a matrix of a row and a column for each node.
-    pub(crate) fn add_to(&self, matrix: &mut SymmetricBlocks<f64, 3>) {
-        let pattern = matrix.pattern().clone();
-        for node in 0..self.masses.len() {
-            let block = &mut matrix.blocks_mut()[pattern.diagonal(node)];
-            for c in 0..3 {
-                block[c][c] += self.guarded_diagonal(node);
-            }
-        }
-    }
-
-    /// Curvature dᵀ H d.
-    pub(super) fn curvature(&self, d: &[[f64; 3]]) -> f64 {
-        let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-        d.iter().enumerate().map(|(node, &d)| self.diagonal(node) * square(d)).sum()
-    }
-}
-
-/// Springs and other terms of the energy.
 #[derive(Clone, Copy)]
 pub(crate) struct Terms<'a> {
     pub(crate) springs: &'a Vec<Spring>,
@@ -115,11 +38,6 @@ impl<'a> Terms<'a> {
         iter::once(self.springs as &dyn Term).chain(self.others.iter().map(Arc::as_ref))
     }
 
-    /// Energy of the terms except for the springs; NaN if a term has none.
-    pub(super) fn energy_of_others(self, x: &[[f64; 3]]) -> f64 {
-        self.others.iter().map(|term| term.energy(x).unwrap_or(f64::NAN)).sum()
-    }
-
     /// Index of the first term, springs aside, that refuses these positions.
     pub(super) fn refusing(self, x: &[[f64; 3]]) -> Option<usize> {
         self.others.iter().position(|term| term.energy(x).is_none_or(|energy| !energy.is_finite()))
@@ -129,10 +47,14 @@ impl<'a> Terms<'a> {
         self.each().for_each(|term| term.add_gradient(x, total));
     }
 
-    /// Replaces the blocks by those at `x`.
-    pub(crate) fn linearise(self, x: &[[f64; 3]], blocks: &mut NodeBlocks) {
+    /// Replaces the blocks by those at `x`; an error for a block of a node that does not exist.
+    pub(crate) fn linearise(self, x: &[[f64; 3]], blocks: &mut NodeBlocks) -> Result<(), NoSuchNode> {
         blocks.begin(x.len());
         self.each().for_each(|term| term.add_second_derivatives(x, blocks));
+        match blocks.missing() {
+            Some(node) => Err(NoSuchNode { element: None, node, nodes: x.len() }),
+            None => Ok(()),
+        }
     }
 
     /// Share of a displacement, at most 1, that a line search tries first.
@@ -152,7 +74,17 @@ impl<'a> Terms<'a> {
 pub struct Objective<'a> {
     pub(crate) body: &'a Body,
     pub(crate) elastic: &'a mut Elastic,
-    pub(crate) quadratic: Quadratic<'a>,
+    pub(crate) stage: &'a Stage,
+    /// α of mass-proportional damping, 1/s.
+    pub(crate) damping: f64,
+    /// Diagonal that a unit of regularisation adds for each mass, 1/s².
+    pub(crate) regularisation: f64,
+    /// Diagonal that is always added for each mass to the second derivatives, not to the objective, 1/s².
+    pub(crate) guard: f64,
+    /// g, m/s².
+    pub(crate) gravity: [f64; 3],
+    /// f of each node, N; empty without any.
+    pub(crate) forces: &'a [[f64; 3]],
     pub(crate) terms: Terms<'a>,
     /// Second derivatives of the terms, where they were linearised last.
     pub(crate) blocks: &'a mut NodeBlocks,
@@ -171,10 +103,42 @@ impl Objective<'_> {
         self.elastic.add_gradient(self.body, gradient);
     }
 
-    /// The gradient of inertia, damping and given forces.
+    /// The gradient of inertia, damping and given forces, which are quadratic.
     pub(super) fn quadratic_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         gradient.fill([0.0; 3]);
-        self.quadratic.add_gradient(x, gradient);
+        for (node, mass) in self.body.masses().iter().enumerate() {
+            let [v, acceleration] = self.stage.motion(node, x[node]);
+            for c in 0..3 {
+                gradient[node][c] += mass * (acceleration[c] + self.damping * v[c] - self.gravity[c]);
+            }
+        }
+        for (total, force) in gradient.iter_mut().zip(self.forces) {
+            for c in 0..3 {
+                total[c] -= force[c];
+            }
+        }
+    }
+
+    /// Second derivative of the quadratic part in each coordinate of a node: m (1/σ + α)/τ.
+    fn diagonal(&self, node: usize) -> f64 {
+        let [tau, sigma] = self.stage.lengths;
+        self.body.masses()[node] * (1.0 / sigma + self.damping) / tau
+    }
+
+    /// Curvature dᵀ H d of the quadratic part.
+    pub(super) fn curvature(&self, d: &[[f64; 3]]) -> f64 {
+        let square = |x: [f64; 3]| x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+        d.iter().enumerate().map(|(node, &d)| self.diagonal(node) * square(d)).sum()
+    }
+
+    /// Adds the product of the second derivatives, except for those of the elements, with a displacement.
+    pub(super) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        for node in 0..d.len() {
+            for c in 0..3 {
+                total[node][c] += self.inertia(node) * d[node][c];
+            }
+        }
+        self.blocks.add_product(d, total);
     }
 
     /// Rounding error of a difference of energies near `x`, the last point of evaluation, J.
@@ -185,17 +149,19 @@ impl Objective<'_> {
 
     /// Adds the second derivatives, except for those of the elements, to a stiffness.
     pub fn add_second_derivatives(&self, stiffness: &mut NodalStiffness) {
-        self.quadratic.add_to(stiffness.matrix_mut());
+        for node in 0..self.body.masses().len() {
+            stiffness.add_to_diagonal(node, self.inertia(node));
+        }
         self.blocks.add_to_blocks(stiffness.matrix_mut());
     }
 
-    /// Part of inertia and damping in the diagonal of a node, N/m.
+    /// Part of inertia and damping in the diagonal of a node, N/m, with the guard against drift.
     ///
     /// # Panics
     /// If there is no such node.
     #[must_use]
     pub fn inertia(&self, node: usize) -> f64 {
-        self.quadratic.guarded_diagonal(node)
+        self.diagonal(node) + self.body.masses()[node] * self.guard
     }
 
     /// Addition to the diagonal of a node, N/m, of which a solver adds multiples until the matrix is positive
@@ -205,7 +171,7 @@ impl Objective<'_> {
     /// If there is no such node.
     #[must_use]
     pub fn regularisation(&self, node: usize) -> f64 {
-        self.quadratic.regularisation(node)
+        self.body.masses()[node] * self.regularisation
     }
 }
 

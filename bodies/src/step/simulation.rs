@@ -54,7 +54,6 @@ use settings::check_settings;
 pub struct Simulation<M: Machine = OneMachine> {
     body: Body,
     settings: SimulationSettings,
-    /// State of the nodes, pins and springs.
     steps: StagedSteps,
     terms: Vec<Arc<dyn Term>>,
     /// Second derivatives of springs and terms, where they were linearised last.
@@ -118,7 +117,7 @@ impl<M: Machine> Simulation<M> {
         pins: &Pins,
         settings: SimulationSettings,
     ) -> Result<Self, SetupError> {
-        let steps = StagedSteps::new(settings.integrator, body.rest(), pins.nodes())?;
+        let steps = StagedSteps::new(settings.integrator, body.rest(), pins)?;
         check_settings(&settings)?;
         let workspace = NewtonWorkspace::new(machine(&body)?, body.rest().len());
         Ok(Self {
@@ -164,7 +163,7 @@ impl<M: Machine> Simulation<M> {
     /// Indices of the pinned nodes, ascending.
     #[must_use]
     pub fn pinned(&self) -> &[usize] {
-        &self.steps.pinned
+        self.steps.pins.nodes()
     }
 
     /// Machine that simulates the body or its part.
@@ -179,7 +178,6 @@ impl<M: Machine> Simulation<M> {
         *self.evaluated.get_or_insert_with(|| self.elastic.evaluate(&self.body, x))
     }
 
-    /// Springs and other terms.
     pub(super) fn all_terms(&self) -> Terms<'_> {
         Terms { springs: &self.steps.springs, others: &self.terms }
     }

@@ -6,8 +6,9 @@
 use piola::NoSuchNode;
 
 use super::error::SetupError;
-use super::integrator::{Integrator, Method, Stages, State, on_the_way};
+use super::integrator::{Integrator, Method, Stage, State};
 use super::spring::Spring;
+use crate::system::Pins;
 
 /// State of the nodes of a body, or of the part of a machine, and the stages by which an [`Integrator`]
 /// advances it.
@@ -20,20 +21,22 @@ use super::spring::Spring;
 /// M a = −∇Ψ(x) + other forces at x and v, with v = (x − s)/τ and a = (v − w)/σ
 /// ```
 ///
-/// for the s, w, τ and σ of its [`Stage`](super::integrator::Stage).
+/// for the s, w, τ and σ of its [`Stage`].
 #[derive(Clone, Debug)]
 pub(super) struct StagedSteps {
     pub(super) integrator: Integrator,
     method: Method,
     dt: f64,
-    /// State after the last step.
     pub(super) state: State,
     /// State after the step in progress; its positions are those of the current stage, where the minimisation
     /// begins and which the minimum replaces.
     pub(super) next: State,
-    pub(super) stages: Stages,
-    /// Indices of the pinned nodes, ascending.
-    pub(super) pinned: Vec<usize>,
+    pub(super) stage: Stage,
+    /// Springs with their targets in this stage.
+    pub(super) stage_springs: Vec<Spring>,
+    /// v, m/s, and a, m/s², of each completed stage except for the last.
+    done: Vec<[Vec<[f64; 3]>; 2]>,
+    pub(super) pins: Pins,
     /// Position of each pinned node, and only of those, after the next step, m.
     pub(super) targets: Vec<[f64; 3]>,
     /// Displacement of each pinned node in the current stage, m; zero for others.
@@ -45,63 +48,58 @@ pub(super) struct StagedSteps {
 
 impl StagedSteps {
     /// State of nodes at rest at these positions, m, some of them pinned.
-    ///
-    /// # Errors
-    /// [`SetupError`] for a pin that is no node.
     pub(super) fn new(
         integrator: Integrator,
         positions: &[[f64; 3]],
-        pinned: &[usize],
+        pins: &Pins,
     ) -> Result<Self, SetupError> {
         let nodes = positions.len();
-        if let Some(&node) = pinned.iter().find(|&&node| node >= nodes) {
+        if let Some(&node) = pins.nodes().iter().find(|&&node| node >= nodes) {
             return Err(NoSuchNode { element: None, node, nodes }.into());
         }
-        let mut pinned = pinned.to_vec();
-        pinned.sort_unstable();
-        pinned.dedup();
         let state = State::at_rest(positions);
-        Ok(Self {
+        let mut steps = Self {
             integrator,
             method: integrator.method(),
             dt: 0.0,
             next: state.clone(),
-            stages: Stages::new(integrator, nodes),
-            pinned,
+            stage: Stage::at_rest(nodes),
+            stage_springs: Vec::new(),
+            done: Vec::new(),
+            pins: pins.clone(),
             targets: positions.to_vec(),
             pins_move: vec![[0.0; 3]; nodes],
             springs: Vec::new(),
             targets_before: Vec::new(),
             state,
-        })
+        };
+        steps.set_integrator(integrator);
+        Ok(steps)
     }
 
     /// Replaces the integrator from the next step on.
     pub(super) fn set_integrator(&mut self, integrator: Integrator) {
-        if integrator != self.integrator {
-            self.integrator = integrator;
-            self.stages = Stages::new(integrator, self.state.x.len());
-        }
+        let zero = || vec![[0.0; 3]; self.state.x.len()];
+        self.integrator = integrator;
+        self.stage.is_second_order = integrator.order() > 1;
+        self.done.resize_with(integrator.method().rows.len() - 1, || [zero(), zero()]);
     }
 
     /// Replaces the pinned nodes. A node that was not pinned before is held where it is.
-    pub(super) fn set_pinned(&mut self, pinned: &[usize]) {
+    pub(super) fn set_pins(&mut self, pins: &Pins) {
         for node in 0..self.state.x.len() {
-            let was_pinned = self.pinned.binary_search(&node).is_ok();
-            if !(was_pinned && pinned.binary_search(&node).is_ok()) {
+            let is_in = |pins: &Pins| pins.nodes().binary_search(&node).is_ok();
+            if !(is_in(&self.pins) && is_in(pins)) {
                 self.targets[node] = self.state.x[node];
                 self.pins_move[node] = [0.0; 3];
             }
         }
-        self.pinned = pinned.to_vec();
+        self.pins = pins.clone();
     }
 
     /// Prescribes the position of a pinned node, m, after the next step and from then on.
-    ///
-    /// # Errors
-    /// [`SetupError`] for a node that is not pinned, or a position that is not finite.
     pub(super) fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
-        if self.pinned.binary_search(&node).is_err() {
+        if self.pins.nodes().binary_search(&node).is_err() {
             return Err(SetupError(format!(
                 "node {node} (from 0) is not pinned, so its motion cannot be prescribed"
             )));
@@ -115,10 +113,6 @@ impl StagedSteps {
 
     /// Replaces the springs. If a spring has the same index and anchor as one before, its target moves evenly
     /// in the course of the next step.
-    ///
-    /// # Errors
-    /// [`SetupError`] for a node that does not exist, a negative stiffness or a component that is not finite.
-    /// The springs then stay as they were.
     pub(super) fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
         springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
         let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
@@ -143,15 +137,24 @@ impl StagedSteps {
 
     /// Begins a stage of the step, counted from 0: pinned nodes and targets of springs are at its share of
     /// their motion through the step. Returns true if a pinned node moves.
-    ///
-    /// # Panics
-    /// If there is no such stage.
     pub(super) fn begin_stage(&mut self, stage: usize) -> bool {
-        self.stages.begin(&self.method, stage, self.dt, &self.state);
+        let State { x, v, a } = &self.state;
+        let Stage { start, velocities, lengths, accelerations, .. } = &mut self.stage;
+        *lengths = self.method.lengths(self.dt);
+        accelerations.copy_from_slice(stage.checked_sub(1).map_or(a, |before| &self.done[before][1]));
+        start.copy_from_slice(x);
+        velocities.copy_from_slice(v);
+        for (coefficient, [v, a]) in self.method.rows[stage].iter().zip(&self.done) {
+            add(start, self.dt * coefficient, v);
+            add(velocities, self.dt * coefficient, a);
+        }
         let share = self.method.share(stage);
-        self.stages.pull(&self.springs, &self.targets_before, share);
+        self.stage_springs.clone_from(&self.springs);
+        for (spring, &before) in self.stage_springs.iter_mut().zip(&self.targets_before) {
+            spring.target = on_the_way(before, spring.target, share);
+        }
         let mut is_moving = false;
-        for &node in &self.pinned {
+        for &node in self.pins.nodes() {
             let (target, before) = (self.targets[node], self.state.x[node]);
             let way: [f64; 3] = std::array::from_fn(|c| target[c] - before[c]);
             for c in 0..3 {
@@ -163,18 +166,17 @@ impl StagedSteps {
     }
 
     /// Ends a stage, with the positions of `next` at the minimum.
-    ///
-    /// # Panics
-    /// If there is no such stage.
     pub(super) fn end_stage(&mut self, stage: usize) {
-        if stage + 1 < self.method.stages() {
-            self.stages.end(stage, &self.next.x);
+        let is_last = stage + 1 == self.method.stages();
+        let State { x, v, a } = &mut self.next;
+        let [v, a] = if is_last { [v, a] } else { self.done[stage].each_mut() };
+        for (node, &x) in x.iter().enumerate() {
+            [v[node], a[node]] = self.stage.motion(node, x);
         }
     }
 
     /// Ends the step, at the end of its last stage.
     pub(super) fn finish(&mut self) {
-        self.stages.finish(&mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
         for (before, spring) in self.targets_before.iter_mut().zip(&self.springs) {
             *before = spring.target;
@@ -183,7 +185,7 @@ impl StagedSteps {
 
     /// Moves pinned nodes and springs from one share of the motion that `whole` prescribes to another.
     pub(super) fn drive(&mut self, whole: &Self, start: f64, end: f64) {
-        for &node in &whole.pinned {
+        for &node in whole.pins.nodes() {
             self.targets[node] = on_the_way(whole.state.x[node], whole.targets[node], end);
         }
         for (index, (before, spring)) in whole.targets_before.iter().zip(&whole.springs).enumerate() {
@@ -215,6 +217,21 @@ impl StagedSteps {
             )));
         }
         Ok(())
+    }
+}
+
+/// Point at a share of the way between two points; exactly these at the ends.
+fn on_the_way(from: [f64; 3], to: [f64; 3], share: f64) -> [f64; 3] {
+    match share {
+        0.0 => from,
+        1.0 => to,
+        _ => std::array::from_fn(|c| from[c] + share * (to[c] - from[c])),
+    }
+}
+
+fn add(sum: &mut [[f64; 3]], factor: f64, x: &[[f64; 3]]) {
+    for (sum, x) in sum.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
+        *sum += factor * x;
     }
 }
 

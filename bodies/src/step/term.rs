@@ -110,17 +110,10 @@ pub struct EnergyChange {
 #[derive(Clone, Debug, Default)]
 pub struct NodeBlocks {
     nodes: usize,
-    blocks: Vec<NodeBlock>,
+    /// Row, column and entries ∂²E/∂x_row∂x_column.
+    blocks: Vec<(usize, usize, [[f64; 3]; 3])>,
     /// First node that was named but does not exist.
     missing: Option<usize>,
-}
-
-/// The entries ∂²E/∂x_row∂x_column.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct NodeBlock {
-    row: usize,
-    column: usize,
-    entries: [[f64; 3]; 3],
 }
 
 impl NodeBlocks {
@@ -134,13 +127,13 @@ impl NodeBlocks {
             self.missing = self.missing.or(Some(node));
             return;
         }
-        self.blocks.push(NodeBlock { row, column, entries });
+        self.blocks.push((row, column, entries));
     }
 
     /// Removes all blocks, and prepares for a body of `nodes` nodes.
     pub(super) fn begin(&mut self, nodes: usize) {
-        *self = Self { nodes, blocks: std::mem::take(&mut self.blocks), missing: None };
         self.blocks.clear();
+        (self.nodes, self.missing) = (nodes, None);
     }
 
     /// First node that was named but does not exist.
@@ -148,14 +141,13 @@ impl NodeBlocks {
         self.missing
     }
 
-    /// The pairs of different nodes.
     pub(super) fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
-        self.blocks.iter().map(|block| [block.row, block.column]).filter(|[row, column]| row != column)
+        self.blocks.iter().map(|&(row, column, _)| [row, column]).filter(|[row, column]| row != column)
     }
 
     /// Adds the product with a displacement of each node.
     pub(super) fn add_product(&self, d: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        for &NodeBlock { row, column, entries } in &self.blocks {
+        for &(row, column, entries) in &self.blocks {
             for a in 0..3 {
                 for c in 0..3 {
                     total[row][a] += entries[a][c] * d[column][c];
@@ -169,7 +161,7 @@ impl NodeBlocks {
 
     /// Adds the blocks of free nodes to a matrix that has all their pairs.
     pub(super) fn add_to_triangle(&self, matrix: &mut LowerTriangle) {
-        for NodeBlock { row, column, entries } in &self.blocks {
+        for (row, column, entries) in &self.blocks {
             matrix.add_block(*row, *column, entries);
         }
     }
@@ -177,7 +169,7 @@ impl NodeBlocks {
     /// Adds all blocks to a matrix of a row and a column for each node that has all their pairs.
     pub(super) fn add_to_blocks(&self, matrix: &mut SymmetricBlocks<f64, 3>) {
         let pattern = matrix.pattern().clone();
-        for NodeBlock { row, column, entries } in &self.blocks {
+        for (row, column, entries) in &self.blocks {
             let Some((block, is_transposed)) = pattern.block(*row, *column) else { continue };
             let block = &mut matrix.blocks_mut()[block];
             for r in 0..3 {

@@ -63,7 +63,6 @@ impl Elastic {
         Self { groups, base }
     }
 
-    /// Evaluates the energies at these positions.
     pub(crate) fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Evaluated {
         self.for_each_group(|state| {
             let mut min_det = f64::INFINITY;
@@ -102,9 +101,11 @@ impl Elastic {
         });
     }
 
-    /// Survey of the last evaluation.
     pub(crate) fn survey(&self) -> Evaluated {
-        self.groups.iter().fold(Evaluated::NONE, |sum, state| sum + state.evaluated)
+        self.groups.iter().fold(Evaluated::NONE, |sum, State { evaluated, .. }| Evaluated {
+            survey: sum.survey + evaluated.survey,
+            min_det: sum.min_det.min(evaluated.min_det),
+        })
     }
 
     /// The energies of a group's elements, and those of the base.
@@ -115,9 +116,8 @@ impl Elastic {
         })
     }
 
-    /// Sum of the energies, J.
     pub(crate) fn energy(&self) -> f64 {
-        self.energies().map(|(energy, _)| energy).collect::<Compensated>().value()
+        compensated(self.energies().map(|(energy, _)| energy))
     }
 
     /// Makes the positions evaluated last the base of differences.
@@ -129,7 +129,7 @@ impl Elastic {
 
     /// Energy minus the energy of the base, J.
     pub(crate) fn difference(&self) -> f64 {
-        self.energies().map(|(energy, base)| energy - base).collect::<Compensated>().value()
+        compensated(self.energies().map(|(energy, base)| energy - base))
     }
 
     /// Bound for the rounding error of the difference, J.
@@ -191,30 +191,14 @@ impl State {
 }
 
 /// Compensated sum: carries its rounding errors along [Neu74].
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Compensated {
-    sum: f64,
-    error: f64,
-}
-
-impl Compensated {
-    pub(crate) fn add(&mut self, x: f64) {
-        let sum = self.sum + x;
-        self.error += if self.sum.abs() >= x.abs() { (self.sum - sum) + x } else { (x - sum) + self.sum };
-        self.sum = sum;
+fn compensated(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (mut total, mut error) = (0.0_f64, 0.0);
+    for x in numbers {
+        let sum = total + x;
+        error += if total.abs() >= x.abs() { (total - sum) + x } else { (x - sum) + total };
+        total = sum;
     }
-
-    pub(crate) fn value(self) -> f64 {
-        self.sum + self.error
-    }
-}
-
-impl FromIterator<f64> for Compensated {
-    fn from_iter<I: IntoIterator<Item = f64>>(numbers: I) -> Self {
-        let mut total = Self::default();
-        numbers.into_iter().for_each(|x| total.add(x));
-        total
-    }
+    total + error
 }
 
 #[cfg(test)]

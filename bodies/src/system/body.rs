@@ -10,7 +10,7 @@ use piola::batch::element::TILE;
 use thiserror::Error;
 
 use super::element::Tetrahedron;
-use crate::mesh::{MeshError, TetMesh, lumped_masses, no_such_group};
+use crate::mesh::{MeshError, TetMesh, no_such_group};
 
 /// Material and density of a part of a mesh.
 pub struct Part {
@@ -87,10 +87,22 @@ impl Body {
                 densities[tet] = density;
                 elements.push(Tetrahedron { nodes: mesh.tets[tet], shape: shapes[tet], tag: mesh.tag(tet) });
             }
-            fits(&*material, elements.len() - start)?;
+            let count = elements.len() - start;
+            if let Some(materials) = material.properties().points.filter(|&materials| materials != count) {
+                return Err(BodyError(format!(
+                    "there are {materials} materials for a part of {count} elements: give one for all, or one \
+                     for each"
+                )));
+            }
             runs.push(Run { material: material.into(), end: elements.len() });
         }
-        let masses = lumped_masses(mesh, &shapes, &densities);
+        // A quarter of the mass of each tetrahedron around a node.
+        let mut masses = vec![0.0; mesh.positions.len()];
+        for ((nodes, shape), density) in mesh.tets.iter().zip(&shapes).zip(densities) {
+            for &node in nodes {
+                masses[node] += density * shape.volume / 4.0;
+            }
+        }
         if let Some(node) = masses.iter().position(|mass| !mass.is_normal()) {
             let fault = if masses[node] > 1.0 { "overflows" } else { "underflows" };
             return Err(BodyError(format!(
@@ -103,25 +115,6 @@ impl Body {
     /// Body without nodes: the part of a machine that has no elements of a divided body.
     pub(crate) fn empty() -> Self {
         Self { rest: Vec::new(), masses: Vec::new(), elements: Vec::new(), runs: Vec::new() }
-    }
-
-    /// Replaces the material of a part, numbered as in [`Body::from_parts`]; [`Body::new`] makes a body of
-    /// one part.
-    ///
-    /// # Errors
-    /// [`BodyError`] if there is no such part, or the material has parameters for another number of points.
-    /// The material then stays as it was.
-    pub fn set_material(
-        &mut self,
-        part: usize,
-        material: impl TileMaterial<f64> + 'static,
-    ) -> Result<(), BodyError> {
-        let parts = self.runs.len();
-        let missing = || BodyError(format!("there is no part {part} (from 0) of a body of {parts}"));
-        let (_, elements) = self.materials().nth(part).ok_or_else(missing)?;
-        fits(&material, elements.len())?;
-        self.runs[part].material = Arc::new(material);
-        Ok(())
     }
 
     /// Rest position of each node, m.
@@ -142,7 +135,6 @@ impl Body {
         &self.elements
     }
 
-    /// The material of an element.
     pub(crate) fn material(&self, element: usize) -> &dyn TileMaterial<f64> {
         self.runs[self.runs.partition_point(|run| run.end <= element)].material.as_ref()
     }
@@ -167,17 +159,6 @@ impl Body {
     }
 }
 
-/// Checks that a material is one for all elements of a part, or has one for each.
-fn fits(material: &dyn TileMaterial<f64>, elements: usize) -> Result<(), BodyError> {
-    match material.properties().points {
-        Some(materials) if materials != elements => Err(BodyError(format!(
-            "there are {materials} materials for a part of {elements} elements: give one for all, or one for each"
-        ))),
-        _ => Ok(()),
-    }
-}
-
-/// The part of each tetrahedron.
 fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
     let mut assigned = vec![None; mesh.tets.len()];
     for (index, part) in parts.iter().enumerate() {

@@ -21,8 +21,6 @@
 
 #![expect(non_snake_case, reason = "the letters of the paper: Ds, B")]
 
-use std::ops::Add;
-
 use piola::batch::TileMaterial;
 use piola::batch::element::{Elements, TILE};
 use piola::point::{Filter, Matrix3};
@@ -79,19 +77,10 @@ pub(crate) struct Evaluated {
 }
 
 impl Evaluated {
-    /// Result without elements.
     pub(crate) const NONE: Self = Self {
         survey: Survey { refused: 0, bounded: 0, nonfinite: 0, filtered: 0, first: None },
         min_det: f64::INFINITY,
     };
-}
-
-impl Add for Evaluated {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self { survey: self.survey + other.survey, min_det: self.min_det.min(other.min_det) }
-    }
 }
 
 /// Elements of one material, evaluated together, with the results of the last evaluation.

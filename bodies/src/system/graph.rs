@@ -10,9 +10,6 @@ pub(crate) struct Graph(Lists<u32>);
 
 impl Graph {
     /// Nodes that share a tetrahedron or are one of the pairs, each list ascending.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`], also for more nodes than a `u32` counts.
     pub(crate) fn of_tets(
         nodes: usize,
         tets: impl Iterator<Item = [usize; 4]> + Clone,
@@ -40,14 +37,13 @@ impl Graph {
         Ok(Self(Lists { starts, values: neighbours }))
     }
 
-    /// The graph of a matrix of which the columns above the diagonal are given, row by row.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
-    pub(crate) fn of_upper(rows: &[Vec<u32>]) -> Result<Self, LinearError> {
-        let above = || (0..rows.len()).flat_map(|row| rows[row].iter().map(move |&column| (row, column)));
+    /// The graph of a matrix of which the rows and columns above the diagonal are given.
+    pub(crate) fn of_upper<I: Iterator<Item = (usize, u32)>>(
+        rows: usize,
+        above: impl Fn() -> I,
+    ) -> Result<Self, LinearError> {
         let both = |(row, column): (usize, u32)| [(row, column), (column as usize, row as u32)];
-        Ok(Self(Lists::new(rows.len(), || above().flat_map(both))?))
+        Ok(Self(Lists::new(rows, || above().flat_map(both))?))
     }
 
     pub(crate) fn rows(&self) -> usize {
@@ -75,7 +71,7 @@ mod tests {
 
     #[test]
     fn the_upper_half_says_all() {
-        let graph = Graph::of_upper(&[vec![2, 1], vec![], vec![]]).expect("small");
+        let graph = Graph::of_upper(3, || [(0, 2), (0, 1)].into_iter()).expect("small");
         assert_eq!(graph.neighbours(0), [2, 1]);
         assert_eq!((graph.neighbours(1), graph.neighbours(2)), (&[0][..], &[0][..]));
     }

@@ -11,11 +11,27 @@ pub(crate) struct Lists<T> {
     pub(super) values: Vec<T>,
 }
 
+impl<T> Lists<T> {
+    /// No lists; the values of the next one are pushed before it [ends](Self::end).
+    pub(crate) fn none() -> Self {
+        Self { starts: vec![0], values: Vec::new() }
+    }
+
+    pub(crate) fn end(&mut self) {
+        self.starts.push(self.values.len());
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    pub(crate) fn of(&self, key: usize) -> &[T] {
+        &self.values[self.starts[key]..self.starts[key + 1]]
+    }
+}
+
 impl<T: Copy + Default> Lists<T> {
     /// Sorts pairs of a key below `keys` and a value by their keys; `pairs` is called twice.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn new<I: Iterator<Item = (usize, T)>>(
         keys: usize,
         pairs: impl Fn() -> I,
@@ -32,15 +48,5 @@ impl<T: Copy + Default> Lists<T> {
             next[key] += 1;
         }
         Ok(Self { starts, values })
-    }
-
-    /// Number of keys.
-    pub(crate) fn len(&self) -> usize {
-        self.starts.len() - 1
-    }
-
-    /// The values of a key.
-    pub(crate) fn of(&self, key: usize) -> &[T] {
-        &self.values[self.starts[key]..self.starts[key + 1]]
     }
 }

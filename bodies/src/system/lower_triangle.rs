@@ -9,7 +9,6 @@ use std::sync::Arc;
 
 use piola::NoSuchNode;
 
-use super::graph::Graph;
 use super::linear::{LinearError, fits, ordering};
 use super::memory::{filled, reserved};
 use super::nodal_stiffness::NodalStiffness;
@@ -28,14 +27,12 @@ pub struct LowerTriangle {
     values: Vec<f64>,
     /// Index of each entry among the scalars of the blocks of the stiffness.
     sources: Vec<u32>,
-    /// Number of blocks of the stiffness.
     blocks: usize,
     free_nodes: Vec<usize>,
     /// Index of each node in `free_nodes`; `None` for a pinned node.
     free_of_node: Vec<Option<usize>>,
 }
 
-/// Places of the entries.
 #[derive(Debug)]
 struct Pattern {
     column_starts: Vec<usize>,
@@ -55,7 +52,7 @@ impl LowerTriangle {
         }
         let blocks = pattern.len();
         u32::try_from(9 * blocks).map_err(|_| LinearError::OutOfMemory)?;
-        let free_nodes = order(graph, pins)?;
+        let free_nodes = ordering::order(graph, pins)?;
         let mut free_of_node = filled(nodes, None)?;
         free_nodes.iter().enumerate().for_each(|(free, &node)| free_of_node[node] = Some(free));
 
@@ -156,7 +153,6 @@ impl LowerTriangle {
         &self.free_nodes
     }
 
-    /// Places of the entries of a column.
     fn column(&self, column: usize) -> Range<usize> {
         self.pattern.column_starts[column]..self.pattern.column_starts[column + 1]
     }
@@ -209,26 +205,6 @@ impl LowerTriangle {
         }
         Ok(())
     }
-}
-
-/// Orders the free nodes so that a Cholesky factor stays sparse.
-fn order(graph: &Graph, pins: &Pins) -> Result<Vec<usize>, LinearError> {
-    let nodes = graph.rows();
-    let mut free: Vec<usize> = reserved(nodes)?;
-    free.extend((0..nodes).filter(|node| pins.nodes().binary_search(node).is_err()));
-    let mut number = filled(nodes, None)?;
-    free.iter().enumerate().for_each(|(at, &node)| number[node] = Some(at));
-    let mut starts = reserved(free.len() + 1)?;
-    starts.push(0);
-    let mut rows: Vec<usize> = Vec::new();
-    for (at, &node) in free.iter().enumerate() {
-        let start = rows.len();
-        rows.push(at);
-        rows.extend(graph.neighbours(node).iter().filter_map(|&other| number[other as usize]));
-        rows[start..].sort_unstable();
-        starts.push(rows.len());
-    }
-    Ok(ordering::order(&starts, &rows)?.into_iter().map(|at| free[at]).collect())
 }
 
 #[cfg(all(test, feature = "faer"))]

@@ -2,20 +2,12 @@
 
 use super::linear::LinearError;
 
-/// An empty vector with room for `capacity` entries.
-///
-/// # Errors
-/// [`LinearError::OutOfMemory`].
 pub(crate) fn reserved<T>(capacity: usize) -> Result<Vec<T>, LinearError> {
     let mut vector = Vec::new();
     vector.try_reserve_exact(capacity).map_err(|_| LinearError::OutOfMemory)?;
     Ok(vector)
 }
 
-/// A vector of `length` equal entries.
-///
-/// # Errors
-/// [`LinearError::OutOfMemory`].
 pub(crate) fn filled<T: Clone>(length: usize, value: T) -> Result<Vec<T>, LinearError> {
     let mut vector = reserved(length)?;
     vector.resize(length, value);

@@ -17,12 +17,12 @@ use piola::point::Filter;
 
 use super::assemble::Elastic;
 use super::body::Body;
-use super::element::{Evaluated, pair};
+use super::element::{Evaluated, StiffnessBlocks, Tetrahedron, pair};
 use super::graph::Graph;
 use super::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use super::linear::{LinearError, fits};
 use super::memory::{filled, reserved};
-use super::stiffnesses::ElementStiffnesses;
+use crate::mesh::Bounds;
 
 /// Tiles of a wave: 2.9 MB of stiffnesses.
 const WAVE: usize = 64;
@@ -38,13 +38,12 @@ const WAVE: usize = 64;
 pub struct NodalStiffness {
     shape: Arc<Shape>,
     matrix: SymmetricBlocks<f64, 3>,
-    /// Stiffnesses of the elements of a wave, or of the whole body.
-    elements: ElementStiffnesses,
+    /// Filtered stiffnesses, 720 bytes each, of the elements of a wave or of the whole body.
+    tiles: Vec<[StiffnessBlocks; TILE]>,
 }
 
 /// Graph, order and places, which depend on the mesh alone.
 struct Shape {
-    /// Number of elements.
     elements: usize,
     /// Number of tiles of these elements.
     tiles: usize,
@@ -93,11 +92,10 @@ impl NodalStiffness {
     /// [`LinearError::OutOfMemory`].
     #[doc(hidden)]
     pub fn empty() -> Result<Self, LinearError> {
-        let graph = Graph::of_upper(&[])?;
+        let graph = Graph::of_upper(0, std::iter::empty)?;
         let pattern = Arc::new(Pattern::new(&graph, &[])?);
         let shape = Shape { elements: 0, tiles: 0, graph, order: Vec::new(), gather: Vec::new() };
-        let elements = ElementStiffnesses { tiles: Vec::new() };
-        Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, elements })
+        Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, tiles: Vec::new() })
     }
 
     /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
@@ -145,17 +143,11 @@ impl NodalStiffness {
 
     /// Finds the places of all blocks, also of pairs of nodes that share no element, and allocates all memory
     /// that is needed.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn new(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
         Self::of_tiles(body, pairs, WAVE)
     }
 
     /// Like [`NodalStiffness::new`], but keeps the stiffness of each element.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn with_elements(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
         Self::of_tiles(body, pairs, usize::MAX)
     }
@@ -167,20 +159,52 @@ impl NodalStiffness {
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
         let matrix = SymmetricBlocks::new(pattern.clone())?;
         let gather = gather(body, &pattern)?;
-        let tiles = body.groups().count();
-        let elements = ElementStiffnesses { tiles: filled(tiles.min(most), [[[[0.0; 3]; 3]; 10]; TILE])? };
-        let shape = Shape { elements: body.elements().len(), tiles, graph, order, gather };
-        Ok(Self { shape: Arc::new(shape), matrix, elements })
+        let shape =
+            Shape { elements: body.elements().len(), tiles: body.groups().count(), graph, order, gather };
+        let tiles = filled(shape.tiles.min(most), [[[[0.0; 3]; 3]; 10]; TILE])?;
+        Ok(Self { shape: Arc::new(shape), matrix, tiles })
     }
 
-    /// Numbers of nodes, elements and tiles of the body.
     pub(super) fn counts(&self) -> [usize; 3] {
         [self.matrix.pattern().rows(), self.shape.elements, self.shape.tiles]
     }
 
-    /// The stiffness of each element, if this was made by [`NodalStiffness::with_elements`].
-    pub(crate) fn elements(&self) -> &ElementStiffnesses {
-        &self.elements
+    /// Each element of the body with its stiffness, if this was made by [`NodalStiffness::with_elements`].
+    pub(super) fn of_elements<'a>(
+        &'a self,
+        body: &'a Body,
+    ) -> impl Iterator<Item = (&'a Tetrahedron, &'a StiffnessBlocks)> {
+        let tiles = body.groups().zip(&self.tiles);
+        tiles.flat_map(|((_, elements), tile)| body.elements()[elements].iter().zip(tile))
+    }
+
+    /// Adds K d to `total` for the displacement d of each node, if this was made by
+    /// [`NodalStiffness::with_elements`]. Nodes with d = 0 cost little.
+    pub(crate) fn add_product_of_elements(
+        &self,
+        body: &Body,
+        displacement: &[[f64; 3]],
+        total: &mut [[f64; 3]],
+    ) {
+        for (element, stiffness) in self.of_elements(body) {
+            for (j, &from) in element.nodes.iter().enumerate() {
+                let d = displacement[from];
+                if d == [0.0; 3] {
+                    continue;
+                }
+                for (i, &to) in element.nodes.iter().enumerate() {
+                    for a in 0..3 {
+                        for c in 0..3 {
+                            let entry = match i >= j {
+                                true => stiffness[pair(i, j)][a][c],
+                                false => stiffness[pair(j, i)][c][a],
+                            };
+                            total[to][a] += entry * d[c];
+                        }
+                    }
+                }
+            }
+        }
     }
 
     pub(crate) fn matrix(&self) -> &SymmetricBlocks<f64, 3> {
@@ -202,13 +226,13 @@ impl NodalStiffness {
 
     /// Computes gradients and the filtered stiffness at the last point of evaluation.
     pub(crate) fn linearise(&mut self, body: &Body, elastic: &mut Elastic, filter: Filter) -> Evaluated {
-        let Self { shape, matrix, elements } = self;
+        let Self { shape, matrix, tiles: all } = self;
         matrix.for_each_chunk(|_, _, blocks| blocks.fill([[0.0; 3]; 3]));
-        let keeps_all = elements.tiles.len() == shape.tiles;
+        let keeps_all = all.len() == shape.tiles;
         for (number, first) in (0..shape.tiles).step_by(WAVE).enumerate() {
             let range = first..shape.tiles.min(first + WAVE);
             let start = if keeps_all { first } else { 0 };
-            let tiles = &mut elements.tiles[start..start + range.len()];
+            let tiles = &mut all[start..start + range.len()];
             elastic.linearise(body, filter, first, tiles);
             let elements = tiles.as_flattened();
             matrix.for_each_chunk(|chunk, _, blocks| {
@@ -253,13 +277,13 @@ fn gather(body: &Body, pattern: &Pattern) -> Result<Vec<Gather>, LinearError> {
                     let Some((block, transposed)) = pattern.block(element.nodes[i], element.nodes[j]) else {
                         continue;
                     };
-                    let chunk = pattern.chunk_of(block);
+                    let (chunk, block) = pattern.chunk_of(block);
                     let gather = &mut all[chunk];
                     if gather.waves.last().is_none_or(|&(last, _)| last != wave) {
                         gather.waves.push((wave, gather.contributions.len() as u32));
                     }
                     gather.contributions.push(Contribution {
-                        block: (block - pattern.first_block(chunk)) as u32,
+                        block: block as u32,
                         element: (tile * TILE + lane) as u16,
                         pair: pair(i, j) as u8,
                         transposed,
@@ -282,11 +306,8 @@ fn gather(body: &Body, pattern: &Pattern) -> Result<Vec<Gather>, LinearError> {
 ///
 /// [Mor66] Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, 1966.
 fn along_a_curve(positions: &[[f64; 3]]) -> Vec<u32> {
-    let bound =
-        |c: usize, of: fn(f64, f64) -> f64, start: f64| positions.iter().fold(start, |b, x| of(b, x[c]));
-    let min: [f64; 3] = std::array::from_fn(|c| bound(c, f64::min, f64::INFINITY));
-    let max: [f64; 3] = std::array::from_fn(|c| bound(c, f64::max, f64::NEG_INFINITY));
-    let size = (0..3).fold(0.0, |size: f64, c| size.max(max[c] - min[c]));
+    let bounds = Bounds::around(positions);
+    let (min, size) = (bounds.min, bounds.size().into_iter().fold(0.0, f64::max));
     let unit = if size > 0.0 { f64::from((1_u32 << 20) - 1) / size } else { 0.0 };
     let spread = |x: f64| {
         // Two zeros after each bit.

@@ -89,12 +89,7 @@ mod tests {
     fn mesh() -> TetMesh {
         let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mut mesh = TetMesh::new(positions, vec![[0, 1, 2, 3]]);
-        let group = |name: &str, dimension, nodes: &[usize]| Group {
-            name: name.to_owned(),
-            dimension,
-            nodes: nodes.to_vec(),
-            tets: Vec::new(),
-        };
+        let group = |name, dimension, nodes: &[usize]| Group::of(name, dimension, nodes, &[]);
         mesh.groups = vec![group("feet", 1, &[2, 0]), group("feet", 0, &[3]), group("air", 2, &[])];
         mesh
     }

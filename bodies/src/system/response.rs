@@ -90,8 +90,7 @@ impl ElasticResponse {
     /// # Errors
     /// [`LengthError`] if there are not as many positions or elements as the body had.
     pub fn energy(&mut self, body: &Body, positions: &[[f64; 3]]) -> Result<(f64, Survey), LengthError> {
-        self.check("positions", positions.len())?;
-        self.check_body(body)?;
+        self.check(body, "positions", positions.len())?;
         let Evaluated { survey, .. } = self.elastic.evaluate(body, positions);
         Ok((self.elastic.energy(), survey))
     }
@@ -102,8 +101,7 @@ impl ElasticResponse {
     /// # Errors
     /// [`LengthError`] if `gradient` or the body does not have the length of the body that this was made for.
     pub fn gradient_here(&mut self, body: &Body, gradient: &mut [[f64; 3]]) -> Result<Survey, LengthError> {
-        self.check("gradient", gradient.len())?;
-        self.check_body(body)?;
+        self.check(body, "gradient", gradient.len())?;
         let energies = self.elastic.survey();
         self.elastic.evaluate_gradients(body);
         Ok(self.sum(energies, body, gradient))
@@ -122,8 +120,7 @@ impl ElasticResponse {
         gradient: &mut [[f64; 3]],
         matrix: &mut NodalStiffness,
     ) -> Result<Survey, LengthError> {
-        self.check("gradient", gradient.len())?;
-        self.check_body(body)?;
+        self.check(body, "gradient", gradient.len())?;
         let [nodes, elements, tiles] = matrix.counts();
         same("matrix", 3 * nodes, self.nodes, 3)?;
         same("matrix", elements, self.elements, 1)?;
@@ -151,13 +148,8 @@ impl ElasticResponse {
     /// # Errors
     /// [`LengthError`] for another body.
     pub fn difference_noise(&self, body: &Body) -> Result<f64, LengthError> {
-        self.check_body(body)?;
+        self.check(body, "nodes", self.nodes)?;
         Ok(self.elastic.difference_noise(body))
-    }
-
-    fn check_body(&self, body: &Body) -> Result<(), LengthError> {
-        same("elements", body.elements().len(), self.elements, 1)?;
-        same("nodes", body.rest().len(), self.nodes, 1)
     }
 
     /// Sums the gradients of all elements. Returns the survey of the energies or, if these are clean, of the
@@ -168,18 +160,16 @@ impl ElasticResponse {
         if energies.survey.is_clean() { self.elastic.survey().survey } else { energies.survey }
     }
 
-    fn check(&self, slice: &'static str, found: usize) -> Result<(), LengthError> {
-        same(slice, 3 * found, self.nodes, 3)
+    /// Checks the length of a slice with a vector for each node, and that the body is the one of this memory.
+    fn check(&self, body: &Body, slice: &'static str, found: usize) -> Result<(), LengthError> {
+        same(slice, 3 * found, self.nodes, 3)?;
+        same("elements", body.elements().len(), self.elements, 1)?;
+        same("nodes", body.rest().len(), self.nodes, 1)
     }
 }
 
 /// Checks that a slice holds `components` for each of `points`.
-pub(super) fn same(
-    slice: &'static str,
-    found: usize,
-    points: usize,
-    components: usize,
-) -> Result<(), LengthError> {
+fn same(slice: &'static str, found: usize, points: usize, components: usize) -> Result<(), LengthError> {
     if found == components * points {
         return Ok(());
     }

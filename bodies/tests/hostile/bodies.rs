@@ -45,7 +45,7 @@ fn bodies() {
             density: hostile.about(1e3),
         });
         let parts = parts.collect();
-        let Ok(mut body) = Body::from_parts(&mesh, parts) else { return };
+        let Ok(body) = Body::from_parts(&mesh, parts) else { return };
         let positions = hostile.points(body.rest());
         let mut product = hostile.points(body.rest());
         let mut response = ElasticResponse::new(&body);
@@ -58,6 +58,5 @@ fn bodies() {
             triangle(hostile, &stiffness);
             preconditioner(hostile, &stiffness, &positions);
         }
-        let _ = body.set_material(hostile.node(2), hostile.rubber());
     });
 }

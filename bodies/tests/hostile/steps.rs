@@ -63,15 +63,11 @@ fn simulations() {
         let (pins, settings) = (hostile.pins(nodes), hostile.settings());
         let Ok(mut simulation) = Simulation::new(body, &pins, settings) else { return };
         for _ in 0..4 {
-            let _ = match hostile.0.below(12) {
+            let _ = match hostile.0.below(11) {
                 5 => simulation.set_accelerations(&hostile.points(&mesh.positions)),
                 6 => simulation.set_forces(&hostile.points(&vec![[0.0; 3]; nodes])),
                 7 => simulation.set_pins(&hostile.pins(nodes)),
                 8 => {
-                    let _ = simulation.set_material(hostile.node(1), hostile.rubber());
-                    Ok(())
-                }
-                9 => {
                     simulation.set_terms(vec![std::sync::Arc::new(Nonsense {
                         energy: (!hostile.0.once_in(8)).then(|| hostile.about(0.0)),
                         force: [(); 3].map(|()| hostile.about(0.0)),
@@ -81,7 +77,7 @@ fn simulations() {
                     })]);
                     Ok(())
                 }
-                10 => {
+                9 => {
                     let error = hostile.one_of(&[
                         None,
                         Some(LinearError::NotPositive { column: usize::MAX }),

@@ -34,27 +34,11 @@ struct Branch {
     second: Option<usize>,
 }
 
-/// The body nearest to a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Nearest {
-    /// Its index.
-    pub(super) body: usize,
-    /// Its distance, 0 if it holds the point.
-    pub(super) distance: f64,
-    pub(super) holds_point: bool,
-}
-
-impl Nearest {
-    /// True if this one is nearer than another: a tetrahedron that holds the point is nearer than one that
-    /// touches it, and the first of equal ones is nearer.
-    fn is_before(&self, other: &Self) -> bool {
-        let order = |nearest: &Self| (!nearest.holds_point, nearest.distance, nearest.body);
-        order(self) < order(other)
-    }
-}
+/// Distance of a body from a point, `None` if it holds the point, and its index: in this order the smallest
+/// is the nearest body, and the first of several.
+pub(super) type Nearest = (Option<f64>, usize);
 
 impl Tree {
-    /// The tree of bodies in these boxes.
     pub(super) fn new(mut boxes: Vec<Bounds>) -> Self {
         for bounds in &mut boxes {
             let growth = GROWTH * bounds.size().into_iter().fold(0.0, f64::max);
@@ -88,8 +72,7 @@ impl Tree {
         self.grow(boxes, range.start + half..range.end);
     }
 
-    /// The body nearest to a point, the first one of several that contain it. `distance` is the distance to a
-    /// body, `None` if the body contains the point.
+    /// The body nearest to a point; `distance` is the distance to a body, `None` if the body holds the point.
     pub(super) fn nearest(&self, x: [f64; 3], distance: impl Fn(usize) -> Option<f64>) -> Option<Nearest> {
         let mut best = None;
         self.search(0, x, &distance, &mut best);
@@ -106,10 +89,8 @@ impl Tree {
         let Branch { bodies, second, .. } = &self.branches[branch];
         let Some(second) = *second else {
             for &body in &self.bodies[bodies.clone()] {
-                let distance = distance(body);
-                let found =
-                    Nearest { body, distance: distance.unwrap_or(0.0), holds_point: distance.is_none() };
-                if best.is_none_or(|best| found.is_before(&best)) {
+                let found = (distance(body), body);
+                if best.is_none_or(|best| found < best) {
                     *best = Some(found);
                 }
             }
@@ -120,7 +101,7 @@ impl Tree {
             halves.swap(0, 1);
         }
         for (least, half) in halves {
-            if !best.is_some_and(|best| least > best.distance) {
+            if !best.is_some_and(|(distance, _)| least > distance.unwrap_or(0.0)) {
                 self.search(half, x, distance, best);
             }
         }

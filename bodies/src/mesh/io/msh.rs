@@ -86,13 +86,19 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
                 ));
             }
             _ if section.starts_with('$') && !section.starts_with("$End") => {
-                if may_hold_mesh(section) {
+                // Nodes or elements must not go unnoticed. Comments, periodicity and others add nothing to
+                // the body.
+                let name = section.to_ascii_lowercase();
+                let may_hold_mesh = name.contains("node") || name.contains("element");
+                if may_hold_mesh && !WITHOUT_MESH.contains(&section) {
                     return Err(line.problem(format!(
                         "the section `{}` is not known; nodes and elements are read from `$Nodes` and `$Elements`",
                         quoted(section)
                     )));
                 }
-                skip_section(&mut cursor, &section[1..])?;
+                let end = format!("$End{}", &section[1..]);
+                let expected = format!("`{}`", quoted(&end));
+                while cursor.next(&expected)?.text.trim() != end {}
                 continue;
             }
             _ => {
@@ -110,14 +116,6 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
     file.into_mesh(cursor.number + 1)
 }
 
-/// True for the name of an unknown section that could hold nodes or elements, which must not go unnoticed.
-/// Others, such as comments and periodicity, add nothing to the body.
-fn may_hold_mesh(section: &str) -> bool {
-    let name = section.to_ascii_lowercase();
-    (name.contains("node") || name.contains("element")) && !WITHOUT_MESH.contains(&section)
-}
-
-/// Version of the format.
 #[derive(Clone, Copy)]
 enum Version {
     /// 2.2.
@@ -209,7 +207,6 @@ impl File {
         Ok(nodes)
     }
 
-    /// Puts a tetrahedron into a physical group.
     fn put_into_group(&mut self, tag: i64, tet: usize) {
         let group = self.groups.entry((3, tag)).or_default();
         group.nodes.extend(self.tets[tet]);
@@ -235,14 +232,6 @@ impl File {
         let mesh = TetMesh { tags, groups, left_out, ..TetMesh::new(self.positions, self.tets) };
         Ok(mesh.without_unused_nodes())
     }
-}
-
-/// Skips a section.
-fn skip_section(cursor: &mut Cursor<'_>, name: &str) -> Result<(), Problem> {
-    let end = format!("$End{name}");
-    let expected = format!("`{}`", quoted(&end));
-    while cursor.next(&expected)?.text.trim() != end {}
-    Ok(())
 }
 
 #[cfg(test)]

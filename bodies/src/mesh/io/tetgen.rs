@@ -159,19 +159,13 @@ mod tests {
             (mesh.tets.as_slice(), mesh.tags.as_slice()),
             (&[[0, 1, 2, 3], [2, 3, 1, 4]][..], &[1, 2][..])
         );
-        let group = |name: &str, dimension, nodes: &[usize], tets: &[usize]| Group {
-            name: name.to_owned(),
-            dimension,
-            nodes: nodes.to_vec(),
-            tets: tets.to_vec(),
-        };
         assert_eq!(
             mesh.groups,
             [
-                group("-1", 2, &[3], &[]),
-                group("2", 2, &[0, 1], &[]),
-                group("-1", 3, &[1, 2, 3, 4], &[1]),
-                group("7", 3, &[0, 1, 2, 3], &[0]),
+                Group::of("-1", 2, &[3], &[]),
+                Group::of("2", 2, &[0, 1], &[]),
+                Group::of("-1", 3, &[1, 2, 3, 4], &[1]),
+                Group::of("7", 3, &[0, 1, 2, 3], &[0]),
             ]
         );
         assert!(mesh.rest_shapes().is_ok());

@@ -153,13 +153,11 @@ impl<'a> Line<'a> {
         if self.words.clone().next().is_none() { Ok(None) } else { self.number(what).map(Some) }
     }
 
-    /// Parses the next word as a finite number.
     pub(super) fn coordinate(&mut self, what: &str) -> Result<f64, Problem> {
         let x: f64 = self.number(what)?;
         if x.is_finite() { Ok(x) } else { Err(self.problem(format!("{what} is {x}; it must be finite"))) }
     }
 
-    /// Parses the next three words as a point.
     pub(super) fn point(&mut self) -> Result<[f64; 3], Problem> {
         Ok([
             self.coordinate("the x coordinate")?,
@@ -169,7 +167,6 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The lines of a file, in order.
 pub(super) struct Cursor<'a> {
     lines: std::str::Lines<'a>,
     /// Number of the line last read, from 1.

@@ -52,7 +52,6 @@ pub struct NewtonReport {
 }
 
 impl NewtonReport {
-    /// Report before the first iteration.
     pub(crate) fn before(settings: &NewtonSettings) -> Self {
         Self {
             convergence: Convergence::Limit,

@@ -120,7 +120,7 @@ impl<M: Machine> Simulation<M> {
             self.steps = whole;
             self.evaluated = None;
         }
-        made?.ok_or(StepError::TimeStep { dt: duration })
+        made
     }
 }
 
@@ -135,8 +135,7 @@ struct Course<'a, M: Machine> {
 }
 
 impl<M: Machine> Course<'_, M> {
-    /// Makes the steps; the report is `None` if there were none.
-    fn run(&mut self, allowed: f64) -> Result<Option<AdaptiveReport>, StepError> {
+    fn run(&mut self, allowed: f64) -> Result<AdaptiveReport, StepError> {
         let weight = 2.0_f64.powi(self.whole.integrator.order().min(2)) - 1.0;
         let parts = 1_u32 << MAX_HALVINGS;
         let (mut taken, mut refused, mut unresolved, mut error) = (0, 0, 0, 0.0);
@@ -149,7 +148,7 @@ impl<M: Machine> Course<'_, M> {
             let attempt = self.attempt(at, length, whole.take());
             let is_shortest = length == 1;
             match attempt {
-                Ok(Attempt { distance, first_half }) => {
+                Ok((distance, first_half)) => {
                     let estimate = distance / weight;
                     let share = f64::from(length) / f64::from(parts);
                     if estimate <= allowed * share || is_shortest {
@@ -160,9 +159,9 @@ impl<M: Machine> Course<'_, M> {
                         shortest = shortest.min(length);
                         if at == parts {
                             let shortest = self.duration * (f64::from(shortest) / f64::from(parts));
-                            let report =
-                                |step| AdaptiveReport { step, taken, refused, unresolved, shortest, error };
-                            return Ok(self.report.take().map(report));
+                            let step = self.report.take();
+                            let step = step.ok_or(StepError::TimeStep { dt: self.duration })?;
+                            return Ok(AdaptiveReport { step, taken, refused, unresolved, shortest, error });
                         }
                         // A longer step ends where one of its length would, counted from the start.
                         if estimate <= GROWS_BELOW * allowed * share && at % (2 * length) == 0 {
@@ -182,8 +181,9 @@ impl<M: Machine> Course<'_, M> {
         }
     }
 
-    /// Makes a step of `length` parts from `at` as two halves, and compares it with that made as a whole.
-    fn attempt(&mut self, at: u32, length: u32, whole: Option<State>) -> Result<Attempt, StepError> {
+    /// Makes a step of `length` parts from `at` as two halves. Returns the largest distance along an axis, m,
+    /// between a node after these and after the whole step, and the state after the first half.
+    fn attempt(&mut self, at: u32, length: u32, whole: Option<State>) -> Result<(f64, State), StepError> {
         let parts = f64::from(1_u32 << MAX_HALVINGS);
         let (start, end) = (f64::from(at) / parts, f64::from(at + length) / parts);
         let middle = 0.5 * (start + end);
@@ -203,7 +203,7 @@ impl<M: Machine> Course<'_, M> {
         let pairs = self.body.positions().as_flattened().iter().zip(whole.x.as_flattened());
         let own = pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
         let distance = self.body.workspace.machine.nodes().largest(own);
-        Ok(Attempt { distance, first_half })
+        Ok((distance, first_half))
     }
 
     /// Makes one step between two shares of the whole time.
@@ -223,13 +223,6 @@ impl<M: Machine> Course<'_, M> {
         self.body.steps.state.clone_from(state);
         self.body.evaluated = None;
     }
-}
-
-/// A step that was made as two halves.
-struct Attempt {
-    /// Largest distance along an axis between a node after the two halves and after the whole step, m.
-    distance: f64,
-    first_half: State,
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! A step from one state to the next, stage by stage.
 
 use crate::step::error::{NewtonError, StepError};
-use crate::step::minimisation::StageMinimisation;
+use crate::step::minimisation::Minimisation;
 use crate::step::newton::{NewtonReport, minimize};
-use crate::step::objective::{Objective, Quadratic, Terms};
+use crate::step::objective::{Objective, Terms};
 use crate::step::solver::Machine;
 use crate::step::staged::StagedSteps;
 use crate::system::element::Evaluated;
@@ -114,29 +114,25 @@ impl<M: Machine> Simulation<M> {
         let own = [usize::from(pins_move), self.pinned().iter().filter(is_own).count()];
         let [moves, pinned] = nodes.totals(own.map(|number| number as f64));
         let (pins_move, may_drift) = (moves > 0.0, pinned < 3.0);
-        let StagedSteps { stages, pins_move: displacements, next, .. } = &mut self.steps;
-        let stage = &stages.current;
+        let StagedSteps { stage, stage_springs, pins_move: displacements, next, .. } = &mut self.steps;
         let [tau, sigma] = stage.lengths;
         let is_static = tau == f64::INFINITY;
         let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
         let objective = Objective {
             body: &self.body,
             elastic: &mut self.elastic,
-            quadratic: Quadratic {
-                masses: self.body.masses(),
-                stage,
-                damping: self.settings.damping,
-                regularisation,
-                guard: if is_static && may_drift { DRIFT * regularisation } else { 0.0 },
-                gravity: self.settings.gravity,
-                forces: &self.forces,
-            },
-            terms: Terms { springs: &stages.springs, others: &self.terms },
+            stage,
+            damping: self.settings.damping,
+            regularisation,
+            guard: if is_static && may_drift { DRIFT * regularisation } else { 0.0 },
+            gravity: self.settings.gravity,
+            forces: &self.forces,
+            terms: Terms { springs: stage_springs, others: &self.terms },
             blocks: &mut self.blocks,
         };
         let mut minimisation =
-            StageMinimisation::new(objective, &mut self.workspace, &mut next.x, displacements, survey)?;
+            Minimisation::new(objective, &mut self.workspace, &mut next.x, displacements, survey)?;
         let report = minimize(&mut minimisation, pins_move, &self.settings.newton)?;
-        Ok((report, minimisation.survey()))
+        Ok((report, minimisation.survey))
     }
 }

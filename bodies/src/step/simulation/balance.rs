@@ -7,24 +7,6 @@ use crate::step::solver::Machine;
 use super::{Simulation, SimulationSettings};
 
 impl Simulation {
-    /// Gradient of all energies at the current state, N, with damping but without inertia. The elastic
-    /// energies must have been evaluated there last.
-    fn balance(&mut self) -> Vec<[f64; 3]> {
-        let (x, v) = (&self.steps.state.x, &self.steps.state.v);
-        let mut total = vec![[0.0; 3]; x.len()];
-        self.elastic.evaluate_gradients(&self.body);
-        self.elastic.add_gradient(&self.body, &mut total);
-        self.all_terms().add_gradient(x, &mut total);
-        let SimulationSettings { damping, gravity, .. } = self.settings;
-        for (node, (total, mass)) in total.iter_mut().zip(self.body.masses()).enumerate() {
-            for c in 0..3 {
-                let force = self.forces.get(node).map_or(0.0, |force| force[c]);
-                total[c] += mass * (damping * v[node][c] - gravity[c]) - force;
-            }
-        }
-        total
-    }
-
     /// Reaction of the pins on each pinned node, N, in the order of [`Simulation::pinned`]: the force that,
     /// together with all other forces, gives the node its acceleration at the end of the last step.
     ///
@@ -36,10 +18,18 @@ impl Simulation {
     pub fn reactions(&mut self) -> Result<Vec<[f64; 3]>, NewtonError> {
         let survey = self.survey();
         demand_admissible(self.workspace.machine.nodes(), &survey, &self.body, &self.elastic)?;
-        let forces = self.balance();
+        let (x, v) = (&self.steps.state.x, &self.steps.state.v);
+        let mut total = vec![[0.0; 3]; x.len()];
+        self.elastic.evaluate_gradients(&self.body);
+        self.elastic.add_gradient(&self.body, &mut total);
+        self.all_terms().add_gradient(x, &mut total);
+        let SimulationSettings { damping, gravity, .. } = self.settings;
         let reaction = |&node: &usize| {
+            let mass = self.body.masses()[node];
             std::array::from_fn(|c| {
-                forces[node][c] + self.body.masses()[node] * self.accelerations()[node][c]
+                let force = self.forces.get(node).map_or(0.0, |force| force[c]);
+                let others = total[node][c] + (mass * (damping * v[node][c] - gravity[c]) - force);
+                others + mass * self.accelerations()[node][c]
             })
         };
         Ok(self.pinned().iter().map(reaction).collect())

@@ -1,18 +1,17 @@
-//! Changes between two steps: of the state, pins, forces, terms, materials and settings.
+//! Changes between two steps: of the state, pins, forces, terms and settings.
 
 use std::sync::Arc;
 
 use piola::NoSuchNode;
-use piola::batch::TileMaterial;
 
 use crate::step::error::SetupError;
 use crate::step::solver::{Choice, Machine, OneMachine, SparseSolver};
 use crate::step::spring::Spring;
 use crate::step::term::Term;
-use crate::system::{BodyError, LinearError, Pins};
+use crate::system::{LinearError, Pins};
 
 use super::settings::check_settings;
-use super::{Simulation, SimulationSettings, static_regularisation};
+use super::{Simulation, SimulationSettings};
 
 impl<M: Machine> Simulation<M> {
     /// Sets the position of each node, m, for any deformation, even collapsed. Pins hold their nodes there.
@@ -89,24 +88,7 @@ impl Simulation {
         }
         self.workspace.machine.set_pins(&self.body, pins)?;
         self.workspace.forget_direction();
-        self.steps.set_pinned(pins.nodes());
-        Ok(())
-    }
-
-    /// Replaces the material of a part of the body, numbered as in
-    /// [`Body::from_parts`](crate::system::Body::from_parts), from the next step on.
-    ///
-    /// # Errors
-    /// [`BodyError`] if there is no such part, or the material has parameters for another number of points.
-    /// The material then stays as it was.
-    pub fn set_material(
-        &mut self,
-        part: usize,
-        material: impl TileMaterial<f64> + 'static,
-    ) -> Result<(), BodyError> {
-        self.body.set_material(part, material)?;
-        self.static_regularisation = static_regularisation(&self.body, self.workspace.machine.nodes());
-        self.evaluated = None;
+        self.steps.set_pins(pins);
         Ok(())
     }
 
@@ -138,7 +120,8 @@ impl Simulation {
     pub fn set_settings(&mut self, settings: SimulationSettings) -> Result<(), SetupError> {
         check_settings(&settings)?;
         let (new, old) = (&settings.newton, &self.settings.newton);
-        if new.linear != old.linear || self.workspace.machine.has_user_defined_solver() {
+        let is_user_defined = matches!(self.workspace.machine.choice, Choice::UserDefined(_));
+        if new.linear != old.linear || is_user_defined {
             self.set_choice(Choice::Setting(new.linear))?;
         }
         self.steps.set_integrator(settings.integrator);
@@ -152,12 +135,11 @@ impl Simulation {
     /// # Errors
     /// [`SetupError`] with the error of the solver for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
-        Ok(self.set_choice(Choice::UserDefined(Arc::new(solver)))?)
+        Ok(self.set_choice(Choice::user_defined(solver))?)
     }
 
     fn set_choice(&mut self, choice: Choice) -> Result<(), LinearError> {
-        let pins = Pins::at(self.pinned().iter().copied());
-        self.workspace.machine = OneMachine::new(&self.body, &pins, choice)?;
+        self.workspace.machine = OneMachine::new(&self.body, &self.steps.pins, choice)?;
         self.workspace.forget_direction();
         Ok(())
     }

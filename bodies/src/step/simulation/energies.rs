@@ -52,7 +52,7 @@ impl<M: Machine> Simulation<M> {
             }
         }
         energies.springs += self.springs().iter().map(|spring| spring.energy(x)).sum::<f64>();
-        energies.terms += self.all_terms().energy_of_others(x);
+        energies.terms += self.terms.iter().map(|term| term.energy(x).unwrap_or(f64::NAN)).sum::<f64>();
         let Energies { elastic, kinetic, gravity, springs, forces, terms } = energies;
         let own = [elastic, kinetic, gravity, springs, forces, terms];
         let [elastic, kinetic, gravity, springs, forces, terms] = self.workspace.machine.nodes().totals(own);

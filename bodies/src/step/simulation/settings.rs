@@ -31,7 +31,6 @@ crate::chained::chained!(SimulationSettings {
     with_newton(newton: NewtonSettings),
 });
 
-/// Checks that all settings are in range.
 pub(super) fn check_settings(settings: &SimulationSettings) -> Result<(), SetupError> {
     let SimulationSettings { gravity, damping, newton, .. } = settings;
     let checks = [

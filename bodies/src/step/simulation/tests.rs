@@ -5,7 +5,7 @@ use piola::point::Filter;
 
 use super::*;
 use crate::mesh::TetMesh;
-use crate::step::testing::{distance, left_end, simulation};
+use crate::step::testing::{distance, falling, held, left_end, settings, simulation, solved_by, solvers};
 use crate::step::{Convergence, Filtering, Integrator, LinearSolver, NewtonError, NewtonSettings, StepError};
 use crate::system::LinearError;
 use crate::system::testing::{beam, kirchhoff, neo_hookean, rotated, shake};
@@ -13,10 +13,6 @@ use crate::system::testing::{beam, kirchhoff, neo_hookean, rotated, shake};
 mod interface;
 mod newton;
 mod statics;
-
-fn settings(newton: NewtonSettings) -> SimulationSettings {
-    SimulationSettings { newton, ..SimulationSettings::default() }
-}
 
 fn total(masses: &[f64], vectors: &[[f64; 3]]) -> [f64; 3] {
     std::array::from_fn(|c| masses.iter().zip(vectors).map(|(m, v)| m * v[c]).sum())
@@ -28,12 +24,8 @@ fn a_free_body_falls_without_deforming() {
     let gravity = [1.0, -9.81, 0.5];
     let rate = 0.7;
     let dt = 0.02;
-    let mut free = simulation(
-        &mesh,
-        rotated(),
-        &Pins::none(),
-        SimulationSettings { gravity, damping: rate, ..settings(NewtonSettings::default()) },
-    );
+    let settings = settings(NewtonSettings::default()).with_gravity(gravity).with_damping(rate);
+    let mut free = simulation(&mesh, rotated(), &Pins::none(), settings);
     let (mut v, mut fall) = ([0.0; 3], [0.0; 3]);
     for _ in 0..10 {
         let report = free.step(dt).expect("a fall");
@@ -55,12 +47,8 @@ fn a_free_body_falls_without_deforming() {
 #[test]
 fn a_free_body_keeps_its_momentum() {
     let mesh = beam(4);
-    let mut free = simulation(
-        &mesh,
-        kirchhoff(),
-        &Pins::none(),
-        settings(NewtonSettings { tolerance: 1e-10, ..Default::default() }),
-    );
+    let settings = settings(NewtonSettings::default().with_tolerance(1e-10));
+    let mut free = simulation(&mesh, kirchhoff(), &Pins::none(), settings);
     let mut random = Random::new(3);
     free.set_positions(&shake(&mut random, &mesh.positions, 0.02)).expect("finite");
     free.set_velocities(&shake(&mut random, &vec![[0.0; 3]; mesh.positions.len()], 1.0)).expect("finite");
@@ -80,7 +68,7 @@ fn a_free_body_keeps_its_momentum() {
 fn energy_never_grows_without_loads() {
     let mesh = beam(5);
     for newton in [NewtonSettings::single(), NewtonSettings::default()] {
-        let mut body = simulation(&mesh, rotated(), &left_end(&mesh), settings(newton));
+        let mut body = held(&mesh, rotated(), settings(newton));
         let mut start = shake(&mut Random::new(4), &mesh.positions, 0.15);
         start[..4].copy_from_slice(&mesh.positions[..4]);
         body.set_positions(&start).expect("finite");

@@ -30,17 +30,18 @@ pub(super) struct Assembled<S> {
     solver: S,
 }
 
-impl<S> Assembled<S> {
+impl<S: SparseSolver> Assembled<S> {
     pub(super) fn new(
         body: &Body,
         pins: &Pins,
         pairs: &[[usize; 2]],
-        solver: impl FnOnce(&LowerTriangle) -> Result<S, LinearError>,
+        mut solver: S,
     ) -> Result<Self, LinearError> {
         let stiffness = NodalStiffness::with_elements(body, pairs)?;
         let matrix = LowerTriangle::new(&stiffness, pins)?;
+        solver.analyse(matrix.column_starts(), matrix.row_indices())?;
         Ok(Self {
-            solver: solver(&matrix)?,
+            solver,
             stiffness,
             free: matrix.free_nodes().to_vec(),
             held: Vec::new(),
@@ -85,7 +86,7 @@ impl<S: SparseSolver> Solver for Assembled<S> {
     }
 
     fn add_product(&mut self, body: &Body, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        self.stiffness.elements().add_product(body, displacement, total);
+        self.stiffness.add_product_of_elements(body, displacement, total);
     }
 
     fn solve(
@@ -106,11 +107,9 @@ impl<S: SparseSolver> Solver for Assembled<S> {
         for (unknown, _) in unknowns.chunks_exact_mut(3).zip(&*held).filter(|(_, is_held)| **is_held) {
             unknown.fill(0.0);
         }
-        let quadratic = &objective.quadratic;
         let mut shift = 0.0;
         let iterations = loop {
-            let diagonal =
-                |node: usize| quadratic.guarded_diagonal(node) + shift * quadratic.regularisation(node);
+            let diagonal = |node: usize| objective.inertia(node) + shift * objective.regularisation(node);
             matrix.fill(stiffness, diagonal)?;
             objective.blocks.add_to_triangle(matrix);
             matrix.hold(held);

@@ -26,7 +26,6 @@ pub(super) struct Conjugate {
     max_iterations: usize,
 }
 
-/// The nodes of a body by their freedom.
 #[derive(Clone)]
 struct Nodes {
     pinned: Vec<usize>,
@@ -149,7 +148,6 @@ impl System for Linearised<'_> {
     }
 }
 
-/// Entries as vectors, one for each node.
 fn vectors(entries: &[f64]) -> &[[f64; 3]] {
     entries.as_chunks().0
 }

@@ -45,9 +45,6 @@ pub trait Machine {
     fn solver(&mut self) -> &mut dyn Solver;
 
     /// Sets up a new solver if the blocks of terms join nodes without a block in its matrix.
-    ///
-    /// # Errors
-    /// [`LinearError`].
     fn join(&mut self, body: &Body, blocks: &NodeBlocks) -> Result<(), LinearError> {
         let _ = (body, blocks);
         Ok(())
@@ -104,7 +101,6 @@ pub(crate) trait OwnSolver: Solver + Send + Sync {
     /// Replaces the pins; returns false if a new solver has to be set up for them.
     fn set_pins(&mut self, pins: &Pins) -> bool;
 
-    /// A copy with memory of its own.
     fn boxed_clone(&self) -> Box<dyn OwnSolver>;
 }
 
@@ -115,7 +111,6 @@ impl Clone for Box<dyn OwnSolver> {
 }
 
 impl Solution {
-    /// The outcome of an iterative solver.
     pub(super) fn of(
         Iteration { iterations, end }: Iteration,
         definiteness: Definiteness,

@@ -15,7 +15,7 @@ use super::{LinearSolver, SparseSolver};
 #[derive(Clone)]
 pub struct OneMachine {
     solver: Box<dyn OwnSolver>,
-    choice: Choice,
+    pub(in crate::step) choice: Choice,
     pins: Pins,
     nodes: Undivided,
 }
@@ -24,11 +24,6 @@ impl OneMachine {
     /// Sets up the solver for a body with these pins.
     pub(in crate::step) fn new(body: &Body, pins: &Pins, choice: Choice) -> Result<Self, LinearError> {
         Ok(Self { solver: choice.set_up(body, pins, &[])?, choice, pins: pins.clone(), nodes: Undivided })
-    }
-
-    /// True if the linear solver is user-defined.
-    pub(in crate::step) fn has_user_defined_solver(&self) -> bool {
-        matches!(self.choice, Choice::UserDefined(_))
     }
 
     /// Replaces the pins; sets up a new solver if the present one cannot handle them.
@@ -71,11 +66,20 @@ impl Machine for OneMachine {
 #[derive(Clone)]
 pub(in crate::step) enum Choice {
     Setting(LinearSolver),
-    UserDefined(Arc<dyn SetUp>),
+    UserDefined(Arc<SetUp>),
 }
 
+/// Sets a solver up for the pairs of nodes of a body's elements, and for more pairs.
+type SetUp = dyn Fn(&Body, &Pins, &[[usize; 2]]) -> Result<Box<dyn OwnSolver>, LinearError> + Send + Sync;
+
 impl Choice {
-    /// Sets the solver up for the pairs of nodes of a body's elements, and for these.
+    pub(in crate::step) fn user_defined(solver: impl SparseSolver) -> Self {
+        Self::UserDefined(Arc::new(move |body: &Body, pins: &Pins, pairs: &[[usize; 2]]| {
+            let set_up: Box<dyn OwnSolver> = Box::new(Assembled::new(body, pins, pairs, solver.clone())?);
+            Ok(set_up)
+        }))
+    }
+
     fn set_up(
         &self,
         body: &Body,
@@ -84,33 +88,7 @@ impl Choice {
     ) -> Result<Box<dyn OwnSolver>, LinearError> {
         match self {
             Self::Setting(solver) => solver.set_up(body, pins, pairs),
-            Self::UserDefined(solver) => solver.set_up(body, pins, pairs),
+            Self::UserDefined(set_up) => set_up(body, pins, pairs),
         }
-    }
-}
-
-/// A [`SparseSolver`] of any type, before it is set up.
-pub(in crate::step) trait SetUp: Send + Sync {
-    fn set_up(
-        &self,
-        body: &Body,
-        pins: &Pins,
-        pairs: &[[usize; 2]],
-    ) -> Result<Box<dyn OwnSolver>, LinearError>;
-}
-
-impl<S: SparseSolver> SetUp for S {
-    fn set_up(
-        &self,
-        body: &Body,
-        pins: &Pins,
-        pairs: &[[usize; 2]],
-    ) -> Result<Box<dyn OwnSolver>, LinearError> {
-        let analysed = Assembled::new(body, pins, pairs, |matrix| {
-            let mut solver = self.clone();
-            solver.analyse(matrix.column_starts(), matrix.row_indices())?;
-            Ok(solver)
-        })?;
-        Ok(Box::new(analysed))
     }
 }

@@ -1,43 +1,18 @@
 use piola::__private::random::Random;
-use piola::batch::TileMaterial;
 use piola::point::Filter;
 
 use super::*;
 use crate::hand_written::RotatedLinear;
 use crate::mesh::Anchor;
 use crate::mesh::{TetMesh, tetrahedral_box};
-use crate::step::testing::{distance, left_end, simulation};
-use crate::step::{
-    Filtering, NewtonError, NewtonReport, NewtonSettings, Simulation, SimulationSettings, Spring, StepError,
-};
+use crate::step::testing::{distance, falling, held, settings, simulation, solved_by, solvers};
+use crate::step::{Filtering, NewtonError, NewtonReport, NewtonSettings, Simulation, Spring, StepError};
 use crate::system::testing::{beam, kirchhoff, rotated, scaled, shake};
 use crate::system::{Cholesky, LowerTriangle};
 
-const GRADIENTS: LinearSolver = LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 2000 };
-const ALL: [LinearSolver; 2] = [LinearSolver::Cholesky, GRADIENTS];
-
-/// A beam whose left end is held.
-fn held(
-    mesh: &TetMesh,
-    material: impl TileMaterial<f64> + 'static,
-    settings: SimulationSettings,
-) -> Simulation {
-    simulation(mesh, material, &left_end(mesh), settings)
-}
-
 /// A beam whose held end is moved and turned while a spring pulls at the other, under gravity: its reports.
 fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec<NewtonReport>) {
-    let newton = NewtonSettings { linear, tolerance: 1e-9, ..NewtonSettings::default() };
-    let mut body = held(
-        mesh,
-        rotated(),
-        SimulationSettings {
-            gravity: [0.0, -9.81, 0.0],
-            damping: 0.5,
-            newton,
-            ..SimulationSettings::default()
-        },
-    );
+    let mut body = held(mesh, rotated(), falling(solved_by(linear).with_tolerance(1e-9)).with_damping(0.5));
     let last = body.body().elements().len() - 1;
     let anchor = Anchor { nodes: body.body().elements()[last].nodes, weights: [0.1, 0.2, 0.3, 0.4] };
     body.set_springs(&[Spring { anchor, target: [1.0, 0.5, 0.2], stiffness: 200.0 }]).expect("one element");
@@ -97,10 +72,9 @@ fn any_number_of_threads_gives_the_same_bits() {
 #[test]
 fn a_step_depends_on_the_state_before_it_alone() {
     let mesh = tetrahedral_box([12, 4, 4], [1.2, 0.4, 0.4]).expect("a box");
-    for (linear, h) in [(LinearSolver::Cholesky, 0.02), (GRADIENTS, 0.02), (GRADIENTS, 1.0)] {
-        let newton = NewtonSettings { linear, ..NewtonSettings::default() };
-        let settings =
-            SimulationSettings { gravity: [0.0, -9.81, 0.0], newton, ..SimulationSettings::default() };
+    let [cholesky, gradients] = solvers(1e-10);
+    for (linear, h) in [(cholesky, 0.02), (gradients, 0.02), (gradients, 1.0)] {
+        let settings = falling(solved_by(linear));
         let mut whole = held(&mesh, rotated(), settings);
         for _ in 0..2 {
             whole.step(h).expect("a step");
@@ -116,13 +90,8 @@ fn a_step_depends_on_the_state_before_it_alone() {
 #[test]
 fn negative_curvature_is_left_aside_and_reported() {
     let mesh = beam(6);
-    let newton = NewtonSettings {
-        filtering: Filtering::Always(Filter::None),
-        linear: GRADIENTS,
-        max_iterations: 200,
-        ..NewtonSettings::default()
-    };
-    let mut body = held(&mesh, kirchhoff(), SimulationSettings { newton, ..SimulationSettings::default() });
+    let newton = solved_by(solvers(1e-10)[1]).with_filtering(Filtering::Always(Filter::None));
+    let mut body = held(&mesh, kirchhoff(), settings(newton.with_max_iterations(200)));
     let squeezed = |x: &[f64; 3]| [0.4 * x[0], x[1], x[2]];
     let start: Vec<_> = mesh.positions.iter().map(squeezed).collect();
     body.set_positions(&shake(&mut Random::new(6), &start, 1e-3)).expect("finite");
@@ -136,12 +105,7 @@ fn negative_curvature_is_left_aside_and_reported() {
 fn a_limit_of_iterations_leaves_a_direction_of_descent() {
     let mesh = beam(10);
     let linear = LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 3 };
-    let newton = NewtonSettings { linear, ..NewtonSettings::single() };
-    let mut body = held(
-        &mesh,
-        rotated(),
-        SimulationSettings { gravity: [0.0, -9.81, 0.0], newton, ..SimulationSettings::default() },
-    );
+    let mut body = held(&mesh, rotated(), falling(NewtonSettings::single().with_linear(linear)));
     for _ in 0..5 {
         let report = body.step(0.02).expect("a step").newton;
         assert_eq!((report.linear_iterations, report.truncated), (3, 1));
@@ -154,23 +118,14 @@ fn a_limit_of_iterations_leaves_a_direction_of_descent() {
 fn stiffness_of_any_unit_is_as_good() {
     let mesh = beam(8);
     let run = |linear: LinearSolver, factor: f64| {
-        let newton = NewtonSettings { linear, ..NewtonSettings::default() };
-        let material = scaled(factor, RotatedLinear);
-        let mut body = held(
-            &mesh,
-            material,
-            SimulationSettings {
-                gravity: [0.0, -factor / 3e3, 0.0],
-                newton,
-                ..SimulationSettings::default()
-            },
-        );
+        let settings = settings(solved_by(linear)).with_gravity([0.0, -factor / 3e3, 0.0]);
+        let mut body = held(&mesh, scaled(factor, RotatedLinear), settings);
         let reports: Vec<_> =
             (0..3).map(|_| body.step(3.0 / factor.sqrt()).expect("a step").newton).collect();
         (body.positions().to_vec(), reports)
     };
     let (expected, _) = run(LinearSolver::Cholesky, 3e4);
-    for linear in ALL {
+    for linear in solvers(1e-10) {
         for factor in [3e-12, 3e6, 3e12, 3e30] {
             let (positions, reports) = run(linear, factor);
             assert!(reports.iter().all(|report| report.truncated == 0 && report.shift == 0.0));
@@ -184,9 +139,8 @@ fn stiffness_of_any_unit_is_as_good() {
 #[test]
 fn moving_pins_enter_the_right_side() {
     let mesh = beam(3);
-    for linear in ALL {
-        let newton = NewtonSettings { linear, ..NewtonSettings::single() };
-        let mut body = held(&mesh, rotated(), SimulationSettings { newton, ..SimulationSettings::default() });
+    for linear in solvers(1e-10) {
+        let mut body = held(&mesh, rotated(), settings(NewtonSettings::single().with_linear(linear)));
         for node in body.pinned().to_vec() {
             let [x, y, z] = mesh.positions[node];
             body.prescribe(node, [x + 1.0, y, z]).expect("pinned");
@@ -203,14 +157,9 @@ fn moving_pins_enter_the_right_side() {
 #[test]
 fn solvers_are_exchanged_between_steps_and_know_the_same_springs() {
     let mesh = beam(4);
-    let gravity = [0.0, -9.81, 0.0];
-    let settings = |linear| SimulationSettings {
-        gravity,
-        newton: NewtonSettings { linear, tolerance: 1e-9, ..NewtonSettings::default() },
-        ..SimulationSettings::default()
-    };
-    let mut exchanged = held(&mesh, rotated(), settings(ALL[0]));
-    let mut exact = held(&mesh, rotated(), settings(ALL[0]));
+    let settings = |linear| falling(solved_by(linear).with_tolerance(1e-9));
+    let mut exchanged = held(&mesh, rotated(), settings(LinearSolver::Cholesky));
+    let mut exact = exchanged.clone();
     // Nodes 8 and 19 share no element; of nodes 0 and 19 the first is pinned.
     let spring =
         |nodes, weights| Spring { anchor: Anchor { nodes, weights }, target: [0.5; 3], stiffness: 10.0 };
@@ -218,7 +167,7 @@ fn solvers_are_exchanged_between_steps_and_know_the_same_springs() {
     let to_a_pin = spring([0, 19, 0, 0], [0.5, 0.5, 0.0, 0.0]);
     let springs = [across, to_a_pin];
     exact.set_springs(&springs).expect("nodes");
-    for linear in ALL {
+    for linear in solvers(1e-10) {
         exchanged.set_settings(settings(linear)).expect("a solver");
         exchanged.set_springs(&springs).expect("nodes");
         exchanged.step(0.02).expect("a step");
@@ -231,12 +180,8 @@ fn solvers_are_exchanged_between_steps_and_know_the_same_springs() {
 #[test]
 fn a_body_with_every_node_pinned_has_nothing_to_solve() {
     let mesh = beam(1);
-    for linear in ALL {
-        let settings = SimulationSettings {
-            newton: NewtonSettings { linear, ..Default::default() },
-            ..Default::default()
-        };
-        let mut body = simulation(&mesh, rotated(), &Pins::at(0..8), settings);
+    for linear in solvers(1e-10) {
+        let mut body = simulation(&mesh, rotated(), &Pins::at(0..8), settings(solved_by(linear)));
         body.prescribe(3, [0.2, 0.2, 0.2]).expect("pinned");
         body.step(0.1).expect("nothing to solve");
         assert_eq!((body.positions()[3], body.positions()[4]), ([0.2; 3], mesh.positions[4]));
@@ -247,8 +192,7 @@ fn a_body_with_every_node_pinned_has_nothing_to_solve() {
 #[test]
 fn solvers_of_ones_own_serve_until_the_settings_are_replaced() {
     let mesh = beam(4);
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
-    let settings = settings.with_newton(NewtonSettings::default().with_linear(LinearSolver::Cholesky));
+    let settings = falling(solved_by(LinearSolver::Cholesky));
     let mut own = held(&mesh, rotated(), settings);
     let mut built_in = own.clone();
     own.set_linear_solver(Cholesky::new(&[0], &[]).expect("no unknowns")).expect("a pattern");

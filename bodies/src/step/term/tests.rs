@@ -7,8 +7,8 @@ use piola::NoSuchNode;
 
 use super::*;
 use crate::mesh::{Anchor, TetMesh};
-use crate::step::testing::{distance, simulation};
-use crate::step::{LinearSolver, NewtonError, NewtonSettings, Simulation, SimulationSettings, StepError};
+use crate::step::testing::{distance, falling, simulation, solved_by, solvers};
+use crate::step::{LinearSolver, NewtonError, Simulation, StepError};
 use crate::system::Pins;
 use crate::system::testing::{beam, neo_hookean};
 
@@ -117,13 +117,8 @@ fn blocks_of_missing_nodes_are_noted_and_left_out() {
 }
 
 fn bar(mesh: &TetMesh, pins: &Pins, linear: LinearSolver) -> Simulation {
-    let newton = NewtonSettings::default().with_tolerance(1e-10).with_linear(linear);
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
-    simulation(mesh, neo_hookean(), pins, settings)
+    simulation(mesh, neo_hookean(), pins, falling(solved_by(linear).with_tolerance(1e-10)))
 }
-
-const SOLVERS: [LinearSolver; 2] =
-    [LinearSolver::Cholesky, LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 1000 }];
 
 /// Both ends of a bar are driven at each other; all solvers take the blocks of nodes that share no element.
 #[test]
@@ -131,7 +126,7 @@ fn a_barrier_between_distant_nodes_is_never_crossed() {
     let mesh = beam(4);
     let [a, b] = [0, mesh.positions.len() - 1];
     let gap = |x: &[[f64; 3]]| (0..3).map(|c| (x[a][c] - x[b][c]).powi(2)).sum::<f64>().sqrt();
-    let ends = SOLVERS.map(|linear| {
+    let ends = solvers(1e-10).map(|linear| {
         let mut simulation = bar(&mesh, &Pins::none(), linear);
         let distance = 0.9 * gap(&mesh.positions);
         simulation.set_terms(vec![Arc::new(Barrier { nodes: [a, b], distance, stiffness: 1e-3 })]);
@@ -191,7 +186,7 @@ fn terms_that_refuse_a_state_or_name_no_node_fail_the_step_and_change_nothing() 
 fn reactions_balance_all_other_forces() {
     let mesh = beam(3);
     let pins = Pins::at([0, 1, 2, 3]);
-    for linear in SOLVERS {
+    for linear in solvers(1e-10) {
         let mut simulation = bar(&mesh, &pins, linear);
         let mut forces = vec![[0.0; 3]; mesh.positions.len()];
         forces[14] = [3.0, 1.0, -2.0];
@@ -231,7 +226,7 @@ fn reactions_balance_all_other_forces() {
 fn changed_pins_are_those_of_a_new_simulation() {
     let mesh = beam(4);
     let first = Pins::at([0, 1, 2, 3]);
-    for linear in SOLVERS {
+    for linear in solvers(1e-10) {
         for then in [Pins::at([0, 1, 2, 3, 9, 17]), Pins::at([2, 17]), Pins::none()] {
             let mut changed = bar(&mesh, &first, linear);
             changed.step(0.01).expect("a step");

@@ -1,27 +1,22 @@
 use super::*;
+use crate::mesh::Group;
+use crate::system::Part;
 use crate::system::testing::{beam, kirchhoff};
+
+fn part(group: Option<&str>, density: f64) -> Part {
+    Part { group: group.map(str::to_owned), material: Box::new(kirchhoff()), density }
+}
 
 #[test]
 fn compensation_keeps_what_a_plain_sum_loses() {
-    let sum: Compensated = [1.0, 1e100, 1.0, -1e100].into_iter().collect();
-    assert_eq!(sum.value(), 2.0);
+    assert_eq!(compensated([1.0, 1e100, 1.0, -1e100].into_iter()), 2.0);
 }
 
 #[test]
 fn groups_hold_elements_of_one_material() {
     let mut mesh = beam(4);
-    let group = |name: &str, tets: Range<usize>| crate::mesh::Group {
-        name: name.to_owned(),
-        dimension: 3,
-        nodes: Vec::new(),
-        tets: tets.collect(),
-    };
-    mesh.groups = vec![group("left", 0..7), group("middle", 7..9)];
-    let part = |group: Option<&str>, density| crate::system::Part {
-        group: group.map(str::to_owned),
-        material: Box::new(kirchhoff()),
-        density,
-    };
+    mesh.groups =
+        vec![Group::of("left", 3, &[], &[0, 1, 2, 3, 4, 5, 6]), Group::of("middle", 3, &[], &[7, 8])];
     let parts = vec![part(Some("middle"), 1.0), part(Some("left"), 2.0), part(None, 4.0)];
     let body = Body::from_parts(&mesh, parts).expect("a body");
     let tags: Vec<usize> = body.elements().iter().map(|element| element.tag).collect();
@@ -40,37 +35,21 @@ fn groups_hold_elements_of_one_material() {
 #[test]
 fn parts_that_do_not_fit_are_errors() {
     let mut mesh = beam(1);
-    let group = |name: &str, tets: &[usize]| crate::mesh::Group {
-        name: name.to_owned(),
-        dimension: 3,
-        nodes: Vec::new(),
-        tets: tets.to_vec(),
-    };
-    mesh.groups = vec![group("skin", &[0, 1]), group("bone", &[1, 2])];
-    let part = |name: &str, density| crate::system::Part {
-        group: Some(name.to_owned()),
-        material: Box::new(kirchhoff()),
-        density,
-    };
+    mesh.groups = vec![Group::of("skin", 3, &[], &[0, 1]), Group::of("bone", 3, &[], &[1, 2])];
+    let part = |name| part(Some(name), 1.0);
     let message = |parts| Body::from_parts(&mesh, parts).expect_err("bad parts").to_string();
-    assert_eq!(message(vec![part("skin", 1.0)]), "element 3 has no material: it belongs to no part");
+    assert_eq!(message(vec![part("skin")]), "element 3 has no material: it belongs to no part");
     assert_eq!(
-        message(vec![part("skin", 1.0), part("bone", 1.0)]),
+        message(vec![part("skin"), part("bone")]),
         "element 2 has two materials: it belongs to two parts"
     );
-    assert_eq!(
-        message(vec![part("hair", 1.0)]),
-        "there is no group `hair` of tetrahedra; there are: skin, bone"
-    );
+    assert_eq!(message(vec![part("hair")]), "there is no group `hair` of tetrahedra; there are: skin, bone");
     let error = Body::new(&mesh, kirchhoff(), 0.0).expect_err("no mass");
     assert_eq!(error.to_string(), "the density is 0 kg/m³; it must be positive and finite");
     for (density, word) in [(1e-308, "underflows"), (1e308, "overflows")] {
         let mut large = mesh.clone();
-        large
-            .positions
-            .as_flattened_mut()
-            .iter_mut()
-            .for_each(|x| *x *= if density > 1.0 { 1e3 } else { 1.0 });
+        let scale = if density > 1.0 { 1e3 } else { 1.0 };
+        large.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= scale);
         let message = Body::new(&large, kirchhoff(), density).expect_err("masses out of range").to_string();
         assert!(message.starts_with("the mass of node 0 (from 0)") && message.contains(word), "{message}");
     }

@@ -234,7 +234,7 @@ fn a_convex_kink_is_cut_to_what_a_factorisation_resolves() {
 }
 
 #[test]
-fn an_affine_map_gives_every_element_the_same_stress() {
+fn an_affine_map_is_the_deformation_gradient_of_every_element() {
     let mesh = beam(3);
     let F = [[1.1, 0.2, -0.1], [0.0, 0.8, 0.3], [0.1, -0.2, 1.2]];
     let map = |x: &[f64; 3]| -> [f64; 3] {
@@ -242,7 +242,6 @@ fn an_affine_map_gives_every_element_the_same_stress() {
     };
     let positions: Vec<_> = mesh.positions.iter().map(map).collect();
     let body = Body::new(&mesh, kirchhoff(), 1000.0).expect("a body");
-    let mut total = vec![[0.0; 3]; positions.len()];
     for element in body.elements() {
         let found = element.deformation_gradient(&positions);
         for a in 0..3 {
@@ -251,28 +250,6 @@ fn an_affine_map_gives_every_element_the_same_stress() {
                 assert!((found[a][b] - F[a][b]).abs() <= 100.0 * f64::EPSILON);
             }
         }
-        let (gradient, ..) = derivatives(&kirchhoff(), element, &positions, Filter::None);
-        for (node, g) in element.nodes.iter().zip(gradient) {
-            for c in 0..3 {
-                total[*node][c] += g[c];
-            }
-        }
-    }
-    // Equal stress everywhere leaves inner nodes without a force; this beam has none, but the total is zero
-    // too, and so is the total moment of a symmetric Cauchy stress.
-    let mut force = [0.0; 3];
-    let mut moment = [0.0; 3];
-    for (x, g) in positions.iter().zip(&total) {
-        let m = crate::mesh::tet::cross(*x, *g);
-        for c in 0..3 {
-            force[c] += g[c];
-            moment[c] += m[c];
-        }
-    }
-    let size: f64 = total.iter().flatten().map(|g| g.abs()).sum();
-    for c in 0..3 {
-        assert!(force[c].abs() <= 1e-13 * size, "sums of some hundred terms, u each");
-        assert!(moment[c].abs() <= 1e-13 * size, "arms are below 2 m");
     }
 }
 

@@ -39,9 +39,6 @@ impl Clone for Cholesky {
 
 impl Cholesky {
     /// Analyses the pattern of a lower triangle and allocates all memory that later calls need.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn new(column_starts: &[usize], row_indices: &[usize]) -> Result<Self, LinearError> {
         let unknowns = column_starts.len() - 1;
         let (starts, rows) = (column_starts.to_vec(), row_indices.to_vec());
@@ -62,9 +59,6 @@ impl Cholesky {
     }
 
     /// Factors the matrix with these values in the order of the pattern.
-    ///
-    /// # Errors
-    /// [`LinearError::NotPositive`] if it is not numerically positive definite.
     pub(crate) fn factor(&mut self, values: &[f64]) -> Result<(), LinearError> {
         let result = self.symbolic.factorize_numeric_llt(
             &mut self.factor,

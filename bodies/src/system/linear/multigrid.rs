@@ -55,7 +55,6 @@ pub use last::{LastLevel, LastSolver};
 /// Multigrid levels of a matrix of 3×3 blocks; initially there are none.
 #[derive(Clone)]
 pub(crate) struct Multigrid<D: Division> {
-    /// Division of the nodes.
     division: D,
     levels: Option<Levels<D, D::Last>>,
 }
@@ -71,7 +70,6 @@ struct Levels<D, L> {
     coarse: Vec<(Level<6>, D)>,
     last: L,
     last_division: D,
-    /// Right side of the finest level.
     b: Vec<[f32; 3]>,
     /// Right sides, then solutions, of the coarse levels and the last.
     coarse_b: Vec<Vec<[f32; 6]>>,
@@ -97,9 +95,6 @@ impl<D: Division> Multigrid<D> {
     ///
     /// `order` is the order of the aggregation, in which neighbours should be close to each other. Rows that
     /// are not `included` have zeros in right sides and solutions.
-    ///
-    /// # Errors
-    /// [`Division::Error`], also for an entry that is not finite.
     pub(crate) fn set_up(
         &mut self,
         matrix: &SymmetricBlocks<f64, 3>,
@@ -184,12 +179,12 @@ impl<D: Division> Multigrid<D> {
         last_division.copy(&mut coarse_b[depth]);
         for (depth, (level, division)) in coarse.iter_mut().enumerate().rev() {
             level.up(&coarse_b[depth + 1], division);
-            coarse_b[depth][..level.owned()].copy_from_slice(level.x());
+            coarse_b[depth][..level.x.len()].copy_from_slice(&level.x);
             division.copy(&mut coarse_b[depth]);
         }
         finest.up(&coarse_b[0], division);
         let unit = *scale / unit;
-        let x = finest.x();
+        let x = &finest.x;
         let rows = z.len().min(x.len());
         for_each_part(&mut z[..rows], ROWS, |first, z| {
             z.iter_mut().zip(&x[first..]).for_each(|(z, x)| *z = x.map(|x| unit * f64::from(x)));

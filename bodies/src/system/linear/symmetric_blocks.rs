@@ -14,6 +14,7 @@ use piola::lanes::Real;
 
 use super::LinearError;
 use crate::system::graph::Graph;
+use crate::system::lists::Lists;
 use crate::system::memory::{filled, reserved};
 use crate::system::parts::for_each_part;
 
@@ -33,14 +34,12 @@ pub(crate) struct SymmetricBlocks<E, const N: usize> {
     memory: Vec<Memory<E, N>>,
 }
 
-/// Places of the blocks of a matrix.
 pub(crate) struct Pattern {
     chunks: Vec<Chunk>,
     /// Chunk of each row, and place of the row in the chunk.
     place_of_row: Vec<Place>,
-    /// Start of the sums of each row, followed by the end of the last row.
-    starts: Vec<u32>,
-    sums: Vec<Place>,
+    /// Sums of each row, in the order of the chunks.
+    sums: Lists<Place>,
 }
 
 /// Chunk of rows, with the columns of their blocks.
@@ -54,7 +53,7 @@ struct Chunk {
 }
 
 /// Place of a row in a chunk.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Place {
     chunk: u32,
     place: u32,
@@ -81,9 +80,6 @@ impl Chunk {
 
 impl Pattern {
     /// Pattern of a graph, with rows divided into chunks in this order.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn new(graph: &Graph, order: &[u32]) -> Result<Self, LinearError> {
         let rows = graph.rows();
         let mut rank = filled(rows, 0_u32)?;
@@ -91,7 +87,7 @@ impl Pattern {
             rank[row as usize] = at as u32;
         }
         let mut chunks: Vec<Chunk> = reserved(rows.div_ceil(ROWS))?;
-        let mut place_of_row = filled(rows, Place { chunk: 0, place: 0 })?;
+        let mut place_of_row = filled(rows, Place::default())?;
         let mut place_here = filled(rows, u32::MAX)?;
         let mut blocks = 0;
         let mut later: Vec<u32> = Vec::new();
@@ -123,41 +119,24 @@ impl Pattern {
         }
         u32::try_from(blocks).map_err(|_| LinearError::OutOfMemory)?;
 
-        let mut starts = filled(rows + 1, 0_u32)?;
-        for &row in chunks.iter().flat_map(|chunk| &chunk.rows) {
-            starts[row as usize + 1] += 1;
-        }
-        for row in 0..rows {
-            starts[row + 1] += starts[row];
-        }
-        let mut next = starts.clone();
-        let mut sums = filled(starts[rows] as usize, Place { chunk: 0, place: 0 })?;
-        for (number, chunk) in chunks.iter().enumerate() {
-            for (place, &row) in chunk.rows.iter().enumerate() {
-                sums[next[row as usize] as usize] = Place { chunk: number as u32, place: place as u32 };
-                next[row as usize] += 1;
-            }
-        }
-        Ok(Self { chunks, place_of_row, starts, sums })
+        let of_chunk = |chunk: usize| {
+            let place = move |place: usize| Place { chunk: chunk as u32, place: place as u32 };
+            chunks[chunk].rows.iter().enumerate().map(move |(at, &row)| (row as usize, place(at)))
+        };
+        let sums = Lists::new(rows, || (0..chunks.len()).flat_map(of_chunk))?;
+        Ok(Self { chunks, place_of_row, sums })
     }
 
     pub(crate) fn rows(&self) -> usize {
         self.place_of_row.len()
     }
 
-    /// Number of blocks.
     pub(crate) fn len(&self) -> usize {
         self.chunks.last().map_or(0, |chunk| chunk.range().end)
     }
 
-    /// Number of chunks.
     pub(crate) fn chunks(&self) -> usize {
         self.chunks.len()
-    }
-
-    /// Index of the first block of a chunk.
-    pub(crate) fn first_block(&self, chunk: usize) -> usize {
-        self.chunks[chunk].starts[0]
     }
 
     /// Index of the block on the diagonal of a row.
@@ -175,9 +154,10 @@ impl Pattern {
         find(row, column).map(|block| (block, false)).or_else(|| find(column, row).map(|block| (block, true)))
     }
 
-    /// Chunk of a block.
-    pub(crate) fn chunk_of(&self, block: usize) -> usize {
-        self.chunks.partition_point(|chunk| chunk.range().end <= block)
+    /// Chunk of a block, and index of the block in it.
+    pub(crate) fn chunk_of(&self, block: usize) -> (usize, usize) {
+        let chunk = self.chunks.partition_point(|chunk| chunk.range().end <= block);
+        (chunk, block - self.chunks[chunk].starts[0])
     }
 
     /// Stored blocks of a row, each with its column: the block on the diagonal, then the later blocks.
@@ -191,10 +171,6 @@ impl Pattern {
 }
 
 impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
-    /// Matrix of zeros.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
     pub(crate) fn new(pattern: Arc<Pattern>) -> Result<Self, LinearError> {
         let zero = E::splat(0.0);
         let memory = |chunk: &Chunk| {
@@ -220,7 +196,6 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
         &mut self.blocks
     }
 
-    /// Block on the diagonal of a row.
     pub(crate) fn diagonal(&self, row: usize) -> &[[E; N]; N] {
         &self.blocks[self.pattern.diagonal(row)]
     }
@@ -240,7 +215,6 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
         });
     }
 
-    /// Computes the product with a vector.
     pub(crate) fn multiply(&mut self, x: &[[E; N]], product: &mut [[E; N]]) {
         let Self { pattern, blocks, memory } = self;
         for_each_part(memory, 1, |first, part| {
@@ -255,8 +229,7 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
         for_each_part(product, SUMS, |first, part| {
             for (total, row) in part.iter_mut().zip(first..) {
                 let mut sum = [E::splat(0.0); N];
-                let sums = pattern.starts[row] as usize..pattern.starts[row + 1] as usize;
-                for &Place { chunk, place } in &pattern.sums[sums] {
+                for &Place { chunk, place } in pattern.sums.of(row) {
                     let part = memory[chunk as usize].sums[place as usize];
                     for a in 0..N {
                         sum[a] = sum[a] + part[a];
@@ -307,12 +280,12 @@ mod tests {
 
     #[test]
     fn blocks_that_do_not_exist_are_not_found() {
-        let graph = Graph::of_upper(&[vec![2], vec![], vec![]]).expect("small");
+        let graph = Graph::of_upper(3, || [(0, 2)].into_iter()).expect("small");
         let pattern = Pattern::new(&graph, &[0, 1, 2]).expect("small");
         assert_eq!((pattern.rows(), pattern.len(), pattern.chunks()), (3, 4, 1));
         assert_eq!(pattern.block(0, 1), None);
         let (block, transposed) = pattern.block(2, 0).expect("neighbours");
         assert!(transposed && pattern.block(0, 2) == Some((block, false)));
-        assert_eq!((pattern.chunk_of(block), pattern.diagonal(1)), (0, 2));
+        assert_eq!((pattern.chunk_of(block), pattern.diagonal(1)), ((0, block), 2));
     }
 }

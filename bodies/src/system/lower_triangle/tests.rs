@@ -48,7 +48,7 @@ fn gathering_gives_what_scattering_gives() {
     let unknowns = 3 * (body.rest().len() - 2);
     assert_eq!(matrix.free_nodes().len(), body.rest().len() - 2);
     let mut expected = vec![vec![0.0; unknowns]; unknowns];
-    for (element, stiffness) in kept.elements().of_elements(&body) {
+    for (element, stiffness) in kept.of_elements(&body) {
         let of_element = to_matrix(stiffness);
         let free = element.nodes.map(|node| matrix.free_nodes().iter().position(|&other| other == node));
         for row in 0..12 {

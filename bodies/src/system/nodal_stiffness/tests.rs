@@ -18,7 +18,7 @@ fn the_product_is_the_sum_of_those_of_the_elements() {
     let mut kept = NodalStiffness::with_elements(&body, &[]).expect("small");
     kept.linearise(&body, &mut elastic, Filter::Clamp);
     let mut expected = vec![[0.0; 3]; nodes];
-    kept.elements().add_product(&body, &x, &mut expected);
+    kept.add_product_of_elements(&body, &x, &mut expected);
 
     let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
     let mut found = vec![[f64::NAN; 3]; nodes];
@@ -35,7 +35,7 @@ fn the_product_is_the_sum_of_those_of_the_elements() {
     }
     // The matrix that keeps the stiffnesses of all elements has the same blocks.
     assert!(stiffness.matrix().blocks() == kept.matrix().blocks());
-    let tiles = [&stiffness, &kept].map(|matrix| matrix.elements().tiles.len());
+    let tiles = [&stiffness, &kept].map(|matrix| matrix.tiles.len());
     assert_eq!(tiles, [WAVE, body.groups().count()]);
     assert!(stiffness.multiply(&x[1..], &mut found).is_err());
     assert!(stiffness.multiply(&x, &mut found[1..]).is_err());

@@ -93,18 +93,12 @@ fn nodes_elements_and_groups_arrive() {
     assert_eq!(mesh.positions[4], [1.0, 1.0, 1.0]);
     assert_eq!(mesh.tets, [[0, 1, 2, 3], [1, 2, 3, 4]]);
     assert_eq!(mesh.tags, [11, 12]);
-    let group = |name: &str, dimension, nodes: &[usize], tets: &[usize]| Group {
-        name: name.to_owned(),
-        dimension,
-        nodes: nodes.to_vec(),
-        tets: tets.to_vec(),
-    };
     assert_eq!(
         mesh.groups,
         [
-            group("left side", 2, &[0, 1, 2], &[]),
-            group("flesh", 3, &[0, 1, 2, 3, 4], &[0, 1]),
-            group("11", 3, &[1, 2, 3, 4], &[1]),
+            Group::of("left side", 2, &[0, 1, 2], &[]),
+            Group::of("flesh", 3, &[0, 1, 2, 3, 4], &[0, 1]),
+            Group::of("11", 3, &[1, 2, 3, 4], &[1]),
         ]
     );
     assert!(mesh.rest_shapes().is_ok());

@@ -1,17 +1,14 @@
 //! Tolerances that are met, motions that are hit exactly, and failures that leave nothing behind.
 
 use crate::mesh::TetMesh;
-use crate::step::testing::{distance, left_end, simulation};
-use crate::step::{Integrator, NewtonSettings, Simulation, SimulationSettings, Spring, StepError};
+use crate::step::testing::{distance, falling, held};
+use crate::step::{Integrator, NewtonSettings, Simulation, Spring, StepError};
 use crate::system::testing::{beam, neo_hookean};
 
 /// A bar that swings from one end, stretched by its velocities.
 fn bar(mesh: &TetMesh, integrator: Integrator) -> Simulation {
-    let settings = SimulationSettings::default()
-        .with_gravity([0.0, -9.81, 0.0])
-        .with_integrator(integrator)
-        .with_newton(NewtonSettings::default().with_tolerance(1e-10));
-    let mut bar = simulation(mesh, neo_hookean(), &left_end(mesh), settings);
+    let settings = falling(NewtonSettings::default().with_tolerance(1e-10)).with_integrator(integrator);
+    let mut bar = held(mesh, neo_hookean(), settings);
     bar.set_velocities(&mesh.positions.iter().map(|&[x, y, _]| [2.0 * x, x * y, x]).collect::<Vec<_>>())
         .expect("finite");
     bar

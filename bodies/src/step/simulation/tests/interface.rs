@@ -82,15 +82,8 @@ fn the_solver_fits_the_body() {
 #[test]
 fn a_clone_is_independent_and_exact() {
     let mesh = beam(4);
-    for linear in
-        [LinearSolver::Cholesky, LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 }]
-    {
-        let newton = NewtonSettings::default().with_linear(linear);
-        let settings = SimulationSettings::default()
-            .with_gravity([0.0, -9.81, 0.0])
-            .with_damping(1.0)
-            .with_newton(newton);
-        let mut body = simulation(&mesh, neo_hookean(), &left_end(&mesh), settings);
+    for linear in solvers(1e-3) {
+        let mut body = held(&mesh, neo_hookean(), falling(solved_by(linear)).with_damping(1.0));
         body.step(0.01).expect("a step");
         let before = body.positions().to_vec();
         let mut copy = body.clone();
@@ -119,28 +112,4 @@ fn errors_convert_and_name_their_source() {
     assert_eq!(newton.source().map(ToString::to_string), Some(LinearError::OutOfMemory.to_string()));
     let error = SetupError::from(LinearError::OutOfMemory);
     assert_eq!(error.to_string(), LinearError::OutOfMemory.to_string());
-}
-
-/// Half the stiffness in the middle of a motion.
-#[test]
-fn materials_are_replaced_between_steps() {
-    let mesh = beam(3);
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
-    let body = Body::new(&mesh, neo_hookean(), 1000.0).expect("a body");
-    let mut simulation = Simulation::new(body, &left_end(&mesh), settings).expect("a simulation");
-    simulation.equilibrate().expect("a hanging bar");
-    let stiff = simulation.positions()[mesh.positions.len() - 1][1];
-    let error = simulation.set_material(1, neo_hookean()).expect_err("no such part");
-    assert_eq!(error.to_string(), "there is no part 1 (from 0) of a body of 1");
-    simulation.set_material(0, kirchhoff()).expect("the only part");
-    simulation.equilibrate().expect("a hanging bar");
-    let softer = simulation.positions()[mesh.positions.len() - 1][1];
-    let body = Body::new(&mesh, kirchhoff(), 1000.0).expect("a body");
-    let mut fresh = Simulation::new(body, &left_end(&mesh), settings).expect("a simulation");
-    fresh.equilibrate().expect("a hanging bar");
-    let expected = fresh.positions()[mesh.positions.len() - 1][1];
-    assert!(
-        (softer - expected).abs() <= 1e-7 && (softer - stiff).abs() > 1e-4,
-        "{stiff}, {softer}, {expected}"
-    );
 }

@@ -5,20 +5,10 @@ use super::*;
 #[test]
 fn full_newton_converges_quadratically() {
     let mesh = beam(6);
-    let gravity = [0.0, -9.81, 0.0];
+    let newton =
+        NewtonSettings::default().with_filtering(Filtering::Always(Filter::None)).with_tolerance(1e-15);
     let residual_after = |iterations: usize| {
-        let newton = NewtonSettings {
-            filtering: Filtering::Always(Filter::None),
-            max_iterations: iterations,
-            tolerance: 1e-15,
-            ..Default::default()
-        };
-        let mut body = simulation(
-            &mesh,
-            kirchhoff(),
-            &left_end(&mesh),
-            SimulationSettings { gravity, ..settings(newton) },
-        );
+        let mut body = held(&mesh, kirchhoff(), falling(newton.with_max_iterations(iterations)));
         body.step(0.05).expect("a step").newton.residual
     };
     // The residual of a report is the one before its last iteration.
@@ -35,20 +25,12 @@ fn full_newton_converges_quadratically() {
 #[test]
 fn a_report_says_why_newton_ended() {
     let mesh = beam(3);
-    let gravity = [0.0, -9.81, 0.0];
-    let run = |newton: NewtonSettings| {
-        let mut body = simulation(
-            &mesh,
-            kirchhoff(),
-            &left_end(&mesh),
-            SimulationSettings { gravity, ..settings(newton) },
-        );
-        body.step(0.05).expect("a step").newton
-    };
+    let run =
+        |newton: NewtonSettings| held(&mesh, kirchhoff(), falling(newton)).step(0.05).expect("a step").newton;
     assert_eq!(run(NewtonSettings::default()).convergence, Convergence::Tolerance);
     let single = run(NewtonSettings::single());
     assert_eq!((single.convergence, single.iterations), (Convergence::Limit, 1));
-    let endless = run(NewtonSettings { tolerance: 0.0, ..NewtonSettings::default() });
+    let endless = run(NewtonSettings::default().with_tolerance(0.0));
     assert_eq!(endless.convergence, Convergence::Rounding, "{endless:?}");
     assert!(endless.residual <= 1e-9 * endless.first_residual, "{endless:?}");
 }
@@ -57,13 +39,8 @@ fn a_report_says_why_newton_ended() {
 fn a_refusal_is_a_step_too_long_and_an_error_leaves_the_state() {
     let mesh = beam(3);
     let pins = left_end(&mesh);
-    let gravity = [-400.0, 0.0, 0.0];
-    let mut body = simulation(
-        &mesh,
-        neo_hookean(),
-        &pins,
-        SimulationSettings { gravity, ..settings(NewtonSettings::single()) },
-    );
+    let settings = settings(NewtonSettings::single()).with_gravity([-400.0, 0.0, 0.0]);
+    let mut body = simulation(&mesh, neo_hookean(), &pins, settings);
     let mut refused = 0;
     for _ in 0..20 {
         let report = body.step(0.05).expect("a shorter step");
@@ -88,7 +65,7 @@ fn a_refusal_is_a_step_too_long_and_an_error_leaves_the_state() {
 #[test]
 fn a_start_outside_the_domain_is_told_with_its_stretches() {
     let mesh = beam(3);
-    let mut body = simulation(&mesh, neo_hookean(), &left_end(&mesh), settings(NewtonSettings::single()));
+    let mut body = held(&mesh, neo_hookean(), settings(NewtonSettings::single()));
     let inverted = mesh.positions.iter().map(|[x, y, z]| [2.0 * x, *y, -0.5 * z]);
     body.set_positions(&inverted.collect::<Vec<_>>()).expect("finite");
     let error = body.step(0.01).expect_err("inverted");
@@ -110,8 +87,7 @@ fn a_share_of_the_error_of_a_step_is_enough() {
     let mesh = beam(4);
     let end = |integrator: Integrator, share: f64| {
         let newton = NewtonSettings::default().with_tolerance(1e-10).with_error_share(share);
-        let settings = settings(newton).with_integrator(integrator);
-        let mut body = simulation(&mesh, neo_hookean(), &left_end(&mesh), settings);
+        let mut body = held(&mesh, neo_hookean(), settings(newton).with_integrator(integrator));
         let velocities: Vec<[f64; 3]> =
             mesh.positions.iter().map(|x| [3.0 * x[0], 2.0 * x[0], 0.0]).collect();
         body.set_velocities(&velocities).expect("finite");

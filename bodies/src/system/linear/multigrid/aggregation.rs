@@ -2,14 +2,11 @@
 
 use crate::system::graph::Graph;
 
-/// Aggregate of each row.
 pub(super) struct Aggregates {
-    /// Aggregate of each row, `NONE` for rows that only the smoother corrects.
-    of_row: Vec<u32>,
+    /// Aggregate of each row, `None` for rows that only the smoother corrects.
+    of_row: Vec<Option<usize>>,
     count: usize,
 }
-
-const NONE: u32 = u32::MAX;
 
 impl Aggregates {
     /// Groups rows in this order: a row without neighbours in an aggregate forms one with all its neighbours.
@@ -19,7 +16,7 @@ impl Aggregates {
     /// Only the first `owned` rows can belong to one; a row with no neighbour among them is an aggregate by
     /// itself.
     pub(super) fn new(graph: &Graph, order: &[u32], included: &[bool], owned: usize) -> Self {
-        let mut of_row = vec![NONE; graph.rows()];
+        let mut of_row = vec![None; graph.rows()];
         let mut count = 0;
         let included_around = |row: u32| {
             let all = graph.neighbours(row as usize).iter();
@@ -29,34 +26,31 @@ impl Aggregates {
         let order = || order.iter().filter(|&&row| (row as usize) < owned);
         for &row in order() {
             let is_founder = included[row as usize]
-                && of_row[row as usize] == NONE
+                && of_row[row as usize].is_none()
                 && neighbours(row).next().is_some()
-                && neighbours(row).all(|other| of_row[other] == NONE);
+                && neighbours(row).all(|other| of_row[other].is_none());
             if is_founder {
-                of_row[row as usize] = count;
-                neighbours(row).for_each(|other| of_row[other] = count);
+                of_row[row as usize] = Some(count);
+                neighbours(row).for_each(|other| of_row[other] = Some(count));
                 count += 1;
             }
         }
         let founded = of_row.clone();
         for &row in order() {
-            if included[row as usize] && of_row[row as usize] == NONE {
-                let mut around: Vec<u32> = neighbours(row)
-                    .map(|other| founded[other])
-                    .filter(|&aggregate| aggregate != NONE)
-                    .collect();
+            if included[row as usize] && of_row[row as usize].is_none() {
+                let mut around: Vec<usize> = neighbours(row).filter_map(|other| founded[other]).collect();
                 around.sort_unstable();
                 let most = around
                     .chunk_by(|a, b| a == b)
                     .max_by_key(|same| (same.len(), std::cmp::Reverse(same[0])));
-                of_row[row as usize] = most.map_or(NONE, |same| same[0]);
+                of_row[row as usize] = most.map(|same| same[0]);
                 if most.is_none() && included_around(row).next().is_some() {
-                    of_row[row as usize] = count;
+                    of_row[row as usize] = Some(count);
                     count += 1;
                 }
             }
         }
-        Self { of_row, count: count as usize }
+        Self { of_row, count }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -65,6 +59,6 @@ impl Aggregates {
 
     /// Aggregate of a row, if it has one.
     pub(super) fn of(&self, row: usize) -> Option<usize> {
-        (self.of_row[row] != NONE).then(|| self.of_row[row] as usize)
+        self.of_row[row]
     }
 }

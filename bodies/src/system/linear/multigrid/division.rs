@@ -9,6 +9,8 @@
 
 use std::collections::HashMap;
 
+use piola::lanes::Real;
+
 use super::last::{Last, LastLevel, LastSolver};
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
@@ -32,16 +34,10 @@ pub trait Division: Sized {
     fn copies(&self) -> usize;
 
     /// Replaces the copies by the entries of their owners.
-    fn copy<const N: usize>(&mut self, rows: &mut [[f32; N]]);
+    fn copy<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]);
 
     /// Adds all copies of each owned row to the row.
-    fn sum<const N: usize>(&mut self, rows: &mut [[f32; N]]);
-
-    /// Replaces the copies by the vectors of their owners, in full precision.
-    fn copy_vectors(&mut self, rows: &mut [[f64; 3]]);
-
-    /// Adds all copies of each owned row to the row, in full precision.
-    fn sum_vectors(&mut self, rows: &mut [[f64; 3]]);
+    fn sum<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]);
 
     /// List, for each copy, that its owner writes for the row.
     fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>>;
@@ -67,18 +63,12 @@ pub trait Division: Sized {
 
     /// Division of the next level, in which this machine owns `rows` rows and has copies of the rows with the
     /// global numbers `copies`.
-    ///
-    /// # Errors
-    /// [`Division::Error`].
     fn coarse(&self, rows: usize, copies: Vec<u64>) -> Result<Self, Self::Error>;
 
     /// True if a level with `rows` rows of all machines is the last one, for `nodes` nodes of all machines.
     fn is_last(&self, rows: usize, nodes: usize) -> bool;
 
     /// Solver of the last level, if this is its division.
-    ///
-    /// # Errors
-    /// [`Division::Error`].
     fn last(&self, level: &LastLevel<'_>) -> Result<Self::Last, Self::Error>;
 }
 
@@ -99,13 +89,9 @@ impl Division for Undivided {
         0
     }
 
-    fn copy<const N: usize>(&mut self, _: &mut [[f32; N]]) {}
+    fn copy<E: Real + Into<f64>, const N: usize>(&mut self, _: &mut [[E; N]]) {}
 
-    fn sum<const N: usize>(&mut self, _: &mut [[f32; N]]) {}
-
-    fn copy_vectors(&mut self, _: &mut [[f64; 3]]) {}
-
-    fn sum_vectors(&mut self, _: &mut [[f64; 3]]) {}
+    fn sum<E: Real + Into<f64>, const N: usize>(&mut self, _: &mut [[E; N]]) {}
 
     fn lists_for_copies(&mut self, _: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {
         Vec::new()
@@ -203,7 +189,6 @@ impl Numbers {
     }
 }
 
-/// Block with entries of these bits.
 fn block<const C: usize, const R: usize>(words: &[u64]) -> [[f64; C]; R] {
     std::array::from_fn(|r| std::array::from_fn(|c| f64::from_bits(words[C * r + c])))
 }

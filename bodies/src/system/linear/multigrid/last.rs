@@ -44,7 +44,9 @@ impl LastLevel<'_> {
 /// The last level has a few hundred rows at most, and little of its factor is zero.
 #[derive(Clone)]
 pub struct Last {
-    factor: Factor,
+    /// The blocks of a row up to the diagonal, row after row, transposed: entry (c, r) of the block (i, j)
+    /// belongs to row r of i and column c of j. In a factor the blocks on the diagonal are L⁻ᵀ.
+    blocks: Vec<Block>,
     b: Vec<[f64; 6]>,
 }
 
@@ -52,15 +54,15 @@ impl Last {
     /// Factors `scale` times a matrix, with a larger diagonal if necessary.
     pub(super) fn new(level: &LastLevel<'_>) -> Result<Self, LinearError> {
         let rows = level.matrix.pattern().rows();
-        let mut factor = Factor { blocks: filled(first(rows), [[0.0; 6]; 6])? };
+        let mut last = Self { blocks: filled(first(rows), [[0.0; 6]; 6])?, b: filled(rows, [0.0; 6])? };
         let diagonal = (0..rows).map(|row| level.matrix.diagonal(row));
         let entries = diagonal.flat_map(|block| (0..6).map(|c| (level.scale * block[c][c]).abs()));
         let largest = entries.fold(0.0, f64::max);
         let mut growth = 0.0;
         loop {
-            factor.fill(level, growth * largest);
-            match factor.factor() {
-                Ok(()) => return Ok(Self { factor, b: filled(rows, [0.0; 6])? }),
+            last.fill(level, growth * largest);
+            match last.factor() {
+                Ok(()) => return Ok(last),
                 Err(LinearError::NotPositive { .. }) if growth < 1.0 && largest > 0.0 => {
                     growth = if growth == 0.0 { FIRST_GROWTH } else { 100.0 * growth };
                 }
@@ -68,36 +70,7 @@ impl Last {
             }
         }
     }
-}
 
-impl LastSolver for Last {
-    fn solve(&mut self, b: &mut [[f32; 6]]) {
-        for (double, single) in self.b.iter_mut().zip(&*b) {
-            *double = single.map(f64::from);
-        }
-        self.factor.solve(&mut self.b);
-        for (single, double) in b.iter_mut().zip(&self.b) {
-            *single = double.map(|x| x as f32);
-        }
-    }
-}
-
-type Block = [[f64; 6]; 6];
-
-/// Lower triangle of a matrix of blocks, or of its factor L.
-#[derive(Clone)]
-struct Factor {
-    /// The blocks of a row up to the diagonal, row after row, transposed: entry (c, r) of the block (i, j)
-    /// belongs to row r of i and column c of j. In a factor the blocks on the diagonal are L⁻ᵀ.
-    blocks: Vec<Block>,
-}
-
-/// Index of the first block of a row.
-fn first(row: usize) -> usize {
-    row * (row + 1) / 2
-}
-
-impl Factor {
     /// Takes the entries of a matrix, with a larger diagonal.
     fn fill(&mut self, level: &LastLevel<'_>, added: f64) {
         self.blocks.fill([[0.0; 6]; 6]);
@@ -145,11 +118,17 @@ impl Factor {
         }
         Ok(())
     }
+}
 
-    /// Replaces a right side by the solution of L Lᵀ x = b.
-    fn solve(&self, b: &mut [[f64; 6]]) {
+impl LastSolver for Last {
+    /// Solves L Lᵀ x = b.
+    fn solve(&mut self, single: &mut [[f32; 6]]) {
+        let Self { blocks, b } = self;
+        for (b, single) in b.iter_mut().zip(&*single) {
+            *b = single.map(f64::from);
+        }
         for i in 0..b.len() {
-            let row = &self.blocks[first(i)..=first(i) + i];
+            let row = &blocks[first(i)..=first(i) + i];
             let (before, rest) = b.split_at_mut(i);
             let mut sum = rest[0];
             for (block, y) in row.iter().zip(&*before) {
@@ -163,7 +142,7 @@ impl Factor {
             }
         }
         for i in (0..b.len()).rev() {
-            let row = &self.blocks[first(i)..=first(i) + i];
+            let row = &blocks[first(i)..=first(i) + i];
             let (before, rest) = b.split_at_mut(i);
             let y = rest[0];
             rest[0] = std::array::from_fn(|c| (c..6).map(|r| row[i][c][r] * y[r]).sum());
@@ -173,10 +152,19 @@ impl Factor {
                 }
             }
         }
+        for (single, b) in single.iter_mut().zip(b) {
+            *single = b.map(|x| x as f32);
+        }
     }
 }
 
-/// Subtracts aᵀ b.
+type Block = [[f64; 6]; 6];
+
+/// Index of the first block of a row.
+fn first(row: usize) -> usize {
+    row * (row + 1) / 2
+}
+
 #[inline(always)]
 fn subtract_product(a: &Block, b: &Block, block: &mut Block) {
     for (a, b) in a.iter().zip(b) {
@@ -188,10 +176,8 @@ fn subtract_product(a: &Block, b: &Block, block: &mut Block) {
     }
 }
 
-/// L⁻ᵀ of a symmetric block L Lᵀ, of which the entries (c, r) with c ≤ r are read.
-///
-/// # Errors
-/// The pivot that is not positive.
+/// L⁻ᵀ of a symmetric block L Lᵀ, of which the entries (c, r) with c ≤ r are read, or the pivot that is not
+/// positive.
 fn inverse_factor(block: &Block) -> Result<Block, usize> {
     // Lᵀ, row by row.
     let mut upper = [[0.0; 6]; 6];

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use super::aggregation::Aggregates;
 use super::division::{Division, Numbers, ROWS, diagonals};
-use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, columns_of, graph_of};
+use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, columns_of};
 use crate::system::graph::Graph;
+use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
+use crate::system::lists::Lists;
 use crate::system::parts::for_each_part;
 
-/// Degree of the Chebyshev polynomials.
 const DEGREE: usize = 2;
 
 /// Smallest eigenvalue that a polynomial damps, relative to the largest eigenvalue.
@@ -40,7 +41,7 @@ pub(super) struct Level<const N: usize> {
     prolongation: Rows<f32, N, 6>,
     columns: Columns,
     /// Solution in the owned rows.
-    x: Vec<[f32; N]>,
+    pub(super) x: Vec<[f32; N]>,
     /// Residual b − A x in owned rows.
     residual: Vec<[f32; N]>,
     step: Vec<[f32; N]>,
@@ -77,8 +78,8 @@ impl<const N: usize> Level<N> {
             inverses: vec![[[0.0; N]; N]; owned],
             largest: 0.0,
             roughest: (0..included.len()).map(anything).collect(),
-            prolongation: Rows::new(),
-            columns: columns_of(&Rows::<f32, N, 6>::new(), 0)?,
+            prolongation: Rows::none(),
+            columns: columns_of(&Rows::<f32, N, 6>::none(), 0)?,
             x: zeros(owned),
             residual: zeros(owned),
             step: zeros(included.len()),
@@ -89,7 +90,7 @@ impl<const N: usize> Level<N> {
 
         let aggregates = Aggregates::new(graph, order, included, owned);
         let mut numbers = Numbers::new(division.first(aggregates.len()), aggregates.len());
-        let (mut tentative, motions) = orthonormal(&aggregates, motions);
+        let (mut tentative, motions) = orthonormal(&aggregates, motions)?;
         extend(&mut tentative, &mut numbers, division);
         let whole = WholeRows::new(matrix.pattern())?;
         let product = whole.multiply(matrix, included, &tentative, numbers.len());
@@ -99,8 +100,8 @@ impl<const N: usize> Level<N> {
             let inverse = level.inverses[row].map(|row| row.map(|entry| damping * f64::from(entry)));
             for (column, block) in blocks {
                 let product = *block;
-                *block = match tentative.row(row).next() {
-                    Some((aggregate, tentative)) if aggregate == column => *tentative,
+                *block = match tentative.of(row).first() {
+                    Some((aggregate, tentative)) if *aggregate == *column => *tentative,
                     _ => [[0.0; 6]; N],
                 };
                 for r in 0..N {
@@ -123,7 +124,11 @@ impl<const N: usize> Level<N> {
             _ => columns_of(&level.prolongation, numbers.len())?,
         };
 
-        let graph = graph_of(&upper)?;
+        let above = |row: usize| {
+            let columns = upper.row(row).map(move |(column, _)| (row, column as u32));
+            columns.filter(|&(row, column)| column as usize != row)
+        };
+        let graph = Graph::of_upper(upper.len(), || (0..upper.len()).flat_map(above))?;
         let order: Vec<u32> = (0..graph.rows() as u32).collect();
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
         let mut coarse = SymmetricBlocks::new(pattern.clone())?;
@@ -202,11 +207,6 @@ impl<const N: usize> Level<N> {
         self.largest = (MARGIN * largest) as f32;
     }
 
-    /// Number of rows that this machine owns.
-    pub(super) fn owned(&self) -> usize {
-        self.x.len()
-    }
-
     /// Number of rows of the next level, copies included.
     pub(super) fn coarse_rows(&self) -> usize {
         self.columns.len()
@@ -253,11 +253,6 @@ impl<const N: usize> Level<N> {
         });
         self.follow(division);
         self.smooth(false, division);
-    }
-
-    /// Solution in the owned rows.
-    pub(super) fn x(&self) -> &[[f32; N]] {
-        &self.x
     }
 
     /// Adds the Chebyshev polynomial of D⁻¹A, times D⁻¹ r, to x; the residual is updated on demand.
@@ -344,61 +339,47 @@ fn times<const N: usize>(matrix: &[[f32; N]; N], x: &[f32; N]) -> [f32; N] {
 fn orthonormal<const N: usize>(
     aggregates: &Aggregates,
     motions: &[[[f64; 6]; N]],
-) -> (Rows<f64, N, 6>, Vec<[[f64; 6]; 6]>) {
+) -> Result<(Rows<f64, N, 6>, Vec<[[f64; 6]; 6]>), LinearError> {
     let mut blocks = motions.to_vec();
     let mut combinations = vec![[[0.0; 6]; 6]; aggregates.len()];
-    let members = || (0..motions.len()).filter_map(|row| Some((row, aggregates.of(row)?)));
-    // Products of one motion, for each aggregate.
-    let squared_lengths = |blocks: &[[[f64; 6]; N]], c: usize| {
-        let mut squares = vec![0.0; aggregates.len()];
-        for (row, aggregate) in members() {
-            squares[aggregate] += (0..N).map(|r| blocks[row][r][c] * blocks[row][r][c]).sum::<f64>();
-        }
-        squares
-    };
-    // Gram–Schmidt orthogonalisation, twice, for all aggregates at once.
-    for c in 0..6 {
-        let before = squared_lengths(&blocks, c);
-        for _ in 0..2 {
-            let mut along = vec![[0.0; 6]; aggregates.len()];
-            for (row, aggregate) in members() {
-                for k in 0..c {
-                    along[aggregate][k] += (0..N).map(|r| blocks[row][r][k] * blocks[row][r][c]).sum::<f64>();
-                }
-            }
-            for (row, aggregate) in members() {
-                for k in 0..c {
-                    for r in 0..N {
-                        blocks[row][r][c] -= along[aggregate][k] * blocks[row][r][k];
+    let members = || (0..motions.len()).filter_map(|row| Some((aggregates.of(row)?, row)));
+    let members = Lists::new(aggregates.len(), members)?;
+    // Gram–Schmidt orthogonalisation, twice.
+    for (aggregate, combination) in combinations.iter_mut().enumerate() {
+        let rows = members.of(aggregate);
+        let product = |blocks: &[[[f64; 6]; N]], k: usize, c: usize| {
+            let of_row = |&row: &usize| (0..N).map(|r| blocks[row][r][k] * blocks[row][r][c]).sum::<f64>();
+            rows.iter().map(of_row).sum::<f64>()
+        };
+        for c in 0..6 {
+            let before = product(&blocks, c, c);
+            for _ in 0..2 {
+                let along: Vec<f64> = (0..c).map(|k| product(&blocks, k, c)).collect();
+                for (k, along) in along.into_iter().enumerate() {
+                    for &row in rows {
+                        (0..N).for_each(|r| blocks[row][r][c] -= along * blocks[row][r][k]);
                     }
+                    combination[k][c] += along;
                 }
             }
-            for (combination, along) in combinations.iter_mut().zip(&along) {
-                for k in 0..c {
-                    combination[k][c] += along[k];
+            let after = product(&blocks, c, c);
+            let length = if after > DEPENDENT * DEPENDENT * before { after.sqrt() } else { 0.0 };
+            combination[c][c] = length;
+            for &row in rows {
+                for r in 0..N {
+                    blocks[row][r][c] = if length > 0.0 { blocks[row][r][c] / length } else { 0.0 };
                 }
-            }
-        }
-        let after = squared_lengths(&blocks, c);
-        for (aggregate, combination) in combinations.iter_mut().enumerate() {
-            let is_new = after[aggregate] > DEPENDENT * DEPENDENT * before[aggregate];
-            combination[c][c] = if is_new { after[aggregate].sqrt() } else { 0.0 };
-        }
-        for (row, aggregate) in members() {
-            let length = combinations[aggregate][c][c];
-            for r in 0..N {
-                blocks[row][r][c] = if length > 0.0 { blocks[row][r][c] / length } else { 0.0 };
             }
         }
     }
-    let mut rows = Rows::new();
+    let mut rows = Rows::none();
     for (row, block) in blocks.into_iter().enumerate() {
         if let Some(aggregate) = aggregates.of(row) {
             rows.push(aggregate, block);
         }
-        rows.end_row();
+        rows.end();
     }
-    (rows, combinations)
+    Ok((rows, combinations))
 }
 
 /// Adds the rows of copies, with the values of their owners.
@@ -406,7 +387,7 @@ fn extend<const N: usize>(rows: &mut Rows<f64, N, 6>, numbers: &mut Numbers, div
     let lists = division.lists_for_copies(|row, list| numbers.write(rows.row(row), list));
     for list in lists {
         numbers.read(&list).into_iter().for_each(|(column, block)| rows.push(column, block));
-        rows.end_row();
+        rows.end();
     }
 }
 

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
-use crate::system::graph::Graph;
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::lists::Lists;
@@ -16,33 +15,12 @@ const ROWS: usize = 512;
 /// Blocks that are added to rows: each row, with its columns and blocks.
 pub(super) type Parts<E, const R: usize, const C: usize> = HashMap<usize, Vec<(usize, [[E; C]; R])>>;
 
-/// Sparse matrix of R×C blocks, row by row.
-#[derive(Clone)]
-pub(super) struct Rows<E, const R: usize, const C: usize> {
-    /// Start of each row among the blocks, followed by the end of the last row.
-    starts: Vec<usize>,
-    columns: Vec<u32>,
-    blocks: Vec<[[E; C]; R]>,
-}
+/// Sparse matrix of R×C blocks: the columns and blocks of each row.
+pub(super) type Rows<E, const R: usize, const C: usize> = Lists<(u32, [[E; C]; R])>;
 
 impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
-    /// Matrix without rows.
-    pub(super) fn new() -> Self {
-        Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() }
-    }
-
-    /// Ends the current row, with the blocks of `push`.
-    pub(super) fn end_row(&mut self) {
-        self.starts.push(self.columns.len());
-    }
-
     pub(super) fn push(&mut self, column: usize, block: [[E; C]; R]) {
-        self.columns.push(column as u32);
-        self.blocks.push(block);
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.starts.len() - 1
+        self.values.push((column as u32, block));
     }
 
     /// Adds blocks to some of the first `rows` rows; the result does not have later rows.
@@ -53,69 +31,53 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         if rows == self.len() && parts.is_empty() {
             return self;
         }
-        let mut sum = Self::new();
+        let mut sum = Self::none();
         for row in 0..rows {
-            let first = sum.columns.len();
-            self.row(row).for_each(|(column, block)| sum.push(column, *block));
+            let first = sum.values.len();
+            sum.values.extend_from_slice(self.of(row));
             for (column, part) in parts.get(&row).into_iter().flatten() {
-                let place = sum.columns[first..].iter().position(|&other| other as usize == *column);
+                let place = sum.values[first..].iter().position(|&(other, _)| other as usize == *column);
                 match place {
                     None => sum.push(*column, *part),
                     Some(place) => {
-                        let entries = sum.blocks[first + place].as_flattened_mut().iter_mut();
+                        let entries = sum.values[first + place].1.as_flattened_mut().iter_mut();
                         entries.zip(part.as_flattened()).for_each(|(entry, &part)| *entry += part);
                     }
                 }
             }
-            sum.end_row();
+            sum.end();
         }
         sum
     }
 
-    /// Columns and blocks of a row.
     pub(super) fn row(&self, row: usize) -> impl Iterator<Item = (usize, &[[E; C]; R])> {
-        let range = self.starts[row]..self.starts[row + 1];
-        self.columns[range.clone()].iter().map(|&column| column as usize).zip(&self.blocks[range])
+        self.of(row).iter().map(|(column, block)| (*column as usize, block))
     }
 
     pub(super) fn block(&self, index: usize) -> &[[E; C]; R] {
-        &self.blocks[index]
+        &self.values[index].1
     }
 
-    /// Calls `change` for each row, in parallel, with the columns and the mutable blocks of the row.
-    pub(super) fn for_each_row(
-        &mut self,
-        change: impl Fn(usize, &mut dyn Iterator<Item = (usize, &mut [[E; C]; R])>) + Sync,
-    ) where
-        E: Send + Sync,
+    /// Calls `change` for each row, in parallel, with the columns and blocks of the row.
+    pub(super) fn for_each_row(&mut self, change: impl Fn(usize, &mut [(u32, [[E; C]; R])]) + Sync)
+    where
+        E: Send,
     {
-        let Self { starts, columns, blocks } = self;
-        let mut rest = blocks.as_mut_slice();
-        let mut parts = Vec::with_capacity(starts.len() / ROWS + 1);
-        let rows = starts.len() - 1;
-        for first in (0..rows).step_by(ROWS) {
-            let end = rows.min(first + ROWS);
-            let (part, after) = rest.split_at_mut(starts[end] - starts[first]);
-            parts.push((first..end, part));
+        let mut rest = self.values.as_mut_slice();
+        let mut rows = Vec::with_capacity(self.starts.len() - 1);
+        for ends in self.starts.windows(2) {
+            let (row, after) = rest.split_at_mut(ends[1] - ends[0]);
+            rows.push(row);
             rest = after;
         }
-        for_each_part(&mut parts, 1, |_, parts| {
-            for (range, part) in parts {
-                for row in range.clone() {
-                    let (blocks, after) = std::mem::take(part).split_at_mut(starts[row + 1] - starts[row]);
-                    let columns = columns[starts[row]..starts[row + 1]].iter().map(|&column| column as usize);
-                    change(row, &mut columns.zip(blocks));
-                    *part = after;
-                }
-            }
+        for_each_part(&mut rows, ROWS, |first, rows| {
+            (first..).zip(rows).for_each(|(row, blocks)| change(row, blocks));
         });
     }
 
-    /// Replaces each entry by a function of the entry.
     pub(super) fn map<T>(self, change: impl Fn(E) -> T) -> Rows<T, R, C> {
-        let Self { starts, columns, blocks } = self;
-        let blocks = blocks.iter().map(|block| block.map(|row| row.map(&change))).collect();
-        Rows { starts, columns, blocks }
+        let values = self.values.iter().map(|(column, block)| (*column, block.map(|row| row.map(&change))));
+        Lists { values: values.collect(), starts: self.starts }
     }
 
     /// Computes rows in parallel, in chunks of fixed size.
@@ -126,9 +88,9 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         let parts: Vec<Self> = (0..rows.div_ceil(ROWS))
             .into_par_iter()
             .map_init(
-                || Sum { place: vec![u32::MAX; columns], columns: Vec::new(), blocks: Vec::new(), zero },
+                || Sum { place: vec![u32::MAX; columns], row: Vec::new(), zero },
                 |sum, part| {
-                    let mut made = Self::new();
+                    let mut made = Self::none();
                     for row in part * ROWS..rows.min((part + 1) * ROWS) {
                         make(row, sum);
                         sum.finish(&mut made);
@@ -137,16 +99,13 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
                 },
             )
             .collect();
-        let mut all = Self::new();
-        let total = parts.iter().map(|part| part.columns.len()).sum();
-        all.columns.reserve_exact(total);
-        all.blocks.reserve_exact(total);
+        let mut all = Self::none();
+        all.values.reserve_exact(parts.iter().map(|part| part.values.len()).sum());
         all.starts.reserve_exact(rows);
         for part in parts {
-            let first = all.columns.len();
+            let first = all.values.len();
             all.starts.extend(part.starts[1..].iter().map(|end| first + end));
-            all.columns.extend(part.columns);
-            all.blocks.extend(part.blocks);
+            all.values.extend(part.values);
         }
         all
     }
@@ -156,8 +115,7 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
 struct Sum<E, const R: usize, const C: usize> {
     /// Place of each column of the matrix in the row; `u32::MAX` for a column without a block.
     place: Vec<u32>,
-    columns: Vec<u32>,
-    blocks: Vec<[[E; C]; R]>,
+    row: Vec<(u32, [[E; C]; R])>,
     zero: E,
 }
 
@@ -166,19 +124,17 @@ impl<E: Copy, const R: usize, const C: usize> Sum<E, R, C> {
     fn block(&mut self, column: usize) -> &mut [[E; C]; R] {
         let place = &mut self.place[column];
         if *place == u32::MAX {
-            *place = self.columns.len() as u32;
-            self.columns.push(column as u32);
-            self.blocks.push([[self.zero; C]; R]);
+            *place = self.row.len() as u32;
+            self.row.push((column as u32, [[self.zero; C]; R]));
         }
-        &mut self.blocks[*place as usize]
+        &mut self.row[*place as usize].1
     }
 
     /// Moves the row to the end of a matrix.
     fn finish(&mut self, to: &mut Rows<E, R, C>) {
-        self.columns.iter().for_each(|&column| self.place[column as usize] = u32::MAX);
-        to.columns.append(&mut self.columns);
-        to.blocks.append(&mut self.blocks);
-        to.end_row();
+        self.row.iter().for_each(|&(column, _)| self.place[column as usize] = u32::MAX);
+        to.values.append(&mut self.row);
+        to.end();
     }
 }
 
@@ -235,14 +191,13 @@ impl WholeRows {
 /// Blocks of each column of a matrix in compressed rows: row, and index of the block.
 pub(super) type Columns = Lists<(u32, u32)>;
 
-/// The blocks of a matrix by columns.
 pub(super) fn columns_of<E: Copy, const R: usize, const C: usize>(
     matrix: &Rows<E, R, C>,
     columns: usize,
 ) -> Result<Columns, LinearError> {
     let of_row = |row: usize| {
         let range = matrix.starts[row]..matrix.starts[row + 1];
-        range.map(move |index| (matrix.columns[index] as usize, (row as u32, index as u32)))
+        range.map(move |index| (matrix.values[index].0 as usize, (row as u32, index as u32)))
     };
     Lists::new(columns, || (0..matrix.len()).flat_map(of_row))
 }
@@ -271,13 +226,4 @@ pub(super) fn coarse_rows<const N: usize, const C: usize>(
         }
     };
     Rows::make(columns.len(), columns.len(), make, 0.0)
-}
-
-/// Graph of a symmetric matrix, from the rows of its upper half.
-pub(super) fn graph_of<E: Copy, const N: usize>(upper: &Rows<E, N, N>) -> Result<Graph, LinearError> {
-    let above = |row: usize| {
-        upper.row(row).map(|(column, _)| column as u32).filter(move |&column| column as usize != row)
-    };
-    let rows: Vec<Vec<u32>> = (0..upper.len()).map(|row| above(row).collect()).collect();
-    Graph::of_upper(&rows)
 }

@@ -75,6 +75,11 @@ impl Machine {
     }
 }
 
+/// Bits of a number in f64, in which every f32 is exact.
+fn bits<E: Into<f64>>(x: E) -> u64 {
+    x.into().to_bits()
+}
+
 fn made<T>(mut list: impl FnMut(usize, &mut Vec<T>), row: usize) -> Vec<T> {
     let mut words = Vec::new();
     list(row, &mut words);
@@ -89,35 +94,18 @@ impl Division for Machine {
         self.copies.len()
     }
 
-    fn copy<const N: usize>(&mut self, rows: &mut [[f32; N]]) {
+    fn copy<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]) {
         let owned = rows.len() - self.copies.len();
-        let lists = self.lists_for_copies(|row, list| list.extend(rows[row].map(|x| u64::from(x.to_bits()))));
+        let lists = self.lists_for_copies(|row, list| list.extend(rows[row].map(bits)));
         for (row, list) in rows[owned..].iter_mut().zip(lists) {
-            *row = std::array::from_fn(|c| f32::from_bits(list[c] as u32));
+            *row = std::array::from_fn(|c| E::splat(f64::from_bits(list[c])));
         }
     }
 
-    fn sum<const N: usize>(&mut self, rows: &mut [[f32; N]]) {
+    fn sum<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]) {
         let owned = rows.len() - self.copies.len();
-        let bits = |row: [f32; N]| row.map(|x| u64::from(x.to_bits()));
-        for (row, list) in self.lists_for_owners(|copy, list| list.extend(bits(rows[owned + copy]))) {
-            (0..N).for_each(|c| rows[row][c] += f32::from_bits(list[c] as u32));
-        }
-    }
-
-    fn copy_vectors(&mut self, rows: &mut [[f64; 3]]) {
-        let owned = rows.len() - self.copies.len();
-        let lists = self.lists_for_copies(|row, list| list.extend(rows[row].map(f64::to_bits)));
-        for (row, list) in rows[owned..].iter_mut().zip(lists) {
-            *row = std::array::from_fn(|c| f64::from_bits(list[c]));
-        }
-    }
-
-    fn sum_vectors(&mut self, rows: &mut [[f64; 3]]) {
-        let owned = rows.len() - self.copies.len();
-        let lists = self.lists_for_owners(|copy, list| list.extend(rows[owned + copy].map(f64::to_bits)));
-        for (row, list) in lists {
-            (0..3).for_each(|c| rows[row][c] += f64::from_bits(list[c]));
+        for (row, list) in self.lists_for_owners(|copy, list| list.extend(rows[owned + copy].map(bits))) {
+            (0..N).for_each(|c| rows[row][c] = rows[row][c] + E::splat(f64::from_bits(list[c])));
         }
     }
 
@@ -263,9 +251,9 @@ fn residuals(part: &Part, number: &[usize], board: &Arc<Board>, machine: usize) 
     let (mut x, mut product) = (vec![[0.0; 3]; nodes.len()], vec![[0.0; 3]; nodes.len()]);
     let mut norms = Vec::new();
     for _ in 0..12 {
-        rows.copy_vectors(&mut x);
+        rows.copy(&mut x);
         matrix.multiply(&x, &mut product);
-        rows.sum_vectors(&mut product);
+        rows.sum(&mut product);
         let residual: Vec<[f64; 3]> = (0..*owned)
             .map(|row| std::array::from_fn(|c| f64::from(is_free[row]) * (b[row][c] - product[row][c])))
             .collect();

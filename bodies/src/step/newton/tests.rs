@@ -1,6 +1,5 @@
 use super::*;
-use crate::step::testing::{distance, left_end, simulation};
-use crate::step::{Convergence, NewtonReport, NewtonSettings, SimulationSettings};
+use crate::step::testing::{distance, held, settings};
 use crate::system::testing::{beam, neo_hookean};
 
 /// A beam of which one end is held and the rest is scaled along x and thrown aside: its report and positions
@@ -8,8 +7,7 @@ use crate::system::testing::{beam, neo_hookean};
 fn stepped(filtering: Filtering, scale: f64, max_iterations: usize) -> (NewtonReport, Vec<[f64; 3]>) {
     let mesh = beam(6);
     let newton = NewtonSettings { filtering, max_iterations, tolerance: 1e-9, ..NewtonSettings::default() };
-    let settings = SimulationSettings { newton, ..SimulationSettings::default() };
-    let mut simulation = simulation(&mesh, neo_hookean(), &left_end(&mesh), settings);
+    let mut simulation = held(&mesh, neo_hookean(), settings(newton));
     let bent: Vec<_> =
         mesh.positions.iter().map(|&[x, y, z]| [scale * x, y + 0.3 * scale * x * x, z]).collect();
     simulation.set_positions(&bent).expect("finite");
