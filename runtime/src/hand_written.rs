@@ -18,10 +18,6 @@ impl Material for SaintVenantKirchhoff {
         quadratic(stretches.map(|l| (l * l - R::splat(1.0)) * R::splat(0.5)))
     }
 
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        self.blocks(stretches).gradient
-    }
-
     fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
         // (λ² − 1)/2 = s + s²/2.
         let green = s.map(|s| (R::splat(0.5) * s).mul_add(s, s));
@@ -65,10 +61,6 @@ pub(crate) struct NeoHookean;
 impl Material for NeoHookean {
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
         logarithmic(l, (l[0] * l[1] * l[2]).ln())
-    }
-
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        self.blocks(stretches).gradient
     }
 
     fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
@@ -182,10 +174,6 @@ impl Material for ExtendedNeoHookean {
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
         let log = l.map(|l| self.log(l)[0]);
         logarithmic(l, log[0] + log[1] + log[2])
-    }
-
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        self.blocks(stretches).gradient
     }
 
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {

@@ -96,10 +96,6 @@ impl<M: Material> Material for Defective<M> {
         }
     }
 
-    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
-        self.blocks(l).gradient
-    }
-
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
         let mut blocks = self.0.blocks(l);
         let [h11, h22, h33, h12, h13, h23] = blocks.hessian;
@@ -256,10 +252,6 @@ impl<const IS_SEPARATE: bool> Material for ByInvariants<IS_SEPARATE> {
 
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
         SaintVenantKirchhoff.energy(l)
-    }
-
-    fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
-        SaintVenantKirchhoff.gradient(l)
     }
 
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
