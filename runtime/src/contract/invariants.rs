@@ -1,5 +1,6 @@
 //! The rule on invariants: energy and derivatives by I1, I2 and J against those by stretches.
 
+use super::derivatives::ENTRIES;
 use super::subject::{Subject, at_samples};
 use super::{
     Finding, Rule, Settings, UNIT, Violation, gradient_name, hessian_name, pair_name, stiffness, stress_scale,
@@ -81,7 +82,7 @@ pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<
         let blocks = material.blocks(stretches);
         // Invariants are rounded as stretches are.
         let stiffness = stiffness(&blocks) + sensitivity(material, stretches, &blocks);
-        for (place, (i, j)) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].into_iter().enumerate() {
+        for (place, (i, j)) in ENTRIES.into_iter().enumerate() {
             let mut terms: Vec<f64> =
                 (0..9).map(|k| slopes[i][k / 3] * second[k / 3][k % 3] * slopes[j][k % 3]).collect();
             if i == j {

@@ -8,11 +8,11 @@
 
 use super::frames::diagonal;
 use super::pairs::mean;
-use super::subject::{Subject, at_samples, energy, stress, tangent};
+use super::subject::{Subject, at_samples};
 use super::{Finding, Judge, Rule, Settings, UNIT, Violation, stiffness, stress_scale};
 use crate::material::Inversion;
-use crate::point::Matrix3;
 use crate::point::matrix::multiply;
+use crate::point::{Filter, Matrix3, evaluate, evaluate_energy, evaluate_stress};
 use crate::random::Random;
 
 /// [`Rule::StressSlope`].
@@ -118,12 +118,12 @@ pub(super) fn energy_along(
     random: &mut Random,
 ) -> Result<(), Violation> {
     let (F, A) = line(stretches, approach.reach, random);
-    let P = stress(material, &F);
+    let P = evaluate_stress(material, &F).stress;
     let derivative = (0..9).map(|k| P[k / 3][k % 3] * A[k / 3][k % 3]).sum();
     let blocks = material.blocks(stretches);
     let size = material.energy(stretches).abs();
     let rounding = 100.0 * UNIT * (stress_scale(&blocks, stretches) * stretches[0] + size);
-    let along = |h: f64| energy(material, &moved(&F, h, &A));
+    let along = |h: f64| evaluate_energy(material, &moved(&F, h, &A)).energy;
     let name = || "difference quotient of the energy along a random line".into();
     slope(judge, name, stretches, along, derivative, approach.order, rounding)
 }
@@ -139,10 +139,10 @@ pub(super) fn stress_along(
     let (F, A) = line(stretches, approach.reach, random);
     let B = random.matrix();
     let inner = |X: &Matrix3<f64>| (0..9).map(|k| X[k / 3][k % 3] * B[k / 3][k % 3]).sum::<f64>();
-    let dP_dF = tangent(material, &F);
+    let dP_dF = evaluate(material, &F, Filter::None).tangent;
     let blocks = material.blocks(stretches);
     let rounding = 300.0 * UNIT * (stress_scale(&blocks, stretches) + stiffness(&blocks) * stretches[0]);
-    let along = |h: f64| inner(&stress(material, &moved(&F, h, &A)));
+    let along = |h: f64| inner(&evaluate_stress(material, &moved(&F, h, &A)).stress);
     let name = || "difference quotient of the stress along a random line".into();
     slope(judge, name, stretches, along, inner(&dP_dF.apply(&A)), approach.order, rounding)
 }

@@ -1,14 +1,11 @@
 //! Interface of a material to the rules, the stretches at which they judge it, and the accuracy of its
 //! results there. Materials are behind `dyn`, so that rules are compiled once and not for each material.
 
-#![expect(non_snake_case, reason = "F as in the literature")]
-
 use super::dual::Dual;
 use super::results::{ALL, COUNT, SideBySide, results};
 use super::{Finding, Judge, Rule, Settings, Violation, stiffness, stress_scale};
 use crate::lanes::{Backend, Mask};
 use crate::material::{Inversion, Material, Moduli, Response};
-use crate::point::{self, Filter, Matrix3, Tangent};
 use crate::random::Random;
 
 /// Material under test: its responses in `f64`, and anything that a rule compares with them.
@@ -61,21 +58,6 @@ impl<M: Material> Subject for M {
     fn in_single_precision(&self, stretches: [f32; 3]) -> Option<[f32; COUNT]> {
         Material::admits(self, stretches).any().then(|| results(self, stretches))
     }
-}
-
-/// Energy density ψ(F), Pa.
-pub(super) fn energy(material: &dyn Subject, F: &Matrix3<f64>) -> f64 {
-    point::evaluate_energy(material, F).energy
-}
-
-/// First Piola stress P(F), Pa.
-pub(super) fn stress(material: &dyn Subject, F: &Matrix3<f64>) -> Matrix3<f64> {
-    point::evaluate_stress(material, F).stress
-}
-
-/// Unfiltered tangent dP/dF, Pa.
-pub(super) fn tangent(material: &dyn Subject, F: &Matrix3<f64>) -> Tangent<f64> {
-    point::evaluate(material, F, Filter::None).tangent
 }
 
 /// Judges a rule at every sample, with random numbers to draw further choices from.
