@@ -5,17 +5,11 @@ use super::dual::Dual;
 use super::results::{ALL, COUNT, SideBySide, results};
 use super::{Finding, Judge, Rule, Settings, Violation, stiffness, stress_scale};
 use crate::lanes::{Backend, Mask};
-use crate::material::{Inversion, Material, Moduli, Response};
+use crate::material::{Inversion, Material, Response};
 use crate::random::Random;
 
 /// Material under test: its responses in `f64`, and anything that a rule compares with them.
 pub(super) trait Subject: Response<f64> {
-    /// [`Material::inversion`].
-    fn inversion(&self) -> Inversion;
-
-    /// [`Material::stated_moduli`].
-    fn stated_moduli(&self) -> Option<Moduli>;
-
     /// [`Material::energy`] of dual numbers.
     fn dual_energy(&self, stretches: [Dual; 3]) -> Dual;
 
@@ -39,14 +33,6 @@ impl<M: Material> OnLanes for M {
 }
 
 impl<M: Material> Subject for M {
-    fn inversion(&self) -> Inversion {
-        Material::inversion(self)
-    }
-
-    fn stated_moduli(&self) -> Option<Moduli> {
-        Material::stated_moduli(self)
-    }
-
     fn dual_energy(&self, stretches: [Dual; 3]) -> Dual {
         Material::energy(self, stretches)
     }
