@@ -376,30 +376,7 @@ mod tests {
         assert_eq!(Kink.quotient(1.5, 1.4375), 1.0);
     }
 
-    /// φ′ = x e^(−x²/4), as a paper gives it.
-    #[derive(Clone, Debug, PartialEq)]
-    struct ByDerivative;
-
-    impl Univariate for ByDerivative {
-        fn derivative<R: Real>(&self, x: R) -> R {
-            x * (-(R::splat(0.25) * x * x)).exp()
-        }
-        fn second_derivative<R: Real>(&self, x: R) -> R {
-            (R::splat(1.0) - R::splat(0.5) * x * x) * (-(R::splat(0.25) * x * x)).exp()
-        }
-    }
-
-    #[test]
-    fn a_function_may_be_given_by_its_derivative() {
-        for x in [0.1, 0.999, 1.0, 1.5, 4.0, 9.0] {
-            let x: f64 = x;
-            let exact = 2.0 * ((-0.25f64).exp() - (-0.25 * x * x).exp());
-            // Sixteen terms of at most 1/16, each with some roundings.
-            assert!((ByDerivative.value(x) - exact).abs() <= 8.0 * f64::EPSILON, "{x}");
-        }
-    }
-
-    /// φ′ = x⁻⁴, which grows without bound towards 0.
+    /// φ by its derivative alone, as a paper gives it: φ′ = x⁻⁴, which grows without bound towards 0.
     #[derive(Clone, Debug, PartialEq)]
     struct Pole;
 

@@ -87,7 +87,7 @@ impl<E: Scalar> Kernel<E> for Execution<'_, '_, E> {
         if self.tile.count <= 2 * R::LANES {
             return self.by_groups::<R, 1>();
         }
-        match R::GROUPS {
+        match const { 64 / R::LANES } {
             4 => self.by_groups::<R, 4>(),
             8 => self.by_groups::<R, 8>(),
             16 => self.by_groups::<R, 16>(),
@@ -95,15 +95,6 @@ impl<E: Scalar> Kernel<E> for Execution<'_, '_, E> {
         }
     }
 }
-
-/// Lanes as parts of a tile.
-trait Part: Lanes {
-    /// Number of parts of a tile: a constant by itself, so that the compiler forgets the other numbers at
-    /// once.
-    const GROUPS: usize = 64 / Self::LANES;
-}
-
-impl<R: Lanes> Part for R {}
 
 impl<E: Scalar> Execution<'_, '_, E> {
     /// Executes the program for G groups of lanes at a time.
