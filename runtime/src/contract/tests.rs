@@ -24,7 +24,7 @@ fn right_materials_pass() {
         check_passes(&SaintVenantKirchhoff, &settings);
         check_passes(&NeoHookean, &settings);
         check_passes(&RotatedLinear, &settings);
-        check_passes(&ByInvariants::<true> { w2: -0.5, w11: 0.875 }, &settings);
+        check_passes(&by_invariants(-0.5, 0.875, Curvature::Separate), &settings);
         for epsilon in [0.1, 0.3, 0.7] {
             check_passes(&ExtendedNeoHookean { epsilon }, &settings);
         }
@@ -62,6 +62,9 @@ enum Defect {
     EnergyOfShortStretches(f64),
     /// Σ f(λ) with f′ = 1 + c λ instead, which pulls elements flat, and which only claims to be extended.
     PullsBy(f64),
+    /// [`SaintVenantKirchhoff`] in I1 and I2 with these W2 and W11: −1/2 and 7/8 are right, and that W11 does
+    /// not vanish.
+    Invariants(f64, f64, Curvature),
 }
 
 struct Defective<M>(M, Defect);
@@ -222,6 +225,40 @@ impl<M: Material> Material for Defective<M> {
         let Moduli { mu, lambda } = Moduli::at_rest(&self.0);
         matches!(self.1, Defect::OverstatedShear).then_some(Moduli { mu: 1.001 * mu, lambda })
     }
+
+    fn has_invariants(&self) -> bool {
+        matches!(self.1, Defect::Invariants(..))
+    }
+
+    fn curvature_by_invariants(&self) -> Curvature {
+        match self.1 {
+            Defect::Invariants(_, _, curvature) => curvature,
+            _ => Curvature::All,
+        }
+    }
+
+    /// Energy with μ = 1 and λ = 3/2: (I1² − 2 I2 − 2 I1 + 3)/4 + 3/16 (I1 − 3)².
+    fn energy_by_invariants<R: Real>(&self, [i1, i2, _]: [R; 3]) -> R {
+        let (two, three) = (R::splat(2.0), R::splat(3.0));
+        let trace = i1 - three;
+        (i1 * i1 - two * i2 - two * i1 + three) * R::splat(0.25) + R::splat(0.1875) * trace * trace
+    }
+
+    fn gradient_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 3] {
+        let [w1, w2, wj, ..] = self.derivatives_by_invariants(invariants);
+        [w1, w2, wj]
+    }
+
+    fn derivatives_by_invariants<R: Real>(&self, [i1, _, _]: [R; 3]) -> [R; 9] {
+        let Defect::Invariants(w2, w11, _) = self.1 else { return [R::splat(f64::NAN); 9] };
+        let w1 = (i1 - R::splat(1.0)) * R::splat(0.5) + (i1 - R::splat(3.0)) * R::splat(0.375);
+        let zero = R::splat(0.0);
+        [w1, R::splat(w2), zero, R::splat(w11), zero, zero, zero, zero, zero]
+    }
+
+    fn admits_invariants<R: Real>(&self, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(self.has_invariants())
+    }
 }
 
 /// (x − 1)⁴ and its derivatives, invisible at rest.
@@ -235,62 +272,8 @@ fn below<R: Real>(x: R) -> R {
     (x - R::splat(0.3)).min(R::splat(0.0))
 }
 
-/// [`SaintVenantKirchhoff`] in I1 and I2, right with W2 = −1/2 and W11 = 7/8, and if W11 is said not to vanish.
-struct ByInvariants<const IS_SEPARATE: bool> {
-    w2: f64,
-    w11: f64,
-}
-
-impl<const IS_SEPARATE: bool> Material for ByInvariants<IS_SEPARATE> {
-    fn has_invariants(&self) -> bool {
-        true
-    }
-
-    fn curvature_by_invariants(&self) -> Curvature {
-        if IS_SEPARATE { Curvature::Separate } else { Curvature::Volume }
-    }
-
-    fn energy<R: Real>(&self, l: [R; 3]) -> R {
-        SaintVenantKirchhoff.energy(l)
-    }
-
-    fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
-        SaintVenantKirchhoff.blocks(l)
-    }
-
-    /// Energy with μ = 1 and λ = 3/2: (I1² − 2 I2 − 2 I1 + 3)/4 + 3/16 (I1 − 3)².
-    fn energy_by_invariants<R: Real>(&self, [i1, i2, _]: [R; 3]) -> R {
-        let (two, three) = (R::splat(2.0), R::splat(3.0));
-        let trace = i1 - three;
-        (i1 * i1 - two * i2 - two * i1 + three) * R::splat(0.25) + R::splat(0.1875) * trace * trace
-    }
-
-    fn gradient_by_invariants<R: Real>(&self, [i1, _, _]: [R; 3]) -> [R; 3] {
-        let w1 = (i1 - R::splat(1.0)) * R::splat(0.5) + (i1 - R::splat(3.0)) * R::splat(0.375);
-        [w1, R::splat(self.w2), R::splat(0.0)]
-    }
-
-    fn derivatives_by_invariants<R: Real>(&self, invariants: [R; 3]) -> [R; 9] {
-        let zero = R::splat(0.0);
-        let [w1, w2, wj] = self.gradient_by_invariants(invariants);
-        [w1, w2, wj, R::splat(self.w11), zero, zero, zero, zero, zero]
-    }
-
-    fn admits_invariants<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn has_pole(&self) -> bool {
-        false
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
+fn by_invariants(w2: f64, w11: f64, curvature: Curvature) -> Defective<SaintVenantKirchhoff> {
+    Defective(SaintVenantKirchhoff, Defect::Invariants(w2, w11, curvature))
 }
 
 #[track_caller]
@@ -350,14 +333,14 @@ fn defects_that_one_rule_sees_are_named_by_it() {
         "second derivative of the energy by stretch 1 on the portable back end",
     );
     // Points take their stress from W2 as well, and other rules see that.
-    check_names(&ByInvariants::<true> { w2: 0.5, w11: 0.875 }, Rule::Invariants, "by invariants");
+    check_names(&by_invariants(0.5, 0.875, Curvature::Separate), Rule::Invariants, "by invariants");
     check_names_alone(
-        &ByInvariants::<true> { w2: -0.5, w11: 0.5 },
+        &by_invariants(-0.5, 0.5, Curvature::Separate),
         Rule::Invariants,
         "second derivative of the energy by stretch 1, from those by invariants",
     );
     check_names_alone(
-        &ByInvariants::<false> { w2: -0.5, w11: 0.875 },
+        &by_invariants(-0.5, 0.875, Curvature::Volume),
         Rule::Invariants,
         "vanishing of W11, as `curvature_by_invariants` says",
     );
@@ -406,10 +389,8 @@ fn what_a_material_has_not_is_not_asked_for() {
     assert!(without.iter().all(|rule| !plain.contains(rule)));
     assert_eq!(plain.len(), Rule::ALL.len() - without.len());
     assert!(rules(&|| check(&ExtendedNeoHookean { epsilon: 0.3 }, &settings)).contains(&Rule::Extension));
-    assert!(
-        rules(&|| check(&ByInvariants::<true> { w2: -0.5, w11: 0.875 }, &settings))
-            .contains(&Rule::Invariants)
-    );
+    let with_invariants = by_invariants(-0.5, 0.875, Curvature::Separate);
+    assert!(rules(&|| check(&with_invariants, &settings)).contains(&Rule::Invariants));
 }
 
 mod messages;

@@ -105,7 +105,7 @@ fn an_overflow_is_told_once() {
 #[test]
 fn why_nothing_was_compared_is_told() {
     let settings = Settings { points: 0, ..Settings::default() };
-    let by_invariants = ByInvariants::<true> { w2: -0.5, w11: 0.875 };
+    let by_invariants = by_invariants(-0.5, 0.875, Curvature::Separate);
     for (verdict, rule) in [
         (isotropy(&NeoHookean, &settings), Rule::Isotropy),
         (extension(&ExtendedNeoHookean { epsilon: 0.3 }, 0.3, &settings), Rule::Extension),
