@@ -70,11 +70,6 @@ pub use violation::{Violation, Violations};
 use judge::Judge;
 use subject::{OnLanes, Subject};
 
-/// Stack size, bytes, of the threads in which [`contract!`](crate::contract!) runs: enough for code without
-/// optimisation.
-#[doc(hidden)]
-pub const STACK: usize = 1 << 26;
-
 /// Choice of the points that are checked, and of the demands on the rest state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -189,6 +184,18 @@ fn report(verdict: impl FnMut(Rule) -> Option<Result<Finding, Violation>>) -> Re
         }
     }
     if violations.is_empty() { Ok(Report { findings }) } else { Err(Violations(violations)) }
+}
+
+/// Judges in a thread: without optimisation the kernels of wide lanes need more stack than a test has.
+#[doc(hidden)] // for the tests of `contract!`
+pub fn with_large_stack(
+    judge: impl FnOnce() -> Result<String, String> + Send + 'static,
+) -> Result<String, String> {
+    let thread = std::thread::Builder::new().stack_size(1 << 26).spawn(judge);
+    match thread.map_err(|error| format!("no thread for the test: {error}"))?.join() {
+        Ok(verdict) => verdict,
+        Err(panic) => std::panic::resume_unwind(panic),
+    }
 }
 
 /// [`check_rule`], compiled once for all materials; without lanes, their rule does not apply.
