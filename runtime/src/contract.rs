@@ -38,7 +38,6 @@ use std::fmt;
 
 use crate::material::{Blocks, Inversion, Material};
 
-mod derivatives;
 mod domain;
 mod dual;
 mod formats;
@@ -54,7 +53,6 @@ mod slopes;
 mod subject;
 mod violation;
 
-use derivatives::{dual_numbers, strains};
 use domain::{domain, moduli, rest};
 use formats::{lanes, single_precision};
 use frames::isotropy;
@@ -62,12 +60,12 @@ use invariants::invariants;
 use inverted::extension;
 use pairs::quotients;
 pub use rule::Rule;
-use slopes::{stress_slope, tangent_slope};
+use slopes::{dual_numbers, strains, stress_slope, tangent_slope};
 #[doc(hidden)] // for energies from text
 pub use violation::Notation;
 pub use violation::{Violation, Violations};
 
-use judge::Judge;
+use judge::{Judge, Verdict};
 use subject::{OnLanes, Subject};
 
 /// Choice of the points that are checked, and of the demands on the rest state.
@@ -205,25 +203,27 @@ fn judge_rule(
     on_lanes: Option<&dyn OnLanes>,
     settings: &Settings,
 ) -> Option<Result<Finding, Violation>> {
-    Some(match rule {
-        Rule::Rest => rest(material, settings),
-        Rule::Domain => domain(material, settings),
-        Rule::Isotropy => isotropy(material, settings),
-        Rule::StressSlope => stress_slope(material, settings),
-        Rule::TangentSlope => tangent_slope(material, settings),
-        Rule::DualNumbers => dual_numbers(material, settings),
-        Rule::Quotients => quotients(material, settings),
-        Rule::Strains => strains(material, settings),
+    let judge = &mut Judge::new(rule, material, settings);
+    let verdict = match rule {
+        Rule::Rest => rest(judge),
+        Rule::Domain => domain(judge),
+        Rule::Isotropy => isotropy(judge),
+        Rule::StressSlope => stress_slope(judge),
+        Rule::TangentSlope => tangent_slope(judge),
+        Rule::DualNumbers => dual_numbers(judge),
+        Rule::Quotients => quotients(judge),
+        Rule::Strains => strains(judge),
         Rule::Invariants if !material.has_invariants() => return None,
-        Rule::Invariants => invariants(material, settings),
+        Rule::Invariants => invariants(judge),
         Rule::Extension => match material.inversion() {
             Inversion::Refuse => return None,
-            Inversion::Extend { epsilon } => extension(material, epsilon, settings),
+            Inversion::Extend { epsilon } => extension(judge, epsilon),
         },
-        Rule::Moduli => moduli(material, material.stated_moduli()?, settings),
-        Rule::SinglePrecision => single_precision(material, settings),
-        Rule::Lanes => lanes(material, on_lanes?, settings),
-    })
+        Rule::Moduli => moduli(judge, material.stated_moduli()?),
+        Rule::SinglePrecision => single_precision(judge),
+        Rule::Lanes => lanes(judge, on_lanes?),
+    };
+    Some(verdict.and_then(|()| judge.finding()))
 }
 
 /// u of `f64`, in which the contract is judged.
@@ -245,7 +245,7 @@ fn gradient_name(k: usize) -> String {
 }
 
 fn hessian_name(entry: usize) -> String {
-    match derivatives::ENTRIES[entry] {
+    match slopes::ENTRIES[entry] {
         (i, j) if i == j => format!("second derivative of the energy by stretch {}", i + 1),
         (i, j) => format!("second derivative of the energy by stretches {} and {}", i + 1, j + 1),
     }

@@ -2,25 +2,24 @@
 //! where a formula loses digits; many points side by side against each by itself.
 
 use super::results::{ALL, COUNT, everything, everything_name, name};
-use super::subject::{OnLanes, Subject, at_samples, known, samples, together};
-use super::{Finding, Judge, Notation, Rule, Settings, UNIT, Violation};
+use super::subject::{OnLanes, known, samples, together};
+use super::{Judge, Notation, UNIT, Verdict};
 use crate::lanes::{Backend, Real};
-use crate::random::Random;
 
-/// [`Rule::SinglePrecision`].
-pub(super) fn single_precision(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::SinglePrecision, material, settings, |judge, stretches, _| {
-        compare(judge, material, stretches, Overflow::Mistaken)?;
+/// [`SinglePrecision`](super::Rule::SinglePrecision).
+pub(super) fn single_precision(judge: &mut Judge<'_>) -> Verdict {
+    for stretches in samples(judge) {
+        compare(judge, stretches, Overflow::Mistaken)?;
         for gap in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 0.0] {
             for close in together(stretches, gap) {
-                compare(judge, material, close, Overflow::Mistaken)?;
+                compare(judge, close, Overflow::Mistaken)?;
             }
         }
         for far in far_from_rest(stretches) {
-            compare(judge, material, far, Overflow::Expected)?;
+            compare(judge, far, Overflow::Expected)?;
         }
-        Ok(())
-    })
+    }
+    Ok(())
 }
 
 /// The meaning of a result that is finite in `f64` and not in `f32`.
@@ -44,12 +43,8 @@ fn far_from_rest([l1, l2, l3]: [f64; 3]) -> impl Iterator<Item = [f64; 3]> {
     thin.chain([1e-2, 0.1, 10.0, 100.0].map(|factor| [l1, l2, l3].map(|l| l * factor)))
 }
 
-fn compare(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    overflow: Overflow,
-) -> Result<(), Violation> {
+fn compare(judge: &mut Judge<'_>, stretches: [f64; 3], overflow: Overflow) -> Verdict {
+    let (material, notation) = (judge.material, judge.settings.notation);
     let single = stretches.map(|l| l as f32);
     let stretches = single.map(f64::from);
     if !material.admits(stretches) {
@@ -60,7 +55,6 @@ fn compare(
     if overflow == Overflow::Expected && !found.iter().all(|found| found.is_finite()) {
         return Ok(());
     }
-    let notation = judge.notation();
     for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
         let name = || format!("{} in `f32`", name(k));
         if expected.is_finite() {
@@ -81,16 +75,11 @@ fn out_of_range(notation: Notation) -> String {
     )
 }
 
-/// [`Rule::Lanes`].
-pub(super) fn lanes(
-    material: &dyn Subject,
-    on_lanes: &dyn OnLanes,
-    settings: &Settings,
-) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Lanes, settings.notation);
-    let mut random = Random::new(settings.seed);
+/// [`Lanes`](super::Rule::Lanes).
+pub(super) fn lanes(judge: &mut Judge<'_>, on_lanes: &dyn OnLanes) -> Verdict {
+    let material = judge.material;
     let mut points = Vec::new();
-    for stretches in samples(material, settings, &mut random) {
+    for stretches in samples(judge) {
         points.push(stretches);
         let close = [1e-9, 0.0].into_iter().flat_map(|gap| together(stretches, gap));
         points.extend(close.filter(|&close| material.admits(close)));
@@ -127,5 +116,5 @@ pub(super) fn lanes(
             judge.compare(name, stretches, found[k], expected[k], UNIT * tolerances[k])?;
         }
     }
-    judge.finding()
+    Ok(())
 }

@@ -2,36 +2,30 @@
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
-use super::subject::{Subject, at_samples};
-use super::{
-    Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, hessian_name, stiffness, stress_scale,
-};
+use super::subject::samples;
+use super::{Judge, UNIT, Verdict, gradient_name, hessian_name, stiffness, stress_scale};
 use crate::material::PAIRS;
 use crate::point::matrix::multiply;
 use crate::point::{Matrix3, evaluate_energy, evaluate_stress};
 
-/// [`Rule::Isotropy`].
-pub(super) fn isotropy(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::Isotropy, material, settings, |judge, stretches, random| {
-        rotated(judge, material, stretches, &random.rotation(), &random.rotation())?;
+/// [`Isotropy`](super::Rule::Isotropy).
+pub(super) fn isotropy(judge: &mut Judge<'_>) -> Verdict {
+    for stretches in samples(judge) {
+        let (Q, W) = (judge.random.rotation(), judge.random.rotation());
+        rotated(judge, stretches, &Q, &W)?;
         for equal in [[stretches[0], stretches[0], stretches[2]], [stretches[0], stretches[1], stretches[1]]]
         {
-            if material.admits(equal) {
-                interchangeable(judge, material, equal)?;
+            if judge.material.admits(equal) {
+                interchangeable(judge, equal)?;
             }
         }
-        Ok(())
-    })
+    }
+    Ok(())
 }
 
 /// Energy and stress at Q diag(λ) W against those at diag(λ), which need no decomposition.
-fn rotated(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    Q: &Matrix3<f64>,
-    W: &Matrix3<f64>,
-) -> Result<(), Violation> {
+fn rotated(judge: &mut Judge<'_>, stretches: [f64; 3], Q: &Matrix3<f64>, W: &Matrix3<f64>) -> Verdict {
+    let material = judge.material;
     let F = multiply(&multiply(Q, &diagonal(stretches)), W);
     let blocks = material.blocks(stretches);
     let scale = stress_scale(&blocks, stretches);
@@ -54,8 +48,8 @@ fn rotated(
 }
 
 /// First and second derivatives by two equal stretches agree, and so do their mixed ones with the third.
-fn interchangeable(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> Result<(), Violation> {
-    let blocks = material.blocks(stretches);
+fn interchangeable(judge: &mut Judge<'_>, stretches: [f64; 3]) -> Verdict {
+    let blocks = judge.material.blocks(stretches);
     let tolerance = 100.0 * UNIT * stress_scale(&blocks, stretches);
     let curvature = 100.0 * UNIT * stiffness(&blocks);
     for (i, j) in PAIRS {

@@ -1,10 +1,8 @@
 //! The rule on invariants: energy and derivatives by I1, I2 and J against those by stretches.
 
-use super::derivatives::ENTRIES;
-use super::subject::{Subject, at_samples};
-use super::{
-    Finding, Rule, Settings, UNIT, Violation, gradient_name, hessian_name, pair_name, stiffness, stress_scale,
-};
+use super::slopes::ENTRIES;
+use super::subject::{Subject, samples};
+use super::{Judge, UNIT, Verdict, gradient_name, hessian_name, pair_name, stiffness, stress_scale};
 use crate::material::{Blocks, Curvature, PAIRS};
 
 /// Change of the second derivatives by a relative change of the stretches, per change, Pa.
@@ -26,13 +24,14 @@ fn sensitivity(material: &dyn Subject, stretches: [f64; 3], blocks: &Blocks<f64>
     largest / CHANGE
 }
 
-/// [`Rule::Invariants`], of a material that has them.
-pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::Invariants, material, settings, |judge, stretches, _| {
+/// [`Invariants`](super::Rule::Invariants), of a material that has them.
+pub(super) fn invariants(judge: &mut Judge<'_>) -> Verdict {
+    let material = judge.material;
+    for stretches in samples(judge) {
         let [a, b, c] = stretches.map(|l| l * l);
         let invariants = [a + b + c, a * b + a * c + b * c, stretches.iter().product()];
         if !material.admits_invariants(invariants) {
-            return Ok(());
+            continue;
         }
         let is_admitted = material.admits(stretches);
         let remedy =
@@ -99,6 +98,6 @@ pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<
             let twist = [2.0 * w1, 2.0 * w2 * (other * other + product), wj * other];
             compare(&pair_name("twist", pair), &twist, blocks.twist[pair], stiffness)?;
         }
-        Ok(())
-    })
+    }
+    Ok(())
 }

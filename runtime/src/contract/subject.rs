@@ -3,10 +3,9 @@
 
 use super::dual::Dual;
 use super::results::{ALL, COUNT, SideBySide, results};
-use super::{Finding, Judge, Rule, Settings, Violation, stiffness, stress_scale};
+use super::{Judge, stiffness, stress_scale};
 use crate::lanes::{Backend, Mask};
 use crate::material::{Inversion, Material, Response};
-use crate::random::Random;
 
 /// Material under test: its responses in `f64`, and anything that a rule compares with them.
 pub(super) trait Subject: Response<f64> {
@@ -46,25 +45,10 @@ impl<M: Material> Subject for M {
     }
 }
 
-/// Judges a rule at every sample, with random numbers to draw further choices from.
-pub(super) fn at_samples(
-    rule: Rule,
-    material: &dyn Subject,
-    settings: &Settings,
-    mut look: impl FnMut(&mut Judge, [f64; 3], &mut Random) -> Result<(), Violation>,
-) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(rule, settings.notation);
-    let mut random = Random::new(settings.seed);
-    for stretches in samples(material, settings, &mut random) {
-        look(&mut judge, stretches, &mut random)?;
-    }
-    judge.finding()
-}
-
 /// Random descending stretches within the range, plus inverted ones, if the material admits them.
 ///
 /// Around the threshold of an extension the third derivatives jump; samples keep a distance of 1/32 from it.
-pub(super) fn samples(material: &dyn Subject, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
+pub(super) fn samples(Judge { material, settings, random, .. }: &mut Judge<'_>) -> Vec<[f64; 3]> {
     let (low, high) = settings.range;
     let threshold = match material.inversion() {
         Inversion::Refuse => None,
