@@ -3,7 +3,7 @@
 //! The point and the contract must be testable without the code generator, and against something it has not
 //! written. Integration tests include this file, too.
 
-use piola::__private::{Pair, pole_floor};
+use piola::__private::pole_floor;
 use piola::lanes::{Mask, Real};
 use piola::material::{Blocks, Inversion, Material, PAIRS};
 
@@ -63,14 +63,6 @@ impl Material for NeoHookean {
         logarithmic(l, (l[0] * l[1] * l[2]).ln())
     }
 
-    fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
-        let one = R::splat(1.0);
-        // ln(1 + s) = s ln[1 + s, 1], whose second factor is smooth.
-        let log = s.map(|s| s * Pair::of(one + s, one).ln_quotient());
-        let volumetric = R::splat(LAMBDA) * (log[0] + log[1] + log[2]);
-        s.map(|s| (R::splat(MU) * s * (R::splat(2.0) + s) + volumetric) / (one + s))
-    }
-
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
         let (mu, lambda, one) = (R::splat(MU), R::splat(LAMBDA), R::splat(1.0));
         let c = lambda * (l[0] * l[1] * l[2]).ln() - mu;
@@ -109,11 +101,6 @@ impl Material for RotatedLinear {
     fn gradient<R: Real>(&self, l: [R; 3]) -> [R; 3] {
         let pressure = R::splat(LAMBDA) * (l[0] + l[1] + l[2] - R::splat(3.0));
         l.map(|l| R::splat(2.0 * MU) * (l - R::splat(1.0)) + pressure)
-    }
-
-    fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
-        let pressure = R::splat(LAMBDA) * (s[0] + s[1] + s[2]);
-        s.map(|s| R::splat(2.0 * MU) * s + pressure)
     }
 
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
