@@ -10,6 +10,23 @@ use piola::material::{Blocks, Inversion, Material, PAIRS};
 const MU: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
 
+/// Domain and poles of an energy that is defined everywhere.
+macro_rules! defined_everywhere {
+    (has_pole: $has_pole:literal) => {
+        fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
+            R::Mask::splat(true)
+        }
+
+        fn has_pole(&self) -> bool {
+            $has_pole
+        }
+
+        fn ends_at_zero_volume(&self) -> bool {
+            false
+        }
+    };
+}
+
 /// μ ΣE² + λ/2 (ΣE)², E = (λ² − 1)/2: even in every pair, so that its twist is smooth everywhere.
 pub(crate) struct SaintVenantKirchhoff;
 
@@ -42,17 +59,7 @@ impl Material for SaintVenantKirchhoff {
         }
     }
 
-    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn has_pole(&self) -> bool {
-        false
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
+    defined_everywhere!(has_pole: false);
 }
 
 /// μ/2 (Σλ² − 3) − μ ln J + λ/2 (ln J)², J > 0.
@@ -115,17 +122,7 @@ impl Material for RotatedLinear {
         }
     }
 
-    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn has_pole(&self) -> bool {
-        true
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
+    defined_everywhere!(has_pole: true);
 }
 
 /// [`NeoHookean`] with ln continued below ε as its quadratic Taylor polynomial: admits every point, C² across
@@ -179,17 +176,7 @@ impl Material for ExtendedNeoHookean {
         }
     }
 
-    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn has_pole(&self) -> bool {
-        true
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
+    defined_everywhere!(has_pole: true);
 
     fn inversion(&self) -> Inversion {
         Inversion::Extend { epsilon: self.epsilon }

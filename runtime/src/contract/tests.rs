@@ -300,62 +300,48 @@ fn check_names_alone(material: &impl Material, expected: Rule, component: &str) 
 
 #[test]
 fn defects_are_named() {
-    let plain = |defect| Defective(NeoHookean, defect);
+    for (defect, rule, component) in [
+        (Defect::PrestressOfOnePart, Rule::Rest, "derivative of the energy by stretch 1"),
+        (Defect::StressTooLargeByAMillionth, Rule::StressSlope, "energy"),
+        (Defect::HessianTooLargeByAMillionth, Rule::TangentSlope, "stress"),
+        (Defect::HessianTooLargeByABillionth, Rule::DualNumbers, "second derivative"),
+        (Defect::LimitBelowAGap, Rule::Quotients, "flip of stretches 1 and 2, which are 1e-7 of their mean"),
+        (Defect::VanishingShearAtTheGap, Rule::Rest, "flip"),
+        (Defect::PrefersFirstStretch, Rule::Isotropy, "stretch 2"),
+        (Defect::EnergyLosesDigits, Rule::Isotropy, "energy after a rotation"),
+        (Defect::CurvatureWithoutValue, Rule::Domain, "second derivative"),
+    ] {
+        check_names(&Defective(NeoHookean, defect), rule, component);
+    }
     let extended = |defect| Defective(ExtendedNeoHookean { epsilon: 0.3 }, defect);
-    check_names(&plain(Defect::PrestressOfOnePart), Rule::Rest, "derivative of the energy by stretch 1");
-    check_names(&plain(Defect::StressTooLargeByAMillionth), Rule::StressSlope, "energy");
-    check_names(&plain(Defect::HessianTooLargeByAMillionth), Rule::TangentSlope, "stress");
-    check_names(&plain(Defect::HessianTooLargeByABillionth), Rule::DualNumbers, "second derivative");
-    let gap = "flip of stretches 1 and 2, which are 1e-7 of their mean apart";
-    check_names(&plain(Defect::LimitBelowAGap), Rule::Quotients, gap);
-    check_names(&plain(Defect::VanishingShearAtTheGap), Rule::Rest, "flip");
-    check_names(&Defective(SaintVenantKirchhoff, Defect::NaiveTwist), Rule::Quotients, "twist");
-    check_names(&plain(Defect::PrefersFirstStretch), Rule::Isotropy, "stretch 2");
-    check_names(&plain(Defect::EnergyLosesDigits), Rule::Isotropy, "energy after a rotation");
-    check_names(&plain(Defect::CurvatureWithoutValue), Rule::Domain, "second derivative");
     check_names(&extended(Defect::JumpingCurvature), Rule::TangentSlope, "stress");
     check_names(&extended(Defect::AttractsCollapse), Rule::Extension, "stretch 3");
+    check_names(&Defective(SaintVenantKirchhoff, Defect::NaiveTwist), Rule::Quotients, "twist");
+    // Points take their stress from W2 as well, and other rules see that.
+    check_names(&by_invariants(0.5, 0.875, Curvature::Separate), Rule::Invariants, "by invariants");
 }
 
 #[test]
 fn defects_that_one_rule_sees_are_named_by_it() {
-    let plain = |defect| Defective(NeoHookean, defect);
-    check_names_alone(&plain(Defect::LinearInStrains), Rule::Strains, "from the strain");
-    check_names_alone(&plain(Defect::OverstatedShear), Rule::Moduli, "shear modulus");
-    check_names_alone(
-        &plain(Defect::ConstantOfSinglePrecision),
-        Rule::SinglePrecision,
-        "twist of stretches 1 and 2 in `f32`",
-    );
-    check_names_alone(
-        &plain(Defect::AnyLaneDecides),
-        Rule::Lanes,
-        "second derivative of the energy by stretch 1 on the portable back end",
-    );
-    // Points take their stress from W2 as well, and other rules see that.
-    check_names(&by_invariants(0.5, 0.875, Curvature::Separate), Rule::Invariants, "by invariants");
-    check_names_alone(
-        &by_invariants(-0.5, 0.5, Curvature::Separate),
-        Rule::Invariants,
-        "second derivative of the energy by stretch 1, from those by invariants",
-    );
-    check_names_alone(
-        &by_invariants(-0.5, 0.875, Curvature::Volume),
-        Rule::Invariants,
-        "vanishing of W11, as `curvature_by_invariants` says",
-    );
-    check_names_alone(&plain(Defect::JumpingEnergy), Rule::StressSlope, "energy");
-    check_names_alone(&plain(Defect::DeniesItsEnd), Rule::Domain, "ends_at_zero_volume");
-    check_names_alone(
-        &plain(Defect::LimitWhereAllAreClose),
-        Rule::Quotients,
-        "flip of stretches 1 and 3, which are 1e-",
-    );
-    check_names_alone(
-        &Defective(RotatedLinear, Defect::UnboundedPole),
-        Rule::Quotients,
-        "twist of stretches 2 and 3 at a pole",
-    );
+    let second = "second derivative of the energy by stretch 1";
+    for (defect, rule, component) in [
+        (Defect::LinearInStrains, Rule::Strains, "from the strain"),
+        (Defect::OverstatedShear, Rule::Moduli, "shear modulus"),
+        (Defect::ConstantOfSinglePrecision, Rule::SinglePrecision, "twist of stretches 1 and 2 in `f32`"),
+        (Defect::AnyLaneDecides, Rule::Lanes, &*format!("{second} on the portable back end")),
+        (Defect::JumpingEnergy, Rule::StressSlope, "energy"),
+        (Defect::DeniesItsEnd, Rule::Domain, "ends_at_zero_volume"),
+        (Defect::LimitWhereAllAreClose, Rule::Quotients, "flip of stretches 1 and 3, which are 1e-"),
+    ] {
+        check_names_alone(&Defective(NeoHookean, defect), rule, component);
+    }
+    let pole = "twist of stretches 2 and 3 at a pole";
+    check_names_alone(&Defective(RotatedLinear, Defect::UnboundedPole), Rule::Quotients, pole);
+    let (wrong, vanishing) =
+        (by_invariants(-0.5, 0.5, Curvature::Separate), by_invariants(-0.5, 0.875, Curvature::Volume));
+    check_names_alone(&wrong, Rule::Invariants, &format!("{second}, from those by invariants"));
+    let component = "vanishing of W11, as `curvature_by_invariants` says";
+    check_names_alone(&vanishing, Rule::Invariants, component);
 }
 
 #[test]
