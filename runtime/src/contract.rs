@@ -229,10 +229,14 @@ fn judge_rule(
 /// u of `f64`, in which the contract is judged.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
+/// The entries of the tangent: Hessian, flips and twists.
+fn entries(blocks: &Blocks<f64>) -> impl Iterator<Item = f64> + use<> {
+    blocks.hessian.into_iter().chain(blocks.flip).chain(blocks.twist)
+}
+
 /// The largest entry of the tangent, which multiplies an error of the stretches.
 fn stiffness(blocks: &Blocks<f64>) -> f64 {
-    let entries = blocks.hessian.into_iter().chain(blocks.flip).chain(blocks.twist);
-    entries.fold(0.0, |largest, entry| largest.max(entry.abs()))
+    entries(blocks).fold(0.0, |largest, entry| largest.max(entry.abs()))
 }
 
 /// Tolerable error of a stress in units of u, Pa: the tangent times the stretches, and its own size.

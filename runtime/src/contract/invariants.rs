@@ -2,7 +2,7 @@
 
 use super::slopes::ENTRIES;
 use super::subject::{Subject, samples};
-use super::{Judge, UNIT, Verdict, gradient_name, hessian_name, pair_name, stiffness, stress_scale};
+use super::{Judge, UNIT, Verdict, entries, gradient_name, hessian_name, pair_name, stiffness, stress_scale};
 use crate::material::{Blocks, Curvature, PAIRS};
 
 /// Change of the second derivatives by a relative change of the stretches, per change, Pa.
@@ -11,15 +11,8 @@ fn sensitivity(material: &dyn Subject, stretches: [f64; 3], blocks: &Blocks<f64>
     let mut largest = 0.0f64;
     for signs in [[1.0, 1.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, 1.0]] {
         let near = material.blocks(std::array::from_fn(|k| stretches[k] * (1.0 + CHANGE * signs[k])));
-        let pairs = [
-            (&near.hessian[..], &blocks.hessian[..]),
-            (&near.flip, &blocks.flip),
-            (&near.twist, &blocks.twist),
-        ];
-        for (near, here) in pairs {
-            let changes = near.iter().zip(here).map(|(near, here)| (near - here).abs());
-            largest = changes.filter(|change| change.is_finite()).fold(largest, f64::max);
-        }
+        let changes = entries(&near).zip(entries(blocks)).map(|(near, here)| (near - here).abs());
+        largest = changes.filter(|change| change.is_finite()).fold(largest, f64::max);
     }
     largest / CHANGE
 }
