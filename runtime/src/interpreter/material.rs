@@ -270,22 +270,16 @@ fn domain_bits<E: Scalar>(
     let results = rows.numbers();
     let mut tile = RawTile { backend, count, materials, stride, arguments, results, unread: 0 };
     execute_tile(program, context, volume, &mut tile);
-    let results = rows.numbers().chunks(stride).take(program.results.len()).enumerate();
-    let all = results
-        .map(|(k, row)| bits(count, |point| holds(k, row[point])))
-        .fold(u64::MAX, |all, one| all & one);
+    let results = rows.numbers();
+    let is_inside = |point: usize| (0..program.results.len()).all(|k| holds(k, results[k * stride + point]));
+    let inside = (0..count).fold(0, |bits, point| bits | u64::from(is_inside(point)) << point);
     rows.give_back();
-    all
+    inside
 }
 
 /// True if a function that is a parameter is defined at an argument.
 fn admits<R: Real>(parameters: &Parameters<'_>, function: usize, argument: R) -> R::Mask {
     parameters.function(function).map_or(R::Mask::splat(true), |function| function.admits(argument))
-}
-
-/// The points for which something holds, as bits.
-fn bits(count: usize, holds: impl Fn(usize) -> bool) -> u64 {
-    (0..count).fold(0, |bits, point| bits | u64::from(holds(point)) << point)
 }
 
 impl Material for Interpreted {
