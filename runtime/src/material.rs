@@ -65,8 +65,8 @@ pub trait Material: Send + Sync {
 
     /// Gradient ψ1, ψ2, ψ3, Pa.
     ///
-    /// `#[piola::material]` overrides it with the operations of the gradient alone; as given here it is that of
-    /// [`Material::blocks`].
+    /// `#[piola::material]` overrides it with the operations of the gradient alone; as given here it is the
+    /// gradient of [`Material::blocks`].
     #[inline(always)]
     fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
         self.blocks(stretches).gradient
