@@ -36,6 +36,7 @@
 
 use std::fmt;
 
+use crate::lanes::Backend;
 use crate::material::{Blocks, Inversion, Material};
 
 mod domain;
@@ -59,6 +60,7 @@ use frames::isotropy;
 use invariants::invariants;
 use inverted::extension;
 use pairs::quotients;
+use results::SideBySide;
 pub use rule::Rule;
 use slopes::{dual_numbers, strains, stress_slope, tangent_slope};
 #[doc(hidden)] // for energies from text
@@ -169,7 +171,8 @@ pub fn check_rule(
     material: &impl Material,
     settings: &Settings,
 ) -> Option<Result<Finding, Violation>> {
-    judge_rule(rule, material, Some(material), settings)
+    let on_lanes = |backend: Backend, points: &[[f64; 3]]| backend.run(SideBySide(material, points));
+    judge_rule(rule, material, Some(&on_lanes), settings)
 }
 
 fn report(verdict: impl FnMut(Rule) -> Option<Result<Finding, Violation>>) -> Result<Report, Violations> {
@@ -200,7 +203,7 @@ pub fn with_large_stack(
 fn judge_rule(
     rule: Rule,
     material: &dyn Subject,
-    on_lanes: Option<&dyn OnLanes>,
+    on_lanes: Option<OnLanes<'_>>,
     settings: &Settings,
 ) -> Option<Result<Finding, Violation>> {
     let judge = &mut Judge::new(rule, material, settings);

@@ -76,7 +76,7 @@ fn out_of_range(notation: Notation) -> String {
 }
 
 /// [`Lanes`](super::Rule::Lanes).
-pub(super) fn lanes(judge: &mut Judge<'_>, on_lanes: &dyn OnLanes) -> Verdict {
+pub(super) fn lanes(judge: &mut Judge<'_>, on_lanes: OnLanes<'_>) -> Verdict {
     let material = judge.material;
     let mut points = Vec::new();
     for stretches in samples(judge) {
@@ -87,7 +87,7 @@ pub(super) fn lanes(judge: &mut Judge<'_>, on_lanes: &dyn OnLanes) -> Verdict {
     let alone: Vec<_> = points.iter().map(|&stretches| everything(material, stretches)).collect();
 
     let portable = Backend::portable();
-    let together = on_lanes.side_by_side_on(portable, &points);
+    let together = on_lanes(portable, &points);
     for ((&stretches, found), expected) in points.iter().zip(together).zip(&alone) {
         for k in 0..ALL {
             let name = || format!("{} on the {portable} back end against a scalar", everything_name(k));
@@ -96,12 +96,12 @@ pub(super) fn lanes(judge: &mut Judge<'_>, on_lanes: &dyn OnLanes) -> Verdict {
     }
 
     let backend = Backend::best();
-    let in_order = on_lanes.side_by_side_on(backend, &points);
+    let in_order = on_lanes(backend, &points);
     // Each in the lane before, with other neighbours.
     let by = 1.min(points.len());
     let mut moved = points.clone();
     moved.rotate_left(by);
-    let mut shifted = on_lanes.side_by_side_on(backend, &moved);
+    let mut shifted = on_lanes(backend, &moved);
     shifted.rotate_right(by);
     for ((&stretches, found), expected) in points.iter().zip(shifted).zip(&in_order) {
         for k in 0..ALL {

@@ -2,42 +2,27 @@
 //! results there. Materials are behind `dyn`, so that rules are compiled once and not for each material.
 
 use super::dual::Dual;
-use super::results::{ALL, COUNT, SideBySide, results};
+use super::results::{ALL, COUNT, results};
 use super::{Judge, stiffness, stress_scale};
 use crate::lanes::{Backend, Mask};
 use crate::material::{Inversion, Material, Response};
 
 /// Material under test: its responses in `f64`, and anything that a rule compares with them.
 pub(super) trait Subject: Response<f64> {
-    /// [`Material::energy`] of dual numbers.
-    fn dual_energy(&self, stretches: [Dual; 3]) -> Dual;
-
-    /// [`Material::gradient`] of dual numbers.
-    fn dual_gradient(&self, stretches: [Dual; 3]) -> [Dual; 3];
+    /// [`Material::energy`] and [`Material::gradient`] of dual numbers.
+    fn in_dual_numbers(&self, stretches: [Dual; 3]) -> (Dual, [Dual; 3]);
 
     /// Row of results in `f32`; `None` outside the domain.
     fn in_single_precision(&self, stretches: [f32; 3]) -> Option<[f32; COUNT]>;
 }
 
-/// A material on lanes. Apart from [`Subject`], since each back end is compiled for it.
-pub(super) trait OnLanes {
-    /// Rows of results at all points, from the lanes of a back end.
-    fn side_by_side_on(&self, backend: Backend, points: &[[f64; 3]]) -> Vec<[f64; ALL]>;
-}
-
-impl<M: Material> OnLanes for M {
-    fn side_by_side_on(&self, backend: Backend, points: &[[f64; 3]]) -> Vec<[f64; ALL]> {
-        backend.run(SideBySide(self, points))
-    }
-}
+/// Rows of results at all points, from the lanes of a back end: apart from [`Subject`], since each back end is
+/// compiled for it.
+pub(super) type OnLanes<'a> = &'a dyn Fn(Backend, &[[f64; 3]]) -> Vec<[f64; ALL]>;
 
 impl<M: Material> Subject for M {
-    fn dual_energy(&self, stretches: [Dual; 3]) -> Dual {
-        Material::energy(self, stretches)
-    }
-
-    fn dual_gradient(&self, stretches: [Dual; 3]) -> [Dual; 3] {
-        Material::gradient(self, stretches)
+    fn in_dual_numbers(&self, stretches: [Dual; 3]) -> (Dual, [Dual; 3]) {
+        (Material::energy(self, stretches), Material::gradient(self, stretches))
     }
 
     fn in_single_precision(&self, stretches: [f32; 3]) -> Option<[f32; COUNT]> {
