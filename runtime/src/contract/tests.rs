@@ -278,16 +278,14 @@ fn by_invariants(w2: f64, w11: f64, curvature: Curvature) -> Defective<SaintVena
 
 #[track_caller]
 fn check_names(material: &impl Material, expected: Rule, component: &str) {
-    let violations = check(material, &Settings::default()).expect_err("a defect went unnoticed");
-    let named = violations.0.iter().any(|violation| {
-        let (Violation::Differs { rule, component: found, .. }
-        | Violation::WrongKind { rule, component: found, .. }) = violation
-        else {
-            return false;
-        };
-        *rule == expected && found.contains(component)
-    });
-    assert!(named, "{violations}");
+    let verdict = check_rule(expected, material, &Settings::default()).expect("a rule that applies");
+    let violation = verdict.expect_err("a defect went unnoticed");
+    let (Violation::Differs { component: found, .. } | Violation::WrongKind { component: found, .. }) =
+        &violation
+    else {
+        panic!("{violation}")
+    };
+    assert!(found.contains(component), "{violation}");
 }
 
 /// Checks as [`check_names`] does, and that no other rule fails.
