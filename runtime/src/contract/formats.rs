@@ -34,7 +34,7 @@ fn far_from_rest([l1, l2, l3]: [f64; 3]) -> impl Iterator<Item = [f64; 3]> {
     thin.chain([1e-2, 0.1, 10.0, 100.0].map(|factor| [l1, l2, l3].map(|l| l * factor)))
 }
 
-/// Moderate stretches are well inside the range of `f32`. Where a point may overflow and does, it is not judged.
+/// Moderate stretches are inside the range of `f32`. A point that may overflow, and does, is not judged.
 fn compare(judge: &mut Judge<'_>, stretches: [f64; 3], may_overflow: bool) -> Verdict {
     let (material, notation) = (judge.material, judge.settings.notation);
     let single = stretches.map(|l| l as f32);

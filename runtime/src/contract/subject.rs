@@ -16,7 +16,7 @@ pub(super) trait Subject: Response<f64> {
     fn in_single_precision(&self, stretches: [f32; 3]) -> Option<[f32; COUNT]>;
 }
 
-/// Rows of results at all points, from the lanes of a back end: apart from [`Subject`], since each back end is
+/// Rows of results at all points on the lanes of a back end. Apart from [`Subject`], since each back end is
 /// compiled for it.
 pub(super) type OnLanes<'a> = &'a dyn Fn(Backend, &[[f64; 3]]) -> Vec<[f64; ALL]>;
 
