@@ -36,9 +36,9 @@
 
 use std::fmt;
 
+use crate::lanes::Backend;
 use crate::material::{Blocks, Inversion, Material};
 
-mod derivatives;
 mod domain;
 mod dual;
 mod formats;
@@ -54,26 +54,21 @@ mod slopes;
 mod subject;
 mod violation;
 
-use derivatives::{dual_numbers, strains};
 use domain::{domain, moduli, rest};
 use formats::{lanes, single_precision};
 use frames::isotropy;
 use invariants::invariants;
 use inverted::extension;
 use pairs::quotients;
+use results::SideBySide;
 pub use rule::Rule;
-use slopes::{stress_slope, tangent_slope};
+use slopes::{dual_numbers, strains, stress_slope, tangent_slope};
 #[doc(hidden)] // for energies from text
 pub use violation::Notation;
 pub use violation::{Violation, Violations};
 
-use judge::Judge;
+use judge::{Judge, Verdict};
 use subject::{OnLanes, Subject};
-
-/// Stack size, bytes, of the threads in which [`contract!`](crate::contract!) runs: enough for code without
-/// optimisation.
-#[doc(hidden)]
-pub const STACK: usize = 1 << 26;
 
 /// Choice of the points that are checked, and of the demands on the rest state.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,7 +171,8 @@ pub fn check_rule(
     material: &impl Material,
     settings: &Settings,
 ) -> Option<Result<Finding, Violation>> {
-    judge_rule(rule, material, Some(material), settings)
+    let on_lanes = |backend: Backend, points: &[[f64; 3]]| backend.run(SideBySide(material, points));
+    judge_rule(rule, material, Some(&on_lanes), settings)
 }
 
 fn report(verdict: impl FnMut(Rule) -> Option<Result<Finding, Violation>>) -> Result<Report, Violations> {
@@ -191,41 +187,59 @@ fn report(verdict: impl FnMut(Rule) -> Option<Result<Finding, Violation>>) -> Re
     if violations.is_empty() { Ok(Report { findings }) } else { Err(Violations(violations)) }
 }
 
+/// Judges in a thread: without optimisation the kernels of wide lanes need more stack than a test has.
+#[doc(hidden)] // for the tests of `contract!`
+pub fn with_large_stack(
+    judge: impl FnOnce() -> Result<String, String> + Send + 'static,
+) -> Result<String, String> {
+    let thread = std::thread::Builder::new().stack_size(1 << 26).spawn(judge);
+    match thread.map_err(|error| format!("no thread for the test: {error}"))?.join() {
+        Ok(verdict) => verdict,
+        Err(panic) => std::panic::resume_unwind(panic),
+    }
+}
+
 /// [`check_rule`], compiled once for all materials; without lanes, their rule does not apply.
 fn judge_rule(
     rule: Rule,
     material: &dyn Subject,
-    on_lanes: Option<&dyn OnLanes>,
+    on_lanes: Option<OnLanes<'_>>,
     settings: &Settings,
 ) -> Option<Result<Finding, Violation>> {
-    Some(match rule {
-        Rule::Rest => rest(material, settings),
-        Rule::Domain => domain(material, settings),
-        Rule::Isotropy => isotropy(material, settings),
-        Rule::StressSlope => stress_slope(material, settings),
-        Rule::TangentSlope => tangent_slope(material, settings),
-        Rule::DualNumbers => dual_numbers(material, settings),
-        Rule::Quotients => quotients(material, settings),
-        Rule::Strains => strains(material, settings),
+    let judge = &mut Judge::new(rule, material, settings);
+    let verdict = match rule {
+        Rule::Rest => rest(judge),
+        Rule::Domain => domain(judge),
+        Rule::Isotropy => isotropy(judge),
+        Rule::StressSlope => stress_slope(judge),
+        Rule::TangentSlope => tangent_slope(judge),
+        Rule::DualNumbers => dual_numbers(judge),
+        Rule::Quotients => quotients(judge),
+        Rule::Strains => strains(judge),
         Rule::Invariants if !material.has_invariants() => return None,
-        Rule::Invariants => invariants(material, settings),
+        Rule::Invariants => invariants(judge),
         Rule::Extension => match material.inversion() {
             Inversion::Refuse => return None,
-            Inversion::Extend { epsilon } => extension(material, epsilon, settings),
+            Inversion::Extend { epsilon } => extension(judge, epsilon),
         },
-        Rule::Moduli => moduli(material, material.stated_moduli()?, settings),
-        Rule::SinglePrecision => single_precision(material, settings),
-        Rule::Lanes => lanes(material, on_lanes?, settings),
-    })
+        Rule::Moduli => moduli(judge, material.stated_moduli()?),
+        Rule::SinglePrecision => single_precision(judge),
+        Rule::Lanes => lanes(judge, on_lanes?),
+    };
+    Some(verdict.and_then(|()| judge.finding()))
 }
 
 /// u of `f64`, in which the contract is judged.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
+/// The entries of the tangent: Hessian, flips and twists.
+fn entries(blocks: &Blocks<f64>) -> impl Iterator<Item = f64> + use<> {
+    blocks.hessian.into_iter().chain(blocks.flip).chain(blocks.twist)
+}
+
 /// The largest entry of the tangent, which multiplies an error of the stretches.
 fn stiffness(blocks: &Blocks<f64>) -> f64 {
-    let entries = blocks.hessian.into_iter().chain(blocks.flip).chain(blocks.twist);
-    entries.fold(0.0, |largest, entry| largest.max(entry.abs()))
+    entries(blocks).fold(0.0, |largest, entry| largest.max(entry.abs()))
 }
 
 /// Tolerable error of a stress in units of u, Pa: the tangent times the stretches, and its own size.
@@ -238,7 +252,7 @@ fn gradient_name(k: usize) -> String {
 }
 
 fn hessian_name(entry: usize) -> String {
-    match derivatives::ENTRIES[entry] {
+    match slopes::ENTRIES[entry] {
         (i, j) if i == j => format!("second derivative of the energy by stretch {}", i + 1),
         (i, j) => format!("second derivative of the energy by stretches {} and {}", i + 1, j + 1),
     }

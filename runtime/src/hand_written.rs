@@ -3,12 +3,29 @@
 //! The point and the contract must be testable without the code generator, and against something it has not
 //! written. Integration tests include this file, too.
 
-use piola::__private::{Pair, pole_floor};
+use piola::__private::pole_floor;
 use piola::lanes::{Mask, Real};
 use piola::material::{Blocks, Inversion, Material, PAIRS};
 
 const MU: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
+
+/// Domain and poles of an energy that is defined everywhere.
+macro_rules! defined_everywhere {
+    (has_pole: $has_pole:literal) => {
+        fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
+            R::Mask::splat(true)
+        }
+
+        fn has_pole(&self) -> bool {
+            $has_pole
+        }
+
+        fn ends_at_zero_volume(&self) -> bool {
+            false
+        }
+    };
+}
 
 /// μ ΣE² + λ/2 (ΣE)², E = (λ² − 1)/2: even in every pair, so that its twist is smooth everywhere.
 pub(crate) struct SaintVenantKirchhoff;
@@ -16,10 +33,6 @@ pub(crate) struct SaintVenantKirchhoff;
 impl Material for SaintVenantKirchhoff {
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
         quadratic(stretches.map(|l| (l * l - R::splat(1.0)) * R::splat(0.5)))
-    }
-
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        self.blocks(stretches).gradient
     }
 
     fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
@@ -46,17 +59,7 @@ impl Material for SaintVenantKirchhoff {
         }
     }
 
-    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn has_pole(&self) -> bool {
-        false
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
+    defined_everywhere!(has_pole: false);
 }
 
 /// μ/2 (Σλ² − 3) − μ ln J + λ/2 (ln J)², J > 0.
@@ -65,18 +68,6 @@ pub(crate) struct NeoHookean;
 impl Material for NeoHookean {
     fn energy<R: Real>(&self, l: [R; 3]) -> R {
         logarithmic(l, (l[0] * l[1] * l[2]).ln())
-    }
-
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        self.blocks(stretches).gradient
-    }
-
-    fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
-        let one = R::splat(1.0);
-        // ln(1 + s) = s ln[1 + s, 1], whose second factor is smooth.
-        let log = s.map(|s| s * Pair::of(one + s, one).ln_quotient());
-        let volumetric = R::splat(LAMBDA) * (log[0] + log[1] + log[2]);
-        s.map(|s| (R::splat(MU) * s * (R::splat(2.0) + s) + volumetric) / (one + s))
     }
 
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
@@ -119,11 +110,6 @@ impl Material for RotatedLinear {
         l.map(|l| R::splat(2.0 * MU) * (l - R::splat(1.0)) + pressure)
     }
 
-    fn gradient_at_strains<R: Real>(&self, s: [R; 3]) -> [R; 3] {
-        let pressure = R::splat(LAMBDA) * (s[0] + s[1] + s[2]);
-        s.map(|s| R::splat(2.0 * MU) * s + pressure)
-    }
-
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
         let (diagonal, mixed) = (R::splat(2.0 * MU + LAMBDA), R::splat(LAMBDA));
         let gradient = self.gradient(l);
@@ -136,17 +122,7 @@ impl Material for RotatedLinear {
         }
     }
 
-    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn has_pole(&self) -> bool {
-        true
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
+    defined_everywhere!(has_pole: true);
 }
 
 /// [`NeoHookean`] with ln continued below ε as its quadratic Taylor polynomial: admits every point, C² across
@@ -184,10 +160,6 @@ impl Material for ExtendedNeoHookean {
         logarithmic(l, log[0] + log[1] + log[2])
     }
 
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        self.blocks(stretches).gradient
-    }
-
     fn blocks<R: Real>(&self, l: [R; 3]) -> Blocks<R> {
         let (mu, lambda) = (R::splat(MU), R::splat(LAMBDA));
         let log = l.map(|l| self.log(l));
@@ -204,17 +176,7 @@ impl Material for ExtendedNeoHookean {
         }
     }
 
-    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn has_pole(&self) -> bool {
-        true
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
+    defined_everywhere!(has_pole: true);
 
     fn inversion(&self) -> Inversion {
         Inversion::Extend { epsilon: self.epsilon }

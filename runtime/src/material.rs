@@ -64,7 +64,13 @@ pub trait Material: Send + Sync {
     fn energy<R: Real>(&self, stretches: [R; 3]) -> R; // behind `dyn`: piola::DynMaterial
 
     /// Gradient ψ1, ψ2, ψ3, Pa.
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3];
+    ///
+    /// `#[piola::material]` overrides it with the operations of the gradient alone; as given here it is the
+    /// gradient of [`Material::blocks`].
+    #[inline(always)]
+    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        self.blocks(stretches).gradient
+    }
 
     /// Gradient ψ1, ψ2, ψ3 at the stretches 1 + si, Pa, for principal Biot strains s1 ≥ s2 ≥ s3 > −1.
     ///

@@ -2,16 +2,17 @@
 //! exactly the sign of λ3 is computed.
 
 use super::results::{name, results};
-use super::subject::{Subject, at_samples};
-use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, pair_name, stiffness};
+use super::subject::{Subject, samples};
+use super::{Judge, Settings, UNIT, Verdict, gradient_name, pair_name, stiffness};
 use crate::material::{Inversion, Moduli};
 
-/// [`Rule::Domain`].
-pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::Domain, material, settings, |judge, stretches, _| {
-        let finite = |judge: &mut Judge, component: &dyn Fn() -> String, stretches: [f64; 3], number: f64| {
-            judge.finite(component, stretches, number, || remedy(material, settings, stretches, number))
-        };
+/// [`Domain`](super::Rule::Domain).
+pub(super) fn domain(judge: &mut Judge<'_>) -> Verdict {
+    let (material, settings) = (judge.material, judge.settings);
+    let finite = |judge: &mut Judge<'_>, component: &dyn Fn() -> String, stretches, number| {
+        judge.finite(component, stretches, number, || remedy(material, settings, stretches, number))
+    };
+    for stretches in samples(judge) {
         for (k, number) in results(material, stretches).into_iter().enumerate() {
             finite(judge, &|| name(k), stretches, number)?;
         }
@@ -37,8 +38,9 @@ pub(super) fn domain(material: &dyn Subject, settings: &Settings) -> Result<Find
         let is_true = !decides || material.ends_at_zero_volume();
         let name = || "truth of `ends_at_zero_volume`".into();
         let advice = "the material admits these stretches or their mirror image, but not both: let `ends_at_zero_volume` return `true`";
-        judge.holds(name, [l1, l2, tiny], is_true, advice)
-    })
+        judge.holds(name, [l1, l2, tiny], is_true, advice)?;
+    }
+    Ok(())
 }
 
 /// Advice for an energy or derivative that is infinite or NaN.
@@ -80,14 +82,13 @@ fn remedy(
     }
 }
 
-/// [`Rule::Rest`].
-pub(super) fn rest(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Rest, settings.notation);
+/// [`Rest`](super::Rule::Rest).
+pub(super) fn rest(judge: &mut Judge<'_>) -> Verdict {
     let stretches = [1.0; 3];
-    let blocks = material.blocks(stretches);
+    let blocks = judge.material.blocks(stretches);
     let tolerance = 64.0 * UNIT * stiffness(&blocks);
     for k in 0..3 {
-        if settings.stress_free_at_rest {
+        if judge.settings.stress_free_at_rest {
             let (name, stress) = (|| gradient_name(k), blocks.gradient[k]);
             judge.compare_or(name, stretches, stress, 0.0, tolerance, Some(STRESSED))?;
             judge.compare(|| pair_name("twist", k), stretches, blocks.twist[k], 0.0, tolerance)?;
@@ -97,7 +98,7 @@ pub(super) fn rest(material: &dyn Subject, settings: &Settings) -> Result<Findin
         let (flip, words) = (blocks.flip[k], || (pair_name("flip", k), None));
         judge.demand(flip > 0.0, "a positive number", words, stretches, flip)?;
     }
-    judge.finding()
+    Ok(())
 }
 
 /// Advice for stress at rest, be it a mistake or meant.
@@ -105,17 +106,11 @@ const STRESSED: &str = "append to the energy a term that cancels this stress, su
                         on purpose, as that of a material declared `prestressed`, set `stress_free_at_rest: false`, as in \
                         `piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`";
 
-/// [`Rule::Moduli`], of a material that states these.
-pub(super) fn moduli(
-    material: &dyn Subject,
-    stated: Moduli,
-    settings: &Settings,
-) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Moduli, settings.notation);
+/// [`Moduli`](super::Rule::Moduli), of a material that states these.
+pub(super) fn moduli(judge: &mut Judge<'_>, stated: Moduli) -> Verdict {
     let stretches = [1.0; 3];
-    let tolerance = 64.0 * UNIT * stiffness(&material.blocks(stretches));
-    let found = Moduli::at_rest(material);
+    let tolerance = 64.0 * UNIT * stiffness(&judge.material.blocks(stretches));
+    let found = Moduli::at_rest(judge.material);
     judge.compare(|| "shear modulus".into(), stretches, stated.mu, found.mu, tolerance)?;
-    judge.compare(|| "first Lamé parameter".into(), stretches, stated.lambda, found.lambda, tolerance)?;
-    judge.finding()
+    judge.compare(|| "first Lamé parameter".into(), stretches, stated.lambda, found.lambda, tolerance)
 }

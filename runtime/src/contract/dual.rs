@@ -43,39 +43,27 @@ impl Dual {
     pub(super) fn along(stretches: [f64; 3], k: usize) -> [Self; 3] {
         std::array::from_fn(|i| Self { value: stretches[i], slope: if i == k { 1.0 } else { 0.0 } })
     }
-
-    const fn constant(value: f64) -> Self {
-        Self { value, slope: 0.0 }
-    }
 }
 
-impl Add for Dual {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, slope: self.slope + other.slope }
-    }
+/// Operators by their derivatives, from both operands and the value.
+macro_rules! operators {
+    ($($Operator:ident $method:ident |$x:ident, $y:ident, $value:tt| $slope:expr,)*) => {$(
+        impl $Operator for Dual {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                let ($x, $y, value) = (self, other, self.value.$method(other.value));
+                let $value = value;
+                Self { value, slope: $slope }
+            }
+        }
+    )*};
 }
 
-impl Sub for Dual {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self { value: self.value - other.value, slope: self.slope - other.slope }
-    }
-}
-
-impl Mul for Dual {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { value: self.value * other.value, slope: self.slope * other.value + self.value * other.slope }
-    }
-}
-
-impl Div for Dual {
-    type Output = Self;
-    fn div(self, divisor: Self) -> Self {
-        let value = self.value / divisor.value;
-        Self { value, slope: (self.slope - value * divisor.slope) / divisor.value }
-    }
+operators! {
+    Add add |x, y, _| x.slope + y.slope,
+    Sub sub |x, y, _| x.slope - y.slope,
+    Mul mul |x, y, _| x.slope * y.value + x.value * y.slope,
+    Div div |x, y, value| (x.slope - value * y.slope) / y.value,
 }
 
 impl Neg for Dual {
@@ -103,11 +91,11 @@ impl Real for Dual {
     const MIN_POSITIVE: f64 = <f64 as Real>::MIN_POSITIVE;
 
     fn splat(value: f64) -> Self {
-        Self::constant(value)
+        Self { value, slope: 0.0 }
     }
 
     fn from_fn(value: impl Fn(usize) -> f64) -> Self {
-        Self::constant(value(0))
+        Self::splat(value(0))
     }
 
     fn mul_add(self, factor: Self, addend: Self) -> Self {
@@ -184,12 +172,12 @@ impl Real for Dual {
 
     fn two_product(self, other: Self) -> (Self, Self) {
         let (value, error) = self.value.two_product(other.value);
-        (Self { value, ..self * other }, Self::constant(error))
+        (Self { value, ..self * other }, Self::splat(error))
     }
 
     fn power_of_two_scale(self) -> (Self, Self) {
         let (scale, back) = self.value.power_of_two_scale();
-        (Self::constant(scale), Self::constant(back))
+        (Self::splat(scale), Self::splat(back))
     }
 }
 
@@ -200,7 +188,7 @@ mod tests {
     /// Compares the slope of f at x with an extrapolated difference quotient.
     #[track_caller]
     fn check(x: f64, f: impl Fn(Dual) -> Dual) {
-        let value = |x: f64| f(Dual::constant(x)).value;
+        let value = |x: f64| f(Dual::splat(x)).value;
         let quotient = |h: f64| (value(x + h) - value(x - h)) / (2.0 * h);
         let h = x.abs() / 512.0;
         // Without its h² and h⁴ terms; h⁶ and rounding over h are left, each below 10⁻¹¹.
@@ -213,7 +201,7 @@ mod tests {
 
     #[test]
     fn slopes_are_those_of_difference_quotients() {
-        let c = Dual::constant;
+        let c = Dual::splat;
         for x in [0.3, 1.0, 1.7] {
             check(x, |x| x * x * x - x + c(2.0) / x);
             check(x, |x| (x * x + c(1.0)) / (x + c(3.0)));
@@ -255,7 +243,7 @@ mod tests {
     #[test]
     fn whole_powers_have_a_slope_at_zero() {
         let x = Dual { value: 0.0, slope: 2.0 };
-        assert_eq!(x.powf(Dual::constant(1.0)).slope, 2.0);
-        assert_eq!(x.powf(Dual::constant(3.0)).slope, 0.0);
+        assert_eq!(x.powf(Dual::splat(1.0)).slope, 2.0);
+        assert_eq!(x.powf(Dual::splat(3.0)).slope, 0.0);
     }
 }

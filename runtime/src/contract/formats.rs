@@ -2,34 +2,24 @@
 //! where a formula loses digits; many points side by side against each by itself.
 
 use super::results::{ALL, COUNT, everything, everything_name, name};
-use super::subject::{OnLanes, Subject, at_samples, known, samples, together};
-use super::{Finding, Judge, Notation, Rule, Settings, UNIT, Violation};
+use super::subject::{OnLanes, known, samples, together};
+use super::{Judge, Notation, UNIT, Verdict};
 use crate::lanes::{Backend, Real};
-use crate::random::Random;
 
-/// [`Rule::SinglePrecision`].
-pub(super) fn single_precision(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::SinglePrecision, material, settings, |judge, stretches, _| {
-        compare(judge, material, stretches, Overflow::Mistaken)?;
+/// [`SinglePrecision`](super::Rule::SinglePrecision).
+pub(super) fn single_precision(judge: &mut Judge<'_>) -> Verdict {
+    for stretches in samples(judge) {
+        compare(judge, stretches, false)?;
         for gap in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 0.0] {
             for close in together(stretches, gap) {
-                compare(judge, material, close, Overflow::Mistaken)?;
+                compare(judge, close, false)?;
             }
         }
         for far in far_from_rest(stretches) {
-            compare(judge, material, far, Overflow::Expected)?;
+            compare(judge, far, true)?;
         }
-        Ok(())
-    })
-}
-
-/// The meaning of a result that is finite in `f64` and not in `f32`.
-#[derive(Clone, Copy, PartialEq)]
-enum Overflow {
-    /// A mistake: moderate stretches are well inside the range of `f32`.
-    Mistaken,
-    /// The end of that range: the point is not judged.
-    Expected,
+    }
+    Ok(())
 }
 
 /// Stretches of flat elements, of lines, of huge and tiny elements, and moderate stretches.
@@ -44,12 +34,9 @@ fn far_from_rest([l1, l2, l3]: [f64; 3]) -> impl Iterator<Item = [f64; 3]> {
     thin.chain([1e-2, 0.1, 10.0, 100.0].map(|factor| [l1, l2, l3].map(|l| l * factor)))
 }
 
-fn compare(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    overflow: Overflow,
-) -> Result<(), Violation> {
+/// Moderate stretches are inside the range of `f32`. A point that may overflow, and does, is not judged.
+fn compare(judge: &mut Judge<'_>, stretches: [f64; 3], may_overflow: bool) -> Verdict {
+    let (material, notation) = (judge.material, judge.settings.notation);
     let single = stretches.map(|l| l as f32);
     let stretches = single.map(f64::from);
     if !material.admits(stretches) {
@@ -57,10 +44,9 @@ fn compare(
     }
     let Some(found) = material.in_single_precision(single) else { return Ok(()) };
     let Some((expected, tolerances)) = known(material, stretches) else { return Ok(()) };
-    if overflow == Overflow::Expected && !found.iter().all(|found| found.is_finite()) {
+    if may_overflow && !found.iter().all(|found| found.is_finite()) {
         return Ok(());
     }
-    let notation = judge.notation();
     for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
         let name = || format!("{} in `f32`", name(k));
         if expected.is_finite() {
@@ -81,16 +67,11 @@ fn out_of_range(notation: Notation) -> String {
     )
 }
 
-/// [`Rule::Lanes`].
-pub(super) fn lanes(
-    material: &dyn Subject,
-    on_lanes: &dyn OnLanes,
-    settings: &Settings,
-) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Lanes, settings.notation);
-    let mut random = Random::new(settings.seed);
+/// [`Lanes`](super::Rule::Lanes).
+pub(super) fn lanes(judge: &mut Judge<'_>, on_lanes: OnLanes<'_>) -> Verdict {
+    let material = judge.material;
     let mut points = Vec::new();
-    for stretches in samples(material, settings, &mut random) {
+    for stretches in samples(judge) {
         points.push(stretches);
         let close = [1e-9, 0.0].into_iter().flat_map(|gap| together(stretches, gap));
         points.extend(close.filter(|&close| material.admits(close)));
@@ -98,7 +79,7 @@ pub(super) fn lanes(
     let alone: Vec<_> = points.iter().map(|&stretches| everything(material, stretches)).collect();
 
     let portable = Backend::portable();
-    let together = on_lanes.side_by_side_on(portable, &points);
+    let together = on_lanes(portable, &points);
     for ((&stretches, found), expected) in points.iter().zip(together).zip(&alone) {
         for k in 0..ALL {
             let name = || format!("{} on the {portable} back end against a scalar", everything_name(k));
@@ -107,12 +88,12 @@ pub(super) fn lanes(
     }
 
     let backend = Backend::best();
-    let in_order = on_lanes.side_by_side_on(backend, &points);
+    let in_order = on_lanes(backend, &points);
     // Each in the lane before, with other neighbours.
     let by = 1.min(points.len());
     let mut moved = points.clone();
     moved.rotate_left(by);
-    let mut shifted = on_lanes.side_by_side_on(backend, &moved);
+    let mut shifted = on_lanes(backend, &moved);
     shifted.rotate_right(by);
     for ((&stretches, found), expected) in points.iter().zip(shifted).zip(&in_order) {
         for k in 0..ALL {
@@ -127,5 +108,5 @@ pub(super) fn lanes(
             judge.compare(name, stretches, found[k], expected[k], UNIT * tolerances[k])?;
         }
     }
-    judge.finding()
+    Ok(())
 }

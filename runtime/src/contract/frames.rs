@@ -2,34 +2,30 @@
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
-use super::subject::{Subject, at_samples, energy, stress};
-use super::{Finding, Judge, Rule, Settings, UNIT, Violation, gradient_name, stiffness, stress_scale};
+use super::subject::samples;
+use super::{Judge, UNIT, Verdict, gradient_name, hessian_name, stiffness, stress_scale};
 use crate::material::PAIRS;
-use crate::point::Matrix3;
 use crate::point::matrix::multiply;
+use crate::point::{Matrix3, evaluate_energy, evaluate_stress};
 
-/// [`Rule::Isotropy`].
-pub(super) fn isotropy(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::Isotropy, material, settings, |judge, stretches, random| {
-        rotated(judge, material, stretches, &random.rotation(), &random.rotation())?;
+/// [`Isotropy`](super::Rule::Isotropy).
+pub(super) fn isotropy(judge: &mut Judge<'_>) -> Verdict {
+    for stretches in samples(judge) {
+        let (Q, W) = (judge.random.rotation(), judge.random.rotation());
+        rotated(judge, stretches, &Q, &W)?;
         for equal in [[stretches[0], stretches[0], stretches[2]], [stretches[0], stretches[1], stretches[1]]]
         {
-            if material.admits(equal) {
-                interchangeable(judge, material, equal)?;
+            if judge.material.admits(equal) {
+                interchangeable(judge, equal)?;
             }
         }
-        Ok(())
-    })
+    }
+    Ok(())
 }
 
 /// Energy and stress at Q diag(λ) W against those at diag(λ), which need no decomposition.
-fn rotated(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    Q: &Matrix3<f64>,
-    W: &Matrix3<f64>,
-) -> Result<(), Violation> {
+fn rotated(judge: &mut Judge<'_>, stretches: [f64; 3], Q: &Matrix3<f64>, W: &Matrix3<f64>) -> Verdict {
+    let material = judge.material;
     let F = multiply(&multiply(Q, &diagonal(stretches)), W);
     let blocks = material.blocks(stretches);
     let scale = stress_scale(&blocks, stretches);
@@ -38,9 +34,9 @@ fn rotated(
     let tolerance = 100.0 * UNIT * scale;
     let expected = material.energy(stretches);
     let energy_tolerance = tolerance * stretches[0] + 100.0 * UNIT * expected.abs();
-    let found = energy(material, &F);
+    let found = evaluate_energy(material, &F).energy;
     judge.compare(|| "energy after a rotation".into(), stretches, found, expected, energy_tolerance)?;
-    let found = stress(material, &F);
+    let found = evaluate_stress(material, &F).stress;
     let expected = multiply(&multiply(Q, &diagonal(blocks.gradient)), W);
     for i in 0..3 {
         for j in 0..3 {
@@ -52,24 +48,20 @@ fn rotated(
 }
 
 /// First and second derivatives by two equal stretches agree, and so do their mixed ones with the third.
-fn interchangeable(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> Result<(), Violation> {
-    let blocks = material.blocks(stretches);
-    let mixed = |i: usize, j: usize| {
-        let pair = PAIRS.iter().position(|&pair| pair == (i.min(j), i.max(j)));
-        pair.map_or(f64::NAN, |pair| blocks.hessian[3 + pair])
-    };
+fn interchangeable(judge: &mut Judge<'_>, stretches: [f64; 3]) -> Verdict {
+    let blocks = judge.material.blocks(stretches);
     let tolerance = 100.0 * UNIT * stress_scale(&blocks, stretches);
     let curvature = 100.0 * UNIT * stiffness(&blocks);
     for (i, j) in PAIRS {
         if stretches[i] != stretches[j] {
             continue;
         }
-        let k = 3 - i - j;
         judge.compare(|| gradient_name(j), stretches, blocks.gradient[j], blocks.gradient[i], tolerance)?;
-        let name = || format!("second derivative of the energy by stretch {}", j + 1);
-        judge.compare(name, stretches, blocks.hessian[j], blocks.hessian[i], curvature)?;
-        let name = || format!("second derivative of the energy by stretches {} and {}", j + 1, k + 1);
-        judge.compare(name, stretches, mixed(j, k), mixed(i, k), curvature)?;
+        // ψjj and ψii, then ψjk and ψik: entry 5 − i of the Hessian is that of the pair without i.
+        for (entry, other) in [(j, i), (5 - i, 5 - j)] {
+            let (found, expected) = (blocks.hessian[entry], blocks.hessian[other]);
+            judge.compare(|| hessian_name(entry), stretches, found, expected, curvature)?;
+        }
     }
     Ok(())
 }

@@ -1,9 +1,8 @@
 //! The rule on invariants: energy and derivatives by I1, I2 and J against those by stretches.
 
-use super::subject::{Subject, at_samples};
-use super::{
-    Finding, Rule, Settings, UNIT, Violation, gradient_name, hessian_name, pair_name, stiffness, stress_scale,
-};
+use super::slopes::ENTRIES;
+use super::subject::{Subject, samples};
+use super::{Judge, UNIT, Verdict, entries, gradient_name, hessian_name, pair_name, stiffness, stress_scale};
 use crate::material::{Blocks, Curvature, PAIRS};
 
 /// Change of the second derivatives by a relative change of the stretches, per change, Pa.
@@ -12,26 +11,20 @@ fn sensitivity(material: &dyn Subject, stretches: [f64; 3], blocks: &Blocks<f64>
     let mut largest = 0.0f64;
     for signs in [[1.0, 1.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, 1.0]] {
         let near = material.blocks(std::array::from_fn(|k| stretches[k] * (1.0 + CHANGE * signs[k])));
-        let pairs = [
-            (&near.hessian[..], &blocks.hessian[..]),
-            (&near.flip, &blocks.flip),
-            (&near.twist, &blocks.twist),
-        ];
-        for (near, here) in pairs {
-            let changes = near.iter().zip(here).map(|(near, here)| (near - here).abs());
-            largest = changes.filter(|change| change.is_finite()).fold(largest, f64::max);
-        }
+        let changes = entries(&near).zip(entries(blocks)).map(|(near, here)| (near - here).abs());
+        largest = changes.filter(|change| change.is_finite()).fold(largest, f64::max);
     }
     largest / CHANGE
 }
 
-/// [`Rule::Invariants`], of a material that has them.
-pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::Invariants, material, settings, |judge, stretches, _| {
+/// [`Invariants`](super::Rule::Invariants), of a material that has them.
+pub(super) fn invariants(judge: &mut Judge<'_>) -> Verdict {
+    let material = judge.material;
+    for stretches in samples(judge) {
         let [a, b, c] = stretches.map(|l| l * l);
         let invariants = [a + b + c, a * b + a * c + b * c, stretches.iter().product()];
         if !material.admits_invariants(invariants) {
-            return Ok(());
+            continue;
         }
         let is_admitted = material.admits(stretches);
         let remedy =
@@ -81,7 +74,7 @@ pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<
         let blocks = material.blocks(stretches);
         // Invariants are rounded as stretches are.
         let stiffness = stiffness(&blocks) + sensitivity(material, stretches, &blocks);
-        for (place, (i, j)) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].into_iter().enumerate() {
+        for (place, (i, j)) in ENTRIES.into_iter().enumerate() {
             let mut terms: Vec<f64> =
                 (0..9).map(|k| slopes[i][k / 3] * second[k / 3][k % 3] * slopes[j][k % 3]).collect();
             if i == j {
@@ -98,6 +91,6 @@ pub(super) fn invariants(material: &dyn Subject, settings: &Settings) -> Result<
             let twist = [2.0 * w1, 2.0 * w2 * (other * other + product), wj * other];
             compare(&pair_name("twist", pair), &twist, blocks.twist[pair], stiffness)?;
         }
-        Ok(())
-    })
+    }
+    Ok(())
 }

@@ -1,89 +1,65 @@
 //! The rule on extensions: smooth next to and across the threshold, restoring below it.
 
 use super::slopes::{Approach, energy_along, stress_along};
-use super::subject::Subject;
-use super::{Finding, Judge, Rule, Settings, Violation, gradient_name};
+use super::{Judge, Verdict, Violation, gradient_name};
 use crate::material::Blocks;
-use crate::random::Random;
 
 /// Values of −λ3 at which the extension is judged beyond det F = 0.
 const DEPTHS: [f64; 3] = [0.01, 0.5, 2.0];
 
-/// [`Rule::Extension`], of a material that is extended from a threshold on.
-pub(super) fn extension(
-    material: &dyn Subject,
-    epsilon: f64,
-    settings: &Settings,
-) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(Rule::Extension, settings.notation);
-    let mut random = Random::new(settings.seed);
-    let (_, high) = settings.range;
-    for point in 0..settings.points {
+/// [`Extension`](super::Rule::Extension), of a material that is extended from a threshold on.
+pub(super) fn extension(judge: &mut Judge<'_>, epsilon: f64) -> Verdict {
+    let (_, high) = judge.settings.range;
+    for point in 0..judge.settings.points {
         // λ2 clear of the threshold, unless a rule has another value.
-        let l2 = random.uniform(1.1 * epsilon, high);
-        let l1 = random.uniform(l2, high.max(1.01 * l2));
+        let l2 = judge.random.uniform(1.1 * epsilon, high);
+        let l1 = judge.random.uniform(l2, high.max(1.01 * l2));
         let near = [0.0, 1e-3, -1e-3, 1e-8, -1e-8][point % 5];
-        across(&mut judge, material, [l1, l2, epsilon * (1.0 + near)], &mut random)?;
+        across(judge, [l1, l2, epsilon * (1.0 + near)])?;
 
         let gap = [1.0 / 16.0, 1.0 / 64.0][point % 2];
         let (above, below) = (epsilon * (1.0 + gap), epsilon * (1.0 - gap));
         let (further, lower) = (epsilon * (1.0 + 2.0 * gap), epsilon * (1.0 - 2.0 * gap));
         for (l2, l3) in [(l2, above), (l2, below), (further, above), (above, below), (below, lower)] {
-            beside(&mut judge, material, [l1, l2, l3], epsilon, &mut random)?;
+            beside(judge, [l1, l2, l3], epsilon)?;
         }
         for depth in DEPTHS.into_iter().filter(|depth| 1.1 * depth < high) {
-            let l2 = random.uniform((1.1 * depth).max(1.1 * epsilon), high);
-            let l1 = random.uniform(l2, high.max(1.01 * l2));
-            beside(&mut judge, material, [l1, l2, -depth], epsilon, &mut random)?;
+            let l2 = judge.random.uniform((1.1 * depth).max(1.1 * epsilon), high);
+            let l1 = judge.random.uniform(l2, high.max(1.01 * l2));
+            beside(judge, [l1, l2, -depth], epsilon)?;
         }
-        for l3 in [epsilon * (1.0 - 1e-6), random.uniform(-0.95, -0.05) * l2, -l2] {
-            restoring(&mut judge, material, [l1, l2, l3], epsilon)?;
+        for l3 in [epsilon * (1.0 - 1e-6), judge.random.uniform(-0.95, -0.05) * l2, -l2] {
+            restoring(judge, [l1, l2, l3], epsilon)?;
         }
     }
-    judge.finding()
+    Ok(())
 }
 
-fn across(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    random: &mut Random,
-) -> Result<(), Violation> {
-    if !admitted(judge, material, stretches)? {
+fn across(judge: &mut Judge<'_>, stretches: [f64; 3]) -> Verdict {
+    if !admitted(judge, stretches)? {
         return Ok(());
     }
-    energy_along(judge, material, stretches, &Approach::smooth(stretches), random)?;
-    stress_along(judge, material, stretches, &Approach::across(stretches), random)
+    energy_along(judge, stretches, &Approach::smooth(stretches))?;
+    stress_along(judge, stretches, &Approach::across(stretches))
 }
 
-fn beside(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    epsilon: f64,
-    random: &mut Random,
-) -> Result<(), Violation> {
-    if !admitted(judge, material, stretches)? {
+fn beside(judge: &mut Judge<'_>, stretches: [f64; 3], epsilon: f64) -> Verdict {
+    if !admitted(judge, stretches)? {
         return Ok(());
     }
     let approach = Approach::beside(epsilon, stretches);
-    energy_along(judge, material, stretches, &approach, random)?;
-    stress_along(judge, material, stretches, &approach, random)?;
-    if stretches[2] < epsilon { restoring(judge, material, stretches, epsilon) } else { Ok(()) }
+    energy_along(judge, stretches, &approach)?;
+    stress_along(judge, stretches, &approach)?;
+    if stretches[2] < epsilon { restoring(judge, stretches, epsilon) } else { Ok(()) }
 }
 
-fn restoring(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    epsilon: f64,
-) -> Result<(), Violation> {
-    if stretches.iter().product::<f64>() >= 1.0 || !admitted(judge, material, stretches)? {
+fn restoring(judge: &mut Judge<'_>, stretches: [f64; 3], epsilon: f64) -> Verdict {
+    if stretches.iter().product::<f64>() >= 1.0 || !admitted(judge, stretches)? {
         return Ok(());
     }
+    let (material, notation) = (judge.material, judge.settings.notation);
     let [l1, l2, _] = stretches;
     let found = material.gradient(stretches)[2];
-    let notation = judge.notation();
     let remedy = || {
         let logarithm = notation.either(
             "add `+ kappa * (J - 1.0 - J.ln())` with a parameter of its own (or a greater one, if it has such a term), and state \
@@ -120,13 +96,13 @@ fn restoring(
 
 /// True if the material admits the mirror image. The point itself must be admitted then, too: a bound such as
 /// Gent's on I1 has nothing to do with inversion.
-fn admitted(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> Result<bool, Violation> {
+fn admitted(judge: &mut Judge<'_>, stretches: [f64; 3]) -> Result<bool, Violation> {
     let [l1, l2, l3] = stretches;
-    if !material.admits([l1, l2, l3.abs()]) {
+    if !judge.material.admits([l1, l2, l3.abs()]) {
         return Ok(false);
     }
     let remedy = "a limit of the domain other than J > 0 excludes this inverted point and admits its mirror image: write that limit \
                   in terms that are independent of signs, such as I1, I2 or J * J, or continue the function that ends there";
-    judge.holds(|| "admission".into(), stretches, material.admits(stretches), remedy)?;
+    judge.holds(|| "admission".into(), stretches, judge.material.admits(stretches), remedy)?;
     Ok(true)
 }

@@ -1,7 +1,12 @@
 //! Compares numbers, counts, and stops at the first that is wrong.
 
+use super::subject::Subject;
 use super::violation::{FINITE, Violation};
-use super::{Finding, Notation, Rule};
+use super::{Finding, Notation, Rule, Settings};
+use crate::random::Random;
+
+/// The first violation of a rule, if there is one.
+pub(super) type Verdict = Result<(), Violation>;
 
 /// Ratio of a difference to its tolerance above which a formula is wrong; wrong ones mostly exceed 1e10.
 const MISTAKE: f64 = 1e6;
@@ -17,22 +22,21 @@ fn lost_digits(notation: Notation) -> String {
     )
 }
 
-/// Progress of one rule: its comparisons so far and the worst of them.
-pub(super) struct Judge {
+/// One rule and the material under test: the comparisons so far and the worst of them.
+pub(super) struct Judge<'a> {
+    pub(super) material: &'a dyn Subject,
+    pub(super) settings: &'a Settings,
+    /// Random numbers to draw samples and further choices from.
+    pub(super) random: Random,
     rule: Rule,
-    notation: Notation,
     comparisons: usize,
     worst: f64,
 }
 
-impl Judge {
-    pub(super) fn new(rule: Rule, notation: Notation) -> Self {
-        Self { rule, notation, comparisons: 0, worst: 0.0 }
-    }
-
-    /// The notation of remedies.
-    pub(super) fn notation(&self) -> Notation {
-        self.notation
+impl<'a> Judge<'a> {
+    pub(super) fn new(rule: Rule, material: &'a dyn Subject, settings: &'a Settings) -> Self {
+        let random = Random::new(settings.seed);
+        Self { material, settings, random, rule, comparisons: 0, worst: 0.0 }
     }
 
     /// Demands |found − expected| ≤ tolerance.
@@ -43,7 +47,7 @@ impl Judge {
         found: f64,
         expected: f64,
         tolerance: f64,
-    ) -> Result<(), Violation> {
+    ) -> Verdict {
         self.compare_or(component, stretches, found, expected, tolerance, None)
     }
 
@@ -56,7 +60,7 @@ impl Judge {
         expected: f64,
         tolerance: f64,
         remedy: Option<&str>,
-    ) -> Result<(), Violation> {
+    ) -> Verdict {
         let difference = (found - expected).abs();
         self.comparisons += 1;
         // A NaN on either side is not agreement.
@@ -67,7 +71,8 @@ impl Judge {
             return Ok(());
         }
         let is_small = difference < MISTAKE * tolerance;
-        let remedy = if is_small { Some(lost_digits(self.notation)) } else { remedy.map(Into::into) };
+        let remedy =
+            if is_small { Some(lost_digits(self.settings.notation)) } else { remedy.map(Into::into) };
         let (rule, component) = (self.rule, component());
         Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
     }
@@ -79,7 +84,7 @@ impl Judge {
         stretches: [f64; 3],
         found: f64,
         expected: f64,
-    ) -> Result<(), Violation> {
+    ) -> Verdict {
         self.comparisons += 1;
         if found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan()) {
             return Ok(());
@@ -96,7 +101,7 @@ impl Judge {
         stretches: [f64; 3],
         found: bool,
         remedy: &str,
-    ) -> Result<(), Violation> {
+    ) -> Verdict {
         let words = || (format!("{} (1 or 0)", component()), Some(remedy.into()));
         self.demand(found, "1", words, stretches, if found { 1.0 } else { 0.0 })
     }
@@ -108,7 +113,7 @@ impl Judge {
         stretches: [f64; 3],
         found: f64,
         remedy: impl FnOnce() -> String,
-    ) -> Result<(), Violation> {
+    ) -> Verdict {
         let words = || (component(), Some(remedy()));
         self.demand(found.is_finite(), FINITE, words, stretches, found)
     }
@@ -121,7 +126,7 @@ impl Judge {
         words: impl FnOnce() -> (String, Option<String>),
         stretches: [f64; 3],
         found: f64,
-    ) -> Result<(), Violation> {
+    ) -> Verdict {
         self.comparisons += 1;
         if is_met {
             return Ok(());
@@ -130,8 +135,8 @@ impl Judge {
         Err(Violation::WrongKind { rule: self.rule, component, stretches, found, expected, remedy })
     }
 
-    pub(super) fn finding(self) -> Result<Finding, Violation> {
-        let Self { rule, comparisons, worst, .. } = self;
+    pub(super) fn finding(&self) -> Result<Finding, Violation> {
+        let &Self { rule, comparisons, worst, .. } = self;
         if comparisons == 0 {
             return Err(Violation::NothingToCheck { rule });
         }

@@ -33,15 +33,10 @@ macro_rules! contract {
 
             #[track_caller]
             fn keep(rule: $crate::contract::Rule) {
-                // Without optimisation the kernels of wide lanes need more stack than a test has.
-                let thread = ::std::thread::Builder::new().stack_size($crate::contract::STACK);
-                match thread.spawn(move || judge(rule).map_err(|error| ::std::string::ToString::to_string(&error))) {
-                    ::core::result::Result::Ok(thread) => match thread.join() {
-                        ::core::result::Result::Ok(::core::result::Result::Ok(finding)) => ::std::println!("{finding}"),
-                        ::core::result::Result::Ok(::core::result::Result::Err(error)) => ::core::panic!("\n{error}\n"),
-                        ::core::result::Result::Err(panic) => ::std::panic::resume_unwind(panic),
-                    },
-                    ::core::result::Result::Err(error) => ::core::panic!("no thread for the test: {error}"),
+                let verdict = move || judge(rule).map_err(|error| ::std::string::ToString::to_string(&error));
+                match $crate::contract::with_large_stack(verdict) {
+                    ::core::result::Result::Ok(finding) => ::std::println!("{finding}"),
+                    ::core::result::Result::Err(error) => ::core::panic!("\n{error}\n"),
                 }
             }
 

@@ -14,26 +14,26 @@
 //! and the quotients agree with their definition. Stretches 1 and 3 can only be close together with stretch 2
 //! between them.
 
-use super::subject::{Subject, at_samples};
-use super::{Finding, Judge, Rule, Settings, UNIT, Violation, pair_name, stiffness};
+use super::subject::samples;
+use super::{Judge, UNIT, Verdict, pair_name, stiffness};
 use crate::material::{Blocks, PAIRS};
 
-/// [`Rule::Quotients`].
-pub(super) fn quotients(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::Quotients, material, settings, |judge, stretches, _| {
-        by_definition(judge, material, stretches)?;
+/// [`Quotients`](super::Rule::Quotients).
+pub(super) fn quotients(judge: &mut Judge<'_>) -> Verdict {
+    for stretches in samples(judge) {
+        by_definition(judge, stretches)?;
         for exponent in 1..=17 {
             let gap = if exponent == 17 { 0.0 } else { 10f64.powi(-exponent) };
-            close(judge, material, stretches, gap)?;
-            opposite(judge, material, stretches, gap)?;
+            close(judge, stretches, gap)?;
+            opposite(judge, stretches, gap)?;
         }
-        Ok(())
-    })
+    }
+    Ok(())
 }
 
 /// The quotients against (ψi ∓ ψj)/(λi ∓ λj), as exactly as that is known.
-fn by_definition(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3]) -> Result<(), Violation> {
-    let blocks = material.blocks(stretches);
+fn by_definition(judge: &mut Judge<'_>, stretches: [f64; 3]) -> Verdict {
+    let blocks = judge.material.blocks(stretches);
     for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
         let (a, b) = (blocks.gradient[i], blocks.gradient[j]);
         let terms = a.abs() + b.abs() + stiffness(&blocks) * stretches[0];
@@ -52,7 +52,8 @@ fn by_definition(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3])
 }
 
 /// Flips of stretches that are close to each other.
-fn close(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3], gap: f64) -> Result<(), Violation> {
+fn close(judge: &mut Judge<'_>, stretches: [f64; 3], gap: f64) -> Verdict {
+    let material = judge.material;
     let [l1, l2, l3] = stretches;
     // The pair is moved together around its mean, the other stretch stays; descending order is kept. In the
     // last three cases all are close, with the other one in the middle or at the distance of the end of the
@@ -96,13 +97,8 @@ fn close(judge: &mut Judge, material: &dyn Subject, stretches: [f64; 3], gap: f6
 }
 
 /// Twists of stretches that are nearly opposite, where the energy is smooth there.
-fn opposite(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    gap: f64,
-) -> Result<(), Violation> {
-    let [l1, l2, _] = stretches;
+fn opposite(judge: &mut Judge<'_>, [l1, l2, _]: [f64; 3], gap: f64) -> Verdict {
+    let material = judge.material;
     let half = 0.5 * gap * l2;
     let at = |t: f64| [l1.max(1.1 * l2), t + l2, t - l2];
     if !material.admits(at(0.0)) || !material.admits(at(half)) {

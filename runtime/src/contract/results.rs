@@ -42,24 +42,11 @@ pub(super) fn everything<R: Real>(material: &(impl Response<R> + ?Sized), stretc
     let invariants = [a + b + c, a * b + a * c + b * c, stretches[0] * stretches[1] * stretches[2]];
     let [w1, w2, wj] = material.gradient_by_invariants(invariants);
     let [.., w11, w22, wjj, w12, w1j, w2j] = material.derivatives_by_invariants(invariants);
+    let energy = material.energy_by_invariants(invariants);
     let truth = |mask| R::select(mask, R::splat(1.0), R::splat(0.0));
-    let others = [
-        s1,
-        s2,
-        s3,
-        material.energy_by_invariants(invariants),
-        w1,
-        w2,
-        wj,
-        w11,
-        w22,
-        wjj,
-        w12,
-        w1j,
-        w2j,
-        truth(material.admits(stretches)),
-        truth(material.admits_invariants(invariants)),
-    ];
+    let admits = truth(material.admits(stretches));
+    let covers = truth(material.admits_invariants(invariants));
+    let others = [s1, s2, s3, energy, w1, w2, wj, w11, w22, wjj, w12, w1j, w2j, admits, covers];
     std::array::from_fn(|k| if k < COUNT { results[k] } else { others[k - COUNT] })
 }
 

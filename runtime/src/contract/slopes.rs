@@ -1,34 +1,42 @@
 //! Rules on derivatives: a difference quotient approaches a correct derivative at a known rate, until
-//! rounding takes over.
+//! rounding takes over; dual numbers, and strains near rest, leave no truncation.
 //!
 //! Closeness at one step size cannot distinguish a small mistake from truncation; the rate can. A wrong
 //! derivative leaves an error that does not shrink with h.
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
+use super::dual::Dual;
 use super::frames::diagonal;
 use super::pairs::mean;
-use super::subject::{Subject, at_samples, energy, stress, tangent};
-use super::{Finding, Judge, Rule, Settings, UNIT, Violation, stiffness, stress_scale};
+use super::subject::samples;
+use super::{Judge, UNIT, Verdict, gradient_name, hessian_name, stiffness, stress_scale};
 use crate::material::Inversion;
-use crate::point::Matrix3;
 use crate::point::matrix::multiply;
+use crate::point::{Filter, Matrix3, evaluate, evaluate_energy, evaluate_stress};
 use crate::random::Random;
 
-/// [`Rule::StressSlope`].
-pub(super) fn stress_slope(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
+/// The entries ψ11, ψ22, ψ33, ψ12, ψ13, ψ23 as pairs of stretches.
+pub(super) const ENTRIES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
+/// [`StressSlope`](super::Rule::StressSlope).
+pub(super) fn stress_slope(judge: &mut Judge<'_>) -> Verdict {
     let mut last = None;
-    at_samples(Rule::StressSlope, material, settings, |judge, stretches, random| {
-        energy_along(judge, material, stretches, &Approach::smooth(stretches), random)?;
-        last.replace(stretches).map_or(Ok(()), |from| work(judge, material, from, stretches))
-    })
+    for stretches in samples(judge) {
+        energy_along(judge, stretches, &Approach::smooth(stretches))?;
+        if let Some(from) = last.replace(stretches) {
+            work(judge, from, stretches)?;
+        }
+    }
+    Ok(())
 }
 
 /// ψ(to) − ψ(from) against the integral of ψ1 dλ1 + ψ2 dλ2 + ψ3 dλ3 on the straight line, where the material
 /// admits it.
 ///
 /// Gauss's rule estimates its error, and each ψ is known to some u times its own size and that of its terms.
-fn work(judge: &mut Judge, material: &dyn Subject, from: [f64; 3], to: [f64; 3]) -> Result<(), Violation> {
+fn work(judge: &mut Judge<'_>, from: [f64; 3], to: [f64; 3]) -> Verdict {
+    let material = judge.material;
     let at = |t: f64| std::array::from_fn(|k| from[k] + t * (to[k] - from[k]));
     // On the way through λ3 = 0 there may be a pole.
     let crosses = from[2].signum() != to[2].signum();
@@ -63,11 +71,11 @@ fn work(judge: &mut Judge, material: &dyn Subject, from: [f64; 3], to: [f64; 3])
     judge.compare(name, to, found, expected, inexact + 100.0 * UNIT * rounding)
 }
 
-/// [`Rule::TangentSlope`].
-pub(super) fn tangent_slope(material: &dyn Subject, settings: &Settings) -> Result<Finding, Violation> {
-    at_samples(Rule::TangentSlope, material, settings, |judge, stretches, random| {
-        stress_along(judge, material, stretches, &Approach::smooth(stretches), random)
-    })
+/// [`TangentSlope`](super::Rule::TangentSlope).
+pub(super) fn tangent_slope(judge: &mut Judge<'_>) -> Verdict {
+    samples(judge)
+        .into_iter()
+        .try_for_each(|stretches| stress_along(judge, stretches, &Approach::smooth(stretches)))
 }
 
 /// Convergence of difference quotients to a derivative.
@@ -110,39 +118,29 @@ fn moved(F: &Matrix3<f64>, h: f64, A: &Matrix3<f64>) -> Matrix3<f64> {
 }
 
 /// The derivative of the energy along a random line.
-pub(super) fn energy_along(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    approach: &Approach,
-    random: &mut Random,
-) -> Result<(), Violation> {
-    let (F, A) = line(stretches, approach.reach, random);
-    let P = stress(material, &F);
+pub(super) fn energy_along(judge: &mut Judge<'_>, stretches: [f64; 3], approach: &Approach) -> Verdict {
+    let material = judge.material;
+    let (F, A) = line(stretches, approach.reach, &mut judge.random);
+    let P = evaluate_stress(material, &F).stress;
     let derivative = (0..9).map(|k| P[k / 3][k % 3] * A[k / 3][k % 3]).sum();
     let blocks = material.blocks(stretches);
     let size = material.energy(stretches).abs();
     let rounding = 100.0 * UNIT * (stress_scale(&blocks, stretches) * stretches[0] + size);
-    let along = |h: f64| energy(material, &moved(&F, h, &A));
+    let along = |h: f64| evaluate_energy(material, &moved(&F, h, &A)).energy;
     let name = || "difference quotient of the energy along a random line".into();
     slope(judge, name, stretches, along, derivative, approach.order, rounding)
 }
 
 /// The derivative of one component of the stress along a random line.
-pub(super) fn stress_along(
-    judge: &mut Judge,
-    material: &dyn Subject,
-    stretches: [f64; 3],
-    approach: &Approach,
-    random: &mut Random,
-) -> Result<(), Violation> {
-    let (F, A) = line(stretches, approach.reach, random);
-    let B = random.matrix();
+pub(super) fn stress_along(judge: &mut Judge<'_>, stretches: [f64; 3], approach: &Approach) -> Verdict {
+    let material = judge.material;
+    let (F, A) = line(stretches, approach.reach, &mut judge.random);
+    let B = judge.random.matrix();
     let inner = |X: &Matrix3<f64>| (0..9).map(|k| X[k / 3][k % 3] * B[k / 3][k % 3]).sum::<f64>();
-    let dP_dF = tangent(material, &F);
+    let dP_dF = evaluate(material, &F, Filter::None).tangent;
     let blocks = material.blocks(stretches);
     let rounding = 300.0 * UNIT * (stress_scale(&blocks, stretches) + stiffness(&blocks) * stretches[0]);
-    let along = |h: f64| inner(&stress(material, &moved(&F, h, &A)));
+    let along = |h: f64| inner(&evaluate_stress(material, &moved(&F, h, &A)).stress);
     let name = || "difference quotient of the stress along a random line".into();
     slope(judge, name, stretches, along, inner(&dP_dF.apply(&A)), approach.order, rounding)
 }
@@ -152,14 +150,14 @@ pub(super) fn stress_along(
 /// The three longest steps give the truncation per h^order; twice that bounds all others. One step alone
 /// would not do: its error may happen to vanish between two orders of opposite sign.
 fn slope(
-    judge: &mut Judge,
+    judge: &mut Judge<'_>,
     name: impl Fn() -> String + Copy,
     stretches: [f64; 3],
     f: impl Fn(f64) -> f64,
     derivative: f64,
     order: i32,
     rounding: f64,
-) -> Result<(), Violation> {
+) -> Verdict {
     let quotient = |h: f64| (f(h) - f(-h)) / (2.0 * h);
     let steps = || (6..=22).step_by(2).map(|k| 2f64.powi(-k));
     let truncation = steps()
@@ -169,6 +167,56 @@ fn slope(
     for h in steps().skip(3) {
         let tolerance = 2.0 * truncation * h.powi(order) + rounding / h;
         judge.compare(name, stretches, quotient(h), derivative, tolerance)?;
+    }
+    Ok(())
+}
+
+/// [`DualNumbers`](super::Rule::DualNumbers).
+pub(super) fn dual_numbers(judge: &mut Judge<'_>) -> Verdict {
+    let material = judge.material;
+    for stretches in samples(judge) {
+        let blocks = material.blocks(stretches);
+        let gradient = material.gradient(stretches);
+        let first = 100.0 * UNIT * stress_scale(&blocks, stretches);
+        let second = 100.0 * UNIT * stiffness(&blocks);
+        let lines = [0, 1, 2].map(|k| material.in_dual_numbers(Dual::along(stretches, k)));
+        for (k, (energy, _)) in lines.iter().enumerate() {
+            let expected = energy.slope;
+            for (method, found) in [("gradient", gradient[k]), ("blocks", blocks.gradient[k])] {
+                let name = || format!("{}, as `{method}` gives it", gradient_name(k));
+                judge.compare(name, stretches, found, expected, first)?;
+            }
+        }
+        let rows = lines.map(|(_, gradient)| gradient);
+        for (entry, (i, j)) in ENTRIES.into_iter().enumerate() {
+            for expected in [rows[i][j].slope, rows[j][i].slope] {
+                let found = blocks.hessian[entry];
+                judge.compare(|| hessian_name(entry), stretches, found, expected, second)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// [`Strains`](super::Rule::Strains).
+pub(super) fn strains(judge: &mut Judge<'_>) -> Verdict {
+    let material = judge.material;
+    for stretches in samples(judge).into_iter().filter(|stretches| stretches[2] > 0.0) {
+        for exponent in 0..=16 {
+            let factor = if exponent == 16 { 0.0 } else { 10f64.powi(-exponent) };
+            let strains = stretches.map(|l| factor * (l - 1.0));
+            let stretches = strains.map(|s| 1.0 + s);
+            if !material.admits(stretches) {
+                continue;
+            }
+            let found = material.gradient_at_strains(strains);
+            let expected = material.gradient(stretches);
+            let tolerance = 100.0 * UNIT * stress_scale(&material.blocks(stretches), stretches);
+            for k in 0..3 {
+                let name = || format!("{}, from the strain {:e}", gradient_name(k), strains[k]);
+                judge.compare(name, stretches, found[k], expected[k], tolerance)?;
+            }
+        }
     }
     Ok(())
 }

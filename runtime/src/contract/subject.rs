@@ -1,61 +1,28 @@
 //! Interface of a material to the rules, the stretches at which they judge it, and the accuracy of its
 //! results there. Materials are behind `dyn`, so that rules are compiled once and not for each material.
 
-#![expect(non_snake_case, reason = "F as in the literature")]
-
 use super::dual::Dual;
-use super::results::{ALL, COUNT, SideBySide, results};
-use super::{Finding, Judge, Rule, Settings, Violation, stiffness, stress_scale};
+use super::results::{ALL, COUNT, results};
+use super::{Judge, stiffness, stress_scale};
 use crate::lanes::{Backend, Mask};
-use crate::material::{Inversion, Material, Moduli, Response};
-use crate::point::{self, Filter, Matrix3, Tangent};
-use crate::random::Random;
+use crate::material::{Inversion, Material, Response};
 
 /// Material under test: its responses in `f64`, and anything that a rule compares with them.
 pub(super) trait Subject: Response<f64> {
-    /// [`Material::inversion`].
-    fn inversion(&self) -> Inversion;
-
-    /// [`Material::stated_moduli`].
-    fn stated_moduli(&self) -> Option<Moduli>;
-
-    /// [`Material::energy`] of dual numbers.
-    fn dual_energy(&self, stretches: [Dual; 3]) -> Dual;
-
-    /// [`Material::gradient`] of dual numbers.
-    fn dual_gradient(&self, stretches: [Dual; 3]) -> [Dual; 3];
+    /// [`Material::energy`] and [`Material::gradient`] of dual numbers.
+    fn in_dual_numbers(&self, stretches: [Dual; 3]) -> (Dual, [Dual; 3]);
 
     /// Row of results in `f32`; `None` outside the domain.
     fn in_single_precision(&self, stretches: [f32; 3]) -> Option<[f32; COUNT]>;
 }
 
-/// A material on lanes. Apart from [`Subject`], since each back end is compiled for it.
-pub(super) trait OnLanes {
-    /// Rows of results at all points, from the lanes of a back end.
-    fn side_by_side_on(&self, backend: Backend, points: &[[f64; 3]]) -> Vec<[f64; ALL]>;
-}
-
-impl<M: Material> OnLanes for M {
-    fn side_by_side_on(&self, backend: Backend, points: &[[f64; 3]]) -> Vec<[f64; ALL]> {
-        backend.run(SideBySide(self, points))
-    }
-}
+/// Rows of results at all points on the lanes of a back end. Apart from [`Subject`], since each back end is
+/// compiled for it.
+pub(super) type OnLanes<'a> = &'a dyn Fn(Backend, &[[f64; 3]]) -> Vec<[f64; ALL]>;
 
 impl<M: Material> Subject for M {
-    fn inversion(&self) -> Inversion {
-        Material::inversion(self)
-    }
-
-    fn stated_moduli(&self) -> Option<Moduli> {
-        Material::stated_moduli(self)
-    }
-
-    fn dual_energy(&self, stretches: [Dual; 3]) -> Dual {
-        Material::energy(self, stretches)
-    }
-
-    fn dual_gradient(&self, stretches: [Dual; 3]) -> [Dual; 3] {
-        Material::gradient(self, stretches)
+    fn in_dual_numbers(&self, stretches: [Dual; 3]) -> (Dual, [Dual; 3]) {
+        (Material::energy(self, stretches), Material::gradient(self, stretches))
     }
 
     fn in_single_precision(&self, stretches: [f32; 3]) -> Option<[f32; COUNT]> {
@@ -63,40 +30,10 @@ impl<M: Material> Subject for M {
     }
 }
 
-/// Energy density ψ(F), Pa.
-pub(super) fn energy(material: &dyn Subject, F: &Matrix3<f64>) -> f64 {
-    point::evaluate_energy(material, F).energy
-}
-
-/// First Piola stress P(F), Pa.
-pub(super) fn stress(material: &dyn Subject, F: &Matrix3<f64>) -> Matrix3<f64> {
-    point::evaluate_stress(material, F).stress
-}
-
-/// Unfiltered tangent dP/dF, Pa.
-pub(super) fn tangent(material: &dyn Subject, F: &Matrix3<f64>) -> Tangent<f64> {
-    point::evaluate(material, F, Filter::None).tangent
-}
-
-/// Judges a rule at every sample, with random numbers to draw further choices from.
-pub(super) fn at_samples(
-    rule: Rule,
-    material: &dyn Subject,
-    settings: &Settings,
-    mut look: impl FnMut(&mut Judge, [f64; 3], &mut Random) -> Result<(), Violation>,
-) -> Result<Finding, Violation> {
-    let mut judge = Judge::new(rule, settings.notation);
-    let mut random = Random::new(settings.seed);
-    for stretches in samples(material, settings, &mut random) {
-        look(&mut judge, stretches, &mut random)?;
-    }
-    judge.finding()
-}
-
 /// Random descending stretches within the range, plus inverted ones, if the material admits them.
 ///
 /// Around the threshold of an extension the third derivatives jump; samples keep a distance of 1/32 from it.
-pub(super) fn samples(material: &dyn Subject, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
+pub(super) fn samples(Judge { material, settings, random, .. }: &mut Judge<'_>) -> Vec<[f64; 3]> {
     let (low, high) = settings.range;
     let threshold = match material.inversion() {
         Inversion::Refuse => None,

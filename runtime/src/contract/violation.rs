@@ -119,52 +119,38 @@ impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rule = self.rule();
         writeln!(f, "{rule}: {}", rule.promise())?;
-        let where_and_what =
-            |f: &mut fmt::Formatter<'_>, component: &str, [l1, l2, l3]: [f64; 3], found: f64| {
-                writeln!(f, "    component   {component}")?;
-                writeln!(f, "    stretches   {l1}, {l2}, {l3}")?;
-                write!(f, "    found       {found:e}")
-            };
-        let told = |f: &mut fmt::Formatter<'_>, remedy: Option<&str>| {
-            remedy.map_or(Ok(()), |remedy| write!(f, "\n    remedy      {remedy}"))
+        let (Self::Differs { component, stretches: [l1, l2, l3], found, remedy, .. }
+        | Self::WrongKind { component, stretches: [l1, l2, l3], found, remedy, .. }) = self
+        else {
+            return f.write_str(
+                "    the material admits none of the points at which this is judged: choose other parameters or a wider \
+                 domain, or another `range` or more `points` of the settings",
+            );
         };
+        writeln!(f, "    component   {component}\n    stretches   {l1}, {l2}, {l3}")?;
+        write!(f, "    found       {found:e}")?;
         // A difference, or a remedy for a sign, is useless for values that are infinite or NaN.
         let see_domain = "not a finite number, here or near by, but an overflow, or a root, real power or logarithm of something \
                           negative; see the rule `domain`";
         match self {
-            Self::Differs { component, stretches, found, expected, tolerance, remedy, .. } => {
-                where_and_what(f, component, *stretches, *found)?;
+            Self::Differs { expected, tolerance, .. } => {
                 let difference = (found - expected).abs();
                 if difference.is_nan() || tolerance.is_nan() {
                     return write!(f, ", where {expected:e} is expected: {see_domain}");
                 }
-                writeln!(f, "\n    expected    {expected:e}")?;
+                write!(f, "\n    expected    {expected:e}\n    difference  {difference:.1e}, ")?;
                 if *tolerance == 0.0 {
-                    write!(f, "    difference  {difference:.1e}, where both must have the same bits")
-                } else {
-                    write!(
-                        f,
-                        "    difference  {difference:.1e}, of which rounding explains {tolerance:.1e}"
-                    )?;
-                    told(f, remedy.as_deref())
+                    return f.write_str("where both must have the same bits");
                 }
+                write!(f, "of which rounding explains {tolerance:.1e}")?;
             }
-            Self::WrongKind { component, stretches, found, expected, remedy, .. } => {
-                where_and_what(f, component, *stretches, *found)?;
-                if found.is_nan() && *expected != FINITE {
-                    return write!(f, ", where {expected} is expected: {see_domain}");
-                }
-                write!(f, "\n    expected    {expected}")?;
-                told(f, remedy.as_deref())
+            Self::WrongKind { expected, .. } if found.is_nan() && *expected != FINITE => {
+                return write!(f, ", where {expected} is expected: {see_domain}");
             }
-            Self::NothingToCheck { .. } => {
-                write!(
-                    f,
-                    "    the material admits none of the points at which this is judged: choose other parameters or a wider \
-                     domain, or another `range` or more `points` of the settings"
-                )
-            }
+            Self::WrongKind { expected, .. } => write!(f, "\n    expected    {expected}")?,
+            Self::NothingToCheck { .. } => {}
         }
+        remedy.as_ref().map_or(Ok(()), |remedy| write!(f, "\n    remedy      {remedy}"))
     }
 }
 

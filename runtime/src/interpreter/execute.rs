@@ -12,6 +12,7 @@ use super::parameters::Context;
 use super::program::{Loop, Operation, Program};
 use super::registers::{Files, Registers};
 use crate::lanes::{Backend, ByFormat, Kernel, Lanes, Real, Scalar};
+use crate::material::RawTile;
 
 /// Executes a program for one point, or one register of points.
 ///
@@ -31,38 +32,26 @@ pub(super) fn execute_alone<R: Real>(
     execute(program, context, &file, is_prepared);
 }
 
-/// Arguments of a program at the points of a tile, and room for its results.
-pub(super) struct Request<'a, E> {
-    pub(super) count: usize,
-    /// Distance between rows of arguments and of results.
-    pub(super) stride: usize,
-    pub(super) arguments: &'a [E],
-    pub(super) results: &'a mut [E],
-    /// Results that nothing reads, as bits.
-    pub(super) unread: u32,
-    /// The volumes inside the domain.
-    pub(super) volume: VolumeBound,
-}
-
 /// Executes a program for a tile of points. Returns the points at which its bounds are positive and whose
 /// volume is inside the domain, as bits.
 ///
 /// One kernel for all programs, in each format: what differs between them is data.
 pub(super) fn execute_tile<E: Scalar>(
-    backend: Backend,
     program: &Program,
     context: Context<'_>,
-    Request { count, stride, arguments, results, unread, volume }: Request<'_, E>,
+    volume: VolumeBound,
+    tile: &mut RawTile<'_, E>,
 ) -> u64 {
-    match E::by_format(arguments, results) {
+    let RawTile { backend, count, materials, stride, unread, .. } = *tile;
+    match E::by_format(tile.arguments, tile.results) {
         ByFormat::F64(arguments, results) => {
-            let request = Request { count, stride, arguments, results, unread, volume };
-            execute_in_f64(backend, Execution { program, context, request })
+            let tile = RawTile { backend, count, materials, stride, arguments, results, unread };
+            execute_in_f64(backend, Execution { program, context, volume, tile })
         }
         #[cfg(feature = "f32")]
         ByFormat::F32(arguments, results) => {
-            let request = Request { count, stride, arguments, results, unread, volume };
-            execute_in_f32(backend, Execution { program, context, request })
+            let tile = RawTile { backend, count, materials, stride, arguments, results, unread };
+            execute_in_f32(backend, Execution { program, context, volume, tile })
         }
         // There are no batches in `f32`.
         #[cfg(not(feature = "f32"))]
@@ -72,21 +61,23 @@ pub(super) fn execute_tile<E: Scalar>(
 
 // Not generic: compiled in this crate and not in each that has a material of this kind.
 #[inline(never)]
-fn execute_in_f64(backend: Backend, tile: Execution<'_, '_, f64>) -> u64 {
-    backend.run(tile)
+fn execute_in_f64(backend: Backend, execution: Execution<'_, '_, f64>) -> u64 {
+    backend.run(execution)
 }
 
 #[cfg(feature = "f32")]
 #[inline(never)]
-fn execute_in_f32(backend: Backend, tile: Execution<'_, '_, f32>) -> u64 {
-    backend.run(tile)
+fn execute_in_f32(backend: Backend, execution: Execution<'_, '_, f32>) -> u64 {
+    backend.run(execution)
 }
 
 /// [`execute_tile`] on the lanes of a back end.
 struct Execution<'a, 'c, E> {
     program: &'a Program,
     context: Context<'c>,
-    request: Request<'a, E>,
+    /// The volumes inside the domain.
+    volume: VolumeBound,
+    tile: RawTile<'a, E>,
 }
 
 impl<E: Scalar> Kernel<E> for Execution<'_, '_, E> {
@@ -95,10 +86,10 @@ impl<E: Scalar> Kernel<E> for Execution<'_, '_, E> {
     #[inline(always)]
     fn run<R: Lanes<Scalar = E>>(self) -> u64 {
         // As many groups together as make a tile, or one after the other where there are few points.
-        if self.request.count <= 2 * R::LANES {
+        if self.tile.count <= 2 * R::LANES {
             return self.by_groups::<R, 1>();
         }
-        match R::GROUPS {
+        match const { 64 / R::LANES } {
             4 => self.by_groups::<R, 4>(),
             8 => self.by_groups::<R, 8>(),
             16 => self.by_groups::<R, 16>(),
@@ -107,21 +98,12 @@ impl<E: Scalar> Kernel<E> for Execution<'_, '_, E> {
     }
 }
 
-/// Lanes as parts of a tile.
-trait Part: Lanes {
-    /// Number of parts of a tile: a constant by itself, so that the compiler forgets the other numbers at
-    /// once.
-    const GROUPS: usize = 64 / Self::LANES;
-}
-
-impl<R: Lanes> Part for R {}
-
 impl<E: Scalar> Execution<'_, '_, E> {
     /// Executes the program for G groups of lanes at a time.
     #[inline(always)]
     fn by_groups<R: Lanes<Scalar = E>, const G: usize>(self) -> u64 {
-        let Self { program, mut context, request } = self;
-        let Request { count, stride, arguments, results, unread, volume } = request;
+        let Self { program, mut context, volume, tile } = self;
+        let RawTile { count, stride, arguments, results, unread, .. } = tile;
         context.parameters.lanes = R::LANES;
         let mut registers = Registers::<R>::take_for(program, &context, G);
         let mut admitted = if volume.is_any() && program.bounds.is_empty() { u64::MAX } else { 0 };

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use piola_codegen::read::domain::Volume;
 
 use super::domain::VolumeBound;
-use super::execute::{Request, execute_alone, execute_tile};
+use super::execute::{execute_alone, execute_tile};
 use super::parameters::{Context, ParameterValues, Parameters};
 use super::program::{Program, Sizes};
 use super::registers::Registers;
@@ -131,11 +131,9 @@ impl Interpreted {
     #[must_use]
     pub fn compute(&self, program: &Program, arguments: &[f64], entry: usize) -> Vec<f64> {
         let context = Context { material: None, entry, ..self.context() };
-        let mut registers = Registers::take(program.sizes, 1);
-        execute_alone(program, context, arguments, &mut registers);
-        let results = program.results.iter().map(|&register| registers.number(register)).collect();
-        registers.give_back();
-        results
+        execute_at(program, context, arguments, |registers| {
+            program.results.iter().map(|&register| registers.number(register)).collect()
+        })
     }
 
     fn context(&self) -> Context<'_> {
@@ -180,12 +178,9 @@ impl Interpreted {
     }
 
     fn results<R: Real, const N: usize>(&self, program: &Program, arguments: &[R]) -> [R; N] {
-        let context = self.context();
-        let mut registers = Registers::take_for(program, &context, 1);
-        execute_alone(program, context, arguments, &mut registers);
-        let results = std::array::from_fn(|k| registers.number(program.results[k]));
-        registers.give_back();
-        results
+        execute_at(program, self.context(), arguments, |registers| {
+            std::array::from_fn(|k| registers.number(program.results[k]))
+        })
     }
 
     /// Programs of the domain: expressions that are positive inside of it, and calls of functions; `None`
@@ -208,13 +203,11 @@ impl Interpreted {
         let mut mask = self.volume(is_by_invariants).holds(at);
         let context = self.context();
         let mut and = |program: &Program, entry: usize, holds: &dyn Fn(usize, R) -> R::Mask| {
-            let context = Context { entry, ..context };
-            let mut registers = Registers::take_for(program, &context, 1);
-            execute_alone(program, context, &at, &mut registers);
-            for (k, &register) in program.results.iter().enumerate() {
-                mask = mask & holds(k, registers.number(register));
-            }
-            registers.give_back();
+            execute_at(program, Context { entry, ..context }, &at, |registers| {
+                for (k, &register) in program.results.iter().enumerate() {
+                    mask = mask & holds(k, registers.number(register));
+                }
+            });
         };
         and(bounds, 0, &|_, bound| R::splat(0.0).less(bound));
         for Calls { list, arguments, functions } in calls {
@@ -233,16 +226,13 @@ impl Interpreted {
         parameters: Parameters<'_>,
         tile: &mut RawTile<'_, E>,
     ) -> u64 {
-        let RawTile { backend, count, stride, arguments, unread, .. } = *tile;
         let context = Context { parameters, ..self.context() };
         let is_by_invariants = response.is_by_invariants();
         let (Some(program), Some((_, calls))) = (self.program(response), self.domain(is_by_invariants))
         else {
             return 0;
         };
-        let volume = self.volume(is_by_invariants);
-        let request = Request { count, stride, arguments, results: tile.results, unread, volume };
-        let mut admitted = execute_tile(backend, program, context, request);
+        let mut admitted = execute_tile(program, context, self.volume(is_by_invariants), tile);
         for Calls { list, arguments, functions } in calls {
             for entry in 0..list.map_or(1, |list| parameters.length(list)) {
                 let context = Context { entry, ..context };
@@ -254,6 +244,20 @@ impl Interpreted {
     }
 }
 
+/// Executes a program for one point, or one register of points, and reads its registers.
+fn execute_at<R: Real, T>(
+    program: &Program,
+    context: Context<'_>,
+    arguments: &[R],
+    read: impl FnOnce(&Registers<R>) -> T,
+) -> T {
+    let mut registers = Registers::take_for(program, &context, 1);
+    execute_alone(program, context, arguments, &mut registers);
+    let results = read(&registers);
+    registers.give_back();
+    results
+}
+
 /// The points for which all results of a program satisfy a condition, as bits.
 fn domain_bits<E: Scalar>(
     tile: &RawTile<'_, E>,
@@ -261,28 +265,23 @@ fn domain_bits<E: Scalar>(
     context: Context<'_>,
     holds: impl Fn(usize, E) -> bool,
 ) -> u64 {
-    let RawTile { backend, count, stride, arguments, .. } = *tile;
+    let RawTile { backend, count, materials, stride, arguments, .. } = *tile;
     let sizes = Sizes { numbers: program.results.len() * stride, ..Sizes::default() };
     let mut rows = Registers::<E>::take(sizes, 1);
     let volume = VolumeBound { volume: Volume::Any, inversion: Inversion::Refuse, is_by_invariants: false };
-    let request = Request { count, stride, arguments, results: rows.numbers(), unread: 0, volume };
-    execute_tile(backend, program, context, request);
-    let results = rows.numbers().chunks(stride).take(program.results.len()).enumerate();
-    let all = results
-        .map(|(k, row)| bits(count, |point| holds(k, row[point])))
-        .fold(u64::MAX, |all, one| all & one);
+    let results = rows.numbers();
+    let mut tile = RawTile { backend, count, materials, stride, arguments, results, unread: 0 };
+    execute_tile(program, context, volume, &mut tile);
+    let results = rows.numbers();
+    let is_inside = |point: usize| (0..program.results.len()).all(|k| holds(k, results[k * stride + point]));
+    let inside = (0..count).fold(0, |bits, point| bits | u64::from(is_inside(point)) << point);
     rows.give_back();
-    all
+    inside
 }
 
 /// True if a function that is a parameter is defined at an argument.
 fn admits<R: Real>(parameters: &Parameters<'_>, function: usize, argument: R) -> R::Mask {
     parameters.function(function).map_or(R::Mask::splat(true), |function| function.admits(argument))
-}
-
-/// The points for which something holds, as bits.
-fn bits(count: usize, holds: impl Fn(usize) -> bool) -> u64 {
-    (0..count).fold(0, |bits, point| bits | u64::from(holds(point)) << point)
 }
 
 impl Material for Interpreted {

@@ -49,41 +49,37 @@ impl Prepared {
 /// so that their constants are computed once. Tiles share one, which stays in the innermost cache.
 const SETS: usize = 16;
 
-/// The sets of registers that a thread does not use at the moment, those used last at the end.
-struct Spare<R: Real>(Vec<Registers<R>>);
-
 thread_local! {
-    /// [`Spare`] registers for each type of real number.
+    /// For each type of real number, the sets of registers that a thread does not use at the moment, those used
+    /// last at the end.
     static SPARE: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
 }
 
-impl<R: Real> Spare<R> {
-    fn with<T>(body: impl FnOnce(&mut Vec<Registers<R>>) -> T) -> T {
-        SPARE.with_borrow_mut(|all| {
-            let place = all.iter().position(|one| one.is::<Self>()).unwrap_or_else(|| {
-                all.push(Box::new(Self(Vec::new())));
-                all.len() - 1
-            });
-            match all[place].downcast_mut::<Self>() {
-                Some(spare) => body(&mut spare.0),
-                None => body(&mut Vec::new()),
-            }
-        })
-    }
+fn with_spare<R: Real, T>(body: impl FnOnce(&mut Vec<Registers<R>>) -> T) -> T {
+    SPARE.with_borrow_mut(|all| {
+        let place = all.iter().position(|one| one.is::<Vec<Registers<R>>>()).unwrap_or_else(|| {
+            all.push(Box::new(Vec::<Registers<R>>::new()));
+            all.len() - 1
+        });
+        match all[place].downcast_mut::<Vec<Registers<R>>>() {
+            Some(spare) => body(spare),
+            None => body(&mut Vec::new()),
+        }
+    })
 }
 
 impl<R: Real> Registers<R> {
     /// Registers of at least these sizes; nothing is allocated once a thread has had them.
     #[inline(never)]
     pub(super) fn take(sizes: Sizes, groups: usize) -> Self {
-        Spare::with(Vec::pop).unwrap_or_default().with_room(sizes, groups)
+        with_spare(Vec::<Self>::pop).unwrap_or_default().with_room(sizes, groups)
     }
 
     /// Registers for a program, with its constants in them where a set of the thread has these.
     #[inline(never)]
     pub(super) fn take_for(program: &Program, context: &Context<'_>, groups: usize) -> Self {
         let these = Prepared::new(program, context, groups);
-        let spare = Spare::with(|sets: &mut Vec<Self>| {
+        let spare = with_spare(|sets: &mut Vec<Self>| {
             let is_ready = |one: &Self| these.is_some() && one.prepared == these;
             match sets.iter().rposition(is_ready) {
                 Some(place) => Some(sets.remove(place)),
@@ -107,7 +103,7 @@ impl<R: Real> Registers<R> {
     /// Keeps the registers for the next program of the thread.
     #[inline(never)]
     pub(super) fn give_back(self) {
-        Spare::with(|sets| sets.push(self));
+        with_spare(|sets| sets.push(self));
     }
 
     /// All registers for numbers, one after the other.

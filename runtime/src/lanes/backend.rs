@@ -71,10 +71,10 @@ pub trait Kernel<E: Scalar>: Sized {
 /// assert!(Backend::available().any(|backend| backend == fastest));
 /// assert!(Backend::available().any(|backend| backend.name() == "portable"));
 /// ```
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Backend(Instructions);
 
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Instructions {
     #[cfg(target_arch = "x86_64")]
     Avx512,
@@ -153,12 +153,6 @@ impl Backend {
             }
         }
         self.run(Copy(from, to));
-    }
-}
-
-impl fmt::Debug for Backend {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
 

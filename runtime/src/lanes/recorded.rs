@@ -141,22 +141,6 @@ impl RecordedMask {
     }
 }
 
-impl BitAnd for RecordedMask {
-    type Output = Self;
-
-    fn bitand(self, other: Self) -> Self {
-        Self::of(RecordedOperation::And(self.0, other.0))
-    }
-}
-
-impl BitOr for RecordedMask {
-    type Output = Self;
-
-    fn bitor(self, other: Self) -> Self {
-        Self::of(RecordedOperation::Or(self.0, other.0))
-    }
-}
-
 impl Not for RecordedMask {
     type Output = Self;
 
@@ -185,21 +169,26 @@ impl Mask for RecordedMask {
 }
 
 macro_rules! operators {
-    ($($Trait:ident $method:ident),*) => {$(
-        impl $Trait for Recorded {
+    ($($Type:ident: $Trait:ident $method:ident |$a:ident, $b:ident| $operation:expr,)*) => {$(
+        impl $Trait for $Type {
             type Output = Self;
 
             fn $method(self, other: Self) -> Self {
-                self.binary(operators!(@ $Trait), other)
+                let ($a, $b) = (self.0, other.0);
+                Self::of($operation)
             }
         }
     )*};
-    (@ Add) => { Binary::Add };
-    (@ Sub) => { Binary::Subtract };
-    (@ Mul) => { Binary::Multiply };
-    (@ Div) => { Binary::Divide };
 }
-operators!(Add add, Sub sub, Mul mul, Div div);
+
+operators! {
+    Recorded: Add add |a, b| RecordedOperation::Binary(Binary::Add, a, b),
+    Recorded: Sub sub |a, b| RecordedOperation::Binary(Binary::Subtract, a, b),
+    Recorded: Mul mul |a, b| RecordedOperation::Binary(Binary::Multiply, a, b),
+    Recorded: Div div |a, b| RecordedOperation::Binary(Binary::Divide, a, b),
+    RecordedMask: BitAnd bitand |a, b| RecordedOperation::And(a, b),
+    RecordedMask: BitOr bitor |a, b| RecordedOperation::Or(a, b),
+}
 
 impl Neg for Recorded {
     type Output = Self;

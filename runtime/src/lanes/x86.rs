@@ -66,6 +66,8 @@ macro_rules! register {
     (
         $(#[$doc:meta])*
         $Register:ident($Raw:ident) of $lanes:literal $Number:ident, mask $Mask:ty,
+        compare $compare:ident |$compared:ident| $mask_of:expr, casts $to_bits:ident $from_bits:ident,
+        integers $set_bits:ident $subtract:ident, two_biases $two_biases:expr,
         features $features:literal, splat $splat:ident, load $load:ident, store $store:ident, stream $stream:ident,
         transpose $transpose:path, narrower $Narrower:ident, add $add:ident, sub $sub:ident, mul $mul:ident, div $div:ident,
         mul_add $mul_add:ident, sqrt $sqrt:ident, max $max:ident, min $min:ident,
@@ -203,6 +205,13 @@ macro_rules! register {
                 Self(unsafe { $and_not($splat(-0.0), self.0) })
             }
 
+            #[inline(always)]
+            fn less(self, other: Self) -> $Mask {
+                // SAFETY: the processor has this instruction, or there would be no value of this type.
+                let $compared = unsafe { $compare::<_CMP_LT_OQ>(self.0, other.0) };
+                $mask_of
+            }
+
             $($real)*
         }
 
@@ -261,6 +270,19 @@ macro_rules! register {
         impl Primitive for $Register {
             const IS_FUSED: bool = true;
 
+            #[inline(always)]
+            fn is_zero(self) -> $Mask {
+                // SAFETY: the processor has this instruction, or there would be no value of this type.
+                let $compared = unsafe { $compare::<_CMP_EQ_OQ>(self.0, Self::splat(0.0).0) };
+                $mask_of
+            }
+
+            #[inline(always)]
+            fn reciprocal_of_power(self) -> Self {
+                // SAFETY: the processor has these instructions, or there would be no value of this type.
+                Self(unsafe { $from_bits($subtract($set_bits($two_biases), $to_bits(self.0))) })
+            }
+
             $($primitive)*
         }
     };
@@ -297,15 +319,11 @@ macro_rules! register_512 {
         register! {
             $(#[$doc])*
             $Register($Raw) of $lanes $Number, mask LaneBits<$lanes>,
+            compare $compare |bits| LaneBits(bits.into()), casts $to_bits $from_bits,
+            integers $set_bits $subtract, two_biases $two_biases,
             $($operations)*
             bits |mask| u64::from(mask.0),
             real {
-                #[inline(always)]
-                fn less(self, other: Self) -> LaneBits<$lanes> {
-                    // SAFETY: the processor has this instruction, or there would be no value of this type.
-                    LaneBits(unsafe { $compare::<_CMP_LT_OQ>(self.0, other.0) }.into())
-                }
-
                 #[inline(always)]
                 fn select(mask: LaneBits<$lanes>, yes: Self, no: Self) -> Self {
                     // SAFETY: the processor has this instruction, or there would be no value of this type.
@@ -337,12 +355,6 @@ macro_rules! register_512 {
             }
             primitive {
                 #[inline(always)]
-                fn is_zero(self) -> LaneBits<$lanes> {
-                    // SAFETY: the processor has this instruction, or there would be no value of this type.
-                    LaneBits(unsafe { $compare::<_CMP_EQ_OQ>(self.0, Self::splat(0.0).0) }.into())
-                }
-
-                #[inline(always)]
                 fn split(self) -> (Self, Self) {
                     // SAFETY: the processor has these instructions, or there would be no value of this type.
                     let (m, e) = unsafe {
@@ -370,12 +382,6 @@ macro_rules! register_512 {
                         let bits = $to_bits(self.0);
                         Self($from_bits($logic::<0xc0>(bits, $set_bits($power), bits)))
                     }
-                }
-
-                #[inline(always)]
-                fn reciprocal_of_power(self) -> Self {
-                    // SAFETY: the processor has these instructions, or there would be no value of this type.
-                    Self(unsafe { $from_bits($subtract($set_bits($two_biases), $to_bits(self.0))) })
                 }
             }
         }
@@ -480,18 +486,14 @@ macro_rules! register_256 {
         register! {
             $(#[$doc])*
             $Register($Raw) of $lanes $Number, mask $Mask,
+            compare $compare |bits| $Mask(bits), casts $to_bits $from_bits,
+            integers $set_bits $subtract, two_biases $two_biases,
             $($operations)* xor $xor, and_not $and_not,
             bits |mask| {
                 // SAFETY: the processor has this instruction, or there would be no value of this type.
                 u64::from(unsafe { $movemask(mask.0) } as u32)
             },
             real {
-                #[inline(always)]
-                fn less(self, other: Self) -> $Mask {
-                    // SAFETY: the processor has this instruction, or there would be no value of this type.
-                    $Mask(unsafe { $compare::<_CMP_LT_OQ>(self.0, other.0) })
-                }
-
                 #[inline(always)]
                 fn select(mask: $Mask, yes: Self, no: Self) -> Self {
                     // SAFETY: the processor has this instruction, or there would be no value of this type.
@@ -518,12 +520,6 @@ macro_rules! register_256 {
             }
             primitive {
                 #[inline(always)]
-                fn is_zero(self) -> $Mask {
-                    // SAFETY: the processor has this instruction, or there would be no value of this type.
-                    $Mask(unsafe { $compare::<_CMP_EQ_OQ>(self.0, Self::splat(0.0).0) })
-                }
-
-                #[inline(always)]
                 fn split(self) -> (Self, Self) {
                     let ($split, lift) = lift(self);
                     // SAFETY: the processor has these instructions, or there would be no value of this type.
@@ -543,12 +539,6 @@ macro_rules! register_256 {
                 fn leading_power(self) -> Self {
                     // SAFETY: the processor has these instructions, or there would be no value of this type.
                     Self(unsafe { $and(self.0, $from_bits($set_bits($power))) })
-                }
-
-                #[inline(always)]
-                fn reciprocal_of_power(self) -> Self {
-                    // SAFETY: the processor has these instructions, or there would be no value of this type.
-                    Self(unsafe { $from_bits($subtract($set_bits($two_biases), $to_bits(self.0))) })
                 }
             }
         }

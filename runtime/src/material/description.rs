@@ -80,7 +80,7 @@ impl Parameter {
             Form::Points => (1, 2),
             Form::Function => return false,
         };
-        let factor = factor.powi(unit.pascals());
+        let factor = if unit == Unit::PerPascal { factor.recip() } else { factor };
         values.iter_mut().skip(first).step_by(step).for_each(|value| *value *= factor);
         true
     }
@@ -99,17 +99,6 @@ pub enum Unit {
     PerPascal,
     /// `dimensionless`: exponents, stretches, fractions.
     Dimensionless,
-}
-
-impl Unit {
-    /// The exponent of Pa.
-    fn pascals(self) -> i32 {
-        match self {
-            Self::Pascal => 1,
-            Self::PerPascal => -1,
-            Self::Dimensionless => 0,
-        }
-    }
 }
 
 /// The form of a parameter as values at run time.

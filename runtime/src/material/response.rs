@@ -32,6 +32,8 @@ macro_rules! with_responses {
                 has_energy_by_invariants -> bool,
                 has_pole -> bool,
                 ends_at_zero_volume -> bool,
+                inversion -> Inversion,
+                stated_moduli -> Option<Moduli>,
             }
         }
     };
@@ -170,12 +172,6 @@ macro_rules! forward_to_pointee {
                 Self: 'm,
             {
                 M::respond_together(|point| &**material(point), response, tile)
-            }
-            fn inversion(&self) -> Inversion {
-                (**self).inversion()
-            }
-            fn stated_moduli(&self) -> Option<Moduli> {
-                (**self).stated_moduli()
             }
         }
     };

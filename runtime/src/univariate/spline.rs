@@ -309,40 +309,6 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_are_those_of_the_value() {
-        let spline = Spline::through(&POINTS).unwrap();
-        for x in [-0.3, 0.3, 0.7, 1.2, 2.5, 3.5f64] {
-            let h = 1e-4;
-            let slope = (spline.value(x + h) - spline.value(x - h)) / (2.0 * h);
-            assert!((slope - spline.derivative(x)).abs() <= 1e-6, "φ′ at {x}");
-            let slope = (spline.derivative(x + h) - spline.derivative(x - h)) / (2.0 * h);
-            assert!((slope - spline.second_derivative(x)).abs() <= 1e-6, "φ″ at {x}");
-        }
-    }
-
-    #[test]
-    fn quotients_are_exact_within_and_across_pieces() {
-        let spline = Spline::through(&POINTS).unwrap();
-        for (a, b) in [(3.5, -0.5), (0.6, 0.4), (1.0, 0.5), (1.2, 1.1), (2.0, 2.0 + 1e-3)] {
-            let close = |found: f64, expected: f64, scale: f64| {
-                assert!(
-                    (found - expected).abs() <= 1e-11 * scale,
-                    "{found} for {expected} between {a} and {b}"
-                );
-            };
-            close(spline.quotient(a, b), (spline.value(a) - spline.value(b)) / (a - b), 10.0);
-            let slope = (spline.derivative(a) - spline.derivative(b)) / (a - b);
-            close(spline.derivative_quotient(a, b), slope, 10.0);
-        }
-        for x in [0.25, 0.3, 1.0, 3.0, 4.0f64] {
-            let error = spline.derivative_quotient(x, x) - spline.second_derivative(x);
-            assert!(error.abs() <= 1e-14 * spline.second_derivative(x).abs(), "at {x}");
-            let error = spline.derivative_quotient(x, x * (1.0 + 1e-15)) - spline.second_derivative(x);
-            assert!(error.abs() <= 1e-13 * spline.second_derivative(x).abs(), "near {x}");
-        }
-    }
-
-    #[test]
     fn ordinates_are_replaced_and_the_rest_stays() {
         let spline = Spline::through(&POINTS).unwrap();
         assert_eq!(spline.values(), [-3.0, -1.5, 1.0, 4.0]);

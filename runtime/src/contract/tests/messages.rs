@@ -2,10 +2,18 @@
 
 use super::*;
 
+/// The violation of a rule.
+#[track_caller]
+fn violation(rule: Rule, material: &dyn Subject, settings: &Settings) -> Violation {
+    let verdict = judge_rule(rule, material, None, settings).expect("a rule that applies");
+    verdict.expect_err("a broken rule")
+}
+
 #[test]
 fn lost_digits_are_not_told_as_a_mistake() {
     let text = |found: f64, notation: Notation| {
-        let mut judge = Judge::new(Rule::Rest, notation);
+        let settings = Settings { notation, ..Settings::default() };
+        let mut judge = Judge::new(Rule::Rest, &NeoHookean, &settings);
         let verdict = judge.compare_or(|| "stress".into(), [1.0; 3], found, 0.0, 1e-13, Some("subtract it"));
         verdict.expect_err("a difference").to_string()
     };
@@ -20,11 +28,9 @@ fn lost_digits_are_not_told_as_a_mistake() {
 /// Remedies for a declaration in Rust, and for a formula, which quote no Rust.
 #[test]
 fn remedies_are_in_the_notation_of_the_energy() {
-    let check = |judge: &dyn Fn(&Settings) -> Result<Finding, Violation>, in_rust: &str, in_formula: &str| {
-        let text = |notation| {
-            let settings = Settings { notation, ..Settings::default() };
-            judge(&settings).expect_err("a broken rule").to_string()
-        };
+    let check = |rule: Rule, material: &dyn Subject, in_rust: &str, in_formula: &str| {
+        let text =
+            |notation| violation(rule, material, &Settings { notation, ..Settings::default() }).to_string();
         let (rust, formula) = (text(Notation::Rust), text(Notation::Formula));
         assert!(rust.contains(in_rust), "{rust}");
         assert!(formula.contains(in_formula), "{formula}");
@@ -32,49 +38,49 @@ fn remedies_are_in_the_notation_of_the_energy() {
             assert!(!formula.contains(word), "{word}: {formula}");
         }
     };
-    let stiff = exponential(1.0, 200.0);
     let steep = exponential(1.0, 40.0);
     let extended = |defect| Defective(ExtendedNeoHookean { epsilon: 0.3 }, defect);
-    let overflows = extended(Defect::OverflowsInExtension);
-    let (attracts, ends) = (extended(Defect::AttractsCollapse), extended(Defect::EndsAtInversion));
-    let [milder, steeper] = [1.0, -0.1].map(|c| Defective(RotatedLinear, Defect::PullsBy(c)));
+    let pulls_by = |c| Defective(RotatedLinear, Defect::PullsBy(c));
     check(
-        &|settings| domain(&stiff, settings),
+        Rule::Domain,
+        &exponential(1.0, 200.0),
         "the number overflows there: choose smaller parameters, or narrow the stretches of the test",
         "choose smaller parameters, or exclude large stretches by a condition",
     );
     check(
-        &|settings| domain(&undefined(f64::NAN), settings),
+        Rule::Domain,
+        &undefined(f64::NAN),
         "or to `admissible(…)` if a parameter divides by zero",
         "or `where b > 0` if a parameter divides by zero",
     );
     check(
-        &|settings| domain(&overflows, settings),
+        Rule::Domain,
+        &extended(Defect::OverflowsInExtension),
         "choose a greater `epsilon` or smaller parameters, or narrow the stretches",
         "choose a greater `epsilon` or smaller parameters, or exclude large stretches",
     );
-    domain(&steep, &Settings::default()).unwrap_or_else(|violation| panic!("{violation}"));
-    check(&|settings| single_precision(&steep, settings), "`f32` ends at 3.4e38", "`where J > 0, I1 < 9`");
+    let verdict = judge_rule(Rule::Domain, &steep, None, &Settings::default());
+    assert!(matches!(verdict, Some(Ok(_))), "{verdict:?}");
+    check(Rule::SinglePrecision, &steep, "`f32` ends at 3.4e38", "`where J > 0, I1 < 9`");
     check(
-        &|settings| extension(&attracts, 0.3, settings),
+        Rule::Extension,
+        &extended(Defect::AttractsCollapse),
         "as in `extend(kappa > 0.0)`",
         "`+ kappa*(J - 1 - ln(J))`",
     );
     let signs = "write that limit in terms that are independent of signs";
-    check(&|settings| extension(&ends, 0.3, settings), signs, signs);
-    check(
-        &|settings| extension(&milder, 0.3, settings),
-        "falls there, too: choose a smaller `epsilon`",
-        "falls there, too: choose a smaller `epsilon`",
-    );
+    check(Rule::Extension, &extended(Defect::EndsAtInversion), signs, signs);
+    let smaller = "falls there, too: choose a smaller `epsilon`";
+    check(Rule::Extension, &pulls_by(1.0), smaller, smaller);
     // An energy that never restores is not told to begin later.
     check(
-        &|settings| extension(&steeper, 0.3, settings),
+        Rule::Extension,
+        &pulls_by(-0.1),
         "falls there, too, and the steeper the flatter: if it is that of an incompressible solid",
         "by a condition such as `where kappa > 0`",
     );
-    let meant = rest(&Defective(NeoHookean, Defect::Prestress), &Settings::default());
-    let text = meant.expect_err("stress at rest").to_string();
+    let stressed = Defective(NeoHookean, Defect::Prestress);
+    let text = violation(Rule::Rest, &stressed, &Settings::default()).to_string();
     assert!(text.contains("    remedy      append to the energy a term that cancels this stress"), "{text}");
     assert!(text.contains("`piola::contract!(gel: Gel::new(1e4, 1e6)?, stress_free_at_rest: false)`"));
 }
@@ -105,13 +111,13 @@ fn an_overflow_is_told_once() {
 #[test]
 fn why_nothing_was_compared_is_told() {
     let settings = Settings { points: 0, ..Settings::default() };
-    let by_invariants = ByInvariants::<true> { w2: -0.5, w11: 0.875 };
-    for (verdict, rule) in [
-        (isotropy(&NeoHookean, &settings), Rule::Isotropy),
-        (extension(&ExtendedNeoHookean { epsilon: 0.3 }, 0.3, &settings), Rule::Extension),
-        (invariants(&by_invariants, &settings), Rule::Invariants),
-    ] {
-        let violation = verdict.expect_err("nothing to compare");
+    let materials: [(Rule, &dyn Subject); 3] = [
+        (Rule::Isotropy, &NeoHookean),
+        (Rule::Extension, &ExtendedNeoHookean { epsilon: 0.3 }),
+        (Rule::Invariants, &by_invariants(-0.5, 0.875, Curvature::Separate)),
+    ];
+    for (rule, material) in materials {
+        let violation = violation(rule, material, &settings);
         assert_eq!(violation, Violation::NothingToCheck { rule });
         let text = "the material admits none of the points at which this is judged: choose other parameters or a wider \
                     domain, or another `range` or more `points` of the settings";
@@ -144,10 +150,7 @@ fn undefined(energy: f64) -> Defective<SaintVenantKirchhoff> {
 
 #[test]
 fn an_energy_without_a_value_is_told_of_by_the_rule_domain() {
-    let text = |rule: Rule, energy: f64| {
-        let verdict = check_rule(rule, &undefined(energy), &Settings::default());
-        verdict.and_then(Result::err).map(|violation| violation.to_string()).unwrap_or_default()
-    };
+    let text = |rule, energy| violation(rule, &undefined(energy), &Settings::default()).to_string();
     let domain = text(Rule::Domain, f64::NAN);
     for line in [
         "    component   energy\n",

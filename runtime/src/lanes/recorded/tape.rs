@@ -51,21 +51,16 @@ impl Tape {
 
     /// The operation, or a simpler one with the same bits.
     pub(super) fn simplified(&mut self, format: Format, operation: RecordedOperation) -> Id {
+        use super::program::Binary::{Divide, Multiply};
+        use super::program::Unary::Negate;
         use RecordedOperation::{And, Binary, Less, Literal, Not, Or, Select, Truth, Unary};
         let computed = match operation {
-            Unary(super::program::Unary::Negate, a) => self.literal(a).map(|a| -a),
+            Unary(Negate, a) => self.literal(a).map(|a| -a),
             Binary(operator, a, b) => match (self.literal(a), self.literal(b)) {
                 (Some(a), Some(b)) => format.compute(operator, a, b),
                 // Exact for any other operand.
-                (_, Some(1.0))
-                    if matches!(
-                        operator,
-                        super::program::Binary::Multiply | super::program::Binary::Divide
-                    ) =>
-                {
-                    return a;
-                }
-                (Some(1.0), _) if operator == super::program::Binary::Multiply => return b,
+                (_, Some(1.0)) if matches!(operator, Multiply | Divide) => return a,
+                (Some(1.0), _) if operator == Multiply => return b,
                 _ => None,
             },
             Less(a, b) => match (self.literal(a), self.literal(b)) {
