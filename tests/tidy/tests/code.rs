@@ -2,10 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use piola_tidy::{crates, forbid};
-use proc_macro2::TokenTree;
+use piola_tidy::{Function, crates, forbid, functions, tokens};
 use quote::ToTokens;
-use syn::{Block, FnArg, ImplItem, Item, Pat, Signature, TraitItem};
+use syn::{FnArg, Item, Pat, Signature, TraitItem};
 
 /// Traits by which an energy answers.
 const ANSWERS: [&str; 4] = ["Material", "Varying", "Law", "Response"];
@@ -28,25 +27,18 @@ fn no_derivative_is_written_by_hand() {
                 TraitItem::Fn(method) => Some(&method.sig),
                 _ => None,
             });
-            let methods =
-                methods.filter(|signature| signature.inputs.iter().any(|input| of_three(input).is_some()));
+            let methods = methods.filter(|signature| stretches(signature).next().is_some());
             answers.extend(methods.map(|signature| signature.ident.to_string()));
         }
     }
-    let mut found = Vec::new();
-    let mut judged = 0;
+    let (mut found, mut judged) = (Vec::new(), 0);
     for module in modules().filter(|module| !module.file.ends_with(EXECUTOR)) {
-        for item in &module.items {
-            let Item::Impl(block) = item else { continue };
-            for item in &block.items {
-                let ImplItem::Fn(method) = item else { continue };
-                let name = method.sig.ident.to_string();
-                if answers.contains(&name) {
-                    judged += 1;
-                    if looks_at_stretches(&method.sig, &method.block, &answers) {
-                        let line = method.sig.ident.span().start().line;
-                        found.push(format!("{}:{line}: {name}", module.file.display()));
-                    }
+        for method in module.items.iter().filter(|item| matches!(item, Item::Impl(_))).flat_map(functions) {
+            let name = &method.signature.ident;
+            if answers.contains(&name.to_string()) {
+                judged += 1;
+                if looks_at_stretches(&method, &answers) {
+                    found.push(format!("{}:{}: {name}", module.file.display(), name.span().start().line));
                 }
             }
         }
@@ -55,49 +47,59 @@ fn no_derivative_is_written_by_hand() {
     assert!(judged > 0, "nothing implements {answers:?}: this test looks for the wrong names");
 }
 
-/// The pattern of an argument of three numbers.
-fn of_three(argument: &FnArg) -> Option<&Pat> {
-    match argument {
-        FnArg::Typed(typed) if typed.ty.to_token_stream().to_string().ends_with("; 3]") => Some(&typed.pat),
+/// The arguments of three numbers.
+fn stretches(signature: &Signature) -> impl Iterator<Item = &Pat> {
+    signature.inputs.iter().filter_map(|argument| match argument {
+        FnArg::Typed(typed) if typed.ty.to_token_stream().to_string().ends_with("; 3]") => Some(&*typed.pat),
         _ => None,
+    })
+}
+
+/// True if a method with arguments of three numbers uses them in any way other than alone among the arguments
+/// of a call to one of `answers`.
+fn looks_at_stretches(method: &Function<'_>, answers: &BTreeSet<String>) -> bool {
+    let tokens = tokens(method.body);
+    let text = |at: usize| tokens[at].text.as_str();
+    stretches(method.signature).any(|pattern| {
+        let name = match pattern {
+            Pat::Ident(name) => name.ident.to_string(),
+            Pat::Wild(_) => return false,
+            // Taken apart where it comes in.
+            _ => return true,
+        };
+        // Of each open bracket, whether it is that of such a call.
+        let mut is_answered = Vec::new();
+        for at in 0..tokens.len() {
+            match text(at) {
+                bracket @ ("(" | "[" | "{") => {
+                    is_answered.push(bracket == "(" && answers.contains(text(at - 1)));
+                }
+                ")" | "]" | "}" => {
+                    is_answered.pop();
+                }
+                used if used == name => {
+                    let is_alone = ["(", ","].contains(&text(at - 1)) && [")", ","].contains(&text(at + 1));
+                    if !is_alone || is_answered.last() != Some(&true) {
+                        return true;
+                    }
+                }
+                _ => {}
+            }
+        }
+        false
+    })
+}
+
+#[test]
+fn a_look_at_a_stretch_is_seen() {
+    let answers = BTreeSet::from(["energy".to_owned()]);
+    for (code, expected) in [
+        ("fn f(s: [R; 3], _: [R; 3]) -> R { self.0.energy(s) + two(2.0, self.1.energy(s)) }", false),
+        ("fn f(s: [R; 3]) -> R { self.0.energy(s) * s[0] }", true),
+        ("fn f(s: [R; 3]) -> R { self.0.energy(s.map(R::abs)) }", true),
+        ("fn f([a, _, _]: [R; 3]) -> R { a * a }", true),
+    ] {
+        let item: Item = syn::parse_str(code).expect("a function");
+        assert_eq!(looks_at_stretches(&functions(&item)[0], &answers), expected, "{code}");
     }
-}
-
-/// True if a method with arguments of three numbers uses them in any way other than passing them on to one of
-/// `answers`.
-fn looks_at_stretches(signature: &Signature, body: &Block, answers: &BTreeSet<String>) -> bool {
-    let body: Vec<_> = body.to_token_stream().into_iter().collect();
-    signature.inputs.iter().filter_map(of_three).any(|pattern| match pattern {
-        Pat::Ident(name) => uses_otherwise(&body, &name.ident.to_string(), answers, false),
-        Pat::Wild(_) => false,
-        // Taken apart where it comes in.
-        _ => true,
-    })
-}
-
-/// True if a name stands anywhere except alone among the arguments of a call to one of `answers`.
-fn uses_otherwise(tokens: &[TokenTree], name: &str, answers: &BTreeSet<String>, is_answered: bool) -> bool {
-    let is_comma = |token: Option<&TokenTree>| match token {
-        None => true,
-        Some(TokenTree::Punct(punct)) => punct.as_char() == ',',
-        Some(_) => false,
-    };
-    tokens.iter().enumerate().any(|(at, token)| match token {
-        TokenTree::Ident(ident) if ident == name => {
-            let before = at.checked_sub(1).and_then(|before| tokens.get(before));
-            !(is_answered && is_comma(before) && is_comma(tokens.get(at + 1)))
-        }
-        TokenTree::Group(group) => {
-            let inside: Vec<_> = group.stream().into_iter().collect();
-            let called = tokens[..at].iter().rev().find_map(|token| match token {
-                TokenTree::Ident(ident) => Some(ident.to_string()),
-                _ => None,
-            });
-            let is_call = matches!(tokens[..at].last(), Some(TokenTree::Ident(_)))
-                || matches!(tokens[..at].last(), Some(TokenTree::Punct(punct)) if punct.as_char() == '>');
-            let is_answered = is_call && called.is_some_and(|name| answers.contains(&name));
-            uses_otherwise(&inside, name, answers, is_answered)
-        }
-        _ => false,
-    })
 }
