@@ -7,7 +7,7 @@ mod panel;
 mod point;
 mod steps;
 
-pub(crate) use point::{best_settings, materials};
+pub(crate) use point::best_settings;
 
 /// A chart and its caption.
 pub(crate) struct Chart {

@@ -3,10 +3,10 @@
 use piola::Real;
 use piola_speed::{RESOLUTION, beats};
 
-use crate::charts::{Chart, best_settings, materials};
+use crate::charts::{Chart, best_settings};
 use crate::data::{GrowthRow, PointRow, Report, StepRow};
 use crate::markdown::{header, row};
-use crate::point::{HARD, ORDINARY, OURS, Work};
+use crate::point::{ENERGIES, HARD, ORDINARY, OURS};
 
 /// The page, with the charts by their files' names.
 pub(crate) fn tell(report: &Report, charts: &[Chart]) -> String {
@@ -18,7 +18,7 @@ pub(crate) fn tell(report: &Report, charts: &[Chart]) -> String {
     if !report.rows.is_empty() {
         text += POINT;
         text += &pictures(charts, &["point-", "families-"]);
-        for material in materials(&report.rows) {
+        for (material, _) in ENERGIES {
             for precision in ["f64", "f32"] {
                 text += &methods(&report.rows, material, precision);
             }
@@ -78,28 +78,27 @@ fn methods(rows: &[PointRow], material: &str, precision: &str) -> String {
     let numbers =
         ["ns", "worst, ordinary", "worst, hard", "median, hard", "ns with projection", "worst, hard"];
     let mut table = header(&["method", "setting"], &numbers);
-    let of = |work: Work, family: &str| {
-        let (work, family) = (work.name(), family.to_owned());
+    let of = |work: &'static str, family: &'static str| {
         rows.iter().filter(move |row| {
             (row.material, row.precision, row.work) == (material, precision, work) && row.family == family
         })
     };
     let same = |a: &PointRow, b: &PointRow| (a.method, &a.setting) == (b.method, &b.setting);
-    let hard: Vec<&PointRow> = of(Work::Tangent, HARD).collect();
+    let hard: Vec<&PointRow> = of("tangent", HARD).collect();
     for best in best_settings(&hard) {
-        let find = |work: Work, family: &str| of(work, family).find(|row| same(row, best));
+        let find = |work, family| of(work, family).find(|row| same(row, best));
         let ns =
             |row: Option<&PointRow>| row.map_or_else(String::new, |row| format!("{:.1}", row.ns_per_element));
         let worst = |row: Option<&PointRow>| row.map_or_else(String::new, |row| error(row.worst_error));
         let cells = [
             best.method.to_owned(),
             best.setting.clone(),
-            ns(find(Work::Tangent, ORDINARY)),
-            worst(find(Work::Tangent, ORDINARY)),
+            ns(find("tangent", ORDINARY)),
+            worst(find("tangent", ORDINARY)),
             error(best.worst_error),
             error(best.median_error),
-            ns(find(Work::Projected, ORDINARY)),
-            worst(find(Work::Projected, HARD)),
+            ns(find("projected", ORDINARY)),
+            worst(find("projected", HARD)),
         ];
         row(&mut table, &cells);
     }

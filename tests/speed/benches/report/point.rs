@@ -10,6 +10,7 @@ use std::hint::black_box;
 use indicatif::ProgressBar;
 use piola::Real;
 use piola::batch::Kernels;
+use piola::point::Filter;
 use piola_speed::{Effort, Times, is_on_front, time_in_turns};
 use piola_tests::cases::{Case, Quantity};
 
@@ -20,7 +21,8 @@ mod energies;
 mod methods;
 
 use contestant::{Contestant, Number, Output, POINTS, Points};
-use energies::{ENERGIES, contestants};
+pub(crate) use energies::ENERGIES;
+use energies::contestants;
 pub(crate) use methods::{OURS, OURS_AS_A_SCALAR};
 
 /// The family of F = I + 0.3 X, entries of X uniform in [−1, 1).
@@ -29,58 +31,24 @@ pub(crate) const ORDINARY: &str = "ordinary";
 /// All families but [`ORDINARY`] in one row: the worst error, the median of errors, the mean of times.
 pub(crate) const HARD: &str = "every hard family";
 
-/// Outputs that are computed in addition to P.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Work {
-    Tangent,
-    Projected,
-}
-
-impl Work {
-    pub(crate) const ALL: [Self; 2] = [Self::Tangent, Self::Projected];
-
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Tangent => "tangent",
-            Self::Projected => "projected",
-        }
-    }
-
-    fn quantity(self) -> Quantity {
-        match self {
-            Self::Tangent => Quantity::Tangent,
-            Self::Projected => Quantity::Projected,
-        }
-    }
-}
+/// Outputs that are computed in addition to P, by name.
+const WORKS: [(&str, Filter, Quantity); 2] =
+    [("tangent", Filter::None, Quantity::Tangent), ("projected", Filter::Clamp, Quantity::Projected)];
 
 /// All rows of these cases.
 ///
 /// # Errors
 /// Where a case does not fit its material.
 pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Result<Vec<PointRow>, String> {
-    progress.set_length(count(cases));
+    progress.set_length((ENERGIES.len() * 2 * WORKS.len()) as u64);
     let mut rows = Vec::new();
     for (name, in_catalogue) in ENERGIES {
         progress.set_message(name);
-        let cases = of_energy(in_catalogue, cases);
+        let cases: Vec<&Case> = cases.iter().filter(|case| case.material == in_catalogue).collect();
         contests::<f64>(name, &cases, effort, progress, &mut rows)?;
         contests::<f32>(name, &cases, effort, progress, &mut rows)?;
     }
     Ok(rows)
-}
-
-/// Number of contests: the steps of the progress bar.
-fn count(cases: &[Case]) -> u64 {
-    let of_one = |(_, in_catalogue)| {
-        let cases = of_energy(in_catalogue, cases);
-        families::<f64>(&cases).len() + families::<f32>(&cases).len()
-    };
-    (Work::ALL.len() * ENERGIES.into_iter().map(of_one).sum::<usize>()) as u64
-}
-
-fn of_energy<'a>(in_catalogue: &str, cases: &'a [Case]) -> Vec<&'a Case> {
-    cases.iter().filter(|case| case.material == in_catalogue).collect()
 }
 
 /// The cases that a format can hold, by family.
@@ -103,12 +71,12 @@ fn contests<E: Number>(
     progress: &ProgressBar,
     rows: &mut Vec<PointRow>,
 ) -> Result<(), String> {
-    for work in Work::ALL {
+    for work in WORKS {
         let mut of_work = Vec::new();
         for (family, cases) in families::<E>(cases) {
             of_work.extend(contest::<E>(work, energy, family, &cases, effort)?);
-            progress.inc(1);
         }
+        progress.inc(1);
         of_work.extend(all_hard(&of_work));
         mark_fronts(&mut of_work, E::UNIT_ROUNDOFF);
         rows.extend(of_work);
@@ -125,7 +93,7 @@ struct Group<'a, E> {
 
 /// The rows of one family.
 fn contest<E: Number>(
-    work: Work,
+    (work, filter, quantity): (&'static str, Filter, Quantity),
     energy: &'static str,
     family: &str,
     cases: &[&Case],
@@ -138,7 +106,7 @@ fn contest<E: Number>(
         groups.push(Group {
             cases: cases.to_vec(),
             points: Points::new(|point| cases[point % cases.len()].deformation),
-            contestants: contestants(cases[0], work)?,
+            contestants: contestants(cases[0], filter)?,
         });
     }
     let labels: Vec<_> = groups[0].contestants.iter().map(|contestant| contestant.label.clone()).collect();
@@ -150,7 +118,7 @@ fn contest<E: Number>(
             (contestant.run)(&group.points, &mut output);
             errors.extend(group.cases.iter().enumerate().map(|(point, case)| {
                 let (stress, tangent) = output.of_point(point, contestant.layout);
-                judge::<E>(case, Quantity::Stress, &stress).max(judge::<E>(case, work.quantity(), &tangent))
+                judge::<E>(case, Quantity::Stress, &stress).max(judge::<E>(case, quantity, &tangent))
             }));
         }
     }
@@ -158,7 +126,7 @@ fn contest<E: Number>(
     let rows = labels.into_iter().zip(errors).zip(times).map(|((label, mut errors), times)| {
         errors.sort_by(f64::total_cmp);
         PointRow {
-            work: work.name(),
+            work,
             material: energy,
             precision: type_name::<E>(),
             method: label.method,
