@@ -10,7 +10,6 @@
 //! with which seeds.
 
 use std::error::Error;
-use std::fmt;
 use std::io::{self, Write};
 
 use clap::Parser;
@@ -70,8 +69,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                 for material in &MATERIALS[..4] {
                     let seeds = (1..=options.seeds).map(|seed| Start::Scrambled { seed, amplitude });
                     let outcomes = play(&SCRAMBLE, body, material, newton, seeds.collect())?;
-                    let row = Row(&outcomes);
-                    writeln!(page, "| {amplitude} | {} | {material} | {row} |", body.name)?;
+                    writeln!(page, "| {amplitude} | {} | {material} | {} |", body.name, cells(&outcomes))?;
                     page.flush()?;
                 }
             }
@@ -86,8 +84,8 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             for &body in bodies {
                 for material in MATERIALS {
                     let outcomes = play(scene, body, material, newton, vec![scene.start])?;
-                    let row = Row(&outcomes);
-                    writeln!(page, "| {} | {} | {material} | {row} |", scene.name, body.name)?;
+                    let cells = cells(&outcomes);
+                    writeln!(page, "| {} | {} | {material} | {cells} |", scene.name, body.name)?;
                     page.flush()?;
                 }
             }
@@ -120,49 +118,38 @@ fn play(
     Ok(outcomes)
 }
 
-/// Common figures of some outcomes.
-struct Row<'a>(&'a [TrialOutcome]);
-
-impl fmt::Display for Row<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(outcomes) = self;
-        let inverted: usize = outcomes.iter().map(|outcome| outcome.inverted_at_start).sum();
-        let mut frames: Vec<_> = outcomes.iter().filter_map(|outcome| outcome.recovered).collect();
-        frames.sort_unstable();
-        write!(
-            f,
-            "{:.1} | {} of {} | ",
-            inverted as f64 / outcomes.len() as f64,
-            frames.len(),
-            outcomes.len()
-        )?;
-        if let Some(last) = frames.last() {
-            write!(f, "{} ({last})", frames[frames.len() / 2])?;
-        }
-        f.write_str(" | ")?;
-        let places = [
-            FinalPlace::StableElsewhere,
-            FinalPlace::UndecidedElsewhere,
-            FinalPlace::Saddle,
-            FinalPlace::NotAtRest,
-            FinalPlace::Rest,
-        ];
-        let mut separator = "";
-        for place in places {
-            // By their numbers, which are the seeds.
-            let there = |outcome: &TrialOutcome| {
-                outcome.final_state.is_some_and(|final_state| final_state.place == place)
-            };
-            let numbers: Vec<_> = (1..).zip(*outcomes).filter(|(_, outcome)| there(outcome)).collect();
-            if !numbers.is_empty() {
-                let first: Vec<_> =
-                    numbers.iter().take(NAMED).map(|(number, _)| format!("{number}")).collect();
-                let more = if numbers.len() > NAMED { ", …" } else { "" };
-                let seeds = if numbers.len() == 1 { "seed" } else { "seeds" };
-                write!(f, "{separator}{} {place} ({seeds} {}{more})", numbers.len(), first.join(", "))?;
-                separator = "; ";
-            }
-        }
-        Ok(())
-    }
+/// The cells behind the first three.
+fn cells(outcomes: &[TrialOutcome]) -> String {
+    let inverted: usize = outcomes.iter().map(|outcome| outcome.inverted_at_start).sum();
+    let inverted = inverted as f64 / outcomes.len() as f64;
+    let mut frames: Vec<_> = outcomes.iter().filter_map(|outcome| outcome.recovered).collect();
+    frames.sort_unstable();
+    let taken = frames.last().map(|last| format!("{} ({last})", frames[frames.len() / 2]));
+    let places = [
+        FinalPlace::StableElsewhere,
+        FinalPlace::UndecidedElsewhere,
+        FinalPlace::Saddle,
+        FinalPlace::NotAtRest,
+        FinalPlace::Rest,
+    ];
+    let elsewhere = places.into_iter().filter_map(|place| {
+        // By their numbers, which are the seeds.
+        let there = |outcome: &TrialOutcome| outcome.final_state.is_some_and(|state| state.place == place);
+        let numbers: Vec<String> = (1..)
+            .zip(outcomes)
+            .filter(|(_, one)| there(one))
+            .map(|(number, _)| format!("{number}"))
+            .collect();
+        let first = numbers[..numbers.len().min(NAMED)].join(", ");
+        let more = if numbers.len() > NAMED { ", …" } else { "" };
+        let seeds = if numbers.len() == 1 { "seed" } else { "seeds" };
+        (!numbers.is_empty()).then(|| format!("{} {place} ({seeds} {first}{more})", numbers.len()))
+    });
+    format!(
+        "{inverted:.1} | {} of {} | {} | {}",
+        frames.len(),
+        outcomes.len(),
+        taken.unwrap_or_default(),
+        elsewhere.collect::<Vec<_>>().join("; ")
+    )
 }
