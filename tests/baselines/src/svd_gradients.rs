@@ -119,34 +119,3 @@ impl<R: Real<Mask = bool>> Inverse<R> {
         [diagonal * b1 + off_diagonal * b2, off_diagonal * b1 + diagonal * b2]
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use piola::point::{Matrix3, svd};
-    use piola_materials::Ogden;
-
-    use super::*;
-    use crate::testing::{IDENTITY, SHEARED, error, exact};
-
-    #[track_caller]
-    fn compare(F: &Matrix3<f64>) -> f64 {
-        let rubber = Ogden::new([2.0, 1.0], [1.5, 4.0], 3.0).expect("admissible parameters");
-        let found = tangent(&rubber, &svd(F), Regularization::default());
-        error(&found, &exact(&rubber, F).1)
-    }
-
-    /// The equations are those of the paper: where nothing is regularised, they give dP/dF.
-    #[test]
-    fn distant_stretches_give_the_exact_tangent() {
-        let error = compare(&SHEARED);
-        // The smallest determinant is about a tenth of λ1²; a hundred operations.
-        assert!(error <= 1000.0 * f64::UNIT_ROUNDOFF, "{error:e}");
-    }
-
-    /// At rest the regularised systems lose the shear stiffness: three eigenvalues 2μ of nine.
-    #[test]
-    fn equal_stretches_lose_the_shear_stiffness() {
-        let error = compare(&IDENTITY);
-        assert!((0.1..1.0).contains(&error), "{error:e}");
-    }
-}
