@@ -7,7 +7,6 @@
 use std::error::Error;
 use std::time::Instant;
 
-use indicatif::ProgressBar;
 use peak_alloc::PeakAlloc;
 use piola::material::Moduli;
 use piola_bodies::mesh::{Bounds, tetrahedral_box};
@@ -50,11 +49,9 @@ fn ways() -> [Way; 5] {
 pub(crate) fn rows(
     is_quick: bool,
     memory: &PeakAlloc,
-    progress: &ProgressBar,
 ) -> Result<Vec<GrowthRow>, Box<dyn Error + Send + Sync>> {
     let mut rows = Vec::new();
     let cells = if is_quick { &CELLS[..4] } else { &CELLS };
-    progress.set_length((ways().len() * cells.len()) as u64);
     for way in ways() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(way.2).build()?;
         // Each thread gets its buffers, such as 64 MiB for dense products, with a first box, which does not
@@ -64,7 +61,6 @@ pub(crate) fn rows(
             if way.1.linear != LinearSolver::Cholesky || cells <= MOST_OF_FACTOR {
                 rows.push(pool.install(|| measure(way, cells, memory))?);
             }
-            progress.inc(1);
         }
     }
     Ok(rows)

@@ -17,7 +17,6 @@ use std::time::Duration;
 use std::{error, fs};
 
 use clap::{Parser, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 use piola::lanes::Backend;
 use piola_speed::{Effort, processor};
 use piola_tests::cases::Case;
@@ -97,13 +96,15 @@ fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>
     if asked(Section::Point) {
         // Those whose energies take part.
         let cases = Case::own(&["cases", "cases-ordinary"])?;
-        report.rows = point::rows(&cases, effort(arguments.quick), &bar("point"))?;
+        report.rows = point::rows(&cases, effort(arguments.quick))?;
     }
     if asked(Section::Steps) {
-        report.steps = steps::rows(arguments.quick, &bar("steps"))?;
+        eprintln!("motions …");
+        report.steps = steps::rows(arguments.quick)?;
     }
     if asked(Section::Growth) {
-        report.growth = growth::rows(arguments.quick, &MEMORY, &bar("growth"))?;
+        eprintln!("growing bodies …");
+        report.growth = growth::rows(arguments.quick, &MEMORY)?;
     }
     let charts = charts::draw(&report)?;
     for chart in &charts {
@@ -127,11 +128,4 @@ fn commit() -> Option<String> {
 fn effort(is_quick: bool) -> Effort {
     let (repeats, at_most) = if is_quick { (5, 2) } else { (41, 100) };
     Effort { repeats, at_least: Duration::from_micros(30), at_most: Duration::from_millis(at_most) }
-}
-
-/// Progress of a section, which sets the length; it is cleared when it is dropped.
-fn bar(section: &'static str) -> ProgressBar {
-    const TEMPLATE: &str = "{prefix:7} {bar:40} {pos}/{len} {elapsed} {msg}";
-    let style = ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(0).with_style(style).with_prefix(section)
 }

@@ -7,7 +7,6 @@ use std::any::type_name;
 use std::collections::{BTreeMap, BTreeSet};
 use std::hint::black_box;
 
-use indicatif::ProgressBar;
 use piola::Real;
 use piola::batch::Kernels;
 use piola::point::Filter;
@@ -39,14 +38,13 @@ const WORKS: [(&str, Filter, Quantity); 2] =
 ///
 /// # Errors
 /// Where a case does not fit its material.
-pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Result<Vec<PointRow>, String> {
-    progress.set_length((ENERGIES.len() * 2 * WORKS.len()) as u64);
+pub(crate) fn rows(cases: &[Case], effort: Effort) -> Result<Vec<PointRow>, String> {
     let mut rows = Vec::new();
     for (name, in_catalogue) in ENERGIES {
-        progress.set_message(name);
+        eprintln!("points: {name} …");
         let cases: Vec<&Case> = cases.iter().filter(|case| case.material == in_catalogue).collect();
-        contests::<f64>(name, &cases, effort, progress, &mut rows)?;
-        contests::<f32>(name, &cases, effort, progress, &mut rows)?;
+        contests::<f64>(name, &cases, effort, &mut rows)?;
+        contests::<f32>(name, &cases, effort, &mut rows)?;
     }
     Ok(rows)
 }
@@ -68,7 +66,6 @@ fn contests<E: Number>(
     energy: &'static str,
     cases: &[&Case],
     effort: Effort,
-    progress: &ProgressBar,
     rows: &mut Vec<PointRow>,
 ) -> Result<(), String> {
     for work in WORKS {
@@ -76,7 +73,6 @@ fn contests<E: Number>(
         for (family, cases) in families::<E>(cases) {
             of_work.extend(contest::<E>(work, energy, family, &cases, effort)?);
         }
-        progress.inc(1);
         of_work.extend(all_hard(&of_work));
         mark_fronts(&mut of_work, E::UNIT_ROUNDOFF);
         rows.extend(of_work);

@@ -7,7 +7,6 @@
 use std::error::Error;
 use std::time::Instant;
 
-use indicatif::ProgressBar;
 use piola::Inversion;
 use piola::point::Filter;
 use piola_bodies::mesh::Bounds;
@@ -58,31 +57,24 @@ type Track = Vec<Vec<[f64; 3]>>;
 ///
 /// # Errors
 /// Where a step fails.
-pub(crate) fn rows(
-    is_quick: bool,
-    progress: &ProgressBar,
-) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
+pub(crate) fn rows(is_quick: bool) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
     let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    thread.install(|| measure(is_quick, progress))
+    thread.install(|| measure(is_quick))
 }
 
-fn measure(is_quick: bool, progress: &ProgressBar) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
+fn measure(is_quick: bool) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
     let (drawn, height) = drawn()?;
     let frames = if is_quick { 4 } else { 30 };
     let repeats = if is_quick { 1 } else { REPEATS };
     let newton = NewtonSettings::default().with_tolerance(1e-10);
     let reference = |division| Way { setting: "reference", division, newton, integrator: Integrator::Sdirk3 };
     let ways = ways(is_quick);
-    progress.set_length(ways.len() as u64 + 2);
     let (_, finer) = follow(&drawn, &reference(2.0 * FINE), frames)?;
-    progress.inc(1);
     let (row, exact) = follow(&drawn, &reference(FINE), frames)?;
-    progress.inc(1);
     let mut rows = vec![row.judged(&exact, &finer, height)];
     for way in &ways {
         let (row, track) = follow(&drawn, way, frames)?;
         rows.push(row.judged(&track, &exact, height));
-        progress.inc(1);
     }
     // In turns, so that a disturbance hits all ways.
     for _ in 1..repeats {
