@@ -43,8 +43,8 @@ pub(crate) fn rows(cases: &[Case], effort: Effort) -> Result<Vec<PointRow>, Stri
     for (name, in_catalogue) in ENERGIES {
         eprintln!("points: {name} …");
         let cases: Vec<&Case> = cases.iter().filter(|case| case.material == in_catalogue).collect();
-        contests::<f64>(name, &cases, effort, &mut rows)?;
-        contests::<f32>(name, &cases, effort, &mut rows)?;
+        rows.extend(contests::<f64>(name, &cases, effort)?);
+        rows.extend(contests::<f32>(name, &cases, effort)?);
     }
     Ok(rows)
 }
@@ -66,8 +66,8 @@ fn contests<E: Number>(
     energy: &'static str,
     cases: &[&Case],
     effort: Effort,
-    rows: &mut Vec<PointRow>,
-) -> Result<(), String> {
+) -> Result<Vec<PointRow>, String> {
+    let mut rows = Vec::new();
     for work in WORKS {
         let mut of_work = Vec::new();
         for (family, cases) in families::<E>(cases) {
@@ -77,7 +77,7 @@ fn contests<E: Number>(
         mark_fronts(&mut of_work, E::UNIT_ROUNDOFF);
         rows.extend(of_work);
     }
-    Ok(())
+    Ok(rows)
 }
 
 /// Deformation gradients of one energy: point i is that of case i mod the number of cases.
@@ -108,8 +108,8 @@ fn contest<E: Number>(
     let labels: Vec<_> = groups[0].contestants.iter().map(|contestant| contestant.label.clone()).collect();
     let mut output = Output::new();
     let mut errors = vec![Vec::new(); labels.len()];
-    for group in &mut groups {
-        for (contestant, errors) in group.contestants.iter_mut().zip(&mut errors) {
+    for group in &groups {
+        for (contestant, errors) in group.contestants.iter().zip(&mut errors) {
             output.clear();
             (contestant.run)(&group.points, &mut output);
             errors.extend(group.cases.iter().enumerate().map(|(point, case)| {
@@ -118,7 +118,7 @@ fn contest<E: Number>(
             }));
         }
     }
-    let times = in_turns(&mut groups, effort);
+    let times = in_turns(&groups, effort);
     let rows = labels.into_iter().zip(errors).zip(times).map(|((label, mut errors), times)| {
         errors.sort_by(f64::total_cmp);
         PointRow {
@@ -145,56 +145,41 @@ fn judge<E: Real>(case: &Case, quantity: Quantity, values: &[f64]) -> f64 {
 }
 
 /// The times of the contestants, each over all groups.
-fn in_turns<E: Kernels>(groups: &mut [Group<'_, E>], effort: Effort) -> Vec<Times> {
-    let count = groups[0].contestants.len();
-    let points = POINTS * groups.len();
-    let mut by_method: Vec<Vec<(&Points<E>, &mut Contestant<E>)>> = (0..count).map(|_| Vec::new()).collect();
-    for Group { points, contestants, .. } in groups {
-        for (of_method, contestant) in by_method.iter_mut().zip(contestants) {
-            of_method.push((points, contestant));
-        }
-    }
-    let mut calls: Vec<_> = by_method
-        .into_iter()
-        .map(|mut of_method| {
-            let mut output = Output::new();
-            move || {
-                for (points, contestant) in &mut of_method {
-                    (contestant.run)(points, &mut output);
-                    black_box(&output);
-                }
+fn in_turns<E: Kernels>(groups: &[Group<'_, E>], effort: Effort) -> Vec<Times> {
+    let calls = (0..groups[0].contestants.len()).map(move |method| {
+        let mut output = Output::new();
+        move || {
+            for Group { points, contestants, .. } in groups {
+                (contestants[method].run)(points, &mut output);
+                black_box(&output);
             }
-        })
-        .collect();
+        }
+    });
+    let mut calls: Vec<_> = calls.collect();
     let mut calls: Vec<&mut dyn FnMut()> = calls.iter_mut().map(|call| call as &mut dyn FnMut()).collect();
-    time_in_turns(effort, points, &mut calls)
+    time_in_turns(effort, POINTS * groups.len(), &mut calls)
 }
 
-/// A row for each method that was in every hard family.
+/// A row for each method, which all are in every hard family.
 fn all_hard(rows: &[PointRow]) -> Vec<PointRow> {
-    let mut together: Vec<PointRow> = Vec::new();
-    // Of each the median errors of its families.
-    let mut medians: Vec<Vec<f64>> = Vec::new();
-    for row in rows.iter().filter(|row| row.family != ORDINARY) {
-        let same = |other: &PointRow| (other.method, &other.setting) == (row.method, &row.setting);
-        let index = together.iter().position(same).unwrap_or_else(|| {
-            let zero = PointRow { ns_per_element: 0.0, worst_error: 0.0, cases: 0, ..row.clone() };
-            together.push(PointRow { family: HARD.to_owned(), ..zero });
-            medians.push(Vec::new());
-            together.len() - 1
-        });
-        medians[index].push(row.median_error);
-        let sum = &mut together[index];
-        sum.ns_per_element += row.ns_per_element;
-        sum.worst_error = sum.worst_error.max(row.worst_error);
-        sum.cases += row.cases;
-    }
-    for (row, mut medians) in together.iter_mut().zip(medians) {
-        row.ns_per_element /= medians.len() as f64;
+    let hard = || rows.iter().filter(|row| row.family != ORDINARY);
+    let first = hard().next().map(|row| &row.family);
+    let together = hard().filter(|row| Some(&row.family) == first).map(|row| {
+        let same = |other: &&PointRow| (other.method, &other.setting) == (row.method, &row.setting);
+        let of_families: Vec<&PointRow> = hard().filter(same).collect();
+        let mut medians: Vec<f64> = of_families.iter().map(|row| row.median_error).collect();
         medians.sort_by(f64::total_cmp);
-        row.median_error = medians[medians.len() / 2];
-    }
-    together
+        let total: f64 = of_families.iter().map(|row| row.ns_per_element).sum();
+        PointRow {
+            family: HARD.to_owned(),
+            ns_per_element: total / medians.len() as f64,
+            worst_error: of_families.iter().map(|row| row.worst_error).fold(0.0, f64::max),
+            median_error: medians[medians.len() / 2],
+            cases: of_families.iter().map(|row| row.cases).sum(),
+            ..row.clone()
+        }
+    });
+    together.collect()
 }
 
 /// Marks the rows of each family that no method for any ψ(λ) beats in both time and worst error.
