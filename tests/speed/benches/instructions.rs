@@ -64,7 +64,7 @@ fn run(argument: &str) -> Result<String, String> {
         "--check" if !path.exists() => {
             Ok(format!("nothing counted: there is no {}; --bless writes it", path.display()))
         }
-        "--check" => compare(&from_table(&fs::read_to_string(&path).map_err(at_path)?)?, &count()?),
+        "--check" => compare(&fs::read_to_string(&path).map_err(at_path)?, &count()?),
         other => Err(format!("{other}: --check, --bless or nothing")),
     }
 }
@@ -177,28 +177,20 @@ fn to_table(counts: &Counts) -> String {
     table
 }
 
-fn from_table(table: &str) -> Result<Counts, String> {
-    let lines = table.lines().filter(|line| !line.starts_with('#'));
-    let counts = lines.map(|line| {
-        let (name, count) = line.rsplit_once(' ').ok_or_else(|| format!("no count: {line}"))?;
-        let count = count.parse().map_err(|error| format!("{line}: {error}"))?;
-        Ok((name.trim_end().to_owned(), count))
-    });
-    counts.collect()
-}
-
-fn compare(committed: &Counts, counted: &Counts) -> Result<String, String> {
-    let names =
-        |counts: &Counts| counts.iter().map(|(name, _)| name.trim_end().to_owned()).collect::<Vec<_>>();
-    if names(committed) != names(counted) {
-        return Err("other kernels than those of the table; --bless writes it anew".to_owned());
+fn compare(table: &str, counted: &Counts) -> Result<String, String> {
+    let others = || "other kernels than those of the table; --bless writes it anew".to_owned();
+    let lines: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
+    if lines.len() != counted.len() {
+        return Err(others());
     }
     let (mut grown, mut shrunk) = (String::new(), 0);
-    for ((name, before), (_, now)) in committed.iter().zip(counted) {
+    for (line, (name, now)) in lines.into_iter().zip(counted) {
+        let before = line.strip_prefix(name.as_str()).ok_or_else(others)?.trim();
+        let before: f64 = before.parse().map_err(|error| format!("{line}: {error}"))?;
         if *now > before * SLACK {
-            let _ = writeln!(grown, "{name}: {before:.1} before, {now:.1} now");
+            let _ = writeln!(grown, "{}: {before:.1} before, {now:.1} now", name.trim_end());
         }
-        shrunk += usize::from(now * SLACK < *before);
+        shrunk += usize::from(now * SLACK < before);
     }
     if grown.is_empty() {
         let note = if shrunk > 0 { "; --bless keeps what others have gained" } else { "" };
