@@ -18,9 +18,6 @@ pub(crate) struct Chart {
 }
 
 /// Charts of the sections that were measured.
-///
-/// # Errors
-/// Where one cannot be drawn.
 pub(crate) fn draw(report: &Report) -> Result<Vec<Chart>, String> {
     let mut charts = Vec::new();
     if !report.rows.is_empty() {

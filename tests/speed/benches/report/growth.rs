@@ -43,9 +43,6 @@ fn ways() -> [Way; 5] {
 }
 
 /// A row for each way and box.
-///
-/// # Errors
-/// Where a box cannot be made or solved.
 pub(crate) fn rows(
     is_quick: bool,
     memory: &PeakAlloc,

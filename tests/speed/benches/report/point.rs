@@ -4,7 +4,7 @@
 //! turns, and what they leave behind is judged.
 
 use std::any::type_name;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::hint::black_box;
 
 use piola::Real;
@@ -35,9 +35,6 @@ const WORKS: [(&str, Filter, Quantity); 2] =
     [("tangent", Filter::None, Quantity::Tangent), ("projected", Filter::Clamp, Quantity::Projected)];
 
 /// All rows of these cases.
-///
-/// # Errors
-/// Where a case does not fit its material.
 pub(crate) fn rows(cases: &[Case], effort: Effort) -> Result<Vec<PointRow>, String> {
     let mut rows = Vec::new();
     for (name, in_catalogue) in ENERGIES {
@@ -71,10 +68,10 @@ fn contests<E: Number>(
     for work in WORKS {
         let mut of_work = Vec::new();
         for (family, cases) in families::<E>(cases) {
-            of_work.extend(contest::<E>(work, energy, family, &cases, effort)?);
+            let rows = contest::<E>(work, energy, family, &cases, effort)?;
+            of_work.extend(with_front(rows, E::UNIT_ROUNDOFF));
         }
-        of_work.extend(all_hard(&of_work));
-        mark_fronts(&mut of_work, E::UNIT_ROUNDOFF);
+        of_work.extend(with_front(all_hard(&of_work), E::UNIT_ROUNDOFF));
         rows.extend(of_work);
     }
     Ok(rows)
@@ -182,15 +179,12 @@ fn all_hard(rows: &[PointRow]) -> Vec<PointRow> {
     together.collect()
 }
 
-/// Marks the rows of each family that no method for any ψ(λ) beats in both time and worst error.
-fn mark_fronts(rows: &mut [PointRow], unit: f64) {
-    let families: BTreeSet<String> = rows.iter().map(|row| row.family.clone()).collect();
-    for family in families {
-        let pair = |row: &PointRow| (row.ns_per_element, row.worst_error);
-        let general = |row: &&PointRow| row.family == family && row.is_general;
-        let rivals: Vec<(f64, f64)> = rows.iter().filter(general).map(pair).collect();
-        for row in rows.iter_mut().filter(|row| row.family == family) {
-            row.is_on_front = is_on_front(pair(row), &rivals, unit);
-        }
+/// Rows of one family, marked where no method for any ψ(λ) beats them in both time and worst error.
+fn with_front(mut rows: Vec<PointRow>, unit: f64) -> Vec<PointRow> {
+    let pair = |row: &PointRow| (row.ns_per_element, row.worst_error);
+    let rivals: Vec<(f64, f64)> = rows.iter().filter(|row| row.is_general).map(pair).collect();
+    for row in &mut rows {
+        row.is_on_front = is_on_front(pair(row), &rivals, unit);
     }
+    rows
 }

@@ -54,9 +54,6 @@ struct Way {
 type Track = Vec<Vec<[f64; 3]>>;
 
 /// A row for the reference and for each way, computed by one thread.
-///
-/// # Errors
-/// Where a step fails.
 pub(crate) fn rows(is_quick: bool) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
     let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     thread.install(|| measure(is_quick))

@@ -32,9 +32,6 @@ const COLUMNS: [(&str, Task, Filter); 5] = [
 ];
 
 /// Prints all tables in Markdown, each as soon as it is measured.
-///
-/// # Errors
-/// Where a material of the catalogue cannot be made.
 pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Result<(), Box<dyn Error + Send + Sync>> {
     println!("# Nanoseconds a point, one thread\n");
     println!("Processor: {}. Commit: {}.\n", processor(), commit.unwrap_or("unknown"));

@@ -61,9 +61,6 @@ pub(crate) struct Point {
 }
 
 /// Draws panels in rows of `columns`, below a title and a line that explains.
-///
-/// # Errors
-/// What the library of charts says.
 pub(crate) fn sheet(
     [width, height]: [u32; 2],
     columns: usize,

@@ -22,9 +22,6 @@ pub(crate) const ENERGIES: [(&str, &str); 5] = [
 ];
 
 /// All methods for the energy and the parameters of a case.
-///
-/// # Errors
-/// Where the case does not fit.
 pub(crate) fn contestants<E: Number>(case: &Case, filter: Filter) -> Result<Vec<Contestant<E>>, String> {
     let misfit = |reason: &dyn Display| format!("{}: {reason}", case.id);
     let refused = |error: MaterialError| misfit(&error);
