@@ -8,9 +8,7 @@ use std::path::{Path, PathBuf};
 
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens;
-use syn::{
-    Attribute, Block, ImplItem, ImplItemFn, Item, ItemFn, Signature, TraitItem, TraitItemFn, Visibility,
-};
+use syn::{Item, Visibility};
 
 /// Root folder of the workspace.
 #[must_use]
@@ -176,57 +174,7 @@ pub fn name_of(item: &Item) -> Option<(&Ident, bool)> {
         Item::Union(item) => (&item.ident, &item.vis),
         _ => return None,
     };
-    Some((name, is_public(visibility)))
-}
-
-fn is_public(visibility: &Visibility) -> bool {
-    matches!(visibility, Visibility::Public(_))
-}
-
-/// A function or method with a body.
-pub struct Function<'a> {
-    /// Documentation and other attributes.
-    pub attributes: &'a [Attribute],
-    /// True if it is `pub`.
-    pub is_public: bool,
-    /// The type that it is a method of.
-    pub owner: Option<String>,
-    /// Name, arguments and result.
-    pub signature: &'a Signature,
-    /// Its code.
-    pub body: &'a Block,
-}
-
-/// The functions that an item is or has.
-#[must_use]
-pub fn functions(item: &Item) -> Vec<Function<'_>> {
-    match item {
-        Item::Fn(ItemFn { attrs: attributes, vis, sig: signature, block: body, .. }) => {
-            vec![Function { attributes, is_public: is_public(vis), owner: None, signature, body }]
-        }
-        Item::Impl(of_type) => {
-            let owner = tokens(&of_type.self_ty).first().map(|token| token.text.clone());
-            let methods = of_type.items.iter().filter_map(|item| match item {
-                ImplItem::Fn(ImplItemFn { attrs: attributes, vis, sig: signature, block: body, .. }) => {
-                    let (is_public, owner) = (is_public(vis), owner.clone());
-                    Some(Function { attributes, is_public, owner, signature, body })
-                }
-                _ => None,
-            });
-            methods.collect()
-        }
-        Item::Trait(of_all) => {
-            let methods = of_all.items.iter().filter_map(|item| match item {
-                TraitItem::Fn(TraitItemFn { attrs: attributes, sig: signature, default, .. }) => {
-                    let body = default.as_ref()?;
-                    Some(Function { attributes, is_public: false, owner: None, signature, body })
-                }
-                _ => None,
-            });
-            methods.collect()
-        }
-        _ => Vec::new(),
-    }
+    Some((name, matches!(visibility, Visibility::Public(_))))
 }
 
 /// A word, a mark or a bracket of code.

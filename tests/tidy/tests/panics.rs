@@ -3,10 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use piola_tidy::{Function, Module, crates, files, forbid, functions, tokens};
+use piola_tidy::{Module, crates, files, forbid, tokens};
 use proc_macro2::TokenStream;
 use quote::ToTokens;
-use syn::{Attribute, Signature};
+use syn::{
+    Attribute, Block, ImplItem, ImplItemFn, Item, ItemFn, Signature, TraitItem, TraitItemFn, Visibility,
+};
 
 /// Macros and methods whose purpose is to panic.
 const MACROS: [&str; 7] =
@@ -70,6 +72,51 @@ fn what_returns_a_result_is_tried_with_hostile_arguments() {
     }
     forbid("functions that `tests/hostile/` of their crate does not try", &found);
     assert!(judged > 30, "{judged} functions");
+}
+
+/// A function or method with a body.
+struct Function<'a> {
+    attributes: &'a [Attribute],
+    is_public: bool,
+    /// The type that it is a method of.
+    owner: Option<String>,
+    signature: &'a Signature,
+    body: &'a Block,
+}
+
+/// The functions that an item is or has.
+fn functions(item: &Item) -> Vec<Function<'_>> {
+    match item {
+        Item::Fn(ItemFn { attrs: attributes, vis, sig: signature, block: body, .. }) => {
+            vec![Function { attributes, is_public: is_public(vis), owner: None, signature, body }]
+        }
+        Item::Impl(of_type) => {
+            let owner = tokens(&of_type.self_ty).first().map(|token| token.text.clone());
+            let methods = of_type.items.iter().filter_map(|item| match item {
+                ImplItem::Fn(ImplItemFn { attrs: attributes, vis, sig: signature, block: body, .. }) => {
+                    let (is_public, owner) = (is_public(vis), owner.clone());
+                    Some(Function { attributes, is_public, owner, signature, body })
+                }
+                _ => None,
+            });
+            methods.collect()
+        }
+        Item::Trait(of_all) => {
+            let methods = of_all.items.iter().filter_map(|item| match item {
+                TraitItem::Fn(TraitItemFn { attrs: attributes, sig: signature, default, .. }) => {
+                    let body = default.as_ref()?;
+                    Some(Function { attributes, is_public: false, owner: None, signature, body })
+                }
+                _ => None,
+            });
+            methods.collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn is_public(visibility: &Visibility) -> bool {
+    matches!(visibility, Visibility::Public(_))
 }
 
 fn returns_result(signature: &Signature) -> bool {
