@@ -8,7 +8,7 @@
 use std::error::Error;
 use std::hint::black_box;
 
-use piola::batch::{Batch, Kernels, Layout, TileMaterial};
+use piola::batch::{Batch, Kernels, Layout};
 use piola::lanes::Backend;
 use piola::material::Declared;
 use piola::point::{Filter, Matrix3, evaluate, evaluate_dense, evaluate_stress};
@@ -53,9 +53,12 @@ pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Result<(), Box<dyn 
 fn print_energy<M: Declared + 'static>(name: &str, material: &M, effort: Effort) {
     let mut rows = Vec::new();
     for backend in vectors() {
-        for layout in [Layout::Points, Layout::Lines] {
-            rows.push(bulk::<f64>(material, backend, layout, effort));
-            rows.push(bulk::<f32>(material, backend, layout, effort));
+        for (layout, order) in [(Layout::Points, "point by point"), (Layout::Lines, "in lines")] {
+            let label = |format| format!("{order}, {format}, {backend}");
+            let double = Batch::<f64>::new(material).with_backend(backend);
+            let single = Batch::<f32>::new(material).with_backend(backend);
+            rows.push(batch(label("f64"), &double, layout, IN_CACHE, effort));
+            rows.push(batch(label("f32"), &single, layout, IN_CACHE, effort));
         }
     }
     for points in [1, 8, 64] {
@@ -78,20 +81,6 @@ fn print_energy<M: Declared + 'static>(name: &str, material: &M, effort: Effort)
 /// Back ends with vector registers; the portable one where there is no other.
 fn vectors() -> impl Iterator<Item = Backend> {
     Backend::available().filter(|&backend| backend != Backend::portable() || backend == Backend::best())
-}
-
-fn bulk<E: Kernels>(
-    material: &dyn TileMaterial<E>,
-    backend: Backend,
-    layout: Layout,
-    effort: Effort,
-) -> Vec<String> {
-    let layout_name = match layout {
-        Layout::Points => "point by point",
-        Layout::Lines => "in lines",
-    };
-    let label = format!("{layout_name}, {}, {backend}", std::any::type_name::<E>());
-    batch(label, &Batch::new(material).with_backend(backend), layout, IN_CACHE, effort)
 }
 
 fn batch<E: Kernels>(
