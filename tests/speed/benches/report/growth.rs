@@ -4,7 +4,6 @@
 //! A cube of rubber, one face held, falls under its own weight: boxes of all sizes solve the same problem.
 //! Each step of a hundredth of a second makes one iteration of Newton's method.
 
-use std::error::Error;
 use std::time::Instant;
 
 use peak_alloc::PeakAlloc;
@@ -14,6 +13,7 @@ use piola_bodies::step::{Convergence, LinearSolver, NewtonSettings, Simulation, 
 use piola_bodies::system::{Body, Pins};
 use piola_materials::StableNeoHookean;
 
+use crate::Outcome;
 use crate::data::GrowthRow;
 
 /// Cells along an edge; a cell has six elements. A factor takes too much beyond [`MOST_OF_FACTOR`].
@@ -43,10 +43,7 @@ fn ways() -> [Way; 5] {
 }
 
 /// A row for each way and box.
-pub(crate) fn rows(
-    is_quick: bool,
-    memory: &PeakAlloc,
-) -> Result<Vec<GrowthRow>, Box<dyn Error + Send + Sync>> {
+pub(crate) fn rows(is_quick: bool, memory: &PeakAlloc) -> Outcome<Vec<GrowthRow>> {
     let mut rows = Vec::new();
     let cells = if is_quick { &CELLS[..4] } else { &CELLS };
     for way in ways() {
@@ -63,11 +60,7 @@ pub(crate) fn rows(
     Ok(rows)
 }
 
-fn measure(
-    (way, newton, threads): Way,
-    cells: usize,
-    memory: &PeakAlloc,
-) -> Result<GrowthRow, Box<dyn Error + Send + Sync>> {
+fn measure((way, newton, threads): Way, cells: usize, memory: &PeakAlloc) -> Outcome<GrowthRow> {
     memory.reset_peak_usage();
     let before = memory.current_usage();
     let mesh = tetrahedral_box([cells; 3], [1.0; 3])?;

@@ -32,6 +32,8 @@ mod table;
 
 use data::Report;
 
+type Outcome<T> = Result<T, Box<dyn error::Error + Send + Sync>>;
+
 /// Every byte that is allocated, and the most at a time.
 #[global_allocator]
 static MEMORY: peak_alloc::PeakAlloc = peak_alloc::PeakAlloc;
@@ -79,7 +81,7 @@ fn main() -> ExitCode {
 
 /// Measures all that is asked for, then writes it and prints the path of the page: a run that fails leaves
 /// the files of the one before.
-fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>> {
+fn make(arguments: &Arguments) -> Outcome<()> {
     let asked = |section| arguments.only.is_empty() || arguments.only.contains(&section);
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let folder = workspace.canonicalize().unwrap_or(workspace).join("target/report");

@@ -4,7 +4,6 @@
 //! reference is the same motion by the integrator of third order with 1/32 of the scenes' time step and
 //! Newton's method to a relative 10⁻¹⁰; the row `reference` is its distance from one with 1/64.
 
-use std::error::Error;
 use std::time::Instant;
 
 use piola::Inversion;
@@ -19,6 +18,7 @@ use piola_scenes::geometry::Geometry;
 use piola_scenes::scene::DINOSAUR;
 use piola_scenes::settings::Settings;
 
+use crate::Outcome;
 use crate::data::StepRow;
 
 /// Frames per second.
@@ -54,12 +54,12 @@ struct Way {
 type Track = Vec<Vec<[f64; 3]>>;
 
 /// A row for the reference and for each way, computed by one thread.
-pub(crate) fn rows(is_quick: bool) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
+pub(crate) fn rows(is_quick: bool) -> Outcome<Vec<StepRow>> {
     let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     thread.install(|| measure(is_quick))
 }
 
-fn measure(is_quick: bool) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
+fn measure(is_quick: bool) -> Outcome<Vec<StepRow>> {
     let (drawn, height) = drawn()?;
     let frames = if is_quick { 4 } else { 30 };
     let repeats = if is_quick { 1 } else { REPEATS };
@@ -109,7 +109,7 @@ fn ways(is_quick: bool) -> Vec<Way> {
 }
 
 /// The body in equilibrium, its head drawn sideways by half its height, and the height, m.
-fn drawn() -> Result<(Simulation, f64), Box<dyn Error + Send + Sync>> {
+fn drawn() -> Outcome<(Simulation, f64)> {
     /// The head is drawn in parts, so that each equilibrium is near the previous one.
     const PARTS: usize = 10;
     let mesh = Geometry::load(&Settings::new(&DINOSAUR))?.mesh;
@@ -136,11 +136,7 @@ fn drawn() -> Result<(Simulation, f64), Box<dyn Error + Send + Sync>> {
 }
 
 /// Releases the body and follows it for `frames` frames. Leaves the errors of the row to [`StepRow::judged`].
-fn follow(
-    drawn: &Simulation,
-    way: &Way,
-    frames: usize,
-) -> Result<(StepRow, Track), Box<dyn Error + Send + Sync>> {
+fn follow(drawn: &Simulation, way: &Way, frames: usize) -> Outcome<(StepRow, Track)> {
     let mut simulation = drawn.clone();
     let settings = SimulationSettings::default().with_newton(way.newton);
     simulation.set_settings(settings.with_integrator(way.integrator))?;

@@ -5,7 +5,6 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
-use std::error::Error;
 use std::hint::black_box;
 
 use piola::batch::{Batch, Kernels, Layout};
@@ -18,6 +17,7 @@ use piola_speed::{
     processor, time,
 };
 
+use crate::Outcome;
 use crate::markdown::table;
 
 mod typed;
@@ -32,7 +32,7 @@ const COLUMNS: [(&str, Task, Filter); 5] = [
 ];
 
 /// Prints all tables in Markdown, each as soon as it is measured.
-pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Result<(), Box<dyn Error + Send + Sync>> {
+pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Outcome<()> {
     println!("# Nanoseconds a point, one thread\n");
     println!("Processor: {}. Commit: {}.\n", processor(), commit.unwrap_or("unknown"));
     println!(
