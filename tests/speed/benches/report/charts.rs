@@ -1,6 +1,6 @@
 //! The charts, as SVG.
 
-use crate::data::Report;
+use crate::Report;
 
 mod heat;
 mod panel;

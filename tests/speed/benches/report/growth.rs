@@ -12,9 +12,9 @@ use piola_bodies::mesh::{Bounds, tetrahedral_box};
 use piola_bodies::step::{Convergence, LinearSolver, NewtonSettings, Simulation, SimulationSettings};
 use piola_bodies::system::{Body, Pins};
 use piola_materials::StableNeoHookean;
+use serde::Serialize;
 
 use crate::Outcome;
-use crate::data::GrowthRow;
 
 /// Cells along an edge; a cell has six elements. A factor takes too much beyond [`MOST_OF_FACTOR`].
 const CELLS: [usize; 7] = [6, 8, 12, 17, 25, 38, 55];
@@ -24,6 +24,19 @@ const TIME_STEP: f64 = 0.01;
 
 /// Number of timed steps, after a first one that finds cold caches.
 const STEPS: usize = 3;
+
+/// A step or an equilibrium of a box.
+#[derive(Default, Serialize)]
+pub(crate) struct GrowthRow {
+    pub(crate) way: &'static str,
+    pub(crate) threads: usize,
+    pub(crate) elements: usize,
+    /// The least of the steps.
+    pub(crate) seconds: f64,
+    pub(crate) peak_bytes: usize,
+    pub(crate) newton_iterations: usize,
+    pub(crate) linear_iterations: usize,
+}
 
 /// A way to solve: its name, the settings of Newton's method, and the number of threads.
 type Way = (&'static str, NewtonSettings, usize);

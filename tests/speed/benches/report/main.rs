@@ -20,17 +20,15 @@ use clap::{Parser, ValueEnum};
 use piola::lanes::Backend;
 use piola_speed::{Effort, processor};
 use piola_tests::cases::Case;
+use serde::Serialize;
 
 mod charts;
-mod data;
 mod growth;
 mod markdown;
 mod page;
 mod point;
 mod steps;
 mod table;
-
-use data::Report;
 
 type Outcome<T> = Result<T, Box<dyn error::Error + Send + Sync>>;
 
@@ -61,6 +59,19 @@ enum Section {
     Point,
     Steps,
     Growth,
+}
+
+/// All results of the report. A value that is not finite is `null` in JSON.
+#[derive(Serialize)]
+struct Report {
+    machine: String,
+    /// Instructions of the lanes.
+    back_end: String,
+    /// Commit of the sources, if they are a Git checkout.
+    commit: Option<String>,
+    rows: Vec<point::PointRow>,
+    steps: Vec<steps::StepRow>,
+    growth: Vec<growth::GrowthRow>,
 }
 
 fn main() -> ExitCode {

@@ -3,10 +3,12 @@
 use piola::Real;
 use piola_speed::{RESOLUTION, beats};
 
+use crate::Report;
 use crate::charts::{Chart, best_settings};
-use crate::data::{GrowthRow, PointRow, Report, StepRow};
+use crate::growth::GrowthRow;
 use crate::markdown::table;
-use crate::point::{ENERGIES, HARD, ORDINARY, OURS};
+use crate::point::{ENERGIES, HARD, ORDINARY, OURS, PointRow};
+use crate::steps::StepRow;
 
 /// The page, with the charts by their files' names.
 pub(crate) fn tell(report: &Report, charts: &[Chart]) -> String {

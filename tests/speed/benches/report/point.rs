@@ -12,8 +12,7 @@ use piola::batch::Kernels;
 use piola::point::Filter;
 use piola_speed::{Effort, Times, is_on_front, time_in_turns};
 use piola_tests::cases::{Case, Quantity};
-
-use crate::data::PointRow;
+use serde::Serialize;
 
 mod contestant;
 mod energies;
@@ -23,6 +22,29 @@ use contestant::{Contestant, Number, Output, POINTS, Points};
 pub(crate) use energies::ENERGIES;
 use energies::contestants;
 pub(crate) use methods::{OURS, OURS_AS_A_SCALAR};
+
+/// A method at a family of deformation gradients.
+#[derive(Clone, Serialize)]
+pub(crate) struct PointRow {
+    /// `tangent`: P and dP/dF; `projected`: P and the nearest semidefinite matrix to dP/dF.
+    pub(crate) work: &'static str,
+    pub(crate) material: &'static str,
+    pub(crate) precision: &'static str,
+    pub(crate) method: &'static str,
+    pub(crate) setting: String,
+    /// The least of the repeats.
+    pub(crate) ns_per_element: f64,
+    /// The larger of ‖X − X*‖/(‖X*‖ + sens) of P and of the matrix.
+    pub(crate) worst_error: f64,
+    pub(crate) median_error: f64,
+    pub(crate) family: String,
+    /// Number of reference cases.
+    pub(crate) cases: usize,
+    /// True if it takes any ψ(λ1, λ2, λ3).
+    pub(crate) is_general: bool,
+    /// True if no other method for any ψ(λ) is both faster and more accurate in the worst case.
+    pub(crate) is_on_front: bool,
+}
 
 /// The family of F = I + 0.3 X, entries of X uniform in [−1, 1).
 pub(crate) const ORDINARY: &str = "ordinary";

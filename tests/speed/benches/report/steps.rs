@@ -17,9 +17,9 @@ use piola_materials::NeoHookean;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::scene::DINOSAUR;
 use piola_scenes::settings::Settings;
+use serde::Serialize;
 
 use crate::Outcome;
-use crate::data::StepRow;
 
 /// Frames per second.
 const RATE: f64 = 30.0;
@@ -40,6 +40,23 @@ pub(crate) const INTEGRATORS: [(&str, Integrator); 3] = [
 
 /// Implicit Euler with one iteration of Newton's method, over which the time step is varied too.
 pub(crate) const SINGLE: &str = "implicit Euler, one iteration";
+
+/// A way to step a body through a motion.
+#[derive(Default, Serialize)]
+pub(crate) struct StepRow {
+    pub(crate) setting: &'static str,
+    /// Time step, s.
+    pub(crate) h: f64,
+    /// Wall time of all steps, s.
+    pub(crate) seconds: f64,
+    pub(crate) steps: usize,
+    pub(crate) newton_iterations: usize,
+    pub(crate) linear_iterations: usize,
+    /// Largest distance of a node from the reference after any frame, body heights.
+    pub(crate) error: f64,
+    /// Largest distance of a node from the reference after the last frame, body heights.
+    pub(crate) final_error: f64,
+}
 
 /// One way to go the course.
 struct Way {

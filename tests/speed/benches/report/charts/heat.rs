@@ -8,8 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::Chart;
 use super::panel::{failed, headed};
 use super::point::best_settings;
-use crate::data::PointRow;
-use crate::point::{ENERGIES, HARD, ORDINARY};
+use crate::point::{ENERGIES, HARD, ORDINARY, PointRow};
 
 const CELL: [i32; 2] = [46, 26];
 const LEFT: i32 = 240;

@@ -2,8 +2,7 @@
 
 use super::Chart;
 use super::panel::{BLUE, GREEN, GREY, Line, Mark, Panel, Point, Series, VERMILION, sheet};
-use crate::data::PointRow;
-use crate::point::{ENERGIES, HARD, ORDINARY, OURS, OURS_AS_A_SCALAR};
+use crate::point::{ENERGIES, HARD, ORDINARY, OURS, OURS_AS_A_SCALAR, PointRow};
 
 pub(super) fn draw(rows: &[PointRow]) -> Result<Vec<Chart>, String> {
     let mut charts = Vec::new();

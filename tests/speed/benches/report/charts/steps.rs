@@ -2,8 +2,7 @@
 
 use super::Chart;
 use super::panel::{BLUE, GREEN, Line, Mark, PURPLE, Panel, Point, Series, VERMILION, sheet};
-use crate::data::StepRow;
-use crate::steps::{INTEGRATORS, SINGLE};
+use crate::steps::{INTEGRATORS, SINGLE, StepRow};
 
 pub(super) fn draw(rows: &[StepRow]) -> Result<Chart, String> {
     let names = INTEGRATORS.map(|(name, _)| name);
