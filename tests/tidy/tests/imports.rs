@@ -91,40 +91,41 @@ struct Edge {
     written: String,
 }
 
-/// The modules of a crate with the names that they define and bring in.
+/// What a name in a module stands for.
+enum Name {
+    /// A module in it, by its index.
+    Child(usize),
+    /// An item of the module itself.
+    Defined,
+    /// The path of an import.
+    BroughtIn(Vec<String>),
+}
+
+/// The modules of a crate with the names in them.
 struct Graph<'a> {
     modules: &'a [Module],
     /// Under this name the crate may call itself.
     own_name: &'a str,
-    children: HashMap<(usize, String), usize>,
-    defined: HashSet<(usize, String)>,
-    brought_in: HashMap<(usize, String), Vec<String>>,
+    names: HashMap<(usize, String), Name>,
 }
 
 impl<'a> Graph<'a> {
     fn new(of: &'a Crate) -> Self {
-        let mut graph = Self {
-            modules: &of.modules,
-            own_name: &of.name,
-            children: HashMap::new(),
-            defined: HashSet::new(),
-            brought_in: HashMap::new(),
-        };
+        let mut names = HashMap::new();
         for (index, module) in of.modules.iter().enumerate() {
-            if let (Some(parent), Some(name)) = (module.parent, module.path.last()) {
-                graph.children.insert((parent, name.clone()), index);
+            let imports = module.items.iter().filter(|item| matches!(item, Item::Use(_))).flat_map(mentions);
+            // Nothing is looked for behind `*`: only `__private` of piola has any of its own items.
+            for Mention { segments, name, .. } in imports.filter(|import| import.name != "*") {
+                names.insert((index, name), Name::BroughtIn(segments));
             }
-            for item in &module.items {
-                if let Item::Use(item) = item {
-                    // Nothing is looked for behind `*`: only `__private` of piola has any of its own items.
-                    let names = mentions(item).into_iter().map(|path| ((index, path.name), path.segments));
-                    graph.brought_in.extend(names);
-                } else if let Some((name, _)) = name_of(item) {
-                    graph.defined.insert((index, name.to_string()));
-                }
+            for (name, _) in module.items.iter().filter_map(name_of) {
+                names.insert((index, name.to_string()), Name::Defined);
+            }
+            if let (Some(parent), Some(name)) = (module.parent, module.path.last()) {
+                names.insert((parent, name.clone()), Name::Child(index));
             }
         }
-        graph
+        Self { modules: &of.modules, own_name: &of.name, names }
     }
 
     /// Every need of one module of another.
@@ -145,7 +146,10 @@ impl<'a> Graph<'a> {
     fn between_folders(&self, edges: Vec<Edge>) -> Vec<Edge> {
         let folder = |module: usize| {
             let first = self.modules[module].path.first()?;
-            self.children.get(&(0, first.clone())).copied()
+            match self.names.get(&(0, first.clone()))? {
+                Name::Child(folder) => Some(*folder),
+                _ => None,
+            }
         };
         let lifted = |edge: Edge| {
             let (from, to) = (folder(edge.from)?, folder(edge.to)?);
@@ -157,34 +161,26 @@ impl<'a> Graph<'a> {
     /// The module that defines what a path leads to, through re-exports; `None` where it leads to another
     /// crate.
     fn resolve(&self, from: usize, segments: &[String], depth: usize) -> Option<usize> {
-        let (first, _) = segments.split_first()?;
-        let key = (from, first.clone());
+        let first = segments.first()?;
         let (mut at, mut rest) = match first.as_str() {
             name if name == "crate" || name == self.own_name => (0, &segments[1..]),
             "self" => (from, &segments[1..]),
             "super" => (self.modules[from].parent?, &segments[1..]),
-            _ if self.children.contains_key(&key)
-                || self.brought_in.contains_key(&key)
-                || (depth > 0 && self.defined.contains(&key)) =>
-            {
-                (from, segments)
-            }
-            _ => return None,
+            _ => match self.names.get(&(from, first.clone()))? {
+                Name::Defined if depth == 0 => return None,
+                _ => (from, segments),
+            },
         };
         while let Some((name, behind)) = rest.split_first() {
-            let key = (at, name.clone());
-            if name == "super" {
-                at = self.modules[at].parent?;
-            } else if let Some(&child) = self.children.get(&key) {
-                at = child;
-            } else if self.defined.contains(&key) || name == "*" {
-                return Some(at);
-            } else if let Some(target) = self.brought_in.get(&key).filter(|_| depth < 16) {
+            at = match self.names.get(&(at, name.clone())) {
+                _ if name == "super" => self.modules[at].parent?,
+                Some(Name::Child(child)) => *child,
                 // What comes from another crate belongs to nobody here.
-                return self.resolve(at, &[target.as_slice(), behind].concat(), depth + 1);
-            } else {
-                return Some(at);
-            }
+                Some(Name::BroughtIn(target)) if depth < 16 => {
+                    return self.resolve(at, &[target.as_slice(), behind].concat(), depth + 1);
+                }
+                _ => return Some(at),
+            };
             rest = behind;
         }
         Some(at)
