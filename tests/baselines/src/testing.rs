@@ -79,8 +79,8 @@ fn compare<R: Real + Into<f64>>() {
     agree::<R>(&material, |F| energy.evaluate(F));
 }
 
-/// No gap between stretches is special, and their squares stay below ten: each entry is a sum of a few products
-/// of numbers of that size, as well known as the stretches, or after a few roundings of each step of an
+/// No gap between stretches is special, and their squares stay below ten: each entry is a sum of a few
+/// products of numbers that are as well known as the stretches, to a few roundings of each step of an
 /// iteration.
 #[track_caller]
 fn agree<R: Real + Into<f64>>(
