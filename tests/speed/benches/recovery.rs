@@ -9,8 +9,9 @@
 //! energies have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests, and
 //! with which seeds.
 
+#![expect(clippy::print_stdout, reason = "a table to show")]
+
 use std::error::Error;
-use std::io::{self, Write};
 
 use clap::Parser;
 use rayon::prelude::*;
@@ -56,41 +57,35 @@ struct Options {
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let options = Options::parse();
-    let mut page = io::stdout().lock();
     for newton in options.newton {
         let name = match newton {
             Newton::Single => "one Newton iteration per step",
             Newton::Full => "full Newton",
         };
-        writeln!(page, "## Scrambled, {name}\n")?;
-        writeln!(page, "| A | {HEADER}")?;
+        println!("## Scrambled, {name}\n\n| A | {HEADER}");
         for &amplitude in &options.amplitude {
             for body in [Body::HORSE, Body::DINOSAUR] {
                 for material in &MATERIALS[..4] {
                     let seeds = (1..=options.seeds).map(|seed| Start::Scrambled { seed, amplitude });
                     let outcomes = play(&SCRAMBLE, body, material, newton, seeds.collect())?;
-                    writeln!(page, "| {amplitude} | {} | {material} | {} |", body.name, cells(&outcomes))?;
-                    page.flush()?;
+                    println!("| {amplitude} | {} | {material} | {} |", body.name, cells(&outcomes));
                 }
             }
         }
-        writeln!(page, "\n## One start each, {name}\n")?;
-        writeln!(page, "| scene | {HEADER}")?;
-        for (scene, bodies) in [
-            (&INSIDE_OUT, &[Body::HORSE, Body::DINOSAUR][..]),
-            (&POINT, &[Body::HORSE, Body::DINOSAUR]),
-            (&HORSE, &[Body::HORSE]),
+        println!("\n## One start each, {name}\n\n| scene | {HEADER}");
+        for (scene, body) in [
+            (&INSIDE_OUT, Body::HORSE),
+            (&INSIDE_OUT, Body::DINOSAUR),
+            (&POINT, Body::HORSE),
+            (&POINT, Body::DINOSAUR),
+            (&HORSE, Body::HORSE),
         ] {
-            for &body in bodies {
-                for material in MATERIALS {
-                    let outcomes = play(scene, body, material, newton, vec![scene.start])?;
-                    let cells = cells(&outcomes);
-                    writeln!(page, "| {} | {} | {material} | {cells} |", scene.name, body.name)?;
-                    page.flush()?;
-                }
+            for material in MATERIALS {
+                let outcomes = play(scene, body, material, newton, vec![scene.start])?;
+                println!("| {} | {} | {material} | {} |", scene.name, body.name, cells(&outcomes));
             }
         }
-        writeln!(page)?;
+        println!();
     }
     Ok(())
 }
@@ -106,16 +101,13 @@ fn play(
     let material = MaterialSpec::matching(material, soft_moduli());
     let described = Settings::new(scene).with_body(body).with_material(material).with_newton(newton);
     let geometry = Geometry::load(&described)?;
-    let outcomes: Result<_, Box<dyn Error + Send + Sync>> = starts
-        .into_par_iter()
-        .map(|start| Ok(run_trial(&described.clone().with_start(start), &geometry)?))
-        .collect();
-    let outcomes: Vec<TrialOutcome> = outcomes?;
-    for outcome in &outcomes {
+    let trial = |start| -> Result<TrialOutcome, Box<dyn Error + Send + Sync>> {
+        let outcome = run_trial(&described.clone().with_start(start), &geometry)?;
         assert!(outcome.finite, "a position is not finite: {outcome:?}");
         assert!(outcome.largest_rise <= RISE, "the objective of a step has risen: {outcome:?}");
-    }
-    Ok(outcomes)
+        Ok(outcome)
+    };
+    starts.into_par_iter().map(trial).collect()
 }
 
 /// The cells behind the first three.
