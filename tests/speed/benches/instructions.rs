@@ -10,7 +10,6 @@
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 
-use std::fmt::Write;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
@@ -168,13 +167,9 @@ fn count() -> Result<Counts, String> {
 }
 
 fn to_table(counts: &Counts) -> String {
-    let mut table =
-        String::from("# Instructions per point: back end, format, kernel (+C: clamped), energy.\n");
-    for (name, count) in counts {
-        // Writing to a string cannot fail.
-        let _ = writeln!(table, "{name} {count:8.1}");
-    }
-    table
+    let lines = counts.iter().map(|(name, count)| format!("{name} {count:8.1}\n"));
+    "# Instructions per point: back end, format, kernel (+C: clamped), energy.\n".to_owned()
+        + &lines.collect::<String>()
 }
 
 fn compare(table: &str, counted: &Counts) -> Result<String, String> {
@@ -188,7 +183,7 @@ fn compare(table: &str, counted: &Counts) -> Result<String, String> {
         let before = line.strip_prefix(name.as_str()).ok_or_else(others)?.trim();
         let before: f64 = before.parse().map_err(|error| format!("{line}: {error}"))?;
         if *now > before * SLACK {
-            let _ = writeln!(grown, "{}: {before:.1} before, {now:.1} now", name.trim_end());
+            grown += &format!("{}: {before:.1} before, {now:.1} now\n", name.trim_end());
         }
         shrunk += usize::from(now * SLACK < before);
     }
