@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
-pub(crate) use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+pub(crate) use plotters::style::{Color, RGBColor, ShapeStyle};
 
 /// Colours of Okabe and Ito, which stay apart for all kinds of colour vision.
 pub(crate) const VERMILION: RGBColor = RGBColor(213, 94, 0);
@@ -33,16 +33,9 @@ pub(crate) struct Panel {
 /// Marks that belong together.
 pub(crate) struct Series {
     pub(crate) colour: RGBColor,
-    pub(crate) mark: Mark,
+    pub(crate) mark: Option<ShapeStyle>,
     pub(crate) line: Line,
     pub(crate) points: Vec<Point>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Mark {
-    None,
-    Disc,
-    Ring,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -148,17 +141,12 @@ impl Panel {
                     chart.draw_series(dashes).map_err(failed)?;
                 }
             }
-            let style = match series.mark {
-                Mark::None => None,
-                Mark::Disc => Some(series.colour.filled()),
-                Mark::Ring => Some(series.colour.stroke_width(2)),
-            };
-            if let Some(style) = style {
+            if let Some(style) = series.mark {
                 let marks = places.iter().map(|&place| Circle::new(place, 4, style));
                 chart.draw_series(marks).map_err(failed)?;
             }
             for (point, &place) in series.points.iter().zip(&places) {
-                if series.mark != Mark::None {
+                if series.mark.is_some() {
                     marks.push(chart.backend_coord(&place));
                 }
                 if !point.label.is_empty() {

@@ -1,7 +1,7 @@
 //! Nanoseconds against errors, method by method: a sheet for each energy.
 
 use super::Chart;
-use super::panel::{BLUE, GREEN, GREY, Line, Mark, Panel, Point, Series, VERMILION, sheet};
+use super::panel::{BLUE, Color, GREEN, GREY, Line, Panel, Point, RGBColor, Series, VERMILION, sheet};
 use crate::point::{ENERGIES, HARD, ORDINARY, OURS, OURS_AS_A_SCALAR, PointRow};
 
 pub(super) fn draw(rows: &[PointRow]) -> Result<Vec<Chart>, String> {
@@ -66,9 +66,9 @@ fn series(rows: &[&PointRow]) -> Vec<Series> {
         Point { x: row.ns_per_element, y: row.worst_error, label: format!("{}{setting}", row.method) }
     };
     let ours = |row: &&PointRow| [OURS, OURS_AS_A_SCALAR].contains(&row.method);
-    let group = |colour, of_group: &dyn Fn(&&PointRow) -> bool| Series {
+    let group = |colour: RGBColor, of_group: &dyn Fn(&&PointRow) -> bool| Series {
         colour,
-        mark: Mark::Disc,
+        mark: Some(colour.filled()),
         line: Line::None,
         points: rows.iter().copied().filter(of_group).map(point).collect(),
     };
@@ -79,7 +79,7 @@ fn series(rows: &[&PointRow]) -> Vec<Series> {
     vec![
         Series {
             colour: GREY,
-            mark: Mark::None,
+            mark: None,
             line: Line::Dashed,
             points: front.into_iter().map(unlabelled).collect(),
         },
