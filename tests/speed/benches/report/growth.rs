@@ -57,6 +57,7 @@ fn ways() -> [Way; 5] {
 
 /// A row for each way and box.
 pub(crate) fn rows(is_quick: bool, memory: &PeakAlloc) -> Outcome<Vec<GrowthRow>> {
+    eprintln!("growing bodies …");
     let mut rows = Vec::new();
     let cells = if is_quick { &CELLS[..4] } else { &CELLS };
     for way in ways() {

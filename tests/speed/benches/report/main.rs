@@ -19,7 +19,6 @@ use std::{error, fs};
 use clap::{Parser, ValueEnum};
 use piola::lanes::Backend;
 use piola_speed::{Effort, processor};
-use piola_tests::cases::Case;
 use serde::Serialize;
 
 mod charts;
@@ -98,27 +97,18 @@ fn make(arguments: &Arguments) -> Outcome<()> {
     let folder = workspace.canonicalize().unwrap_or(workspace).join("target/report");
     // Before anything is measured in vain.
     fs::create_dir_all(&folder)?;
-    let mut report = Report {
+    let (effort, is_quick) = (effort(arguments.quick), arguments.quick);
+    let report = Report {
         machine: processor(),
         back_end: Backend::best().to_string(),
         commit: commit(),
-        rows: Vec::new(),
-        steps: Vec::new(),
-        growth: Vec::new(),
+        rows: asked(Section::Point).then(|| point::rows(effort)).transpose()?.unwrap_or_default(),
+        steps: asked(Section::Steps).then(|| steps::rows(is_quick)).transpose()?.unwrap_or_default(),
+        growth: asked(Section::Growth)
+            .then(|| growth::rows(is_quick, &MEMORY))
+            .transpose()?
+            .unwrap_or_default(),
     };
-    if asked(Section::Point) {
-        // Those whose energies take part.
-        let cases = Case::own(&["cases", "cases-ordinary"])?;
-        report.rows = point::rows(&cases, effort(arguments.quick))?;
-    }
-    if asked(Section::Steps) {
-        eprintln!("motions …");
-        report.steps = steps::rows(arguments.quick)?;
-    }
-    if asked(Section::Growth) {
-        eprintln!("growing bodies …");
-        report.growth = growth::rows(arguments.quick, &MEMORY)?;
-    }
     let charts = charts::draw(&report)?;
     for chart in &charts {
         fs::write(folder.join(&chart.file), &chart.svg)?;

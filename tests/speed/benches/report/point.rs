@@ -56,8 +56,10 @@ pub(crate) const HARD: &str = "every hard family";
 const WORKS: [(&str, Filter, Quantity); 2] =
     [("tangent", Filter::None, Quantity::Tangent), ("projected", Filter::Clamp, Quantity::Projected)];
 
-/// All rows of these cases.
-pub(crate) fn rows(cases: &[Case], effort: Effort) -> Result<Vec<PointRow>, String> {
+/// All rows.
+pub(crate) fn rows(effort: Effort) -> Result<Vec<PointRow>, String> {
+    // Those whose energies take part.
+    let cases = Case::own(&["cases", "cases-ordinary"])?;
     let mut rows = Vec::new();
     for (name, in_catalogue) in ENERGIES {
         eprintln!("points: {name} …");

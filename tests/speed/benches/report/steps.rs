@@ -72,6 +72,7 @@ type Track = Vec<Vec<[f64; 3]>>;
 
 /// A row for the reference and for each way, computed by one thread.
 pub(crate) fn rows(is_quick: bool) -> Outcome<Vec<StepRow>> {
+    eprintln!("motions …");
     let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     thread.install(|| measure(is_quick))
 }
