@@ -34,6 +34,11 @@ pub mod interpreter {
     pub use crate::interpreter::program::*;
 }
 
+/// Products of matrices, for other methods to be compared with.
+pub mod matrix {
+    pub use crate::point::matrix::{dot, multiply, multiply_transposed, to_world, transpose};
+}
+
 /// Quotations in the messages of all crates.
 pub mod message {
     pub use crate::message::*;

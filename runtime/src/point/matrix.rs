@@ -57,7 +57,7 @@ pub(crate) use {symmetric, three};
 
 /// The scalar product x·y.
 #[inline(always)]
-pub(crate) fn dot<R: Real>(x: [R; 3], y: [R; 3]) -> R {
+pub fn dot<R: Real>(x: [R; 3], y: [R; 3]) -> R {
     x[0].mul_add(y[0], x[1].mul_add(y[1], x[2] * y[2]))
 }
 
@@ -75,26 +75,26 @@ pub(crate) fn column<R: Real>(A: &Matrix3<R>, j: usize) -> [R; 3] {
 
 /// The transpose Aᵀ.
 #[inline(always)]
-pub(crate) fn transpose<R: Real>(A: &Matrix3<R>) -> Matrix3<R> {
+pub fn transpose<R: Real>(A: &Matrix3<R>) -> Matrix3<R> {
     [column(A, 0), column(A, 1), column(A, 2)]
 }
 
 /// The product A B.
 #[inline(always)]
-pub(crate) fn multiply<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
+pub fn multiply<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
     let Bt = transpose(B);
     multiply_transposed(A, &Bt)
 }
 
 /// The product A Bᵀ.
 #[inline(always)]
-pub(crate) fn multiply_transposed<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
+pub fn multiply_transposed<R: Real>(A: &Matrix3<R>, B: &Matrix3<R>) -> Matrix3<R> {
     three!(i => three!(j => dot(A[i], B[j])))
 }
 
 /// U A Vᵀ: from the principal frames to the world.
 #[inline(always)]
-pub(crate) fn to_world<R: Real>(U: &Matrix3<R>, A: &Matrix3<R>, V: &Matrix3<R>) -> Matrix3<R> {
+pub fn to_world<R: Real>(U: &Matrix3<R>, A: &Matrix3<R>, V: &Matrix3<R>) -> Matrix3<R> {
     multiply_transposed(&multiply(U, A), V)
 }
 

@@ -117,35 +117,3 @@ fn with_quotients<R: Real>(
     }
     Blocks { gradient, hessian, flip, twist }
 }
-
-#[cfg(test)]
-mod tests {
-    use piola_materials::NeoHookean;
-
-    use super::*;
-
-    /// Where stretches are far apart nothing cancels, and all methods agree to rounding.
-    #[test]
-    fn distant_stretches_give_the_exact_quotients() {
-        let material = NeoHookean::new(1.0, 2.0).expect("admissible parameters");
-        let stretches = [2.0f64, 1.0, 0.5];
-        let exact = Material::blocks(&material, stretches);
-        for blocks in [naive(&material, stretches), lhopital(&material, stretches, 1e-6)] {
-            for (found, expected) in
-                blocks.flip.iter().chain(&blocks.twist).zip(exact.flip.iter().chain(&exact.twist))
-            {
-                assert!((found - expected).abs() <= 64.0 * f64::UNIT_ROUNDOFF * expected.abs());
-            }
-        }
-    }
-
-    #[test]
-    fn equal_stretches_give_the_limit_or_nothing() {
-        let material = NeoHookean::new(1.0, 2.0).expect("admissible parameters");
-        let stretches = [1.5f64; 3];
-        let exact = Material::blocks(&material, stretches).flip[0];
-        assert!(naive(&material, stretches).flip[0].is_nan());
-        let limit = lhopital(&material, stretches, 1e-6).flip[0];
-        assert!((limit - exact).abs() <= 64.0 * f64::UNIT_ROUNDOFF * exact.abs());
-    }
-}

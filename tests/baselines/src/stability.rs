@@ -4,7 +4,6 @@
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
 use std::collections::BTreeMap;
-use std::fmt::{self, Write as _};
 
 use piola::material::Response;
 use piola::point::{Filter, Matrix3, Tangent, decompose, project};
@@ -13,7 +12,7 @@ use piola_tests::cases::{Case, Quantity};
 use piola_tests::compiled;
 use piola_tests::energies::{self, Format, Subject};
 
-use crate::svd_gradients::{self, Regularization};
+use crate::svd_gradients::{self, THRESHOLD};
 use crate::{LibraryNumber, eigen, quotients};
 
 /// The bound that every result of ours keeps, in units of u (‖X‖ + sens).
@@ -77,9 +76,7 @@ pub fn document() -> Result<String, String> {
             add(true, row::<f32>(case, &subject));
         }
     }
-    let mut text = String::from(INTRODUCTION);
-    render(&rows, &mut text).map_err(|error| error.to_string())?;
-    Ok(text)
+    Ok(INTRODUCTION.to_owned() + &tables(&rows))
 }
 
 const INTRODUCTION: &str = "\
@@ -108,76 +105,58 @@ table was made without fused operations, on baseline x86-64; `-C target-cpu=nati
 [SZLSB11] Sin, Zhu, Li, Schroeder, Barbič, *Invertible Isotropic Hyperelasticity using SVD Gradients*, 2011.
 ";
 
-fn render(rows: &Rows<'_>, text: &mut String) -> fmt::Result {
+fn tables(rows: &Rows<'_>) -> String {
+    let mut text = String::new();
     for is_single in [false, true] {
-        writeln!(text, "\n## Summary, {}\n", name_of_format(is_single))?;
-        writeln!(text, "Worst error of all families and, for K and S, number of results within {BOUND}.\n")?;
-        header(text, "material")?;
+        text += &format!("\n## Summary, {}\n\n", name_of_format(is_single));
+        text += &format!(
+            "Worst error of all families and, for K and S, number of results within {BOUND}.\n\n{}",
+            header("material")
+        );
+        let within = |rows: &[Row], column: usize| {
+            let judged = rows.iter().filter_map(|row| row[column]);
+            let within = judged.clone().filter(|&error| error <= BOUND).count();
+            format!("{} ({within}/{})", worst(rows, column), judged.count())
+        };
         let mut all = Vec::new();
         for ((material, _), families) in rows.iter().filter(|(key, _)| key.1 == is_single) {
             let of_material: Vec<Row> = families.values().flatten().copied().collect();
-            summary(text, material, &of_material)?;
+            text += &line(material, &of_material, within);
             all.extend(of_material);
         }
-        summary(text, "**all**", &all)?;
+        text += &line("**all**", &all, within);
     }
     for (&(material, is_single), families) in rows {
-        writeln!(text, "\n## {material}, {}\n", name_of_format(is_single))?;
-        header(text, "family")?;
-        for (family, rows) in families {
-            write!(text, "| {family} | {} |", rows.len())?;
-            for column in 0..COLUMNS.len() {
-                write!(text, " {} |", Rounded(worst(rows, column)))?;
-            }
-            writeln!(text)?;
-        }
+        text += &format!("\n## {material}, {}\n\n{}", name_of_format(is_single), header("family"));
+        text.extend(families.iter().map(|(family, rows)| line(family, rows, worst)));
     }
-    Ok(())
+    text
 }
 
-fn header(text: &mut String, first: &str) -> fmt::Result {
-    write!(text, "| {first} | cases |")?;
-    for (title, ..) in COLUMNS {
-        write!(text, " {title} |")?;
-    }
-    writeln!(text, "\n|---|--:|{}", "--:|".repeat(COLUMNS.len()))
+fn header(first: &str) -> String {
+    let titles = COLUMNS.map(|(title, ..)| title).join(" | ");
+    format!("| {first} | cases | {titles} |\n|---|--:|{}\n", "--:|".repeat(COLUMNS.len()))
 }
 
-fn summary(text: &mut String, name: &str, rows: &[Row]) -> fmt::Result {
-    write!(text, "| {name} | {} |", rows.len())?;
-    for column in 0..COLUMNS.len() {
-        let judged = rows.iter().filter_map(|row| row[column]);
-        let within = judged.clone().filter(|&error| error <= BOUND).count();
-        write!(text, " {} ({within}/{}) |", Rounded(worst(rows, column)), judged.count())?;
-    }
-    writeln!(text)
+/// Name, number of cases, and a cell for each column.
+fn line(name: &str, rows: &[Row], cell: impl Fn(&[Row], usize) -> String) -> String {
+    let cells: Vec<String> = (0..COLUMNS.len()).map(|column| cell(rows, column)).collect();
+    format!("| {name} | {} | {} |\n", rows.len(), cells.join(" | "))
 }
 
-/// `None` where no case could be judged.
-fn worst(rows: &[Row], column: usize) -> Option<f64> {
-    rows.iter().filter_map(|row| row[column]).reduce(f64::max)
-}
-
-struct Rounded(Option<f64>);
-
-impl fmt::Display for Rounded {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            None => f.write_str("–"),
-            Some(f64::INFINITY) => f.write_str("∞"),
-            Some(error) if error <= BOUND => write!(f, "{}", error.ceil()),
-            Some(error) => {
-                write!(f, "10")?;
-                let exponent = error.log10().ceil() as i32;
-                exponent.to_string().chars().try_for_each(|digit| f.write_char(superscript(digit)))
-            }
-        }
-    }
-}
-
-fn superscript(digit: char) -> char {
+/// The worst error: an integer up to the bound, beyond it a power of ten; – where no case could be judged.
+fn worst(rows: &[Row], column: usize) -> String {
     const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    digit.to_digit(10).map_or(digit, |digit| SUPERSCRIPTS[digit as usize])
+    match rows.iter().filter_map(|row| row[column]).reduce(f64::max) {
+        None => "–".to_owned(),
+        Some(f64::INFINITY) => "∞".to_owned(),
+        Some(error) if error <= BOUND => error.ceil().to_string(),
+        Some(error) => {
+            let exponent = (error.log10().ceil() as i32).to_string();
+            let digits = exponent.chars().filter_map(|digit| digit.to_digit(10));
+            "10".chars().chain(digits.map(|digit| SUPERSCRIPTS[digit as usize])).collect()
+        }
+    }
 }
 
 /// The errors of all methods at one case.
@@ -213,7 +192,7 @@ impl Method {
         let blocks = match self {
             Self::Ours => return Some(compiled::evaluate(material, F, filter).tangent.to_matrix()),
             Self::SvdGradients => {
-                let tangent = svd_gradients::tangent(material, &svd, Regularization::default());
+                let tangent = svd_gradients::tangent(material, &svd, THRESHOLD * THRESHOLD);
                 return if filter == Filter::None { Some(tangent) } else { eigen::clamp(&tangent) };
             }
             Self::Naive => quotients::naive(material, svd.stretches),

@@ -1,8 +1,14 @@
-//! Helpers shared by the tests of the baselines.
+//! Helpers shared by the tests of the baselines, and the test of methods for particular energies.
 
-use piola::Material;
-use piola::Real;
-use piola::point::{Filter, Matrix3, evaluate};
+#![expect(non_snake_case, reason = "F as in the literature")]
+
+use piola::point::{Filter, Matrix3, evaluate, svd};
+use piola::{Material, Real};
+use piola_materials as catalogue;
+
+use crate::invariants::{NeoHookean, StVenantKirchhoff};
+use crate::polar::RotatedLinear;
+use crate::{direct, invariants};
 
 /// All stretches well apart, 1.4, 1.2 and 0.7, with rotations on both sides.
 pub(crate) const SHEARED: Matrix3<f64> = [[1.3, 0.2, -0.1], [0.0, 0.8, 0.3], [0.4, -0.2, 1.1]];
@@ -50,4 +56,39 @@ fn distance<R: Real + Into<f64>, const N: usize>(a: &[[R; N]; N], b: &[[R; N]; N
 
 fn norm<R: Real + Into<f64>, const N: usize>(matrix: &[[R; N]; N]) -> f64 {
     distance(matrix, &[[R::splat(0.0); N]; N])
+}
+
+#[test]
+fn particular_energies_are_those_of_the_catalogue() {
+    compare::<f64>();
+    compare::<f32>();
+}
+
+fn compare<R: Real + Into<f64>>() {
+    let (mu, lambda) = (1.0, 1.5);
+    let energy = StVenantKirchhoff { mu, lambda };
+    let material = catalogue::StVenantKirchhoff::new(mu, lambda).expect("admissible parameters");
+    agree::<R>(&material, |F| invariants::evaluate(&energy, &svd(F)));
+    agree::<R>(&material, |F| direct::evaluate(&energy, F));
+    let energy = NeoHookean { mu, lambda };
+    let material = catalogue::NeoHookean::new(mu, lambda).expect("admissible parameters");
+    agree::<R>(&material, |F| invariants::evaluate(&energy, &svd(F)));
+    agree::<R>(&material, |F| direct::evaluate(&energy, F));
+    let energy = RotatedLinear { mu, lambda };
+    let material = catalogue::RotatedLinear::new(mu, lambda).expect("admissible parameters");
+    agree::<R>(&material, |F| energy.evaluate(F));
+}
+
+/// No gap between stretches is special, and their squares stay below ten: each entry is a sum of a few
+/// products of numbers that are as well known as the stretches, to a few roundings of each step of an
+/// iteration.
+#[track_caller]
+fn agree<R: Real + Into<f64>>(
+    material: &impl Material,
+    method: impl Fn(&Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]),
+) {
+    for F in [SHEARED, [[2.0, 0.0, 0.0], [0.0, 0.0, 0.5], [0.0, -0.5, 0.0]], IDENTITY] {
+        let found = errors_of::<R>(&method, material, &F);
+        assert!(found.iter().all(|&error| error <= 100.0), "{F:?}: {found:?}");
+    }
 }

@@ -35,6 +35,7 @@ const VALUES: &[&str] = &[
     "{}",
     "tetrahedron",
 ];
+
 /// Pieces that do not belong into a text.
 const PIECES: &[&str] =
     &["\u{feff}", "\0", "\u{1b}[31m", "\r\n", "\n\n", "\t", "$", "\"", "ü", "\u{202e}", "#", ","];
@@ -43,38 +44,32 @@ const PIECES: &[&str] =
 #[must_use]
 pub fn mutated(seed: &[u8], random: &mut Random) -> Vec<u8> {
     let mut bytes = seed.to_vec();
-    for _ in 0..=below(random, 4) {
+    for _ in 0..=random.below(4) {
         mutate(&mut bytes, random);
     }
     bytes
 }
 
 fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
-    let range = |bytes: &[u8], random: &mut Random| {
-        let start = below(random, bytes.len() + 1);
-        start..start + below(random, (bytes.len() - start).min(40) + 1)
-    };
-    match below(random, 10) {
-        0 if !bytes.is_empty() => {
-            let at = below(random, bytes.len());
-            bytes[at] ^= 1 << below(random, 8);
-        }
-        1 => {
-            let range = range(bytes, random);
-            bytes.drain(range);
-        }
+    let start = random.below(bytes.len() + 1);
+    let end = start + random.below((bytes.len() - start).min(40) + 1);
+    match random.below(10) {
+        0 if start < bytes.len() => bytes[start] ^= 1 << random.below(8),
+        1 => drop(bytes.drain(start..end)),
         2 => {
-            let range = range(bytes, random);
-            let (at, piece) = (range.end, bytes[range].to_vec());
-            bytes.splice(at..at, piece);
+            let piece = bytes[start..end].to_vec();
+            drop(bytes.splice(end..end, piece));
         }
-        3 => bytes.truncate(below(random, bytes.len() + 1)),
-        4 => {
-            let at = below(random, bytes.len() + 1);
-            bytes.splice(at..at, PIECES[below(random, PIECES.len())].bytes());
-        }
+        3 => bytes.truncate(start),
+        4 => drop(bytes.splice(start..start, PIECES[random.below(PIECES.len())].bytes())),
         5 | 6 => lines(bytes, random),
-        _ => value(bytes, random),
+        _ => {
+            // The word or number around `start`.
+            let is_border = |byte: &u8| !byte.is_ascii_alphanumeric() && !b"+-._".contains(byte);
+            let end = bytes[start..].iter().position(is_border).map_or(bytes.len(), |length| start + length);
+            let start = bytes[..start].iter().rposition(is_border).map_or(0, |before| before + 1);
+            drop(bytes.splice(start..end, VALUES[random.below(VALUES.len())].bytes()));
+        }
     }
 }
 
@@ -84,34 +79,11 @@ fn lines(bytes: &mut Vec<u8>, random: &mut Random) {
     if lines.is_empty() {
         return;
     }
-    let (one, other) = (below(random, lines.len()), below(random, lines.len()));
-    match below(random, 3) {
+    let (one, other) = (random.below(lines.len()), random.below(lines.len()));
+    match random.below(3) {
         0 => drop(lines.remove(one)),
         1 => lines.insert(other, lines[one].clone()),
         _ => lines.swap(one, other),
     }
     *bytes = lines.concat();
-}
-
-/// Replaces a word or a number by another.
-fn value(bytes: &mut Vec<u8>, random: &mut Random) {
-    let is_word = |byte: &u8| byte.is_ascii_alphanumeric() || b"+-._".contains(byte);
-    let mut words = Vec::new();
-    let mut start = 0;
-    for end in 0..=bytes.len() {
-        if end == bytes.len() || !is_word(&bytes[end]) {
-            words.extend((start < end).then_some(start..end));
-            start = end + 1;
-        }
-    }
-    if words.is_empty() {
-        return;
-    }
-    let word = words.swap_remove(below(random, words.len()));
-    bytes.splice(word, VALUES[below(random, VALUES.len())].bytes());
-}
-
-/// A random index below a count that is not zero.
-fn below(random: &mut Random, count: usize) -> usize {
-    (random.uniform(0.0, count as f64) as usize).min(count - 1)
 }

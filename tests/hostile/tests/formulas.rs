@@ -16,35 +16,27 @@ const LONGEST: Duration = Duration::from_secs(2);
 
 /// A sum of as many terms as fit into a length, free of stress at rest.
 fn sum(length: usize, term: impl Fn(usize) -> String) -> String {
-    repeated(length, "m*(I1 - 3 - 2*ln(J))", |k| format!(" + {}", term(k)), |_| String::new())
+    repeated(length, "m*(I1 - 3 - 2*ln(J))", |k| format!(" + {}", term(k)), "")
 }
 
-/// Text of a repeated pattern, with its maximum number of repetitions.
-fn repeated(
-    length: usize,
-    before: &str,
-    part: impl Fn(usize) -> String,
-    after: impl Fn(usize) -> String,
-) -> String {
-    let mut parts = Vec::new();
-    let mut size = before.len();
+/// A beginning, as many parts as fit, and what closes each of them.
+fn repeated(length: usize, before: &str, part: impl Fn(usize) -> String, closing: &str) -> String {
+    let mut text = before.to_owned();
     for k in 0.. {
-        size += part(k).len() + after(k).len();
-        if size > length {
-            break;
+        let part = part(k);
+        if text.len() + part.len() + (k + 1) * closing.len() > length {
+            return text + &closing.repeat(k);
         }
-        parts.push(part(k));
+        text += &part;
     }
-    let closing: String = (0..parts.len()).map(&after).collect();
-    before.to_owned() + &parts.concat() + &closing
+    text
 }
 
 /// Formulas of about `length` bytes.
 fn formulas(length: usize) -> Vec<(&'static str, String)> {
-    let none = |_: usize| String::new();
     vec![
         ("terms of one kind", sum(length, |_| "m*(I1b - 3)".to_owned())),
-        ("ones", repeated(length, "m*(I1b - 3)*(1", |_| "+1".to_owned(), none) + ")"),
+        ("ones", repeated(length, "m*(I1b - 3)*(1", |_| "+1".to_owned(), "") + ")"),
         ("a parameter in each term", sum(length, |k| format!("c{k}*(I1b - 3)^2"))),
         ("a parameter and a power", sum(length, |k| format!("c{k}*(I1b - 3)^{}", 1 + k % 9))),
         ("two parameters in each term", sum(length, |k| format!("c{k}*(exp(a{k}*(I1b - 3)) - 1)"))),
@@ -59,23 +51,23 @@ fn formulas(length: usize) -> Vec<(&'static str, String)> {
             sum(length, |k| format!("softplus({}.5*(I1b - 3) - {k})*0 + m*tanh(0.{k}*(I1b - 3))^2", k % 7)),
         ),
         ("coefficients", sum(length, |k| format!("0.{}*m*(I1b - 3)^2*(J - 1)^2", k + 1))),
-        ("factors", repeated(length, "m*(I1b - 3)", |k| format!("*(I1b + {k})"), none)),
-        ("factors with parameters", repeated(length, "m*(I1b - 3)", |k| format!("*(I1b + c{k})"), none)),
-        ("unknown names", repeated(length, "m*(I1b - 3)", |k| format!("*f{k}(J)"), none)),
-        ("conditions", repeated(length, "m*(I1b - 3) where J > 0", |k| format!(", I1 < 3 + c{k}"), none)),
+        ("factors", repeated(length, "m*(I1b - 3)", |k| format!("*(I1b + {k})"), "")),
+        ("factors with parameters", repeated(length, "m*(I1b - 3)", |k| format!("*(I1b + c{k})"), "")),
+        ("unknown names", repeated(length, "m*(I1b - 3)", |k| format!("*f{k}(J)"), "")),
+        ("conditions", repeated(length, "m*(I1b - 3) where J > 0", |k| format!(", I1 < 3 + c{k}"), "")),
         (
             "conditions on parameters",
-            repeated(length, "m*(I1b - 3) where m > 0", |k| format!(", m > {k}"), none),
+            repeated(length, "m*(I1b - 3) where m > 0", |k| format!(", m > {k}"), ""),
         ),
-        ("parentheses", repeated(length, "m*", |_| "(".to_owned(), |_| ")".to_owned())),
-        ("exponents", repeated(length, "m", |_| "^(1+J".to_owned(), |_| ")".to_owned())),
-        ("signs", repeated(length, "m*(I1b - 3) ", |_| "-".to_owned(), none) + "m*(I1b - 3)^2"),
-        ("functions", repeated(length, "m*", |_| "exp(".to_owned(), |_| ")".to_owned())),
+        ("parentheses", repeated(length, "m*", |_| "(".to_owned(), ")")),
+        ("exponents", repeated(length, "m", |_| "^(1+J".to_owned(), ")")),
+        ("signs", repeated(length, "m*(I1b - 3) ", |_| "-".to_owned(), "") + "m*(I1b - 3)^2"),
+        ("functions", repeated(length, "m*", |_| "exp(".to_owned(), ")")),
         ("tensors", sum(length, |k| format!("m*(tr(C^{}) - 3)", 2 + k % 9))),
         ("lists", sum(length, |k| format!("sum(p, m{k}[p]*(I1b - 3)^2)"))),
         (
             "sums of sums",
-            repeated(length, "sum(p, c[p])", |k| format!("*sum(p, c[p]*(I1b - 3)^{})", 1 + k % 9), none),
+            repeated(length, "sum(p, c[p])", |k| format!("*sum(p, c[p]*(I1b - 3)^{})", 1 + k % 9), ""),
         ),
         ("asymmetric terms", sum(length, |k| format!("m*l1^{}", 1 + k % 60))),
         ("stressed terms", sum(length, |k| format!("c{k}*I1"))),
@@ -98,7 +90,7 @@ fn formulas(length: usize) -> Vec<(&'static str, String)> {
             sum(length, |k| format!("m*(erf({k}*(l1 - 1))^2 + erf({k}*(l2 - 1))^2 + erf({k}*(l3 - 1))^2)")),
         ),
         ("commas", ",".repeat(length)),
-        ("names alone", repeated(length, "", |k| format!("a{k} "), none)),
+        ("names alone", repeated(length, "", |k| format!("a{k} "), "")),
         ("numbers", "1234567890".repeat(length / 10)),
         ("one name", "m".repeat(length)),
         ("quotes", "\"".repeat(length)),
@@ -117,10 +109,9 @@ fn declarations(length: usize) -> Vec<(&'static str, String)> {
     let declared = |body: String| {
         format!("#[material(domain(J > 0.0), fit)] fn E([l1, l2, l3]: [f64; 3], m: f64) -> f64 {{ {body} }}")
     };
-    let none = |_: usize| String::new();
     let named = |value: fn(usize) -> String| {
         let names =
-            repeated(length, "let a0 = I1b - 3.0;", |k| format!("let a{} = {};", k + 1, value(k)), none);
+            repeated(length, "let a0 = I1b - 3.0;", |k| format!("let a{} = {};", k + 1, value(k)), "");
         let last = names.matches("let").count() - 1;
         declared(format!("{names} m * a{last} + m * a0"))
     };
@@ -129,9 +120,9 @@ fn declarations(length: usize) -> Vec<(&'static str, String)> {
         ("names of functions", named(|k| format!("a{k}.tanh()"))),
         ("names of fractions", named(|k| format!("1.0 - 1.0 / (2.0 + a{k})"))),
         ("names of sums", named(|k| format!("a{k} * (I2b - 3.0) + a{}", k / 2))),
-        ("ones", declared(repeated(length, "m * (I1b - 3.0) * (1.0", |_| "+1.0".to_owned(), none) + ")")),
-        ("factors", declared(repeated(length, "m * (I1b - 3.0)", |_| "*J".to_owned(), none))),
-        ("unknown names", declared(repeated(length, "m * (I1b - 3.0)", |k| format!("+b{k}"), none))),
+        ("ones", declared(repeated(length, "m * (I1b - 3.0) * (1.0", |_| "+1.0".to_owned(), "") + ")")),
+        ("factors", declared(repeated(length, "m * (I1b - 3.0)", |_| "*J".to_owned(), ""))),
+        ("unknown names", declared(repeated(length, "m * (I1b - 3.0)", |k| format!("+b{k}"), ""))),
     ]
 }
 

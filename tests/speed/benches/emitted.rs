@@ -108,18 +108,14 @@ fn row(
         return Err(String::from_utf8_lossy(&compiled.stderr).into());
     }
 
-    let mut times: [[Vec<f64>; 2]; 2] = Default::default();
-    for _ in 0..TURNS {
-        for (filter, times) in [Filter::None, Filter::Clamp].into_iter().zip(&mut times[0]) {
-            times.push(turn(material, &points, filter));
+    let works = [("P + 81", Filter::None), ("projected", Filter::Clamp)];
+    for (k, (work, filter)) in works.into_iter().enumerate() {
+        let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+        for _ in 0..TURNS {
+            ours.push(turn(material, &points, filter));
+            theirs.extend(turns_in_c(folder.path())?.into_iter().skip(k).step_by(works.len()));
         }
-        let found = turns_in_c(folder.path())?;
-        for (k, time) in found.into_iter().enumerate() {
-            times[1][k % 2].push(time);
-        }
-    }
-    for (k, work) in ["P + 81", "projected"].into_iter().enumerate() {
-        let [ours, theirs] = times.each_mut().map(|times| Times::of(std::mem::take(&mut times[k])));
+        let [ours, theirs] = [ours, theirs].map(Times::of);
         let cell = |times: Times| format!("{:.0} ({:.0})", times.least, times.median);
         let ratio = theirs.least / ours.least;
         println!("| {name}, {work} | {} | {} | {ratio:.2} |", cell(ours), cell(theirs));

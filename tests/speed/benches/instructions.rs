@@ -10,7 +10,6 @@
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 
-use std::fmt::Write;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
@@ -64,7 +63,7 @@ fn run(argument: &str) -> Result<String, String> {
         "--check" if !path.exists() => {
             Ok(format!("nothing counted: there is no {}; --bless writes it", path.display()))
         }
-        "--check" => compare(&from_table(&fs::read_to_string(&path).map_err(at_path)?)?, &count()?),
+        "--check" => compare(&fs::read_to_string(&path).map_err(at_path)?, &count()?),
         other => Err(format!("{other}: --check, --bless or nothing")),
     }
 }
@@ -168,37 +167,25 @@ fn count() -> Result<Counts, String> {
 }
 
 fn to_table(counts: &Counts) -> String {
-    let mut table =
-        String::from("# Instructions per point: back end, format, kernel (+C: clamped), energy.\n");
-    for (name, count) in counts {
-        // Writing to a string cannot fail.
-        let _ = writeln!(table, "{name} {count:8.1}");
-    }
-    table
+    let lines = counts.iter().map(|(name, count)| format!("{name} {count:8.1}\n"));
+    "# Instructions per point: back end, format, kernel (+C: clamped), energy.\n".to_owned()
+        + &lines.collect::<String>()
 }
 
-fn from_table(table: &str) -> Result<Counts, String> {
-    let lines = table.lines().filter(|line| !line.starts_with('#'));
-    let counts = lines.map(|line| {
-        let (name, count) = line.rsplit_once(' ').ok_or_else(|| format!("no count: {line}"))?;
-        let count = count.parse().map_err(|error| format!("{line}: {error}"))?;
-        Ok((name.trim_end().to_owned(), count))
-    });
-    counts.collect()
-}
-
-fn compare(committed: &Counts, counted: &Counts) -> Result<String, String> {
-    let names =
-        |counts: &Counts| counts.iter().map(|(name, _)| name.trim_end().to_owned()).collect::<Vec<_>>();
-    if names(committed) != names(counted) {
-        return Err("other kernels than those of the table; --bless writes it anew".to_owned());
+fn compare(table: &str, counted: &Counts) -> Result<String, String> {
+    let others = || "other kernels than those of the table; --bless writes it anew".to_owned();
+    let lines: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
+    if lines.len() != counted.len() {
+        return Err(others());
     }
     let (mut grown, mut shrunk) = (String::new(), 0);
-    for ((name, before), (_, now)) in committed.iter().zip(counted) {
+    for (line, (name, now)) in lines.into_iter().zip(counted) {
+        let before = line.strip_prefix(name.as_str()).ok_or_else(others)?.trim();
+        let before: f64 = before.parse().map_err(|error| format!("{line}: {error}"))?;
         if *now > before * SLACK {
-            let _ = writeln!(grown, "{name}: {before:.1} before, {now:.1} now");
+            grown += &format!("{}: {before:.1} before, {now:.1} now\n", name.trim_end());
         }
-        shrunk += usize::from(now * SLACK < *before);
+        shrunk += usize::from(now * SLACK < before);
     }
     if grown.is_empty() {
         let note = if shrunk > 0 { "; --bless keeps what others have gained" } else { "" };

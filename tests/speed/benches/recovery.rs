@@ -9,9 +9,9 @@
 //! energies have E = 1 MPa and ν = 0.45. Of a body that is not back, the last column says where it rests, and
 //! with which seeds.
 
+#![expect(clippy::print_stdout, reason = "a table to show")]
+
 use std::error::Error;
-use std::fmt;
-use std::io::{self, Write};
 
 use clap::Parser;
 use rayon::prelude::*;
@@ -57,42 +57,35 @@ struct Options {
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let options = Options::parse();
-    let mut page = io::stdout().lock();
     for newton in options.newton {
         let name = match newton {
             Newton::Single => "one Newton iteration per step",
             Newton::Full => "full Newton",
         };
-        writeln!(page, "## Scrambled, {name}\n")?;
-        writeln!(page, "| A | {HEADER}")?;
+        println!("## Scrambled, {name}\n\n| A | {HEADER}");
         for &amplitude in &options.amplitude {
             for body in [Body::HORSE, Body::DINOSAUR] {
                 for material in &MATERIALS[..4] {
                     let seeds = (1..=options.seeds).map(|seed| Start::Scrambled { seed, amplitude });
                     let outcomes = play(&SCRAMBLE, body, material, newton, seeds.collect())?;
-                    let row = Row(&outcomes);
-                    writeln!(page, "| {amplitude} | {} | {material} | {row} |", body.name)?;
-                    page.flush()?;
+                    println!("| {amplitude} | {} | {material} | {} |", body.name, cells(&outcomes));
                 }
             }
         }
-        writeln!(page, "\n## One start each, {name}\n")?;
-        writeln!(page, "| scene | {HEADER}")?;
-        for (scene, bodies) in [
-            (&INSIDE_OUT, &[Body::HORSE, Body::DINOSAUR][..]),
-            (&POINT, &[Body::HORSE, Body::DINOSAUR]),
-            (&HORSE, &[Body::HORSE]),
+        println!("\n## One start each, {name}\n\n| scene | {HEADER}");
+        for (scene, body) in [
+            (&INSIDE_OUT, Body::HORSE),
+            (&INSIDE_OUT, Body::DINOSAUR),
+            (&POINT, Body::HORSE),
+            (&POINT, Body::DINOSAUR),
+            (&HORSE, Body::HORSE),
         ] {
-            for &body in bodies {
-                for material in MATERIALS {
-                    let outcomes = play(scene, body, material, newton, vec![scene.start])?;
-                    let row = Row(&outcomes);
-                    writeln!(page, "| {} | {} | {material} | {row} |", scene.name, body.name)?;
-                    page.flush()?;
-                }
+            for material in MATERIALS {
+                let outcomes = play(scene, body, material, newton, vec![scene.start])?;
+                println!("| {} | {} | {material} | {} |", scene.name, body.name, cells(&outcomes));
             }
         }
-        writeln!(page)?;
+        println!();
     }
     Ok(())
 }
@@ -108,61 +101,47 @@ fn play(
     let material = MaterialSpec::matching(material, soft_moduli());
     let described = Settings { body, material, newton, ..Settings::new(scene) };
     let geometry = Geometry::load(&described)?;
-    let outcomes: Result<_, Box<dyn Error + Send + Sync>> = starts
-        .into_par_iter()
-        .map(|start| Ok(run_trial(&Settings { start, ..described.clone() }, &geometry)?))
-        .collect();
-    let outcomes: Vec<TrialOutcome> = outcomes?;
-    for outcome in &outcomes {
+    let trial = |start| -> Result<TrialOutcome, Box<dyn Error + Send + Sync>> {
+        let outcome = run_trial(&Settings { start, ..described.clone() }, &geometry)?;
         assert!(outcome.finite, "a position is not finite: {outcome:?}");
         assert!(outcome.largest_rise <= RISE, "the objective of a step has risen: {outcome:?}");
-    }
-    Ok(outcomes)
+        Ok(outcome)
+    };
+    starts.into_par_iter().map(trial).collect()
 }
 
-/// Common figures of some outcomes.
-struct Row<'a>(&'a [TrialOutcome]);
-
-impl fmt::Display for Row<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(outcomes) = self;
-        let inverted: usize = outcomes.iter().map(|outcome| outcome.inverted_at_start).sum();
-        let mut frames: Vec<_> = outcomes.iter().filter_map(|outcome| outcome.recovered).collect();
-        frames.sort_unstable();
-        write!(
-            f,
-            "{:.1} | {} of {} | ",
-            inverted as f64 / outcomes.len() as f64,
-            frames.len(),
-            outcomes.len()
-        )?;
-        if let Some(last) = frames.last() {
-            write!(f, "{} ({last})", frames[frames.len() / 2])?;
-        }
-        f.write_str(" | ")?;
-        let places = [
-            FinalPlace::StableElsewhere,
-            FinalPlace::UndecidedElsewhere,
-            FinalPlace::Saddle,
-            FinalPlace::NotAtRest,
-            FinalPlace::Rest,
-        ];
-        let mut separator = "";
-        for place in places {
-            // By their numbers, which are the seeds.
-            let there = |outcome: &TrialOutcome| {
-                outcome.final_state.is_some_and(|final_state| final_state.place == place)
-            };
-            let numbers: Vec<_> = (1..).zip(*outcomes).filter(|(_, outcome)| there(outcome)).collect();
-            if !numbers.is_empty() {
-                let first: Vec<_> =
-                    numbers.iter().take(NAMED).map(|(number, _)| format!("{number}")).collect();
-                let more = if numbers.len() > NAMED { ", …" } else { "" };
-                let seeds = if numbers.len() == 1 { "seed" } else { "seeds" };
-                write!(f, "{separator}{} {place} ({seeds} {}{more})", numbers.len(), first.join(", "))?;
-                separator = "; ";
-            }
-        }
-        Ok(())
-    }
+/// The cells behind the first three.
+fn cells(outcomes: &[TrialOutcome]) -> String {
+    let inverted: usize = outcomes.iter().map(|outcome| outcome.inverted_at_start).sum();
+    let inverted = inverted as f64 / outcomes.len() as f64;
+    let mut frames: Vec<_> = outcomes.iter().filter_map(|outcome| outcome.recovered).collect();
+    frames.sort_unstable();
+    let taken = frames.last().map(|last| format!("{} ({last})", frames[frames.len() / 2]));
+    let places = [
+        FinalPlace::StableElsewhere,
+        FinalPlace::UndecidedElsewhere,
+        FinalPlace::Saddle,
+        FinalPlace::NotAtRest,
+        FinalPlace::Rest,
+    ];
+    let elsewhere = places.into_iter().filter_map(|place| {
+        // By their numbers, which are the seeds.
+        let there = |outcome: &TrialOutcome| outcome.final_state.is_some_and(|state| state.place == place);
+        let numbers: Vec<String> = (1..)
+            .zip(outcomes)
+            .filter(|(_, one)| there(one))
+            .map(|(number, _)| format!("{number}"))
+            .collect();
+        let first = numbers[..numbers.len().min(NAMED)].join(", ");
+        let more = if numbers.len() > NAMED { ", …" } else { "" };
+        let seeds = if numbers.len() == 1 { "seed" } else { "seeds" };
+        (!numbers.is_empty()).then(|| format!("{} {place} ({seeds} {first}{more})", numbers.len()))
+    });
+    format!(
+        "{inverted:.1} | {} of {} | {} | {}",
+        frames.len(),
+        outcomes.len(),
+        taken.unwrap_or_default(),
+        elsewhere.collect::<Vec<_>>().join("; ")
+    )
 }

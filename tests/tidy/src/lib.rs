@@ -1,4 +1,4 @@
-//! Sources of the workspace as trees of modules, for the tests of the rules that they follow.
+//! Sources of the workspace as trees of modules and as tokens, for the tests of the rules that they follow.
 //!
 //! Nothing of piola is needed to read it, so these tests compile in seconds.
 
@@ -6,11 +6,9 @@ use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use proc_macro2::TokenStream;
-use syn::{Attribute, Item};
-
-pub mod imports;
-pub mod tokens;
+use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::{Item, Visibility};
 
 /// Root folder of the workspace.
 #[must_use]
@@ -46,20 +44,14 @@ impl fmt::Display for Module {
     }
 }
 
-/// Folders of the members of the workspace, from its manifest.
-#[must_use]
-pub fn members() -> Vec<PathBuf> {
-    let manifest = read(Path::new("Cargo.toml"));
-    let (_, rest) = manifest.split_once("members = [").expect("members in Cargo.toml");
-    let (list, _) = rest.split_once(']').expect("the end of members");
-    list.split('"').skip(1).step_by(2).map(PathBuf::from).collect()
-}
-
 /// All libraries and programs of the workspace.
 #[must_use]
 pub fn crates() -> Vec<Crate> {
     let mut crates = Vec::new();
-    for folder in members() {
+    let manifest = read(Path::new("Cargo.toml"));
+    let (_, rest) = manifest.split_once("members = [").expect("members in Cargo.toml");
+    let (members, _) = rest.split_once(']').expect("the end of members");
+    for folder in members.split('"').skip(1).step_by(2).map(Path::new) {
         let manifest = read(&folder.join("Cargo.toml"));
         let package = manifest.lines().find_map(|line| line.strip_prefix("name = ")).expect("a name");
         let name = package.trim_matches('"').replace('-', "_");
@@ -133,7 +125,7 @@ fn add(
     let here = modules.len();
     modules.push(Module { path: path.clone(), file: file.clone(), parent, items: Vec::new() });
     for item in items {
-        if is_for_tests(attributes_of(&item)) {
+        if attributes(&item).iter().any(is_for_tests) {
             continue;
         }
         let Item::Mod(module) = item else {
@@ -149,33 +141,79 @@ fn add(
     }
 }
 
-/// True if attributes contain `#[cfg(test)]` or `#[cfg(all(test, …))]`.
-fn is_for_tests(attributes: &[Attribute]) -> bool {
-    let condition = |attribute: &Attribute| attribute.meta.require_list().map(|list| list.tokens.clone());
-    let conditions = attributes.iter().filter(|attribute| attribute.path().is_ident("cfg"));
-    conditions.filter_map(|attribute| condition(attribute).ok()).any(|condition: TokenStream| {
-        let text = condition.to_string();
-        text == "test" || text.starts_with("all (test") || text.starts_with("all(test")
-    })
+/// True of `#[cfg(test)]` and `#[cfg(all(test, …))]`.
+fn is_for_tests(attribute: &TokenStream) -> bool {
+    let tokens = tokens(attribute);
+    let words: Vec<&str> = tokens.iter().map(|token| token.text.as_str()).collect();
+    matches!(words[..], ["cfg", "(", "test", ..] | ["cfg", "(", "all", "(", "test", ..])
 }
 
-/// Attributes of an item.
+/// The attributes of an item, without their brackets.
 #[must_use]
-pub fn attributes_of(item: &Item) -> &[Attribute] {
-    match item {
-        Item::Const(item) => &item.attrs,
-        Item::Enum(item) => &item.attrs,
-        Item::ExternCrate(item) => &item.attrs,
-        Item::Fn(item) => &item.attrs,
-        Item::Impl(item) => &item.attrs,
-        Item::Macro(item) => &item.attrs,
-        Item::Mod(item) => &item.attrs,
-        Item::Static(item) => &item.attrs,
-        Item::Struct(item) => &item.attrs,
-        Item::Trait(item) => &item.attrs,
-        Item::Type(item) => &item.attrs,
-        Item::Union(item) => &item.attrs,
-        Item::Use(item) => &item.attrs,
-        _ => &[],
+pub fn attributes(item: &Item) -> Vec<TokenStream> {
+    let tokens: Vec<TokenTree> = item.to_token_stream().into_iter().collect();
+    let attributes = tokens.chunks(2).map_while(|pair| match pair {
+        [TokenTree::Punct(mark), TokenTree::Group(group)] if mark.as_char() == '#' => Some(group.stream()),
+        _ => None,
+    });
+    attributes.collect()
+}
+
+/// Name of an item that has one, and true if it is `pub`.
+#[must_use]
+pub fn name_of(item: &Item) -> Option<(&Ident, bool)> {
+    let (name, visibility) = match item {
+        Item::Const(item) => (&item.ident, &item.vis),
+        Item::Enum(item) => (&item.ident, &item.vis),
+        Item::Fn(item) => (&item.sig.ident, &item.vis),
+        Item::Macro(item) => return Some((item.ident.as_ref()?, false)),
+        Item::Static(item) => (&item.ident, &item.vis),
+        Item::Struct(item) => (&item.ident, &item.vis),
+        Item::Trait(item) => (&item.ident, &item.vis),
+        Item::Type(item) => (&item.ident, &item.vis),
+        Item::Union(item) => (&item.ident, &item.vis),
+        _ => return None,
+    };
+    Some((name, matches!(visibility, Visibility::Public(_))))
+}
+
+/// A word, a mark or a bracket of code.
+pub struct Token {
+    /// The token as written; a mark is a single character.
+    pub text: String,
+    /// Line in the file, from 1.
+    pub line: usize,
+}
+
+/// The tokens of code in their order, those inside brackets and macros too. What is quoted becomes code of
+/// others and is left out.
+#[must_use]
+pub fn tokens(code: impl ToTokens) -> Vec<Token> {
+    let mut found = Vec::new();
+    flatten(code.to_token_stream(), &mut found);
+    found
+}
+
+fn flatten(code: TokenStream, found: &mut Vec<Token>) {
+    for tree in code {
+        let line = tree.span().start().line;
+        match tree {
+            TokenTree::Group(group) => {
+                let [open, close] = match group.delimiter() {
+                    Delimiter::Parenthesis => ["(", ")"],
+                    Delimiter::Brace => ["{", "}"],
+                    Delimiter::Bracket => ["[", "]"],
+                    Delimiter::None => ["", ""],
+                };
+                let is_quoted = matches!(&found[..], [.., name, mark]
+                    if mark.text == "!" && ["quote", "quote_spanned"].contains(&name.text.as_str()));
+                found.push(Token { text: open.to_owned(), line });
+                if !is_quoted {
+                    flatten(group.stream(), found);
+                }
+                found.push(Token { text: close.to_owned(), line });
+            }
+            tree => found.push(Token { text: tree.to_string(), line }),
+        }
     }
 }

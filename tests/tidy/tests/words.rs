@@ -1,9 +1,9 @@
 //! Comments and documentation.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use piola_tidy::{files, forbid, members, read, root};
+use piola_tidy::{files, forbid, read, root};
 
 /// As wide as rustfmt makes code; what cannot be broken, such as an address or a row of a table, may be
 /// wider.
@@ -13,23 +13,38 @@ fn comments_are_as_wide_as_code() {
     let width = configuration.lines().find_map(|line| line.strip_prefix("max_width = "));
     let width: usize = width.and_then(|width| width.parse().ok()).expect("max_width in rustfmt.toml");
     let mut found = Vec::new();
-    for (path, text) in sources() {
-        let mut is_displayed = false;
-        for (number, line) in text.lines().enumerate() {
-            let Some(words) = comment(line).map(|words| words.trim_start_matches(['/', '!']).trim()) else {
-                continue;
-            };
-            is_displayed ^= words.starts_with("```");
-            let columns = line.chars().count();
-            // Lines of a display, such as a formula or a program, are not broken.
-            let can_be_broken =
-                !is_displayed && words.contains(' ') && !words.starts_with('|') && !words.starts_with('[');
-            if columns > width && can_be_broken {
-                found.push(format!("{}:{}: {columns} columns", path.display(), number + 1));
-            }
-        }
+    for (path, text) in files(Path::new("")) {
+        let wide = too_wide(&text, width);
+        found.extend(wide.map(|(line, columns)| format!("{}:{line}: {columns} columns", path.display())));
     }
     forbid("comments that are wider than code", &found);
+}
+
+/// Number and columns of each line that ends with too wide a comment.
+fn too_wide(text: &str, width: usize) -> impl Iterator<Item = (usize, usize)> {
+    let mut is_displayed = false;
+    (1..).zip(text.lines()).filter_map(move |(number, line)| {
+        let words = comment(line)?.trim_start_matches(['/', '!']).trim();
+        is_displayed ^= words.starts_with("```");
+        let columns = line.chars().count();
+        // Lines of a display, such as a formula or a program, are not broken.
+        let can_be_broken = !is_displayed && words.contains(' ') && !words.starts_with(['|', '[']);
+        (columns > width && can_be_broken).then_some((number, columns))
+    })
+}
+
+#[test]
+fn a_wide_comment_is_seen() {
+    let text = [
+        "// short",
+        "let x = \"// a part of a text\";",
+        "let x = 1; // as wide as this",
+        "// [a]: b c d e f",
+        "// cannot-be-broken",
+        "//! ```",
+        "//! a display of code",
+    ];
+    assert_eq!(too_wide(&text.join("\n"), 12).collect::<Vec<_>>(), [(3, 29)]);
 }
 
 /// The comment that a line ends with, unless it is a part of a text.
@@ -41,7 +56,7 @@ fn comment(line: &str) -> Option<&str> {
 #[test]
 fn nothing_is_left_undone() {
     let mut found = Vec::new();
-    for (path, text) in sources() {
+    for (path, text) in files(Path::new("")) {
         for (number, line) in text.lines().enumerate() {
             if [["TO", "DO"], ["FIX", "ME"]].iter().any(|mark| line.contains(&mark.concat())) {
                 found.push(format!("{}:{}: {}", path.display(), number + 1, line.trim()));
@@ -51,18 +66,9 @@ fn nothing_is_left_undone() {
     forbid("marks of what is left undone", &found);
 }
 
-/// All Rust files of the workspace, each once, and those of the crates outside of it.
-fn sources() -> Vec<(PathBuf, String)> {
-    let mut found: Vec<_> = members().iter().flat_map(|folder| files(folder)).collect();
-    found.extend(files(Path::new("fuzz/fuzz_targets")));
-    found.extend(
-        ["distributed", "bindings/c", "bindings/python", "bindings/web", "examples/fenris", "examples/wgpu"]
-            .iter()
-            .flat_map(|folder| files(Path::new(folder))),
-    );
-    found.sort();
-    found.dedup();
-    found
+/// The targets of the links in a document.
+fn links(text: &str) -> impl Iterator<Item = &str> {
+    text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link)
 }
 
 /// Relative links of the repository's documents lead to files.
@@ -77,8 +83,7 @@ fn links_of_documents_lead_to_files() {
                 continue;
             }
             let text = fs::read_to_string(&document).expect("a document");
-            for link in text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link)
-            {
+            for link in links(&text) {
                 judged += 1;
                 let file = link.split('#').next().unwrap_or_default();
                 if !file.contains("://") && !document.with_file_name(file).exists() {
@@ -114,9 +119,8 @@ fn lines_to_embed_piola_are_quoted() {
     for row in rows.take_while(|line| line.starts_with('|')) {
         let cells: Vec<&str> = row.split(" | ").collect();
         let [_, lines, files] = cells[..] else { panic!("three columns: {row}") };
-        let files = files.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
         let text: String =
-            files.map(|(file, _)| without_spaces(&read(&Path::new("docs").join(file)))).collect();
+            links(files).map(|file| without_spaces(&read(&Path::new("docs").join(file)))).collect();
         for line in lines.split('`').skip(1).step_by(2) {
             judged += 1;
             if !text.contains(&without_spaces(line)) {

@@ -1,13 +1,13 @@
 //! The charts, as SVG.
 
-use crate::data::Report;
+use crate::Report;
 
 mod heat;
 mod panel;
 mod point;
 mod steps;
 
-pub(crate) use point::{best_settings, materials};
+pub(crate) use point::best_settings;
 
 /// A chart and its caption.
 pub(crate) struct Chart {
@@ -18,9 +18,6 @@ pub(crate) struct Chart {
 }
 
 /// Charts of the sections that were measured.
-///
-/// # Errors
-/// Where one cannot be drawn.
 pub(crate) fn draw(report: &Report) -> Result<Vec<Chart>, String> {
     let mut charts = Vec::new();
     if !report.rows.is_empty() {

@@ -4,18 +4,17 @@
 //! A cube of rubber, one face held, falls under its own weight: boxes of all sizes solve the same problem.
 //! Each step of a hundredth of a second makes one iteration of Newton's method.
 
-use std::error::Error;
 use std::time::Instant;
 
-use indicatif::ProgressBar;
 use peak_alloc::PeakAlloc;
 use piola::material::Moduli;
 use piola_bodies::mesh::{Bounds, tetrahedral_box};
 use piola_bodies::step::{Convergence, LinearSolver, NewtonSettings, Simulation, SimulationSettings};
 use piola_bodies::system::{Body, Pins};
 use piola_materials::StableNeoHookean;
+use serde::Serialize;
 
-use crate::data::GrowthRow;
+use crate::Outcome;
 
 /// Cells along an edge; a cell has six elements. A factor takes too much beyond [`MOST_OF_FACTOR`].
 const CELLS: [usize; 7] = [6, 8, 12, 17, 25, 38, 55];
@@ -25,6 +24,19 @@ const TIME_STEP: f64 = 0.01;
 
 /// Number of timed steps, after a first one that finds cold caches.
 const STEPS: usize = 3;
+
+/// A step or an equilibrium of a box.
+#[derive(Default, Serialize)]
+pub(crate) struct GrowthRow {
+    pub(crate) way: &'static str,
+    pub(crate) threads: usize,
+    pub(crate) elements: usize,
+    /// The least of the steps.
+    pub(crate) seconds: f64,
+    pub(crate) peak_bytes: usize,
+    pub(crate) newton_iterations: usize,
+    pub(crate) linear_iterations: usize,
+}
 
 /// A way to solve: its name, the settings of Newton's method, and the number of threads.
 type Way = (&'static str, NewtonSettings, usize);
@@ -44,17 +56,10 @@ fn ways() -> [Way; 5] {
 }
 
 /// A row for each way and box.
-///
-/// # Errors
-/// Where a box cannot be made or solved.
-pub(crate) fn rows(
-    is_quick: bool,
-    memory: &PeakAlloc,
-    progress: &ProgressBar,
-) -> Result<Vec<GrowthRow>, Box<dyn Error + Send + Sync>> {
+pub(crate) fn rows(is_quick: bool, memory: &PeakAlloc) -> Outcome<Vec<GrowthRow>> {
+    eprintln!("growing bodies …");
     let mut rows = Vec::new();
     let cells = if is_quick { &CELLS[..4] } else { &CELLS };
-    progress.set_length((ways().len() * cells.len()) as u64);
     for way in ways() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(way.2).build()?;
         // Each thread gets its buffers, such as 64 MiB for dense products, with a first box, which does not
@@ -64,17 +69,12 @@ pub(crate) fn rows(
             if way.1.linear != LinearSolver::Cholesky || cells <= MOST_OF_FACTOR {
                 rows.push(pool.install(|| measure(way, cells, memory))?);
             }
-            progress.inc(1);
         }
     }
     Ok(rows)
 }
 
-fn measure(
-    (way, newton, threads): Way,
-    cells: usize,
-    memory: &PeakAlloc,
-) -> Result<GrowthRow, Box<dyn Error + Send + Sync>> {
+fn measure((way, newton, threads): Way, cells: usize, memory: &PeakAlloc) -> Outcome<GrowthRow> {
     memory.reset_peak_usage();
     let before = memory.current_usage();
     let mesh = tetrahedral_box([cells; 3], [1.0; 3])?;

@@ -17,13 +17,11 @@ use std::time::Duration;
 use std::{error, fs};
 
 use clap::{Parser, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 use piola::lanes::Backend;
 use piola_speed::{Effort, processor};
-use piola_tests::cases::Case;
+use serde::Serialize;
 
 mod charts;
-mod data;
 mod growth;
 mod markdown;
 mod page;
@@ -31,7 +29,7 @@ mod point;
 mod steps;
 mod table;
 
-use data::Report;
+type Outcome<T> = Result<T, Box<dyn error::Error + Send + Sync>>;
 
 /// Every byte that is allocated, and the most at a time.
 #[global_allocator]
@@ -62,6 +60,19 @@ enum Section {
     Growth,
 }
 
+/// All results of the report. A value that is not finite is `null` in JSON.
+#[derive(Serialize)]
+struct Report {
+    machine: String,
+    /// Instructions of the lanes.
+    back_end: String,
+    /// Commit of the sources, if they are a Git checkout.
+    commit: Option<String>,
+    rows: Vec<point::PointRow>,
+    steps: Vec<steps::StepRow>,
+    growth: Vec<growth::GrowthRow>,
+}
+
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let made = if arguments.table {
@@ -80,31 +91,24 @@ fn main() -> ExitCode {
 
 /// Measures all that is asked for, then writes it and prints the path of the page: a run that fails leaves
 /// the files of the one before.
-fn make(arguments: &Arguments) -> Result<(), Box<dyn error::Error + Send + Sync>> {
+fn make(arguments: &Arguments) -> Outcome<()> {
     let asked = |section| arguments.only.is_empty() || arguments.only.contains(&section);
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let folder = workspace.canonicalize().unwrap_or(workspace).join("target/report");
     // Before anything is measured in vain.
     fs::create_dir_all(&folder)?;
-    let mut report = Report {
+    let (effort, is_quick) = (effort(arguments.quick), arguments.quick);
+    let report = Report {
         machine: processor(),
         back_end: Backend::best().to_string(),
         commit: commit(),
-        rows: Vec::new(),
-        steps: Vec::new(),
-        growth: Vec::new(),
+        rows: asked(Section::Point).then(|| point::rows(effort)).transpose()?.unwrap_or_default(),
+        steps: asked(Section::Steps).then(|| steps::rows(is_quick)).transpose()?.unwrap_or_default(),
+        growth: asked(Section::Growth)
+            .then(|| growth::rows(is_quick, &MEMORY))
+            .transpose()?
+            .unwrap_or_default(),
     };
-    if asked(Section::Point) {
-        // Those whose energies take part.
-        let cases = Case::own(&["cases", "cases-ordinary"])?;
-        report.rows = point::rows(&cases, effort(arguments.quick), &bar("point"))?;
-    }
-    if asked(Section::Steps) {
-        report.steps = steps::rows(arguments.quick, &bar("steps"))?;
-    }
-    if asked(Section::Growth) {
-        report.growth = growth::rows(arguments.quick, &MEMORY, &bar("growth"))?;
-    }
     let charts = charts::draw(&report)?;
     for chart in &charts {
         fs::write(folder.join(&chart.file), &chart.svg)?;
@@ -127,11 +131,4 @@ fn commit() -> Option<String> {
 fn effort(is_quick: bool) -> Effort {
     let (repeats, at_most) = if is_quick { (5, 2) } else { (41, 100) };
     Effort { repeats, at_least: Duration::from_micros(30), at_most: Duration::from_millis(at_most) }
-}
-
-/// Progress of a section, which sets the length; it is cleared when it is dropped.
-fn bar(section: &'static str) -> ProgressBar {
-    const TEMPLATE: &str = "{prefix:7} {bar:40} {pos}/{len} {elapsed} {msg}";
-    let style = ProgressStyle::with_template(TEMPLATE).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(0).with_style(style).with_prefix(section)
 }

@@ -1,12 +1,11 @@
 //! Tables in Markdown.
 
-/// The first two rows: titles of columns of words, and of columns of numbers.
-pub(crate) fn header(words: &[&str], numbers: &[&str]) -> String {
+/// A table with these titles of columns of words, and of columns of numbers.
+pub(crate) fn table(words: &[&str], numbers: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let titles = [words, numbers].concat().join(" | ");
-    format!("| {titles} |\n|{}{}\n", "---|".repeat(words.len()), "--:|".repeat(numbers.len()))
-}
-
-/// Adds a row.
-pub(crate) fn row(table: &mut String, cells: &[String]) {
-    *table += &format!("| {} |\n", cells.join(" | "));
+    let mut text = format!("| {titles} |\n|{}{}\n", "---|".repeat(words.len()), "--:|".repeat(numbers.len()));
+    for cells in rows {
+        text += &format!("| {} |\n", cells.join(" | "));
+    }
+    text
 }

@@ -3,10 +3,12 @@
 use piola::Real;
 use piola_speed::{RESOLUTION, beats};
 
-use crate::charts::{Chart, best_settings, materials};
-use crate::data::{GrowthRow, PointRow, Report, StepRow};
-use crate::markdown::{header, row};
-use crate::point::{HARD, ORDINARY, OURS, Work};
+use crate::Report;
+use crate::charts::{Chart, best_settings};
+use crate::growth::GrowthRow;
+use crate::markdown::table;
+use crate::point::{ENERGIES, HARD, ORDINARY, OURS, PointRow};
+use crate::steps::StepRow;
 
 /// The page, with the charts by their files' names.
 pub(crate) fn tell(report: &Report, charts: &[Chart]) -> String {
@@ -18,7 +20,7 @@ pub(crate) fn tell(report: &Report, charts: &[Chart]) -> String {
     if !report.rows.is_empty() {
         text += POINT;
         text += &pictures(charts, &["point-", "families-"]);
-        for material in materials(&report.rows) {
+        for (material, _) in ENERGIES {
             for precision in ["f64", "f32"] {
                 text += &methods(&report.rows, material, precision);
             }
@@ -77,33 +79,30 @@ fn pictures(charts: &[Chart], prefixes: &[&str]) -> String {
 fn methods(rows: &[PointRow], material: &str, precision: &str) -> String {
     let numbers =
         ["ns", "worst, ordinary", "worst, hard", "median, hard", "ns with projection", "worst, hard"];
-    let mut table = header(&["method", "setting"], &numbers);
-    let of = |work: Work, family: &str| {
-        let (work, family) = (work.name(), family.to_owned());
+    let of = |work: &'static str, family: &'static str| {
         rows.iter().filter(move |row| {
             (row.material, row.precision, row.work) == (material, precision, work) && row.family == family
         })
     };
     let same = |a: &PointRow, b: &PointRow| (a.method, &a.setting) == (b.method, &b.setting);
-    let hard: Vec<&PointRow> = of(Work::Tangent, HARD).collect();
-    for best in best_settings(&hard) {
-        let find = |work: Work, family: &str| of(work, family).find(|row| same(row, best));
+    let hard: Vec<&PointRow> = of("tangent", HARD).collect();
+    let rows = best_settings(&hard).into_iter().map(|best| {
+        let find = |work, family| of(work, family).find(|row| same(row, best));
         let ns =
             |row: Option<&PointRow>| row.map_or_else(String::new, |row| format!("{:.1}", row.ns_per_element));
         let worst = |row: Option<&PointRow>| row.map_or_else(String::new, |row| error(row.worst_error));
-        let cells = [
+        vec![
             best.method.to_owned(),
             best.setting.clone(),
-            ns(find(Work::Tangent, ORDINARY)),
-            worst(find(Work::Tangent, ORDINARY)),
+            ns(find("tangent", ORDINARY)),
+            worst(find("tangent", ORDINARY)),
             error(best.worst_error),
             error(best.median_error),
-            ns(find(Work::Projected, ORDINARY)),
-            worst(find(Work::Projected, HARD)),
-        ];
-        row(&mut table, &cells);
-    }
-    format!("### {material}, {precision}\n\n{table}\n")
+            ns(find("projected", ORDINARY)),
+            worst(find("projected", HARD)),
+        ]
+    });
+    format!("### {material}, {precision}\n\n{}\n", table(&["method", "setting"], &numbers, rows))
 }
 
 /// Cases in which no other method for any energy is both faster and more accurate, and cases in which one is.
@@ -111,9 +110,7 @@ fn fronts(rows: &[PointRow]) -> String {
     let (together, ours): (Vec<&PointRow>, Vec<&PointRow>) =
         rows.iter().filter(|row| row.method == OURS).partition(|row| row.family == HARD);
     let on_front = |rows: &[&PointRow]| rows.iter().filter(|row| row.is_on_front).count();
-    let mut table =
-        header(&["work", "energy", "precision", "family", "piola", "error", "faster"], &["ns", "error"]);
-    for lost in ours.iter().filter(|row| !row.is_on_front) {
+    let beaten = ours.iter().filter(|row| !row.is_on_front).filter_map(|lost| {
         let beats = |other: &&PointRow| {
             let same =
                 (other.work, other.material, other.precision) == (lost.work, lost.material, lost.precision);
@@ -123,10 +120,8 @@ fn fronts(rows: &[PointRow]) -> String {
                 && beats(pair(other), pair(lost), unit(lost.precision))
         };
         let rivals = rows.iter().filter(beats);
-        let Some(rival) = rivals.min_by(|a, b| a.ns_per_element.total_cmp(&b.ns_per_element)) else {
-            continue;
-        };
-        let cells = [
+        let rival = rivals.min_by(|a, b| a.ns_per_element.total_cmp(&b.ns_per_element))?;
+        Some(vec![
             lost.work.to_owned(),
             lost.material.to_owned(),
             lost.precision.to_owned(),
@@ -136,18 +131,19 @@ fn fronts(rows: &[PointRow]) -> String {
             format!("{} {}", rival.method, rival.setting).trim_end().to_owned(),
             format!("{:.1}", rival.ns_per_element),
             error(rival.worst_error),
-        ];
-        row(&mut table, &cells);
-    }
+        ])
+    });
+    let words = ["work", "energy", "precision", "family", "piola", "error", "faster"];
     format!(
         "### Who is on the front\n\nOf {} contests (an energy, a precision, with or without projection, at ordinary F or \
          at a hard family) piola is on the front of the methods for any ψ(λ) in {}, each of these with the setting \
          that is best for that family, and times within {:.0} % and errors within a unit roundoff counting as equal. \
-         In the others a method is faster and its error no larger, or its error smaller in the same time:\n\n{table}\n\
+         In the others a method is faster and its error no larger, or its error smaller in the same time:\n\n{}\n\
          With one setting for all hard families together, piola is on the front in {} of {}.\n\n",
         ours.len(),
         on_front(&ours),
         100.0 * RESOLUTION,
+        table(&words, &["ns", "error"], beaten),
         on_front(&together),
         together.len()
     )
@@ -188,10 +184,9 @@ fn steps(rows: &[StepRow]) -> String {
         "error",
         "error at the end",
     ];
-    let mut table = header(&["setting"], &numbers);
-    for step in rows {
+    let rows = rows.iter().map(|step| {
         let per_step = |count: usize| count as f64 / step.steps as f64;
-        let cells = [
+        vec![
             step.setting.to_owned(),
             format!("1/{:.0}", 1.0 / step.h),
             format!("{:.0}", step.milliseconds()),
@@ -199,23 +194,21 @@ fn steps(rows: &[StepRow]) -> String {
             format!("{:.1}", per_step(step.linear_iterations)),
             error(step.error),
             error(step.final_error),
-        ];
-        row(&mut table, &cells);
-    }
-    table + "\n"
+        ]
+    });
+    table(&["setting"], &numbers, rows) + "\n"
 }
 
 fn growth(rows: &[GrowthRow]) -> String {
     let numbers = ["threads", "elements", "s", "growth", "Newton iterations", "linear iterations", "MiB"];
-    let mut table = header(&["what"], &numbers);
-    let mut before: Option<&GrowthRow> = None;
-    for now in rows {
+    let rows = rows.iter().enumerate().map(|(index, now)| {
+        let before = index.checked_sub(1).map(|before| &rows[before]);
         let smaller = before.filter(|before| (before.way, before.threads) == (now.way, now.threads));
         let growth = smaller.map_or(String::new(), |before| {
             let ratio = now.elements as f64 / before.elements as f64;
             format!("n^{:.2}", (now.seconds / before.seconds).ln() / ratio.ln())
         });
-        let cells = [
+        vec![
             now.way.to_owned(),
             now.threads.to_string(),
             now.elements.to_string(),
@@ -224,11 +217,9 @@ fn growth(rows: &[GrowthRow]) -> String {
             now.newton_iterations.to_string(),
             now.linear_iterations.to_string(),
             format!("{:.1}", now.peak_bytes as f64 / f64::from(1 << 20)),
-        ];
-        row(&mut table, &cells);
-        before = Some(now);
-    }
-    table + "\n"
+        ]
+    });
+    table(&["what"], &numbers, rows) + "\n"
 }
 
 fn error(error: f64) -> String {

@@ -4,24 +4,47 @@
 //! turns, and what they leave behind is judged.
 
 use std::any::type_name;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::hint::black_box;
 
-use indicatif::ProgressBar;
 use piola::Real;
 use piola::batch::Kernels;
+use piola::point::Filter;
 use piola_speed::{Effort, Times, is_on_front, time_in_turns};
 use piola_tests::cases::{Case, Quantity};
-
-use crate::data::PointRow;
+use serde::Serialize;
 
 mod contestant;
 mod energies;
 mod methods;
 
 use contestant::{Contestant, Number, Output, POINTS, Points};
-use energies::{ENERGIES, contestants};
+pub(crate) use energies::ENERGIES;
+use energies::contestants;
 pub(crate) use methods::{OURS, OURS_AS_A_SCALAR};
+
+/// A method at a family of deformation gradients.
+#[derive(Clone, Serialize)]
+pub(crate) struct PointRow {
+    /// `tangent`: P and dP/dF; `projected`: P and the nearest semidefinite matrix to dP/dF.
+    pub(crate) work: &'static str,
+    pub(crate) material: &'static str,
+    pub(crate) precision: &'static str,
+    pub(crate) method: &'static str,
+    pub(crate) setting: String,
+    /// The least of the repeats.
+    pub(crate) ns_per_element: f64,
+    /// The larger of ‖X − X*‖/(‖X*‖ + sens) of P and of the matrix.
+    pub(crate) worst_error: f64,
+    pub(crate) median_error: f64,
+    pub(crate) family: String,
+    /// Number of reference cases.
+    pub(crate) cases: usize,
+    /// True if it takes any ψ(λ1, λ2, λ3).
+    pub(crate) is_general: bool,
+    /// True if no other method for any ψ(λ) is both faster and more accurate in the worst case.
+    pub(crate) is_on_front: bool,
+}
 
 /// The family of F = I + 0.3 X, entries of X uniform in [−1, 1).
 pub(crate) const ORDINARY: &str = "ordinary";
@@ -29,58 +52,22 @@ pub(crate) const ORDINARY: &str = "ordinary";
 /// All families but [`ORDINARY`] in one row: the worst error, the median of errors, the mean of times.
 pub(crate) const HARD: &str = "every hard family";
 
-/// Outputs that are computed in addition to P.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Work {
-    Tangent,
-    Projected,
-}
+/// Outputs that are computed in addition to P, by name.
+const WORKS: [(&str, Filter, Quantity); 2] =
+    [("tangent", Filter::None, Quantity::Tangent), ("projected", Filter::Clamp, Quantity::Projected)];
 
-impl Work {
-    pub(crate) const ALL: [Self; 2] = [Self::Tangent, Self::Projected];
-
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Tangent => "tangent",
-            Self::Projected => "projected",
-        }
-    }
-
-    fn quantity(self) -> Quantity {
-        match self {
-            Self::Tangent => Quantity::Tangent,
-            Self::Projected => Quantity::Projected,
-        }
-    }
-}
-
-/// All rows of these cases.
-///
-/// # Errors
-/// Where a case does not fit its material.
-pub(crate) fn rows(cases: &[Case], effort: Effort, progress: &ProgressBar) -> Result<Vec<PointRow>, String> {
-    progress.set_length(count(cases));
+/// All rows.
+pub(crate) fn rows(effort: Effort) -> Result<Vec<PointRow>, String> {
+    // Those whose energies take part.
+    let cases = Case::own(&["cases", "cases-ordinary"])?;
     let mut rows = Vec::new();
     for (name, in_catalogue) in ENERGIES {
-        progress.set_message(name);
-        let cases = of_energy(in_catalogue, cases);
-        contests::<f64>(name, &cases, effort, progress, &mut rows)?;
-        contests::<f32>(name, &cases, effort, progress, &mut rows)?;
+        eprintln!("points: {name} …");
+        let cases: Vec<&Case> = cases.iter().filter(|case| case.material == in_catalogue).collect();
+        rows.extend(contests::<f64>(name, &cases, effort)?);
+        rows.extend(contests::<f32>(name, &cases, effort)?);
     }
     Ok(rows)
-}
-
-/// Number of contests: the steps of the progress bar.
-fn count(cases: &[Case]) -> u64 {
-    let of_one = |(_, in_catalogue)| {
-        let cases = of_energy(in_catalogue, cases);
-        families::<f64>(&cases).len() + families::<f32>(&cases).len()
-    };
-    (Work::ALL.len() * ENERGIES.into_iter().map(of_one).sum::<usize>()) as u64
-}
-
-fn of_energy<'a>(in_catalogue: &str, cases: &'a [Case]) -> Vec<&'a Case> {
-    cases.iter().filter(|case| case.material == in_catalogue).collect()
 }
 
 /// The cases that a format can hold, by family.
@@ -100,20 +87,18 @@ fn contests<E: Number>(
     energy: &'static str,
     cases: &[&Case],
     effort: Effort,
-    progress: &ProgressBar,
-    rows: &mut Vec<PointRow>,
-) -> Result<(), String> {
-    for work in Work::ALL {
+) -> Result<Vec<PointRow>, String> {
+    let mut rows = Vec::new();
+    for work in WORKS {
         let mut of_work = Vec::new();
         for (family, cases) in families::<E>(cases) {
-            of_work.extend(contest::<E>(work, energy, family, &cases, effort)?);
-            progress.inc(1);
+            let rows = contest::<E>(work, energy, family, &cases, effort)?;
+            of_work.extend(with_front(rows, E::UNIT_ROUNDOFF));
         }
-        of_work.extend(all_hard(&of_work));
-        mark_fronts(&mut of_work, E::UNIT_ROUNDOFF);
+        of_work.extend(with_front(all_hard(&of_work), E::UNIT_ROUNDOFF));
         rows.extend(of_work);
     }
-    Ok(())
+    Ok(rows)
 }
 
 /// Deformation gradients of one energy: point i is that of case i mod the number of cases.
@@ -125,7 +110,7 @@ struct Group<'a, E> {
 
 /// The rows of one family.
 fn contest<E: Number>(
-    work: Work,
+    (work, filter, quantity): (&'static str, Filter, Quantity),
     energy: &'static str,
     family: &str,
     cases: &[&Case],
@@ -138,27 +123,27 @@ fn contest<E: Number>(
         groups.push(Group {
             cases: cases.to_vec(),
             points: Points::new(|point| cases[point % cases.len()].deformation),
-            contestants: contestants(cases[0], work)?,
+            contestants: contestants(cases[0], filter)?,
         });
     }
     let labels: Vec<_> = groups[0].contestants.iter().map(|contestant| contestant.label.clone()).collect();
     let mut output = Output::new();
     let mut errors = vec![Vec::new(); labels.len()];
-    for group in &mut groups {
-        for (contestant, errors) in group.contestants.iter_mut().zip(&mut errors) {
+    for group in &groups {
+        for (contestant, errors) in group.contestants.iter().zip(&mut errors) {
             output.clear();
             (contestant.run)(&group.points, &mut output);
             errors.extend(group.cases.iter().enumerate().map(|(point, case)| {
                 let (stress, tangent) = output.of_point(point, contestant.layout);
-                judge::<E>(case, Quantity::Stress, &stress).max(judge::<E>(case, work.quantity(), &tangent))
+                judge::<E>(case, Quantity::Stress, &stress).max(judge::<E>(case, quantity, &tangent))
             }));
         }
     }
-    let times = in_turns(&mut groups, effort);
+    let times = in_turns(&groups, effort);
     let rows = labels.into_iter().zip(errors).zip(times).map(|((label, mut errors), times)| {
         errors.sort_by(f64::total_cmp);
         PointRow {
-            work: work.name(),
+            work,
             material: energy,
             precision: type_name::<E>(),
             method: label.method,
@@ -181,67 +166,49 @@ fn judge<E: Real>(case: &Case, quantity: Quantity, values: &[f64]) -> f64 {
 }
 
 /// The times of the contestants, each over all groups.
-fn in_turns<E: Kernels>(groups: &mut [Group<'_, E>], effort: Effort) -> Vec<Times> {
-    let count = groups[0].contestants.len();
-    let points = POINTS * groups.len();
-    let mut by_method: Vec<Vec<(&Points<E>, &mut Contestant<E>)>> = (0..count).map(|_| Vec::new()).collect();
-    for Group { points, contestants, .. } in groups {
-        for (of_method, contestant) in by_method.iter_mut().zip(contestants) {
-            of_method.push((points, contestant));
-        }
-    }
-    let mut calls: Vec<_> = by_method
-        .into_iter()
-        .map(|mut of_method| {
-            let mut output = Output::new();
-            move || {
-                for (points, contestant) in &mut of_method {
-                    (contestant.run)(points, &mut output);
-                    black_box(&output);
-                }
+fn in_turns<E: Kernels>(groups: &[Group<'_, E>], effort: Effort) -> Vec<Times> {
+    let calls = (0..groups[0].contestants.len()).map(move |method| {
+        let mut output = Output::new();
+        move || {
+            for Group { points, contestants, .. } in groups {
+                (contestants[method].run)(points, &mut output);
+                black_box(&output);
             }
-        })
-        .collect();
-    let mut calls: Vec<&mut dyn FnMut()> = calls.iter_mut().map(|call| call as &mut dyn FnMut()).collect();
-    time_in_turns(effort, points, &mut calls)
-}
-
-/// A row for each method that was in every hard family.
-fn all_hard(rows: &[PointRow]) -> Vec<PointRow> {
-    let mut together: Vec<PointRow> = Vec::new();
-    // Of each the median errors of its families.
-    let mut medians: Vec<Vec<f64>> = Vec::new();
-    for row in rows.iter().filter(|row| row.family != ORDINARY) {
-        let same = |other: &PointRow| (other.method, &other.setting) == (row.method, &row.setting);
-        let index = together.iter().position(same).unwrap_or_else(|| {
-            let zero = PointRow { ns_per_element: 0.0, worst_error: 0.0, cases: 0, ..row.clone() };
-            together.push(PointRow { family: HARD.to_owned(), ..zero });
-            medians.push(Vec::new());
-            together.len() - 1
-        });
-        medians[index].push(row.median_error);
-        let sum = &mut together[index];
-        sum.ns_per_element += row.ns_per_element;
-        sum.worst_error = sum.worst_error.max(row.worst_error);
-        sum.cases += row.cases;
-    }
-    for (row, mut medians) in together.iter_mut().zip(medians) {
-        row.ns_per_element /= medians.len() as f64;
-        medians.sort_by(f64::total_cmp);
-        row.median_error = medians[medians.len() / 2];
-    }
-    together
-}
-
-/// Marks the rows of each family that no method for any ψ(λ) beats in both time and worst error.
-fn mark_fronts(rows: &mut [PointRow], unit: f64) {
-    let families: BTreeSet<String> = rows.iter().map(|row| row.family.clone()).collect();
-    for family in families {
-        let pair = |row: &PointRow| (row.ns_per_element, row.worst_error);
-        let general = |row: &&PointRow| row.family == family && row.is_general;
-        let rivals: Vec<(f64, f64)> = rows.iter().filter(general).map(pair).collect();
-        for row in rows.iter_mut().filter(|row| row.family == family) {
-            row.is_on_front = is_on_front(pair(row), &rivals, unit);
         }
+    });
+    let mut calls: Vec<_> = calls.collect();
+    let mut calls: Vec<&mut dyn FnMut()> = calls.iter_mut().map(|call| call as &mut dyn FnMut()).collect();
+    time_in_turns(effort, POINTS * groups.len(), &mut calls)
+}
+
+/// A row for each method, which all are in every hard family.
+fn all_hard(rows: &[PointRow]) -> Vec<PointRow> {
+    let hard = || rows.iter().filter(|row| row.family != ORDINARY);
+    let first = hard().next().map(|row| &row.family);
+    let together = hard().filter(|row| Some(&row.family) == first).map(|row| {
+        let same = |other: &&PointRow| (other.method, &other.setting) == (row.method, &row.setting);
+        let of_families: Vec<&PointRow> = hard().filter(same).collect();
+        let mut medians: Vec<f64> = of_families.iter().map(|row| row.median_error).collect();
+        medians.sort_by(f64::total_cmp);
+        let total: f64 = of_families.iter().map(|row| row.ns_per_element).sum();
+        PointRow {
+            family: HARD.to_owned(),
+            ns_per_element: total / medians.len() as f64,
+            worst_error: of_families.iter().map(|row| row.worst_error).fold(0.0, f64::max),
+            median_error: medians[medians.len() / 2],
+            cases: of_families.iter().map(|row| row.cases).sum(),
+            ..row.clone()
+        }
+    });
+    together.collect()
+}
+
+/// Rows of one family, marked where no method for any ψ(λ) beats them in both time and worst error.
+fn with_front(mut rows: Vec<PointRow>, unit: f64) -> Vec<PointRow> {
+    let pair = |row: &PointRow| (row.ns_per_element, row.worst_error);
+    let rivals: Vec<(f64, f64)> = rows.iter().filter(|row| row.is_general).map(pair).collect();
+    for row in &mut rows {
+        row.is_on_front = is_on_front(pair(row), &rivals, unit);
     }
+    rows
 }

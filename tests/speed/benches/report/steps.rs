@@ -4,10 +4,8 @@
 //! reference is the same motion by the integrator of third order with 1/32 of the scenes' time step and
 //! Newton's method to a relative 10⁻¹⁰; the row `reference` is its distance from one with 1/64.
 
-use std::error::Error;
 use std::time::Instant;
 
-use indicatif::ProgressBar;
 use piola::Inversion;
 use piola::point::Filter;
 use piola_bodies::mesh::Bounds;
@@ -19,8 +17,9 @@ use piola_materials::NeoHookean;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::scene::DINOSAUR;
 use piola_scenes::settings::Settings;
+use serde::Serialize;
 
-use crate::data::StepRow;
+use crate::Outcome;
 
 /// Frames per second.
 const RATE: f64 = 30.0;
@@ -42,6 +41,23 @@ pub(crate) const INTEGRATORS: [(&str, Integrator); 3] = [
 /// Implicit Euler with one iteration of Newton's method, over which the time step is varied too.
 pub(crate) const SINGLE: &str = "implicit Euler, one iteration";
 
+/// A way to step a body through a motion.
+#[derive(Default, Serialize)]
+pub(crate) struct StepRow {
+    pub(crate) setting: &'static str,
+    /// Time step, s.
+    pub(crate) h: f64,
+    /// Wall time of all steps, s.
+    pub(crate) seconds: f64,
+    pub(crate) steps: usize,
+    pub(crate) newton_iterations: usize,
+    pub(crate) linear_iterations: usize,
+    /// Largest distance of a node from the reference after any frame, body heights.
+    pub(crate) error: f64,
+    /// Largest distance of a node from the reference after the last frame, body heights.
+    pub(crate) final_error: f64,
+}
+
 /// One way to go the course.
 struct Way {
     setting: &'static str,
@@ -55,34 +71,25 @@ struct Way {
 type Track = Vec<Vec<[f64; 3]>>;
 
 /// A row for the reference and for each way, computed by one thread.
-///
-/// # Errors
-/// Where a step fails.
-pub(crate) fn rows(
-    is_quick: bool,
-    progress: &ProgressBar,
-) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
+pub(crate) fn rows(is_quick: bool) -> Outcome<Vec<StepRow>> {
+    eprintln!("motions …");
     let thread = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    thread.install(|| measure(is_quick, progress))
+    thread.install(|| measure(is_quick))
 }
 
-fn measure(is_quick: bool, progress: &ProgressBar) -> Result<Vec<StepRow>, Box<dyn Error + Send + Sync>> {
+fn measure(is_quick: bool) -> Outcome<Vec<StepRow>> {
     let (drawn, height) = drawn()?;
     let frames = if is_quick { 4 } else { 30 };
     let repeats = if is_quick { 1 } else { REPEATS };
     let newton = NewtonSettings::default().with_tolerance(1e-10);
     let reference = |division| Way { setting: "reference", division, newton, integrator: Integrator::Sdirk3 };
     let ways = ways(is_quick);
-    progress.set_length(ways.len() as u64 + 2);
     let (_, finer) = follow(&drawn, &reference(2.0 * FINE), frames)?;
-    progress.inc(1);
     let (row, exact) = follow(&drawn, &reference(FINE), frames)?;
-    progress.inc(1);
     let mut rows = vec![row.judged(&exact, &finer, height)];
     for way in &ways {
         let (row, track) = follow(&drawn, way, frames)?;
         rows.push(row.judged(&track, &exact, height));
-        progress.inc(1);
     }
     // In turns, so that a disturbance hits all ways.
     for _ in 1..repeats {
@@ -120,7 +127,7 @@ fn ways(is_quick: bool) -> Vec<Way> {
 }
 
 /// The body in equilibrium, its head drawn sideways by half its height, and the height, m.
-fn drawn() -> Result<(Simulation, f64), Box<dyn Error + Send + Sync>> {
+fn drawn() -> Outcome<(Simulation, f64)> {
     /// The head is drawn in parts, so that each equilibrium is near the previous one.
     const PARTS: usize = 10;
     let mesh = Geometry::load(&Settings::new(&DINOSAUR))?.mesh;
@@ -147,11 +154,7 @@ fn drawn() -> Result<(Simulation, f64), Box<dyn Error + Send + Sync>> {
 }
 
 /// Releases the body and follows it for `frames` frames. Leaves the errors of the row to [`StepRow::judged`].
-fn follow(
-    drawn: &Simulation,
-    way: &Way,
-    frames: usize,
-) -> Result<(StepRow, Track), Box<dyn Error + Send + Sync>> {
+fn follow(drawn: &Simulation, way: &Way, frames: usize) -> Outcome<(StepRow, Track)> {
     let mut simulation = drawn.clone();
     let settings = SimulationSettings::default().with_newton(way.newton);
     simulation.set_settings(settings.with_integrator(way.integrator))?;

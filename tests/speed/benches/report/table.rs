@@ -5,10 +5,9 @@
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
-use std::error::Error;
 use std::hint::black_box;
 
-use piola::batch::{Batch, Kernels, Layout, TileMaterial};
+use piola::batch::{Batch, Kernels, Layout};
 use piola::lanes::Backend;
 use piola::material::Declared;
 use piola::point::{Filter, Matrix3, evaluate, evaluate_dense, evaluate_stress};
@@ -18,7 +17,8 @@ use piola_speed::{
     processor, time,
 };
 
-use crate::markdown::{header, row};
+use crate::Outcome;
+use crate::markdown::table;
 
 mod typed;
 
@@ -32,10 +32,7 @@ const COLUMNS: [(&str, Task, Filter); 5] = [
 ];
 
 /// Prints all tables in Markdown, each as soon as it is measured.
-///
-/// # Errors
-/// Where a material of the catalogue cannot be made.
-pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Result<(), Box<dyn Error + Send + Sync>> {
+pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Outcome<()> {
     println!("# Nanoseconds a point, one thread\n");
     println!("Processor: {}. Commit: {}.\n", processor(), commit.unwrap_or("unknown"));
     println!(
@@ -49,21 +46,24 @@ pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Result<(), Box<dyn 
     print_energy("stable neo-Hooke", &StableNeoHookean::new(MU, LAMBDA)?, effort);
     print_energy("ARAP", &Arap::new(MU)?, effort);
     print_energy("Ogden with three terms", &ogden(), effort);
-    println!("## Energies typed at run time\n\n{}", typed::table(effort)?);
+    println!("## Energies typed at run time\n\n{}", typed::of_energies(effort)?);
     Ok(())
 }
 
 fn print_energy<M: Declared + 'static>(name: &str, material: &M, effort: Effort) {
-    let mut table = header(&["how"], &COLUMNS.map(|(title, ..)| title));
+    let mut rows = Vec::new();
     for backend in vectors() {
-        for layout in [Layout::Points, Layout::Lines] {
-            row(&mut table, &bulk::<f64>(material, backend, layout, effort));
-            row(&mut table, &bulk::<f32>(material, backend, layout, effort));
+        for (layout, order) in [(Layout::Points, "point by point"), (Layout::Lines, "in lines")] {
+            let label = |format| format!("{order}, {format}, {backend}");
+            let double = Batch::<f64>::new(material).with_backend(backend);
+            let single = Batch::<f32>::new(material).with_backend(backend);
+            rows.push(batch(label("f64"), &double, layout, IN_CACHE, effort));
+            rows.push(batch(label("f32"), &single, layout, IN_CACHE, effort));
         }
     }
     for points in [1, 8, 64] {
         let label = format!("a batch of {points}, f64, {}", Backend::best());
-        row(&mut table, &batch::<f64>(label, &Batch::new(material), Layout::Points, points, effort));
+        rows.push(batch::<f64>(label, &Batch::new(material), Layout::Points, points, effort));
     }
     // One point a call, with the 81 entries written out.
     let stress = each_point(effort, |F| _ = black_box(evaluate_stress(material, F)));
@@ -73,28 +73,14 @@ fn print_energy<M: Declared + 'static>(name: &str, material: &M, effort: Effort)
     });
     let dense =
         filters.map(|filter| each_point(effort, |F| _ = black_box(evaluate_dense(material, F, filter))));
-    row(&mut table, &one_a_call("`evaluate_stress`, `evaluate`", Some(stress), tangents));
-    row(&mut table, &one_a_call("`evaluate_dense`", None, dense));
-    println!("## {name}\n\n{table}");
+    rows.push(one_a_call("`evaluate_stress`, `evaluate`", Some(stress), tangents));
+    rows.push(one_a_call("`evaluate_dense`", None, dense));
+    println!("## {name}\n\n{}", table(&["how"], &COLUMNS.map(|(title, ..)| title), rows));
 }
 
 /// Back ends with vector registers; the portable one where there is no other.
 fn vectors() -> impl Iterator<Item = Backend> {
     Backend::available().filter(|&backend| backend != Backend::portable() || backend == Backend::best())
-}
-
-fn bulk<E: Kernels>(
-    material: &dyn TileMaterial<E>,
-    backend: Backend,
-    layout: Layout,
-    effort: Effort,
-) -> Vec<String> {
-    let layout_name = match layout {
-        Layout::Points => "point by point",
-        Layout::Lines => "in lines",
-    };
-    let label = format!("{layout_name}, {}, {backend}", std::any::type_name::<E>());
-    batch(label, &Batch::new(material).with_backend(backend), layout, IN_CACHE, effort)
 }
 
 fn batch<E: Kernels>(
@@ -128,12 +114,9 @@ fn each_point(effort: Effort, mut call: impl FnMut(&Matrix3<f64>)) -> Times {
 }
 
 fn decompositions(effort: Effort) -> String {
-    let mut table = header(&["how"], &["`svd`", "`svd_signed_by_determinant`"]);
-    for backend in vectors() {
-        row(&mut table, &decomposition::<f64>(backend, effort));
-        row(&mut table, &decomposition::<f32>(backend, effort));
-    }
-    table
+    let rows = vectors()
+        .flat_map(|backend| [decomposition::<f64>(backend, effort), decomposition::<f32>(backend, effort)]);
+    table(&["how"], &["`svd`", "`svd_signed_by_determinant`"], rows)
 }
 
 fn decomposition<E: Kernels>(backend: Backend, effort: Effort) -> Vec<String> {

@@ -8,8 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::Chart;
 use super::panel::{failed, headed};
 use super::point::best_settings;
-use crate::data::PointRow;
-use crate::point::{HARD, ORDINARY};
+use crate::point::{ENERGIES, HARD, ORDINARY, PointRow};
 
 const CELL: [i32; 2] = [46, 26];
 const LEFT: i32 = 240;
@@ -24,7 +23,7 @@ fn of(precision: &str, rows: &[PointRow]) -> Result<Chart, String> {
     // The setting of each method that is best over all hard families of an energy is shown for all families.
     let mut errors: BTreeMap<(&str, &str), f64> = BTreeMap::new();
     let mut methods: Vec<&str> = Vec::new();
-    for material in super::point::materials(rows) {
+    for (material, _) in ENERGIES {
         let hard: Vec<&PointRow> =
             tangents().filter(|row| row.material == material && row.family == HARD).collect();
         for best in best_settings(&hard) {

@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
-pub(crate) use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+pub(crate) use plotters::style::{Color, RGBColor, ShapeStyle};
 
 /// Colours of Okabe and Ito, which stay apart for all kinds of colour vision.
 pub(crate) const VERMILION: RGBColor = RGBColor(213, 94, 0);
@@ -33,16 +33,9 @@ pub(crate) struct Panel {
 /// Marks that belong together.
 pub(crate) struct Series {
     pub(crate) colour: RGBColor,
-    pub(crate) mark: Mark,
+    pub(crate) mark: Option<ShapeStyle>,
     pub(crate) line: Line,
     pub(crate) points: Vec<Point>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Mark {
-    None,
-    Disc,
-    Ring,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -61,9 +54,6 @@ pub(crate) struct Point {
 }
 
 /// Draws panels in rows of `columns`, below a title and a line that explains.
-///
-/// # Errors
-/// What the library of charts says.
 pub(crate) fn sheet(
     [width, height]: [u32; 2],
     columns: usize,
@@ -151,17 +141,12 @@ impl Panel {
                     chart.draw_series(dashes).map_err(failed)?;
                 }
             }
-            let style = match series.mark {
-                Mark::None => None,
-                Mark::Disc => Some(series.colour.filled()),
-                Mark::Ring => Some(series.colour.stroke_width(2)),
-            };
-            if let Some(style) = style {
+            if let Some(style) = series.mark {
                 let marks = places.iter().map(|&place| Circle::new(place, 4, style));
                 chart.draw_series(marks).map_err(failed)?;
             }
             for (point, &place) in series.points.iter().zip(&places) {
-                if series.mark != Mark::None {
+                if series.mark.is_some() {
                     marks.push(chart.backend_coord(&place));
                 }
                 if !point.label.is_empty() {
@@ -172,7 +157,7 @@ impl Panel {
         }
         let (left, lowest) = chart.backend_coord(&(x_range.start, y_range.start));
         let (_, highest) = chart.backend_coord(&(x_range.start, top));
-        for (label, Spot { y, is_left }) in spread(&mut labels, &marks, left, highest..lowest) {
+        for (label, y, is_left) in spread(&mut labels, &marks, left, highest..lowest) {
             let (side, across) = if is_left { (HPos::Right, -10) } else { (HPos::Left, 10) };
             let style = (FONT, 13).into_font().color(&label.colour).pos(Pos::new(side, VPos::Center));
             let shift = y - label.y;
@@ -198,55 +183,40 @@ struct Label<'a> {
     colour: RGBColor,
 }
 
-/// Position of a label.
-#[derive(Clone, Copy)]
-struct Spot {
-    /// Pixels.
-    y: i32,
-    /// True if the label is to the left of its mark.
-    is_left: bool,
-}
-
-impl Label<'_> {
-    /// Pixels from left to right, roughly.
-    fn extent(&self, is_left: bool) -> Range<i32> {
-        let width = 16 + 7 * self.text.chars().count() as i32;
-        if is_left { self.x - width..self.x } else { self.x..self.x + width }
-    }
-}
-
-/// Spots for the labels, none over another or over a mark: each as near to its mark as those before it leave
-/// room.
+/// The labels, each with its height in pixels and true if it is to the left of its mark: none over another or
+/// over a mark, each as near to its mark as those before it leave room.
 fn spread<'a>(
     labels: &'a mut [Label<'a>],
     marks: &[(i32, i32)],
     left: i32,
     heights: Range<i32>,
-) -> Vec<(&'a Label<'a>, Spot)> {
+) -> Vec<(&'a Label<'a>, i32, bool)> {
     labels.sort_by_key(|label| (label.y, label.x));
-    let mut placed: Vec<(&Label<'_>, Spot)> = Vec::new();
-    for label in labels.iter() {
-        let is_free = |spot: &Spot| {
-            let extent = label.extent(spot.is_left);
-            let is_clear_of_labels = placed.iter().all(|(other, at)| {
-                let other = other.extent(at.is_left);
-                (at.y - spot.y).abs() >= LINE || extent.end <= other.start || other.end <= extent.start
-            });
-            // Its own mark, and those over it, are at its side.
-            let is_clear_of_marks = marks
-                .iter()
-                .all(|&(x, y)| (y - spot.y).abs() > 10 || (x - label.x).abs() <= 4 || !extent.contains(&x));
-            let is_inside = heights.start + 6 < spot.y && spot.y < heights.end - 4 && left < extent.start;
-            is_inside && is_clear_of_labels && is_clear_of_marks
+    let mut taken: Vec<[Range<i32>; 2]> = marks.iter().map(|&(x, y)| [x..x + 1, y - 4..y + 4]).collect();
+    let placed = labels.iter().map(|label| {
+        // Roughly. Its own mark, and those over it, are at its side.
+        let width = 16 + 7 * label.text.chars().count() as i32;
+        let frame = |(y, is_left): (i32, bool)| {
+            let across = if is_left { label.x - width..label.x - 4 } else { label.x + 5..label.x + width };
+            [across, y - LINE / 2..y + LINE / 2]
+        };
+        let is_free = |&spot: &(i32, bool)| {
+            let [x, y] = frame(spot);
+            let is_clear = |[a, b]: &[Range<i32>; 2]| {
+                a.end <= x.start || x.end <= a.start || b.end <= y.start || y.end <= b.start
+            };
+            let is_inside = heights.start + 6 < spot.0 && spot.0 < heights.end - 4 && left < x.start;
+            is_inside && taken.iter().all(is_clear)
         };
         let beside = |is_left: bool, steps: Range<i32>| {
-            steps.flat_map(move |k| [label.y + 3 * k, label.y - 3 * k].map(|y| Spot { y, is_left }))
+            steps.flat_map(move |k| [(label.y + 3 * k, is_left), (label.y - 3 * k, is_left)])
         };
         let mut spots = beside(false, 0..8).chain(beside(true, 0..8)).chain(beside(false, 8..60));
-        let spot = spots.find(is_free).unwrap_or(Spot { y: label.y, is_left: false });
-        placed.push((label, spot));
-    }
-    placed
+        let spot = spots.find(is_free).unwrap_or((label.y, false));
+        taken.push(frame(spot));
+        (label, spot.0, spot.1)
+    });
+    placed.collect()
 }
 
 /// Range from below the least finite number to above the greatest, by these shares of the decades between

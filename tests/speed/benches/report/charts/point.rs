@@ -1,38 +1,25 @@
 //! Nanoseconds against errors, method by method: a sheet for each energy.
 
 use super::Chart;
-use super::panel::{BLUE, GREEN, GREY, Line, Mark, Panel, Point, Series, VERMILION, sheet};
-use crate::data::PointRow;
-use crate::point::{HARD, ORDINARY, OURS, OURS_AS_A_SCALAR, Work};
+use super::panel::{BLUE, Color, GREEN, GREY, Line, Panel, Point, RGBColor, Series, VERMILION, sheet};
+use crate::point::{ENERGIES, HARD, ORDINARY, OURS, OURS_AS_A_SCALAR, PointRow};
 
 pub(super) fn draw(rows: &[PointRow]) -> Result<Vec<Chart>, String> {
     let mut charts = Vec::new();
-    for material in materials(rows) {
-        for work in Work::ALL {
+    for (material, _) in ENERGIES {
+        for (work, what) in
+            [("tangent", "P and dP/dF"), ("projected", "P and the semidefinite projection of dP/dF")]
+        {
             let of_sheet: Vec<&PointRow> =
-                rows.iter().filter(|row| row.material == material && row.work == work.name()).collect();
-            charts.push(of(material, work, &of_sheet)?);
+                rows.iter().filter(|row| row.material == material && row.work == work).collect();
+            let file = format!("point-{}-{work}.svg", file_name(material));
+            charts.push(of(file, format!("{material}: {what}"), &of_sheet)?);
         }
     }
     Ok(charts)
 }
 
-/// Materials in the order in which they were measured.
-pub(crate) fn materials(rows: &[PointRow]) -> Vec<&'static str> {
-    let mut materials: Vec<&str> = Vec::new();
-    for row in rows {
-        if !materials.contains(&row.material) {
-            materials.push(row.material);
-        }
-    }
-    materials
-}
-
-fn of(material: &str, work: Work, rows: &[&PointRow]) -> Result<Chart, String> {
-    let what = match work {
-        Work::Tangent => "P and dP/dF",
-        Work::Projected => "P and the semidefinite projection of dP/dF",
-    };
+fn of(file: String, title: String, rows: &[&PointRow]) -> Result<Chart, String> {
     let mut panels = Vec::new();
     for precision in ["f64", "f32"] {
         for (family, name) in [(ORDINARY, "ordinary F"), (HARD, "every hard family")] {
@@ -49,10 +36,8 @@ fn of(material: &str, work: Work, rows: &[&PointRow]) -> Result<Chart, String> {
             });
         }
     }
-    let title = format!("{material}: {what}");
     let note = "Left and down is better. Error: |X − X*| / (|X*| + sens). Each method with the setting of least error. \
                 Vermilion: piola. Blue: other methods for any energy. Green: by invariants. Line: the front of those for any energy.";
-    let file = format!("point-{}-{}.svg", file_name(material), work.name());
     let caption =
         format!("{title}: time against the worst error, at ordinary and at hard deformation gradients");
     Ok(Chart { svg: sheet([1280, 1100], 2, &title, note, &panels)?, file, caption })
@@ -81,9 +66,9 @@ fn series(rows: &[&PointRow]) -> Vec<Series> {
         Point { x: row.ns_per_element, y: row.worst_error, label: format!("{}{setting}", row.method) }
     };
     let ours = |row: &&PointRow| [OURS, OURS_AS_A_SCALAR].contains(&row.method);
-    let group = |colour, of_group: &dyn Fn(&&PointRow) -> bool| Series {
+    let group = |colour: RGBColor, of_group: &dyn Fn(&&PointRow) -> bool| Series {
         colour,
-        mark: Mark::Disc,
+        mark: Some(colour.filled()),
         line: Line::None,
         points: rows.iter().copied().filter(of_group).map(point).collect(),
     };
@@ -94,7 +79,7 @@ fn series(rows: &[&PointRow]) -> Vec<Series> {
     vec![
         Series {
             colour: GREY,
-            mark: Mark::None,
+            mark: None,
             line: Line::Dashed,
             points: front.into_iter().map(unlabelled).collect(),
         },
@@ -105,7 +90,7 @@ fn series(rows: &[&PointRow]) -> Vec<Series> {
 }
 
 /// Lower case, words joined by hyphens.
-pub(super) fn file_name(material: &str) -> String {
+fn file_name(material: &str) -> String {
     let words = material.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     words.collect::<Vec<_>>().join("-").to_lowercase()
 }

@@ -1,9 +1,8 @@
 //! Wall time of a motion against its error.
 
 use super::Chart;
-use super::panel::{BLUE, GREEN, Line, Mark, PURPLE, Panel, Point, Series, VERMILION, sheet};
-use crate::data::StepRow;
-use crate::steps::{INTEGRATORS, SINGLE};
+use super::panel::{BLUE, Color, GREEN, Line, PURPLE, Panel, Point, Series, VERMILION, sheet};
+use crate::steps::{INTEGRATORS, SINGLE, StepRow};
 
 pub(super) fn draw(rows: &[StepRow]) -> Result<Chart, String> {
     let names = INTEGRATORS.map(|(name, _)| name);
@@ -14,18 +13,18 @@ pub(super) fn draw(rows: &[StepRow]) -> Result<Chart, String> {
         // The finest step has the name.
         let all_but_last = points.len().saturating_sub(1);
         points[..all_but_last].iter_mut().for_each(|point| point.label.clear());
-        Series { colour, mark, line, points }
+        Series { colour, mark: Some(mark), line, points }
     };
     let colours = [VERMILION, GREEN, PURPLE];
     let mut series: Vec<Series> = names
         .into_iter()
         .zip(colours)
-        .map(|(name, colour)| over_h(name, colour, Mark::Disc, Line::Solid))
+        .map(|(name, colour)| over_h(name, colour, colour.filled(), Line::Solid))
         .collect();
-    series.push(over_h(SINGLE, VERMILION, Mark::Ring, Line::Dashed));
+    series.push(over_h(SINGLE, VERMILION, VERMILION.stroke_width(2), Line::Dashed));
     let others = rows.iter().skip(1).filter(|row| row.setting != SINGLE && !names.contains(&row.setting));
     let points = others.map(place).collect();
-    series.push(Series { colour: BLUE, mark: Mark::Disc, line: Line::None, points });
+    series.push(Series { colour: BLUE, mark: Some(BLUE.filled()), line: Line::None, points });
     let panel = Panel {
         title: "h = 1/15 s on the left, halved from mark to mark; blue: h = 1/30 s".to_owned(),
         x_axis: "wall time, milliseconds per second of motion",

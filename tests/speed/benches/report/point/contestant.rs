@@ -4,7 +4,7 @@
 
 use piola::Real;
 use piola::batch::{Batch, Kernels, Layout, TileMaterial};
-use piola::lanes::{Backend, Kernel, Lanes, Scalar};
+use piola::lanes::{Backend, Kernel, Lanes};
 use piola::point::{Filter, Matrix3};
 use piola_baselines::LibraryNumber;
 
@@ -87,7 +87,7 @@ impl Label {
 }
 
 /// A computation of all points.
-type Run<E> = dyn FnMut(&Points<E>, &mut Output<E>);
+type Run<E> = dyn Fn(&Points<E>, &mut Output<E>);
 
 /// A method for one energy.
 pub(crate) struct Contestant<E> {
@@ -183,22 +183,16 @@ impl<T: OnLanes, E: Kernels> Kernel<E> for SideBySide<'_, T, E> {
         while at < POINTS {
             let mut F = [[R::splat(0.0); 3]; 3];
             for k in 0..9 {
-                F[k / 3][k % 3] = R::load(&self.F[place::<E>(at, 9, k)..]);
+                F[k / 3][k % 3] = R::load(&self.F[Layout::Lines.index::<E>(at, 9, k)..]);
             }
             let (stress, tangent) = self.method.evaluate(&F);
             for k in 0..9 {
-                stress[k / 3][k % 3].store(&mut P[place::<E>(at, 9, k)..]);
+                stress[k / 3][k % 3].store(&mut P[Layout::Lines.index::<E>(at, 9, k)..]);
             }
             for k in 0..81 {
-                tangent[k / 9][k % 9].store(&mut K[place::<E>(at, 81, k)..]);
+                tangent[k / 9][k % 9].store(&mut K[Layout::Lines.index::<E>(at, 81, k)..]);
             }
             at += R::LANES;
         }
     }
-}
-
-/// Position in lines of number k of the points from `at` on.
-#[inline(always)]
-fn place<E: Scalar>(at: usize, numbers: usize, k: usize) -> usize {
-    (at / E::LINE * numbers + k) * E::LINE + at % E::LINE
 }

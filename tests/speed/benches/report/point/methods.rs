@@ -11,10 +11,8 @@ use piola_baselines::direct::{self, DirectEnergy};
 use piola_baselines::invariants::{self, InvariantEnergy};
 use piola_baselines::polar;
 use piola_baselines::quotients::{Naive, Switched};
-use piola_baselines::svd_gradients::{self, Regularization};
-use piola_baselines::{coincidences, decompositions, differences, eigen};
+use piola_baselines::{coincidences, decompositions, differences, eigen, svd_gradients};
 
-use super::Work;
 use super::contestant::{AtPoint, Contestant, Label, Number, OnLanes};
 
 /// The product on lanes.
@@ -27,12 +25,8 @@ pub(crate) const OURS_AS_A_SCALAR: &str = "piola, point by point";
 pub(crate) fn all<E: Number>(
     material: impl Material + Copy + 'static,
     potential: impl Potential + Copy + 'static,
-    work: Work,
+    filter: Filter,
 ) -> Vec<Contestant<E>> {
-    let filter = match work {
-        Work::Tangent => Filter::None,
-        Work::Projected => Filter::Clamp,
-    };
     let mut all = vec![
         Contestant::batch(Label::new(OURS), material, filter),
         Contestant::one_by_one(Label::new(OURS_AS_A_SCALAR), Ours { material, filter }),
@@ -47,23 +41,22 @@ pub(crate) fn all<E: Number>(
         all.push(Contestant::batch(label, Clamped { material, limit }, filter));
     }
     for epsilon in [1e-6, 1e-8, 1e-10, 1e-12, 1e-14] {
-        let regularization = Regularization { epsilon, ..Regularization::default() };
         let label = Label::set("[SZLSB11]", format_args!("{epsilon:e}"));
-        all.push(entries(label, SvdGradients { material, regularization }, work));
+        all.push(entries(label, SvdGradients { material, epsilon }, filter));
     }
     for threshold in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
         let label = Label::set("[GKJD09]", format_args!("{threshold:e}"));
-        all.push(entries(label, Coincidences { material, threshold }, work));
+        all.push(entries(label, Coincidences { material, threshold }, filter));
     }
     for step in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
         let label = Label::set("finite differences", format_args!("{step:e}"));
-        all.push(entries(label, Differences { material, step }, work));
+        all.push(entries(label, Differences { material, step }, filter));
     }
     all.push(Contestant::one_by_one(
         Label::new("hyper-dual ψ(λ)"),
         DualStretches { material, potential, filter },
     ));
-    all.push(entries(Label::new("hyper-dual ψ(F)"), DualDecomposition(potential), work));
+    all.push(entries(Label::new("hyper-dual ψ(F)"), DualDecomposition(potential), filter));
     let by_nalgebra = Decomposed { material, filter, decompose: decompositions::nalgebra };
     all.push(Contestant::one_by_one(Label::new("nalgebra SVD"), by_nalgebra));
     let by_faer = Decomposed { material, filter, decompose: decompositions::faer };
@@ -75,38 +68,38 @@ pub(crate) fn all<E: Number>(
     all
 }
 
-/// The methods for energies that somebody has written in invariants.
-pub(crate) fn by_invariants<E: Number>(
-    energy: impl InvariantEnergy + DirectEnergy + Copy + Send + Sync + 'static,
-    work: Work,
+/// The same, and the methods for energies that somebody has written in invariants.
+pub(crate) fn with_invariants<E: Number>(
+    material: impl Material + Copy + 'static,
+    energy: impl Potential + InvariantEnergy + DirectEnergy + Copy + 'static,
+    filter: Filter,
 ) -> Vec<Contestant<E>> {
-    let mut all = vec![entries(Label::special("[TSIF05]"), Invariants(energy), work)];
-    let direct = Label::special("invariants without SVD");
-    match work {
-        Work::Tangent => {
-            all.push(Contestant::on_lanes(direct, Direct(energy)));
-            let point_by_point = Label::special("invariants without SVD, point by point");
-            all.push(Contestant::one_by_one(point_by_point, Direct(energy)));
-        }
-        Work::Projected => all.push(entries(direct, Direct(energy), work)),
+    let mut all = all(material, energy, filter);
+    all.push(entries(Label::special("[TSIF05]"), Invariants(energy), filter));
+    all.push(without_frames(Label::special("invariants without SVD"), Direct(energy), filter));
+    if filter == Filter::None {
+        let label = Label::special("invariants without SVD, point by point");
+        all.push(Contestant::one_by_one(label, Direct(energy)));
     }
     all
 }
 
 /// The method for the energy that somebody has written in the polar decomposition.
-pub(crate) fn by_polar_decomposition<E: Number>(energy: polar::RotatedLinear, work: Work) -> Contestant<E> {
-    let label = Label::special("polar decomposition");
-    match work {
-        Work::Tangent => Contestant::on_lanes(label, Polar(energy)),
-        Work::Projected => entries(label, Polar(energy), work),
-    }
+pub(crate) fn by_polar<E: Number>(energy: polar::RotatedLinear, filter: Filter) -> Contestant<E> {
+    without_frames(Label::special("polar decomposition"), Polar(energy), filter)
+}
+
+/// A method on lanes that computes the tangent by its entries; a projection takes one point after the other.
+fn without_frames<E: Number>(label: Label, method: impl OnLanes + 'static, filter: Filter) -> Contestant<E> {
+    if filter == Filter::None { Contestant::on_lanes(label, method) } else { entries(label, method, filter) }
 }
 
 /// A method that computes the tangent by its entries: its projection is that of a 9×9 matrix.
-fn entries<E: Number>(label: Label, method: impl AtPoint<E> + 'static, work: Work) -> Contestant<E> {
-    match work {
-        Work::Tangent => Contestant::one_by_one(label, method),
-        Work::Projected => Contestant::one_by_one(label, Projected(method)),
+fn entries<E: Number>(label: Label, method: impl AtPoint<E> + 'static, filter: Filter) -> Contestant<E> {
+    if filter == Filter::None {
+        Contestant::one_by_one(label, method)
+    } else {
+        Contestant::one_by_one(label, Projected(method))
     }
 }
 
@@ -135,14 +128,14 @@ impl<M: Material, E: Number> AtPoint<E> for Ours<M> {
 
 struct SvdGradients<M> {
     material: M,
-    regularization: Regularization,
+    epsilon: f64,
 }
 
 impl<M: Material, E: Number> AtPoint<E> for SvdGradients<M> {
     #[inline(always)]
     fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
         let svd = decompose(&self.material, F);
-        let K = svd_gradients::tangent(&self.material, &svd, self.regularization);
+        let K = svd_gradients::tangent(&self.material, &svd, self.epsilon);
         (stress(&svd, self.material.gradient(svd.stretches)), K)
     }
 }

@@ -13,14 +13,13 @@ use piola_materials::{CATALOGUE, DECLARATIONS, Entry, Visitor};
 use piola_speed::{Arrays, Effort, IN_CACHE, Task, deformation_gradients, time_in_turns};
 
 use super::{cell, vectors};
-use crate::markdown::{header, row};
+use crate::markdown::table;
 
 const NAMES: [&str; 5] = ["st_venant_kirchhoff", "neo_hookean", "ogden", "gent", "arruda_boyce"];
-const POINTS: usize = 64;
 
 /// P, and P with dP/dF, f64: in cache on the back ends with vectors, and point by point.
-pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
-    let mut table = header(&["energy", "kernel", "instructions"], &["compiled", "typed", "typed / compiled"]);
+pub(crate) fn of_energies(effort: Effort) -> Result<String, MaterialError> {
+    let mut rows = Vec::new();
     for entry in CATALOGUE.iter().filter(|entry| NAMES.contains(&entry.name)) {
         let values = entry.typical();
         let declaration = DECLARATIONS.iter().find(|known| known.name == entry.name);
@@ -34,17 +33,14 @@ pub(crate) fn table(effort: Effort) -> Result<String, MaterialError> {
                 let [compiled, typed] = batches.map(|batch| batch.with_backend(backend));
                 let mut arrays = [(); 2].map(|()| Arrays::new(task, Layout::Lines, IN_CACHE));
                 let [first, second] = &mut arrays;
-                compare(
-                    &mut table,
-                    [entry.name, task.name(), backend.name()],
-                    (effort, IN_CACHE),
-                    [&mut || first.run(&compiled), &mut || second.run(&typed)],
-                );
+                let labels = [entry.name, task.name(), backend.name()];
+                rows.push(compare(effort, labels, || first.run(&compiled), || second.run(&typed)));
             }
         }
-        entry.visit(&values, Inversion::Refuse, PointByPoint { effort, entry, typed, table: &mut table })?;
+        rows.extend(entry.visit(&values, Inversion::Refuse, PointByPoint { effort, entry, typed })?);
     }
-    Ok(table)
+    let titles = ["compiled", "typed", "typed / compiled"];
+    Ok(table(&["energy", "kernel", "instructions"], &titles, rows))
 }
 
 /// One point after the other, without lanes.
@@ -52,45 +48,41 @@ struct PointByPoint<'a, M> {
     effort: Effort,
     entry: &'a Entry,
     typed: M,
-    table: &'a mut String,
 }
 
 impl<T: Material> Visitor for PointByPoint<'_, T> {
-    type Output = ();
+    type Output = [Vec<String>; 2];
 
-    fn visit<M: Declared + 'static>(self, compiled: M) {
-        let Self { effort, entry, typed, table } = self;
-        let gradients: Vec<_> = deformation_gradients().take(POINTS).collect();
-        compare(
-            table,
-            [entry.name, "evaluate_stress", "a point"],
-            (effort, POINTS),
-            [
-                &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&compiled, F))),
-                &mut || gradients.iter().for_each(|F| _ = black_box(evaluate_stress(&typed, F))),
-            ],
-        );
-        compare(
-            table,
-            [entry.name, "evaluate", "a point"],
-            (effort, POINTS),
-            [
-                &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&compiled, F, Filter::None))),
-                &mut || gradients.iter().for_each(|F| _ = black_box(evaluate(&typed, F, Filter::None))),
-            ],
-        );
+    fn visit<M: Declared + 'static>(self, compiled: M) -> [Vec<String>; 2] {
+        let Self { effort, entry, typed } = self;
+        let F: Vec<_> = deformation_gradients().take(IN_CACHE).collect();
+        [
+            compare(
+                effort,
+                [entry.name, "evaluate_stress", "a point"],
+                || F.iter().for_each(|F| _ = black_box(evaluate_stress(&compiled, F))),
+                || F.iter().for_each(|F| _ = black_box(evaluate_stress(&typed, F))),
+            ),
+            compare(
+                effort,
+                [entry.name, "evaluate", "a point"],
+                || F.iter().for_each(|F| _ = black_box(evaluate(&compiled, F, Filter::None))),
+                || F.iter().for_each(|F| _ = black_box(evaluate(&typed, F, Filter::None))),
+            ),
+        ]
     }
 }
 
-/// Adds a row: the times of calls with the compiled and with the typed energy, in turns.
+/// A row: the times of calls with the compiled and with the typed energy, each of [`IN_CACHE`] points, in
+/// turns.
 fn compare(
-    table: &mut String,
+    effort: Effort,
     labels: [&str; 3],
-    (effort, points): (Effort, usize),
-    mut calls: [&mut dyn FnMut(); 2],
-) {
-    let times = time_in_turns(effort, points, &mut calls);
+    mut compiled: impl FnMut(),
+    mut typed: impl FnMut(),
+) -> Vec<String> {
+    let times = time_in_turns(effort, IN_CACHE, &mut [&mut compiled, &mut typed]);
     let mut cells = labels.map(str::to_owned).to_vec();
     cells.extend([cell(times[0]), cell(times[1]), format!("{:.2}", times[1].least / times[0].least)]);
-    row(table, &cells);
+    cells
 }
