@@ -19,13 +19,13 @@ pub struct LastLevel<'a> {
     pub(super) matrix: &'a SymmetricBlocks<f64, 6>,
     /// Scale of the matrix.
     pub(super) scale: f64,
-    pub(super) motions: &'a [[[f64; 6]; 6]],
+    pub(super) motions: &'a [Block],
 }
 
 impl LastLevel<'_> {
     /// Row, column and entries of the blocks of this machine's part. There is one block for two different
     /// rows; the block of `column` and `row` is its transpose.
-    pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, [[f64; 6]; 6])> {
+    pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, Block)> {
         let pattern = self.matrix.pattern();
         let row = move |row: usize| pattern.upper(row).map(move |(block, column)| (row, column, block));
         let entries = |block: usize| self.matrix.blocks()[block].map(|row| row.map(|x| self.scale * x));
@@ -34,7 +34,7 @@ impl LastLevel<'_> {
 
     /// Six rigid motions of the body in the unknowns of each owned row, each motion in a column.
     #[must_use]
-    pub fn motions(&self) -> &[[[f64; 6]; 6]] {
+    pub fn motions(&self) -> &[Block] {
         self.motions
     }
 }
@@ -158,7 +158,8 @@ impl LastSolver for Last {
     }
 }
 
-type Block = [[f64; 6]; 6];
+/// Six numbers of an aggregate by six.
+pub(super) type Block = [[f64; 6]; 6];
 
 /// Index of the first block of a row.
 fn first(row: usize) -> usize {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::aggregation::Aggregates;
 use super::division::{Division, Numbers, ROWS, diagonals};
+use super::last::Block;
 use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, columns_of};
 use crate::system::graph::Graph;
 use crate::system::linear::LinearError;
@@ -51,11 +52,11 @@ pub(super) struct Level<const N: usize> {
 /// Matrix and rigid motions of the next level, before its set-up.
 pub(super) struct Coarse<D> {
     pub(super) matrix: SymmetricBlocks<f64, 6>,
-    pub(super) diagonals: Vec<[[f64; 6]; 6]>,
+    pub(super) diagonals: Vec<Block>,
     pub(super) graph: Graph,
     pub(super) division: D,
     /// Rigid motions of the body as motions of the aggregates.
-    pub(super) motions: Vec<[[f64; 6]; 6]>,
+    pub(super) motions: Vec<Block>,
 }
 
 impl<const N: usize> Level<N> {
@@ -339,7 +340,7 @@ fn times<const N: usize>(matrix: &[[f32; N]; N], x: &[f32; N]) -> [f32; N] {
 fn orthonormal<const N: usize>(
     aggregates: &Aggregates,
     motions: &[[[f64; 6]; N]],
-) -> Result<(Rows<f64, N, 6>, Vec<[[f64; 6]; 6]>), LinearError> {
+) -> Result<(Rows<f64, N, 6>, Vec<Block>), LinearError> {
     let mut blocks = motions.to_vec();
     let mut combinations = vec![[[0.0; 6]; 6]; aggregates.len()];
     let members = || (0..motions.len()).filter_map(|row| Some((aggregates.of(row)?, row)));
@@ -411,7 +412,7 @@ fn sum<const N: usize>(
 fn regular_diagonals(
     matrix: &mut SymmetricBlocks<f64, 6>,
     division: &mut impl Division,
-) -> Vec<[[f64; 6]; 6]> {
+) -> Vec<Block> {
     let mut diagonals = diagonals(matrix, division);
     for (row, sum) in diagonals.iter_mut().enumerate() {
         let at = matrix.pattern().diagonal(row);
