@@ -6,8 +6,8 @@ use piola::material::Form;
 
 use super::candidate::Candidate;
 use super::outcome::TrialError;
-use crate::curve::{Response, Volume, respond};
-use crate::data::{Measured, PointError};
+use crate::curve::{Response, Volume};
+use crate::data::Measured;
 use crate::specimen::Ordered;
 
 /// Each residual of a trial that the energy refuses. Far above those of any trial that it does not, it makes
@@ -34,11 +34,8 @@ pub(super) type Trial = Result<(Box<dyn Candidate>, Vec<Response>), TrialError>;
 impl Task<'_> {
     pub(super) fn attempt(&self, values: &[f64]) -> Trial {
         let candidate = self.start.with_values(&self.lists(values))?;
-        let mut responses = Vec::with_capacity(self.points.len());
-        for &(point, _) in self.points {
-            let response = respond(candidate.as_ref(), point.mode, self.volume, point.control);
-            responses.push(response.map_err(|reason| PointError { point, reason })?);
-        }
+        let response = |(point, _): &(Measured, f64)| point.response(&*candidate, self.volume);
+        let responses = self.points.iter().map(response).collect::<Result<_, _>>()?;
         Ok((candidate, responses))
     }
 
