@@ -6,7 +6,7 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::panel::{Area, ChartError, FONT, failed, write};
+use super::picture::{Area, ChartError, FONT, failed, picture, write};
 use crate::curve::lateral::{Side, release};
 use crate::specimen::{self, Specimen};
 use crate::stability::criteria::Judgement;
@@ -98,19 +98,14 @@ const SIZE: (u32, u32) = (1100, 680);
 /// [`ChartError`] if the settings are out of range, or the library of charts fails.
 pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> Result<String, ChartError> {
     settings.check().map_err(|error| ChartError(error.to_string()))?;
-    let mut svg = String::new();
-    {
-        let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
-        root.fill(&WHITE).map_err(failed)?;
+    picture(SIZE, |root, _| {
         root.draw(&Text::new(title.to_owned(), (20, 14), (FONT, 20).into_font())).map_err(failed)?;
         let (upper, legend) = root.margin(44, 10, 10, 10).split_vertically(540);
         for (plane, area) in PLANES.iter().zip(upper.split_evenly((1, 2))) {
             panel(specimen, settings, plane, &area)?;
         }
-        explain(&legend)?;
-        root.present().map_err(failed)?;
-    }
-    Ok(svg)
+        explain(&legend)
+    })
 }
 
 fn panel(
