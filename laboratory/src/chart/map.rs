@@ -1,8 +1,5 @@
 //! Maps of the criteria of stability in two planes through the space of stretches, as a picture.
 
-use std::ops::Range;
-
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -114,7 +111,13 @@ fn panel(
     plane: &Plane,
     area: &Area<'_>,
 ) -> Result<(), ChartError> {
-    let axis = || Axis { ends: settings.from..settings.to };
+    // Round numbers in equal steps of their logarithm; 3 · 10⁻¹ is one rounding more than 0.3.
+    let (start, end) = (settings.from * (1.0 - 1e-12), settings.to * (1.0 + 1e-12));
+    let decades = (-6..6).map(|exponent| 10f64.powi(exponent));
+    let round = decades.flat_map(|decade| [1.0, 1.5, 2.0, 3.0, 5.0, 7.0].map(|digit| digit * decade));
+    let round: Vec<_> = round.filter(|stretch| start <= *stretch && *stretch <= end).collect();
+    let axis = || (settings.from..settings.to).log_scale().with_key_points(round.clone());
+    let label = |stretch: &f64| ((stretch * 1e9).round() / 1e9).to_string();
     let mut chart = ChartBuilder::on(area)
         .margin(10)
         .caption(plane.title, (FONT, 16))
@@ -141,6 +144,8 @@ fn panel(
         .y_desc("λ2")
         .axis_desc_style((FONT, 15))
         .label_style((FONT, 13))
+        .x_label_formatter(&label)
+        .y_label_formatter(&label)
         .draw()
         .map_err(failed)?;
 
@@ -201,37 +206,4 @@ fn explain(area: &Area<'_>) -> Result<(), ChartError> {
         write(area, name, (x + 34, y + 9), HPos::Left, 14, &BLACK)?;
     }
     Ok(())
-}
-
-/// An axis of stretches in equal steps of their logarithm, with round numbers on it.
-struct Axis {
-    ends: Range<f64>,
-}
-
-impl Ranged for Axis {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, stretch: &f64, (low, high): (i32, i32)) -> i32 {
-        let share = (stretch / self.ends.start).ln() / (self.ends.end / self.ends.start).ln();
-        low + (share * f64::from(high - low)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
-        let decades = (-6..6).map(|exponent| 10f64.powi(exponent));
-        let round = decades.flat_map(|decade| [1.0, 1.5, 2.0, 3.0, 5.0, 7.0].map(|digit| digit * decade));
-        // 3 · 10⁻¹ is one rounding more than 0.3.
-        let (start, end) = (self.ends.start * (1.0 - 1e-12), self.ends.end * (1.0 + 1e-12));
-        round.filter(|stretch| start <= *stretch && *stretch <= end).collect()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.ends.clone()
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
-    fn format_ext(&self, stretch: &f64) -> String {
-        format!("{}", (stretch * 1e9).round() / 1e9)
-    }
 }
