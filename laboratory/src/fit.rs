@@ -229,7 +229,7 @@ fn starts<'a>(
         let sign = if random.once_in(4) { -1.0 } else { 1.0 };
         if number.standing == Standing::Free { sign * factor * value } else { value }
     };
-    let start = move |draw| match draw {
+    let start = move |draw: usize| match draw {
         0 => values.to_vec(),
         _ => values.iter().zip(numbers).map(&mut at_random).collect(),
     };

@@ -128,16 +128,9 @@ struct Surroundings<'a, 'b> {
 impl<'a, 'b> Surroundings<'a, 'b> {
     /// `None` where the residuals are rounding, or numbers leave their range.
     fn of(problem: &'a Problem<'b>) -> Option<Self> {
-        let (residuals, mut slopes) = (problem.residuals()?, problem.slopes()?);
+        let (residuals, (slopes, scales)) = (problem.residuals()?, problem.scaled_slopes()?);
         if residuals.norm_squared() <= EXACT * residuals.len() as f64 {
             return None;
-        }
-        let scales = DVector::from_fn(slopes.ncols(), |column, _| slopes.column(column).norm());
-        if !scales.iter().all(|&scale| scale.is_finite() && scale > 0.0) {
-            return None;
-        }
-        for (mut column, scale) in slopes.column_iter_mut().zip(scales.iter()) {
-            column /= *scale;
         }
         let place = problem.free_values().component_mul(&scales);
         let unknowns = place.len();
@@ -154,7 +147,9 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         for _ in 0..2 * unknowns {
             let basis = along(&edges, unknowns);
             let step = self.step(&basis)?;
-            let from = self.inside(&edges, margin);
+            // A little away from each edge.
+            let away = |place: DVector<f64>, edge: &Edge| place - &edge.normal * (margin * self.reach);
+            let from = edges.iter().fold(self.place.clone(), away);
             let is_worth = !is_no_gain((&self.slopes * &step).norm_squared(), self.residuals.norm_squared());
             let refused = self.attempt(&(&from + &step * PROBE)).err().filter(|_| is_worth);
             let Some(refusal) = refused else {
@@ -229,12 +224,6 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         let silence = SILENCE * decomposed.singular_values.max();
         let step = decomposed.solve(&-&self.residuals, silence).ok()?;
         Some(basis * step).filter(|step| step.iter().all(|component| component.is_finite()))
-    }
-
-    /// A little away from each edge.
-    fn inside(&self, edges: &[Edge], margin: f64) -> DVector<f64> {
-        let away = margin * self.reach;
-        edges.iter().fold(self.place.clone(), |place, edge| place - &edge.normal * away)
     }
 
     /// Lagrange multipliers of the edges for the step that keeps to all of them: Jᵀ (r + J d) + Σ multiplier

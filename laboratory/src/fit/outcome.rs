@@ -38,7 +38,9 @@ impl fmt::Display for Fit {
     /// the warnings.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for Number { name, value, standing, error } in &self.numbers {
-            write!(f, "  {name:12} {:<14}", number(rounded(*value)))?;
+            // Seven digits: rounding changes no stress that is measured.
+            let rounded = format!("{value:.6e}").parse().unwrap_or(*value);
+            write!(f, "  {name:12} {:<14}", number(rounded))?;
             match (standing, error) {
                 (Standing::Free, Some(error)) => {
                     write!(f, " ± {error:.1e} ({:.1} %)", 100.0 * (error / value).abs())?;
@@ -68,11 +70,6 @@ impl fmt::Display for Fit {
         let others = |warning: &&Warning| !matches!(warning, Warning::Unidentifiable { .. });
         self.warnings.iter().filter(others).try_for_each(|warning| writeln!(f, "warning: {warning}"))
     }
-}
-
-/// A value in seven digits: rounding changes no stress that is measured.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.6e}").parse().unwrap_or(value)
 }
 
 /// A parameter, or an entry of a list.

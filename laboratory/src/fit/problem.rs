@@ -129,6 +129,18 @@ impl<'a> Problem<'a> {
         }
         Some(slopes)
     }
+
+    /// ∂r/∂p with columns of the length one, and their lengths before; `None` where there is none, or a free
+    /// number changes nothing.
+    pub(super) fn scaled_slopes(&self) -> Option<(DMatrix<f64>, DVector<f64>)> {
+        let mut slopes = self.slopes()?;
+        let lengths = DVector::from_fn(slopes.ncols(), |column, _| slopes.column(column).norm());
+        for (mut column, length) in slopes.column_iter_mut().zip(lengths.iter()) {
+            column /= *length;
+        }
+        let are_lengths = lengths.iter().all(|&length| length.is_finite() && length > 0.0);
+        are_lengths.then_some((slopes, lengths))
+    }
 }
 
 impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {

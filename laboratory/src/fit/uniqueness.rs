@@ -63,14 +63,7 @@ pub(super) fn are_silent<'a>(places: impl Iterator<Item = Problem<'a>>, numbers:
 /// standard deviation 1, the greatest singular value by the least, and warnings of a minimum.
 pub(super) fn analyse(problem: &Problem<'_>, numbers: &[Number]) -> Option<(Vec<f64>, f64, Vec<Warning>)> {
     let free = problem.task.free;
-    let mut slopes = problem.slopes()?;
-    let lengths: Vec<f64> = slopes.column_iter().map(|column| column.norm()).collect();
-    if !lengths.iter().all(|&length| length.is_finite() && length > 0.0) {
-        return None;
-    }
-    for (mut column, length) in slopes.column_iter_mut().zip(&lengths) {
-        column /= *length;
-    }
+    let (slopes, lengths) = problem.scaled_slopes()?;
     let rows = slopes.nrows() as f64;
     let decomposed = slopes.svd(false, true);
     let (directions, singular) = (decomposed.v_t?, decomposed.singular_values);
@@ -97,7 +90,7 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &[Number]) -> Option<(Vec<
         let changes = part.map(|(&number, change)| (numbers[number].name.clone(), change / most));
         combinations.push((changes.collect(), value / most.abs() / rows.sqrt()));
     }
-    for (error, length) in errors.iter_mut().zip(&lengths) {
+    for (error, length) in errors.iter_mut().zip(lengths.iter()) {
         *error = error.sqrt() / length;
     }
     // One for each set of parameters: of combinations of the same ones that which changes least.
