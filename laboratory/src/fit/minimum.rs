@@ -32,35 +32,27 @@ pub(super) fn descend(problem: Problem<'_>) -> Option<Minimum<'_>> {
     let before = approached.as_ref().map_or(0, |approached| approached.evaluations);
     let mut minimum = search(approached.map_or(problem, |approached| approached.problem.anew()))?;
     minimum.evaluations += before;
-    let mut stop = edge::stop(&minimum.problem);
-    let mut is_over = false;
-    for _ in 0..WAYS {
-        let Some(Stop { ways, is_least, .. }) = &stop else { break };
-        let nexts = ways.iter().filter_map(|(from, basis)| {
-            let slid = search(minimum.problem.within(from.clone(), basis.clone()))?;
+    for slides in 0.. {
+        let Some(Stop { reasons, ways, is_least }) = edge::stop(&minimum.problem) else { break };
+        if slides == WAYS {
+            return Some(Minimum { ended: Ended::Unfinished, is_least: false, ..minimum });
+        }
+        // Where no way along the edges is found, other units may lead past them.
+        let is_least = is_least || !ways.is_empty();
+        let is_stuck = !is_least && minimum.ended != Ended::Unfinished;
+        let anew = is_stuck.then(|| search(minimum.problem.anew())).flatten();
+        let nexts = ways.into_iter().filter_map(|(from, basis)| {
+            let slid = search(minimum.problem.within(from, basis))?;
             // In all directions again: the edge may end, or turn away.
             let next = search(slid.problem.anew())?;
             Some(Minimum { evaluations: next.evaluations + slid.evaluations, ..next })
         });
-        // Where no way along the edges is found, other units may lead past them.
-        let is_stuck = ways.is_empty() && !is_least && minimum.ended != Ended::Unfinished;
-        let anew = is_stuck.then(|| search(minimum.problem.anew())).flatten();
         let next = nexts.chain(anew).min_by(|a, b| a.squares.total_cmp(&b.squares));
         let is_gain = |next: &Minimum<'_>| !edge::is_no_gain(minimum.squares - next.squares, minimum.squares);
-        let Some(mut next) = next.filter(is_gain) else {
-            is_over = true;
-            break;
+        let Some(next) = next.filter(is_gain) else {
+            return Some(Minimum { ended: Ended::Edge, edges: reasons, is_least, ..minimum });
         };
-        next.evaluations += minimum.evaluations;
-        minimum = next;
-        stop = edge::stop(&minimum.problem);
-    }
-    if let Some(stop) = stop {
-        minimum.is_least = is_over && (stop.is_least || !stop.ways.is_empty());
-        (minimum.ended, minimum.edges) = match is_over {
-            true => (Ended::Edge, stop.reasons),
-            false => (Ended::Unfinished, Vec::new()),
-        };
+        minimum = Minimum { evaluations: next.evaluations + minimum.evaluations, ..next };
     }
     Some(minimum)
 }
