@@ -117,6 +117,16 @@ impl Heading {
         let text = if text.is_empty() { format!("column {}", place + 1) } else { text.into() };
         Self { place, text, quantity, unit, is_compressive }
     }
+
+    /// The size of the unit, with the sign of compression.
+    pub(super) fn factor(&self) -> f64 {
+        let size = match self.unit {
+            Some(Unit::Share(size)) => size,
+            Some(Unit::Stress(unit)) => unit.pascals(),
+            None => 1.0,
+        };
+        if self.is_compressive { -size } else { size }
+    }
 }
 
 /// True if a unit is of this kind, or if the header has none, known or unknown.

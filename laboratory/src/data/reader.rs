@@ -60,11 +60,17 @@ impl Measurements {
         if mode.is_none() && options.test.is_none() {
             return Err(DataError { line: table.line, fault: Fault::NoMode });
         }
-        let factors = [factor(control).map_err(at_header)?, factor(stress).map_err(at_header)?];
+        if stress.unit.is_none() {
+            return Err(at_header(format!(
+                "`{}` names no unit of stress; write it there, as in `stress [MPa]`, or give it (`--unit MPa`, \
+                 `ReadOptions::unit`)",
+                quoted(&stress.text)
+            )));
+        }
         let decimal = decimal(&table)?;
         let mut points = Vec::new();
         for row in &table.rows {
-            let point = table.used.point(row, decimal, factors, options.test);
+            let point = table.used.point(row, decimal, options.test);
             let (test, point) = point.map_err(|fault| DataError { line: row.line, fault })?;
             points.push((row.line, test, point));
         }
@@ -108,37 +114,14 @@ fn may_be_thousands(field: &str) -> bool {
     has_lengths && !whole.starts_with('0') && are_digits(whole) && are_digits(part)
 }
 
-/// The size of a unit of a column, with the sign of compression.
-fn factor(column: &Heading) -> Result<f64, String> {
-    let size = match column.unit {
-        Some(Unit::Share(size)) => size,
-        Some(Unit::Stress(unit)) => unit.pascals(),
-        None if column.quantity.is_stress() => {
-            return Err(format!(
-                "`{}` names no unit of stress; write it there, as in `stress [MPa]`, or give it (`--unit MPa`, \
-                 `ReadOptions::unit`)",
-                quoted(&column.text)
-            ));
-        }
-        None => 1.0,
-    };
-    Ok(if column.is_compressive { -size } else { size })
-}
-
 impl Used {
-    fn point(
-        &self,
-        row: &Row<'_>,
-        decimal: char,
-        factors: [f64; 2],
-        given: Option<Test>,
-    ) -> Result<(Test, Measured), Fault> {
+    fn point(&self, row: &Row<'_>, decimal: char, given: Option<Test>) -> Result<(Test, Measured), Fault> {
         let test = match self.mode {
             Some(place) => row.fields[place].parse::<Test>().map_err(Fault::Other)?,
             None => given.ok_or(Fault::NoMode)?,
         };
         let mode = test.mode;
-        let value = |column: &Heading, factor: f64| {
+        let value = |column: &Heading| {
             let found = row.fields[column.place];
             let marks = match decimal {
                 ',' => ": decimals of this file have a comma, and thousands no mark",
@@ -148,7 +131,7 @@ impl Used {
                 let (text, header) = (quoted(found), quoted(&column.text));
                 Fault::Other(format!("`{text}` under `{header}` is not a number{marks}"))
             };
-            Ok::<_, Fault>(factor * number(found, decimal).ok_or_else(mistake)?)
+            Ok::<_, Fault>(column.factor() * number(found, decimal).ok_or_else(mistake)?)
         };
         let of_test = |column: &Heading, value: f64, control: f64| {
             converted(column.quantity, mode, value, control).ok_or_else(|| {
@@ -156,7 +139,7 @@ impl Used {
             })
         };
         let in_range = |point: Measured| point.fault().map_or(Ok(point), |fault| Err(Fault::Other(fault)));
-        let (control, stress) = (value(&self.control, factors[0])?, value(&self.stress, factors[1])?);
+        let (control, stress) = (value(&self.control)?, value(&self.stress)?);
         let control = of_test(&self.control, control, f64::NAN)?;
         // The control first: a stress may be divided by it.
         in_range(Measured { mode, control, stress: 0.0 })?;
