@@ -4,20 +4,18 @@
 //! where the material has no stress.
 //! [`rows`] draws a [ranking](mod@crate::ranking), [`map`](fn@map) the stability of a solid.
 
-mod fine;
 mod map;
 mod panel;
+mod picture;
 mod rows;
-
-use plotters::prelude::{IntoDrawingArea, SVGBackend};
 
 use crate::curve::{Mode, Response, ResponseError};
 use crate::data::{Agreement, Measurements};
-use fine::Fine;
 use panel::Panel;
+use picture::{HEAD, head, picture};
 
 pub use map::map;
-pub use panel::ChartError;
+pub use picture::ChartError;
 pub use rows::rows;
 
 /// A curve to be drawn.
@@ -32,8 +30,6 @@ pub struct Curve {
 /// Pixels of a panel.
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 520;
-/// Pixels for title and note.
-const HEAD: u32 = 62;
 
 /// The SVG text of a chart with a title, an explanatory line, and R² of each mode if there are data.
 ///
@@ -48,19 +44,12 @@ pub fn draw(
 ) -> Result<String, ChartError> {
     let panels: Vec<_> = GROUPS.iter().filter_map(|group| Panel::of(group, curves, data)).collect();
     if panels.is_empty() {
-        return Err(ChartError(panel::EMPTY.into()));
+        return Err(ChartError(picture::EMPTY.into()));
     }
-    let (mut svg, mut fine) = (String::new(), Fine::default());
-    {
-        let size = (WIDTH * panels.len() as u32, HEAD + HEIGHT);
-        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-        let below = panel::head(&root, title, note, HEAD)?;
-        for (panel, area) in panels.iter().zip(below.split_evenly((1, panels.len()))) {
-            panel.draw(&area, &mut fine)?;
-        }
-        root.present().map_err(panel::failed)?;
-    }
-    Ok(fine.above(svg))
+    picture((WIDTH * panels.len() as u32, HEAD + HEIGHT), |root, above| {
+        let areas = head(root, title, note)?.split_evenly((1, panels.len()));
+        panels.iter().zip(areas).try_for_each(|(panel, area)| panel.draw(&area, above))
+    })
 }
 
 /// Modes with axes in common.

@@ -48,20 +48,16 @@
 //! Stretches and volumes are from 10⁻⁶ to 10⁶, shears up to 10⁶, stresses 0 or from 10⁻¹⁰⁰ to 10¹⁰⁰ Pa in
 //! size: far beyond measurements, and well inside of the range of squares and quotients.
 
-mod columns;
-mod fault;
 mod heading;
 mod measured;
 mod options;
-mod plausible;
 mod reader;
 mod table;
 mod unit;
 
-pub use fault::{DataError, Fault};
 pub(crate) use measured::short;
 pub use measured::{Agreement, Measured, Measurements, PointError};
-pub use options::{ReadOptions, Test};
+pub use options::{DataError, Fault, ReadOptions, Test};
 pub use reader::Reading;
 pub use unit::StressUnit;
 

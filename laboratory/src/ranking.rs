@@ -11,12 +11,12 @@
 //! * *stability*, the place at which each inequality of a stable solid is lost first on the way from rest to
 //!   the ends of the data ([`constant_volume`]).
 
-mod display;
+use std::fmt;
 
 use rayon::prelude::*;
 
 use crate::curve::{Mode, Volume};
-use crate::data::Measurements;
+use crate::data::{Measurements, short};
 use crate::fit::{Candidate, Fit, FitError, FitSettings, Standing, TrialError, fit_parameters};
 use crate::stability::constant_volume;
 
@@ -70,6 +70,26 @@ impl Place {
     pub fn share(&self) -> Option<f64> {
         // A fit without a free parameter is an error.
         self.fit.agreement.total.map(|total| total / self.parameters() as f64)
+    }
+
+    /// Place at which each criterion is lost first, such as `Hill, SE lost at uniaxial 2.13`, or `kept`.
+    #[must_use]
+    pub fn stability(&self) -> String {
+        let mut groups: Vec<(String, String)> = Vec::new();
+        // `Criterion::ALL` in few letters.
+        for (name, lost) in ["BE", "Hill", "SE"].into_iter().zip(self.lost) {
+            let Some(Loss { mode, control }) = lost else { continue };
+            let at = format!("{mode} {control:.2}");
+            match groups.iter_mut().find(|(_, place)| *place == at) {
+                Some((names, _)) => *names += &format!(", {name}"),
+                None => groups.push((name.into(), at)),
+            }
+        }
+        if groups.is_empty() {
+            return "kept".into();
+        }
+        let groups: Vec<_> = groups.into_iter().map(|(names, at)| format!("{names} lost at {at}")).collect();
+        groups.join("; ")
     }
 }
 
@@ -142,4 +162,33 @@ impl Loss {
             _ => self.control.ln().abs(),
         }
     }
+}
+
+impl fmt::Display for Ranking {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(first) = self.places.first() {
+            write!(f, "{:24} {:>2} {:>9}", "energy", "n", "R²")?;
+            for (mode, _) in &first.fit.agreement.modes {
+                write!(f, " {mode:>12}")?;
+            }
+            writeln!(f, " {:>9}  stability", "R²/n")?;
+        }
+        for place in &self.places {
+            let agreement = &place.fit.agreement;
+            write!(f, "{:24} {:>2} {:>9}", place.name, place.parameters(), shown(agreement.total))?;
+            for (_, determination) in &agreement.modes {
+                write!(f, " {:>12}", shown(*determination))?;
+            }
+            writeln!(f, " {:>9}  {}", shown(place.share()), place.stability())?;
+        }
+        for (name, error) in &self.failures {
+            writeln!(f, "{name:24} not fitted: {error}")?;
+        }
+        Ok(())
+    }
+}
+
+/// R², or a dash where it is undefined.
+fn shown(determination: Option<f64>) -> String {
+    determination.map_or_else(|| "–".into(), short)
 }

@@ -1,12 +1,9 @@
 //! Maps of the criteria of stability in two planes through the space of stretches, as a picture.
 
-use std::ops::Range;
-
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::panel::{Area, ChartError, FONT, failed, write};
+use super::picture::{Area, ChartError, FONT, failed, picture, write};
 use crate::curve::lateral::{Side, release};
 use crate::specimen::{self, Specimen};
 use crate::stability::criteria::Judgement;
@@ -98,19 +95,14 @@ const SIZE: (u32, u32) = (1100, 680);
 /// [`ChartError`] if the settings are out of range, or the library of charts fails.
 pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> Result<String, ChartError> {
     settings.check().map_err(|error| ChartError(error.to_string()))?;
-    let mut svg = String::new();
-    {
-        let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
-        root.fill(&WHITE).map_err(failed)?;
+    picture(SIZE, |root, _| {
         root.draw(&Text::new(title.to_owned(), (20, 14), (FONT, 20).into_font())).map_err(failed)?;
         let (upper, legend) = root.margin(44, 10, 10, 10).split_vertically(540);
         for (plane, area) in PLANES.iter().zip(upper.split_evenly((1, 2))) {
             panel(specimen, settings, plane, &area)?;
         }
-        explain(&legend)?;
-        root.present().map_err(failed)?;
-    }
-    Ok(svg)
+        explain(&legend)
+    })
 }
 
 fn panel(
@@ -119,7 +111,13 @@ fn panel(
     plane: &Plane,
     area: &Area<'_>,
 ) -> Result<(), ChartError> {
-    let axis = || Axis { ends: settings.from..settings.to };
+    // Round numbers in equal steps of their logarithm; 3 · 10⁻¹ is one rounding more than 0.3.
+    let (start, end) = (settings.from * (1.0 - 1e-12), settings.to * (1.0 + 1e-12));
+    let decades = (-6..6).map(|exponent| 10f64.powi(exponent));
+    let round = decades.flat_map(|decade| [1.0, 1.5, 2.0, 3.0, 5.0, 7.0].map(|digit| digit * decade));
+    let round: Vec<_> = round.filter(|stretch| start <= *stretch && *stretch <= end).collect();
+    let axis = || (settings.from..settings.to).log_scale().with_key_points(round.clone());
+    let label = |stretch: &f64| ((stretch * 1e9).round() / 1e9).to_string();
     let mut chart = ChartBuilder::on(area)
         .margin(10)
         .caption(plane.title, (FONT, 16))
@@ -146,6 +144,8 @@ fn panel(
         .y_desc("λ2")
         .axis_desc_style((FONT, 15))
         .label_style((FONT, 13))
+        .x_label_formatter(&label)
+        .y_label_formatter(&label)
         .draw()
         .map_err(failed)?;
 
@@ -206,37 +206,4 @@ fn explain(area: &Area<'_>) -> Result<(), ChartError> {
         write(area, name, (x + 34, y + 9), HPos::Left, 14, &BLACK)?;
     }
     Ok(())
-}
-
-/// An axis of stretches in equal steps of their logarithm, with round numbers on it.
-struct Axis {
-    ends: Range<f64>,
-}
-
-impl Ranged for Axis {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, stretch: &f64, (low, high): (i32, i32)) -> i32 {
-        let share = (stretch / self.ends.start).ln() / (self.ends.end / self.ends.start).ln();
-        low + (share * f64::from(high - low)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
-        let decades = (-6..6).map(|exponent| 10f64.powi(exponent));
-        let round = decades.flat_map(|decade| [1.0, 1.5, 2.0, 3.0, 5.0, 7.0].map(|digit| digit * decade));
-        // 3 · 10⁻¹ is one rounding more than 0.3.
-        let (start, end) = (self.ends.start * (1.0 - 1e-12), self.ends.end * (1.0 + 1e-12));
-        round.filter(|stretch| start <= *stretch && *stretch <= end).collect()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.ends.clone()
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
-    fn format_ext(&self, stretch: &f64) -> String {
-        format!("{}", (stretch * 1e9).round() / 1e9)
-    }
 }

@@ -1,20 +1,15 @@
 //! A panel: curves and points over two axes, with a line for each mode above them.
 
-use std::fmt;
 use std::ops::Range;
 
 use piola::__private::message::number;
-use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::fine::Fine;
+use super::picture::{self, Area, ChartError, FONT, failed};
 use super::{Curve, Group};
-use crate::curve::Mode;
+use crate::curve::{Mode, Response};
 use crate::data::{Agreement, Measurements, short as determined};
 
-pub(super) const FONT: &str = "sans-serif";
-pub(super) const GREY: RGBColor = RGBColor(90, 90, 90);
 /// Pixels of a line of the legend.
 const LINE: i32 = 20;
 
@@ -27,47 +22,6 @@ pub(super) fn colour(mode: Mode) -> RGBColor {
         Mode::SimpleShear => RGBColor(204, 121, 167),
         Mode::Volumetric => RGBColor(230, 159, 0),
     }
-}
-
-pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
-/// Reason why there is no chart.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct ChartError(pub(super) String);
-
-/// The message of a chart without a point.
-pub(super) const EMPTY: &str = "there is no point to draw: the material has no stress at any of them";
-
-pub(super) fn failed(error: impl fmt::Display) -> ChartError {
-    ChartError(format!("the chart cannot be drawn: {error}"))
-}
-
-/// Writes a text at one side of a place, at its height.
-pub(super) fn write(
-    area: &Area<'_>,
-    text: &str,
-    place: (i32, i32),
-    side: HPos,
-    size: i32,
-    colour: &RGBColor,
-) -> Result<(), ChartError> {
-    let style = (FONT, size).into_font().color(colour).pos(Pos::new(side, VPos::Center));
-    area.draw(&Text::new(text.to_owned(), place, style)).map_err(failed)
-}
-
-/// The rest of an area below a title and a note of this many pixels.
-pub(super) fn head<'a>(
-    root: &Area<'a>,
-    title: &str,
-    note: &str,
-    height: u32,
-) -> Result<Area<'a>, ChartError> {
-    root.fill(&WHITE).map_err(failed)?;
-    let (head, below) = root.split_vertically(height);
-    head.draw(&Text::new(title.to_owned(), (20, 12), (FONT, 20).into_font())).map_err(failed)?;
-    head.draw(&Text::new(note.to_owned(), (20, 40), (FONT, 14).into_font().color(&GREY))).map_err(failed)?;
-    Ok(below)
 }
 
 pub(super) struct Panel<'a> {
@@ -108,7 +62,7 @@ impl<'a> Panel<'a> {
         (!series.is_empty()).then_some(Self { group, series })
     }
 
-    pub(super) fn draw(&self, area: &Area<'_>, fine: &mut Fine) -> Result<(), ChartError> {
+    pub(super) fn draw(&self, area: &Area<'_>, above: &mut String) -> Result<(), ChartError> {
         let (legend, plot) = area.split_vertically(LINE * self.series.len() as i32 + 4);
         for (row, series) in self.series.iter().enumerate() {
             series.explain(&legend, LINE * row as i32 + LINE / 2)?;
@@ -118,11 +72,10 @@ impl<'a> Panel<'a> {
         let marks = || self.series.iter().flat_map(|series| &series.marks);
         let across = range(lines().chain(marks()).map(|point| point.0))?;
         // A curve that runs away from the data leaves the panel.
-        let up = if marks().next().is_some() {
-            range(marks().map(|point| point.1))
-        } else {
-            range(lines().map(|p| p.1))
-        }?;
+        let up = match marks().next() {
+            Some(_) => range(marks().map(|point| point.1))?,
+            None => range(lines().map(|point| point.1))?,
+        };
         let (unit, scale) = unit(up.start.abs().max(up.end.abs()));
         let up = up.start / scale..up.end / scale;
 
@@ -149,25 +102,20 @@ impl<'a> Panel<'a> {
         let ends = [(across.start, up.start), (across.end, up.end)].map(|end| chart.backend_coord(&end));
         let [(left, bottom), (right, top)] = ends.map(|(x, y)| (f64::from(x), f64::from(y)));
         let in_pixels = |&(x, y): &(f64, f64)| {
-            let (x, y) =
-                ((x - across.start) / (across.end - across.start), (y - up.start) / (up.end - up.start));
+            let x = (x - across.start) / (across.end - across.start);
+            let y = (y / scale - up.start) / (up.end - up.start);
             (left + x * (right - left), bottom + y * (top - bottom))
         };
         for series in &self.series {
             let colour = colour(series.mode);
-            for stroke in &series.strokes {
-                for part in stroke
-                    .iter()
-                    .map(|&(x, y)| (x, y / scale))
-                    .collect::<Vec<_>>()
-                    .split(|(_, y)| !up.contains(y))
-                {
-                    if part.len() > 1 {
-                        fine.curve(&part.iter().map(in_pixels).collect::<Vec<_>>(), colour, 2);
-                    }
-                }
+            let parts =
+                series.strokes.iter().flat_map(|stroke| stroke.split(|(_, y)| !up.contains(&(y / scale))));
+            for part in parts.filter(|part| part.len() > 1) {
+                *above += &picture::curve(&part.iter().map(in_pixels).collect::<Vec<_>>(), colour, 2);
             }
-            series.marks.iter().for_each(|&(x, y)| fine.dot(in_pixels(&(x, y / scale)), 3, colour));
+            for mark in &series.marks {
+                *above += &picture::dot(in_pixels(mark), 3, colour);
+            }
         }
         Ok(())
     }
@@ -195,13 +143,9 @@ impl Series {
 
 /// The parts of a curve between the points that are missing.
 fn strokes(curve: &Curve) -> Vec<Vec<(f64, f64)>> {
-    let parts = curve.points.split(|point| point.is_err());
-    let part = |part: &[Result<_, _>]| {
-        let points =
-            part.iter().flatten().map(|point: &crate::curve::Response| (point.control, point.stress));
-        points.collect::<Vec<_>>()
-    };
-    parts.map(part).filter(|part| !part.is_empty()).collect()
+    let parts = curve.points.split(Result::is_err).filter(|part| !part.is_empty());
+    let point = |point: &Response| (point.control, point.stress);
+    parts.map(|part| part.iter().flatten().map(point).collect()).collect()
 }
 
 /// Size of the greatest number on an axis.

@@ -4,13 +4,12 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-use super::fine::Fine;
-use super::panel::{Area, ChartError, EMPTY, GREY, colour, failed, head, write};
+use super::panel::colour;
+use super::picture::{Area, ChartError, EMPTY, GREY, HEAD, dot, failed, head, picture, write};
 use crate::ranking::{Place, Ranking};
 
 const WIDTH: i32 = 1200;
-/// Pixels for title, note and legend.
-const HEAD: u32 = 62;
+/// Pixels for the legend.
 const LEGEND: i32 = 34;
 const ROW: i32 = 22;
 /// Pixels below the last row, for the axis.
@@ -34,11 +33,8 @@ const TICKS: [f64; 13] = [0.0, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995, 0.998, 0.
 pub fn rows(title: &str, note: &str, ranking: &Ranking) -> Result<String, ChartError> {
     let axis = Axis::of(ranking).ok_or_else(|| ChartError(EMPTY.into()))?;
     let below = LEGEND + ROW * ranking.places.len() as i32;
-    let (mut svg, mut fine) = (String::new(), Fine::default());
-    {
-        let size = (WIDTH as u32, HEAD + (below + FOOT) as u32);
-        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-        let area = head(&root, title, note, HEAD)?;
+    picture((WIDTH as u32, HEAD + (below + FOOT) as u32), |root, above| {
+        let area = head(root, title, note)?;
         explain(&area, ranking)?;
         for row in (1..ranking.places.len() as i32).step_by(2) {
             let top = LEGEND + ROW * row;
@@ -54,11 +50,10 @@ pub fn rows(title: &str, note: &str, ranking: &Ranking) -> Result<String, ChartE
         let middle = (MARKS.0 + MARKS.1) / 2;
         write(&area, "R², in equal steps of ln (1 − R²)", (middle, below + 34), HPos::Center, 15, &BLACK)?;
         for (row, place) in ranking.places.iter().enumerate() {
-            draw(&area, place, LEGEND + ROW * row as i32 + ROW / 2, &axis, &mut fine)?;
+            draw(&area, place, LEGEND + ROW * row as i32 + ROW / 2, &axis, above)?;
         }
-        root.present().map_err(failed)?;
-    }
-    Ok(fine.above(svg))
+        Ok(())
+    })
 }
 
 /// Explains the marks and the columns.
@@ -80,7 +75,7 @@ fn explain(area: &Area<'_>, ranking: &Ranking) -> Result<(), ChartError> {
     write(area, "stability", (STABILITY, y), HPos::Left, 14, &BLACK)
 }
 
-fn draw(area: &Area<'_>, place: &Place, y: i32, axis: &Axis, fine: &mut Fine) -> Result<(), ChartError> {
+fn draw(area: &Area<'_>, place: &Place, y: i32, axis: &Axis, above: &mut String) -> Result<(), ChartError> {
     let number = |determination: Option<f64>| match determination {
         Some(determination) => format!("{determination:.4}"),
         None => "–".into(),
@@ -94,7 +89,7 @@ fn draw(area: &Area<'_>, place: &Place, y: i32, axis: &Axis, fine: &mut Fine) ->
     write(area, &place.stability(), (STABILITY, y), HPos::Left, 13, style)?;
     for (mode, determination) in &agreement.modes {
         if let Some(determination) = determination {
-            fine.dot((axis.x(*determination), f64::from(HEAD as i32 + y)), 4, colour(*mode));
+            *above += &dot((axis.x(*determination), f64::from(HEAD as i32 + y)), 4, colour(*mode));
         }
     }
     agreement.total.map_or(Ok(()), |total| mark(area, (axis.x(total).round() as i32, y)))

@@ -50,11 +50,6 @@ impl Quantity {
     pub(super) fn is_stress(self) -> bool {
         matches!(self, Stress | TrueStress | Pressure)
     }
-
-    /// True if it is a quantity that a machine sets.
-    pub(super) fn is_control(self) -> bool {
-        !self.is_stress() && !matches!(self, Mode | Other)
-    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,6 +117,16 @@ impl Heading {
         let text = if text.is_empty() { format!("column {}", place + 1) } else { text.into() };
         Self { place, text, quantity, unit, is_compressive }
     }
+
+    /// The size of the unit, with the sign of compression.
+    pub(super) fn factor(&self) -> f64 {
+        let size = match self.unit {
+            Some(Unit::Share(size)) => size,
+            Some(Unit::Stress(unit)) => unit.pascals(),
+            None => 1.0,
+        };
+        if self.is_compressive { -size } else { size }
+    }
 }
 
 /// True if a unit is of this kind, or if the header has none, known or unknown.
@@ -141,11 +146,11 @@ fn name_and_unit(text: &str) -> (&str, Option<Unit>) {
         let unit = unit(&inner[open + 1..]);
         return if unit.is_some() { (&text[..open], unit) } else { (text, None) };
     }
-    let places = text.match_indices([' ', '_', '/', ',']).filter(|(at, _)| text.len() - at <= LONGEST);
-    let units = places.filter_map(|(at, _)| {
+    let mut places = text.match_indices([' ', '_', '/', ',']).filter(|(at, _)| text.len() - at <= LONGEST);
+    let split = places.find_map(|(at, _)| {
         let rest = text[at + 1..].trim();
         let known = unit(rest).filter(|unit| matches!(unit, Unit::Stress(_)) || matches!(rest, "%" | "‰"));
         known.map(|unit| (&text[..at], Some(unit)))
     });
-    units.into_iter().next().unwrap_or((text, None))
+    split.unwrap_or((text, None))
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use piola::__private::message::number;
 
-use crate::curve::{Mode, ResponseError, Volume, respond};
+use crate::curve::{Mode, Response, ResponseError, Volume, respond};
 use crate::specimen::Specimen;
 
 /// A reading of a testing machine.
@@ -36,15 +36,18 @@ impl Measured {
                  `strain [%]`",
             ),
         };
-        let (quantity, value, requirement) = if !controls.contains(&control) {
-            (mode.quantity(), control, requirement)
-        } else if stress == 0.0 || (1e-100..=1e100).contains(&stress.abs()) {
-            return None;
-        } else {
-            let requirement = "at most 1e100 Pa, and at least 1e-100 Pa if it is not 0: is its unit right?";
-            ("the stress in Pa", stress, requirement)
-        };
-        Some(format!("{quantity} is {}; it must be {requirement}", number(value)))
+        if !controls.contains(&control) {
+            return Some(format!("{} is {}; it must be {requirement}", mode.quantity(), number(control)));
+        }
+        let is_stress = stress == 0.0 || (1e-100..=1e100).contains(&stress.abs());
+        let requirement = "at most 1e100 Pa, and at least 1e-100 Pa if it is not 0: is its unit right?";
+        (!is_stress).then(|| format!("the stress in Pa is {}; it must be {requirement}", number(stress)))
+    }
+
+    /// The response of a specimen at this point, to be compared with the stress.
+    pub(crate) fn response(&self, specimen: &dyn Specimen, volume: Volume) -> Result<Response, PointError> {
+        let response = respond(specimen, self.mode, volume, self.control);
+        response.map_err(|reason| PointError { point: *self, reason })
     }
 }
 
@@ -87,19 +90,14 @@ impl Measurements {
     /// # Errors
     /// [`PointError`] of the first point at which the specimen has no stress.
     pub fn agreement(&self, specimen: &dyn Specimen, volume: Volume) -> Result<Agreement, PointError> {
-        let pair = |&point: &Measured| match respond(specimen, point.mode, volume, point.control) {
-            Ok(response) => Ok((point, response.stress)),
-            Err(reason) => Err(PointError { point, reason }),
-        };
+        let pair =
+            |point: &Measured| point.response(specimen, volume).map(|response| (*point, response.stress));
         let pairs = self.points.iter().map(pair).collect::<Result<Vec<_>, _>>()?;
-        let of = |mode| {
+        let of = |mode: Mode| {
             let pairs: Vec<_> = pairs.iter().filter(|(point, _)| point.mode == mode).copied().collect();
-            determination(&pairs)
+            (mode, determination(&pairs))
         };
-        Ok(Agreement {
-            modes: self.modes().map(|mode| (mode, of(mode))).collect(),
-            total: determination(&pairs),
-        })
+        Ok(Agreement { modes: self.modes().map(of).collect(), total: determination(&pairs) })
     }
 }
 

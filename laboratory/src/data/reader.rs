@@ -1,14 +1,12 @@
-//! Reader of measured points from the text of a file, with a note on how the file was understood.
+//! Reader of measured points from the text of a file, with questions about numbers that are unlikely to be
+//! what their header names, and a note on how the file was understood.
 
-use piola::__private::message::{names, quoted};
+use piola::__private::message::{self, names, quoted};
 
-use super::columns::{Row, Table, Used};
-use super::fault::{DataError, Fault};
 use super::heading::{Heading, Quantity, Unit};
 use super::measured::{Measured, Measurements};
-use super::options::{ReadOptions, Test};
-use super::plausible;
-use super::table::{may_be_thousands, number};
+use super::options::{DataError, Fault, ReadOptions, Test};
+use super::table::{Row, Table, Used, number};
 use crate::curve::Mode;
 use crate::rest::digits;
 
@@ -58,81 +56,72 @@ impl Measurements {
         }
         let table = Table::of(text, options)?;
         let at_header = |mistake: String| DataError::at(table.line, mistake);
-        if table.used.mode.is_none() && options.test.is_none() {
+        let Used { mode, control, stress } = &table.used;
+        if mode.is_none() && options.test.is_none() {
             return Err(DataError { line: table.line, fault: Fault::NoMode });
         }
-        let factor = |column| factor(column).map_err(at_header);
-        let factors = [factor(&table.used.control)?, factor(&table.used.stress)?];
-        let decimal = table.decimal()?;
-        let (mut points, mut rows) = (Vec::new(), Vec::new());
-        for row in &table.rows {
-            let point = table.used.point(row, decimal, factors, options);
-            let (test, point) = point.map_err(|fault| DataError { line: row.line, fault })?;
-            points.push(point);
-            rows.push((row.line, test));
+        if stress.unit.is_none() {
+            return Err(at_header(format!(
+                "`{}` names no unit of stress; write it there, as in `stress [MPa]`, or give it (`--unit MPa`, \
+                 `ReadOptions::unit`)",
+                quoted(&stress.text)
+            )));
         }
-        plausible::check(&points, &rows, &table.used.control)?;
-        if points.iter().all(Measured::is_rest) {
+        let decimal = decimal(&table)?;
+        let mut points = Vec::new();
+        for row in &table.rows {
+            let point = table.used.point(row, decimal, options.test);
+            let (test, point) = point.map_err(|fault| DataError { line: row.line, fault })?;
+            points.push((row.line, test, point));
+        }
+        check(&points, control)?;
+        let measurements = Measurements { points: points.into_iter().map(|(.., point)| point).collect() };
+        if measurements.points.iter().all(Measured::is_rest) {
             let remedy = "write lines such as `uniaxial,1.5,0.37`";
             return Err(at_header(format!("below this header there is no point but rest; {remedy}")));
         }
-        let measurements = Measurements { points };
         let note = note(&table, decimal, &measurements);
         Ok(Reading { measurements, note })
     }
 }
 
-impl Table<'_> {
-    /// The mark of decimals: a comma if a number has one and another mark separates columns.
-    fn decimal(&self) -> Result<char, DataError> {
-        let places = [self.used.control.place, self.used.stress.place];
-        let numbers = self.rows.iter().flat_map(|row| places.map(|place| (row.line, row.fields[place])));
-        let mut with_comma = numbers.filter(|(_, field)| self.separator != ',' && field.contains(','));
-        let Some((line, found)) = with_comma.next() else { return Ok('.') };
-        if !may_be_thousands(found) || !with_comma.all(|(_, field)| may_be_thousands(field)) {
-            return Ok(',');
-        }
-        let mistake = format!(
-            "`{}` may be {} or {}, like every number with a comma here; write decimals with a point, and thousands \
-             without a mark",
-            quoted(found),
-            quoted(&found.replace(',', "")),
-            quoted(&found.replace(',', "."))
-        );
-        Err(DataError::at(line, mistake))
+/// The mark of decimals: a comma if a number has one and another mark separates columns.
+fn decimal(table: &Table<'_>) -> Result<char, DataError> {
+    let places = [table.used.control.place, table.used.stress.place];
+    let numbers = table.rows.iter().flat_map(|row| places.map(|place| (row.line, row.fields[place])));
+    let mut with_comma = numbers.filter(|(_, field)| table.separator != ',' && field.contains(','));
+    let Some((line, found)) = with_comma.next() else { return Ok('.') };
+    if !may_be_thousands(found) || !with_comma.all(|(_, field)| may_be_thousands(field)) {
+        return Ok(',');
     }
+    let mistake = format!(
+        "`{}` may be {} or {}, like every number with a comma here; write decimals with a point, and thousands \
+         without a mark",
+        quoted(found),
+        quoted(&found.replace(',', "")),
+        quoted(&found.replace(',', "."))
+    );
+    Err(DataError::at(line, mistake))
 }
 
-/// The size of a unit of a column, with the sign of compression.
-fn factor(column: &Heading) -> Result<f64, String> {
-    let size = match column.unit {
-        Some(Unit::Share(size)) => size,
-        Some(Unit::Stress(unit)) => unit.pascals(),
-        None if column.quantity.is_stress() => {
-            return Err(format!(
-                "`{}` names no unit of stress; write it there, as in `stress [MPa]`, or give it (`--unit MPa`, \
-                 `ReadOptions::unit`)",
-                quoted(&column.text)
-            ));
-        }
-        None => 1.0,
+/// True if the comma of a number may be one of thousands, as in `1,234`.
+fn may_be_thousands(field: &str) -> bool {
+    let Some((whole, part)) = field.trim_start_matches(['+', '-', '−']).split_once(',') else {
+        return false;
     };
-    Ok(if column.is_compressive { -size } else { size })
+    let are_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let has_lengths = matches!(whole.len(), 1..=3) && part.len() == 3;
+    has_lengths && !whole.starts_with('0') && are_digits(whole) && are_digits(part)
 }
 
 impl Used {
-    fn point(
-        &self,
-        row: &Row<'_>,
-        decimal: char,
-        factors: [f64; 2],
-        options: &ReadOptions,
-    ) -> Result<(Test, Measured), Fault> {
+    fn point(&self, row: &Row<'_>, decimal: char, given: Option<Test>) -> Result<(Test, Measured), Fault> {
         let test = match self.mode {
             Some(place) => row.fields[place].parse::<Test>().map_err(Fault::Other)?,
-            None => options.test.ok_or(Fault::NoMode)?,
+            None => given.ok_or(Fault::NoMode)?,
         };
-        let value = |column: &Heading, factor: f64| {
+        let mode = test.mode;
+        let value = |column: &Heading| {
             let found = row.fields[column.place];
             let marks = match decimal {
                 ',' => ": decimals of this file have a comma, and thousands no mark",
@@ -142,51 +131,103 @@ impl Used {
                 let (text, header) = (quoted(found), quoted(&column.text));
                 Fault::Other(format!("`{text}` under `{header}` is not a number{marks}"))
             };
-            Ok::<_, Fault>(factor * number(found, decimal).ok_or_else(mistake)?)
+            Ok::<_, Fault>(column.factor() * number(found, decimal).ok_or_else(mistake)?)
         };
-        let not_of_test = |column: &Heading| {
-            let (header, mode) = (quoted(&column.text), test.mode);
-            Fault::Other(format!("`{header}` is not a quantity of the test {mode}"))
+        let of_test = |column: &Heading, value: f64, control: f64| {
+            converted(column.quantity, mode, value, control).ok_or_else(|| {
+                Fault::Other(format!("`{}` is not a quantity of the test {mode}", quoted(&column.text)))
+            })
         };
-        let (control, stress) = (value(&self.control, factors[0])?, value(&self.stress, factors[1])?);
-        let control = control_of(self.control.quantity, test.mode, control);
-        let control = control.ok_or_else(|| not_of_test(&self.control))?;
+        let in_range = |point: Measured| point.fault().map_or(Ok(point), |fault| Err(Fault::Other(fault)));
+        let (control, stress) = (value(&self.control)?, value(&self.stress)?);
+        let control = of_test(&self.control, control, f64::NAN)?;
         // The control first: a stress may be divided by it.
-        if let Some(fault) = (Measured { mode: test.mode, control, stress: 0.0 }).fault() {
-            return Err(Fault::Other(fault));
-        }
-        let stress = stress_of(self.stress.quantity, test.mode, control, stress);
-        let stress = stress.ok_or_else(|| not_of_test(&self.stress))?;
-        let measured = Measured { mode: test.mode, control, stress };
-        measured.fault().map_or(Ok((test, measured)), |fault| Err(Fault::Other(fault)))
+        in_range(Measured { mode, control, stress: 0.0 })?;
+        let stress = of_test(&self.stress, stress, control)?;
+        Ok((test, in_range(Measured { mode, control, stress })?))
     }
 }
 
-/// The control of a test from a quantity that a column holds.
-fn control_of(quantity: Quantity, mode: Mode, value: f64) -> Option<f64> {
-    match (quantity, mode) {
-        (Quantity::Stretch, _)
-        | (Quantity::Strain | Quantity::Shear, Mode::SimpleShear)
-        | (Quantity::Volume, Mode::Volumetric) => Some(value),
-        (Quantity::TrueStrain, Mode::SimpleShear) => None,
-        (Quantity::Strain, _) | (Quantity::VolumeStrain, Mode::Volumetric) => Some(1.0 + value),
-        (Quantity::TrueStrain, _) => Some(value.exp()),
-        _ => None,
-    }
-}
-
-/// The stress of a test from a quantity that a column holds.
+/// The control, or at a control the stress, of a test from a quantity that a column holds.
 ///
 /// In the first three tests the area that a true stress acts on is 1/λ of that at rest where the volume is
 /// kept: λ^(−½) λ^(−½), λ λ^(−2), 1 · λ^(−1). In simple shear the plates keep their area, and the stress of a
 /// volumetric test is a true one already.
-fn stress_of(quantity: Quantity, mode: Mode, control: f64, value: f64) -> Option<f64> {
+fn converted(quantity: Quantity, mode: Mode, value: f64, control: f64) -> Option<f64> {
     match (quantity, mode) {
         (Quantity::TrueStress, Mode::Uniaxial | Mode::Equibiaxial | Mode::PureShear) => Some(value / control),
-        (Quantity::Stress | Quantity::TrueStress, _) => Some(value),
         (Quantity::Pressure, Mode::Volumetric) => Some(-value),
+        (Quantity::Stretch | Quantity::Stress | Quantity::TrueStress, _)
+        | (Quantity::Strain | Quantity::Shear, Mode::SimpleShear)
+        | (Quantity::Volume, Mode::Volumetric) => Some(value),
+        (Quantity::Strain, _) | (Quantity::VolumeStrain, Mode::Volumetric) => Some(1.0 + value),
+        (Quantity::TrueStrain, mode) if mode != Mode::SimpleShear => Some(value.exp()),
         _ => None,
     }
+}
+
+/// Stretches that are unlikely for rubber: numbers that are all beyond the first, or some beyond the second,
+/// are strains in percent unless their header has a unit.
+const FAR: (f64, f64) = (8.0, 20.0);
+/// Strains that are noise or slack: this value, or a tenth of the greatest if that is less.
+const SMALL: f64 = 0.02;
+
+/// Refuses points of a table, with line and test of each, that are unlikely to be what their header names:
+/// strains under `stretch`, percent without a word, signs of compression.
+fn check(points: &[(u64, Test, Measured)], column: &Heading) -> Result<(), DataError> {
+    for mode in Mode::ALL {
+        let points = || points.iter().filter(move |(_, test, _)| test.mode == mode);
+        let strain = |point: &Measured| point.control - mode.rest();
+        let range = points().map(|(.., point)| strain(point).abs()).fold(0.0, f64::max);
+        let peak = points().map(|(.., point)| point.stress.abs()).fold(0.0, f64::max);
+        let is_pulled = points().all(|(.., point)| point.stress > -0.01 * peak);
+        let mut strained = points().filter(|(.., point)| strain(point).abs() > SMALL);
+        let controls = || strained.clone().map(|(.., point)| point.control);
+        let (least, most) = (controls().fold(f64::INFINITY, f64::min), controls().fold(0.0, f64::max));
+        if column.unit.is_none()
+            && mode != Mode::Volumetric
+            && (least > FAR.0 || most > FAR.1)
+            && let Some((line, ..)) = strained.next()
+        {
+            let is_stretch = column.quantity == Quantity::Stretch;
+            let mistake = format!(
+                "`{}` of {mode} makes {} from {} to {}: are the numbers percent? Then write `strain [%]`; if they are \
+                 as large as that, `{}`",
+                quoted(&column.text),
+                mode.letter(),
+                message::number(least),
+                message::number(most),
+                if is_stretch { "stretch [-]" } else { "strain [-]" }
+            );
+            return Err(DataError::at(*line, mistake));
+        }
+        for &(line, test, point) in points() {
+            let Measured { control, stress, .. } = point;
+            let strain = strain(&point);
+            // Unloaded rubber has some stress of the other sign. Where no stress is one of compression,
+            // a little tells strains under `stretch`.
+            let noise = if strain < 0.0 && is_pulled { 0.01 } else { 0.1 };
+            if strain.abs() <= SMALL.min(0.1 * range) || stress.abs() <= noise * peak {
+                continue;
+            }
+            let question = if (test.is_compression || column.is_compressive) && strain > 0.0 {
+                ", but the test is a compression"
+            } else if (strain > 0.0) != (stress > 0.0) {
+                ", of another sign than its strain; is the number a strain, or a compression?"
+            } else {
+                continue;
+            };
+            let mistake = format!(
+                "{mode} {} = {} has a stress of {} Pa{question}: a strain is written under `strain` or `strain [%]`, a \
+                 compression with negative strain and stress or under `compressive strain` and `compressive stress`",
+                mode.letter(),
+                message::number(control),
+                message::number(stress)
+            );
+            return Err(DataError::at(line, mistake));
+        }
+    }
+    Ok(())
 }
 
 /// The column with its quantity and unit, in sentences.

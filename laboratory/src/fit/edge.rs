@@ -12,9 +12,12 @@
 
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra::{DMatrix, DVector};
+use piola::material::{Constraint, Limit, MaterialError};
 
-use super::problem::Problem;
-use super::trial::TrialError;
+use super::outcome::TrialError;
+use super::problem::{Problem, Trial};
+use crate::data::Measured;
+use crate::specimen::Ordered;
 
 /// Smallest share by which a step must reduce Σ r². The Levenberg–Marquardt method itself stops at 1e-14.
 const GAIN: f64 = 1e-10;
@@ -36,17 +39,11 @@ const SILENCE: f64 = 1e-10;
 /// The edges that stopped a search, and the directions along them.
 pub(super) struct Stop {
     pub(super) reasons: Vec<TrialError>,
-    /// Ways on downwards along the edges: next to them, and at a distance that leaves room if they are
-    /// curved.
-    pub(super) ways: Vec<Way>,
+    /// Ways on downwards along the edges, each a place and directions in columns: next to the edges, and at a
+    /// distance that leaves room if they are curved.
+    pub(super) ways: Vec<(DVector<f64>, DMatrix<f64>)>,
     /// True if no step is possible, so that this is the best point that the edges allow.
     pub(super) is_least: bool,
-}
-
-/// A place next to the edges, and the directions along them.
-pub(super) struct Way {
-    pub(super) from: DVector<f64>,
-    pub(super) basis: DMatrix<f64>,
 }
 
 struct Edge {
@@ -70,8 +67,30 @@ pub(super) fn stop(problem: &Problem<'_>) -> Option<Stop> {
     near
 }
 
-fn reasons(edges: Vec<Edge>) -> Vec<TrialError> {
-    edges.into_iter().map(|edge| edge.reason).collect()
+/// Edges along which no way is known.
+fn stuck(edges: Vec<Edge>) -> Stop {
+    let reasons = edges.into_iter().map(|edge| edge.reason).collect();
+    Stop { reasons, ways: Vec::new(), is_least: false }
+}
+
+/// True if a limit, of the domain at a measured point or of the parameters, may be the violated one. The
+/// entries of a list are distinguished by their index only.
+fn may_refuse(limit: &Limit, at: Option<Measured>, refusal: &TrialError) -> bool {
+    match (refusal, limit) {
+        (TrialError::Inadmissible(MaterialError::Violated { condition, .. }), Limit::Admissible(own))
+        // Where rest is outside, points of the same condition may be too.
+        | (TrialError::Inadmissible(MaterialError::RestOutside { condition, .. }), Limit::Domain(own)) => {
+            condition == own
+        }
+        (TrialError::Inadmissible(MaterialError::UnstableRest { moduli }), Limit::ShearModulus) => {
+            moduli.mu <= 0.0
+        }
+        (TrialError::Inadmissible(MaterialError::UnstableRest { moduli }), Limit::BulkModulus) => {
+            moduli.mu > 0.0
+        }
+        (TrialError::Point(error), Limit::Domain(_)) => at == Some(error.point),
+        _ => false,
+    }
 }
 
 /// One in each column.
@@ -109,18 +128,11 @@ struct Surroundings<'a, 'b> {
 impl<'a, 'b> Surroundings<'a, 'b> {
     /// `None` where the residuals are rounding, or numbers leave their range.
     fn of(problem: &'a Problem<'b>) -> Option<Self> {
-        let (residuals, mut slopes) = (problem.residuals()?, problem.slopes()?);
+        let (residuals, (slopes, scales)) = (problem.residuals()?, problem.scaled_slopes()?);
         if residuals.norm_squared() <= EXACT * residuals.len() as f64 {
             return None;
         }
-        let scales = DVector::from_fn(slopes.ncols(), |column, _| slopes.column(column).norm());
-        if !scales.iter().all(|&scale| scale.is_finite() && scale > 0.0) {
-            return None;
-        }
-        for (mut column, scale) in slopes.column_iter_mut().zip(scales.iter()) {
-            column /= *scale;
-        }
-        let place = problem.place().component_mul(&scales);
+        let place = problem.free_values().component_mul(&scales);
         let unknowns = place.len();
         let mut surroundings = Self { problem, scales, place, residuals, slopes, reach: 0.0 };
         surroundings.reach = surroundings.step(&along(&[], unknowns))?.norm();
@@ -135,46 +147,38 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         for _ in 0..2 * unknowns {
             let basis = along(&edges, unknowns);
             let step = self.step(&basis)?;
-            let from = self.inside(&edges, margin);
+            // A little away from each edge.
+            let away = |place: DVector<f64>, edge: &Edge| place - &edge.normal * (margin * self.reach);
+            let from = edges.iter().fold(self.place.clone(), away);
             let is_worth = !is_no_gain((&self.slopes * &step).norm_squared(), self.residuals.norm_squared());
-            let refused = self.accepts(&(&from + &step * PROBE)).err().filter(|_| is_worth);
+            let refused = self.attempt(&(&from + &step * PROBE)).err().filter(|_| is_worth);
             let Some(refusal) = refused else {
-                if edges.is_empty() {
-                    return None;
-                }
-                let way = is_worth.then(|| Way { from: self.free(&from), basis: self.columns(&basis) });
-                let ways = way.into_iter().collect();
-                return Some(Stop { reasons: reasons(edges), ways, is_least: !is_worth });
+                // Directions by coordinates, converted to directions by free numbers.
+                let scaled = |row: usize, column: usize| basis[(row, column)] / self.scales[row];
+                let columns = DMatrix::from_fn(unknowns, basis.ncols(), scaled);
+                let ways = is_worth.then(|| (from.component_div(&self.scales), columns));
+                let stop = Stop { ways: ways.into_iter().collect(), is_least: !is_worth, ..stuck(edges) };
+                return (!stop.reasons.is_empty()).then_some(stop);
             };
-            let is_new = |normal: &DVector<f64>| basis.tr_mul(normal).norm() > TURN;
             let normal = self.normal(&from, &(&step * PROBE), &refusal);
-            let Some(normal) = normal.filter(is_new) else {
-                let mut reasons = reasons(edges);
-                if reasons.is_empty() {
-                    reasons.push(refusal);
+            let Some(normal) = normal.filter(|normal| basis.tr_mul(normal).norm() > TURN) else {
+                let mut stop = stuck(edges);
+                if stop.reasons.is_empty() {
+                    stop.reasons.push(refusal);
                 }
-                return Some(Stop { reasons, ways: Vec::new(), is_least: false });
+                return Some(stop);
             };
             edges.push(Edge { normal, reason: refusal });
             let multipliers = self.multipliers(&edges)?;
             let mut multipliers = multipliers.iter();
             edges.retain(|_| multipliers.next().is_none_or(|&multiplier| multiplier >= 0.0));
         }
-        Some(Stop { reasons: reasons(edges), ways: Vec::new(), is_least: false })
+        Some(stuck(edges))
     }
 
-    /// The free numbers at these coordinates.
-    fn free(&self, place: &DVector<f64>) -> DVector<f64> {
-        place.component_div(&self.scales)
-    }
-
-    /// Directions by coordinates, converted to directions by free numbers.
-    fn columns(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
-        DMatrix::from_fn(basis.nrows(), basis.ncols(), |row, column| basis[(row, column)] / self.scales[row])
-    }
-
-    fn accepts(&self, place: &DVector<f64>) -> Result<(), TrialError> {
-        self.problem.accepts(&self.free(place))
+    /// A trial at these coordinates.
+    fn attempt(&self, place: &DVector<f64>) -> Trial {
+        self.problem.task.attempt(&self.problem.with_free(&place.component_div(&self.scales)))
     }
 
     /// Unit outward normal at the edge that a probe meets; `None` if the edge is not a constraint of the
@@ -186,17 +190,27 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         refusal: &TrialError,
     ) -> Option<DVector<f64>> {
         let (mut inside, mut outside) = (from - probe, from + probe);
-        self.accepts(&inside).ok()?;
+        self.attempt(&inside).ok()?;
         for _ in 0..HALVINGS {
             let middle = 0.5 * (&inside + &outside);
-            let is_inside = self.accepts(&middle).is_ok();
+            let is_inside = self.attempt(&middle).is_ok();
             *(if is_inside { &mut inside } else { &mut outside }) = middle;
         }
-        let bounds = self.problem.within(self.free(&inside), DMatrix::zeros(from.len(), 0)).bounds();
-        let distances = bounds.iter().filter(|bound| bound.refuses(refusal)).map(|bound| {
-            let normal = bound.gradient.component_div(&self.scales);
+        let (candidate, responses) = self.attempt(&inside).ok()?;
+        let task = &self.problem.task;
+        let of_parameters = candidate.constraints().into_iter().map(|constraint| (constraint, None));
+        // That free sides give way when a parameter changes is left out.
+        let of_domain = responses.iter().zip(task.points).flat_map(|(response, &(point, _))| {
+            let constraints = candidate.domain_constraints(Ordered::new(response.stretches).numbers);
+            constraints.into_iter().map(move |constraint| (constraint, Some(point)))
+        });
+        let refusing = of_parameters
+            .chain(of_domain)
+            .filter(|(constraint, point)| may_refuse(&constraint.limit, *point, refusal));
+        let distances = refusing.map(|(Constraint { value, gradient, .. }, _)| {
+            let normal = DVector::from_fn(task.free.len(), |k, _| gradient[task.free[k]] / self.scales[k]);
             let length = normal.norm();
-            (bound.value / length, -normal / length)
+            (value / length, -normal / length)
         });
         distances.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, normal)| normal)
     }
@@ -210,12 +224,6 @@ impl<'a, 'b> Surroundings<'a, 'b> {
         let silence = SILENCE * decomposed.singular_values.max();
         let step = decomposed.solve(&-&self.residuals, silence).ok()?;
         Some(basis * step).filter(|step| step.iter().all(|component| component.is_finite()))
-    }
-
-    /// A little away from each edge.
-    fn inside(&self, edges: &[Edge], margin: f64) -> DVector<f64> {
-        let away = margin * self.reach;
-        edges.iter().fold(self.place.clone(), |place, edge| place - &edge.normal * away)
     }
 
     /// Lagrange multipliers of the edges for the step that keeps to all of them: Jᵀ (r + J d) + Σ multiplier

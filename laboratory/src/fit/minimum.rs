@@ -3,9 +3,8 @@
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 
 use super::edge::{self, Stop};
-use super::outcome::Ended;
+use super::outcome::{Ended, TrialError};
 use super::problem::Problem;
-use super::trial::TrialError;
 
 /// Evaluations before a search is given up, by the number of unknowns.
 const PATIENCE: usize = 400;
@@ -25,46 +24,35 @@ pub(super) struct Minimum<'a> {
     pub(super) edges: Vec<TrialError>,
     /// True if this is a minimum: no step is worth taking, or the energy accepts none that is.
     pub(super) is_least: bool,
-    /// Index of the start: 0 is the one given.
-    pub(super) start: usize,
 }
 
 /// Descends to the nearest minimum below the current values; `None` if numbers leave their range on the way.
-pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {
-    let approached = approach(&problem, start);
+pub(super) fn descend(problem: Problem<'_>) -> Option<Minimum<'_>> {
+    let approached = approach(&problem);
     let before = approached.as_ref().map_or(0, |approached| approached.evaluations);
-    let mut minimum = search(approached.map_or(problem, |approached| approached.problem.anew()), start)?;
+    let mut minimum = search(approached.map_or(problem, |approached| approached.problem.anew()))?;
     minimum.evaluations += before;
-    let mut stop = edge::stop(&minimum.problem);
-    let mut is_over = false;
-    for _ in 0..WAYS {
-        let Some(Stop { ways, is_least, .. }) = &stop else { break };
-        let nexts = ways.iter().filter_map(|way| {
-            let along = minimum.problem.within(way.from.clone(), way.basis.clone());
-            let slid = search(along, start)?;
+    for slides in 0.. {
+        let Some(Stop { reasons, ways, is_least }) = edge::stop(&minimum.problem) else { break };
+        if slides == WAYS {
+            return Some(Minimum { ended: Ended::Unfinished, is_least: false, ..minimum });
+        }
+        // Where no way along the edges is found, other units may lead past them.
+        let is_least = is_least || !ways.is_empty();
+        let is_stuck = !is_least && minimum.ended != Ended::Unfinished;
+        let anew = is_stuck.then(|| search(minimum.problem.anew())).flatten();
+        let nexts = ways.into_iter().filter_map(|(from, basis)| {
+            let slid = search(minimum.problem.within(from, basis))?;
             // In all directions again: the edge may end, or turn away.
-            let next = search(slid.problem.anew(), start)?;
+            let next = search(slid.problem.anew())?;
             Some(Minimum { evaluations: next.evaluations + slid.evaluations, ..next })
         });
-        // Where no way along the edges is found, other units may lead past them.
-        let is_stuck = ways.is_empty() && !is_least && minimum.ended != Ended::Unfinished;
-        let anew = is_stuck.then(|| search(minimum.problem.anew(), start)).flatten();
         let next = nexts.chain(anew).min_by(|a, b| a.squares.total_cmp(&b.squares));
         let is_gain = |next: &Minimum<'_>| !edge::is_no_gain(minimum.squares - next.squares, minimum.squares);
-        let Some(mut next) = next.filter(is_gain) else {
-            is_over = true;
-            break;
+        let Some(next) = next.filter(is_gain) else {
+            return Some(Minimum { ended: Ended::Edge, edges: reasons, is_least, ..minimum });
         };
-        next.evaluations += minimum.evaluations;
-        minimum = next;
-        stop = edge::stop(&minimum.problem);
-    }
-    if let Some(stop) = stop {
-        minimum.is_least = is_over && (stop.is_least || !stop.ways.is_empty());
-        (minimum.ended, minimum.edges) = match is_over {
-            true => (Ended::Edge, stop.reasons),
-            false => (Ended::Unfinished, Vec::new()),
-        };
+        minimum = Minimum { evaluations: next.evaluations + minimum.evaluations, ..next };
     }
     Some(minimum)
 }
@@ -74,7 +62,7 @@ pub(super) fn descend(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>>
 ///
 /// The effect of the rest is less than the rounding of the others' effect, and steps that change it too are
 /// random.
-fn approach<'a>(problem: &Problem<'a>, start: usize) -> Option<Minimum<'a>> {
+fn approach<'a>(problem: &Problem<'a>) -> Option<Minimum<'a>> {
     let slopes = problem.jacobian()?;
     let lengths: Vec<f64> = slopes.column_iter().map(|column| column.norm()).collect();
     let greatest = lengths.iter().copied().fold(0.0, f64::max);
@@ -82,10 +70,10 @@ fn approach<'a>(problem: &Problem<'a>, start: usize) -> Option<Minimum<'a>> {
     if loud.is_empty() || loud.len() == lengths.len() {
         return None;
     }
-    search(problem.with_alone(&loud), start)
+    search(problem.with_alone(&loud))
 }
 
-fn search(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {
+fn search(problem: Problem<'_>) -> Option<Minimum<'_>> {
     let (problem, report) = LevenbergMarquardt::new().with_patience(PATIENCE).minimize(problem);
     let ended = match report.termination {
         TerminationReason::ResidualsZero
@@ -95,8 +83,8 @@ fn search(problem: Problem<'_>, start: usize) -> Option<Minimum<'_>> {
         TerminationReason::LostPatience => Ended::Unfinished,
         _ => return None,
     };
-    let is_sound = problem.answers().is_ok() && report.objective_function.is_finite();
+    let is_sound = problem.trial.is_ok() && report.objective_function.is_finite();
     let (squares, evaluations) = (2.0 * report.objective_function, report.number_of_evaluations);
     let is_least = ended != Ended::Unfinished;
-    is_sound.then_some(Minimum { problem, squares, evaluations, ended, edges: Vec::new(), is_least, start })
+    is_sound.then_some(Minimum { problem, squares, evaluations, ended, edges: Vec::new(), is_least })
 }

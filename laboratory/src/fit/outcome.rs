@@ -2,8 +2,10 @@
 
 use std::fmt;
 
-use super::trial::TrialError;
-use crate::data::{Agreement, short};
+use piola::__private::message::number;
+use piola::material::MaterialError;
+
+use crate::data::{Agreement, PointError, short};
 
 /// Fitted parameters, and their agreement with the data.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +31,45 @@ pub struct Fit {
     pub ended: Ended,
     /// Warnings that other parameters might fit as well, or better.
     pub warnings: Vec<Warning>,
+}
+
+impl fmt::Display for Fit {
+    /// A line for each parameter with its standard error, R², the differences, the way to the minimum, and
+    /// the warnings.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for Number { name, value, standing, error } in &self.numbers {
+            // Seven digits: rounding changes no stress that is measured.
+            let rounded = format!("{value:.6e}").parse().unwrap_or(*value);
+            write!(f, "  {name:12} {:<14}", number(rounded))?;
+            match (standing, error) {
+                (Standing::Free, Some(error)) => {
+                    write!(f, " ± {error:.1e} ({:.1} %)", 100.0 * (error / value).abs())?;
+                }
+                (Standing::Free, None) => {}
+                (Standing::Held, _) => f.write_str(" held")?,
+                (Standing::Unidentifiable, _) => f.write_str(" held: the data do not determine it")?,
+            }
+            writeln!(f)?;
+        }
+        writeln!(f, "  R²           {}", self.agreement)?;
+        writeln!(
+            f,
+            "  differences  {:.3} % (root mean square, points without stress left out)",
+            100.0 * self.difference
+        )?;
+        let start = match self.start {
+            0 => "the parameters given".into(),
+            start => format!("random start {start}"),
+        };
+        let Self { descents, ended, evaluations, .. } = self;
+        writeln!(
+            f,
+            "  the best of {descents} descents, from {start}: {ended} after {evaluations} evaluations"
+        )?;
+        // The lines of the parameters have those that the data do not determine.
+        let others = |warning: &&Warning| !matches!(warning, Warning::Unidentifiable { .. });
+        self.warnings.iter().filter(others).try_for_each(|warning| writeln!(f, "warning: {warning}"))
+    }
 }
 
 /// A parameter, or an entry of a list.
@@ -181,8 +222,13 @@ impl fmt::Display for Warning {
                     f,
                     "the search ended at an edge of the admissible parameters, and a better fit is beyond: there {reason}"
                 )?;
-                for (entry, number) in reason.entries() {
-                    write!(f, " ({entry} is the number {number})")?;
+                let given = match reason {
+                    TrialError::Inadmissible(MaterialError::Violated { given, .. }) => given.as_slice(),
+                    _ => &[],
+                };
+                // A constructor counts entries from 0, names of numbers from 1: `beta[0]` and `beta_1`.
+                for (entry, index) in given.iter().filter_map(|entry| Some((entry, entry.index?))) {
+                    write!(f, " ({} is the number {}_{})", entry.name(), entry.parameter, index + 1)?;
                 }
                 f.write_str(
                     "; hold a parameter, start elsewhere, add data of other tests, or, if the bound is one of `admissible` \
@@ -232,4 +278,22 @@ pub enum FitError {
     /// Another reason: a setting or a point out of range, a parameter that does not exist, nothing to fit.
     #[error("{0}")]
     Other(String),
+}
+
+/// Reason why an energy with trial parameters has no curves to compare with the data.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(transparent)]
+pub enum TrialError {
+    /// The constructor of the energy refuses the parameters.
+    Inadmissible(
+        /// Its reason.
+        #[from]
+        MaterialError,
+    ),
+    /// A measured point has no stress.
+    Point(
+        /// The point and the reason.
+        #[from]
+        PointError,
+    ),
 }

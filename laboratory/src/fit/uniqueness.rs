@@ -1,14 +1,21 @@
-//! Identifiability: which parameters, and combinations of them, the data determine near a minimum.
+//! Parameters, and combinations of them, that the data do not determine near a minimum, and others with which
+//! a fit is about as good.
 //!
-//! All of it is in the singular values of ∂r/∂p with its columns scaled to the length one, after \[BKW80\]:
+//! The former are in the singular values of ∂r/∂p with its columns scaled to the length one, after \[BKW80\]:
 //! where one is small, the combination of parameters that belongs to it changes no residual.
+//!
+//! The latter are those of other minima, and others of the same solid: the exponent of a term whose
+//! coefficient has vanished is arbitrary; for two terms with the same exponent only the sum matters; and a
+//! parameter that grows without bound changes less and less.
 //!
 //! \[BKW80\] Belsley, Kuh, Welsch, *Regression Diagnostics*, 1980, chapter 3.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
-use super::candidate::Numbers;
-use super::outcome::Warning;
+use piola::material::Form;
+
+use super::minimum::Minimum;
+use super::outcome::{Number, Warning};
 use super::problem::Problem;
 
 /// Share of the largest effect on a residual below which a parameter is not determined by it: rounding, such
@@ -19,13 +26,19 @@ const CONDITION: f64 = 30.0;
 /// A parameter that changes less than this, relative to the one that changes most, is not part of a
 /// combination.
 const SHARE: f64 = 0.01;
+/// Bound for another minimum to count as about as good: its differences, relative to those of the best.
+const ABOUT_AS_GOOD: f64 = 1.1;
+/// Parameters are the same if their relative difference is no more than this.
+const SAME: f64 = 0.01;
+/// A parameter that is less than this share of the one given counts as zero, as happens at an edge.
+const ZERO: f64 = 1e-9;
 
-/// The numbers that the data do not determine: at all these places none of them changes any residual.
+/// True for each number that the data do not determine: at none of these places it changes any residual.
 ///
 /// At a single place a number may merely be drowned, by an exponential at large stretches, or by a factor
 /// that is zero there.
-pub(super) fn unidentifiable<'a>(places: impl Iterator<Item = Problem<'a>>, numbers: &Numbers) -> Vec<usize> {
-    let mut is_silent = vec![true; numbers.values.len()];
+pub(super) fn are_silent<'a>(places: impl Iterator<Item = Problem<'a>>, numbers: usize) -> Vec<bool> {
+    let mut are_silent = vec![true; numbers];
     let mut has_slopes = false;
     for place in places {
         let Some(slopes) = place.slopes() else { continue };
@@ -35,46 +48,30 @@ pub(super) fn unidentifiable<'a>(places: impl Iterator<Item = Problem<'a>>, numb
                 let value = place.values[number];
                 (number, (slope * if value == 0.0 { 1.0 } else { value }).abs())
             };
-            let changes: Vec<_> = row.iter().zip(&place.free).map(change).collect();
+            let changes: Vec<_> = row.iter().zip(place.task.free).map(change).collect();
             // If numbers leave their range, none is determined.
             let greatest = changes.iter().fold(0.0, |greatest: f64, &(_, change)| greatest.max(change));
             for (number, change) in changes {
-                is_silent[number] &= change.is_nan() || change <= SILENCE * greatest;
+                are_silent[number] &= change.is_nan() || change <= SILENCE * greatest;
             }
         }
     }
-    (0..is_silent.len()).filter(|&number| has_slopes && is_silent[number]).collect()
+    if has_slopes { are_silent } else { vec![false; numbers] }
 }
 
-/// Standard errors, condition and warnings of a minimum.
-pub(super) struct Analysis {
-    /// √(diagonal of (Jᵀ J)⁻¹) of the free numbers: their standard errors for residuals with the standard
-    /// deviation 1.
-    pub(super) errors: Vec<f64>,
-    /// The greatest singular value by the least.
-    pub(super) condition: f64,
-    pub(super) warnings: Vec<Warning>,
-}
-
-pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
-    let nothing = || Analysis { errors: Vec::new(), condition: f64::INFINITY, warnings: Vec::new() };
-    let Some(mut slopes) = problem.slopes() else { return nothing() };
-    let lengths: Vec<f64> = slopes.column_iter().map(|column| column.norm()).collect();
-    if !lengths.iter().all(|&length| length.is_finite() && length > 0.0) {
-        return nothing();
-    }
-    for (mut column, length) in slopes.column_iter_mut().zip(&lengths) {
-        column /= *length;
-    }
-    let rows = problem.count() as f64;
+/// √(diagonal of (Jᵀ J)⁻¹) of the free numbers, which are their standard errors for residuals with the
+/// standard deviation 1, the greatest singular value by the least, and warnings of a minimum.
+pub(super) fn analyse(problem: &Problem<'_>, numbers: &[Number]) -> Option<(Vec<f64>, f64, Vec<Warning>)> {
+    let free = problem.task.free;
+    let (slopes, lengths) = problem.scaled_slopes()?;
+    let rows = slopes.nrows() as f64;
     let decomposed = slopes.svd(false, true);
-    let Some(directions) = decomposed.v_t else { return nothing() };
-    let singular = &decomposed.singular_values;
+    let (directions, singular) = (decomposed.v_t?, decomposed.singular_values);
     let greatest = singular.max();
 
     let mut errors = vec![0.0_f64; lengths.len()];
-    let mut combinations = Vec::new();
-    for (direction, &value) in directions.row_iter().zip(singular) {
+    let mut combinations: Vec<(Vec<(String, f64)>, f64)> = Vec::new();
+    for (direction, &value) in directions.row_iter().zip(&singular) {
         for (error, component) in errors.iter_mut().zip(direction.iter()) {
             *error += (component / value).powi(2);
         }
@@ -84,28 +81,72 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &Numbers) -> Analysis {
         // Relative changes of the parameters; of one that is zero, absolute ones.
         let changes: Vec<f64> = (0..lengths.len())
             .map(|k| {
-                let number = problem.values[problem.free[k]];
+                let number = problem.values[free[k]];
                 direction[k] / lengths[k] / if number == 0.0 { 1.0 } else { number }
             })
             .collect();
         let most = changes.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
-        let named = problem.free.iter().zip(&changes);
-        let part = named.filter(|(_, change)| change.abs() >= SHARE * most.abs());
-        let changes = part.map(|(&number, change)| (numbers.names[number].clone(), change / most));
+        let part = free.iter().zip(&changes).filter(|(_, change)| change.abs() >= SHARE * most.abs());
+        let changes = part.map(|(&number, change)| (numbers[number].name.clone(), change / most));
         combinations.push((changes.collect(), value / most.abs() / rows.sqrt()));
     }
-    for (error, length) in errors.iter_mut().zip(&lengths) {
+    for (error, length) in errors.iter_mut().zip(lengths.iter()) {
         *error = error.sqrt() / length;
     }
-    Analysis { errors, condition: greatest / singular.min(), warnings: warnings(combinations) }
-}
-
-/// One for each set of parameters: of combinations of the same ones that which changes least.
-fn warnings(mut combinations: Vec<(Vec<(String, f64)>, f64)>) -> Vec<Warning> {
+    // One for each set of parameters: of combinations of the same ones that which changes least.
     combinations.sort_by(|(_, a), (_, b)| a.total_cmp(b));
     let mut seen = HashSet::new();
     combinations
         .retain(|(changes, _)| seen.insert(changes.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>()));
     let warning = |(changes, effect)| Warning::Collinear { changes, effect };
-    combinations.into_iter().map(warning).collect()
+    Some((errors, greatest / singular.min(), combinations.into_iter().map(warning).collect()))
+}
+
+/// The ranges of parameters over the minima that are about as good as the best, if they differ.
+pub(super) fn ambiguous(
+    best: &Minimum<'_>,
+    minima: &[(usize, Minimum<'_>)],
+    numbers: &[Number],
+) -> Option<Warning> {
+    let count = best.problem.task.points.len() as f64;
+    // Values that are exact up to rounding are as good as exact ones.
+    let limit = best.squares * ABOUT_AS_GOOD * ABOUT_AS_GOOD + count * 1e-24;
+    let (mut ranges, mut squares) = (BTreeMap::new(), best.squares);
+    let is_as_good = |minimum: &&Minimum<'_>| minimum.is_least && minimum.squares <= limit;
+    for minimum in minima.iter().map(|(_, minimum)| minimum).filter(is_as_good) {
+        let mut begin = 0;
+        for &(length, form) in best.problem.task.parameters {
+            let list = begin..begin + length;
+            begin += length;
+            // Terms of a sum that change places are the same energy, those of each sum by themselves. Values
+            // of a function are compared in their order.
+            let [one, other] = [best, minimum].map(|minimum| {
+                let mut sorted = minimum.problem.values[list.clone()].to_vec();
+                if form == Form::List {
+                    sorted.sort_by(f64::total_cmp);
+                }
+                sorted
+            });
+            let is_same = |(number, (one, other)): (usize, (f64, f64))| {
+                let zero = ZERO * numbers[number].value.abs();
+                (one - other).abs() <= SAME * one.abs().max(other.abs()) + zero
+            };
+            if list.clone().zip(one.into_iter().zip(other)).all(is_same) {
+                continue;
+            }
+            for number in list {
+                let [here, there] = [best, minimum].map(|minimum| minimum.problem.values[number]);
+                let (least, greatest) = ranges.entry(number).or_insert((here, here));
+                (*least, *greatest) = (least.min(there), greatest.max(there));
+                squares = squares.max(minimum.squares);
+            }
+        }
+    }
+    let ranges: Vec<_> = ranges
+        .into_iter()
+        .filter(|(_, (least, greatest))| least < greatest)
+        .map(|(number, (least, greatest))| (numbers[number].name.clone(), least, greatest))
+        .collect();
+    let [difference, found] = [squares, best.squares].map(|squares| (squares / count).sqrt());
+    (!ranges.is_empty()).then_some(Warning::Ambiguous { ranges, difference, found })
 }

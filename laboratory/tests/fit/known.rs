@@ -96,17 +96,6 @@ fn parameters_are_recovered_from_what_they_make() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn a_list_is_held_with_all_its_entries() -> Outcome {
-    let start = Ogden::new([4e5, -4e4], [1.8, -2.0], 1e6)?;
-    let settings = FitSettings { held: vec!["alpha".into()], restarts: 0, ..FitSettings::default() };
-    let found = fit_parameters(&start, &treloar(), &settings)?;
-    let held = found.numbers.iter().filter(|number| number.standing == Standing::Held);
-    assert!(held.map(|number| number.name.as_str()).eq(["alpha_1", "alpha_2"]), "{found:?}");
-    assert_eq!(found.values[1], [1.8, -2.0]);
-    Ok(())
-}
-
 /// Valanis and Landel's energy with a curve for the stretches.
 #[piola::material(fit)]
 fn Drawn([l1, l2, l3]: [f64; 3], f: Spline, kappa: f64) -> f64 {

@@ -47,20 +47,17 @@ fn ambiguous(fit: &Fit) -> Vec<(&str, f64, f64)> {
 }
 
 #[test]
-fn terms_of_each_sum_change_places_unsaid() -> Outcome {
-    let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, 1e2], [-0.3, 1.4], 2e7)?;
+fn terms_of_each_sum_change_places_unsaid_unless_one_has_vanished() -> Outcome {
     let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
-    let found = fit_parameters(&start, &measured(&truth), &FitSettings::default())?;
+    let fitted = |last: f64| -> Result<Fit, Box<dyn std::error::Error>> {
+        let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, last], [-0.3, 1.4], 2e7)?;
+        Ok(fit_parameters(&start, &measured(&truth), &FitSettings::default())?)
+    };
+    let found = fitted(1e2)?;
     assert!(found.difference <= 1e-9 && found.descents > 10, "{found:?}");
     assert!(ambiguous(&found).is_empty(), "{found:?}");
-    Ok(())
-}
 
-#[test]
-fn of_a_term_that_has_vanished_the_exponent_is_ambiguous() -> Outcome {
-    let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, 0.0], [-0.3, 1.4], 2e7)?;
-    let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
-    let found = fit_parameters(&start, &measured(&truth), &FitSettings::default())?;
+    let found = fitted(0.0)?;
     let ranges = ambiguous(&found);
     assert!(ranges.iter().any(|(name, ..)| *name == "beta_2"), "{ranges:?}");
     let text = text(&found);
