@@ -224,7 +224,8 @@ fn read_into(
     }
     let (energy, bounds) = forms::in_squares(&mut graph, energy, bounds, &mut nodes);
     let volume = declaration.volume();
-    let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
+    let (bounds, admissible, notation) = (&bounds[..], &admissible[..], diagnostics.notation());
+    let source = Source { declaration, nodes, energy, bounds, admissible, volume, notation };
 
     let samples = judge::written(&mut graph, &source, is_well_formed, diagnostics)?;
     // For a formula more than one domain is tried, and the mistakes of the last are reported.
@@ -237,7 +238,7 @@ fn read_into(
     let prepared = forms::prepare(&mut graph, &source, &samples);
     let (mut model, derived) = derive(graph, &source, &constrained, &prepared, samples)?;
     let findings = judge::derived(&mut model.graph, &source, &derived, &model.samples);
-    judge::report(&mut model.graph, &source, findings, diagnostics);
+    judge::report(findings, diagnostics);
     Some(model)
 }
 

@@ -215,6 +215,11 @@ pub fn identifiers(tokens: TokenStream) -> Vec<Ident> {
     names.flatten().collect()
 }
 
+/// True if one of the names is among tokens.
+pub(crate) fn mentions(tokens: impl ToTokens, names: &[&str]) -> bool {
+    identifiers(tokens.into_token_stream()).iter().any(|found| names.iter().any(|name| found == name))
+}
+
 /// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.
 #[must_use]
 pub fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
