@@ -4,7 +4,7 @@ use super::explain::{in_place, is_cut, positive_domain};
 use super::finding::Findings;
 use super::samples::is_zero;
 use super::source::{Source, at_rest};
-use super::vanishing::{Vanishing, conditions, vanishing};
+use super::vanishing::{conditions, vanishing};
 use super::volume::has_value;
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expand::expand_products;
@@ -77,7 +77,7 @@ pub(crate) fn rest(graph: &mut Graph, gradient: Id, samples: &[Point], findings:
     let limits = conditions(graph, source, &vanishing);
     let text = rust(graph, declaration, stress);
     let is_cut_short = is_cut(&text) || limits.iter().any(|limit| is_cut(limit));
-    let has_isochoric_limit = vanishing.first().is_some_and(Vanishing::ends_by_isochoric);
+    let has_isochoric_limit = vanishing.first().is_some_and(|first| first.side.is_none());
     let domain = if source.volume == Volume::Positive { "" } else { " with `domain(J > 0.0)`" };
     let [l1, l2, l3] = &declaration.stretches;
     let isochoric_stretches = format!("`{l1} / J.cbrt()` for `{l1}`, and so on for `{l2}` and `{l3}`");

@@ -45,14 +45,7 @@ pub(crate) struct Vanishing {
     of: Id,
     /// The comparison with zero, `>` or `<`, that keeps it from that as a condition of the domain; `None` if
     /// I1b, I2b in the places of I1, I2 do.
-    side: Option<char>,
-}
-
-impl Vanishing {
-    /// True if isochoric invariants are the remedy.
-    pub(crate) fn ends_by_isochoric(&self) -> bool {
-        self.side.is_none()
-    }
+    pub(crate) side: Option<char>,
 }
 
 /// Finds powers that are not whole of expressions that vanish at rest: rounding gives these either sign
