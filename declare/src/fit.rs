@@ -6,7 +6,6 @@ use piola::Univariate;
 use piola::interpreter::Interpreted;
 use piola::material::{Constraint, Limit, Material};
 use piola_codegen::algebra::expr::Id;
-use piola_codegen::emit::condition_text;
 use piola_codegen::model::{self, Model};
 use piola_codegen::read::parse::Declaration;
 
@@ -67,12 +66,11 @@ struct Condition {
 
 impl Condition {
     fn new(declaration: &Declaration, model: &mut Model, constraint: &model::Constraint) -> Option<Self> {
-        let text = constraint.limit.condition(declaration).map(condition_text).unwrap_or_default();
-        let limit = match constraint.limit {
-            model::Limit::Admissible(_) => Limit::Admissible(text.into()),
+        let limit = match constraint.limit.clone() {
+            model::Limit::Admissible(text) => Limit::Admissible(text.into()),
             model::Limit::ShearModulus => Limit::ShearModulus,
             model::Limit::BulkModulus => Limit::BulkModulus,
-            model::Limit::Domain(_) => Limit::Domain(text.into()),
+            model::Limit::Domain(text) => Limit::Domain(text.into()),
         };
         let is_of_length = |length| {
             let mut parameters = declaration.parameters.iter();

@@ -3,10 +3,11 @@
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
-use syn::{Expr, Ident};
+use syn::Ident;
 
 use crate::model::Model;
 use crate::printer::formula;
+pub use crate::read::notation::{condition_text, spaced};
 use crate::read::parse::{Declaration, Kind, documentation};
 use constructor::constructor;
 use declared::declared;
@@ -86,35 +87,6 @@ impl Texts {
 fn doc(text: &str) -> TokenStream {
     let lines = text.lines().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
     quote!(#(#[doc = #lines])*)
-}
-
-/// A condition in the usual format: `mu[p] * alpha[p] > 0`.
-#[must_use]
-pub fn condition_text(condition: &Expr) -> String {
-    spaced(&condition.to_token_stream()).replace(".0 ", " ").trim_end_matches(".0").replace("r#", "")
-}
-
-/// Tokens with the usual spaces: inside of the compiler they are printed with different ones than outside.
-#[must_use]
-pub fn spaced(tokens: &TokenStream) -> String {
-    let printed = tokens.to_string();
-    let mut text = String::new();
-    let mut characters = printed.chars().peekable();
-    while let Some(character) = characters.next() {
-        if character != ' ' || characters.peek().is_some_and(|&next| is_space_between(&text, next)) {
-            text.push(character);
-        }
-    }
-    text.replace("(| ", "(|").replace(" | ", "| ")
-}
-
-/// True if conventional formatting has a space between a text and the next token.
-fn is_space_between(text: &str, next: char) -> bool {
-    let is_name = |c: char| c.is_alphanumeric() || c == '_';
-    let is_call = "([".contains(next) && text.ends_with(is_name);
-    let before_minus = text.strip_suffix('-').map(str::trim_end);
-    let is_sign = before_minus.is_some_and(|text| !text.ends_with(|c| is_name(c) || ")]".contains(c)));
-    !(is_call || is_sign || text.ends_with(['(', '[', '.']) || ")].,".contains(next))
 }
 
 /// The generics after `impl`, and those after the name.

@@ -2,17 +2,18 @@
 //! at rest it is free of stress and resists shear.
 //!
 //! They are decided by evaluation at random points with random parameters, relative to what rounding could
-//! hide: a normal form would call (x + y)² and x² + 2xy + y² different. The judges return [`Finding`]s;
-//! [`report`] puts them into words.
+//! hide: a normal form would call (x + y)² and x² + 2xy + y² different. The judges return [`Finding`]s.
 
 use crate::algebra::excess::has_squares;
 use crate::algebra::expr::{Graph, Id};
 use crate::algebra::extension::extend;
 use crate::algebra::interpret::{Estimate, Point, evaluate};
+use crate::printer::rust;
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
-pub(crate) use explain::report;
-use finding::{Finding, Findings, Violation};
+use crate::read::parse::mentions;
+use explain::QUOTABLE;
+use finding::{Finding, Findings};
 use samples::{is_zero, samples};
 pub(crate) use source::Source;
 use units::units;
@@ -38,16 +39,22 @@ pub(crate) fn written(
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Point>> {
     // A misspelt domain may be the one that `extend` needs.
-    report(graph, source, options(source, is_well_formed), diagnostics);
+    report(options(source, is_well_formed), diagnostics);
     if !diagnostics.is_clean() {
         return None;
     }
-    let samples = samples(graph, source);
-    let samples = samples.map_err(|finding| report(graph, source, [finding], diagnostics)).ok()?;
-    let asymmetry = isotropy(graph, source, &samples);
-    let found = asymmetry.into_iter().chain(domain(graph, source, &samples)).chain(units(graph, source));
-    report(graph, source, found.collect::<Vec<_>>(), diagnostics);
+    let samples = samples(graph, source).map_err(|finding| report([finding], diagnostics)).ok()?;
+    report(isotropy(graph, source, &samples), diagnostics);
+    report(domain(graph, source, &samples), diagnostics);
+    report(units(graph, source), diagnostics);
     diagnostics.is_clean().then_some(samples)
+}
+
+/// Reports broken rules.
+pub(crate) fn report(findings: impl IntoIterator<Item = Finding>, diagnostics: &mut Diagnostics) {
+    for Finding { tokens, message } in findings {
+        diagnostics.error(tokens, message);
+    }
 }
 
 /// True if an energy has no value for a volume of its domain, or cannot be continued, which is known before
@@ -84,38 +91,55 @@ pub(crate) fn derived(
     derived: &Derived,
     samples: &[Point],
 ) -> Vec<Finding> {
-    let overflow = || Finding::new(source.blamed_term(|_| false), Violation::Overflow);
-    let mut findings = match derived.is_exact {
-        true => values(graph, source, derived, samples),
-        false => vec![overflow()],
-    };
+    const OVERFLOW: &str =
+        "the exact fractions in the derivatives of this energy leave 128 bits: use smaller numbers";
+    let is_prestressed = source.declaration.options.prestressed;
+    let mut findings = Findings::new(source);
+    if derived.is_exact {
+        vanishing::powers_at_rest(graph, samples, &mut findings);
+        roughness::roughness(graph, &derived.hessian, &mut findings);
+        if !is_prestressed {
+            rest::rest(graph, derived.gradient, samples, &mut findings);
+        }
+    } else {
+        findings.add(source.blamed_term(|_| false), OVERFLOW);
+    }
+    // The shear stiffness is checked once the energy is stress-free at rest: the correction may change it.
+    let is_stiffness_judged = !is_prestressed && findings.found.is_empty();
+    if derived.is_exact {
+        volume::volumes(graph, samples, &mut findings);
+        vanishing::limits(graph, samples, &mut findings);
+    }
+    let mut findings = findings.found;
     findings.extend(flat(graph, source, samples));
     findings.extend(continued_powers(graph, source));
     if findings.is_empty() {
         findings.extend(derived.continued.and_then(|energy| continued_value(graph, source, energy, samples)));
     }
-    // The shear stiffness is checked once the energy is stress-free at rest: the correction may change it.
-    if !source.declaration.options.prestressed
-        && !findings.iter().any(|finding| finding.violation.affects_rest())
-    {
+    if is_stiffness_judged {
         findings.extend(stiffness(graph, source, derived.shear, samples));
     }
     if findings.is_empty() && graph.overflowed() {
-        findings.push(overflow());
+        findings.push(Finding::new(source.blamed_term(|_| false), OVERFLOW));
     }
     findings
 }
 
 /// Checks that ψ does not change when two stretches are exchanged.
-fn isotropy(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Option<Finding> {
-    [[0, 1], [1, 2]].into_iter().find_map(|exchanged| {
-        let is_asymmetric = |id: Id| differs(graph, [id; 2], exchanged, samples);
-        is_asymmetric(source.energy).then(|| {
-            let blamed = source.blamed_term(is_asymmetric);
-            let term = blamed.and_then(|term| source.nodes.of(term)).filter(|&term| term != source.energy);
-            Finding::new(blamed, Violation::Anisotropic { exchanged, term })
-        })
-    })
+fn isotropy(graph: &mut Graph, source: &Source<'_>, samples: &[Point]) -> Option<Finding> {
+    let changes = |&exchanged: &[usize; 2]| differs(graph, [source.energy; 2], exchanged, samples);
+    let exchanged = [[0, 1], [1, 2]].into_iter().find(changes)?;
+    let blamed = source.blamed_term(|id| differs(graph, [id; 2], exchanged, samples));
+    let term = blamed.and_then(|term| source.nodes.of(term)).filter(|&term| term != source.energy);
+    let term = term.map(|term| format!("`{}`", rust(graph, source.declaration, term)));
+    let term = term.filter(|term| term.len() <= QUOTABLE);
+    let [i, j] = exchanged.map(|i| &source.declaration.stretches[i]);
+    let message = format!(
+        "an isotropic energy does not change when `{i}` and `{j}` are exchanged, but {} does: write the same \
+         for all three stretches",
+        term.as_deref().unwrap_or("this")
+    );
+    Some(Finding::new(blamed, message))
 }
 
 /// Checks that conditions of the domain are alike for all stretches, or on the largest or the smallest one.
@@ -133,7 +157,12 @@ fn domain(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding>
     };
     let conditions = source.bounds.iter().zip(source.declaration.bounds());
     let mistaken = conditions.filter(|&(&bound, _)| is_on_second(bound) && !is_written_out(bound));
-    mistaken.map(|(_, condition)| Finding::new(condition, Violation::OnOneStretch)).collect()
+    let [l1, l2, l3] = &source.declaration.stretches;
+    let message = format!(
+        "a domain is symmetric, and stretches come in order, `{l1}` ≥ `{l2}` ≥ `{l3}`: write this condition for the \
+         largest, `{l1}`, if it is an upper limit, or for the smallest, `{l3}`, if it is a lower one"
+    );
+    mistaken.map(|(_, condition)| Finding::new(condition, &*message)).collect()
 }
 
 /// True if an expression differs from another one in which two stretches are exchanged.
@@ -147,34 +176,22 @@ fn differs(graph: &Graph, [one, other]: [Id; 2], [i, j]: [usize; 2], samples: &[
     })
 }
 
-/// Checks that the energy has a value everywhere in its domain, and no stress at rest.
-fn values(graph: &mut Graph, source: &Source<'_>, derived: &Derived, samples: &[Point]) -> Vec<Finding> {
-    let mut findings = Findings::new(source);
-    vanishing::powers_at_rest(graph, samples, &mut findings);
-    roughness::roughness(graph, &derived.hessian, &mut findings);
-    if !source.declaration.options.prestressed {
-        rest::rest(graph, derived.gradient, samples, &mut findings);
-    }
-    volume::volumes(graph, samples, &mut findings);
-    vanishing::limits(graph, samples, &mut findings);
-    findings.found
-}
-
 /// Checks that the words of the attribute fit the declaration. The domain of one with mistakes of form is not
 /// judged.
 fn options(source: &Source<'_>, is_well_formed: bool) -> Option<Finding> {
-    let options = &source.declaration.options;
-    let word = options.words.iter().find(|word| *word == "extend");
-    (is_well_formed && options.extend.is_some() && source.volume == Volume::Any)
-        .then(|| Finding::new(word, Violation::ExtendWithoutDomain))
+    const MESSAGE: &str =
+        "`extend` continues an energy beyond `domain(J > 0.0)`: declare that or remove `extend`";
+    let is_extended = source.declaration.options.extend.is_some();
+    (is_well_formed && is_extended && source.volume == Volume::Any)
+        .then(|| Finding::new(source.extend(), MESSAGE))
 }
 
 /// Checks that no real power of an expression that vanishes at rest is to be continued.
 fn continued_powers(graph: &Graph, source: &Source<'_>) -> Option<Finding> {
-    let options = &source.declaration.options;
-    let word = options.words.iter().find(|word| *word == "extend");
-    (options.extend.is_some() && has_squares(graph, source.energy))
-        .then(|| Finding::new(word, Violation::ExtendedPower))
+    const MESSAGE: &str = "the energy has a real power of an expression that vanishes at rest, which is not \
+                           continued beyond J > 0: remove `extend`";
+    (source.declaration.options.extend.is_some() && has_squares(graph, source.energy))
+        .then(|| Finding::new(source.extend(), MESSAGE))
 }
 
 /// Checks that the continuation of an energy has a value at elements that are nearly flat, flat and inverted.
@@ -195,9 +212,13 @@ fn continued_value(graph: &Graph, source: &Source<'_>, continued: Id, samples: &
     };
     let found: Vec<_> = samples.iter().filter_map(without_value).collect();
     // Some parameters may be beyond what any element has.
-    let &stretches = found.first().filter(|_| 2 * found.len() > samples.len())?;
-    let word = source.declaration.options.words.iter().find(|word| *word == "extend");
-    Some(Finding::new(word, Violation::NoContinuation { stretches }))
+    let [l1, l2, l3] = found.first().filter(|_| 2 * found.len() > samples.len())?;
+    let message = format!(
+        "`extend` continues logarithms and powers of stretches below J = 0, but where they make up an argument of \
+         another logarithm, root or real power, this may turn negative, as at the stretches {l1:.3}, {l2:.3} and \
+         {l3}: remove `extend`"
+    );
+    Some(Finding::new(source.extend(), message))
 }
 
 /// Elements so flat that any value that is unbounded at vanishing volume exceeds every limit.
@@ -214,15 +235,28 @@ fn flat(graph: &Graph, source: &Source<'_>, samples: &[Point]) -> Vec<Finding> {
     };
     let conditions = source.bounds.iter().zip(source.declaration.bounds());
     let finding = |(&bound, condition)| {
-        let stretches = FLAT.into_iter().find(|&flat| excludes(bound, flat))?;
-        Some(Finding::new(condition, Violation::FlatExcluded { stretches }))
+        let [l1, l2, _] = FLAT.into_iter().find(|&flat| excludes(bound, flat))?;
+        let instead = if mentions(condition, &["I1b", "I2b"]) {
+            "bound a quantity that stays moderate there, such as I1 instead of I1b"
+        } else if mentions(condition, &["I1", "I2"]) {
+            "this condition, and write `I1b` for `I1` in the energy, which is 3 or more wherever J > 0"
+        } else {
+            "this condition"
+        };
+        let message = format!(
+            "`extend` continues the energy beyond J > 0, but where elements are flat, such as at the stretches {l1}, \
+             {l2} and 0, this does not hold: remove `extend`, or {instead}"
+        );
+        Some(Finding::new(condition, message))
     };
     conditions.filter_map(finding).collect()
 }
 
 /// Checks that some shear modulus is positive: otherwise the constructor would refuse all parameters.
 fn stiffness(graph: &Graph, source: &Source<'_>, shear: Id, samples: &[Point]) -> Option<Finding> {
+    const MESSAGE: &str = "the shear modulus of this energy is zero at rest: add a term that resists shear, \
+                           such as `mu / 2.0 * (I1b - 3.0)`";
     let vanishes = samples.iter().all(|point| is_zero(evaluate(graph, shear, point)));
     (vanishes && !source.declaration.has_functions())
-        .then(|| Finding::new(source.blamed_term(|_| false), Violation::NoShearModulus))
+        .then(|| Finding::new(source.blamed_term(|_| false), MESSAGE))
 }

@@ -20,6 +20,7 @@ use crate::algebra::simplify::simplify;
 use crate::judge::{self, Derived, Source};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
+use crate::read::notation::condition_text;
 use crate::read::parse::{Declaration, Parameter};
 use crate::read::resolve::{self, Resolver};
 use crate::read::unit::Unit;
@@ -117,28 +118,16 @@ pub struct Constraint {
 }
 
 /// Origin of a condition on parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Limit {
-    /// A comparison of `admissible(…)`, by its place there.
-    Admissible(usize),
+    /// A comparison of `admissible(…)`, by its text.
+    Admissible(String),
     /// The shear modulus at rest is positive.
     ShearModulus,
     /// The bulk modulus at rest is not negative.
     BulkModulus,
-    /// A comparison of `domain(…)` at given stretches, by its place among those that are not about J alone.
-    Domain(usize),
-}
-
-impl Limit {
-    /// The comparison as declared; `None` for the moduli.
-    #[must_use]
-    pub fn condition(self, declaration: &Declaration) -> Option<&Expr> {
-        match self {
-            Self::Admissible(k) => declaration.options.admissible.get(k),
-            Self::Domain(k) => declaration.bounds().nth(k),
-            Self::ShearModulus | Self::BulkModulus => None,
-        }
-    }
+    /// A comparison of `domain(…)` at given stretches, by its text.
+    Domain(String),
 }
 
 /// One energy with its derivatives, ready for scheduling.
@@ -224,7 +213,8 @@ fn read_into(
     }
     let (energy, bounds) = forms::in_squares(&mut graph, energy, bounds, &mut nodes);
     let volume = declaration.volume();
-    let source = Source { declaration, nodes, energy, bounds: &bounds, admissible: &admissible, volume };
+    let (bounds, admissible, notation) = (&bounds[..], &admissible[..], diagnostics.notation());
+    let source = Source { declaration, nodes, energy, bounds, admissible, volume, notation };
 
     let samples = judge::written(&mut graph, &source, is_well_formed, diagnostics)?;
     // For a formula more than one domain is tried, and the mistakes of the last are reported.
@@ -237,7 +227,7 @@ fn read_into(
     let prepared = forms::prepare(&mut graph, &source, &samples);
     let (mut model, derived) = derive(graph, &source, &constrained, &prepared, samples)?;
     let findings = judge::derived(&mut model.graph, &source, &derived, &model.samples);
-    judge::report(&mut model.graph, &source, findings, diagnostics);
+    judge::report(findings, diagnostics);
     Some(model)
 }
 
@@ -294,13 +284,15 @@ fn derive(
     let moduli = moduli.map(|modulus| expand_products(&mut graph, modulus));
     let (mut constraints, mut domain_constraints) = (Vec::new(), Vec::new());
     if options.fit {
-        let admissible = constrained.iter().enumerate();
-        let admissible = admissible.filter_map(|(k, &value)| Some((Limit::Admissible(k), value?)));
+        let admissible = options.admissible.iter().zip(constrained);
+        let admissible = admissible
+            .filter_map(|(condition, &value)| Some((Limit::Admissible(condition_text(condition)), value?)));
         let bulk = bulk(&mut graph, moduli);
         let moduli = [(Limit::ShearModulus, moduli[0]), (Limit::BulkModulus, bulk)];
         // Moduli of a stressed rest state determine no response.
         let moduli = moduli.into_iter().filter(|_| !options.prestressed);
-        let domain = bounds.iter().enumerate().map(|(k, &bound)| (Limit::Domain(k), bound));
+        let domain = declaration.bounds().map(|condition| Limit::Domain(condition_text(condition)));
+        let domain = domain.zip(bounds.iter().copied());
         let mut constraint = |(limit, value)| constraint(&mut graph, &variables, limit, value);
         constraints.extend(admissible.chain(moduli).map(&mut constraint));
         constraints.sort_by_key(|constraint| constraint.length.is_some());
@@ -337,7 +329,7 @@ fn variable((k, parameter): (usize, &Parameter)) -> Node {
 
 fn constraint(graph: &mut Graph, variables: &[Node], limit: Limit, value: Id) -> Constraint {
     // What holds for entries is a sum over them; see `Resolver::condition`.
-    let (length, value) = match (limit, graph.node(value)) {
+    let (length, value) = match (&limit, graph.node(value)) {
         (Limit::Admissible(_), &Node::Sum(length, body)) => (Some(length), body),
         _ => (None, value),
     };

@@ -7,7 +7,7 @@ use syn::Ident;
 
 use super::declared::read;
 use super::writer::{Writer, free_name};
-use super::{condition_text, generics, naming};
+use super::{generics, naming};
 use crate::algebra::expr::Id;
 use crate::model::{Constraint, Group, Limit, Model, Slopes};
 use crate::read::parse::{Declaration, Kind, Parameter};
@@ -176,7 +176,7 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
     let of_numbers = if of_numbers.is_empty() {
         quote!(__p::Vec::new())
     } else {
-        let limits = of_numbers.iter().map(|constraint| limit(declaration, constraint.limit));
+        let limits = of_numbers.iter().map(|constraint| limit(&constraint.limit));
         let roots: Vec<_> = of_numbers.iter().map(|constraint| constraint.value).collect();
         let by_parameters = (0..declaration.parameters.len())
             .map(|k| of_numbers.iter().map(|constraint| constraint.by_parameters[k]).collect());
@@ -204,7 +204,7 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
             let (k, entry) = (Literal::usize_unsuffixed(k), if is_list { quote!(#index) } else { quote!(0) });
             quote!((#k, #entry, #slope))
         });
-        let (limit, value) = (limit(declaration, constraint.limit), &outputs[0]);
+        let (limit, value) = (limit(&constraint.limit), &outputs[0]);
         let length = constraint.length.map(|length| declaration.lengths[length].of_self());
         quote! {
             for #index in 0..#length {
@@ -236,12 +236,11 @@ fn constraints(declaration: &Declaration, model: &mut Model, constraints: &[Cons
     }
 }
 
-fn limit(declaration: &Declaration, limit: Limit) -> TokenStream {
-    let text = limit.condition(declaration).map(condition_text).unwrap_or_default();
+fn limit(limit: &Limit) -> TokenStream {
     match limit {
-        Limit::Admissible(_) => quote!(__p::Limit::Admissible(__p::Borrowed(#text))),
+        Limit::Admissible(text) => quote!(__p::Limit::Admissible(__p::Borrowed(#text))),
         Limit::ShearModulus => quote!(__p::Limit::ShearModulus),
         Limit::BulkModulus => quote!(__p::Limit::BulkModulus),
-        Limit::Domain(_) => quote!(__p::Limit::Domain(__p::Borrowed(#text))),
+        Limit::Domain(text) => quote!(__p::Limit::Domain(__p::Borrowed(#text))),
     }
 }

@@ -13,24 +13,26 @@ impl<'a> Source<'a> {
     ///
     /// Terms that break a rule together, such as two that should cancel, are not taken apart.
     pub(crate) fn blamed_term(&self, breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
-        self.smallest(breaks, terms, Several::StayTogether)
+        self.smallest(breaks, terms, false)
     }
 
     /// The smallest operand that alone breaks a rule, found through operators and functions.
     pub(crate) fn blamed_operand(&self, breaks: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
-        self.smallest(breaks, operands, Several::StayTogether)
+        self.smallest(breaks, operands, false)
     }
 
     /// The smallest operand that contains the culprit, the first one if it is written more than once.
     pub(crate) fn first_operand(&self, holds: impl FnMut(Id) -> bool) -> Option<&'a Expr> {
-        self.smallest(holds, operands, Several::FirstIsMeant)
+        self.smallest(holds, operands, true)
     }
 
+    /// The smallest part that breaks a rule. Several parts of one expression may break it together, unless the
+    /// first one is meant.
     fn smallest(
         &self,
         mut breaks: impl FnMut(Id) -> bool,
         parts: impl Fn(&'a Expr, &mut HashMap<String, &'a Expr>) -> Vec<&'a Expr>,
-        several: Several,
+        is_first_meant: bool,
     ) -> Option<&'a Expr> {
         let mut definitions = HashMap::new();
         let mut blamed = value(&self.declaration.body, &mut definitions)?;
@@ -38,20 +40,11 @@ impl<'a> Source<'a> {
             let parts = parts(blamed, &mut definitions).into_iter();
             let mut blamed_parts = parts.filter(|part| self.nodes.of(part).is_some_and(&mut breaks));
             match (blamed_parts.next(), blamed_parts.next()) {
-                (Some(part), other) if other.is_none() || several == Several::FirstIsMeant => blamed = part,
+                (Some(part), other) if other.is_none() || is_first_meant => blamed = part,
                 _ => return Some(blamed),
             }
         }
     }
-}
-
-/// The meaning of several parts of one expression that break a rule.
-#[derive(Clone, Copy, PartialEq)]
-enum Several {
-    /// Parts that may break it together.
-    StayTogether,
-    /// Each breaks it.
-    FirstIsMeant,
 }
 
 /// The terms of a sum, or the expression that a name or parentheses stand for.

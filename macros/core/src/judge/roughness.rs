@@ -7,12 +7,15 @@
 //! [`excess`]: crate::algebra::excess
 
 use super::argument::Argument;
-use super::finding::{Findings, Violation};
-use super::samples::{CANDIDATES, POSITIVE, candidates, with_equal_entries};
+use super::explain::{is_declarable, with_admissible};
+use super::finding::Findings;
+use super::samples::{CANDIDATES, POSITIVE, draws};
 use super::source::Source;
 use crate::algebra::excess::has_squares;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::interpret::{Memo, Point, evaluate, evaluate_with};
+use crate::algebra::rational::Rational;
+use crate::printer::rust;
 
 /// Draws of positive parameters, of which about 0.4 have an exponent below 1 if that is not excluded.
 const DRAWS: usize = 24;
@@ -47,7 +50,11 @@ pub(crate) fn roughness(graph: &mut Graph, hessian: &[Id], findings: &mut Findin
     };
     let mut grows = false;
     let mut is_rough = vec![false; powers.len()];
-    for (point, is_positive) in draws(graph, source) {
+    // Parameters are positive in the first ones, where conditions allow it.
+    let positive = draws(graph, source, 0x9FB2_1C65_1E98_DF25, 0..CANDIDATES).take(DRAWS);
+    let either = draws(graph, source, 0x5851_F42D_4C95_7F2D, POSITIVE..CANDIDATES);
+    let either = either.take(DRAWS_OF_EITHER_SIGN).map(|point| (point, false));
+    for (point, is_positive) in positive.map(|point| (point, true)).chain(either) {
         let is_below_one = |&k: &usize| evaluate(graph, values[k], &point).value < 1.0;
         let below_one: Vec<_> = (0..powers.len()).filter(is_below_one).collect();
         // The others have been judged with positive parameters.
@@ -76,8 +83,43 @@ pub(crate) fn roughness(graph: &mut Graph, hessian: &[Id], findings: &mut Findin
         Argument::all(graph, part).iter().any(is_meant)
     };
     let part = source.first_operand(holds);
-    let exponents = rough.iter().map(|&(_, exponent)| exponent).collect();
-    findings.add(part, Violation::Rough { exponents });
+    let remedy = above_one(graph, source, &rough);
+    findings.add(
+        part,
+        format!(
+            "the stiffness of this is infinite at rest, as that of a power of `I1b - 3.0` is for an exponent below 1: {remedy}"
+        ),
+    );
+}
+
+/// The remedy that the exponents of powers are above 1.
+fn above_one(graph: &mut Graph, source: &Source<'_>, powers: &[(Id, Exponent)]) -> String {
+    let conditions = powers.iter().map(|&(_, exponent)| is_above_one(graph, source, exponent));
+    let conditions: Vec<String> = conditions.collect::<Option<_>>().unwrap_or_default();
+    if conditions.is_empty() {
+        return "take a power above 1".to_owned();
+    }
+    let firsts = (0..conditions.len()).filter(|&k| !conditions[..k].contains(&conditions[k]));
+    let conditions = firsts.map(|k| conditions[k].clone()).collect();
+    format!("declare {}", with_admissible(source, conditions))
+}
+
+/// The condition that an exponent is above 1, if it can be declared: of `2.0 * n + 1.0` it is `n > 0.0`.
+fn is_above_one(graph: &mut Graph, source: &Source<'_>, exponent: Exponent) -> Option<String> {
+    let mut varying = exponent.real?;
+    let mut limit = Rational::ONE.checked_add(exponent.rational.negated())?;
+    let mut side = '>';
+    if let Node::Linear { constant, terms } = graph.node(varying)
+        && let (true, &[(term, factor)]) = (constant.is_zero(), &terms[..])
+    {
+        limit = limit.checked_mul(factor.checked_powi(-1)?)?;
+        side = if factor.is_negative() { '<' } else { '>' };
+        varying = term;
+    }
+    let limit = graph.constant(limit);
+    let [varying_text, limit] = [varying, limit].map(|id| rust(graph, source.declaration, id));
+    let condition = format!("{varying_text} {side} {limit}");
+    is_declarable(graph, varying, &condition).then_some(condition)
 }
 
 /// The powers of sums of squares that are not whole, each with its base.
@@ -85,16 +127,4 @@ fn powers(graph: &Graph, energy: Id) -> Vec<(Id, Exponent)> {
     let arguments = Argument::all(graph, energy).into_iter();
     let of_squares = arguments.filter(|argument| matches!(graph.node(argument.of), Node::Excess(..)));
     of_squares.filter_map(|argument| Some((argument.of, argument.real_exponent()?))).collect()
-}
-
-/// Points with parameters that are good at rest, each with true if these are positive where conditions allow
-/// it.
-fn draws(graph: &Graph, source: &Source<'_>) -> impl Iterator<Item = (Point, bool)> {
-    let good = |seed, attempts: std::ops::Range<usize>| {
-        let points = candidates(source, seed, attempts).map(with_equal_entries);
-        points.filter(|point| source.is_good_at_rest(graph, point))
-    };
-    let positive = good(0x9FB2_1C65_1E98_DF25, 0..CANDIDATES).take(DRAWS).map(|point| (point, true));
-    let either = good(0x5851_F42D_4C95_7F2D, POSITIVE..CANDIDATES).take(DRAWS_OF_EITHER_SIGN);
-    positive.chain(either.map(|point| (point, false)))
 }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use syn::Expr;
 
-use super::finding::{Finding, Violation};
+use super::finding::Finding;
 use super::source::{Source, at_rest};
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id};
@@ -72,8 +72,15 @@ pub(crate) fn samples(graph: &mut Graph, source: &Source<'_>) -> Result<Vec<Poin
         return Ok(found);
     }
     Err(match excludes_rest.and_then(|k| declaration.bounds().nth(k)) {
-        Some(condition) => Finding::new(condition, Violation::RestExcluded),
-        None => Finding::new(&declaration.name, Violation::NoSamples),
+        Some(condition) => Finding::new(
+            condition,
+            "this excludes the rest state λ1 = λ2 = λ3 = 1, where every body starts: widen the domain",
+        ),
+        None => Finding::new(
+            &declaration.name,
+            "no parameters were found for which this energy is finite near rest: check its domain \
+             and `admissible(…)`",
+        ),
     })
 }
 
@@ -120,14 +127,23 @@ pub(crate) fn candidates(
     })
 }
 
-/// The point with all entries of each list replaced by its first one, so that a condition on their sum holds
-/// for each.
-pub(crate) fn with_equal_entries(mut point: Point) -> Point {
-    for entries in Rc::make_mut(&mut point.parameters) {
-        let first = entries.first().copied().unwrap_or_default();
-        entries.fill(first);
-    }
-    point
+/// Candidates that are good at rest, with all entries of each list replaced by its first one, so that a
+/// condition on their sum holds for each.
+pub(crate) fn draws(
+    graph: &Graph,
+    source: &Source<'_>,
+    seed: u64,
+    attempts: std::ops::Range<usize>,
+) -> impl Iterator<Item = Point> {
+    let with_equal_entries = |mut point: Point| {
+        for entries in Rc::make_mut(&mut point.parameters) {
+            let first = entries.first().copied().unwrap_or_default();
+            entries.fill(first);
+        }
+        point
+    };
+    let points = candidates(source, seed, attempts).map(with_equal_entries);
+    points.filter(move |point| source.is_good_at_rest(graph, point))
 }
 
 /// True if a value is zero up to rounding.

@@ -1,11 +1,12 @@
 //! Interface of a declaration to the judges: its tokens and the expressions that they stand for.
 
-use quote::ToTokens;
+use syn::Ident;
 
 use crate::algebra::expr::{Graph, Id};
 use crate::algebra::interpret::{Point, evaluate};
 use crate::read::domain::Volume;
-use crate::read::parse::{Declaration, identifiers};
+use crate::read::notation::Notation;
+use crate::read::parse::{Declaration, mentions};
 use crate::read::resolve::Nodes;
 
 /// A declaration whose names are resolved.
@@ -20,6 +21,8 @@ pub(crate) struct Source<'a> {
     /// Expressions of parameters that are positive.
     pub(crate) admissible: &'a [Id],
     pub(crate) volume: Volume,
+    /// The notation of messages.
+    pub(crate) notation: Notation,
 }
 
 impl Source<'_> {
@@ -39,8 +42,17 @@ impl Source<'_> {
 
     /// Invariants I1 and I2 that are written in the energy.
     pub(crate) fn invariants(&self) -> Vec<&'static str> {
-        let names = identifiers(self.declaration.body.to_token_stream());
-        ["I1", "I2"].into_iter().filter(|invariant| names.iter().any(|name| name == invariant)).collect()
+        ["I1", "I2"].into_iter().filter(|invariant| self.is_written_in(&[*invariant])).collect()
+    }
+
+    /// True if one of the names is written in the energy.
+    pub(crate) fn is_written_in(&self, names: &[&str]) -> bool {
+        mentions(&self.declaration.body, names)
+    }
+
+    /// The word `extend` of the attribute.
+    pub(crate) fn extend(&self) -> Option<&Ident> {
+        self.declaration.options.words.iter().find(|word| *word == "extend")
     }
 }
 

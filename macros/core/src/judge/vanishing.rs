@@ -1,14 +1,19 @@
 //! Denominators and the arguments of logarithms, roots and real powers: they must stay away from zero, at
 //! rest and everywhere in the domain.
 
+use quote::ToTokens;
+
 use super::argument::Argument;
-use super::finding::{Findings, Remedy, Vanishing, Violation};
+use super::explain::{in_place, is_cut, positive_domain};
+use super::finding::Findings;
 use super::samples::{CANDIDATES, POSITIVE, candidates, is_negative, is_zero};
 use super::source::{Source, at_rest};
 use super::volume::has_value;
-use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::expr::{Elementary, Graph, Id, Node};
 use crate::algebra::interpret::{Estimate, Memo, Point, evaluate, evaluate_with};
+use crate::printer::rust;
 use crate::read::resolve::isochoric;
+use crate::read::spelling::list;
 
 /// Paths away from rest, by ln λ: uniaxial and equibiaxial stretching and shear at constant volume, and one,
 /// two and three stretches that grow or shrink together.
@@ -34,6 +39,15 @@ const DRAWS: usize = 12;
 /// Attempts from one draw to the next, over more decades each, as long as all parameters are positive.
 const STRIDE: usize = POSITIVE / DRAWS;
 
+/// An expression that must not vanish inside the domain but does.
+#[derive(Clone, Copy)]
+pub(crate) struct Vanishing {
+    of: Id,
+    /// The comparison with zero, `>` or `<`, that keeps it from that as a condition of the domain; `None` if
+    /// I1b, I2b in the places of I1, I2 do.
+    pub(crate) side: Option<char>,
+}
+
 /// Finds powers that are not whole of expressions that vanish at rest: rounding gives these either sign
 /// nearby, and such powers have no value for a negative one.
 pub(crate) fn powers_at_rest(graph: &mut Graph, samples: &[Point], findings: &mut Findings<'_>) {
@@ -46,12 +60,28 @@ pub(crate) fn powers_at_rest(graph: &mut Graph, samples: &[Point], findings: &mu
         Some((argument.of, exponent))
     });
     let Some((of, exponent)) = found else { return };
-    let power = graph.power(of, exponent);
     let holds = |part| {
         let mut arguments = Argument::all(graph, part).into_iter();
         arguments.any(|argument| argument.real_exponent().is_some() && argument.of == of)
     };
-    findings.add(source.first_operand(holds), Violation::PowerAtRest { power });
+    let part = source.first_operand(holds);
+    let power = graph.power(of, exponent);
+    let message = format!(
+        "the base of `{}` vanishes at rest and is negative nearby, where only whole powers have a value: {}, or a \
+         whole power, such as {}, or the power of a base that stays positive, such as \
+         `(1.0 + b * (I1b - 3.0)).powf(n)`",
+        rust(graph, source.declaration, power),
+        match &source.invariants()[..] {
+            [] => "write a power of `I1b - 3.0`, which is never negative".to_owned(),
+            names => format!("write {}, since `I1b - 3.0` is never negative", in_place(names)),
+        },
+        if exponent.real.is_some() && !source.notation.is_formula() {
+            "`.powi(2)` or `.powi(n)` with `n: u32`"
+        } else {
+            "`.powi(2)`"
+        },
+    );
+    findings.add(part, message);
 }
 
 /// Finds arguments that vanish inside the domain, away from rest.
@@ -60,11 +90,55 @@ pub(crate) fn limits(graph: &mut Graph, samples: &[Point], findings: &mut Findin
     let arguments = vanishing(graph, source);
     let Some(first) = arguments.first() else { return };
     let holds = |part| Argument::is_in(graph, part, first.of);
-    if !findings.is_known(holds) {
-        let part = source.first_operand(holds);
-        let has_value = has_value(graph, source, samples);
-        findings.add(part, Violation::Vanishing { arguments, has_value });
+    if findings.is_known(holds) {
+        return;
     }
+    let part = source.first_operand(holds);
+    let conditions = conditions(graph, source, &arguments);
+    let remedy = if conditions.is_empty() {
+        let names = source.invariants();
+        let is = if names.len() == 1 { "is" } else { "are" };
+        format!("write {}, which {is} at least 3 wherever J > 0", in_place(&names))
+    } else {
+        let domain = if has_value(graph, source, samples) {
+            let declared = source.declaration.options.domain.iter();
+            let declared = declared.map(|condition| condition.to_token_stream().to_string());
+            let conditions: Vec<_> = declared.chain(conditions).collect();
+            format!("`domain({})`", conditions.join(", "))
+        } else {
+            positive_domain(source, conditions)
+        };
+        let is_parameter = |&id: &Id| matches!(graph.node(id), Node::Parameter(_));
+        let all: Vec<_> = arguments.iter().map(|argument| argument.of).collect();
+        let has_parameters = graph.reachable(&all).iter().any(is_parameter);
+        let or = if has_parameters { ", or limit the parameters by `admissible(…)`" } else { "" };
+        match is_cut(&domain) {
+            true => "limit the domain by conditions under which it does not".to_owned(),
+            false => format!("declare {domain}{or}"),
+        }
+    };
+    let texts = arguments.iter().map(|argument| rust(graph, source.declaration, argument.of));
+    let texts: Vec<_> = texts.collect();
+    let (vanish, these) = if texts.len() == 1 { ("vanishes", "this") } else { ("vanish", "the energy") };
+    let message =
+        format!("{} {vanish} inside the domain, and there {these} has no value: {remedy}", list(&texts));
+    findings.add(part, message);
+}
+
+/// The conditions that arguments do not vanish; none if isochoric invariants keep them from it.
+pub(crate) fn conditions(graph: &mut Graph, source: &Source<'_>, arguments: &[Vanishing]) -> Vec<String> {
+    let condition = |&Vanishing { of, side }: &Vanishing| {
+        let side = side?;
+        let zero = format!("{side} 0.0");
+        // Beyond their first zero, these are positive again.
+        let (of, limit) = match *graph.node(of) {
+            Node::Elementary(Elementary::Sin, a) if side == '>' => (a, "< PI"),
+            Node::Elementary(Elementary::Cos, a) if side == '>' => (a, "< PI / 2.0"),
+            _ => (of, &*zero),
+        };
+        Some(format!("{} {limit}", rust(graph, source.declaration, of)))
+    };
+    arguments.iter().filter_map(condition).collect()
 }
 
 /// The arguments that vanish inside the domain, each under the conditions on those before it, with a
@@ -77,18 +151,18 @@ pub(crate) fn vanishing(graph: &mut Graph, source: &Source<'_>) -> Vec<Vanishing
         if found.is_empty() && !source.invariants().is_empty() {
             let isochoric = isochoric(source.declaration, graph);
             if vanishing_in(graph, &bounds, isochoric, &draws).is_none() {
-                return vec![Vanishing { of, remedy: Remedy::Isochoric }];
+                return vec![Vanishing { of, side: None }];
             }
         }
         let at_rest = |graph: &Graph, id, point: &Point| evaluate(graph, id, &at_rest(point)).value;
-        let (remedy, bound) = match draws.iter().any(|point| at_rest(graph, of, point) > 0.0) {
-            true => (Remedy::Positive, of),
-            false => (Remedy::Negative, graph.neg(of)),
+        let (side, bound) = match draws.iter().any(|point| at_rest(graph, of, point) > 0.0) {
+            true => ('>', of),
+            false => ('<', graph.neg(of)),
         };
         if found.iter().any(|before| before.of == of) {
             break;
         }
-        found.push(Vanishing { of, remedy });
+        found.push(Vanishing { of, side: Some(side) });
         bounds.push(bound);
         draws.retain(|point| at_rest(graph, bound, point) > 0.0);
     }

@@ -4,11 +4,13 @@
 use rustc_hash::FxHashSet;
 
 use super::argument::Argument;
-use super::finding::{Findings, Violation};
-use super::samples::{CANDIDATES, POSITIVE, candidates, with_equal_entries};
+use super::explain::{is_declarable, with_admissible};
+use super::finding::Findings;
+use super::samples::{CANDIDATES, POSITIVE, draws};
 use super::source::Source;
 use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::interpret::{Point, evaluate};
+use crate::printer::rust;
 use crate::read::domain::Volume;
 
 /// The stretches of elements that are collapsed to a sheet, a line and a point.
@@ -26,7 +28,13 @@ pub(crate) fn volumes(graph: &mut Graph, samples: &[Point], findings: &mut Findi
         // the first is reported.
         let mut breaks = |part| has_no_value(graph, source, part, sign, samples);
         if !findings.is_known(&mut breaks) {
-            findings.add(source.blamed_term(breaks), Violation::NoValue { sign });
+            let message = if sign < 0.0 {
+                "this has no value where J < 0, in inverted material: declare `domain(J > 0.0)`"
+            } else {
+                "this has no value where J = 0, in flat material: declare `domain(J > 0.0)`, or \
+                 `domain(J != 0.0)` if the energy should treat inverted elements (J < 0) like upright ones"
+            };
+            findings.add(source.blamed_term(breaks), message);
         }
         return;
     }
@@ -41,7 +49,22 @@ pub(crate) fn volumes(graph: &mut Graph, samples: &[Point], findings: &mut Findi
         None => graph.ln(argument.of),
     };
     let part = source.first_operand(|part| Argument::is_in(graph, part, argument.of));
-    findings.add(part, Violation::NoValueCollapsed { power, exponent, vanishing });
+    let place = match vanishing {
+        1 => "λ3 = 0, in elements collapsed to a sheet",
+        2 => "λ2 = λ3 = 0, in elements collapsed to a line",
+        _ => "λ1 = λ2 = λ3 = 0, in elements collapsed to a point",
+    };
+    let negative = if exponent.is_some() { "its exponent is negative and " } else { "" };
+    let admissible = exponent.and_then(|exponent| {
+        let condition = format!("{} > 0.0", rust(graph, source.declaration, exponent));
+        is_declarable(graph, exponent, &condition)
+            .then(|| format!("{}, or ", with_admissible(source, vec![condition])))
+    });
+    let (power, admissible) = (rust(graph, source.declaration, power), admissible.unwrap_or_default());
+    findings.add(
+        part,
+        format!("`{power}` has no value where {negative}{place}: declare {admissible}`domain(J > 0.0)`"),
+    );
 }
 
 /// True if the energy needs no further condition on J.
@@ -118,7 +141,9 @@ fn without_value(graph: &mut Graph, source: &Source<'_>) -> Option<(Argument, us
     if arguments.is_empty() {
         return None;
     }
-    let points = draws(graph, source);
+    // Of admissible parameters with either sign.
+    let points = draws(graph, source, 0x2545_F491_4F6C_DD1D, POSITIVE..CANDIDATES).take(DRAWS);
+    let points: Vec<_> = points.collect();
     COLLAPSED.into_iter().find_map(|stretches| {
         let collapsed = |point: &Point| Point { stretches, ..point.clone() };
         let argument = points.iter().map(collapsed).find_map(|point| {
@@ -133,10 +158,4 @@ fn without_value(graph: &mut Graph, source: &Source<'_>) -> Option<(Argument, us
         });
         argument.map(|argument| (argument, stretches.iter().filter(|&&stretch| stretch == 0.0).count()))
     })
-}
-
-/// Points with admissible parameters of either sign.
-fn draws(graph: &Graph, source: &Source<'_>) -> Vec<Point> {
-    let points = candidates(source, 0x2545_F491_4F6C_DD1D, POSITIVE..CANDIDATES).map(with_equal_entries);
-    points.filter(|point| source.is_good_at_rest(graph, point)).take(DRAWS).collect()
 }

@@ -3,6 +3,7 @@
 //! Messages quote Rust. About a formula, each piece of code in backticks is read as the expression that it is
 //! and written as formulas are: `J.powi(2)` as `J^2`, `domain(J > 0.0)` as `where J > 0`.
 
+use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{BinOp, Expr, ExprCall, ExprMethodCall, Lit, UnOp};
 
@@ -66,6 +67,35 @@ impl Notation {
 pub fn plain_name(name: &impl ToString) -> String {
     let name = name.to_string();
     name.strip_prefix("r#").map(str::to_owned).unwrap_or(name)
+}
+
+/// A condition in the usual format: `mu[p] * alpha[p] > 0`.
+#[must_use]
+pub fn condition_text(condition: &Expr) -> String {
+    spaced(&condition.to_token_stream()).replace(".0 ", " ").trim_end_matches(".0").replace("r#", "")
+}
+
+/// Tokens with the usual spaces: inside of the compiler they are printed with different ones than outside.
+#[must_use]
+pub fn spaced(tokens: &TokenStream) -> String {
+    let printed = tokens.to_string();
+    let mut text = String::new();
+    let mut characters = printed.chars().peekable();
+    while let Some(character) = characters.next() {
+        if character != ' ' || characters.peek().is_some_and(|&next| is_space_between(&text, next)) {
+            text.push(character);
+        }
+    }
+    text.replace("(| ", "(|").replace(" | ", "| ")
+}
+
+/// True if conventional formatting has a space between a text and the next token.
+fn is_space_between(text: &str, next: char) -> bool {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let is_call = "([".contains(next) && text.ends_with(is_name);
+    let before_minus = text.strip_suffix('-').map(str::trim_end);
+    let is_sign = before_minus.is_some_and(|text| !text.ends_with(|c| is_name(c) || ")]".contains(c)));
+    !(is_call || is_sign || text.ends_with(['(', '[', '.']) || ")].,".contains(next))
 }
 
 /// Code of a message as a formula; other text stays as it is.

@@ -20,8 +20,8 @@ pub(crate) use function::Function;
 pub use lengths::Entries;
 pub(crate) use nesting::check_file;
 pub use options::Options;
+use signature::Reader;
 pub use signature::is_reserved;
-use signature::{Lists, generics, named, parameters, plain, result, stretches};
 pub(crate) use signature::{entry, is_f64, is_type, is_u32, is_vector, may_be_function};
 pub use typical::{Typical, Values};
 
@@ -176,13 +176,8 @@ pub fn parse_declaration(
 ) -> Option<Declaration> {
     let mut options = Options::read(arguments, diagnostics);
     let Function { attributes, visibility, signature, body } = diagnostics.take(Function::read(item))?;
-    named(&signature, diagnostics);
-    plain(&signature, diagnostics);
-    let generics = generics(&signature, diagnostics);
-    let stretches = stretches(&signature, &generics, diagnostics);
-    let Lists { mut parameters, mut lengths, mistaken } =
-        parameters(&signature, &generics, stretches.as_ref(), diagnostics);
-    result(&signature, &generics, diagnostics);
+    let Reader { generics, stretches, mut parameters, mut lengths, mistaken, .. } =
+        Reader::read(&signature, diagnostics);
     if let Some(typical) = options.typical.as_mut().filter(|_| mistaken.is_empty()) {
         typical.check(&parameters, diagnostics);
     }
@@ -194,7 +189,7 @@ pub fn parse_declaration(
         attributes,
         visibility,
         name: signature.ident,
-        generics: generics.lengths,
+        generics,
         stretches: stretches?,
         parameters,
         lengths,
@@ -213,6 +208,11 @@ pub fn identifiers(tokens: TokenStream) -> Vec<Ident> {
         _ => Vec::new(),
     });
     names.flatten().collect()
+}
+
+/// True if one of the names is among tokens.
+pub(crate) fn mentions(tokens: impl ToTokens, names: &[&str]) -> bool {
+    identifiers(tokens.into_token_stream()).iter().any(|found| names.iter().any(|name| found == name))
 }
 
 /// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.

@@ -13,6 +13,7 @@ use crate::read::notation::digits;
 use crate::read::parse::{Declaration, identifiers, indexed_list, is_f64};
 use crate::read::spelling::taken;
 pub(crate) use names::constant;
+pub use paper_notation::advice;
 use sums::Index;
 
 mod calls;
@@ -21,13 +22,6 @@ mod paper_notation;
 mod stretches;
 mod sums;
 mod tensors;
-
-/// The advice for a name that papers use for an expression with another notation in declarations, such as
-/// `trC`.
-#[must_use]
-pub fn advice(name: &str) -> Option<&'static str> {
-    paper_notation::name(name)
-}
 
 /// A resolver of the names of one declaration.
 pub struct Resolver<'a> {

@@ -40,24 +40,14 @@ impl Entries {
     /// The number in the usual notation: `3`, `N`, or `N_mu` if `N` alone could be another length.
     #[must_use]
     pub fn text(&self, declaration: &Declaration) -> String {
-        let is_other = |other: &Self| other.are_known_at_run_time() && other.first() != self.first();
-        match self {
-            Self::Known(length) => length.to_token_stream().to_string(),
-            Self::AtRunTime(first)
-                if declaration.generics.iter().any(|name| name == "N")
-                    || declaration.lengths.iter().any(is_other) =>
-            {
-                format!("N_{first}")
-            }
-            Self::AtRunTime(_) => "N".to_owned(),
-        }
-    }
-
-    fn first(&self) -> Option<&Ident> {
-        match self {
-            Self::Known(_) => None,
-            Self::AtRunTime(first) => Some(first),
-        }
+        let first = match self {
+            Self::Known(length) => return length.to_token_stream().to_string(),
+            Self::AtRunTime(first) => first,
+        };
+        let is_other = |other: &Self| matches!(other, Self::AtRunTime(other) if other != first);
+        let is_ambiguous =
+            declaration.generics.iter().any(|name| name == "N") || declaration.lengths.iter().any(is_other);
+        if is_ambiguous { format!("N_{first}") } else { "N".to_owned() }
     }
 }
 

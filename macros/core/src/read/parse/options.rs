@@ -6,7 +6,7 @@ use syn::punctuated::Punctuated;
 use syn::{BinOp, Expr, Ident, LitStr, Meta, Token};
 
 use crate::read::diagnostics::Diagnostics;
-use crate::read::spelling::nearest;
+use crate::read::spelling::{list, nearest};
 
 use super::nesting;
 use super::typical::Typical;
@@ -34,16 +34,16 @@ pub struct Options {
     pub words: Vec<Ident>,
 }
 
-/// Each argument as it is written.
-const FORMS: [(&str, &str); 8] = [
-    ("domain", "domain(J > 0.0)"),
-    ("admissible", "admissible(mu > 0.0)"),
-    ("extend", "extend"),
-    ("refuse", "refuse(\"why it does not extend\")"),
-    ("typical", "typical(\"natural rubber\", mu = 4e5)"),
-    ("prestressed", "prestressed"),
-    ("fit", "fit"),
-    ("serde", "serde"),
+/// Each argument as it is written, its name first.
+const FORMS: [&str; 8] = [
+    "domain(J > 0.0)",
+    "admissible(mu > 0.0)",
+    "extend",
+    "refuse(\"why it does not extend\")",
+    "typical(\"natural rubber\", mu = 4e5)",
+    "prestressed",
+    "fit",
+    "serde",
 ];
 
 impl Options {
@@ -61,8 +61,7 @@ impl Options {
             return options;
         }
         let arguments = Punctuated::<Meta, Token![,]>::parse_terminated.parse2(arguments).map_err(|error| {
-            let forms = FORMS.map(|(_, form)| format!("`{form}`")).join(", ");
-            syn::Error::new(error.span(), format!("{error}; the arguments are {forms}"))
+            syn::Error::new(error.span(), format!("{error}; the arguments are {}", list(&FORMS)))
         });
         for argument in diagnostics.take(arguments).into_iter().flatten() {
             options.add(&argument, diagnostics);
@@ -100,16 +99,12 @@ impl Options {
 
 /// The message about an unknown argument, or one that is written in another form.
 fn unknown(name: &str) -> String {
-    let form = |name: &str| FORMS.into_iter().find(|(known, _)| *known == name).map(|(_, form)| form);
-    if let Some(form) = form(name) {
-        return format!("`{name}` is written `{form}`");
-    }
-    match nearest(name, FORMS.map(|(known, _)| known)).and_then(form) {
-        Some(form) => format!("unknown argument `{name}`: did you mean `{form}`?"),
-        None => {
-            let forms = FORMS.map(|(_, form)| format!("`{form}`")).join(", ");
-            format!("unknown argument `{name}`: there are {forms}")
-        }
+    let word = |form: &'static str| form.split('(').next().unwrap_or(form);
+    let form = |name: &str| FORMS.into_iter().find(|&form| word(form) == name);
+    match (form(name), nearest(name, FORMS.map(word)).and_then(form)) {
+        (Some(form), _) => format!("`{name}` is written `{form}`"),
+        (None, Some(form)) => format!("unknown argument `{name}`: did you mean `{form}`?"),
+        (None, None) => format!("unknown argument `{name}`: there are {}", list(&FORMS)),
     }
 }
 
@@ -128,16 +123,16 @@ fn comparisons(tokens: &TokenStream, diagnostics: &mut Diagnostics) -> Vec<Expr>
         .map_err(|error| syn::Error::new(error.span(), format!("{error}; {MESSAGE}")));
     let mut conditions = Vec::new();
     for expression in diagnostics.take(list).into_iter().flatten() {
-        let is_comparison = matches!(
-            &expression,
-            Expr::Binary(binary) if matches!(binary.op,
-                BinOp::Lt(_) | BinOp::Gt(_) | BinOp::Le(_) | BinOp::Ge(_) | BinOp::Ne(_))
-        );
         match &expression {
-            _ if is_comparison => conditions.push(expression),
-            Expr::Binary(binary) if matches!(binary.op, BinOp::And(_)) => {
-                diagnostics.error(binary.op, "conditions that must all hold are separated by commas");
-            }
+            Expr::Binary(binary) => match binary.op {
+                BinOp::Lt(_) | BinOp::Gt(_) | BinOp::Le(_) | BinOp::Ge(_) | BinOp::Ne(_) => {
+                    conditions.push(expression);
+                }
+                BinOp::And(and) => {
+                    diagnostics.error(and, "conditions that must all hold are separated by commas");
+                }
+                _ => diagnostics.error(&expression, MESSAGE),
+            },
             _ => diagnostics.error(&expression, MESSAGE),
         }
     }

@@ -1,5 +1,7 @@
 //! The signature of an energy: its generics, stretches and parameters.
 
+use std::fmt::Display;
+
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::{
@@ -58,28 +60,12 @@ const MEMBERS: [&str; 33] = [
 /// Values that are patterns everywhere, so that no argument can have their name.
 const PATTERNS: [&str; 4] = ["Some", "None", "Ok", "Err"];
 
-/// The parameters of a signature, with the lengths of the lists among them.
-#[derive(Default)]
-pub(super) struct Lists {
-    pub(super) parameters: Vec<Parameter>,
-    pub(super) lengths: Vec<Entries>,
-    pub(super) mistaken: Vec<Ident>,
-}
-
 /// Types and crates that a material of the same name would hide from its own expansion, and for which a
 /// length of the same name would be taken.
 const TYPES: [&str; 22] = [
     "bool", "char", "f16", "f32", "f64", "f128", "i8", "i16", "i32", "i64", "i128", "isize", "str", "u8",
     "u16", "u32", "u64", "u128", "usize", "core", "std", "__p",
 ];
-
-/// Reports a name that the type cannot have.
-pub(super) fn named(signature: &Signature, diagnostics: &mut Diagnostics) {
-    let name = &signature.ident;
-    if is_type(name) {
-        diagnostics.error(name, meaning(name));
-    }
-}
 
 /// True if a name is a type, or a keyword of Rust.
 pub(crate) fn is_type(name: &Ident) -> bool {
@@ -91,171 +77,162 @@ fn is_raw(name: &Ident) -> bool {
     name.to_string().starts_with("r#")
 }
 
-/// Reports features that only executable functions can have.
-pub(super) fn plain(signature: &Signature, diagnostics: &mut Diagnostics) {
-    let safety = (!matches!(signature.safety, Safety::Default)).then_some(&signature.safety);
-    let superfluous = [
-        signature.constness.to_token_stream(),
-        signature.asyncness.to_token_stream(),
-        safety.to_token_stream(),
-        signature.abi.to_token_stream(),
-        signature.variadic.to_token_stream(),
-        signature.generics.where_clause.to_token_stream(),
-    ];
-    for tokens in superfluous.into_iter().filter(|tokens| !tokens.is_empty()) {
-        diagnostics.error(tokens, "an energy is a plain function: remove this");
-    }
-}
+/// The message about a parameter of another form.
+const PARAMETER: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or `mu: Vec<f64>`, a whole exponent `n: u32` or a function `f: F`, with `F: piola::Univariate`";
 
-#[derive(Default)]
-pub(super) struct Generics {
-    /// Lengths of lists.
-    pub(super) lengths: Vec<Ident>,
-    /// Types, which a declaration cannot have: `f64` was meant.
+/// A signature as far as it has been read.
+pub(super) struct Reader<'a> {
+    signature: &'a Signature,
+    diagnostics: &'a mut Diagnostics,
+    /// Constant generics.
+    pub(super) generics: Vec<Ident>,
+    /// Generic types, which a declaration cannot have: `f64` was meant.
     types: Vec<Ident>,
+    pub(super) stretches: Option<[Ident; 3]>,
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) lengths: Vec<Entries>,
+    pub(super) mistaken: Vec<Ident>,
 }
 
-impl Generics {
-    fn is_number(&self, ty: &Type) -> bool {
-        is_f64(ty) || matches!(ty, Type::Path(path) if self.types.iter().any(|name| path.path.is_ident(name)))
+impl<'a> Reader<'a> {
+    pub(super) fn read(signature: &'a Signature, diagnostics: &'a mut Diagnostics) -> Self {
+        let (generics, types, stretches) = (Vec::new(), Vec::new(), None);
+        let (parameters, lengths, mistaken) = (Vec::new(), Vec::new(), Vec::new());
+        let mut reader =
+            Self { signature, diagnostics, generics, types, stretches, parameters, lengths, mistaken };
+        let name = &signature.ident;
+        if is_type(name) {
+            reader.error(name, meaning(name));
+        }
+        reader.check_is_plain();
+        signature.generics.params.iter().for_each(|generic| reader.generic(generic));
+        reader.stretches = reader.stretches();
+        signature.inputs.iter().skip(1).for_each(|input| reader.parameter(input));
+        match &signature.output {
+            ReturnType::Type(_, ty) if reader.is_number(ty) => {}
+            ReturnType::Type(_, ty) => reader.error(ty, "an energy density is a number: write `-> f64`"),
+            ReturnType::Default => {
+                reader.error(name, "an energy density is a number: write `-> f64` before the body");
+            }
+        }
+        reader
     }
-}
 
-/// The lengths of lists, and all other generics.
-pub(super) fn generics(signature: &Signature, diagnostics: &mut Diagnostics) -> Generics {
-    let Generics { lengths: mut names, mut types } = Generics::default();
-    for generic in &signature.generics.params {
+    fn error(&mut self, tokens: impl ToTokens, message: impl Display) {
+        self.diagnostics.error(tokens, message);
+    }
+
+    /// Reports features that only executable functions can have.
+    fn check_is_plain(&mut self) {
+        let Signature { constness, asyncness, safety, abi, variadic, generics, .. } = self.signature;
+        let safety = (!matches!(safety, Safety::Default)).then_some(safety);
+        let superfluous = [
+            constness.to_token_stream(),
+            asyncness.to_token_stream(),
+            safety.to_token_stream(),
+            abi.to_token_stream(),
+            variadic.to_token_stream(),
+            generics.where_clause.to_token_stream(),
+        ];
+        for tokens in superfluous.into_iter().filter(|tokens| !tokens.is_empty()) {
+            self.error(tokens, "an energy is a plain function: remove this");
+        }
+    }
+
+    /// The length of lists, or another generic.
+    fn generic(&mut self, generic: &GenericParam) {
         match generic {
             // The real type of generated functions is called R.
             GenericParam::Const(constant) if constant.ident == "R" || is_type(&constant.ident) => {
-                diagnostics.error(&constant.ident, meaning(&constant.ident));
-                names.push(constant.ident.clone());
+                self.error(&constant.ident, meaning(&constant.ident));
+                self.generics.push(constant.ident.clone());
             }
             // Those are variables in generated functions.
             GenericParam::Const(constant) if constant.ident.to_string().starts_with(char::is_lowercase) => {
-                let message =
-                    "the length of a list is a constant: begin its name with a capital, such as `N`";
-                diagnostics.error(&constant.ident, message);
-                names.push(constant.ident.clone());
+                self.error(
+                    &constant.ident,
+                    "the length of a list is a constant: begin its name with a capital, such as `N`",
+                );
+                self.generics.push(constant.ident.clone());
             }
             GenericParam::Const(constant) if constant.ty.to_token_stream().to_string() == "usize" => {
                 let name = &constant.ident;
-                if names.contains(name) {
-                    diagnostics.error(name, taken(name));
-                    continue;
+                if self.generics.contains(name) {
+                    return self.error(name, taken(name));
                 }
-                if !identifiers(signature.inputs.to_token_stream()).contains(name) {
-                    let message = format!(
-                        "`{name}` is not the length of a list: write a parameter `[f64; {name}]` or remove it"
+                if !identifiers(self.signature.inputs.to_token_stream()).contains(name) {
+                    self.error(
+                        name,
+                        format!("`{name}` is not the length of a list: write a parameter `[f64; {name}]` or remove it"),
                     );
-                    diagnostics.error(name, message);
                 }
-                names.push(name.clone());
+                self.generics.push(name.clone());
             }
-            GenericParam::Type(function) if !function.bounds.is_empty() => diagnostics.error(
+            GenericParam::Type(function) if !function.bounds.is_empty() => self.error(
                 generic,
                 "a function has a type of its own: write `f: Curve` with `impl piola::Univariate for Curve`, and no type parameter",
             ),
             _ => {
-                diagnostics.error(
+                self.error(
                     generic,
                     "only lengths of lists can be generic: write `const N: usize` and a parameter `[f64; N]`",
                 );
                 if let GenericParam::Type(generic) = generic {
-                    types.push(generic.ident.clone());
+                    self.types.push(generic.ident.clone());
                 }
             }
         }
     }
-    Generics { lengths: names, types }
-}
 
-pub(super) fn stretches(
-    signature: &Signature,
-    generics: &Generics,
-    diagnostics: &mut Diagnostics,
-) -> Option<[Ident; 3]> {
-    const MESSAGE: &str = "the first argument names the three stretches: `[l1, l2, l3]: [f64; 3]`";
-    let Some(input) = signature.inputs.first() else {
-        diagnostics.error(&signature.ident, MESSAGE);
-        return None;
-    };
-    let names = match input {
-        FnArg::Typed(argument) if is_three_numbers(&argument.ty, generics) => match &*argument.pat {
-            Pat::Slice(slice) => slice.elems.iter().map(plain_name).collect::<Option<Vec<_>>>(),
+    fn stretches(&mut self) -> Option<[Ident; 3]> {
+        const MESSAGE: &str = "the first argument names the three stretches: `[l1, l2, l3]: [f64; 3]`";
+        let Some(input) = self.signature.inputs.first() else {
+            self.error(&self.signature.ident, MESSAGE);
+            return None;
+        };
+        let is_three = |ty: &Type| {
+            matches!(ty, Type::Array(array)
+                if self.is_number(&array.elem) && array.len.to_token_stream().to_string() == "3")
+        };
+        let names = match input {
+            FnArg::Typed(argument) if is_three(&argument.ty) => match &*argument.pat {
+                Pat::Slice(slice) => slice.elems.iter().map(plain_name).collect::<Option<Vec<_>>>(),
+                _ => None,
+            },
             _ => None,
-        },
-        _ => None,
-    };
-    let Some(Ok(names)) = names.map(<[Ident; 3]>::try_from) else {
-        diagnostics.error(input, MESSAGE);
-        return None;
-    };
-    for (k, name) in names.iter().enumerate() {
-        reserved(name, diagnostics);
-        if generics.lengths.contains(name) || names[..k].contains(name) {
-            diagnostics.error(name, taken(name));
+        };
+        let Some(Ok(names)) = names.map(<[Ident; 3]>::try_from) else {
+            self.error(input, MESSAGE);
+            return None;
+        };
+        for (k, name) in names.iter().enumerate() {
+            self.check_is_free(name);
+            if self.generics.contains(name) || names[..k].contains(name) {
+                self.error(name, taken(name));
+            }
         }
+        Some(names)
     }
-    Some(names)
-}
 
-/// All arguments but the first.
-pub(super) fn parameters(
-    signature: &Signature,
-    generics: &Generics,
-    stretches: Option<&[Ident; 3]>,
-    diagnostics: &mut Diagnostics,
-) -> Lists {
-    let mut lists = Lists::default();
-    for input in signature.inputs.iter().skip(1) {
-        lists.add(input, generics, stretches, diagnostics);
-    }
-    lists
-}
-
-/// Reports a result that is not an energy density.
-pub(super) fn result(signature: &Signature, generics: &Generics, diagnostics: &mut Diagnostics) {
-    match &signature.output {
-        ReturnType::Type(_, ty) if generics.is_number(ty) => {}
-        ReturnType::Type(_, ty) => diagnostics.error(ty, "an energy density is a number: write `-> f64`"),
-        ReturnType::Default => {
-            diagnostics
-                .error(&signature.ident, "an energy density is a number: write `-> f64` before the body");
-        }
-    }
-}
-
-/// The message about a parameter of another form.
-const PARAMETER: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or `mu: Vec<f64>`, a whole exponent `n: u32` or a function `f: F`, with `F: piola::Univariate`";
-
-impl Lists {
-    fn add(
-        &mut self,
-        input: &FnArg,
-        generics: &Generics,
-        stretches: Option<&[Ident; 3]>,
-        diagnostics: &mut Diagnostics,
-    ) {
+    fn parameter(&mut self, input: &FnArg) {
         let FnArg::Typed(argument) = input else {
-            return diagnostics.error(input, PARAMETER);
+            return self.error(input, PARAMETER);
         };
         let Some(name) = plain_name(&argument.pat) else {
             self.mistaken.extend(identifiers(argument.pat.to_token_stream()));
-            return diagnostics.error(&argument.pat, PARAMETER);
+            return self.error(&argument.pat, PARAMETER);
         };
         // No code is generated at run time, in which a name could have another meaning.
-        if diagnostics.notation() == Notation::Attribute || !is_raw(&name) {
-            reserved(&name, diagnostics);
+        if self.diagnostics.notation() == Notation::Attribute || !is_raw(&name) {
+            self.check_is_free(&name);
         }
-        let is_taken = stretches.is_some_and(|stretches| stretches.contains(&name))
-            || generics.lengths.contains(&name)
+        let is_taken = self.stretches.iter().flatten().chain(&self.generics).any(|other| *other == name)
             || self.parameters.iter().any(|other| other.name == name);
         if is_taken {
-            diagnostics.error(&name, taken(&name));
+            self.error(&name, taken(&name));
             return self.mistaken.push(name);
         }
-        match self.kind(&name, &argument.ty, generics) {
+        match self.kind(&name, &argument.ty) {
             Ok(kind) => {
                 let (doc, attributes) = (documentation(&argument.attrs), argument.attrs.clone());
                 let is_whole = is_whole(&argument.ty);
@@ -264,29 +241,24 @@ impl Lists {
                         "values of parameters are in SI units, not in `{unit}`: write `Pa`, `1/Pa` or `dimensionless` there, and give \
                          the values in that unit"
                     );
-                    diagnostics.error(quote!(#(#attributes)*), message);
+                    self.error(quote!(#(#attributes)*), message);
                 }
                 self.parameters.push(Parameter { name, doc, attributes, kind, is_whole });
             }
             Err((tokens, message)) => {
-                diagnostics.error(tokens, message);
+                self.error(tokens, message);
                 self.mistaken.push(name);
             }
         }
     }
 
     /// The kind of a parameter, or the mistaken tokens with the message about them.
-    fn kind(
-        &mut self,
-        name: &Ident,
-        ty: &Type,
-        generics: &Generics,
-    ) -> Result<Kind, (TokenStream, &'static str)> {
+    fn kind(&mut self, name: &Ident, ty: &Type) -> Result<Kind, (TokenStream, &'static str)> {
         const ENTRIES: &str = "the entries of a list are `f64`, or `u32` if they are exponents";
         const OWNED: &str =
             "a material owns its lists: write `Vec<f64>`, or `[f64; N]` with `const N: usize`";
         let mistake = |tokens: &dyn ToTokens, message: &'static str| Err((tokens.to_token_stream(), message));
-        let is_number = |ty: &Type| generics.is_number(ty) || is_u32(ty);
+        let is_number = |ty: &Type| self.is_number(ty) || is_u32(ty);
         match ty {
             ty if is_number(ty) => Ok(Kind::Number),
             Type::Array(array) if !is_number(&array.elem) => mistake(&array.elem, ENTRIES),
@@ -295,7 +267,7 @@ impl Lists {
                     Expr::Lit(literal) => {
                         matches!(&literal.lit, Lit::Int(n) if n.base10_parse::<usize>().is_ok_and(|n| n > 0))
                     }
-                    Expr::Path(path) => generics.lengths.iter().any(|generic| path.path.is_ident(generic)),
+                    Expr::Path(path) => self.generics.iter().any(|generic| path.path.is_ident(generic)),
                     _ => false,
                 };
                 if is_known {
@@ -329,6 +301,17 @@ impl Lists {
             self.lengths.push(Entries::Known(length.clone()));
             self.lengths.len() - 1
         })
+    }
+
+    fn is_number(&self, ty: &Type) -> bool {
+        is_f64(ty) || matches!(ty, Type::Path(path) if self.types.iter().any(|name| path.path.is_ident(name)))
+    }
+
+    /// Reports a reserved name.
+    fn check_is_free(&mut self, name: &Ident) {
+        if is_reserved(name) {
+            self.error(name, meaning(name));
+        }
     }
 }
 
@@ -379,23 +362,12 @@ pub(crate) fn is_f64(ty: &Type) -> bool {
     matches!(ty, Type::Path(path) if path.path.is_ident("f64"))
 }
 
-fn is_three_numbers(ty: &Type, generics: &Generics) -> bool {
-    matches!(ty, Type::Array(array)
-        if generics.is_number(&array.elem) && array.len.to_token_stream().to_string() == "3")
-}
-
 fn plain_name(pattern: &Pat) -> Option<Ident> {
     match pattern {
         Pat::Ident(name) if name.by_ref.is_none() && name.mutability.is_none() && name.subpat.is_none() => {
             Some(name.ident.clone())
         }
         _ => None,
-    }
-}
-
-fn reserved(name: &Ident, diagnostics: &mut Diagnostics) {
-    if is_reserved(name) {
-        diagnostics.error(name, meaning(name));
     }
 }
 

@@ -46,20 +46,18 @@ const KINKED: [&str; 12] = [
 impl Resolver<'_> {
     pub(super) fn method(&mut self, call: &ExprMethodCall) -> Id {
         let name = call.method.to_string();
-        if form(&name).is_none()
+        let form = form(&name);
+        if form.is_none()
             && let Some(tensor) = self.tensor(&call.receiver)
         {
             return self.tensor_function(call, tensor);
         }
         let receiver = self.expression(&call.receiver);
-        let expected = match name.as_str() {
-            "powi" | "powf" | "log" => 1,
-            name if form(name).is_some() => 0,
-            _ => {
-                self.excuse_names(&call.args);
-                return self.unknown_function(&call.method, None);
-            }
+        let Some(form) = form else {
+            self.excuse_names(&call.args);
+            return self.unknown_function(&call.method, None);
         };
+        let expected = usize::from(!form.ends_with("()"));
         if call.args.len() != expected {
             self.excuse_names(&call.args);
             let what = match name.as_str() {

@@ -4,7 +4,7 @@ use std::f64::consts;
 
 use syn::{Ident, Path};
 
-use super::{Resolver, Scope, paper_notation};
+use super::{Resolver, Scope, advice};
 use crate::algebra::expr::{Exponent, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::parse::{Kind, WORDS};
@@ -96,7 +96,7 @@ impl Resolver<'_> {
             );
         }
         let known = self.known_names();
-        let hint = match (paper_notation::name(&text), nearest(&text, known.iter().map(String::as_str))) {
+        let hint = match (advice(&text), nearest(&text, known.iter().map(String::as_str))) {
             (Some(hint), _) if self.scope != Scope::Parameters => hint.to_owned(),
             (_, Some(near)) => {
                 // The likely name counts as used.

@@ -4,8 +4,10 @@ use super::tensors;
 use crate::read::notation::Notation;
 use crate::read::spelling::plain;
 
-/// The advice for a name that papers use.
-pub(super) fn name(name: &str) -> Option<&'static str> {
+/// The advice for a name that papers use for an expression with another notation in declarations, such as
+/// `trC`.
+#[must_use]
+pub fn advice(name: &str) -> Option<&'static str> {
     Some(match plain(name).as_str() {
         "I3" | "III" | "IIIC" => "write `J.powi(2)`, and `J` for its root",
         "I1bar" | "Ibar1" | "I1iso" | "Ib1" => "write `I1b`",
