@@ -16,7 +16,7 @@ use piola_laboratory::stability::{Report, SurveySettings, survey};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::arrays::{Axes, Input, Numbers, from_rows, numbers, rows};
+use crate::arrays::{Axes, Numbers, deformations, from_rows, numbers, rows};
 use crate::errors::{ContractError, DomainError, FitError, of_material, value_error};
 use crate::material::Material;
 use crate::shape;
@@ -181,13 +181,13 @@ impl Material {
     ) -> PyResult<Bound<'py, PyDict>> {
         let F = Numbers::new("F", F)?;
         let dtype = if let Numbers::Single(_) = F { "float32" } else { "float64" };
-        let input = Input::new(&F.doubles()?, Axes::Leading, self.shape())?;
+        let (F, shape) = deformations(&F.doubles()?, Axes::Leading, self.shape())?;
         let candidates = self.specs().map(|spec| spec.candidate().map_err(of_material));
         let candidates: Vec<_> = candidates.collect::<PyResult<_>>()?;
-        let candidate_of = shape::entries(self.shape(), input.points());
+        let candidate_of = shape::entries(self.shape(), &shape);
         let lists = candidates[0].values();
         let count = lists.iter().map(Vec::len).sum::<usize>();
-        let numbers = input.slice()?;
+        let numbers = F.as_slice()?;
         let points = numbers.len() / 9;
         let mut derivatives = vec![0.0; count * numbers.len()];
         let outside = py.detach(|| {
@@ -208,7 +208,7 @@ impl Material {
             })
         });
         if let Some(point) = outside {
-            let index = shape::index(point, input.points());
+            let index = shape::index(point, &shape);
             let message = format!(
                 "a point is outside the domain of the energy, or not finite; it has the index {}",
                 shape::text(&index)
@@ -221,9 +221,10 @@ impl Material {
             let part =
                 derivatives[begin * numbers.len()..][..list.len() * numbers.len()].to_vec().into_pyarray(py);
             begin += list.len();
-            let shape = [input.points(), &[3, 3]].concat();
-            let shape = if parameter.is_list() { [&[list.len()][..], &shape].concat() } else { shape };
-            result.set_item(&*parameter.name, part.reshape(shape)?.call_method1("astype", (dtype,))?)?;
+            let entries = [list.len()];
+            let in_front = &entries[..usize::from(parameter.is_list())];
+            let part = part.reshape([in_front, &shape, &[3, 3]].concat())?;
+            result.set_item(&*parameter.name, part.call_method1("astype", (dtype,))?)?;
         }
         Ok(result)
     }
