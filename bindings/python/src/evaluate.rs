@@ -62,7 +62,7 @@ impl<'py> Call<'_, 'py> {
         quantity: Quantity,
         mut out: Vec<Option<Bound<'py, PyAny>>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let (F, points) = deformations(F, self.axes, material.shape())?;
+        let (F, points) = deformations(F, self.axes, &material.shape)?;
         let (py, count) = (F.py(), points.iter().product::<usize>());
         let mut outputs = Vec::with_capacity(3);
         out.resize(quantity.components().len(), None);
@@ -129,9 +129,9 @@ impl<'py> Call<'_, 'py> {
         let F = F.as_slice()?;
         let each = material.at(points);
         let single;
-        let tiles: &dyn TileMaterial<E> = match each.as_deref() {
-            None | Some([]) => E::material(material)?,
-            Some(each) => {
+        let tiles: &dyn TileMaterial<E> = match &each[..] {
+            [] => E::material(material)?,
+            each => {
                 single = PerPoint::new(each).map_err(value_error)?;
                 &single
             }
@@ -142,8 +142,9 @@ impl<'py> Call<'_, 'py> {
             Axes::Leading => {
                 quantity.compute(&batch.with_threads(threads).with_statuses(cells), F, &mut results)
             }
-            Axes::Trailing => Columns { batch, filter, quantity, F, cells, count, each: each.as_deref() }
-                .compute(results, threads),
+            Axes::Trailing => {
+                Columns { batch, filter, quantity, F, cells, count, each: &each }.compute(results, threads)
+            }
         };
         let survey = match (threads, count) {
             (true, _) => py.detach(|| on_threads(compute))?,

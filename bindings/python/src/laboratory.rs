@@ -181,28 +181,24 @@ impl Material {
     ) -> PyResult<Bound<'py, PyDict>> {
         let F = Numbers::new("F", F)?;
         let dtype = if let Numbers::Single(_) = F { "float32" } else { "float64" };
-        let (F, shape) = deformations(&F.doubles()?, Axes::Leading, self.shape())?;
+        let (F, shape) = deformations(&F.doubles()?, Axes::Leading, &self.shape)?;
         let candidates = self.specs().map(|spec| spec.candidate().map_err(of_material));
         let candidates: Vec<_> = candidates.collect::<PyResult<_>>()?;
-        let candidate_of = shape::entries(self.shape(), &shape);
+        let candidate_of = shape::entries(&self.shape, &shape);
         let lists = candidates[0].values();
         let count = lists.iter().map(Vec::len).sum::<usize>();
-        let numbers = F.as_slice()?;
-        let points = numbers.len() / 9;
-        let mut derivatives = vec![0.0; count * numbers.len()];
+        let points: &[[[f64; 3]; 3]] = F.as_slice()?.as_chunks().0.as_chunks().0;
+        let mut derivatives = vec![vec![[[0.0; 3]; 3]; points.len()]; count];
         let outside = py.detach(|| {
-            (0..points).find(|&point| {
+            (0..points.len()).find(|&point| {
                 let candidate = &candidates[candidate_of[point]];
-                let entries = &numbers[9 * point..][..9];
-                let F: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entries[3 * i + j]));
-                let frames = svd(&F);
+                let frames = svd(&points[point]);
                 let by_parameters = match frames.stretches[2] > 0.0 && candidate.admits(frames.stretches) {
                     true => candidate.gradient_by_parameters(frames.stretches),
                     false => return true,
                 };
-                for (k, gradient) in by_parameters.into_iter().enumerate() {
-                    let derivative = stress(&frames, gradient);
-                    derivatives[(k * points + point) * 9..][..9].copy_from_slice(derivative.as_flattened());
+                for (derivatives, gradient) in derivatives.iter_mut().zip(by_parameters) {
+                    derivatives[point] = stress(&frames, gradient);
                 }
                 false
             })
@@ -216,11 +212,10 @@ impl Material {
             return Err(DomainError::new_err((message, index, 1, 0)));
         }
         let result = PyDict::new(py);
-        let mut begin = 0;
+        let mut derivatives = derivatives.into_iter();
         for (parameter, list) in candidates[0].description().parameters.iter().zip(&lists) {
-            let part =
-                derivatives[begin * numbers.len()..][..list.len() * numbers.len()].to_vec().into_pyarray(py);
-            begin += list.len();
+            let part = derivatives.by_ref().take(list.len()).flatten().flatten().flatten();
+            let part = part.collect::<Vec<f64>>().into_pyarray(py);
             let entries = [list.len()];
             let in_front = &entries[..usize::from(parameter.is_list())];
             let part = part.reshape([in_front, &shape, &[3, 3]].concat())?;
