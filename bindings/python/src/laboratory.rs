@@ -12,9 +12,9 @@ use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
-use piola_laboratory::stability::{Report, SurveySettings, survey};
+use piola_laboratory::stability::{Report, SurveySettings, Walk, survey};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{Axes, Numbers, deformations, from_rows, numbers, rows};
 use crate::errors::{ContractError, DomainError, FitError, of_material, value_error};
@@ -94,15 +94,9 @@ impl Material {
         let fit = py.detach(|| fit_parameters(&*candidate, &data, &settings));
         let Fit { values, numbers, agreement, difference, condition, ended, warnings, .. } =
             fit.map_err(|error| FitError::new_err(error.to_string()))?;
-        let errors = PyDict::new(py);
-        for number in &numbers {
-            errors.set_item(&number.name, number.error)?;
-        }
-        let determination = PyDict::new(py);
-        for (mode, value) in &agreement.modes {
-            determination.set_item(mode.name(), value)?;
-        }
-        determination.set_item("all", agreement.total)?;
+        let errors = numbers.iter().map(|number| (&number.name, number.error)).into_py_dict(py)?;
+        let modes = agreement.modes.iter().map(|&(mode, value)| (mode.name(), value));
+        let determination = modes.chain([("all", agreement.total)]).into_py_dict(py)?;
         let warnings: Vec<_> = warnings.iter().map(ToString::to_string).collect();
         let material = Py::new(py, self.with_values(&values)?)?;
         let arguments = (material, errors, determination, difference, condition, ended.to_string(), warnings);
@@ -130,20 +124,14 @@ impl Material {
         let report = py.detach(|| survey(&specimen, &settings)).map_err(value_error)?;
         let text = report.to_string();
         let Report { points, admitted, findings, walks, .. } = report;
-        let kept = PyDict::new(py);
-        for finding in &findings {
-            kept.set_item(key(finding.criterion), finding.kept)?;
-        }
-        let paths = PyList::empty(py);
-        for walk in &walks {
-            let lost = PyDict::new(py);
-            for (found, lost_at) in Criterion::ALL.into_iter().zip(walk.lost) {
-                lost.set_item(key(found), lost_at)?;
-            }
-            let arguments = (key(walk.path), walk.to, walk.reached, lost);
-            paths.append(py.import("piola.results")?.call_method1("Walk", arguments)?)?;
-        }
-        py.import("piola.results")?.call_method1("Stability", (points, admitted, kept, paths, text))
+        let kept = findings.iter().map(|finding| (key(finding.criterion), finding.kept)).into_py_dict(py)?;
+        let results = py.import("piola.results")?;
+        let walk = |walk: &Walk| {
+            let lost = Criterion::ALL.into_iter().map(key).zip(walk.lost).into_py_dict(py)?;
+            results.call_method1("Walk", (key(walk.path), walk.to, walk.reached, lost))
+        };
+        let walks: Vec<_> = walks.iter().map(walk).collect::<PyResult<_>>()?;
+        results.call_method1("Stability", (points, admitted, kept, walks, text))
     }
 
     /// Checks the rules that every material must keep: derivatives, isotropy, accuracy where stretches are
