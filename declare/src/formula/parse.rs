@@ -21,7 +21,7 @@ use piola_codegen::read::spelling::{nearest, spelled_out};
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 
-use super::spellings::{self, Invariant};
+use super::spellings::{self, Invariant, Meaning};
 use super::{FormulaOptions, advice};
 use tokens::{Tokens, parenthesised, parenthesised_as, real, span, whole};
 
@@ -260,21 +260,20 @@ impl Parser {
                 false => self.parameter(&name, false)?.to_token_stream(),
             });
         }
-        if let Some(rust) = spellings::name(&text) {
-            return rust_at(rust, name.span());
+        match spellings::meaning(&text) {
+            Some(Meaning::Name(rust)) => rust_at(rust, name.span()),
+            Some(Meaning::Function(_) | Meaning::OfTensors(_)) => self.open_call(&name),
+            Some(Meaning::Power) | None => Ok(self.parameter(&name, false)?.to_token_stream()),
         }
-        if spellings::function(&text).is_some() || spellings::invariant(&text).is_some() {
-            return self.open_call(&name);
-        }
-        Ok(self.parameter(&name, false)?.to_token_stream())
     }
 
     /// A name without a value or another meaning as the one that has a value and differs in the spelling of
     /// Greek letters alone: `kappa` for `κ`.
     fn as_given(&self, name: Ident) -> Ident {
         let text = name.to_string();
-        let has_meaning =
-            self.given.contains(&text) || self.indices.contains(&name) || spellings::name(&text).is_some();
+        let has_meaning = self.given.contains(&text)
+            || self.indices.contains(&name)
+            || matches!(spellings::meaning(&text), Some(Meaning::Name(_)));
         match self.spelled_out.get(&spelled_out(&text)) {
             Some(given) if !has_meaning => {
                 let mut given = given.clone();
@@ -305,29 +304,33 @@ impl Parser {
     /// `ln(x)` as `x.ln()`.
     fn call(&mut self, name: &Ident, group: &Group) -> syn::Result<TokenStream> {
         let text = name.to_string();
-        if let Some(invariant) = spellings::invariant(&text) {
-            return self.invariant(invariant, name, group);
-        }
-        if spellings::POWERS.contains(&text.as_str()) {
-            let (base, exponent) = self.inside(group, |parser| {
-                let base = parser.sum()?;
-                if parser.tokens.take_sign(",").is_none() {
-                    return Err(syn::Error::new(name.span(), format!("a power is `{name}(x, n)`, or `x^n`")));
-                }
-                Ok((base, parser.sum()?))
-            })?;
-            let base = parenthesised(base, whole_call(name, group)).to_token_stream();
-            return Ok(raised(&base, exponent, group.span_close()));
-        }
-        if self.places.contains_key(&text) || spellings::name(&text).is_some() {
-            return Err(no_function(name));
-        }
-        let method = Ident::new(spellings::function(&text).unwrap_or(&text), name.span());
+        let method = match spellings::meaning(&text) {
+            Some(Meaning::OfTensors(invariant)) => return self.invariant(invariant, name, group),
+            Some(Meaning::Power) => return self.power_of(name, group),
+            Some(Meaning::Name(_)) => return Err(no_function(name)),
+            _ if self.places.contains_key(&text) => return Err(no_function(name)),
+            Some(Meaning::Function(method)) => method,
+            None => text.as_str(),
+        };
+        let method = Ident::new(method, name.span());
         let argument = self.inside(group, Self::sum)?;
         // A mistake in the call is underlined from its name to the end.
         let argument = parenthesised(argument, whole_call(name, group));
         let end = group.span_close();
         Ok(quote_spanned!(end=> #argument.#method()))
+    }
+
+    /// `pow(x, n)` as `x.powf(n)`.
+    fn power_of(&mut self, name: &Ident, group: &Group) -> syn::Result<TokenStream> {
+        let (base, exponent) = self.inside(group, |parser| {
+            let base = parser.sum()?;
+            if parser.tokens.take_sign(",").is_none() {
+                return Err(syn::Error::new(name.span(), format!("a power is `{name}(x, n)`, or `x^n`")));
+            }
+            Ok((base, parser.sum()?))
+        })?;
+        let base = parenthesised(base, whole_call(name, group)).to_token_stream();
+        Ok(raised(&base, exponent, group.span_close()))
     }
 
     /// `tr(C)` as `I1`.
