@@ -85,18 +85,16 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
         }
     }
     parser.tokens.end()?;
-    if let Some(mut bulk) = bulk {
-        bulk.set_span(Span::call_site());
-        let bulk = parser.parameter(&bulk, false)?;
+    if let Some(bulk) = bulk {
+        let bulk = parser.parameter(&at(bulk, Span::call_site()), false)?;
         body = quote!(#body + #bulk / 2.0 * (J - 1.0).powi(2));
     }
     if let (Some(all), false) = (&options.parameters, options.further) {
         parser.ask(options)?;
         // One that the formula does not use is reported.
-        for mut name in all.iter().filter_map(|(name, _)| syn::parse_str::<Ident>(name).ok()) {
+        for name in all.iter().filter_map(|(name, _)| syn::parse_str::<Ident>(name).ok()) {
             // It stands nowhere in the formula.
-            name.set_span(Span::call_site());
-            parser.parameter(&name, false)?;
+            parser.parameter(&at(name, Span::call_site()), false)?;
         }
     }
     let docs: HashMap<&str, &str> =
@@ -275,11 +273,7 @@ impl Parser {
             || self.indices.contains(&name)
             || matches!(spellings::meaning(&text), Some(Meaning::Name(_)));
         match self.spelled_out.get(&spelled_out(&text)) {
-            Some(given) if !has_meaning => {
-                let mut given = given.clone();
-                given.set_span(name.span());
-                given
-            }
+            Some(given) if !has_meaning => at(given.clone(), name.span()),
             _ => name,
         }
     }
@@ -296,9 +290,8 @@ impl Parser {
                 "write `{name}({argument})^n` or `{name}({argument}^n)`, whichever is meant"
             ));
         }
-        let mut group = Group::new(Delimiter::Parenthesis, TokenTree::Ident(argument.clone()).into());
-        group.set_span(argument.span());
-        self.call(name, &group)
+        let span = argument.span();
+        self.call(name, &parenthesised(TokenTree::Ident(argument).into(), span))
     }
 
     /// `ln(x)` as `x.ln()`.
@@ -394,9 +387,7 @@ impl Parser {
         if let Some(&place) = self.places.get(&text) {
             let (known, was_list, _) = &mut self.names[place];
             *was_list |= is_list;
-            let mut known = known.clone();
-            known.set_span(name.span());
-            return Ok(known);
+            return Ok(at(known.clone(), name.span()));
         }
         let is_keyword = syn::parse_str::<Ident>(&text).is_err();
         let declared = match text.as_str() {
@@ -445,20 +436,31 @@ fn whole_call(name: &Ident, group: &Group) -> Span {
     name.span().join(group.span()).unwrap_or(name.span())
 }
 
+/// A name at another place.
+fn at(mut name: Ident, span: Span) -> Ident {
+    name.set_span(span);
+    name
+}
+
 /// The tokens of a text in Rust, all at one place.
 fn rust_at(rust: &str, span: Span) -> syn::Result<TokenStream> {
-    fn placed(tokens: TokenStream, span: Span) -> TokenStream {
-        let place = |mut token: TokenTree| {
-            if let TokenTree::Group(group) = &mut token {
-                *group = Group::new(group.delimiter(), placed(group.stream(), span));
-            }
-            token.set_span(span);
-            token
-        };
-        tokens.into_iter().map(place).collect()
-    }
     let tokens: TokenStream = rust.parse().map_err(|_| syn::Error::new(span, "this is not a formula"))?;
-    Ok(placed(tokens, span))
+    Ok(mapped(tokens, &|mut token| {
+        token.set_span(span);
+        token.into()
+    }))
+}
+
+/// Tokens with others instead of each, also within groups.
+fn mapped(tokens: TokenStream, map: &dyn Fn(TokenTree) -> TokenStream) -> TokenStream {
+    let each = |token: TokenTree| match token {
+        TokenTree::Group(group) => {
+            let inside = mapped(group.stream(), map);
+            map(parenthesised_as(group.delimiter(), inside, group.span()).into())
+        }
+        token => map(token),
+    };
+    tokens.into_iter().flat_map(each).collect()
 }
 
 /// A power, whose sign is at this place.
@@ -475,13 +477,8 @@ fn raised(base: &TokenStream, exponent: TokenStream, span: Span) -> TokenStream 
 
 /// A condition on parameters, emitted as it is except that π gets its path.
 fn with_path_of_pi(condition: TokenStream) -> TokenStream {
-    let path = |token: TokenTree| match token {
+    mapped(condition, &|token| match token {
         TokenTree::Ident(name) if name == "PI" => quote!(std::f64::consts::PI),
-        TokenTree::Group(group) => {
-            parenthesised_as(group.delimiter(), with_path_of_pi(group.stream()), group.span())
-                .into_token_stream()
-        }
         token => token.into(),
-    };
-    condition.into_iter().map(path).collect()
+    })
 }
