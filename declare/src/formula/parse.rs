@@ -162,34 +162,27 @@ impl Parser {
         Ok((condition, is_of_deformation))
     }
 
+    /// A sum with its products, token by token: their signs bind in Rust as they do in formulas.
     fn sum(&mut self) -> syn::Result<TokenStream> {
-        let mut sum = self.product()?;
-        while let Some(sign) = self.tokens.take_sign("+").or_else(|| self.tokens.take_sign("-")) {
-            let term = self.product()?;
-            sum.extend(sign);
-            sum.extend(term);
+        let mut sum = self.sign()?;
+        loop {
+            match self.tokens.take_either(["*", "/"]).or_else(|| self.plus_or_minus()) {
+                Some(sign) => sum.extend(sign),
+                None if self.tokens.begins_factor() => sum.extend(quote!(*)),
+                None => return Ok(sum),
+            }
+            sum.extend(self.sign()?);
         }
-        Ok(sum)
     }
 
-    fn product(&mut self) -> syn::Result<TokenStream> {
-        let mut product = self.sign()?;
-        loop {
-            if let Some(sign) = self.tokens.take_either(["*", "/"]) {
-                product.extend(sign);
-            } else if self.tokens.begins_factor() {
-                product.extend(quote!(*));
-            } else {
-                return Ok(product);
-            }
-            product.extend(self.sign()?);
-        }
+    fn plus_or_minus(&mut self) -> Option<TokenStream> {
+        ["+", "-"].into_iter().find_map(|sign| self.tokens.take_sign(sign))
     }
 
     /// A power, with signs before it.
     fn sign(&mut self) -> syn::Result<TokenStream> {
         let mut minus = None;
-        while let Some(sign) = self.tokens.take_sign("+").or_else(|| self.tokens.take_sign("-")) {
+        while let Some(sign) = self.plus_or_minus() {
             if sign.to_string() == "-" {
                 minus = if minus.is_some() { None } else { Some(sign) };
             }
