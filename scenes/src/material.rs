@@ -143,7 +143,8 @@ impl MaterialSpec {
     }
 
     /// The stretch below which the material is extended, if one has been chosen.
-    pub(crate) fn extended_below(&self) -> Option<f64> {
+    #[must_use]
+    pub fn extended_below(&self) -> Option<f64> {
         match self.inversion {
             Some(Inversion::Extend { epsilon }) => Some(epsilon),
             _ => None,

@@ -18,8 +18,15 @@ use crate::{handle, lent};
 /// A material: an energy with values for its parameters, the same for all points, or some for each.
 /// Immutable: threads may share it.
 pub struct Material {
+    /// The energy with the values of the first point.
+    spec: MaterialSpec,
     moduli: Moduli,
-    kind: Kind,
+    /// The material in double precision, as compiled with the library, if it is.
+    elements: Box<dyn TileMaterial<f64>>,
+    /// The material as a program, made when single precision is first used.
+    interpreted: OnceLock<Interpreted>,
+    /// Instead of these, a material for each point.
+    each: Option<PerPoint<Interpreted, Arc<[Interpreted]>>>,
 }
 
 /// Values of a parameter.
@@ -139,19 +146,6 @@ fn of_point(failure: impl Into<Failure>, point: usize, points: usize) -> Failure
     }
 }
 
-/// Kinds of materials, by how they are computed.
-enum Kind {
-    /// One material for all points: in double precision as compiled with the library, if it is.
-    Uniform {
-        spec: MaterialSpec,
-        elements: Box<dyn TileMaterial<f64>>,
-        /// The material as a program, made when single precision is first used.
-        interpreted: OnceLock<Interpreted>,
-    },
-    /// One for each point.
-    Varied(PerPoint<Interpreted, Arc<[Interpreted]>>),
-}
-
 impl Material {
     fn new(
         energy: &MaterialSpec,
@@ -163,23 +157,22 @@ impl Material {
         let spec = at(energy.clone(), given, 0);
         let info = spec.build().map_err(|error| of_point(error, 0, points))?;
         let MaterialInfo { elements, moduli, .. } = info;
-        let kind = if points == 0 {
-            Kind::Uniform { spec, elements, interpreted: OnceLock::new() }
-        } else {
-            let material = |point| {
-                let material = at(energy.clone(), given, point).interpreted();
-                material.map_err(|error| of_point(error, point, points))
-            };
-            Kind::Varied(PerPoint::new((0..points).map(material).collect::<Result<_, _>>()?)?)
+        let material = |point| {
+            let material = at(energy.clone(), given, point).interpreted();
+            material.map_err(|error| of_point(error, point, points))
         };
-        Ok(Self { moduli, kind })
+        let each = match points {
+            0 => None,
+            _ => Some(PerPoint::new((0..points).map(material).collect::<Result<Arc<[_]>, _>>()?)?),
+        };
+        Ok(Self { spec, moduli, elements, interpreted: OnceLock::new(), each })
     }
 
     /// The material for a part of a body.
     pub(crate) fn for_body(&self) -> Result<Box<dyn TileMaterial<f64>>, Failure> {
-        Ok(match &self.kind {
-            Kind::Uniform { spec, .. } => spec.build()?.elements,
-            Kind::Varied(materials) => Box::new(materials.clone()),
+        Ok(match &self.each {
+            None => self.spec.build()?.elements,
+            Some(each) => Box::new(each.clone()),
         })
     }
 }
@@ -192,24 +185,22 @@ pub(crate) trait Precision: Kernels + Plain {
 
 impl Precision for f64 {
     fn tiles(material: &Material) -> Result<&dyn TileMaterial<Self>, Failure> {
-        Ok(match &material.kind {
-            Kind::Uniform { elements, .. } => &**elements,
-            Kind::Varied(materials) => materials,
+        Ok(match &material.each {
+            None => &*material.elements,
+            Some(each) => each,
         })
     }
 }
 
 impl Precision for f32 {
     fn tiles(material: &Material) -> Result<&dyn TileMaterial<Self>, Failure> {
-        Ok(match &material.kind {
-            Kind::Uniform { spec, interpreted, .. } => match interpreted.get() {
-                Some(material) => material,
-                None => {
-                    let material = spec.interpreted()?;
-                    interpreted.get_or_init(|| material)
-                }
-            },
-            Kind::Varied(materials) => materials,
-        })
+        if let Some(each) = &material.each {
+            return Ok(each);
+        }
+        if let Some(interpreted) = material.interpreted.get() {
+            return Ok(interpreted);
+        }
+        let interpreted = material.spec.interpreted()?;
+        Ok(material.interpreted.get_or_init(|| interpreted))
     }
 }

@@ -5,6 +5,8 @@
 //! `Batch` takes: nothing is copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to
 //! these.
 
+use std::fmt::Display;
+
 use numpy::{
     Element, IntoPyArray, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
     PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods, dtype,
@@ -38,7 +40,7 @@ impl Axes {
     }
 
     /// The shape of an array with these components for each point.
-    fn shape(self, points: &[usize], components: &[usize]) -> Vec<usize> {
+    pub(crate) fn shape(self, points: &[usize], components: &[usize]) -> Vec<usize> {
         match self {
             Self::Leading => [points, components].concat(),
             Self::Trailing => [components, points].concat(),
@@ -87,118 +89,59 @@ impl<'py> Numbers<'py> {
     }
 }
 
-/// Deformation gradients, contiguous.
-pub(crate) struct Input<'py, E: Element> {
-    array: PyReadonlyArrayDyn<'py, E>,
+/// Contiguous deformation gradients, and the shape of their points: the array where it is, or a copy of it,
+/// broadcast to the shape that its points have together with the parameters of a material.
+pub(crate) fn deformations<'py, E: Element>(
+    array: &Bound<'py, PyArrayDyn<E>>,
     axes: Axes,
+    parameters: &[usize],
+) -> PyResult<(PyReadonlyArrayDyn<'py, E>, Vec<usize>)> {
+    let Some(points) = axes.points(array.shape()) else {
+        let wanted = if axes == Axes::Leading { "(..., 3, 3)" } else { "(3, 3, ...)" };
+        return Err(wrong_shape("F", array, wanted));
+    };
+    let Some(common) = shape::common(points, parameters) else {
+        let (points, parameters) = (shape::text(points), shape::text(parameters));
+        return Err(value_error(format!(
+            "F has points of the shape {points}, and the material has parameters of the shape {parameters}: \
+             they cannot be broadcast together"
+        )));
+    };
+    let array = match common == points && array.is_c_contiguous() {
+        true => array.clone(),
+        false => broadcast(array, axes, points, &common)?,
+    };
+    let refused = |error: numpy::BorrowError| value_error(format!("F cannot be read: {error}"));
+    Ok((array.try_readonly().map_err(refused)?, common))
 }
 
-impl<'py, E: Element> Input<'py, E> {
-    /// Reads the array where it is, or a contiguous copy of it, broadcast to the shape that its points have
-    /// together with the parameters of a material.
-    pub(crate) fn new(array: &Bound<'py, PyArrayDyn<E>>, axes: Axes, parameters: &[usize]) -> PyResult<Self> {
-        let Some(points) = axes.points(array.shape()) else {
-            let wanted = if axes == Axes::Leading { "(..., 3, 3)" } else { "(3, 3, ...)" };
-            return Err(wrong_shape("F", array, wanted));
-        };
-        let array = match shape::common(points, parameters) {
-            Some(common) if common == points && array.is_c_contiguous() => array.clone(),
-            Some(common) => broadcast(array, axes, &common)?,
-            None => {
-                let (points, parameters) = (shape::text(points), shape::text(parameters));
-                return Err(value_error(format!(
-                    "F has points of the shape {points}, and the material has parameters of the shape \
-                     {parameters}: they cannot be broadcast together"
-                )));
-            }
-        };
-        let refused = |error: numpy::BorrowError| value_error(format!("F cannot be read: {error}"));
-        Ok(Self { array: array.try_readonly().map_err(refused)?, axes })
-    }
-
-    pub(crate) fn py(&self) -> Python<'py> {
-        self.array.py()
-    }
-
-    pub(crate) fn slice(&self) -> PyResult<&[E]> {
-        Ok(self.array.as_slice()?)
-    }
-
-    /// The shape of the points.
-    pub(crate) fn points(&self) -> &[usize] {
-        self.axes.points(self.array.shape()).unwrap_or(&[])
-    }
-
-    /// A result with these components for each point: in the array that the caller gives, or in a new one.
-    pub(crate) fn output(
-        &self,
-        py: Python<'py>,
-        components: &[usize],
-        given: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Output<'py, E>> {
-        let shape = self.axes.shape(self.points(), components);
-        let array = match given {
-            None => PyArrayDyn::zeros(py, shape, false),
-            Some(given) => {
-                let array = given.cast::<PyArrayDyn<E>>().map_err(|_| {
-                    let (found, wanted) = (kind(given), dtype::<E>(py));
-                    type_error(format!(
-                        "out is {found}; it must be an array of {wanted}, the type of the result"
-                    ))
-                })?;
-                if array.shape() != shape {
-                    return Err(wrong_shape("out", array, &shape::text(&shape)));
-                }
-                array.clone()
-            }
-        };
-        Output::new(array, "out")
-    }
-}
-
-/// An array that a result is written to.
-pub(crate) struct Output<'py, E: Element> {
-    array: Bound<'py, PyArrayDyn<E>>,
-    writable: PyReadwriteArrayDyn<'py, E>,
-}
-
-impl<'py, E: Element> Output<'py, E> {
-    fn new(array: Bound<'py, PyArrayDyn<E>>, name: &str) -> PyResult<Self> {
-        if !array.is_c_contiguous() {
-            return Err(value_error(format!("{name} must be contiguous in the order of C")));
-        }
-        let refused = |error: numpy::BorrowError| value_error(format!("{name} cannot be written: {error}"));
-        let writable = array.try_readwrite().map_err(refused)?;
-        Ok(Self { array, writable })
-    }
-
-    pub(crate) fn slice(&mut self) -> PyResult<&mut [E]> {
-        Ok(self.writable.as_slice_mut()?)
-    }
-
-    pub(crate) fn finish(self) -> Bound<'py, PyArrayDyn<E>> {
-        self.array
-    }
-}
-
-/// An array of bytes for the status of each point.
-pub(crate) fn statuses<'py>(given: &Bound<'py, PyAny>, points: &[usize]) -> PyResult<Output<'py, u8>> {
+/// The array of this shape that a caller gives for results of a type, which is `wanted` in words.
+pub(crate) fn output<'py, E: Element>(
+    name: &str,
+    given: &Bound<'py, PyAny>,
+    shape: &[usize],
+    wanted: impl Display,
+) -> PyResult<PyReadwriteArrayDyn<'py, E>> {
     let array = given
-        .cast::<PyArrayDyn<u8>>()
-        .map_err(|_| type_error(format!("status is {}; it must be an array of numpy.uint8", kind(given))))?;
-    if array.shape() != points {
-        return Err(wrong_shape("status", array, &shape::text(points)));
+        .cast::<PyArrayDyn<E>>()
+        .map_err(|_| type_error(format!("{name} is {}; it must be an array of {wanted}", kind(given))))?;
+    if array.shape() != shape {
+        return Err(wrong_shape(name, array, &shape::text(shape)));
     }
-    Output::new(array.clone(), "status")
+    if !array.is_c_contiguous() {
+        return Err(value_error(format!("{name} must be contiguous in the order of C")));
+    }
+    let refused = |error: numpy::BorrowError| value_error(format!("{name} cannot be written: {error}"));
+    array.try_readwrite().map_err(refused)
 }
 
 /// A contiguous copy whose points have another shape, to which they can be broadcast.
 fn broadcast<'py, E: Element>(
     array: &Bound<'py, PyArrayDyn<E>>,
     axes: Axes,
+    found: &[usize],
     points: &[usize],
 ) -> PyResult<Bound<'py, PyArrayDyn<E>>> {
-    let found = axes.points(array.shape()).unwrap_or_default();
     // Axes are added before those of the points, which may not be the first of the array.
     let added = [vec![1; points.len() - found.len()], found.to_vec()].concat();
     let numpy = array.py().import("numpy")?;

@@ -1,10 +1,10 @@
 //! Bodies of linear tetrahedra: their energy, forces and stiffness at any positions.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::error::Error;
+use std::sync::Mutex;
 
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
 use piola::Survey;
-use piola::batch::LengthError;
 use piola::point::Filter;
 use piola_bodies::mesh::{Group, TetMesh, tetrahedral_box};
 use piola_bodies::system::{self, ElasticResponse, NodalStiffness, Part};
@@ -39,7 +39,6 @@ pub(crate) struct Body {
 }
 
 /// A sparse matrix in blocks, row by row.
-#[derive(Default)]
 struct Blocks {
     /// The first block of each row, and their number.
     starts: Vec<i64>,
@@ -57,7 +56,7 @@ impl Blocks {
                 rows[column].push((row, std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]))));
             }
         }
-        let mut both = Self { starts: vec![0], ..Self::default() };
+        let mut both = Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() };
         for mut row in rows {
             row.sort_unstable_by_key(|&(column, _)| column);
             both.columns.extend(row.iter().map(|&(column, _)| column as i64));
@@ -71,22 +70,21 @@ impl Blocks {
 /// Row, column and entries of each block.
 type Triplets<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyAny>);
 
+/// Error of an evaluation: positions of another number of nodes, or a stiffness beyond all memory.
+type Failure = Box<dyn Error + Send + Sync>;
+
 struct Memory {
     response: ElasticResponse,
     stiffness: Option<NodalStiffness>,
 }
 
 impl Body {
-    fn memory(&self) -> MutexGuard<'_, Memory> {
-        self.memory.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// Evaluates something, on threads, without the interpreter; raises an error for tetrahedra outside of
     /// the domain.
     fn evaluate<T: Send>(
         &self,
         py: Python<'_>,
-        compute: impl FnOnce(&system::Body, &mut Memory) -> Result<(T, Survey), LengthError> + Send,
+        compute: impl FnOnce(&system::Body, &mut Memory) -> Result<(T, Survey), Failure> + Send,
     ) -> PyResult<T> {
         let evaluated = with_locked(py, &self.memory, |memory| compute(&self.body, memory))?;
         let (value, survey) = evaluated.map_err(of_body)?;
@@ -104,13 +102,12 @@ impl Body {
         let x = rows("positions", positions)?;
         let filter: Filter = self::filter(filter)?;
         let mut gradient = vec![[0.0; 3]; self.body.rest().len()];
-        if self.memory().stiffness.is_none() {
-            self.memory().stiffness = Some(NodalStiffness::of_body(&self.body).map_err(of_body)?);
-        }
-        self.evaluate(py, |body, memory| {
-            let Memory { response, stiffness } = memory;
-            let survey = response.energy(body, &x)?.1;
-            let Some(matrix) = stiffness else { return Ok((Blocks::default(), survey)) };
+        self.evaluate(py, |body, Memory { response, stiffness }| {
+            let matrix = match stiffness {
+                Some(matrix) => matrix,
+                None => stiffness.insert(NodalStiffness::of_body(body)?),
+            };
+            response.energy(body, &x)?;
             let survey = response.stiffness_here(body, filter, &mut gradient, matrix)?;
             Ok((Blocks::new(matrix, body.rest().len()), survey))
         })
@@ -187,7 +184,7 @@ impl Body {
     #[pyo3(signature = (positions, /))]
     fn energy(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<f64> {
         let x = rows("positions", positions)?;
-        self.evaluate(py, |body, memory| memory.response.energy(body, &x))
+        self.evaluate(py, |body, memory| Ok(memory.response.energy(body, &x)?))
     }
 
     /// Gradient of the energy in the positions, N, of shape (n, 3): minus the forces.

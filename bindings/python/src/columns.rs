@@ -30,7 +30,7 @@ pub(crate) struct Columns<'a, E> {
     pub(crate) cells: &'a [StatusCell],
     pub(crate) count: usize,
     /// A material for each point, if they differ.
-    pub(crate) each: Option<&'a [&'a Interpreted]>,
+    pub(crate) each: &'a [&'a Interpreted],
 }
 
 /// Columns of each result for some of the points.
@@ -118,13 +118,13 @@ impl<E: Number> Columns<'_, E> {
         F: &[E],
         results: &mut [&mut [E]],
     ) -> Result<Survey, LengthError> {
-        let Some(each) = self.each else {
+        if self.each.is_empty() {
             let batch = self.batch.with_layout(Layout::Lines).with_statuses(cells);
             return self.quantity.compute(&batch, F, results);
-        };
+        }
         // The last point's material serves for what fills the line up.
         let last = points.end - 1;
-        let materials: Vec<_> = (0..F.len() / 9).map(|k| each[last.min(points.start + k)]).collect();
+        let materials: Vec<_> = (0..F.len() / 9).map(|k| self.each[last.min(points.start + k)]).collect();
         match PerPoint::new(&materials) {
             Ok(material) => {
                 let batch = Batch::new(&material).with_filter(self.filter).with_layout(Layout::Lines);

@@ -50,13 +50,7 @@ pub(crate) struct Description {
 
 impl Description {
     pub(crate) fn new(name: &str, description: &material::Description) -> Self {
-        let typical = |k: usize| {
-            description
-                .typical
-                .as_ref()
-                .and_then(|typical| typical.values.get(k))
-                .map(|values| values.to_vec())
-        };
+        let typical = description.typical.as_ref();
         let parameter = |(k, parameter): (usize, &material::Parameter)| Parameter {
             name: parameter.name.to_string(),
             doc: parameter.doc.to_string(),
@@ -67,7 +61,7 @@ impl Description {
                 _ => None,
             }),
             is_list: parameter.is_list(),
-            typical: typical(k),
+            typical: typical.and_then(|typical| typical.values.get(k)).map(|values| values.to_vec()),
         };
         Self {
             name: name.to_owned(),

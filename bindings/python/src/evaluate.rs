@@ -2,7 +2,7 @@
 
 #![expect(non_snake_case, reason = "F and P as in the literature")]
 
-use numpy::PyArrayDyn;
+use numpy::{PyArrayDyn, PyReadonlyArrayDyn, PyReadwriteArrayDyn, dtype};
 use piola::batch::{Batch, TileMaterial};
 use piola::material::PerPoint;
 use piola::point::Filter;
@@ -11,12 +11,11 @@ use piola::{StatusCell, Survey};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::arrays::{Axes, Input, Numbers, Output, kind, statuses};
+use crate::arrays::{Axes, Numbers, deformations, kind, output};
 use crate::columns::Columns;
 use crate::errors::{DomainError, type_error, value_error};
 use crate::material::Material;
 use crate::quantity::{Number, Order, Quantity};
-use crate::results::Results;
 use crate::shape;
 use crate::threads::on_threads;
 
@@ -61,54 +60,90 @@ impl<'py> Call<'_, 'py> {
         material: &Material,
         F: &Bound<'py, PyArrayDyn<E>>,
         quantity: Quantity,
-        out: Vec<Option<Bound<'py, PyAny>>>,
+        mut out: Vec<Option<Bound<'py, PyAny>>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let input = Input::new(F, self.axes, material.shape())?;
+        let (F, points) = deformations(F, self.axes, &material.shape)?;
+        let (py, count) = (F.py(), points.iter().product::<usize>());
         let mut outputs = Vec::with_capacity(3);
-        for (k, components) in quantity.components().iter().enumerate() {
-            outputs.push(input.output(F.py(), components, out.get(k).and_then(Option::as_ref))?);
+        out.resize(quantity.components().len(), None);
+        for (components, given) in quantity.components().iter().zip(out) {
+            let shape = self.axes.shape(&points, components);
+            let new = || PyArrayDyn::<E>::zeros(py, shape.clone(), false).into_any();
+            let given = given.unwrap_or_else(new);
+            let wanted = dtype::<E>(py);
+            outputs.push(output::<E>(
+                "out",
+                &given,
+                &shape,
+                format_args!("{wanted}, the type of the result"),
+            )?);
         }
-        let mut status = self.status.map(|given| statuses(given, input.points())).transpose()?;
-        let survey = self.survey(material, &input, quantity, &mut outputs, status.as_mut())?;
-        if let (Some(first), None) = (survey.first, &status) {
-            return Err(outside(survey, first, input.points()));
+        let mut status =
+            self.status.map(|given| output::<u8>("status", given, &points, "numpy.uint8")).transpose()?;
+        let cells: Vec<_> = status.iter().flat_map(|_| (0..count).map(|_| StatusCell::default())).collect();
+        let results = outputs.iter_mut().map(PyReadwriteArrayDyn::as_slice_mut);
+        let results = results.collect::<Result<Vec<_>, _>>()?;
+        let survey = self.compute(material, &F, &points, quantity, results, &cells)?;
+        for (output, components) in outputs.iter_mut().zip(quantity.numbers()) {
+            let at = |point: usize, component: usize| match self.axes {
+                Axes::Leading => components * point + component,
+                Axes::Trailing => count * component + point,
+            };
+            let entries = output.as_slice_mut()?;
+            for (one, other) in quantity.order().exchanged(components) {
+                for point in 0..count {
+                    entries.swap(at(point, one), at(point, other));
+                }
+            }
+            let from_first = cells.iter().enumerate().skip(survey.first.unwrap_or(count));
+            for (point, _) in from_first.filter(|(_, cell)| !cell.get().is_clean()) {
+                for component in 0..components {
+                    entries[at(point, component)] = E::splat(f64::NAN);
+                }
+            }
         }
-        Ok(outputs.into_iter().map(|output| output.finish().into_any()).collect())
+        match (&mut status, survey.first) {
+            (Some(status), _) => {
+                for (status, cell) in status.as_slice_mut()?.iter_mut().zip(&cells) {
+                    *status = flags(cell);
+                }
+            }
+            (None, Some(first)) => return Err(outside(survey, first, &points)),
+            (None, None) => {}
+        }
+        Ok(outputs.into_iter().map(|output| output.as_any().clone()).collect())
     }
 
-    /// Computes a quantity, and writes the status of each point; if there are statuses, points without valid
-    /// results get NaN.
-    fn survey<E: Number>(
+    /// Computes a quantity in the order of a batch, and the status of each point, if there are cells for it.
+    fn compute<E: Number>(
         &self,
         material: &Material,
-        input: &Input<'py, E>,
+        F: &PyReadonlyArrayDyn<'py, E>,
+        points: &[usize],
         quantity: Quantity,
-        outputs: &mut [Output<'py, E>],
-        status: Option<&mut Output<'py, u8>>,
+        mut results: Vec<&mut [E]>,
+        cells: &[StatusCell],
     ) -> PyResult<Survey> {
-        let (py, count) = (input.py(), input.points().iter().product());
+        let (py, count) = (F.py(), points.iter().product::<usize>());
         let threads = self.threads.unwrap_or(count >= MANY);
-        let F = input.slice()?;
-        let mut results: Vec<_> = outputs.iter_mut().map(Output::slice).collect::<PyResult<_>>()?;
-        let cells: Vec<_> = status.iter().flat_map(|_| (0..count).map(|_| StatusCell::default())).collect();
-        let each = material.at(input.points());
+        let F = F.as_slice()?;
+        let each = material.at(points);
         let single;
-        let points: &dyn TileMaterial<E> = match each.as_deref() {
-            None | Some([]) => E::material(material)?,
-            Some(each) => {
+        let tiles: &dyn TileMaterial<E> = match &each[..] {
+            [] => E::material(material)?,
+            each => {
                 single = PerPoint::new(each).map_err(value_error)?;
                 &single
             }
         };
         let (axes, filter) = (self.axes, self.filter);
-        let batch = Batch::new(points).with_filter(filter);
+        let batch = Batch::new(tiles).with_filter(filter);
         let compute = || match axes {
             Axes::Leading => {
-                quantity.compute(&batch.with_threads(threads).with_statuses(&cells), F, &mut results)
+                quantity.compute(&batch.with_threads(threads).with_statuses(cells), F, &mut results)
             }
             Axes::Trailing => {
-                Columns { batch, filter, quantity, F, cells: &cells, count, each: each.as_deref() }
-                    .compute(results, threads)
+                Columns { batch, filter, quantity, F, cells, count, each: &each }.compute(results, threads)
             }
         };
         let survey = match (threads, count) {
@@ -117,21 +152,7 @@ impl<'py> Call<'_, 'py> {
             (false, ..=8) => compute(),
             (false, _) => py.detach(compute),
         };
-        let survey = survey.map_err(value_error)?;
-        for (output, components) in outputs.iter_mut().zip(quantity.numbers()) {
-            let mut results = Results { entries: output.slice()?, axes, components, points: count };
-            results.reorder(quantity.order());
-            let from_first = cells.iter().enumerate().skip(survey.first.unwrap_or(count));
-            for (point, _) in from_first.filter(|(_, cell)| !cell.get().is_clean()) {
-                results.invalidate(point);
-            }
-        }
-        if let Some(status) = status {
-            for (status, cell) in status.slice()?.iter_mut().zip(&cells) {
-                *status = flags(cell);
-            }
-        }
-        Ok(survey)
+        survey.map_err(value_error)
     }
 }
 

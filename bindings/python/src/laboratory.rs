@@ -12,11 +12,11 @@ use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
-use piola_laboratory::stability::{Report, SurveySettings, survey};
+use piola_laboratory::stability::{Report, SurveySettings, Walk, survey};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict};
 
-use crate::arrays::{Axes, Input, Numbers, from_rows, numbers, rows};
+use crate::arrays::{Axes, Numbers, deformations, from_rows, numbers, rows};
 use crate::errors::{ContractError, DomainError, FitError, of_material, value_error};
 use crate::material::Material;
 use crate::shape;
@@ -94,15 +94,9 @@ impl Material {
         let fit = py.detach(|| fit_parameters(&*candidate, &data, &settings));
         let Fit { values, numbers, agreement, difference, condition, ended, warnings, .. } =
             fit.map_err(|error| FitError::new_err(error.to_string()))?;
-        let errors = PyDict::new(py);
-        for number in &numbers {
-            errors.set_item(&number.name, number.error)?;
-        }
-        let determination = PyDict::new(py);
-        for (mode, value) in &agreement.modes {
-            determination.set_item(mode.name(), value)?;
-        }
-        determination.set_item("all", agreement.total)?;
+        let errors = numbers.iter().map(|number| (&number.name, number.error)).into_py_dict(py)?;
+        let modes = agreement.modes.iter().map(|&(mode, value)| (mode.name(), value));
+        let determination = modes.chain([("all", agreement.total)]).into_py_dict(py)?;
         let warnings: Vec<_> = warnings.iter().map(ToString::to_string).collect();
         let material = Py::new(py, self.with_values(&values)?)?;
         let arguments = (material, errors, determination, difference, condition, ended.to_string(), warnings);
@@ -130,20 +124,14 @@ impl Material {
         let report = py.detach(|| survey(&specimen, &settings)).map_err(value_error)?;
         let text = report.to_string();
         let Report { points, admitted, findings, walks, .. } = report;
-        let kept = PyDict::new(py);
-        for finding in &findings {
-            kept.set_item(key(finding.criterion), finding.kept)?;
-        }
-        let paths = PyList::empty(py);
-        for walk in &walks {
-            let lost = PyDict::new(py);
-            for (found, lost_at) in Criterion::ALL.into_iter().zip(walk.lost) {
-                lost.set_item(key(found), lost_at)?;
-            }
-            let arguments = (key(walk.path), walk.to, walk.reached, lost);
-            paths.append(py.import("piola.results")?.call_method1("Walk", arguments)?)?;
-        }
-        py.import("piola.results")?.call_method1("Stability", (points, admitted, kept, paths, text))
+        let kept = findings.iter().map(|finding| (key(finding.criterion), finding.kept)).into_py_dict(py)?;
+        let results = py.import("piola.results")?;
+        let walk = |walk: &Walk| {
+            let lost = Criterion::ALL.into_iter().map(key).zip(walk.lost).into_py_dict(py)?;
+            results.call_method1("Walk", (key(walk.path), walk.to, walk.reached, lost))
+        };
+        let walks: Vec<_> = walks.iter().map(walk).collect::<PyResult<_>>()?;
+        results.call_method1("Stability", (points, admitted, kept, walks, text))
     }
 
     /// Checks the rules that every material must keep: derivatives, isotropy, accuracy where stretches are
@@ -181,34 +169,30 @@ impl Material {
     ) -> PyResult<Bound<'py, PyDict>> {
         let F = Numbers::new("F", F)?;
         let dtype = if let Numbers::Single(_) = F { "float32" } else { "float64" };
-        let input = Input::new(&F.doubles()?, Axes::Leading, self.shape())?;
+        let (F, shape) = deformations(&F.doubles()?, Axes::Leading, &self.shape)?;
         let candidates = self.specs().map(|spec| spec.candidate().map_err(of_material));
         let candidates: Vec<_> = candidates.collect::<PyResult<_>>()?;
-        let candidate_of = shape::entries(self.shape(), input.points());
+        let candidate_of = shape::entries(&self.shape, &shape);
         let lists = candidates[0].values();
         let count = lists.iter().map(Vec::len).sum::<usize>();
-        let numbers = input.slice()?;
-        let points = numbers.len() / 9;
-        let mut derivatives = vec![0.0; count * numbers.len()];
+        let points: &[[[f64; 3]; 3]] = F.as_slice()?.as_chunks().0.as_chunks().0;
+        let mut derivatives = vec![vec![[[0.0; 3]; 3]; points.len()]; count];
         let outside = py.detach(|| {
-            (0..points).find(|&point| {
+            (0..points.len()).find(|&point| {
                 let candidate = &candidates[candidate_of[point]];
-                let entries = &numbers[9 * point..][..9];
-                let F: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| entries[3 * i + j]));
-                let frames = svd(&F);
+                let frames = svd(&points[point]);
                 let by_parameters = match frames.stretches[2] > 0.0 && candidate.admits(frames.stretches) {
                     true => candidate.gradient_by_parameters(frames.stretches),
                     false => return true,
                 };
-                for (k, gradient) in by_parameters.into_iter().enumerate() {
-                    let derivative = stress(&frames, gradient);
-                    derivatives[(k * points + point) * 9..][..9].copy_from_slice(derivative.as_flattened());
+                for (derivatives, gradient) in derivatives.iter_mut().zip(by_parameters) {
+                    derivatives[point] = stress(&frames, gradient);
                 }
                 false
             })
         });
         if let Some(point) = outside {
-            let index = shape::index(point, input.points());
+            let index = shape::index(point, &shape);
             let message = format!(
                 "a point is outside the domain of the energy, or not finite; it has the index {}",
                 shape::text(&index)
@@ -216,14 +200,14 @@ impl Material {
             return Err(DomainError::new_err((message, index, 1, 0)));
         }
         let result = PyDict::new(py);
-        let mut begin = 0;
+        let mut derivatives = derivatives.into_iter();
         for (parameter, list) in candidates[0].description().parameters.iter().zip(&lists) {
-            let part =
-                derivatives[begin * numbers.len()..][..list.len() * numbers.len()].to_vec().into_pyarray(py);
-            begin += list.len();
-            let shape = [input.points(), &[3, 3]].concat();
-            let shape = if parameter.is_list() { [&[list.len()][..], &shape].concat() } else { shape };
-            result.set_item(&*parameter.name, part.reshape(shape)?.call_method1("astype", (dtype,))?)?;
+            let part = derivatives.by_ref().take(list.len()).flatten().flatten().flatten();
+            let part = part.collect::<Vec<f64>>().into_pyarray(py);
+            let entries = [list.len()];
+            let in_front = &entries[..usize::from(parameter.is_list())];
+            let part = part.reshape([in_front, &shape, &[3, 3]].concat())?;
+            result.set_item(&*parameter.name, part.call_method1("astype", (dtype,))?)?;
         }
         Ok(result)
     }

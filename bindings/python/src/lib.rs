@@ -11,7 +11,6 @@
 //! | `quantity` | which of these, in which precision |
 //! | `columns` | points along trailing axes |
 //! | `arrays` | arrays that are taken, and those that results go to |
-//! | `results` | results of points without valid ones, and the order of components |
 //! | `shape` | shapes, and how they are broadcast |
 //! | `laboratory` | curves, fits, stability, contract |
 //! | `body` | bodies of tetrahedra |
@@ -29,7 +28,6 @@ mod evaluate;
 mod laboratory;
 mod material;
 mod quantity;
-mod results;
 mod settings;
 mod shape;
 mod simulation;

@@ -7,7 +7,7 @@ use piola::__private::message::printable;
 use piola::Inversion;
 use piola::batch::TileMaterial;
 use piola::interpreter::Interpreted;
-use piola::material::{Moduli, Parameter, PerPoint};
+use piola::material::{self, Moduli, Parameter, PerPoint};
 use piola_declare::emit::{Emission, UnknownWord};
 use piola_declare::{Energy, FormulaOptions, Mistakes};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
@@ -35,25 +35,18 @@ use crate::shape;
 /// Raises MaterialError for an unknown name, and for parameters that are missing, unknown or out of range.
 #[pyclass(frozen, module = "piola")]
 pub(crate) struct Material {
+    /// The energy by its name in the catalogue, or declared, with a value for each parameter.
     spec: MaterialSpec,
-    name: String,
-    inversion: Inversion,
-    /// Values in the order of the declaration.
-    values: Vec<(String, Vec<f64>)>,
     moduli: Moduli,
     pub(crate) double: Box<dyn TileMaterial<f64>>,
     /// Its program for single precision, made when it is wanted first.
     single: OnceLock<Interpreted>,
-    /// Materials of points that differ.
-    each: Option<Each>,
-}
-
-/// Materials of points that differ, in the order of C.
-struct Each {
+    /// Parameters that differ from point to point.
     varying: Vec<Varying>,
-    /// The shape that all parameters have together.
-    shape: Vec<usize>,
-    materials: Vec<Interpreted>,
+    /// The shape that these have together, that of a number if there are none.
+    pub(crate) shape: Vec<usize>,
+    /// A material for each point of this shape, in the order of C, if they differ.
+    each: Vec<Interpreted>,
 }
 
 /// A parameter that has a value of its own, or a list of them, at each point.
@@ -80,23 +73,45 @@ impl Material {
         let inversion = extend.map_or(Inversion::Refuse, |epsilon| Inversion::Extend { epsilon });
         let spec = spec.with_inversion(inversion).explicit().map_err(of_material)?;
         let MaterialInfo { name, elements, moduli, .. } = spec.build().map_err(of_material)?;
-        let description = spec.description().map_err(of_material)?;
-        let value =
-            |parameter: &Parameter| (parameter.name.to_string(), spec.values_of(&parameter.name).to_vec());
-        let values = description.parameters.iter().map(value).collect();
-        let (name, single) = (name.to_string(), OnceLock::new());
-        Ok(Self { spec, name, inversion, values, moduli, double: elements, single, each: None })
+        let spec = spec.with_name(name);
+        let (varying, shape, each) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { spec, moduli, double: elements, single: OnceLock::new(), varying, shape, each })
     }
 
-    /// The material with parameters by keywords.
+    /// The material with parameters by keywords; of those that differ from point to point, the specification
+    /// has the first value.
     fn from_keywords(
-        spec: MaterialSpec,
+        mut spec: MaterialSpec,
         extend: Option<f64>,
         keywords: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let (spec, varying) = with_keywords(spec, keywords)?;
+        let parameters = spec.description().map_err(of_material)?.parameters.clone();
+        let mut all_varying = Vec::new();
+        for (keyword, value) in keywords.into_iter().flatten() {
+            let keyword: String = keyword.extract()?;
+            let name = parameter_name(&keyword, |name| parameters.iter().any(|known| known.name == name));
+            let (given, numbers) = shape_and_numbers(name, &value)?;
+            let parameter = parameters.iter().find(|known| known.name == name);
+            let mut points = given.clone();
+            if parameter.is_some_and(Parameter::is_list) {
+                points.pop();
+            }
+            if parameter.is_none() || points.is_empty() {
+                spec = spec.with_parameter(name, numbers);
+                continue;
+            }
+            if points.contains(&0) {
+                let given = shape::text(&given);
+                return Err(MaterialError::new_err(format!(
+                    "`{name}` has the shape {given}: it has no values"
+                )));
+            }
+            let varying = Varying { name: name.to_owned(), given, points, numbers };
+            spec = spec.with_parameter(name, varying.at(0));
+            all_varying.push(varying);
+        }
         let material = Self::new(spec, extend)?;
-        if varying.is_empty() { Ok(material) } else { material.varied(varying) }
+        if all_varying.is_empty() { Ok(material) } else { material.varied(all_varying) }
     }
 
     /// A material for each point.
@@ -115,65 +130,60 @@ impl Material {
             let index = shape::text(&shape::index(point, &shape));
             of_material(format!("at index {index}: {error}"))
         };
-        let mut materials = Vec::new();
+        let mut each = Vec::new();
         let count = shape.iter().try_fold(1, |count: usize, &length| count.checked_mul(length));
-        if count.is_none_or(|count| materials.try_reserve_exact(count).is_err()) {
+        if count.is_none_or(|count| each.try_reserve_exact(count).is_err()) {
             let shape = shape::text(&shape);
             return Err(MaterialError::new_err(format!(
                 "there is no memory for parameters of the shape {shape}"
             )));
         }
         for (point, spec) in specs(&self.spec, &varying, &shape).enumerate() {
-            materials.push(spec.interpreted().map_err(|error| refused(point, error))?);
+            each.push(spec.interpreted().map_err(|error| refused(point, error))?);
         }
-        Ok(Self { each: Some(Each { varying, shape, materials }), ..self })
-    }
-
-    /// The shape of the points for which there are parameters, which is that of a number if they are the same
-    /// at all points.
-    pub(crate) fn shape(&self) -> &[usize] {
-        self.each.as_ref().map_or(&[], |each| &each.shape)
+        Ok(Self { varying, shape, each, ..self })
     }
 
     /// A specification for each point of the [shape](Self::shape).
     pub(crate) fn specs(&self) -> impl Iterator<Item = MaterialSpec> {
-        specs(&self.spec, self.varying(), self.shape())
-    }
-
-    fn varying(&self) -> &[Varying] {
-        self.each.as_ref().map_or(&[], |each| &each.varying)
+        specs(&self.spec, &self.varying, &self.shape)
     }
 
     /// The specification, if it is the same at all points.
     pub(crate) fn uniform(&self) -> PyResult<&MaterialSpec> {
-        match &self.each {
-            None => Ok(&self.spec),
-            Some(each) => Err(MaterialError::new_err(format!(
-                "{} has parameters of the shape {}; this needs one material for all points",
-                self.name,
-                shape::text(&each.shape)
-            ))),
+        if self.varying.is_empty() {
+            return Ok(&self.spec);
         }
+        Err(MaterialError::new_err(format!(
+            "{} has parameters of the shape {}; this needs one material for all points",
+            self.name(),
+            shape::text(&self.shape)
+        )))
     }
 
     /// Materials for the elements of a body, as many as there are.
     pub(crate) fn elements(&self, count: usize) -> PyResult<Box<dyn TileMaterial<f64>>> {
-        let Some(each) = &self.each else { return Ok(self.spec.build().map_err(of_material)?.elements) };
-        if shape::common(&each.shape, &[count]).is_none_or(|common| common != [count]) {
+        if self.varying.is_empty() {
+            return Ok(self.spec.build().map_err(of_material)?.elements);
+        }
+        if shape::common(&self.shape, &[count]).is_none_or(|common| common != [count]) {
             return Err(MaterialError::new_err(format!(
                 "{} has parameters of the shape {}, and there are {count} tetrahedra",
-                self.name,
-                shape::text(&each.shape)
+                self.name(),
+                shape::text(&self.shape)
             )));
         }
-        let materials: Vec<_> = self.at(&[count]).into_iter().flatten().cloned().collect();
+        let materials: Vec<_> = self.at(&[count]).into_iter().cloned().collect();
         Ok(Box::new(PerPoint::new(materials).map_err(of_material)?))
     }
 
-    /// The material of each of these points, to whose shape the parameters can be broadcast, if they differ.
-    pub(crate) fn at(&self, points: &[usize]) -> Option<Vec<&Interpreted>> {
-        let Each { shape, materials, .. } = self.each.as_ref()?;
-        Some(shape::entries(shape, points).into_iter().map(|entry| &materials[entry]).collect())
+    /// The material of each of these points, to whose shape the parameters can be broadcast; none if they are
+    /// the same at all points.
+    pub(crate) fn at(&self, points: &[usize]) -> Vec<&Interpreted> {
+        match self.varying[..] {
+            [] => Vec::new(),
+            _ => shape::entries(&self.shape, points).into_iter().map(|entry| &self.each[entry]).collect(),
+        }
     }
 
     pub(crate) fn single(&self) -> PyResult<&dyn TileMaterial<f32>> {
@@ -191,10 +201,16 @@ impl Material {
 
     /// The material with other values, in the order of the declaration.
     pub(crate) fn with_values(&self, values: &[Vec<f64>]) -> PyResult<Self> {
-        let named = self.values.iter().zip(values);
-        let spec = named
-            .fold(self.spec.clone(), |spec, ((name, _), values)| spec.with_parameter(name, values.clone()));
+        let named = self.declared()?.parameters.iter().zip(values);
+        let spec = named.fold(self.spec.clone(), |spec, (parameter, values)| {
+            spec.with_parameter(&parameter.name, values.clone())
+        });
         Self::new(spec, self.extend())
+    }
+
+    /// Description of the declaration.
+    fn declared(&self) -> PyResult<&material::Description> {
+        self.spec.description().map_err(of_material)
     }
 }
 
@@ -207,38 +223,6 @@ fn specs(spec: &MaterialSpec, varying: &[Varying], points: &[usize]) -> impl Ite
         };
         varying.iter().zip(&entries).fold(spec.clone(), at_point)
     })
-}
-
-/// A specification with the values of keywords, and the parameters that differ from point to point, of which
-/// it has the first value.
-fn with_keywords(
-    mut spec: MaterialSpec,
-    keywords: Option<&Bound<'_, PyDict>>,
-) -> PyResult<(MaterialSpec, Vec<Varying>)> {
-    let parameters = spec.description().map_err(of_material)?.parameters.clone();
-    let mut all_varying = Vec::new();
-    for (keyword, value) in keywords.into_iter().flatten() {
-        let keyword: String = keyword.extract()?;
-        let name = parameter_name(&keyword, |name| parameters.iter().any(|known| known.name == name));
-        let (given, numbers) = shape_and_numbers(name, &value)?;
-        let parameter = parameters.iter().find(|known| known.name == name);
-        let mut points = given.clone();
-        if parameter.is_some_and(Parameter::is_list) {
-            points.pop();
-        }
-        if parameter.is_none() || points.is_empty() {
-            spec = spec.with_parameter(name, numbers);
-            continue;
-        }
-        if points.contains(&0) {
-            let given = shape::text(&given);
-            return Err(MaterialError::new_err(format!("`{name}` has the shape {given}: it has no values")));
-        }
-        let varying = Varying { name: name.to_owned(), given, points, numbers };
-        spec = spec.with_parameter(name, varying.at(0));
-        all_varying.push(varying);
-    }
-    Ok((spec, all_varying))
 }
 
 /// The parameter that a keyword names: `lambda_` is `lambda`, unless there is a `lambda_`.
@@ -325,19 +309,19 @@ impl Material {
             let functions: Result<Vec<_>, _> = functions.iter().map(|word| word.parse()).collect();
             emission = emission.with_functions(functions.map_err(unknown)?);
         }
-        self.uniform()?.clone().with_inversion(self.inversion).emit(&emission).map_err(of_material)
+        self.uniform()?.emit(&emission).map_err(of_material)
     }
 
     /// The name in the catalogue, or of the declaration.
     #[getter]
     fn name(&self) -> &str {
-        &self.name
+        self.spec.material()
     }
 
     /// Description of the energy.
     #[getter]
     fn description(&self) -> PyResult<Description> {
-        Ok(Description::new(&self.name, self.spec.description().map_err(of_material)?))
+        Ok(Description::new(self.name(), self.declared()?))
     }
 
     /// The parameters by name: a number each, or a list of numbers; arrays of those that differ from point to
@@ -345,14 +329,14 @@ impl Material {
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let parameters = PyDict::new(py);
-        let description = self.spec.description().map_err(of_material)?;
-        for (parameter, (name, values)) in description.parameters.iter().zip(&self.values) {
+        for parameter in &self.declared()?.parameters {
+            let (name, values) = (&*parameter.name, self.spec.values_of(&parameter.name));
             match parameter.is_list() {
                 true => parameters.set_item(name, values)?,
                 false => parameters.set_item(name, values[0])?,
             }
         }
-        for Varying { name, given, numbers, .. } in self.varying() {
+        for Varying { name, given, numbers, .. } in &self.varying {
             parameters.set_item(name, read_only(numbers.clone().into_pyarray(py).reshape(&given[..])?)?)?;
         }
         Ok(parameters)
@@ -361,17 +345,14 @@ impl Material {
     /// The stretch below which the energy is continued, or None.
     #[getter]
     fn extend(&self) -> Option<f64> {
-        match self.inversion {
-            Inversion::Refuse => None,
-            Inversion::Extend { epsilon } => Some(epsilon),
-        }
+        self.spec.extended_below()
     }
 
     /// The shape of parameters that differ from point to point, with which points are broadcast; () for one
     /// material at all points.
     #[getter(shape)]
     fn shape_of_parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.shape())
+        PyTuple::new(py, &self.shape)
     }
 
     /// Moduli at small strain, Pa, and Poisson's ratio: those of the first point, if parameters differ.
@@ -382,19 +363,20 @@ impl Material {
         py.import("piola.results")?.call_method1("Moduli", (mu, lambda, bulk, young, poisson))
     }
 
-    fn __repr__(&self) -> String {
-        let argument = |(name, values): &(String, Vec<f64>)| {
-            let varying = self.varying().iter().find(|varying| varying.name == *name);
-            match (varying, values.as_slice()) {
+    fn __repr__(&self) -> PyResult<String> {
+        let argument = |parameter: &Parameter| {
+            let name = &*parameter.name;
+            let varying = self.varying.iter().find(|varying| varying.name == name);
+            match (varying, self.spec.values_of(name)) {
                 (Some(varying), _) => format!("{name}=<array of shape {}>", shape::text(&varying.given)),
                 (None, [value]) => format!("{name}={value:?}"),
                 (None, values) => format!("{name}={values:?}"),
             }
         };
-        let parameters = self.values.iter().map(argument);
+        let parameters = self.declared()?.parameters.iter().map(argument);
         let extend = self.extend().map(|epsilon| format!("extend={epsilon:?}"));
         let arguments: Vec<_> = parameters.chain(extend).collect();
-        format!("<piola.Material {}({})>", shown(&self.name), arguments.join(", "))
+        Ok(format!("<piola.Material {}({})>", shown(self.name()), arguments.join(", ")))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Pickled<'py>> {

@@ -36,6 +36,18 @@ pub(crate) enum Order {
     Abaqus,
 }
 
+impl Order {
+    /// The pairs among the 6 components of a stress, or the 36 of a tangent, that are exchanged to get this
+    /// order from that of a batch.
+    pub(crate) fn exchanged(self, components: usize) -> impl Iterator<Item = (usize, usize)> {
+        /// Exchanges 23 and 12.
+        const ABAQUS: [usize; 6] = [0, 1, 2, 5, 4, 3];
+        let count = if self == Self::Abaqus { components } else { 0 };
+        let pair = |component| (component, 6 * ABAQUS[component / 6] + ABAQUS[component % 6]);
+        (0..count).map(pair).filter(|(one, other)| one < other)
+    }
+}
+
 /// A quantity that is computed of each point.
 #[derive(Clone, Copy)]
 pub(crate) enum Quantity {

@@ -21,7 +21,7 @@ use piola_codegen::read::spelling::{nearest, spelled_out};
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 
-use super::spellings::{self, Invariant};
+use super::spellings::{self, Invariant, Meaning};
 use super::{FormulaOptions, advice};
 use tokens::{Tokens, parenthesised, parenthesised_as, real, span, whole};
 
@@ -85,18 +85,16 @@ pub(super) fn parse(tokens: TokenStream, options: &FormulaOptions) -> syn::Resul
         }
     }
     parser.tokens.end()?;
-    if let Some(mut bulk) = bulk {
-        bulk.set_span(Span::call_site());
-        let bulk = parser.parameter(&bulk, false)?;
+    if let Some(bulk) = bulk {
+        let bulk = parser.parameter(&at(bulk, Span::call_site()), false)?;
         body = quote!(#body + #bulk / 2.0 * (J - 1.0).powi(2));
     }
     if let (Some(all), false) = (&options.parameters, options.further) {
         parser.ask(options)?;
         // One that the formula does not use is reported.
-        for mut name in all.iter().filter_map(|(name, _)| syn::parse_str::<Ident>(name).ok()) {
+        for name in all.iter().filter_map(|(name, _)| syn::parse_str::<Ident>(name).ok()) {
             // It stands nowhere in the formula.
-            name.set_span(Span::call_site());
-            parser.parameter(&name, false)?;
+            parser.parameter(&at(name, Span::call_site()), false)?;
         }
     }
     let docs: HashMap<&str, &str> =
@@ -164,34 +162,27 @@ impl Parser {
         Ok((condition, is_of_deformation))
     }
 
+    /// A sum with its products, token by token: their signs bind in Rust as they do in formulas.
     fn sum(&mut self) -> syn::Result<TokenStream> {
-        let mut sum = self.product()?;
-        while let Some(sign) = self.tokens.take_sign("+").or_else(|| self.tokens.take_sign("-")) {
-            let term = self.product()?;
-            sum.extend(sign);
-            sum.extend(term);
+        let mut sum = self.sign()?;
+        loop {
+            match self.tokens.take_either(["*", "/"]).or_else(|| self.plus_or_minus()) {
+                Some(sign) => sum.extend(sign),
+                None if self.tokens.begins_factor() => sum.extend(quote!(*)),
+                None => return Ok(sum),
+            }
+            sum.extend(self.sign()?);
         }
-        Ok(sum)
     }
 
-    fn product(&mut self) -> syn::Result<TokenStream> {
-        let mut product = self.sign()?;
-        loop {
-            if let Some(sign) = self.tokens.take_either(["*", "/"]) {
-                product.extend(sign);
-            } else if self.tokens.begins_factor() {
-                product.extend(quote!(*));
-            } else {
-                return Ok(product);
-            }
-            product.extend(self.sign()?);
-        }
+    fn plus_or_minus(&mut self) -> Option<TokenStream> {
+        ["+", "-"].into_iter().find_map(|sign| self.tokens.take_sign(sign))
     }
 
     /// A power, with signs before it.
     fn sign(&mut self) -> syn::Result<TokenStream> {
         let mut minus = None;
-        while let Some(sign) = self.tokens.take_sign("+").or_else(|| self.tokens.take_sign("-")) {
+        while let Some(sign) = self.plus_or_minus() {
             if sign.to_string() == "-" {
                 minus = if minus.is_some() { None } else { Some(sign) };
             }
@@ -260,27 +251,22 @@ impl Parser {
                 false => self.parameter(&name, false)?.to_token_stream(),
             });
         }
-        if let Some(rust) = spellings::name(&text) {
-            return rust_at(rust, name.span());
+        match spellings::meaning(&text) {
+            Some(Meaning::Name(rust)) => rust_at(rust, name.span()),
+            Some(Meaning::Function(_) | Meaning::OfTensors(_)) => self.open_call(&name),
+            Some(Meaning::Power) | None => Ok(self.parameter(&name, false)?.to_token_stream()),
         }
-        if spellings::function(&text).is_some() || spellings::invariant(&text).is_some() {
-            return self.open_call(&name);
-        }
-        Ok(self.parameter(&name, false)?.to_token_stream())
     }
 
     /// A name without a value or another meaning as the one that has a value and differs in the spelling of
     /// Greek letters alone: `kappa` for `κ`.
     fn as_given(&self, name: Ident) -> Ident {
         let text = name.to_string();
-        let has_meaning =
-            self.given.contains(&text) || self.indices.contains(&name) || spellings::name(&text).is_some();
+        let has_meaning = self.given.contains(&text)
+            || self.indices.contains(&name)
+            || matches!(spellings::meaning(&text), Some(Meaning::Name(_)));
         match self.spelled_out.get(&spelled_out(&text)) {
-            Some(given) if !has_meaning => {
-                let mut given = given.clone();
-                given.set_span(name.span());
-                given
-            }
+            Some(given) if !has_meaning => at(given.clone(), name.span()),
             _ => name,
         }
     }
@@ -297,37 +283,40 @@ impl Parser {
                 "write `{name}({argument})^n` or `{name}({argument}^n)`, whichever is meant"
             ));
         }
-        let mut group = Group::new(Delimiter::Parenthesis, TokenTree::Ident(argument.clone()).into());
-        group.set_span(argument.span());
-        self.call(name, &group)
+        let span = argument.span();
+        self.call(name, &parenthesised(TokenTree::Ident(argument).into(), span))
     }
 
     /// `ln(x)` as `x.ln()`.
     fn call(&mut self, name: &Ident, group: &Group) -> syn::Result<TokenStream> {
         let text = name.to_string();
-        if let Some(invariant) = spellings::invariant(&text) {
-            return self.invariant(invariant, name, group);
-        }
-        if spellings::POWERS.contains(&text.as_str()) {
-            let (base, exponent) = self.inside(group, |parser| {
-                let base = parser.sum()?;
-                if parser.tokens.take_sign(",").is_none() {
-                    return Err(syn::Error::new(name.span(), format!("a power is `{name}(x, n)`, or `x^n`")));
-                }
-                Ok((base, parser.sum()?))
-            })?;
-            let base = parenthesised(base, whole_call(name, group)).to_token_stream();
-            return Ok(raised(&base, exponent, group.span_close()));
-        }
-        if self.places.contains_key(&text) || spellings::name(&text).is_some() {
-            return Err(no_function(name));
-        }
-        let method = Ident::new(spellings::function(&text).unwrap_or(&text), name.span());
+        let method = match spellings::meaning(&text) {
+            Some(Meaning::OfTensors(invariant)) => return self.invariant(invariant, name, group),
+            Some(Meaning::Power) => return self.power_of(name, group),
+            Some(Meaning::Name(_)) => return Err(no_function(name)),
+            _ if self.places.contains_key(&text) => return Err(no_function(name)),
+            Some(Meaning::Function(method)) => method,
+            None => text.as_str(),
+        };
+        let method = Ident::new(method, name.span());
         let argument = self.inside(group, Self::sum)?;
         // A mistake in the call is underlined from its name to the end.
         let argument = parenthesised(argument, whole_call(name, group));
         let end = group.span_close();
         Ok(quote_spanned!(end=> #argument.#method()))
+    }
+
+    /// `pow(x, n)` as `x.powf(n)`.
+    fn power_of(&mut self, name: &Ident, group: &Group) -> syn::Result<TokenStream> {
+        let (base, exponent) = self.inside(group, |parser| {
+            let base = parser.sum()?;
+            if parser.tokens.take_sign(",").is_none() {
+                return Err(syn::Error::new(name.span(), format!("a power is `{name}(x, n)`, or `x^n`")));
+            }
+            Ok((base, parser.sum()?))
+        })?;
+        let base = parenthesised(base, whole_call(name, group)).to_token_stream();
+        Ok(raised(&base, exponent, group.span_close()))
     }
 
     /// `tr(C)` as `I1`.
@@ -391,9 +380,7 @@ impl Parser {
         if let Some(&place) = self.places.get(&text) {
             let (known, was_list, _) = &mut self.names[place];
             *was_list |= is_list;
-            let mut known = known.clone();
-            known.set_span(name.span());
-            return Ok(known);
+            return Ok(at(known.clone(), name.span()));
         }
         let is_keyword = syn::parse_str::<Ident>(&text).is_err();
         let declared = match text.as_str() {
@@ -442,20 +429,31 @@ fn whole_call(name: &Ident, group: &Group) -> Span {
     name.span().join(group.span()).unwrap_or(name.span())
 }
 
+/// A name at another place.
+fn at(mut name: Ident, span: Span) -> Ident {
+    name.set_span(span);
+    name
+}
+
 /// The tokens of a text in Rust, all at one place.
 fn rust_at(rust: &str, span: Span) -> syn::Result<TokenStream> {
-    fn placed(tokens: TokenStream, span: Span) -> TokenStream {
-        let place = |mut token: TokenTree| {
-            if let TokenTree::Group(group) = &mut token {
-                *group = Group::new(group.delimiter(), placed(group.stream(), span));
-            }
-            token.set_span(span);
-            token
-        };
-        tokens.into_iter().map(place).collect()
-    }
     let tokens: TokenStream = rust.parse().map_err(|_| syn::Error::new(span, "this is not a formula"))?;
-    Ok(placed(tokens, span))
+    Ok(mapped(tokens, &|mut token| {
+        token.set_span(span);
+        token.into()
+    }))
+}
+
+/// Tokens with others instead of each, also within groups.
+fn mapped(tokens: TokenStream, map: &dyn Fn(TokenTree) -> TokenStream) -> TokenStream {
+    let each = |token: TokenTree| match token {
+        TokenTree::Group(group) => {
+            let inside = mapped(group.stream(), map);
+            map(parenthesised_as(group.delimiter(), inside, group.span()).into())
+        }
+        token => map(token),
+    };
+    tokens.into_iter().flat_map(each).collect()
 }
 
 /// A power, whose sign is at this place.
@@ -472,13 +470,8 @@ fn raised(base: &TokenStream, exponent: TokenStream, span: Span) -> TokenStream 
 
 /// A condition on parameters, emitted as it is except that π gets its path.
 fn with_path_of_pi(condition: TokenStream) -> TokenStream {
-    let path = |token: TokenTree| match token {
+    mapped(condition, &|token| match token {
         TokenTree::Ident(name) if name == "PI" => quote!(std::f64::consts::PI),
-        TokenTree::Group(group) => {
-            parenthesised_as(group.delimiter(), with_path_of_pi(group.stream()), group.span())
-                .into_token_stream()
-        }
         token => token.into(),
-    };
-    condition.into_iter().map(path).collect()
+    })
 }

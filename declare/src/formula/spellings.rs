@@ -2,60 +2,61 @@
 //!
 //! A name with a value is a parameter in any spelling; the table has all other names.
 
-/// A name or a function: the Rust that it stands for, which is the method of a function; its meaning, which
-/// the documentation has; its spellings without underscores.
-type Spelling = (&'static str, &'static str, &'static str);
+use Meaning::{Function, Name, OfTensors, Power};
 
-/// Names, which may have underscores anywhere: `I_1` is `I1`.
-const NAMES: [Spelling; 13] = [
-    ("l1", "principal stretch λ1", "l1 λ1 lambda1 lam1 lmbda1"),
-    ("l2", "principal stretch λ2", "l2 λ2 lambda2 lam2 lmbda2"),
-    ("l3", "principal stretch λ3", "l3 λ3 lambda3 lam3 lmbda3"),
-    ("J", "J = λ1λ2λ3", "J detF"),
-    ("I1", "I1 = Σλ²", "I1 trC IC Ic I1C"),
-    ("I2", "I2 = λ1²λ2² + λ2²λ3² + λ3²λ1²", "I2 I2C"),
-    ("I1b", "J^(−2/3) I1", "I1b I1bar Ibar1 barI1 Ib1 I1iso Ī1 I\u{304}1 I\u{305}1"),
-    ("I2b", "J^(−4/3) I2", "I2b I2bar Ibar2 barI2 Ib2 I2iso Ī2 I\u{304}2 I\u{305}2"),
-    ("(l1 / J.cbrt())", "J^(−1/3) λ1", "l1bar lambdabar1 lambda1bar λbar1 λ\u{304}1 λ\u{305}1"),
-    ("(l2 / J.cbrt())", "J^(−1/3) λ2", "l2bar lambdabar2 lambda2bar λbar2 λ\u{304}2 λ\u{305}2"),
-    ("(l3 / J.cbrt())", "J^(−1/3) λ3", "l3bar lambdabar3 lambda3bar λbar3 λ\u{304}3 λ\u{305}3"),
-    ("(J.ln())", "ln(J)", "lnJ logJ"),
-    ("PI", "π", "pi π PI Pi"),
-];
+/// Meaning of a name.
+#[derive(Clone, Copy)]
+pub(super) enum Meaning {
+    /// An expression in Rust. Its spellings may have underscores anywhere: `I_1` is `I1`.
+    Name(&'static str),
+    /// A function of one argument: its method.
+    Function(&'static str),
+    /// A function of two arguments: the first to the power of the second.
+    Power,
+    /// A function of tensors.
+    OfTensors(Invariant),
+}
 
-/// Functions of one argument.
-const FUNCTIONS: [Spelling; 17] = [
-    ("ln", "natural logarithm", "ln log Log"),
-    ("log10", "decimal logarithm", "log10"),
-    ("exp", "exponential", "exp Exp"),
-    ("sqrt", "square root", "sqrt Sqrt"),
-    ("cbrt", "cube root", "cbrt"),
-    ("sinh", "hyperbolic sine", "sinh"),
-    ("cosh", "hyperbolic cosine", "cosh"),
-    ("tanh", "hyperbolic tangent", "tanh"),
-    ("asinh", "inverse hyperbolic sine", "asinh arsinh arcsinh"),
-    ("sin", "sine", "sin"),
-    ("cos", "cosine", "cos"),
-    ("atan", "arc tangent", "atan arctan arctg"),
-    ("erf", "error function", "erf"),
-    ("ln_1p", "ln(1 + x)", "ln_1p ln1p log1p"),
-    ("exp_m1", "exp(x) − 1", "exp_m1 expm1"),
-    ("softplus", "ln(1 + exp(x))", "softplus"),
-    ("sigmoid", "1/(1 + exp(−x))", "sigmoid logistic expit"),
-];
-
-/// Functions of two arguments: powers of the first by the second.
-pub(super) const POWERS: [&str; 2] = ["pow", "power"];
-
-/// Functions of tensors, each with its meaning and its spellings.
-const TENSOR_FUNCTIONS: [(Invariant, &str, &str); 3] = [
+/// All names that are not parameters: their meaning, its words for the documentation, and their spellings.
+const SPELLINGS: [(Meaning, &str, &str); 34] = [
+    (Name("l1"), "principal stretch λ1", "l1 λ1 lambda1 lam1 lmbda1"),
+    (Name("l2"), "principal stretch λ2", "l2 λ2 lambda2 lam2 lmbda2"),
+    (Name("l3"), "principal stretch λ3", "l3 λ3 lambda3 lam3 lmbda3"),
+    (Name("J"), "J = λ1λ2λ3", "J detF"),
+    (Name("I1"), "I1 = Σλ²", "I1 trC IC Ic I1C"),
+    (Name("I2"), "I2 = λ1²λ2² + λ2²λ3² + λ3²λ1²", "I2 I2C"),
+    (Name("I1b"), "J^(−2/3) I1", "I1b I1bar Ibar1 barI1 Ib1 I1iso Ī1 I\u{304}1 I\u{305}1"),
+    (Name("I2b"), "J^(−4/3) I2", "I2b I2bar Ibar2 barI2 Ib2 I2iso Ī2 I\u{304}2 I\u{305}2"),
+    (Name("(l1 / J.cbrt())"), "J^(−1/3) λ1", "l1bar lambdabar1 lambda1bar λbar1 λ\u{304}1 λ\u{305}1"),
+    (Name("(l2 / J.cbrt())"), "J^(−1/3) λ2", "l2bar lambdabar2 lambda2bar λbar2 λ\u{304}2 λ\u{305}2"),
+    (Name("(l3 / J.cbrt())"), "J^(−1/3) λ3", "l3bar lambdabar3 lambda3bar λbar3 λ\u{304}3 λ\u{305}3"),
+    (Name("(J.ln())"), "ln(J)", "lnJ logJ"),
+    (Name("PI"), "π", "pi π PI Pi"),
+    (Function("ln"), "natural logarithm", "ln log Log"),
+    (Function("log10"), "decimal logarithm", "log10"),
+    (Function("exp"), "exponential", "exp Exp"),
+    (Function("sqrt"), "square root", "sqrt Sqrt"),
+    (Function("cbrt"), "cube root", "cbrt"),
+    (Function("sinh"), "hyperbolic sine", "sinh"),
+    (Function("cosh"), "hyperbolic cosine", "cosh"),
+    (Function("tanh"), "hyperbolic tangent", "tanh"),
+    (Function("asinh"), "inverse hyperbolic sine", "asinh arsinh arcsinh"),
+    (Function("sin"), "sine", "sin"),
+    (Function("cos"), "cosine", "cos"),
+    (Function("atan"), "arc tangent", "atan arctan arctg"),
+    (Function("erf"), "error function", "erf"),
+    (Function("ln_1p"), "ln(1 + x)", "ln_1p ln1p log1p"),
+    (Function("exp_m1"), "exp(x) − 1", "exp_m1 expm1"),
+    (Function("softplus"), "ln(1 + exp(x))", "softplus"),
+    (Function("sigmoid"), "1/(1 + exp(−x))", "sigmoid logistic expit"),
+    (Power, "power", "pow power"),
     (
-        Invariant::Trace,
+        OfTensors(Invariant::Trace),
         "trace of a tensor: `tr(C)` is I1; `tr(E)^2` and `tr(E^2)` are accepted",
         "tr trace Tr",
     ),
-    (Invariant::Determinant, "determinant: `det(F)` is J, `det(C)` is J²", "det"),
-    (Invariant::Product, "product A : B of tensors: `inner(E, E)` is `tr(E^2)`", "inner ddot"),
+    (OfTensors(Invariant::Determinant), "determinant: `det(F)` is J, `det(C)` is J²", "det"),
+    (OfTensors(Invariant::Product), "product A : B of tensors: `inner(E, E)` is `tr(E^2)`", "inner ddot"),
 ];
 
 /// The products of F with its transpose that stand for C or b, without spaces.
@@ -91,26 +92,14 @@ pub(super) enum Invariant {
     Product,
 }
 
-/// The Rust that a name stands for.
-pub(super) fn name(name: &str) -> Option<&'static str> {
-    let plain = name.replace('_', "");
-    find(&NAMES, &plain)
-}
-
-/// The method of a function.
-pub(super) fn function(name: &str) -> Option<&'static str> {
-    find(&FUNCTIONS, name)
-}
-
-/// First column of the row of a table that has this name.
-fn find<T: Copy>(table: &[(T, &str, &str)], name: &str) -> Option<T> {
-    let is_meant = |spellings: &str| spellings.split(' ').any(|spelling| spelling == name);
-    table.iter().find(|(.., spellings)| is_meant(spellings)).map(|&(meant, ..)| meant)
-}
-
-/// The function of tensors that a name stands for.
-pub(super) fn invariant(name: &str) -> Option<Invariant> {
-    find(&TENSOR_FUNCTIONS, name)
+/// The meaning of a name in a formula.
+pub(super) fn meaning(name: &str) -> Option<Meaning> {
+    let bare = name.replace('_', "");
+    let is_meant = |&&(meaning, _, spellings): &&(Meaning, &str, &str)| {
+        let name = if let Name(_) = meaning { bare.as_str() } else { name };
+        spellings.split(' ').any(|spelling| spelling == name)
+    };
+    SPELLINGS.iter().find(is_meant).map(|&(meaning, ..)| meaning)
 }
 
 /// The name that stands for each stretch in the sums of traces.
@@ -245,16 +234,16 @@ mod tests {
         let mut text = "| spelling | meaning |\n|---|---|\n".to_owned();
         let mut row = |spelling: String, meaning: &str| text += &format!("| {spelling} | {meaning} |\n");
         let all = |spellings: &'static str| code(&spellings.split(' ').collect::<Vec<_>>());
-        for (_, meaning, spellings) in NAMES {
-            row(all(spellings), meaning);
-        }
-        for (_, meaning, spellings) in FUNCTIONS {
-            row(all(spellings), &format!("{meaning}, a function"));
-        }
-        row(format!("`x^n`, `x**n`, {}", POWERS.map(|name| format!("`{name}(x, n)`")).join(", ")), "power");
-        row("`.*`, `./`, `.^`".to_owned(), "`*`, `/`, `^`");
-        for (_, meaning, spellings) in TENSOR_FUNCTIONS {
-            row(all(spellings), meaning);
+        for (meaning, words, spellings) in SPELLINGS {
+            match meaning {
+                Function(_) => row(all(spellings), &format!("{words}, a function")),
+                Power => {
+                    let calls: Vec<_> = spellings.split(' ').map(|name| format!("`{name}(x, n)`")).collect();
+                    row(format!("`x^n`, `x**n`, {}", calls.join(", ")), words);
+                    row("`.*`, `./`, `.^`".to_owned(), "`*`, `/`, `^`");
+                }
+                Name(_) | OfTensors(_) => row(all(spellings), words),
+            }
         }
         row(code(&RIGHT_AND_LEFT), "the tensor C or b, as an argument of these functions");
         row(
@@ -281,10 +270,8 @@ mod tests {
 
     #[test]
     fn no_spelling_has_two_meanings() {
-        let mut all: Vec<_> =
-            NAMES.iter().chain(&FUNCTIONS).flat_map(|(.., spellings)| spellings.split(' ')).collect();
-        all.extend(TENSOR_FUNCTIONS.iter().flat_map(|(.., spellings)| spellings.split(' ')));
-        all.extend(POWERS.iter().chain(&MODULES));
+        let names = SPELLINGS.into_iter().flat_map(|(.., spellings)| spellings.split(' '));
+        let mut all: Vec<_> = names.chain(MODULES).collect();
         let count = all.len();
         all.sort_unstable();
         all.dedup();
