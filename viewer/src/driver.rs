@@ -157,7 +157,7 @@ impl<H: Host> Driver<H> {
         if !self.stats.real_time {
             return Some(self.before);
         }
-        let dt = Duration::try_from_secs_f64(self.session.settings().dt).ok()?;
+        let dt = Duration::try_from_secs_f64(self.session.play().settings.dt).ok()?;
         self.before.checked_add(dt)
     }
 

@@ -11,6 +11,7 @@ use piola_materials::DECLARATIONS;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;
+use piola_scenes::play::Play;
 use rayon::prelude::*;
 use serde_json::json;
 
@@ -68,8 +69,8 @@ pub fn topology(geometry: &Geometry) -> Vec<u8> {
 
 /// Positions of the surface and the nodes, as a binary message.
 pub(crate) fn positions(session: &Session) -> Arc<[u8]> {
-    let nodes = session.play().simulation().positions();
-    let vertices = session.geometry().surface_at(nodes);
+    let nodes = session.play().simulation.positions();
+    let vertices = session.play().geometry.surface_at(nodes);
     let header = [1, vertices.len() as u32, nodes.len() as u32];
     let coordinates = vertices.as_flattened().iter().copied();
     let coordinates = coordinates.chain(nodes.as_flattened().iter().map(|&x| x as f32));
@@ -78,8 +79,8 @@ pub(crate) fn positions(session: &Session) -> Arc<[u8]> {
 
 /// The scene and its material, which change only with acts.
 pub(crate) fn setup(session: &Session, file: Option<&str>) -> Arc<str> {
-    let settings = session.settings();
-    let mesh = &session.geometry().mesh;
+    let Play { settings, geometry, material: name, .. } = session.play();
+    let mesh = &geometry.mesh;
     let bounds = mesh.bounds();
     let style = settings.body.style;
     let parameter = |parameter: &Parameter| {
@@ -92,7 +93,7 @@ pub(crate) fn setup(session: &Session, file: Option<&str>) -> Arc<str> {
     };
     let material = settings.material.description().map(|description| {
         json!({
-            "name": session.play().material(),
+            "name": name,
             "summary": description.summary,
             "formula": description.formula,
             "text": text(&settings.material),
@@ -114,7 +115,7 @@ pub(crate) fn setup(session: &Session, file: Option<&str>) -> Arc<str> {
         "bounds": [bounds.min, bounds.max], // of the tetrahedra at rest, m
         "tets": mesh.tets.len(),
         "nodes": mesh.positions.len(),
-        "vertices": session.geometry().surface_vertices(),
+        "vertices": geometry.surface_vertices(),
         "dt": settings.dt,
         "dt_of_scene": settings.scene.dt,
         "material": material.ok(),
@@ -136,18 +137,18 @@ fn text(material: &MaterialSpec) -> &str {
 
 /// Figures that change with each step.
 pub(crate) fn figures(session: &Session, stats: &FrameStats) -> Arc<str> {
-    let mesh = &session.geometry().mesh;
-    let (play, positions) = (session.play(), session.play().simulation().positions());
+    let Play { geometry, simulation, clock, .. } = session.play();
+    let (mesh, positions) = (&geometry.mesh, simulation.positions());
     let figures = json!({
-        "frame": play.clock().frame(),
-        "time": play.clock().time(),
+        "frame": clock.frame,
+        "time": clock.time(),
         "paused": stats.paused,
         "real_time": stats.real_time,
         "steps_per_second": stats.steps_per_second,
         "newton_iterations": stats.newton_iterations,
         "min_det_f": measure::min_det_f(&mesh.positions, positions, &mesh.tets),
         "inverted": measure::inverted(&mesh.positions, positions, &mesh.tets),
-        "from_rest": measure::distance_from_rest(mesh, positions, play.simulation().pinned().len()),
+        "from_rest": measure::distance_from_rest(mesh, positions, simulation.pinned().len()),
         "elastic_energy": stats.elastic_energy,
         "pulls": session.pulls().map(|(_, drag)| (drag.vertex, drag.target)).collect::<Vec<_>>(),
         "trouble": stats.trouble,

@@ -71,7 +71,7 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
 pub extern "C" fn begin() -> bool {
     BORDER.with_borrow_mut(|border| match session(&String::from_utf8_lossy(&border.heard)) {
         Ok(session) => {
-            border.words = [Words::Binary(topology(session.geometry()).into())].into();
+            border.words = [Words::Binary(topology(&session.play().geometry).into())].into();
             border.behind = Some((Driver::new(Browser, session, None), Conversation::new(0)));
             true
         }

@@ -12,6 +12,7 @@
 use std::error::Error;
 use std::fmt;
 use std::io::{self, Write};
+use std::sync::Arc;
 
 use clap::Parser;
 use rayon::prelude::*;
@@ -107,10 +108,10 @@ fn play(
 ) -> Result<Vec<TrialOutcome>, Box<dyn Error + Send + Sync>> {
     let material = MaterialSpec::matching(material, soft_moduli());
     let described = Settings { body, material, newton, ..Settings::new(scene) };
-    let geometry = Geometry::load(&described)?;
+    let geometry = Arc::new(Geometry::load(&described)?);
     let outcomes: Result<_, Box<dyn Error + Send + Sync>> = starts
         .into_par_iter()
-        .map(|start| Ok(run_trial(&Settings { start, ..described.clone() }, &geometry)?))
+        .map(|start| Ok(run_trial(Settings { start, ..described.clone() }, geometry.clone())?))
         .collect();
     let outcomes: Vec<TrialOutcome> = outcomes?;
     for outcome in &outcomes {
