@@ -2,12 +2,15 @@
 //!
 //! Texts are JSON objects with one key that names their kind: `setup`, `figures` or `refused`.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::sync::Arc;
 
 use piola::material::Parameter;
 use piola_declare::{Energy, Mistake};
 use piola_materials::DECLARATIONS;
+use piola_scenes::error::Error;
 use piola_scenes::geometry::Geometry;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;
@@ -17,18 +20,6 @@ use serde_json::json;
 
 use crate::protocol::Act;
 use crate::session::Session;
-
-/// The body at one moment, for a page.
-#[derive(Clone, Debug)]
-pub struct Frame {
-    /// Counts states; a page that has seen this one waits for another.
-    pub(crate) state: u64,
-    /// Counts changes of the setup; a page that has this one needs no other.
-    pub(crate) revision: u64,
-    pub(crate) setup: Arc<str>,
-    pub(crate) figures: Arc<str>,
-    pub(crate) positions: Arc<[u8]>,
-}
 
 /// Figures of the last steps, measured by the driver.
 #[derive(Clone, Debug, Default)]
@@ -77,8 +68,8 @@ pub(crate) fn positions(session: &Session) -> Arc<[u8]> {
     header.into_iter().flat_map(u32::to_le_bytes).chain(coordinates.flat_map(f32::to_le_bytes)).collect()
 }
 
-/// The scene and its material, which change only with acts.
-pub(crate) fn setup(session: &Session, file: Option<&str>) -> Arc<str> {
+/// The scene and its material, which change only with acts, and the name of the file for saved states.
+pub(crate) fn setup(session: &Session, save: Option<&Path>) -> Arc<str> {
     let Play { settings, geometry, material: name, .. } = session.play();
     let mesh = &geometry.mesh;
     let bounds = mesh.bounds();
@@ -121,7 +112,7 @@ pub(crate) fn setup(session: &Session, file: Option<&str>) -> Arc<str> {
         "material": material.ok(),
         "materials": materials.collect::<Vec<_>>(),
         "is_saved": session.saved().is_some(),
-        "file": file, // for saved states
+        "file": save.map(name_of),
     });
     json!({ "setup": setup }).to_string().into()
 }
@@ -157,11 +148,25 @@ pub(crate) fn figures(session: &Session, stats: &FrameStats) -> Arc<str> {
 }
 
 /// The reason why an act was refused, and the mistakes of a text with their places.
-pub(crate) fn refused(act: &Act, reason: &str, mistakes: &[Mistake]) -> Arc<str> {
+pub(crate) fn refused(act: &Act, error: Error) -> Arc<str> {
+    let (reason, mistakes) = match error {
+        Error::Declaration(mistakes) => (mistakes.to_string(), mistakes.list),
+        Error::Write { path, source } => {
+            let reason = source.get_ref().map_or_else(|| source.kind().to_string(), |own| own.to_string());
+            (format!("cannot write {}: {reason}", name_of(&path)), Vec::new())
+        }
+        error => (error.to_string(), Vec::new()),
+    };
     let mistake = |Mistake { message, place }: &Mistake| {
         let place = place.map(|place| [place.line, place.column, place.length]);
         json!({ "message": message, "place": place })
     };
     let mistakes: Vec<_> = mistakes.iter().map(mistake).collect();
     json!({ "refused": { "act": act, "reason": reason, "mistakes": mistakes } }).to_string().into()
+}
+
+/// The name of a file without its path: pages get no other information about this machine, and of an error of
+/// the system only its kind.
+fn name_of(path: &Path) -> Cow<'_, str> {
+    path.file_name().unwrap_or_default().to_string_lossy()
 }

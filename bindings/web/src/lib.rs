@@ -13,8 +13,9 @@ use std::time::Duration;
 use piola_scenes::error::Error;
 use piola_scenes::scene::Scene;
 use piola_scenes::settings::Settings;
-use piola_viewer::conversation::{Conversation, Words};
+use piola_viewer::conversation::Conversation;
 use piola_viewer::driver::{Driver, Host};
+use piola_viewer::protocol::Words;
 use piola_viewer::session::Session;
 use piola_viewer::topology;
 
