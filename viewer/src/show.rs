@@ -88,7 +88,7 @@ pub(crate) fn setup(session: &Session, save: Option<&Path>) -> Arc<str> {
             "summary": description.summary,
             "formula": description.formula,
             "text": text(&settings.material),
-            "is_declared": settings.material.energy().is_some(),
+            "is_declared": settings.material.energy.is_some(),
             "domain": description.domain,
             "parameters": description.parameters.iter().map(parameter).collect::<Vec<_>>(),
         })
@@ -120,7 +120,7 @@ pub(crate) fn setup(session: &Session, save: Option<&Path>) -> Arc<str> {
 /// The text of the energy in use: for one of the catalogue the declaration in Rust.
 fn text(material: &MaterialSpec) -> &str {
     let known = || DECLARATIONS.iter().find(|known| material.is(known.name));
-    let source = material.energy().map(Energy::text).or_else(|| known().map(|known| known.source));
+    let source = material.energy.as_ref().map(Energy::text).or_else(|| known().map(|known| known.source));
     let text = source.unwrap_or_default();
     // Documentation and imports of the file are not part of the energy.
     text.find("\n///").map_or(text, |begin| &text[begin + 1..])

@@ -462,7 +462,7 @@ pub(crate) fn describe(py: Python<'_>, energy: &Bound<'_, PyAny>, free_rest: boo
         Err(_) => declared(py, &text, None, free_rest, None)?,
         Ok(_) => of_catalogue,
     };
-    Ok(Description::new(spec.material(), spec.description().map_err(of_material)?))
+    Ok(Description::new(&spec.material, spec.description().map_err(of_material)?))
 }
 
 /// The specification of an energy that a text declares; keywords only tell which names are parameters.
@@ -484,11 +484,11 @@ fn declared(
         Some(name) => of_text(mistakes.with_name(label(name))),
         None => of_text(mistakes),
     };
-    let spec = MaterialSpec::declared(energy.map_err(mistaken)?);
-    Ok(match name.or((!is_rust).then_some(text)) {
-        Some(name) => spec.with_name(label(name)),
-        None => spec,
-    })
+    let mut spec = MaterialSpec::declared(energy.map_err(mistaken)?);
+    if let Some(name) = name.or((!is_rust).then_some(text)) {
+        spec.material = label(name);
+    }
+    Ok(spec)
 }
 
 /// The energy of a formula, in which the names of keywords are parameters.
