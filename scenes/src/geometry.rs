@@ -11,7 +11,7 @@ use piola_bodies::mesh::{
     read_tetgen, tetrahedral_box,
 };
 
-use crate::error::Error;
+use crate::error::{Error, in_range};
 use crate::scene::{Body, Shape};
 use crate::settings::Settings;
 
@@ -184,19 +184,10 @@ fn check_body(mesh: &TetMesh, name: &str) -> Result<f64, Error> {
     let bounds = mesh.bounds();
     let diagonal = bounds.size().iter().map(|side| side * side).sum::<f64>().sqrt();
     let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |far: f64, x| far.max(x.abs()));
-    for (quantity, value, [low, high], requirement) in [
-        (
-            "the diagonal of the body",
-            diagonal,
-            [1e-9, 1e9],
-            "from 1e-9 to 1e9 m; are its coordinates in metres?",
-        ),
-        ("the farthest coordinate of the body", farthest, [0.0, 1e12], "at most 1e12 m; are they in metres?"),
-    ] {
-        if !(low <= value && value <= high) {
-            return Err(Error::OutOfRange { quantity, value, requirement });
-        }
-    }
+    let requirement = "from 1e-9 to 1e9 m; are its coordinates in metres?";
+    in_range("the diagonal of the body", diagonal, 1e-9..=1e9, requirement)?;
+    let requirement = "at most 1e12 m; are they in metres?";
+    in_range("the farthest coordinate of the body", farthest, 0.0..=1e12, requirement)?;
     Ok(diagonal)
 }
 

@@ -11,7 +11,7 @@ use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simul
 use piola_bodies::system::{Body, Part, Pins};
 
 use crate::clock::Clock;
-use crate::error::{Error, list};
+use crate::error::{Error, in_range, list};
 use crate::geometry::{Geometry, NOTHING_PULLED};
 use crate::material::{self, MaterialSpec, Parameters};
 use crate::output::{Newton, StepCounts};
@@ -66,8 +66,9 @@ impl Play {
         let geometry: Arc<Geometry> = geometry.into();
         let mesh = &geometry.mesh;
         let info = settings.material.build()?;
-        check_young(info.moduli)?;
         let young = info.moduli.young();
+        // Forces on bodies of such a material, and their squares, stay in the range of f64.
+        in_range("Young's modulus of the material", young, 1e-12..=1e21, "from 1e-12 to 1e21 Pa")?;
         let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
         let mut play = Self {
             height: mesh.bounds().size()[1],
@@ -173,10 +174,7 @@ impl Play {
     /// step is then untouched.
     pub fn step(&mut self) -> Result<StepReport, Error> {
         let clock = self.clock.next();
-        if !clock.time().is_finite() {
-            let (quantity, value) = ("the time after the step", clock.time());
-            return Err(Error::OutOfRange { quantity, value, requirement: "finite" });
-        }
+        in_range("the time after the step", clock.time(), f64::MIN..=f64::MAX, "finite")?;
         let (first, last) = stretches(&self.pulls, self.clock);
         let before = (!first.is_empty()).then(|| self.simulation.clone());
         match self.make(&first, last, clock.frame) {
@@ -273,15 +271,6 @@ pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch)
         .map(|stretch| Stretch { length: stretch.end - stretch.start, ..stretch })
         .collect();
     (first, Stretch { start, end: last, length: if is_whole { next.dt } else { last - start } })
-}
-
-/// Checks that forces on bodies of such a material, and their squares, stay in the range of f64.
-fn check_young(moduli: Moduli) -> Result<(), Error> {
-    let (quantity, value) = ("Young's modulus of the material", moduli.young());
-    match value {
-        1e-12..=1e21 => Ok(()),
-        _ => Err(Error::OutOfRange { quantity, value, requirement: "from 1e-12 to 1e21 Pa" }),
-    }
 }
 
 /// The body of the settings before the first step.

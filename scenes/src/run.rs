@@ -1,7 +1,7 @@
 //! Run of a scene to its end, with files.
 
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter};
+use std::io::{self, BufReader, BufWriter, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -80,7 +80,10 @@ impl Finished {
             self.add(CAGES_FILE, |file| write_pvd(file, frames));
         }
         let Self { summary, folder, .. } = self;
-        folder.replace(SUMMARY_FILE, |file| summary.write_json(file))?;
+        folder.replace(SUMMARY_FILE, |file| {
+            serde_json::to_writer_pretty(&mut *file, &summary)?;
+            writeln!(file)
+        })?;
         Ok(summary)
     }
 }

@@ -3,7 +3,6 @@
 //! Texts are JSON objects with one key that names their kind: `setup`, `figures` or `refused`.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -46,15 +45,11 @@ pub(crate) struct FrameStats {
 /// ```
 #[must_use]
 pub fn topology(geometry: &Geometry) -> Vec<u8> {
-    let mut edges = BTreeSet::new();
-    for &[a, b, c, d] in &geometry.mesh.tets {
-        for (one, other) in [(a, b), (a, c), (a, d), (b, c), (b, d), (c, d)] {
-            edges.insert([one.min(other) as u32, one.max(other) as u32]);
-        }
-    }
+    let edges = measure::edges(&geometry.mesh.tets);
     let header = [0, geometry.triangles.len() as u32, edges.len() as u32];
     let triangles = geometry.triangles.as_flattened().iter().copied();
-    let numbers = header.into_iter().chain(triangles).chain(edges.into_iter().flatten());
+    let ends = edges.as_flattened().iter().map(|&node| node as u32);
+    let numbers = header.into_iter().chain(triangles).chain(ends);
     numbers.flat_map(u32::to_le_bytes).collect()
 }
 

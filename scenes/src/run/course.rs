@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::fields;
 use crate::geometry::Geometry;
 use crate::measure;
-use crate::output::{Ended, FinalState, Folder, Summary, TensileReading, cage_file, frame_file, write_ply};
+use crate::output::{Ended, Folder, Summary, TensileReading, cage_file, frame_file, write_ply};
 use crate::play::Play;
 use crate::settings::Settings;
 use crate::statics::{Watch, find_equilibrium};
@@ -166,16 +166,17 @@ impl Course {
             format!("the last frame is at {end:.2} s, and the body is pulled until {held_until:.2} s: more frames show if it recovers")
         });
         let final_state = match ended {
-            Ended::Finished if !recovered && !is_held => self.examine(watch).unwrap_or_else(|error| {
-                match error {
+            Ended::Finished if !recovered && !is_held => {
+                let found = self.threads.install(|| find_equilibrium(&mut self.play, watch));
+                let failed = |error| match error {
                     Error::Interrupted => ended = Ended::Interrupted,
                     Error::Equilibrium(_) => self.failures.push(error.to_string()),
                     error => {
                         self.failures.push(format!("the equilibrium at the end cannot be examined: {error}"));
                     }
-                }
-                None
-            }),
+                };
+                found.map_err(failed).ok()
+            }
             _ => None,
         };
         let frames = self.progress.motion.len() - 1;
@@ -219,11 +220,6 @@ impl Course {
         };
         Finished { summary, geometry, motion: progress.motion, folder, vtu: cages_of.is_some() }
     }
-
-    /// Finds the equilibrium to which the body is drawn.
-    fn examine(&mut self, watch: &mut Watch<'_>) -> Result<Option<FinalState>, Error> {
-        self.threads.install(|| find_equilibrium(&mut self.play, watch)).map(Some)
-    }
 }
 
 /// Measures an upright specimen between two marks, in shares of its height.
@@ -247,12 +243,8 @@ fn read_specimen(play: &Play, marks: [f64; 2], material: &dyn Specimen) -> Tensi
 fn median(times: &[Duration]) -> Option<Duration> {
     let mut times = times.to_vec();
     times.sort_unstable();
-    let middle = times.len() / 2;
-    match times.len() {
-        0 => None,
-        odd if odd % 2 == 1 => Some(times[middle]),
-        _ => Some((times[middle - 1] + times[middle]) / 2),
-    }
+    let last = times.len().checked_sub(1)?;
+    Some((times[last / 2] + times[times.len() / 2]) / 2)
 }
 
 #[cfg(test)]
