@@ -50,14 +50,10 @@ impl Geometry {
             if settings.only_tetrahedra { mesh.or_else(ReadError::only_tetrahedra)? } else { mesh? };
         settings.unit.convert(&mut mesh.positions);
         let mesh_name = files.mesh.display().to_string();
-        match &files.surface {
-            Some(file) => {
-                let mut surface = read_surface_obj(file)?;
-                settings.unit.convert(&mut surface.positions);
-                Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
-            }
-            None => Self::bare(mesh, &mesh_name),
-        }
+        let Some(file) = &files.surface else { return Self::bare(mesh, &mesh_name) };
+        let mut surface = read_surface_obj(file)?;
+        settings.unit.convert(&mut surface.positions);
+        Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
     }
 
     /// The geometry of a body that comes with the program.
@@ -66,10 +62,11 @@ impl Geometry {
     /// Like [`Geometry::load`].
     pub fn of(body: Body) -> Result<Self, Error> {
         match body.shape {
-            Shape::Files { mesh: file, surface: skin } => {
-                let mesh = parse_msh(file.text, Path::new(file.name))?;
-                let surface = parse_surface_obj(skin.text, Path::new(skin.name))?;
-                Self::new(mesh, file.name, &surface, skin.name)
+            Shape::Files { mesh, surface } => {
+                let (mesh_name, surface_name) = (format!("{}.msh", body.name), format!("{}.obj", body.name));
+                let mesh = parse_msh(mesh, Path::new(&mesh_name))?;
+                let surface = parse_surface_obj(surface, Path::new(&surface_name))?;
+                Self::new(mesh, &mesh_name, &surface, &surface_name)
             }
             Shape::Box { cells, size } => {
                 Self::bare(usable(body.name, tetrahedral_box(cells, size))?, body.name)

@@ -107,9 +107,8 @@ pub struct Driver<H> {
     lookers: Vec<(Seen, Sender<Answer>)>,
     /// Counts the states that could be seen, and the changes of their setup.
     present: Seen,
-    /// Description of scene and material, with true if they have changed since.
-    setup: Arc<str>,
-    is_setup_stale: bool,
+    /// Description of scene and material, unless they have changed since.
+    setup: Option<Arc<str>>,
 }
 
 impl<H: Host> Driver<H> {
@@ -124,8 +123,7 @@ impl<H: Host> Driver<H> {
             times: VecDeque::with_capacity(TIMED),
             lookers: Vec::new(),
             present: Seen { state: 1, setup: 0 },
-            setup: Arc::from(""),
-            is_setup_stale: true,
+            setup: None,
         }
     }
 
@@ -157,7 +155,7 @@ impl<H: Host> Driver<H> {
     pub fn obey(&mut self, order: Order) {
         match order {
             Order::Act { act, energy, answer } => {
-                if let Err(error) = self.act(&act, energy).and_then(|()| self.save(&act)) {
+                if let Err(error) = self.act(&act, energy) {
                     // A page that has gone needs no answer.
                     let _ = answer.send(Answer::refusal(&act, error));
                 }
@@ -199,12 +197,9 @@ impl<H: Host> Driver<H> {
         if is_another_body || matches!(act, Act::Reset {} | Act::Restore {}) {
             self.stats.trouble = None;
         }
-        self.is_setup_stale |= !matches!(act, Act::Pull { .. } | Act::Release { .. } | Act::ReleaseAll {});
-        Ok(())
-    }
-
-    /// Writes the state that a page has saved.
-    fn save(&self, act: &Act) -> Result<(), Error> {
+        if !matches!(act, Act::Pull { .. } | Act::Release { .. } | Act::ReleaseAll {}) {
+            self.setup = None;
+        }
         match (act, &self.save, self.session.saved()) {
             (Act::Save {}, Some(path), Some(state)) => state.write(path),
             _ => Ok(()),
@@ -243,16 +238,15 @@ impl<H: Host> Driver<H> {
         if self.lookers.iter().all(|(seen, _)| seen.state == self.present.state) {
             return;
         }
-        if self.is_setup_stale {
-            self.setup = show::setup(&self.session, self.save.as_deref());
+        let setup = self.setup.get_or_insert_with(|| {
             self.present.setup += 1;
-            self.is_setup_stale = false;
-        }
+            show::setup(&self.session, self.save.as_deref())
+        });
         let present = self.present;
         let figures = Words::Text(show::figures(&self.session, &self.stats));
         let frame = [figures, Words::Binary(show::positions(&self.session))];
         for (seen, looker) in self.lookers.extract_if(.., |(seen, _)| seen.state != present.state) {
-            let setup = (seen.setup != present.setup).then(|| Words::Text(self.setup.clone()));
+            let setup = (seen.setup != present.setup).then(|| Words::Text(setup.clone()));
             let words = setup.into_iter().chain(frame.clone()).collect();
             // A page that has gone needs no frame.
             let _ = looker.send(Answer { seen: Some(present), words });
