@@ -13,10 +13,6 @@ const FLAT: f64 = 1e-12;
 
 type Point = Vector3<f64>;
 
-fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
-    (Point::from(one) - Point::from(other)).norm()
-}
-
 /// The smallest det F of all tetrahedra.
 #[must_use]
 pub fn min_det_f(rest: &[[f64; 3]], positions: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
@@ -108,6 +104,10 @@ pub fn distance_from_rest(mesh: &TetMesh, positions: &[[f64; 3]], pinned: usize)
 pub fn mean_distance(before: &[[f64; 3]], after: &[[f64; 3]]) -> f64 {
     let distances = before.iter().zip(after).map(|(&one, &other)| distance(one, other));
     distances.sum::<f64>() / before.len().max(1) as f64
+}
+
+fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
+    (Point::from(one) - Point::from(other)).norm()
 }
 
 /// The positions after the rotation and translation that bring them closest to rest, in the least-squares
