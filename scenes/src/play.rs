@@ -5,10 +5,9 @@ use std::sync::Arc;
 use piola::__private::message::quoted;
 use piola::batch::TileMaterial;
 use piola::material::{Moduli, Text};
-use piola_bodies::mesh::Anchor;
-use piola_bodies::mesh::{Bounds, TetMesh};
+use piola_bodies::mesh::{Anchor, Bounds, TetMesh};
 use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
-use piola_bodies::system::{Body, Part, Pins};
+use piola_bodies::system::{Body, Part, PinError, Pins};
 
 use crate::clock::Clock;
 use crate::error::{Error, in_range, list};
@@ -264,13 +263,13 @@ pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch)
     let mut between: Vec<f64> = events().filter(is_between).collect();
     between.sort_unstable_by(f64::total_cmp);
     between.dedup();
-    let is_whole = between.is_empty();
-    let first = between
-        .into_iter()
-        .map(|end| Stretch { start: std::mem::replace(&mut start, end), end, length: 0.0 })
-        .map(|stretch| Stretch { length: stretch.end - stretch.start, ..stretch })
-        .collect();
-    (first, Stretch { start, end: last, length: if is_whole { next.dt } else { last - start } })
+    let mut first = Vec::new();
+    for end in between {
+        first.push(Stretch { start, end, length: end - start });
+        start = end;
+    }
+    let length = if first.is_empty() { next.dt } else { last - start };
+    (first, Stretch { start, end: last, length })
 }
 
 /// The body of the settings before the first step.
@@ -311,15 +310,14 @@ pub fn step_settings(settings: &Settings) -> step::SimulationSettings {
 /// # Errors
 /// [`Error::Usage`].
 pub fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
+    let holds_nothing = |pin: &str, error: PinError| {
+        Error::Usage(format!("the pin {pin} holds nothing: {error}; choose a place with --pin"))
+    };
     if settings.pins.is_empty() {
         let Some(pinned) = settings.scene.pinned else { return Ok(Pins::none()) };
+        let pin = format!("of the scene {}", settings.scene.name);
         let region = region::within(mesh.bounds(), pinned);
-        return Pins::in_box(mesh, region).map_err(|error| {
-            let scene = settings.scene.name;
-            Error::Usage(format!(
-                "the pin of the scene {scene} holds nothing: {error}; choose a place with --pin"
-            ))
-        });
+        return Pins::in_box(mesh, region).map_err(|error| holds_nothing(&pin, error));
     }
     settings.pins.iter().try_fold(Pins::none(), |all, pin| {
         // What could be a box may also be the name of a group; then the user who named it means the group.
@@ -334,10 +332,7 @@ pub fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
                 )));
             }
         };
-        let pins = pins.map_err(|error| {
-            Error::Usage(format!("the pin `{pin}` holds nothing: {error}; choose a place with --pin"))
-        })?;
-        Ok(all.and(&pins))
+        Ok(all.and(&pins.map_err(|error| holds_nothing(&format!("`{pin}`"), error))?))
     })
 }
 
