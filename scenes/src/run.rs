@@ -1,7 +1,7 @@
 //! Run of a scene to its end, with files.
 
-use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Write};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -59,7 +59,7 @@ impl Finished {
     /// # Errors
     /// If the file cannot be read.
     pub fn surface_in(&self, frame: usize) -> io::Result<Vec<[f32; 3]>> {
-        read_vertices(BufReader::new(File::open(self.folder.path().join(frame_file(frame)))?))
+        read_vertices(&fs::read(self.folder.path().join(frame_file(frame)))?)
     }
 
     /// Adds a file to the run; one that cannot be written becomes a failure of the run.
