@@ -5,7 +5,7 @@ use std::sync::Arc;
 use piola::__private::message::quoted;
 use piola::batch::TileMaterial;
 use piola::material::{Moduli, Text};
-use piola_bodies::mesh::{Anchor, Bounds, TetMesh};
+use piola_bodies::mesh::{Bounds, TetMesh};
 use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
 use piola_bodies::system::{Body, Part, PinError, Pins};
 
@@ -156,13 +156,6 @@ impl Play {
         // Springs that replace none are drawn from where they are now, as those of the run were.
         self.simulation.set_springs(&[])?;
         self.pull(clock.time(), clock.time())
-    }
-
-    /// A spring that draws one point of the body to a target, m, as stiff as a cube of its material and
-    /// height.
-    #[must_use]
-    pub fn pull_at(&self, anchor: Anchor, target: [f64; 3]) -> step::Spring {
-        step::Spring { anchor, target, stiffness: self.moduli.young() * self.height }
     }
 
     /// Makes the next frame, in the rayon pool of the caller: one time step, or as many as the tolerance

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use piola_bodies::mesh::Anchor;
-use piola_bodies::step::StepReport;
+use piola_bodies::step::{Spring, StepReport};
 use piola_declare::Energy;
 use piola_scenes::error::Error;
 use piola_scenes::geometry::Geometry;
@@ -112,9 +112,11 @@ impl Session {
         for drag in pulls.values_mut() {
             drag.place = towards(drag.place, drag.target, way);
         }
+        // As stiff as a cube of the body's material and height.
+        let stiffness = self.play.moduli.young() * self.play.height;
         let springs = pulls.values().filter_map(|drag| {
             let anchor = self.play.geometry.anchor(drag.vertex)?;
-            Some(self.play.pull_at(anchor, drag.place))
+            Some(Spring { anchor, target: drag.place, stiffness })
         });
         self.play.drags = springs.collect();
         let report = self.play.step()?;
