@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use piola_bodies::mesh::{
-    Anchor, Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
+    Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
     read_tetgen, tetrahedral_box,
 };
 
@@ -31,7 +31,8 @@ pub struct Geometry {
     pub mesh: TetMesh,
     /// Triangles of the surface.
     pub triangles: Vec<[u32; 3]>,
-    embedding: Embedding,
+    /// The points of the tetrahedra to which the vertices of the surface are attached.
+    pub embedding: Embedding,
 }
 
 impl Geometry {
@@ -121,19 +122,6 @@ impl Geometry {
         let triangles =
             surface.triangles.iter().map(|triangle| triangle.map(|vertex| vertex as u32)).collect();
         Ok(Self { mesh, triangles, embedding })
-    }
-
-    /// Number of vertices of the surface.
-    #[must_use]
-    pub fn surface_vertices(&self) -> usize {
-        self.embedding.anchors().len()
-    }
-
-    /// The point of the tetrahedra to which a vertex of the surface is attached; `None` if there is no such
-    /// vertex.
-    #[must_use]
-    pub fn anchor(&self, vertex: usize) -> Option<Anchor> {
-        self.embedding.anchors().get(vertex).copied()
     }
 
     /// A checksum of everything that steps and pulls depend on: nodes at rest, tetrahedra, groups, triangles

@@ -250,7 +250,7 @@ pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch)
     let next = clock.next();
     let near = NEAR * next.dt;
     let (now, last) = (clock.time(), next.time());
-    let events = || pulls.iter().flat_map(|springs| springs.pull.events());
+    let events = || pulls.iter().flat_map(|springs| [springs.pull.reached, springs.pull.released]);
     let mut start = events().find(|event| (event - now).abs() <= near).unwrap_or(now);
     let is_between = |&event: &f64| event - start > near && last - event > near;
     let mut between: Vec<f64> = events().filter(is_between).collect();
@@ -355,9 +355,10 @@ impl DragSprings {
         Self { pull, nodes, bounds, stiffness }
     }
 
-    /// The springs at the end of a stretch of time, s.
+    /// The springs at the end of a stretch of time, s; none once released before it.
     pub fn during(&self, start: f64, end: f64) -> impl Iterator<Item = step::Spring> {
-        let share = self.pull.share_during(start, end);
+        let Pull { reached, released, .. } = self.pull;
+        let share = (start < released).then(|| (end / reached).clamp(0.0, 1.0));
         share.into_iter().flat_map(move |share| {
             self.nodes.iter().map(move |&(node, rest)| {
                 let target = self.pull.motion.place(rest, share, self.bounds);
