@@ -69,7 +69,8 @@ pub struct MaterialSpec {
     parameters: Vec<(String, Vec<f64>)>,
     /// Small-strain moduli from which the parameters follow if none is given.
     moduli: Option<Moduli>,
-    inversion: Option<Inversion>,
+    /// The behaviour outside of the domain, if one has been chosen.
+    pub inversion: Option<Inversion>,
 }
 
 impl MaterialSpec {
@@ -123,14 +124,6 @@ impl MaterialSpec {
     #[must_use]
     pub fn with_inversion(self, inversion: Inversion) -> Self {
         Self { inversion: Some(inversion), ..self }
-    }
-
-    /// The stretch below which the material is extended, if one has been chosen.
-    pub(crate) fn extended_below(&self) -> Option<f64> {
-        match self.inversion {
-            Some(Inversion::Extend { epsilon }) => Some(epsilon),
-            _ => None,
-        }
     }
 
     /// The material of a name with its typical parameters in the catalogue.

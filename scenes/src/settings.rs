@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use piola::Inversion;
 use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
 
@@ -106,7 +107,10 @@ impl Settings {
             Start::Scrambled { amplitude: Amplitude::Edges(value), .. } => value,
             _ => 0.0,
         };
-        let epsilon = self.material.extended_below().unwrap_or(0.5);
+        let epsilon = match self.material.inversion {
+            Some(Inversion::Extend { epsilon }) => epsilon,
+            _ => 0.5,
+        };
         let tolerance = self.tolerance.unwrap_or(1.0);
         for (quantity, value, range, requirement) in [
             ("the time step", self.dt, 1e-12..=1e6, "from 1e-12 to 1e6 s"),
