@@ -25,7 +25,7 @@ impl Contract {
     pub(crate) fn run(self) -> Result<String, Error> {
         let spec = self.material.spec()?;
         let inversions = self.extend.map(|epsilon| Inversion::Extend { epsilon });
-        let notation = spec.energy().map_or_else(Notation::default, Energy::notation);
+        let notation = spec.energy.as_ref().map_or_else(Notation::default, Energy::notation);
         let settings = Settings { notation, ..Settings::default() };
         let mut text = String::new();
         let rest = at_rest(spec.clone().with_inversion(Inversion::Refuse).build()?.moduli, Volume::Free);

@@ -65,11 +65,12 @@ impl Viewer {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(no_port)?;
         let address = listener.local_addr().map_err(no_port)?;
         let token = Token::new()?;
-        let threads = rayon::ThreadPoolBuilder::new().num_threads(session.settings().threads).build();
+        let play = session.play();
+        let threads = rayon::ThreadPoolBuilder::new().num_threads(play.settings.threads).build();
         let threads = threads.map_err(SceneError::from)?;
-        let warnings = session.play().warnings(session.geometry());
-        let topology = topology(session.geometry()).into();
-        let at_rest = AtRest { moduli: session.play().moduli(), volume: Volume::Free };
+        let warnings = play.warnings();
+        let topology = topology(&play.geometry).into();
+        let at_rest = AtRest { moduli: play.moduli, volume: Volume::Free };
         let first = Conversation::after(session.pulls().map(|(drag, _)| drag));
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));

@@ -56,7 +56,6 @@ fn matching(scene: &Scene, name: &str) -> Result<MaterialSpec, Box<dyn std::erro
 fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usize) -> TestResult {
     let settings = Settings { material: matching(scene, material)?, ..Settings::new(scene) };
     let geometry = Geometry::load(&settings)?;
-    let height = geometry.mesh.bounds().size()[1];
     let scratch = tempfile::tempdir()?;
     for count in ranks() {
         let folder = scratch.path().join(count.to_string());
@@ -66,8 +65,8 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
         };
         run(format!("--frames {before} --newton single"))?;
         let (about, state) = checkpoint_in(&folder)?;
-        let mut play = Play::new(&settings, &geometry)?;
-        play.simulation_mut().set_settings(step_settings(&settings).with_newton(newton()))?;
+        let mut play = Play::new(settings.clone(), geometry.clone())?;
+        play.simulation.set_settings(step_settings(&settings).with_newton(newton()))?;
         play.resume(about.clock.expect("of a run"), &state.positions, &state.velocities)?;
         for _ in 0..frames {
             let report = play.step()?.newton;
@@ -77,7 +76,7 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
             assert!(is_solved, "{report:?}");
         }
         let found = run(format!("--resume --frames {} {SOLVED}", before + frames))?;
-        let error = distance(&found.positions, play.simulation().positions()) / height;
+        let error = distance(&found.positions, play.simulation.positions()) / play.height;
         println!("{}, {material}, on {count} ranks: {error:.1e} body heights", scene.name);
         // 10⁻⁹ body heights for each step.
         assert!(error <= 1e-9 * frames as f64, "{error:e} body heights on {count} ranks");
@@ -120,14 +119,14 @@ fn check(ranks: &[usize], words: &[String], expected: &[[f64; 3]], most: f64) ->
 #[track_caller]
 fn check_dinosaur(settings: &Settings, frames: usize, options: &[String]) -> TestResult {
     let geometry = Geometry::load(settings)?;
-    let mut play = Play::new(settings, &geometry)?;
-    play.simulation_mut().set_settings(step_settings(settings).with_newton(newton()))?;
+    let mut play = Play::new(settings.clone(), geometry)?;
+    play.simulation.set_settings(step_settings(settings).with_newton(newton()))?;
     for _ in 0..frames {
         play.step()?;
     }
     let run = words(&format!("run dinosaur --frames {frames} {SOLVED}"));
-    let most = 1e-9 * frames as f64 * geometry.mesh.bounds().size()[1];
-    check(&[2], &[run.as_slice(), options].concat(), play.simulation().positions(), most)
+    let most = 1e-9 * frames as f64 * play.height;
+    check(&[2], &[run.as_slice(), options].concat(), play.simulation.positions(), most)
 }
 
 /// All integrators except implicit Euler, in the pull of the dinosaur.
@@ -171,11 +170,11 @@ fn steps_within_a_tolerance_agree() -> TestResult {
         ..Settings::new(&DINOSAUR)
     };
     let geometry = Geometry::load(&settings)?;
-    let mut play = Play::new(&settings, &geometry)?;
+    let mut play = Play::new(settings, geometry)?;
     let mut taken = 0;
     for _ in 0..frames {
         play.step()?;
-        taken += play.steps().taken;
+        taken += play.steps.taken;
     }
     let scratch = tempfile::tempdir()?;
     let folder = scratch.path().join("run");
@@ -183,7 +182,7 @@ fn steps_within_a_tolerance_agree() -> TestResult {
         "run dinosaur --dt {dt} --frames {frames} --integrator sdirk2 --tolerance {tolerance} --newton full"
     );
     let found = state_after(2, words(&options), &folder)?;
-    let error = distance(&found.positions, play.simulation().positions()) / geometry.mesh.bounds().size()[1];
+    let error = distance(&found.positions, play.simulation.positions()) / play.height;
     let summary: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("summary.json"))?)?;
     println!("{taken} steps, and {} on two ranks: {error:.1e} body heights", summary["steps"]["taken"]);
     assert!(taken > frames, "{taken} steps do not test this");

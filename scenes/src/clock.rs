@@ -12,8 +12,10 @@ const MAX_FRAME: u64 = 1 << 53;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Clock {
-    frame: usize,
-    dt: f64,
+    /// Number of steps made so far.
+    pub frame: usize,
+    /// Length of the next step, s.
+    pub(crate) dt: f64,
     since_frame: usize,
     since_time: f64,
 }
@@ -23,18 +25,6 @@ impl Clock {
     #[must_use]
     pub fn new(dt: f64) -> Self {
         Self { frame: 0, dt, since_frame: 0, since_time: 0.0 }
-    }
-
-    /// Number of steps made so far.
-    #[must_use]
-    pub fn frame(&self) -> usize {
-        self.frame
-    }
-
-    /// Length of the next step, s.
-    #[must_use]
-    pub fn dt(&self) -> f64 {
-        self.dt
     }
 
     /// The time, s.
@@ -77,10 +67,10 @@ mod tests {
         for _ in 0..3 {
             clock = clock.next();
         }
-        assert_eq!((clock.frame(), clock.time()), (3, 1.5));
+        assert_eq!((clock.frame, clock.time()), (3, 1.5));
         clock = clock.with_dt(0.25);
         assert_eq!(clock.time(), 1.5);
-        assert_eq!((clock.next().frame(), clock.next().time()), (4, 1.75));
+        assert_eq!((clock.next().frame, clock.next().time()), (4, 1.75));
     }
 
     #[test]

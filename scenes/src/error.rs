@@ -1,6 +1,7 @@
 //! Errors of scenes.
 
 use std::io;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use piola::__private::message::{number, quoted};
@@ -97,6 +98,19 @@ pub enum Error {
         /// Error of the solver.
         source: StepError,
     },
+}
+
+/// Checks that a value is in its range; NaN is in none.
+pub(crate) fn in_range(
+    quantity: &'static str,
+    value: f64,
+    range: RangeInclusive<f64>,
+    requirement: &'static str,
+) -> Result<(), Error> {
+    match range.contains(&value) {
+        true => Ok(()),
+        false => Err(Error::OutOfRange { quantity, value, requirement }),
+    }
 }
 
 /// A failed step in the words of scenes, which have options and no `Inversion`.

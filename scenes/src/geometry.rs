@@ -7,11 +7,11 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use piola_bodies::mesh::{
-    Anchor, Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
+    Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
     read_tetgen, tetrahedral_box,
 };
 
-use crate::error::Error;
+use crate::error::{Error, in_range};
 use crate::scene::{Body, Shape};
 use crate::settings::Settings;
 
@@ -31,7 +31,8 @@ pub struct Geometry {
     pub mesh: TetMesh,
     /// Triangles of the surface.
     pub triangles: Vec<[u32; 3]>,
-    embedding: Embedding,
+    /// The points of the tetrahedra to which the vertices of the surface are attached.
+    pub embedding: Embedding,
 }
 
 impl Geometry {
@@ -50,14 +51,10 @@ impl Geometry {
             if settings.only_tetrahedra { mesh.or_else(ReadError::only_tetrahedra)? } else { mesh? };
         settings.unit.convert(&mut mesh.positions);
         let mesh_name = files.mesh.display().to_string();
-        match &files.surface {
-            Some(file) => {
-                let mut surface = read_surface_obj(file)?;
-                settings.unit.convert(&mut surface.positions);
-                Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
-            }
-            None => Self::bare(mesh, &mesh_name),
-        }
+        let Some(file) = &files.surface else { return Self::bare(mesh, &mesh_name) };
+        let mut surface = read_surface_obj(file)?;
+        settings.unit.convert(&mut surface.positions);
+        Self::new(mesh, &mesh_name, &surface, &file.display().to_string())
     }
 
     /// The geometry of a body that comes with the program.
@@ -66,10 +63,11 @@ impl Geometry {
     /// Like [`Geometry::load`].
     pub fn of(body: Body) -> Result<Self, Error> {
         match body.shape {
-            Shape::Files { mesh: file, surface: skin } => {
-                let mesh = parse_msh(file.text, Path::new(file.name))?;
-                let surface = parse_surface_obj(skin.text, Path::new(skin.name))?;
-                Self::new(mesh, file.name, &surface, skin.name)
+            Shape::Files { mesh, surface } => {
+                let (mesh_name, surface_name) = (format!("{}.msh", body.name), format!("{}.obj", body.name));
+                let mesh = parse_msh(mesh, Path::new(&mesh_name))?;
+                let surface = parse_surface_obj(surface, Path::new(&surface_name))?;
+                Self::new(mesh, &mesh_name, &surface, &surface_name)
             }
             Shape::Box { cells, size } => {
                 Self::bare(usable(body.name, tetrahedral_box(cells, size))?, body.name)
@@ -126,19 +124,6 @@ impl Geometry {
         Ok(Self { mesh, triangles, embedding })
     }
 
-    /// Number of vertices of the surface.
-    #[must_use]
-    pub fn surface_vertices(&self) -> usize {
-        self.embedding.anchors().len()
-    }
-
-    /// The point of the tetrahedra to which a vertex of the surface is attached; `None` if there is no such
-    /// vertex.
-    #[must_use]
-    pub fn anchor(&self, vertex: usize) -> Option<Anchor> {
-        self.embedding.anchors().get(vertex).copied()
-    }
-
     /// A checksum of everything that steps and pulls depend on: nodes at rest, tetrahedra, groups, triangles
     /// and where the surface is attached. Names of files and tags of elements are left out.
     #[must_use]
@@ -184,19 +169,10 @@ fn check_body(mesh: &TetMesh, name: &str) -> Result<f64, Error> {
     let bounds = mesh.bounds();
     let diagonal = bounds.size().iter().map(|side| side * side).sum::<f64>().sqrt();
     let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |far: f64, x| far.max(x.abs()));
-    for (quantity, value, [low, high], requirement) in [
-        (
-            "the diagonal of the body",
-            diagonal,
-            [1e-9, 1e9],
-            "from 1e-9 to 1e9 m; are its coordinates in metres?",
-        ),
-        ("the farthest coordinate of the body", farthest, [0.0, 1e12], "at most 1e12 m; are they in metres?"),
-    ] {
-        if !(low <= value && value <= high) {
-            return Err(Error::OutOfRange { quantity, value, requirement });
-        }
-    }
+    let requirement = "from 1e-9 to 1e9 m; are its coordinates in metres?";
+    in_range("the diagonal of the body", diagonal, 1e-9..=1e9, requirement)?;
+    let requirement = "at most 1e12 m; are they in metres?";
+    in_range("the farthest coordinate of the body", farthest, 0.0..=1e12, requirement)?;
     Ok(diagonal)
 }
 

@@ -24,5 +24,4 @@ pub mod run;
 pub mod scene;
 pub mod settings;
 pub mod statics;
-pub mod tensile_reading;
 pub mod unit;

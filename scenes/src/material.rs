@@ -61,14 +61,16 @@ pub fn ogden(moduli: Moduli) -> MaterialSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialSpec {
-    material: String,
-    /// The energy, unless it is of the catalogue.
+    /// The name in messages, which for a material of the catalogue also chooses the energy.
+    pub material: String,
+    /// The energy, if it was declared at run time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    energy: Option<Energy>,
+    pub energy: Option<Energy>,
     parameters: Vec<(String, Vec<f64>)>,
     /// Small-strain moduli from which the parameters follow if none is given.
     moduli: Option<Moduli>,
-    inversion: Option<Inversion>,
+    /// The behaviour outside of the domain, if one has been chosen.
+    pub inversion: Option<Inversion>,
 }
 
 impl MaterialSpec {
@@ -98,24 +100,6 @@ impl MaterialSpec {
         parameters.fold(self, |spec, (parameter, values)| spec.with_parameter(&parameter.name, values))
     }
 
-    /// The specification with another name in messages; a name of the catalogue also chooses the energy.
-    #[must_use]
-    pub fn with_name(self, name: impl Into<String>) -> Self {
-        Self { material: name.into(), ..self }
-    }
-
-    /// The name as given, or the name of the declared energy.
-    #[must_use]
-    pub fn material(&self) -> &str {
-        &self.material
-    }
-
-    /// The energy, if it was declared at run time.
-    #[must_use]
-    pub fn energy(&self) -> Option<&Energy> {
-        self.energy.as_ref()
-    }
-
     /// The material of a name with moduli at small strain: [`ogden`], or else the typical parameters of the
     /// catalogue, [matched](piola_materials::matching). A parameter that is given later on replaces them all,
     /// so that the others must be given, too.
@@ -140,15 +124,6 @@ impl MaterialSpec {
     #[must_use]
     pub fn with_inversion(self, inversion: Inversion) -> Self {
         Self { inversion: Some(inversion), ..self }
-    }
-
-    /// The stretch below which the material is extended, if one has been chosen.
-    #[must_use]
-    pub fn extended_below(&self) -> Option<f64> {
-        match self.inversion {
-            Some(Inversion::Extend { epsilon }) => Some(epsilon),
-            _ => None,
-        }
     }
 
     /// The material of a name with its typical parameters in the catalogue.
@@ -397,7 +372,7 @@ mod tests {
     #[test]
     fn a_declared_energy_is_called_by_its_name() -> Result<(), Box<dyn std::error::Error>> {
         let energy = Energy::from_formula("mu/2*(I1 - 3) - mu*(J - 1) + mu*(J - 1)^2")?;
-        let gel = MaterialSpec::declared(energy).with_name("gel");
+        let gel = MaterialSpec { material: "gel".into(), ..MaterialSpec::declared(energy) };
         let stored: MaterialSpec = serde_json::from_str(&serde_json::to_string(&gel)?)?;
         for gel in [gel, stored] {
             let message = |gel: MaterialSpec| gel.build().err().map(|error| error.to_string());

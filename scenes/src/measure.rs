@@ -42,19 +42,20 @@ pub fn total_volume(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
     tets.iter().map(|tet| volume(nodes, tet)).sum()
 }
 
-/// The mean length, m, of the edges of tetrahedra, each counted once; 0 if there are none.
+/// The edges of tetrahedra, each once.
+#[must_use]
+pub fn edges(tets: &[[usize; 4]]) -> Vec<[usize; 2]> {
+    let mut seen = HashSet::new();
+    let all = tets.iter().flat_map(|&[a, b, c, d]| [[a, b], [a, c], [a, d], [b, c], [b, d], [c, d]]);
+    all.map(|[one, other]| [one.min(other), one.max(other)]).filter(|&edge| seen.insert(edge)).collect()
+}
+
+/// The mean length, m, of the edges of tetrahedra; 0 if there are none.
 #[must_use]
 pub fn mean_edge_length(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
-    let mut seen = HashSet::new();
-    let mut total = 0.0;
-    for &[a, b, c, d] in tets {
-        for (one, other) in [(a, b), (a, c), (a, d), (b, c), (b, d), (c, d)] {
-            if seen.insert((one.min(other), one.max(other))) {
-                total += (Point::from(nodes[one]) - Point::from(nodes[other])).norm();
-            }
-        }
-    }
-    total / seen.len().max(1) as f64
+    let edges = edges(tets);
+    let total: f64 = edges.iter().map(|edge| distance(nodes[edge[0]], nodes[edge[1]])).sum();
+    total / edges.len().max(1) as f64
 }
 
 /// Share of a gauge length that its nodes must span: over a shorter one, errors of the solver would look like
@@ -83,10 +84,7 @@ pub fn upright_stretch(rest: &[[f64; 3]], positions: &[[f64; 3]], [low, high]: [
 /// The largest distance of a point from where it is at rest, m.
 #[must_use]
 pub fn max_distance(rest: &[[f64; 3]], positions: &[[f64; 3]]) -> f64 {
-    rest.iter()
-        .zip(positions)
-        .map(|(&rest, &position)| (Point::from(position) - Point::from(rest)).norm())
-        .fold(0.0, f64::max)
+    rest.iter().zip(positions).map(|(&rest, &position)| distance(position, rest)).fold(0.0, f64::max)
 }
 
 /// The largest distance of a node from rest in body heights, after the best rigid motion if fewer than three
@@ -104,9 +102,12 @@ pub fn distance_from_rest(mesh: &TetMesh, positions: &[[f64; 3]], pinned: usize)
 /// The mean distance between points of the same index, m; 0 if one side has none.
 #[must_use]
 pub fn mean_distance(before: &[[f64; 3]], after: &[[f64; 3]]) -> f64 {
-    let distances =
-        before.iter().zip(after).map(|(&one, &other)| (Point::from(one) - Point::from(other)).norm());
+    let distances = before.iter().zip(after).map(|(&one, &other)| distance(one, other));
     distances.sum::<f64>() / before.len().max(1) as f64
+}
+
+fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
+    (Point::from(one) - Point::from(other)).norm()
 }
 
 /// The positions after the rotation and translation that bring them closest to rest, in the least-squares

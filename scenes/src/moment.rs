@@ -1,6 +1,7 @@
 //! A moment of a scene in motion, to continue from.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
@@ -9,20 +10,22 @@ use crate::clock::Clock;
 use crate::error::Error;
 use crate::geometry::Geometry;
 use crate::play::Play;
-use crate::settings::{Files, Settings};
+use crate::settings::Settings;
 
 /// Complete state of a scene in motion, which determines all later steps to the last bit; JSON keeps every
 /// bit of it.
 ///
-/// A body from files is not part of it, nor are their names: [`with_files`](Self::with_files) supplies them
-/// again, and a checksum detects another body.
+/// A body from files is not part of it, nor are their names: set the files of the settings again. A checksum
+/// detects another body.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Moment {
-    settings: Settings,
+    /// The scene and its overrides, with material and time step as they were.
+    pub settings: Settings,
     /// [`Geometry::checksum`] of the body.
     body: u32,
-    clock: Clock,
+    /// Number and time of the last step.
+    pub clock: Clock,
     /// Position of each node, m.
     positions: Vec<[f64; 3]>,
     /// Velocity of each node, m/s.
@@ -34,38 +37,19 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// The present moment of a body with these settings.
+    /// The present moment.
     #[must_use]
-    pub fn of(settings: &Settings, geometry: &Geometry, play: &Play) -> Self {
-        let simulation = play.simulation();
-        let counts = play.clock().frame() > 0 && settings.integrator != Integrator::ImplicitEuler;
+    pub fn of(play: &Play) -> Self {
+        let Play { settings, geometry, simulation, clock, .. } = play;
+        let counts = clock.frame > 0 && settings.integrator != Integrator::ImplicitEuler;
         Self {
             settings: settings.clone(),
             body: geometry.checksum(),
-            clock: play.clock(),
+            clock: *clock,
             positions: simulation.positions().to_vec(),
             velocities: simulation.velocities().to_vec(),
             accelerations: if counts { simulation.accelerations().to_vec() } else { Vec::new() },
         }
-    }
-
-    /// Takes the body from files, or, with `None`, that of the program.
-    #[must_use]
-    pub fn with_files(mut self, files: Option<Files>) -> Self {
-        self.settings.files = files;
-        self
-    }
-
-    /// The scene and its overrides, with material and time step as they were.
-    #[must_use]
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
-
-    /// Number and time of the last step.
-    #[must_use]
-    pub fn clock(&self) -> Clock {
-        self.clock
     }
 
     /// The scene in motion again, by the body that [`Geometry::load`] makes of the settings.
@@ -73,8 +57,9 @@ impl Moment {
     /// # Errors
     /// [`Error::Usage`] if it is another one or the clock is wrong, [`Error::Setup`] unless there is one
     /// finite position, velocity and acceleration for each node, and those of [`Play::new`].
-    pub fn resume(&self, geometry: &Geometry) -> Result<Play, Error> {
-        if !self.clock.is_sound() || self.clock.dt() != self.settings.dt {
+    pub fn resume(&self, geometry: impl Into<Arc<Geometry>>) -> Result<Play, Error> {
+        let geometry: Arc<Geometry> = geometry.into();
+        if !self.clock.is_sound() || self.clock.dt != self.settings.dt {
             return Err(Error::Usage("the state cannot be resumed: its clock is wrong".into()));
         }
         if self.body != geometry.checksum() {
@@ -86,10 +71,10 @@ impl Moment {
                 name.display()
             )));
         }
-        let mut play = Play::new(&self.settings, geometry)?;
+        let mut play = Play::new(self.settings.clone(), geometry)?;
         play.resume(self.clock, &self.positions, &self.velocities)?;
         if !self.accelerations.is_empty() {
-            play.simulation_mut().set_accelerations(&self.accelerations)?;
+            play.simulation.set_accelerations(&self.accelerations)?;
         }
         Ok(play)
     }

@@ -1,20 +1,21 @@
 //! Options of a command line that choose a scene and override its defaults, for every program that plays one.
 
 mod energy;
-mod step;
 mod value;
 
 pub use energy::{Formula, in_file, with_values};
-pub use step::StepOptions;
 pub use value::{Given, inversion, parameter};
 
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use piola::Inversion;
+use piola_bodies::step::Integrator;
 
 use crate::error::{Error, list};
 use crate::material::MaterialSpec;
+use crate::output::Newton;
 use crate::scene::{Amplitude, Body, SCENES, Scene, Start};
 use crate::settings::{Files, Settings};
 use crate::unit::Unit;
@@ -136,6 +137,48 @@ fn start(scene: &'static Scene, seed: Option<u64>, amplitude: Option<Amplitude>)
             )))
         }
     }
+}
+
+/// Overrides of the steps of a scene.
+#[derive(Clone, Debug, PartialEq, Args)]
+#[non_exhaustive]
+pub struct StepOptions {
+    /// Time step in s [default: the scene's, 1/30].
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub dt: Option<f64>,
+
+    /// Method by which steps advance in time: sdirk2 and sdirk3 have two and three stages, each as much work
+    /// as a step of implicit Euler, and errors of second and third order.
+    #[arg(long, value_name = "METHOD", value_parser = integrators(), default_value = "implicit-euler")]
+    pub integrator: Integrator,
+
+    /// Largest error of the motion from time steps, in body heights per second: each frame is made in steps
+    /// as short as that requires. Best with --integrator sdirk2 and --newton full.
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+
+    /// Accuracy of each step: one Newton iteration with line search, or iterations until the residual is
+    /// small.
+    #[arg(long, value_enum, default_value_t = Newton::Single)]
+    pub newton: Newton,
+}
+
+impl StepOptions {
+    /// Settings with these overrides.
+    #[must_use]
+    pub fn apply(&self, settings: Settings) -> Settings {
+        let &Self { integrator, tolerance, newton, dt } = self;
+        let dt = dt.unwrap_or(settings.dt);
+        Settings { dt, integrator, tolerance, newton, ..settings }
+    }
+}
+
+fn integrators() -> impl TypedValueParser<Value = Integrator> {
+    PossibleValuesParser::new(["implicit-euler", "sdirk2", "sdirk3"]).map(|name| match name.as_str() {
+        "sdirk2" => Integrator::Sdirk2,
+        "sdirk3" => Integrator::Sdirk3,
+        _ => Integrator::ImplicitEuler,
+    })
 }
 
 /// List of the scenes with their descriptions, to be shown behind the options.

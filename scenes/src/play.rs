@@ -1,15 +1,16 @@
 //! A scene in motion.
 
+use std::sync::Arc;
+
 use piola::__private::message::quoted;
 use piola::batch::TileMaterial;
 use piola::material::{Moduli, Text};
-use piola_bodies::mesh::Anchor;
 use piola_bodies::mesh::{Bounds, TetMesh};
 use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
-use piola_bodies::system::{Body, Part, Pins};
+use piola_bodies::system::{Body, Part, PinError, Pins};
 
 use crate::clock::Clock;
-use crate::error::{Error, list};
+use crate::error::{Error, in_range, list};
 use crate::geometry::{Geometry, NOTHING_PULLED};
 use crate::material::{self, MaterialSpec, Parameters};
 use crate::output::{Newton, StepCounts};
@@ -31,44 +32,55 @@ const NEAR: f64 = 1e-6;
 /// A scene in motion, step by step.
 #[derive(Debug)]
 pub struct Play {
-    simulation: Simulation,
-    material: Text,
-    parameters: Parameters,
+    /// The scene and its overrides, with the present material and time step.
+    pub settings: Settings,
+    /// The body at rest, and its surface.
+    pub geometry: Arc<Geometry>,
+    /// Height of the body at rest, m.
+    pub height: f64,
+    /// The body and its state, to be moved or pushed before the next step.
+    pub simulation: Simulation,
+    /// Name of the material, in the catalogue or of its declaration.
+    pub material: Text,
+    /// Parameters of the material.
+    pub parameters: Parameters,
+    /// Small-strain moduli of the material.
+    pub moduli: Moduli,
+    /// Number of the step and its time.
+    pub clock: Clock,
+    /// Counts of the time steps of the last frame.
+    pub steps: StepCounts,
+    /// Springs that act in addition to those of the scene, from the next step on.
+    pub drags: Vec<step::Spring>,
     pulls: Vec<DragSprings>,
-    drags: Vec<step::Spring>,
-    moduli: Moduli,
-    /// Stiffness of a cube of its material and height, N/m.
-    stiffness: f64,
-    clock: Clock,
-    /// Largest error that steps of time may make, m/s.
-    tolerance: Option<f64>,
-    steps: StepCounts,
 }
 
 impl Play {
-    /// A scene before its first step.
+    /// A scene before its first step, with the body that [`Geometry::load`] makes of the settings.
     ///
     /// # Errors
     /// [`Error::OutOfRange`], or an error of the material, the pins, the body or the solver.
-    pub fn new(settings: &Settings, geometry: &Geometry) -> Result<Self, Error> {
+    pub fn new(settings: Settings, geometry: impl Into<Arc<Geometry>>) -> Result<Self, Error> {
         settings.check()?;
+        let geometry: Arc<Geometry> = geometry.into();
         let mesh = &geometry.mesh;
         let info = settings.material.build()?;
-        check_young(info.moduli)?;
         let young = info.moduli.young();
+        // Forces on bodies of such a material, and their squares, stay in the range of f64.
+        in_range("Young's modulus of the material", young, 1e-12..=1e21, "from 1e-12 to 1e21 Pa")?;
         let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
-        let simulation = at_start(settings, geometry, info.elements)?;
         let mut play = Self {
-            simulation,
+            height: mesh.bounds().size()[1],
+            simulation: at_start(&settings, &geometry, info.elements)?,
             material: info.name,
             parameters: info.parameters,
-            pulls,
-            drags: Vec::new(),
             moduli: info.moduli,
-            stiffness: stiffness(young, mesh.bounds()),
             clock: Clock::new(settings.dt),
-            tolerance: settings.tolerance.map(|share| share * mesh.bounds().size()[1]),
             steps: StepCounts::default(),
+            drags: Vec::new(),
+            pulls,
+            settings,
+            geometry,
         };
         let start = play.clock.time();
         play.pull(start, start)?;
@@ -79,18 +91,19 @@ impl Play {
     ///
     /// # Errors
     /// [`Error::Usage`], with the materials that could start there.
-    pub fn check_start(&mut self, settings: &Settings, geometry: &Geometry) -> Result<(), Error> {
+    pub fn check_start(&mut self) -> Result<(), Error> {
         let has_energy = |simulation: &mut Simulation| simulation.energies().elastic.is_finite();
         if has_energy(&mut self.simulation) {
             return Ok(());
         }
+        let Self { settings, geometry, material: name, .. } = &*self;
         let description = settings.material.description()?;
         let can_start = |name: &&str| {
             let typical = MaterialSpec::typical(name).and_then(|material| material.build());
             let other = typical.and_then(|other| at_start(settings, geometry, other.elements));
             other.is_ok_and(|mut simulation| has_energy(&mut simulation))
         };
-        let (scene, name, domain) = (settings.scene.name, &self.material, &description.domain);
+        let (scene, domain) = (settings.scene.name, &description.domain);
         let reason =
             format!("the scene `{scene}` starts where `{name}` is not defined: its domain is {domain}");
         Err(Error::Usage(match description.refusal.as_ref().filter(|_| !description.extends) {
@@ -107,52 +120,24 @@ impl Play {
         }))
     }
 
-    /// The body and its state.
-    #[must_use]
-    pub fn simulation(&self) -> &Simulation {
-        &self.simulation
-    }
-
-    /// The body and its state, to be moved or pushed before the next step.
-    pub fn simulation_mut(&mut self) -> &mut Simulation {
-        &mut self.simulation
-    }
-
-    /// Name of the material, in the catalogue or of its declaration.
-    #[must_use]
-    pub fn material(&self) -> &Text {
-        &self.material
-    }
-
-    /// Parameters of the material.
-    #[must_use]
-    pub fn parameters(&self) -> &Parameters {
-        &self.parameters
-    }
-
-    /// Small-strain moduli of the material.
-    #[must_use]
-    pub fn moduli(&self) -> Moduli {
-        self.moduli
-    }
-
     /// Properties of the body that may be unintended, also in view of what the scene does to it.
     #[must_use]
-    pub fn warnings(&self, geometry: &Geometry) -> Vec<String> {
+    pub fn warnings(&self) -> Vec<String> {
         let is_idle = self.pulls.iter().any(|springs| springs.nodes.is_empty());
         let idle = is_idle.then(|| NOTHING_PULLED.to_owned());
-        geometry.warnings().into_iter().chain(idle).collect()
-    }
-
-    /// Number of the step and its time.
-    #[must_use]
-    pub fn clock(&self) -> Clock {
-        self.clock
+        self.geometry.warnings().into_iter().chain(idle).collect()
     }
 
     /// Changes the length of the steps that follow, s.
-    pub fn set_dt(&mut self, dt: f64) {
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`].
+    pub fn set_dt(&mut self, dt: f64) -> Result<(), Error> {
+        let settings = Settings { dt, ..self.settings.clone() };
+        settings.check()?;
+        self.settings = settings;
         self.clock = self.clock.with_dt(dt);
+        Ok(())
     }
 
     /// Continues from a state of the same body: positions, m, and velocities, m/s, one for each node.
@@ -173,24 +158,6 @@ impl Play {
         self.pull(clock.time(), clock.time())
     }
 
-    /// A spring that draws one point of the body to a target, m, as stiff as a cube of its material and
-    /// height.
-    #[must_use]
-    pub fn pull_at(&self, anchor: Anchor, target: [f64; 3]) -> step::Spring {
-        step::Spring { anchor, target, stiffness: self.stiffness }
-    }
-
-    /// Replaces the springs that act in addition to those of the scene, from the next step on.
-    pub fn hold(&mut self, pulls: Vec<step::Spring>) {
-        self.drags = pulls;
-    }
-
-    /// Counts of the time steps of the last frame.
-    #[must_use]
-    pub fn steps(&self) -> StepCounts {
-        self.steps
-    }
-
     /// Makes the next frame, in the rayon pool of the caller: one time step, or as many as the tolerance
     /// requires. A step also ends whenever a pull changes abruptly, even between two frames.
     ///
@@ -199,13 +166,10 @@ impl Play {
     /// step is then untouched.
     pub fn step(&mut self) -> Result<StepReport, Error> {
         let clock = self.clock.next();
-        if !clock.time().is_finite() {
-            let (quantity, value) = ("the time after the step", clock.time());
-            return Err(Error::OutOfRange { quantity, value, requirement: "finite" });
-        }
+        in_range("the time after the step", clock.time(), f64::MIN..=f64::MAX, "finite")?;
         let (first, last) = stretches(&self.pulls, self.clock);
         let before = (!first.is_empty()).then(|| self.simulation.clone());
-        match self.make(&first, last, clock.frame()) {
+        match self.make(&first, last, clock.frame) {
             Ok((report, counts)) => {
                 (self.clock, self.steps) = (clock, counts);
                 Ok(report)
@@ -228,30 +192,35 @@ impl Play {
     ) -> Result<(StepReport, StepCounts), Error> {
         let (mut counts, mut iterations) = (StepCounts::default(), 0);
         for &stretch in first {
-            let (report, more) = self.advance(stretch, frame)?;
-            counts += more;
-            iterations += report.newton.iterations;
+            iterations += self.advance(stretch, frame, &mut counts)?.newton.iterations;
         }
-        let (mut report, more) = self.advance(last, frame)?;
-        counts += more;
+        let mut report = self.advance(last, frame, &mut counts)?;
         report.newton.iterations += iterations;
         Ok((report, counts))
     }
 
-    fn advance(&mut self, stretch: Stretch, frame: usize) -> Result<(StepReport, StepCounts), Error> {
+    fn advance(
+        &mut self,
+        stretch: Stretch,
+        frame: usize,
+        counts: &mut StepCounts,
+    ) -> Result<StepReport, Error> {
         self.pull(stretch.start, stretch.end)?;
         let failed = |source| Error::Step { frame, source };
-        match self.tolerance {
+        let (report, made) = match self.settings.tolerance {
             None => {
                 let report = self.simulation.step(stretch.length).map_err(failed)?;
-                Ok((report, StepCounts { taken: 1, ..StepCounts::default() }))
+                (report, StepCounts { taken: 1, ..StepCounts::default() })
             }
-            Some(tolerance) => {
+            Some(share) => {
+                let tolerance = share * self.height;
                 let report = self.simulation.advance_within(stretch.length, tolerance).map_err(failed)?;
                 let AdaptiveReport { taken, refused, unresolved, step, .. } = report;
-                Ok((step, StepCounts { taken, refused, unresolved }))
+                (step, StepCounts { taken, refused, unresolved })
             }
-        }
+        };
+        *counts += made;
+        Ok(report)
     }
 
     /// Sets the springs of the scene as they are at the end of this stretch of time, s, and those that act in
@@ -279,30 +248,21 @@ pub struct Stretch {
 #[must_use]
 pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch) {
     let next = clock.next();
-    let near = NEAR * next.dt();
+    let near = NEAR * next.dt;
     let (now, last) = (clock.time(), next.time());
-    let events = || pulls.iter().flat_map(|springs| springs.pull.events());
+    let events = || pulls.iter().flat_map(|springs| [springs.pull.reached, springs.pull.released]);
     let mut start = events().find(|event| (event - now).abs() <= near).unwrap_or(now);
     let is_between = |&event: &f64| event - start > near && last - event > near;
     let mut between: Vec<f64> = events().filter(is_between).collect();
     between.sort_unstable_by(f64::total_cmp);
     between.dedup();
-    let is_whole = between.is_empty();
-    let first = between
-        .into_iter()
-        .map(|end| Stretch { start: std::mem::replace(&mut start, end), end, length: 0.0 })
-        .map(|stretch| Stretch { length: stretch.end - stretch.start, ..stretch })
-        .collect();
-    (first, Stretch { start, end: last, length: if is_whole { next.dt() } else { last - start } })
-}
-
-/// Checks that forces on bodies of such a material, and their squares, stay in the range of f64.
-fn check_young(moduli: Moduli) -> Result<(), Error> {
-    let (quantity, value) = ("Young's modulus of the material", moduli.young());
-    match value {
-        1e-12..=1e21 => Ok(()),
-        _ => Err(Error::OutOfRange { quantity, value, requirement: "from 1e-12 to 1e21 Pa" }),
+    let mut first = Vec::new();
+    for end in between {
+        first.push(Stretch { start, end, length: end - start });
+        start = end;
     }
+    let length = if first.is_empty() { next.dt } else { last - start };
+    (first, Stretch { start, end: last, length })
 }
 
 /// The body of the settings before the first step.
@@ -317,12 +277,6 @@ fn at_start(
     let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
     simulation.set_positions(&start_positions(settings, geometry, &pins))?;
     Ok(simulation)
-}
-
-/// Stiffness, N/m, of a cube of the body's height. `young` is the small-strain Young's modulus of the body,
-/// Pa.
-fn stiffness(young: f64, bounds: Bounds) -> f64 {
-    young * bounds.size()[1]
 }
 
 /// Settings of the steps of a scene.
@@ -349,15 +303,14 @@ pub fn step_settings(settings: &Settings) -> step::SimulationSettings {
 /// # Errors
 /// [`Error::Usage`].
 pub fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
+    let holds_nothing = |pin: &str, error: PinError| {
+        Error::Usage(format!("the pin {pin} holds nothing: {error}; choose a place with --pin"))
+    };
     if settings.pins.is_empty() {
         let Some(pinned) = settings.scene.pinned else { return Ok(Pins::none()) };
+        let pin = format!("of the scene {}", settings.scene.name);
         let region = region::within(mesh.bounds(), pinned);
-        return Pins::in_box(mesh, region).map_err(|error| {
-            let scene = settings.scene.name;
-            Error::Usage(format!(
-                "the pin of the scene {scene} holds nothing: {error}; choose a place with --pin"
-            ))
-        });
+        return Pins::in_box(mesh, region).map_err(|error| holds_nothing(&pin, error));
     }
     settings.pins.iter().try_fold(Pins::none(), |all, pin| {
         // What could be a box may also be the name of a group; then the user who named it means the group.
@@ -372,10 +325,7 @@ pub fn pins(settings: &Settings, mesh: &TetMesh) -> Result<Pins, Error> {
                 )));
             }
         };
-        let pins = pins.map_err(|error| {
-            Error::Usage(format!("the pin `{pin}` holds nothing: {error}; choose a place with --pin"))
-        })?;
-        Ok(all.and(&pins))
+        Ok(all.and(&pins.map_err(|error| holds_nothing(&format!("`{pin}`"), error))?))
     })
 }
 
@@ -401,13 +351,14 @@ impl DragSprings {
         let region = region::within(bounds, pull.region);
         let places = mesh.positions.iter().copied().enumerate();
         let nodes: Vec<_> = places.filter(|&(_, place)| region.contains(place)).collect();
-        let stiffness = DRAG_STIFFNESS * stiffness(young, bounds) / nodes.len().max(1) as f64;
+        let stiffness = DRAG_STIFFNESS * (young * bounds.size()[1]) / nodes.len().max(1) as f64;
         Self { pull, nodes, bounds, stiffness }
     }
 
-    /// The springs at the end of a stretch of time, s.
+    /// The springs at the end of a stretch of time, s; none once released before it.
     pub fn during(&self, start: f64, end: f64) -> impl Iterator<Item = step::Spring> {
-        let share = self.pull.share_during(start, end);
+        let Pull { reached, released, .. } = self.pull;
+        let share = (start < released).then(|| (end / reached).clamp(0.0, 1.0));
         share.into_iter().flat_map(move |share| {
             self.nodes.iter().map(move |&(node, rest)| {
                 let target = self.pull.motion.place(rest, share, self.bounds);
@@ -426,17 +377,17 @@ mod tests {
     fn no_step_leads_beyond_all_time() {
         let settings = Settings { body: Body::BAR, ..Settings::new(&HORSE) };
         let geometry = Geometry::load(&settings).expect("a body of the program");
-        let mut play = Play::new(&settings, &geometry).expect("a scene that plays");
+        let mut play = Play::new(settings, geometry).expect("a scene that plays");
         let late = r#"{"frame":1,"dt":1e300,"since_frame":1,"since_time":1.7976931348623157e308}"#;
         let late: Clock = serde_json::from_str(late).expect("a clock");
-        let velocities = vec![[0.0; 3]; geometry.mesh.positions.len()];
-        play.resume(late, &geometry.mesh.positions, &velocities).expect("a state of the body");
+        let rest = &play.geometry.mesh.positions.clone();
+        play.resume(late, rest, &vec![[0.0; 3]; rest.len()]).expect("a state of the body");
         let refused = play.step().map(drop).expect_err("no time is left");
         assert!(
             matches!(refused, Error::OutOfRange { quantity: "the time after the step", .. }),
             "{refused}"
         );
-        assert_eq!(play.clock(), late);
+        assert_eq!(play.clock, late);
     }
 
     /// The bar, drawn sideways by its upper end and let go after 0.2 s.
@@ -450,14 +401,14 @@ mod tests {
         static DRAWN: Scene = Scene { pulls: &[PULL], ..TWIST };
         let settings = Settings { dt, ..Settings::new(&DRAWN) };
         let geometry = Geometry::load(&settings).expect("a body of the program");
-        Play::new(&settings, &geometry).expect("a scene that plays")
+        Play::new(settings, geometry).expect("a scene that plays")
     }
 
     /// The springs, and the steps of time, by which each of some frames was made.
     fn springs_and_steps(mut play: Play, frames: usize) -> Vec<(bool, usize)> {
         let mut frame = || {
             play.step().expect("a step");
-            (!play.simulation().springs().is_empty(), play.steps().taken)
+            (!play.simulation.springs().is_empty(), play.steps.taken)
         };
         (0..frames).map(|_| frame()).collect()
     }
@@ -480,13 +431,12 @@ mod tests {
     #[test]
     fn a_pull_is_where_it_is_reached_at_once() {
         let mut play = drawn(0.08);
-        let target = |play: &Play| play.simulation().springs()[0].target;
+        let target = |play: &Play| play.simulation.springs()[0].target;
         play.step().expect("a step");
         let early = target(&play);
         play.step().expect("a step");
         assert_eq!(target(&play)[1], early[1]);
         let rest = play.pulls[0].nodes[0].1;
-        let height = play.pulls[0].bounds.size()[1];
-        assert_eq!(target(&play)[0], rest[0] + 0.5 * height);
+        assert_eq!(target(&play)[0], rest[0] + 0.5 * play.height);
     }
 }

@@ -1,5 +1,7 @@
 //! Trial of the recovery of a body: a scene without files.
 
+use std::sync::Arc;
+
 use crate::error::Error;
 use crate::geometry::Geometry;
 use crate::measure;
@@ -31,11 +33,12 @@ pub struct TrialOutcome {
 ///
 /// # Errors
 /// Those of [`Play::new`] and [`Play::step`], and [`Error::Equilibrium`].
-pub fn run_trial(settings: &Settings, geometry: &Geometry) -> Result<TrialOutcome, Error> {
+pub fn run_trial(settings: Settings, geometry: impl Into<Arc<Geometry>>) -> Result<TrialOutcome, Error> {
     let mut play = Play::new(settings, geometry)?;
+    let geometry = play.geometry.clone();
     let mesh = &geometry.mesh;
-    let pinned = play.simulation().pinned().len();
-    let start = play.simulation().positions();
+    let pinned = play.simulation.pinned().len();
+    let start = play.simulation.positions();
     let mut outcome = TrialOutcome {
         recovered: None,
         inverted_at_start: measure::inverted(&mesh.positions, start, &mesh.tets),
@@ -43,13 +46,13 @@ pub fn run_trial(settings: &Settings, geometry: &Geometry) -> Result<TrialOutcom
         largest_rise: f64::NEG_INFINITY,
         final_state: None,
     };
-    let unit = play.moduli().young() * measure::total_volume(&mesh.positions, &mesh.tets);
-    for frame in 1..=settings.frames {
-        let before = play.simulation_mut().energies();
+    let unit = play.moduli.young() * measure::total_volume(&mesh.positions, &mesh.tets);
+    for frame in 1..=play.settings.frames {
+        let before = play.simulation.energies();
         let report = play.step()?;
         let energies = before.elastic.abs() + before.kinetic + before.springs + before.gravity.abs();
         outcome.largest_rise = outcome.largest_rise.max(report.newton.change / (unit + energies));
-        let positions = play.simulation().positions();
+        let positions = play.simulation.positions();
         outcome.finite &= positions.iter().flatten().all(|x| x.is_finite());
         if measure::distance_from_rest(mesh, positions, pinned) > Summary::RECOVERED {
             outcome.recovered = None;
@@ -58,7 +61,7 @@ pub fn run_trial(settings: &Settings, geometry: &Geometry) -> Result<TrialOutcom
         }
     }
     if outcome.recovered.is_none() {
-        outcome.final_state = Some(find_equilibrium(&mut play, mesh, &mut |_| false)?);
+        outcome.final_state = Some(find_equilibrium(&mut play, &mut |_| false)?);
     }
     Ok(outcome)
 }

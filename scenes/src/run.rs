@@ -1,8 +1,9 @@
 //! Run of a scene to its end, with files.
 
-use std::fs::File;
-use std::io::{self, BufReader, BufWriter};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::error::Error;
 use crate::geometry::Geometry;
@@ -15,7 +16,7 @@ use crate::statics::Watch;
 mod course;
 mod progress;
 
-use course::{Course, Setup};
+use course::Course;
 
 /// Files of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,7 +35,7 @@ pub struct Finished {
     /// Results of the run.
     pub summary: Summary,
     /// The body at rest, and its surface.
-    pub geometry: Geometry,
+    pub geometry: Arc<Geometry>,
     /// Mean distance that nodes have moved up to each frame, m.
     pub motion: Vec<f64>,
     folder: Folder,
@@ -49,14 +50,7 @@ pub struct Finished {
 /// An error of the settings, the body or the folder, and one of the first step or its files: nothing is
 /// written then. [`Error::Interrupted`] if `watch` stops the run before its first step.
 pub fn run(settings: &Settings, output: &Output, watch: &mut Watch<'_>) -> Result<Finished, Error> {
-    let mut setup = Setup::new(settings, output.vtu)?;
-    let course = if output.resume {
-        Course::resume(setup, Folder::reopen(&output.folder)?)?
-    } else {
-        setup.play.check_start(settings, &setup.geometry)?;
-        Course::begin(setup, Folder::create(&output.folder)?)?
-    };
-    course.play(watch)
+    Course::open(settings, output)?.play(watch)
 }
 
 impl Finished {
@@ -65,7 +59,7 @@ impl Finished {
     /// # Errors
     /// If the file cannot be read.
     pub fn surface_in(&self, frame: usize) -> io::Result<Vec<[f32; 3]>> {
-        read_vertices(BufReader::new(File::open(self.folder.path().join(frame_file(frame)))?))
+        read_vertices(&fs::read(self.folder.path().join(frame_file(frame)))?)
     }
 
     /// Adds a file to the run; one that cannot be written becomes a failure of the run.
@@ -86,7 +80,10 @@ impl Finished {
             self.add(CAGES_FILE, |file| write_pvd(file, frames));
         }
         let Self { summary, folder, .. } = self;
-        folder.replace(SUMMARY_FILE, |file| summary.write_json(file))?;
+        folder.replace(SUMMARY_FILE, |file| {
+            serde_json::to_writer_pretty(&mut *file, &summary)?;
+            writeln!(file)
+        })?;
         Ok(summary)
     }
 }

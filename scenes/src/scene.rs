@@ -10,7 +10,7 @@ mod catalogue;
 mod motion;
 mod start;
 
-pub use body::{Asset, Body, Shape, Style};
+pub use body::{Body, Shape, Style};
 pub use catalogue::{
     DINOSAUR, DINOSAUR_OVERSTRETCHED, HORSE, INSIDE_OUT, POINT, SCENES, SCRAMBLE, STRETCH, TWIST,
 };

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use piola::Inversion;
 use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
 
-use crate::error::Error;
+use crate::error::{Error, in_range};
 use crate::material::MaterialSpec;
 use crate::output::Newton;
 use crate::scene::{Amplitude, Body, Scene, Start};
@@ -106,23 +107,23 @@ impl Settings {
             Start::Scrambled { amplitude: Amplitude::Edges(value), .. } => value,
             _ => 0.0,
         };
-        let epsilon = self.material.extended_below().unwrap_or(0.5);
+        let epsilon = match self.material.inversion {
+            Some(Inversion::Extend { epsilon }) => epsilon,
+            _ => 0.5,
+        };
         let tolerance = self.tolerance.unwrap_or(1.0);
-        for (quantity, value, [low, high], requirement) in [
-            ("the time step", self.dt, [1e-12, 1e6], "from 1e-12 to 1e6 s"),
-            ("the density", self.density, [1e-9, 1e15], "from 1e-9 to 1e15 kg/m³"),
-            ("the gravity", self.gravity, [-1e9, 1e9], "from -1e9 to 1e9 m/s²"),
-            ("the tolerance", tolerance, [1e-9, 1e3], "from 1e-9 to 1000 body heights per second"),
-            ("the number of frames", self.frames as f64, [1.0, 1e6], "from 1 to 1000000"),
-            ("the amplitude", amplitude, [0.0, 1e3], "from 0 to 1000 mean edge lengths"),
-            ("the stretch where the extension begins", epsilon, [1e-6, 1.0], "from 1e-6 to 1, or `refuse`"),
-            ("the number of threads", self.threads as f64, [0.0, MAX_THREADS], "at most 1024"),
-            ("the number of pins", self.pins.len() as f64, [0.0, MAX_PINS], "at most 1000"),
+        for (quantity, value, range, requirement) in [
+            ("the time step", self.dt, 1e-12..=1e6, "from 1e-12 to 1e6 s"),
+            ("the density", self.density, 1e-9..=1e15, "from 1e-9 to 1e15 kg/m³"),
+            ("the gravity", self.gravity, -1e9..=1e9, "from -1e9 to 1e9 m/s²"),
+            ("the tolerance", tolerance, 1e-9..=1e3, "from 1e-9 to 1000 body heights per second"),
+            ("the number of frames", self.frames as f64, 1.0..=1e6, "from 1 to 1000000"),
+            ("the amplitude", amplitude, 0.0..=1e3, "from 0 to 1000 mean edge lengths"),
+            ("the stretch where the extension begins", epsilon, 1e-6..=1.0, "from 1e-6 to 1, or `refuse`"),
+            ("the number of threads", self.threads as f64, 0.0..=MAX_THREADS, "at most 1024"),
+            ("the number of pins", self.pins.len() as f64, 0.0..=MAX_PINS, "at most 1000"),
         ] {
-            // NaN is in no range.
-            if !(low <= value && value <= high) {
-                return Err(Error::OutOfRange { quantity, value, requirement });
-            }
+            in_range(quantity, value, range, requirement)?;
         }
         Ok(())
     }

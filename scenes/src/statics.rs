@@ -1,6 +1,5 @@
 //! The equilibrium in which a body that has not recovered comes to rest.
 
-use piola_bodies::mesh::TetMesh;
 use piola_bodies::step::{Convergence, Equilibrium, NewtonSettings, Stability};
 
 use crate::error::Error;
@@ -23,15 +22,14 @@ pub type Watch<'a> = dyn FnMut(usize) -> bool + Send + 'a;
 ///
 /// # Errors
 /// [`Error::Equilibrium`] if a force is not finite or memory does not suffice, [`Error::Interrupted`].
-pub fn find_equilibrium(play: &mut Play, mesh: &TetMesh, watch: &mut Watch<'_>) -> Result<FinalState, Error> {
-    let frame = play.clock().frame();
-    let simulation = play.simulation_mut();
+pub fn find_equilibrium(play: &mut Play, watch: &mut Watch<'_>) -> Result<FinalState, Error> {
+    let Play { simulation, geometry, clock, .. } = play;
     let settings = *simulation.settings();
     let newton = NewtonSettings::default().with_max_iterations(ITERATIONS).with_tolerance(1e-10);
     simulation.set_settings(settings.with_newton(newton))?;
     let mut newton_iterations = 0;
     for _ in 0..CALLS {
-        if watch(frame) {
+        if watch(clock.frame) {
             return Err(Error::Interrupted);
         }
         // If statics fails, the body stays where it is and is examined there.
@@ -45,7 +43,7 @@ pub fn find_equilibrium(play: &mut Play, mesh: &TetMesh, watch: &mut Watch<'_>) 
 
     let found = Equilibrium::of(simulation)?;
     let pinned = simulation.pinned().len();
-    let max_distance_from_rest = measure::distance_from_rest(mesh, simulation.positions(), pinned);
+    let max_distance_from_rest = measure::distance_from_rest(&geometry.mesh, simulation.positions(), pinned);
     let place = match found.stability {
         _ if max_distance_from_rest <= Summary::RECOVERED => FinalPlace::Rest,
         Stability::Unbalanced => FinalPlace::NotAtRest,

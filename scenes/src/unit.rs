@@ -25,10 +25,10 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// Converts a length in this unit to metres, rounded once for whole numbers: 12 mm are the number 0.012.
-    fn to_metres(self, length: f64) -> f64 {
+    /// Converts lengths in this unit to metres, rounded once for whole numbers: 12 mm are the number 0.012.
+    pub(crate) fn convert(self, points: &mut [[f64; 3]]) {
         // Units below a metre are divided by: their sizes in metres would be rounded.
-        match self {
+        let in_metres = |length: f64| match self {
             Self::Um => length / 1e6,
             Self::Mm => length / 1e3,
             Self::Cm => length / 1e2,
@@ -36,11 +36,8 @@ impl Unit {
             Self::Km => length * 1e3,
             Self::In => length * 254.0 / 1e4,
             Self::Ft => length * 3048.0 / 1e4,
-        }
-    }
-
-    pub(crate) fn convert(self, points: &mut [[f64; 3]]) {
-        points.as_flattened_mut().iter_mut().for_each(|x| *x = self.to_metres(*x));
+        };
+        points.as_flattened_mut().iter_mut().for_each(|x| *x = in_metres(*x));
     }
 }
 

@@ -124,13 +124,8 @@ fn derivatives_are_slopes() -> Result<(), MaterialError> {
     candidates().try_for_each(|(name, material)| check_slopes(name, &*material))
 }
 
-/// True if it is a stress: energies are proportional to all of these together.
-fn is_stress(parameter: &Parameter) -> bool {
-    parameter.unit == Some(Unit::Pascal)
-}
-
-/// Euler's theorem: Σ p ∂ψk/∂p = ψk over the parameters p to which ψ is proportional. Both sides have a few
-/// hundred roundings of terms of one size at most.
+/// Euler's theorem: Σ p ∂ψk/∂p = ψk over the parameters p that are stresses, because ψ is proportional to all
+/// of them together. Both sides have a few hundred roundings of terms of one size at most.
 #[test]
 fn stresses_are_proportional_to_moduli() {
     for (name, material) in candidates() {
@@ -140,7 +135,8 @@ fn stresses_are_proportional_to_moduli() {
             let tolerance = 200.0 * f64::EPSILON * scale(&*material, &derivatives);
             for (k, expected) in material.blocks(stretches).gradient.into_iter().enumerate() {
                 let shares = places(&values).into_iter().zip(&derivatives);
-                let stresses = shares.filter(|((list, _), _)| is_stress(&description.parameters[*list]));
+                let is_stress = |list: usize| description.parameters[list].unit == Some(Unit::Pascal);
+                let stresses = shares.filter(|((list, _), _)| is_stress(*list));
                 let sum: f64 = stresses.map(|((list, place), d)| values[list][place] * d[k]).sum();
                 assert!((sum - expected).abs() <= tolerance, "{name} at {stretches:?}: {sum:e} {expected:e}");
             }

@@ -20,7 +20,8 @@ fn play(
 ) -> Result<TrialOutcome, Error> {
     let spec = MaterialSpec::matching(material, soft_moduli());
     let settings = Settings { body, material: spec, start, newton, ..Settings::new(scene) };
-    let outcome = run_trial(&settings, &Geometry::load(&settings)?)?;
+    let geometry = Geometry::load(&settings)?;
+    let outcome = run_trial(settings, geometry)?;
     let what = format!("{} {} {material}: {outcome:?}", scene.name, body.name);
     assert!(outcome.finite && outcome.largest_rise <= RISE, "{what}");
     // Whoever is stuck is certified: at rest, and known to be stable or not.

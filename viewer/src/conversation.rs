@@ -1,25 +1,15 @@
 //! Conversation of a page with a driver: its messages become orders, and answers become messages for it.
 
 use std::ops::Range;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use crate::driver::{Answer, Order};
-use crate::protocol::{Act, Message};
+use crate::driver::{Answer, Order, Seen};
+use crate::protocol::{Act, Message, Words};
 use crate::typed;
 
 /// Bound of the numbers that a page gives its drags; the number of its conversation distinguishes them from
 /// those of other pages.
 const DRAGS: u64 = 1 << 32;
-
-/// A message for a page.
-#[derive(Clone, Debug)]
-pub enum Words {
-    /// JSON.
-    Text(Arc<str>),
-    /// Numbers, as [`topology`](crate::topology) describes them.
-    Binary(Arc<[u8]>),
-}
 
 /// The conversation with one page.
 #[derive(Debug)]
@@ -29,9 +19,7 @@ pub struct Conversation {
     answers: Receiver<Answer>,
     /// True if the page has requested a frame that has not come.
     waits: bool,
-    /// The state and the revision of the setup that the page has seen last.
-    seen: u64,
-    revision: u64,
+    seen: Seen,
 }
 
 impl Conversation {
@@ -40,7 +28,7 @@ impl Conversation {
     pub fn new(number: u64) -> Self {
         let (answer, answers) = channel();
         let drags = number * DRAGS..(number + 1) * DRAGS;
-        Self { drags, answer, answers, waits: false, seen: 0, revision: 0 }
+        Self { drags, answer, answers, waits: false, seen: Seen::default() }
     }
 
     /// The first number for a conversation none of whose drags is among these.
@@ -69,64 +57,47 @@ impl Conversation {
     /// # Errors
     /// The reason why it is not a message.
     pub fn order(&mut self, text: &str) -> Result<Option<Order>, String> {
-        let answer = self.answer.clone();
         Ok(match Message::parse(text)? {
-            Message::Act(act) => self.act(act, answer)?,
+            Message::Act(act) => self.act(act)?,
             Message::Run(run) => Some(Order::Run(run)),
             Message::Look {} if self.waits => None,
             Message::Look {} => {
                 self.waits = true;
-                Some(Order::Look { seen: self.seen, answer })
+                Some(Order::Look { seen: self.seen, answer: self.answer.clone() })
             }
         })
     }
 
-    fn act(&self, act: Act, answer: Sender<Answer>) -> Result<Option<Order>, String> {
-        let act = self.as_own(act)?;
+    fn act(&self, mut act: Act) -> Result<Option<Order>, String> {
+        if let Act::Pull { drag, .. } | Act::Release { drag } = &mut act {
+            if *drag >= DRAGS {
+                return Err(format!("the drag {drag} is not below {DRAGS}"));
+            }
+            *drag += self.drags.start;
+        }
         let energy = match &act {
             Act::Energy { text, parameters } => match typed::energy(text, parameters) {
                 Ok(energy) => Some(energy),
                 Err(error) => {
                     // The other end is in this conversation.
-                    let _ = answer.send(Answer::refusal(&act, error));
+                    let _ = self.answer.send(Answer::refusal(&act, error));
                     return Ok(None);
                 }
             },
             _ => None,
         };
-        Ok(Some(Order::Act { act, energy, answer }))
+        Ok(Some(Order::Act { act, energy, answer: self.answer.clone() }))
     }
 
     /// Messages for the page in the answers that have come.
     pub fn words(&mut self) -> Vec<Words> {
         let mut words = Vec::new();
-        while let Ok(answer) = self.answers.try_recv() {
-            match answer {
-                Answer::Refused(text) => words.push(Words::Text(text)),
-                Answer::Frame(frame) => {
-                    self.waits = false;
-                    self.seen = frame.state;
-                    if self.revision != frame.revision {
-                        self.revision = frame.revision;
-                        words.push(Words::Text(frame.setup));
-                    }
-                    words.extend([Words::Text(frame.figures), Words::Binary(frame.positions)]);
-                }
+        for answer in self.answers.try_iter() {
+            if let Some(seen) = answer.seen {
+                (self.waits, self.seen) = (false, seen);
             }
+            words.extend(answer.words);
         }
         words
-    }
-
-    /// Numbers the drag so that it belongs to this page.
-    fn as_own(&self, act: Act) -> Result<Act, String> {
-        let own = |drag: u64| match drag < DRAGS {
-            true => Ok(self.drags.start + drag),
-            false => Err(format!("the drag {drag} is not below {DRAGS}")),
-        };
-        Ok(match act {
-            Act::Pull { drag, vertex, target } => Act::Pull { drag: own(drag)?, vertex, target },
-            Act::Release { drag } => Act::Release { drag: own(drag)? },
-            act => act,
-        })
     }
 }

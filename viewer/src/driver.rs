@@ -4,10 +4,9 @@
 //! It never waits for a page. A page gets a frame for each request, made of the state at that moment; without
 //! a request nothing is made and nothing is kept.
 
-use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::Duration;
@@ -16,9 +15,9 @@ use piola_bodies::step::StepReport;
 use piola_declare::Energy;
 use piola_scenes::error::Error;
 
-use crate::protocol::{Act, Run};
+use crate::protocol::{Act, Run, Words};
 use crate::session::Session;
-use crate::show::{self, Frame, FrameStats};
+use crate::show::{self, FrameStats};
 
 /// Longest time for which orders are taken between two steps, unless a single one takes longer.
 pub const TURN: Duration = Duration::from_millis(20);
@@ -56,10 +55,10 @@ pub enum Order {
     },
     /// A change of when steps are made.
     Run(Run),
-    /// Request for a frame of a later state than the one with this number.
+    /// Request for a frame of a later state than the page has seen.
     Look {
-        /// The number of the state.
-        seen: u64,
+        /// The state and the setup that it has seen last.
+        seen: Seen,
         /// Channel for the frame.
         answer: Sender<Answer>,
     },
@@ -70,30 +69,25 @@ pub enum Order {
     },
 }
 
-/// The answer to an order.
+/// Numbers of a state that a page has seen, and of its description of scene and material; 0 before the first.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seen {
+    state: u64,
+    setup: u64,
+}
+
+/// The answer to an order: messages for the page.
 #[derive(Clone, Debug)]
-pub enum Answer {
-    /// The body at one moment.
-    Frame(Frame),
-    /// An act was refused; a message for the page.
-    Refused(Arc<str>),
+pub struct Answer {
+    /// The state that the page sees with them, unless they refuse an act.
+    pub(crate) seen: Option<Seen>,
+    pub(crate) words: Vec<Words>,
 }
 
 impl Answer {
     /// The answer that an act is refused, for this reason.
     pub(crate) fn refusal(act: &Act, error: Error) -> Self {
-        let (reason, mistakes) = match error {
-            Error::Declaration(mistakes) => (mistakes.to_string(), mistakes.list),
-            // A page gets the name of a file, and the reason of the program or the kind of a system error,
-            // without any path.
-            Error::Write { path, source } => {
-                let reason =
-                    source.get_ref().map_or_else(|| source.kind().to_string(), |own| own.to_string());
-                (format!("cannot write {}: {reason}", name_of(&path)), Vec::new())
-            }
-            error => (error.to_string(), Vec::new()),
-        };
-        Self::Refused(show::refused(act, &reason, &mistakes))
+        Self { seen: None, words: vec![Words::Text(show::refused(act, error))] }
     }
 }
 
@@ -110,13 +104,11 @@ pub struct Driver<H> {
     /// Times of the last steps.
     times: VecDeque<Duration>,
     /// Pages that wait for a frame, and the state that each has seen.
-    lookers: Vec<(u64, Sender<Answer>)>,
-    /// Counts the states that could be seen.
-    state: u64,
-    revision: u64,
-    /// Description of scene and material, with true if they have changed since.
-    setup: Arc<str>,
-    is_setup_stale: bool,
+    lookers: Vec<(Seen, Sender<Answer>)>,
+    /// Counts the states that could be seen, and the changes of their setup.
+    present: Seen,
+    /// Description of scene and material, unless they have changed since.
+    setup: Option<Arc<str>>,
 }
 
 impl<H: Host> Driver<H> {
@@ -130,10 +122,8 @@ impl<H: Host> Driver<H> {
             stats: FrameStats { real_time: true, ..FrameStats::default() },
             times: VecDeque::with_capacity(TIMED),
             lookers: Vec::new(),
-            state: 1,
-            revision: 0,
-            setup: Arc::from(""),
-            is_setup_stale: true,
+            present: Seen { state: 1, setup: 0 },
+            setup: None,
         }
     }
 
@@ -157,7 +147,7 @@ impl<H: Host> Driver<H> {
         if !self.stats.real_time {
             return Some(self.before);
         }
-        let dt = Duration::try_from_secs_f64(self.session.settings().dt).ok()?;
+        let dt = Duration::try_from_secs_f64(self.session.play().settings.dt).ok()?;
         self.before.checked_add(dt)
     }
 
@@ -165,7 +155,7 @@ impl<H: Host> Driver<H> {
     pub fn obey(&mut self, order: Order) {
         match order {
             Order::Act { act, energy, answer } => {
-                if let Err(error) = self.act(&act, energy).and_then(|()| self.save(&act)) {
+                if let Err(error) = self.act(&act, energy) {
                     // A page that has gone needs no answer.
                     let _ = answer.send(Answer::refusal(&act, error));
                 }
@@ -194,7 +184,7 @@ impl<H: Host> Driver<H> {
                 }
             }
         }
-        self.state += 1;
+        self.present.state += 1;
     }
 
     fn act(&mut self, act: &Act, energy: Option<Energy>) -> Result<(), Error> {
@@ -207,12 +197,9 @@ impl<H: Host> Driver<H> {
         if is_another_body || matches!(act, Act::Reset {} | Act::Restore {}) {
             self.stats.trouble = None;
         }
-        self.is_setup_stale |= !matches!(act, Act::Pull { .. } | Act::Release { .. } | Act::ReleaseAll {});
-        Ok(())
-    }
-
-    /// Writes the state that a page has saved.
-    fn save(&self, act: &Act) -> Result<(), Error> {
+        if !matches!(act, Act::Pull { .. } | Act::Release { .. } | Act::ReleaseAll {}) {
+            self.setup = None;
+        }
         match (act, &self.save, self.session.saved()) {
             (Act::Save {}, Some(path), Some(state)) => state.write(path),
             _ => Ok(()),
@@ -239,7 +226,7 @@ impl<H: Host> Driver<H> {
                 self.stats.trouble = Some(error.to_string());
             }
         }
-        self.state += 1;
+        self.present.state += 1;
 
         let now = self.host.now();
         let due = self.due().unwrap_or(now);
@@ -248,30 +235,21 @@ impl<H: Host> Driver<H> {
 
     /// Sends the present state to the pages that have not seen it.
     fn answer(&mut self) {
-        if self.lookers.iter().all(|&(seen, _)| seen == self.state) {
+        if self.lookers.iter().all(|(seen, _)| seen.state == self.present.state) {
             return;
         }
-        if self.is_setup_stale {
-            // The page gets no information about this machine but the name of its file.
-            let file = self.save.as_deref().map(name_of);
-            self.setup = show::setup(&self.session, file.as_deref());
-            self.revision += 1;
-            self.is_setup_stale = false;
-        }
-        let frame = Frame {
-            state: self.state,
-            revision: self.revision,
-            setup: self.setup.clone(),
-            figures: show::figures(&self.session, &self.stats),
-            positions: show::positions(&self.session),
-        };
-        for (_, looker) in self.lookers.extract_if(.., |&mut (seen, _)| seen != self.state) {
+        let setup = self.setup.get_or_insert_with(|| {
+            self.present.setup += 1;
+            show::setup(&self.session, self.save.as_deref())
+        });
+        let present = self.present;
+        let figures = Words::Text(show::figures(&self.session, &self.stats));
+        let frame = [figures, Words::Binary(show::positions(&self.session))];
+        for (seen, looker) in self.lookers.extract_if(.., |(seen, _)| seen.state != present.state) {
+            let setup = (seen.setup != present.setup).then(|| Words::Text(setup.clone()));
+            let words = setup.into_iter().chain(frame.clone()).collect();
             // A page that has gone needs no frame.
-            let _ = looker.send(Answer::Frame(frame.clone()));
+            let _ = looker.send(Answer { seen: Some(present), words });
         }
     }
-}
-
-fn name_of(path: &Path) -> Cow<'_, str> {
-    path.file_name().unwrap_or_default().to_string_lossy()
 }

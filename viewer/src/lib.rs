@@ -16,4 +16,4 @@ mod show;
 pub mod state;
 mod typed;
 
-pub use show::{Frame, topology};
+pub use show::topology;

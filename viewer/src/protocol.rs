@@ -1,4 +1,5 @@
-//! Messages of a page: JSON in one of the forms of [`Message`], and nothing else.
+//! Messages of a page: JSON in one of the forms of [`Message`], and nothing else. Messages for it are
+//! [`Words`].
 //!
 //! ```
 //! use piola_viewer::protocol::{Act, Message};
@@ -10,8 +11,18 @@
 //! ```
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+
+/// A message for a page.
+#[derive(Clone, Debug)]
+pub enum Words {
+    /// JSON.
+    Text(Arc<str>),
+    /// Numbers, as [`topology`](crate::topology) describes them.
+    Binary(Arc<[u8]>),
+}
 
 /// A message from a page.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,9 +4,10 @@
 //! This module is independent of threads, clocks and sockets.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use piola_bodies::mesh::Anchor;
-use piola_bodies::step::StepReport;
+use piola_bodies::step::{Spring, StepReport};
 use piola_declare::Energy;
 use piola_scenes::error::Error;
 use piola_scenes::geometry::Geometry;
@@ -29,14 +30,11 @@ const REACH: f64 = 100.0;
 /// into itself and find another equilibrium from which no elastic energy brings it back.
 const SPEED: f64 = 4.0;
 
-/// A scene in motion, its present material, and the pulls of pages at it.
+/// A scene in motion, and the pulls of pages at it.
 #[derive(Debug)]
 pub struct Session {
-    geometry: Geometry,
-    /// Settings with the current material and time step.
-    settings: Settings,
-    material_at_start: MaterialSpec,
     play: Play,
+    material_at_start: MaterialSpec,
     pulls: BTreeMap<u64, Drag>,
     saved: Option<State>,
 }
@@ -47,11 +45,11 @@ impl Session {
     /// # Errors
     /// An error of the settings or of the body, or of a material that is not defined at the start.
     pub fn new(settings: Settings) -> Result<Self, Error> {
-        let settings = Settings { material: settings.material.explicit()?, ..settings };
+        let material_at_start = settings.material.explicit()?;
+        let settings = Settings { material: material_at_start.clone(), ..settings };
         let geometry = Geometry::load(&settings)?;
-        let play = at_start(&settings, &geometry)?;
-        let (pulls, material_at_start) = (BTreeMap::new(), settings.material.clone());
-        Ok(Self { geometry, settings, material_at_start, play, pulls, saved: None })
+        let play = at_start(settings, geometry)?;
+        Ok(Self { play, material_at_start, pulls: BTreeMap::new(), saved: None })
     }
 
     /// Continues from a saved state, to the last bit.
@@ -59,38 +57,35 @@ impl Session {
     /// # Errors
     /// Like [`Session::new`], and those of [`Moment::resume`].
     pub fn resume(state: State) -> Result<Self, Error> {
-        let geometry = Geometry::load(state.moment.settings())?;
-        let play = play_of(&state, &geometry)?;
-        Ok(Self {
-            geometry,
-            settings: state.moment.settings().clone(),
-            material_at_start: state.material_at_start.clone(),
-            play,
-            pulls: state.pulls.clone(),
-            saved: Some(state),
-        })
+        let geometry = Geometry::load(&state.moment.settings)?;
+        Self::at(state, geometry)
+    }
+
+    /// A session at a state, if all of the state fits the body.
+    fn at(state: State, geometry: impl Into<Arc<Geometry>>) -> Result<Self, Error> {
+        let play = state.moment.resume(geometry)?;
+        let refused = |reason| Error::Usage(format!("the state cannot be resumed: {reason}"));
+        if state.pulls.len() > MAX_PULLS {
+            return Err(refused("it has more than 64 pulls"));
+        }
+        if state.pulls.keys().any(|&number| number >= MAX_DRAG) {
+            return Err(refused("the number of a pull is 2^62 or more"));
+        }
+        for drag in state.pulls.values() {
+            anchor_for(&play, drag.vertex, drag.target)?;
+            anchor_for(&play, drag.vertex, drag.place)?;
+        }
+        let (material_at_start, pulls) = (state.material_at_start.clone(), state.pulls.clone());
+        Ok(Self { play, material_at_start, pulls, saved: Some(state) })
     }
 
     /// The present state, to be resumed.
     #[must_use]
     pub fn state(&self) -> State {
-        let moment = Moment::of(&self.settings, &self.geometry, &self.play);
-        State::new(moment, self.material_at_start.clone(), self.pulls.clone())
+        State::new(Moment::of(&self.play), self.material_at_start.clone(), self.pulls.clone())
     }
 
-    /// The body's shape at rest, and its surface.
-    #[must_use]
-    pub fn geometry(&self) -> &Geometry {
-        &self.geometry
-    }
-
-    /// The scene and its overrides, with the current material and time step.
-    #[must_use]
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
-
-    /// The body in motion.
+    /// The body in motion, with the current material and time step.
     #[must_use]
     pub fn play(&self) -> &Play {
         &self.play
@@ -112,16 +107,19 @@ impl Session {
     /// # Errors
     /// [`Error::Step`]; the state before the step is then untouched.
     pub fn step(&mut self) -> Result<StepReport, Error> {
-        let way = SPEED * self.geometry.mesh.bounds().size()[1] * self.settings.dt;
+        let way = SPEED * self.play.height * self.play.settings.dt;
         let mut pulls = self.pulls.clone();
         for drag in pulls.values_mut() {
             drag.place = towards(drag.place, drag.target, way);
         }
+        // As stiff as a cube of the body's material and height.
+        let stiffness = self.play.moduli.young() * self.play.height;
+        let anchors = self.play.geometry.embedding.anchors();
         let springs = pulls.values().filter_map(|drag| {
-            let anchor = self.geometry.anchor(drag.vertex)?;
-            Some(self.play.pull_at(anchor, drag.place))
+            let anchor = *anchors.get(drag.vertex)?;
+            Some(Spring { anchor, target: drag.place, stiffness })
         });
-        self.play.hold(springs.collect());
+        self.play.drags = springs.collect();
         let report = self.play.step()?;
         self.pulls = pulls;
         Ok(report)
@@ -142,24 +140,15 @@ impl Session {
                 self.pulls.clear();
                 Ok(())
             }
-            Act::Material { name, as_stiff } => {
-                let material = self.material(name, *as_stiff)?;
-                self.change(Settings { material, ..self.settings.clone() })
-            }
+            Act::Material { name, as_stiff } => self.change(self.material(name, *as_stiff)?),
             Act::Energy { text, parameters } => self.declare(typed::energy(text, parameters)?, parameters),
             Act::Parameter { name, values } => {
-                let material = self.settings.material.clone().with_parameter(name, values.clone());
-                self.change(Settings { material, ..self.settings.clone() })
+                let material = self.play.settings.material.clone();
+                self.change(material.with_parameter(name, values.clone()))
             }
-            &Act::TimeStep { seconds } => {
-                let settings = Settings { dt: seconds, ..self.settings.clone() };
-                settings.check()?;
-                self.settings = settings;
-                self.play.set_dt(seconds);
-                Ok(())
-            }
+            &Act::TimeStep { seconds } => self.play.set_dt(seconds),
             Act::Reset {} => {
-                self.play = at_start(&self.settings, &self.geometry)?;
+                self.play = at_start(self.play.settings.clone(), self.play.geometry.clone())?;
                 self.pulls.clear();
                 Ok(())
             }
@@ -170,10 +159,7 @@ impl Session {
             Act::Restore {} => {
                 let none = || Error::Usage("no state has been saved yet".into());
                 let state = self.saved.clone().ok_or_else(none)?;
-                self.play = play_of(&state, &self.geometry)?;
-                self.settings = state.moment.settings().clone();
-                self.material_at_start = state.material_at_start;
-                self.pulls = state.pulls;
+                *self = Self::at(state, self.play.geometry.clone())?;
                 Ok(())
             }
         }
@@ -184,15 +170,16 @@ impl Session {
     /// # Errors
     /// An error of the material; the state is then as before.
     pub fn declare(&mut self, energy: Energy, parameters: &BTreeMap<String, Vec<f64>>) -> Result<(), Error> {
-        let material = typed::material(energy, parameters, &self.settings.material, self.play.moduli())?;
-        self.change(Settings { material, ..self.settings.clone() })
+        let Play { settings, moduli, .. } = &self.play;
+        let material = typed::material(energy, parameters, &settings.material, *moduli)?;
+        self.change(material)
     }
 
     fn pull(&mut self, number: u64, vertex: usize, target: [f64; 3]) -> Result<(), Error> {
-        let anchor = anchor_for(&self.geometry, vertex, target)?;
+        let anchor = anchor_for(&self.play, vertex, target)?;
         // One that holds already moves on; a new one begins where the vertex is.
         let holds = self.pulls.get(&number).filter(|drag| drag.vertex == vertex).map(|drag| drag.place);
-        let place = holds.unwrap_or_else(|| anchor.position(self.play.simulation().positions()));
+        let place = holds.unwrap_or_else(|| anchor.position(self.play.simulation.positions()));
         if self.pulls.len() >= MAX_PULLS && !self.pulls.contains_key(&number) {
             let (quantity, value) = ("the number of pulls", (MAX_PULLS + 1) as f64);
             return Err(Error::OutOfRange { quantity, value, requirement: "at most 64" });
@@ -207,48 +194,31 @@ impl Session {
             return Ok(self.material_at_start.clone());
         }
         if as_stiff {
-            MaterialSpec::matching(name, self.play.moduli()).explicit()
+            MaterialSpec::matching(name, self.play.moduli).explicit()
         } else {
             MaterialSpec::typical(name)
         }
     }
 
-    /// Replaces the body by another one with the same positions and velocities.
-    fn change(&mut self, settings: Settings) -> Result<(), Error> {
-        let mut play = Play::new(&settings, &self.geometry)?;
-        let simulation = self.play.simulation();
-        play.resume(self.play.clock(), simulation.positions(), simulation.velocities())?;
-        (self.play, self.settings) = (play, settings);
+    /// Replaces the body by one of another material with the same positions and velocities.
+    fn change(&mut self, material: MaterialSpec) -> Result<(), Error> {
+        let Play { settings, geometry, simulation, clock, .. } = &self.play;
+        let mut play = Play::new(Settings { material, ..settings.clone() }, geometry.clone())?;
+        play.resume(*clock, simulation.positions(), simulation.velocities())?;
+        self.play = play;
         Ok(())
     }
 }
 
-/// The scene of a state in motion, if all of the state fits the body.
-fn play_of(state: &State, geometry: &Geometry) -> Result<Play, Error> {
-    let play = state.moment.resume(geometry)?;
-    if state.pulls.len() > MAX_PULLS {
-        return Err(Error::Usage("the state cannot be resumed: it has more than 64 pulls".into()));
-    }
-    if state.pulls.keys().any(|&number| number >= MAX_DRAG) {
-        return Err(Error::Usage("the state cannot be resumed: the number of a pull is 2^62 or more".into()));
-    }
-    for drag in state.pulls.values() {
-        anchor_for(geometry, drag.vertex, drag.target)?;
-        anchor_for(geometry, drag.vertex, drag.place)?;
-    }
-    Ok(play)
-}
-
 /// The point of the body that a pull holds, if the vertex exists and the target is within reach.
-fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<Anchor, Error> {
-    let anchor = geometry.anchor(vertex).ok_or(Error::OutOfRange {
+fn anchor_for(play: &Play, vertex: usize, target: [f64; 3]) -> Result<Anchor, Error> {
+    let anchor = *play.geometry.embedding.anchors().get(vertex).ok_or(Error::OutOfRange {
         quantity: "the vertex of a pull",
         value: vertex as f64,
         requirement: "one of the surface",
     })?;
-    let rest = &geometry.mesh;
-    let reach = REACH * rest.bounds().size()[1];
-    let place = anchor.position(&rest.positions);
+    let reach = REACH * play.height;
+    let place = anchor.position(&play.geometry.mesh.positions);
     // NaN is not near.
     let is_near = |x: f64, place: f64| (x - place).abs() <= reach;
     match target.into_iter().zip(place).find(|&(x, place)| !is_near(x, place)) {
@@ -262,9 +232,9 @@ fn anchor_for(geometry: &Geometry, vertex: usize, target: [f64; 3]) -> Result<An
 }
 
 /// The body at the start of the scene, if its material is defined there.
-fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Play, Error> {
+fn at_start(settings: Settings, geometry: impl Into<Arc<Geometry>>) -> Result<Play, Error> {
     let mut play = Play::new(settings, geometry)?;
-    play.check_start(settings, geometry)?;
+    play.check_start()?;
     Ok(play)
 }
 

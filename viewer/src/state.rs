@@ -54,8 +54,9 @@ impl State {
 
     /// Takes the body from files, or, with `None`, that of the program.
     #[must_use]
-    pub fn with_files(self, files: Option<Files>) -> Self {
-        Self { moment: self.moment.with_files(files), ..self }
+    pub fn with_files(mut self, files: Option<Files>) -> Self {
+        self.moment.settings.files = files;
+        self
     }
 
     /// Writes the file, which replaces an earlier one of the same name only once it is complete.

@@ -140,7 +140,7 @@ impl Material {
     /// Returns a list of (rule, number of comparisons, worst difference as a share of its tolerance). Raises
     /// ContractError with the broken rules.
     fn contract(&self, py: Python<'_>) -> PyResult<Vec<(String, usize, f64)>> {
-        let notation = self.uniform()?.energy().map_or_else(Notation::default, Energy::notation);
+        let notation = self.uniform()?.energy.as_ref().map_or_else(Notation::default, Energy::notation);
         let settings = Settings { notation, ..Settings::default() };
         let material = self.interpreted()?;
         let report = py.detach(|| check(&material, &settings));

@@ -345,7 +345,10 @@ impl Material {
     /// The stretch below which the energy is continued, or None.
     #[getter]
     fn extend(&self) -> Option<f64> {
-        self.spec.extended_below()
+        match self.spec.inversion {
+            Some(Inversion::Extend { epsilon }) => Some(epsilon),
+            _ => None,
+        }
     }
 
     /// The shape of parameters that differ from point to point, with which points are broadcast; () for one
@@ -444,7 +447,7 @@ pub(crate) fn describe(py: Python<'_>, energy: &Bound<'_, PyAny>, free_rest: boo
         Err(_) => declared(py, &text, None, free_rest, None)?,
         Ok(_) => of_catalogue,
     };
-    Ok(Description::new(spec.material(), spec.description().map_err(of_material)?))
+    Ok(Description::new(&spec.material, spec.description().map_err(of_material)?))
 }
 
 /// The specification of an energy that a text declares; keywords only tell which names are parameters.
@@ -466,11 +469,11 @@ fn declared(
         Some(name) => of_text(mistakes.with_name(label(name))),
         None => of_text(mistakes),
     };
-    let spec = MaterialSpec::declared(energy.map_err(mistaken)?);
-    Ok(match name.or((!is_rust).then_some(text)) {
-        Some(name) => spec.with_name(label(name)),
-        None => spec,
-    })
+    let mut spec = MaterialSpec::declared(energy.map_err(mistaken)?);
+    if let Some(name) = name.or((!is_rust).then_some(text)) {
+        spec.material = label(name);
+    }
+    Ok(spec)
 }
 
 /// The energy of a formula, in which the names of keywords are parameters.

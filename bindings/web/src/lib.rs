@@ -13,8 +13,9 @@ use std::time::Duration;
 use piola_scenes::error::Error;
 use piola_scenes::scene::Scene;
 use piola_scenes::settings::Settings;
-use piola_viewer::conversation::{Conversation, Words};
+use piola_viewer::conversation::Conversation;
 use piola_viewer::driver::{Driver, Host};
+use piola_viewer::protocol::Words;
 use piola_viewer::session::Session;
 use piola_viewer::topology;
 
@@ -71,7 +72,7 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
 pub extern "C" fn begin() -> bool {
     BORDER.with_borrow_mut(|border| match session(&String::from_utf8_lossy(&border.heard)) {
         Ok(session) => {
-            border.words = [Words::Binary(topology(session.geometry()).into())].into();
+            border.words = [Words::Binary(topology(&session.play().geometry).into())].into();
             border.behind = Some((Driver::new(Browser, session, None), Conversation::new(0)));
             true
         }

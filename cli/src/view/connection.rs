@@ -7,8 +7,9 @@ use std::io::Read;
 use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
-use piola_viewer::conversation::{Conversation, Words};
+use piola_viewer::conversation::Conversation;
 use piola_viewer::driver::Order;
+use piola_viewer::protocol::Words;
 use tungstenite::handshake::server::{Response, write_response};
 use tungstenite::protocol::frame::coding::CloseCode;
 use tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};

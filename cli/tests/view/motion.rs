@@ -12,13 +12,13 @@ fn another_material_takes_over_where_the_body_is() {
     let mut session = session();
     session.apply(&pull(TAIL, [-3.0, 2.0, 0.5])).expect("a pull");
     steps(&mut session, 5);
-    let place = |session: &Session| session.play().simulation().positions().to_vec();
+    let place = |session: &Session| session.play().simulation.positions().to_vec();
     let before = place(&session);
-    let mu = session.play().moduli().mu;
+    let mu = session.play().moduli.mu;
     session.apply(&Act::Material { name: "neo_hookean".into(), as_stiff: true }).expect("a material");
-    assert_eq!(session.play().material(), "neo_hookean");
+    assert_eq!(session.play().material, "neo_hookean");
     // As tight as the scaling promises.
-    assert!((session.play().moduli().mu / mu - 1.0).abs() <= 1e-12);
+    assert!((session.play().moduli.mu / mu - 1.0).abs() <= 1e-12);
     assert_eq!(place(&session), before);
     steps(&mut session, 1);
     assert_ne!(place(&session), before);
@@ -39,7 +39,7 @@ fn another_material_takes_over_where_the_body_is() {
         assert!(bits(&session) == before, "{act:?} left its mark");
     }
     session.apply(&Act::Material { name: "ogden".into(), as_stiff: true }).expect("a material");
-    assert_eq!(session.play().moduli().mu, mu, "the scene's own material is that of the scene");
+    assert_eq!(session.play().moduli.mu, mu, "the scene's own material is that of the scene");
 }
 
 #[test]
@@ -58,9 +58,9 @@ fn pulls_are_numbered_and_limited() {
 /// The tail drawn across the body, five heights far, and a leg torn until elements stay inside out.
 #[test]
 fn pulled_several_heights_far_and_inside_out_it_comes_back() {
-    let rest = session().geometry().mesh.clone();
+    let rest = session().play().geometry.mesh.clone();
     let judge = |session: &Session| {
-        let positions = session.play().simulation().positions();
+        let positions = session.play().simulation.positions();
         let far = measure::max_distance(&rest.positions, positions) / rest.bounds().size()[1];
         (far, measure::inverted(&rest.positions, positions, &rest.tets))
     };

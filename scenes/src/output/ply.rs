@@ -1,6 +1,6 @@
 //! Surfaces as binary PLY files, which ParaView, Blender and MeshLab read as a sequence.
 
-use std::io::{self, BufRead, Error, ErrorKind, Read, Write};
+use std::io::{self, Error, ErrorKind, Write};
 
 /// Writes a triangle surface: positions in metres, triangles as triples of vertices from 0.
 ///
@@ -27,36 +27,23 @@ pub fn write_ply(target: &mut impl Write, vertices: &[[f32; 3]], triangles: &[[u
     Ok(())
 }
 
-/// Reads the positions of a surface that [`write_ply`] has written.
+/// The positions in a file that [`write_ply`] has written.
 ///
 /// # Errors
-/// If `source` cannot be read or has another format.
-pub fn read_vertices(mut source: impl BufRead) -> io::Result<Vec<[f32; 3]>> {
+/// [`ErrorKind::InvalidData`] if it has another format.
+pub fn read_vertices(file: &[u8]) -> io::Result<Vec<[f32; 3]>> {
+    const END: &[u8] = b"\nend_header\n";
+    let read = || {
+        let header = file.windows(END.len()).position(|bytes| bytes == END)?;
+        let text = std::str::from_utf8(&file[..header]).ok()?;
+        let count = text.lines().find_map(|line| line.strip_prefix("element vertex "))?;
+        let length = count.parse::<usize>().ok()?.checked_mul(12)?;
+        let (coordinates, _) = file[header + END.len()..].get(..length)?.as_chunks::<4>();
+        let (vertices, _) = coordinates.as_chunks::<3>();
+        Some(vertices.iter().map(|vertex| vertex.map(f32::from_le_bytes)).collect())
+    };
     let malformed = || Error::new(ErrorKind::InvalidData, "it is not a surface that piola has written");
-    let mut count: Option<usize> = None;
-    let mut line = String::new();
-    loop {
-        line.clear();
-        // Lines of a header are short; in anything else there may be no end of one.
-        if source.by_ref().take(128).read_line(&mut line)? == 0 {
-            return Err(malformed());
-        }
-        if line == "end_header\n" {
-            break;
-        }
-        if let Some(number) = line.trim_end().strip_prefix("element vertex ") {
-            count = number.parse().ok();
-        }
-    }
-    let count = count.ok_or_else(malformed)?;
-    let mut vertices = Vec::new();
-    for _ in 0..count {
-        let mut bytes = [0; 12];
-        source.read_exact(&mut bytes)?;
-        let (coordinates, _) = bytes.as_chunks();
-        vertices.push(std::array::from_fn(|i| f32::from_le_bytes(coordinates[i])));
-    }
-    Ok(vertices)
+    read().ok_or_else(malformed)
 }
 
 #[cfg(test)]
@@ -75,7 +62,7 @@ mod tests {
         assert_eq!(body.len(), 3 * 12 + 13);
         assert_eq!(body[8..12], [0, 0, 0, 0xc0], "−2 in little-endian order");
         assert_eq!(body[36..], [3, 2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0]);
-        assert_eq!(read_vertices(bytes.as_slice())?, [[0.0, 1.0, -2.0], [0.5; 3], [3.0; 3]]);
+        assert_eq!(read_vertices(&bytes)?, [[0.0, 1.0, -2.0], [0.5; 3], [3.0; 3]]);
         for length in 0..body_at + 36 {
             assert!(read_vertices(&bytes[..length]).is_err(), "cut off after {length} bytes");
         }

@@ -1,7 +1,6 @@
 //! Results of a run.
 
 use std::fmt;
-use std::io::{self, Write};
 use std::ops::AddAssign;
 
 use serde::{Deserialize, Serialize};
@@ -240,15 +239,6 @@ impl Summary {
     /// Largest distance of a node from its place, as a share of the body's height, at which a body has
     /// recovered.
     pub const RECOVERED: f64 = 1e-3;
-
-    /// Writes the summary as JSON.
-    ///
-    /// # Errors
-    /// If `target` cannot be written to.
-    pub fn write_json(&self, target: &mut impl Write) -> io::Result<()> {
-        serde_json::to_writer_pretty(&mut *target, self)?;
-        target.write_all(b"\n")
-    }
 }
 
 /// A value in five digits.

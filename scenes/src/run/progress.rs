@@ -1,14 +1,18 @@
 //! Figures of a run so far, and the state from which it continues.
 
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use std::io::Write;
 
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::measure;
 use crate::moment::Moment;
-use crate::output::{StepCounts, unseal};
+use crate::output::{Folder, STATE_FILE, StepCounts, Summary, frame_file, read_text, seal, unseal};
+use crate::play::Play;
 use crate::settings::Settings;
 
 /// Largest size of a state of a run, in bytes; a longer file is refused.
-pub(super) const MAX_LENGTH: u64 = 1 << 32;
+const MAX_LENGTH: u64 = 1 << 32;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,14 +29,32 @@ pub(super) struct Progress {
     pub(super) motion: Vec<f64>,
 }
 
+impl Progress {
+    /// Figures before the first frame is written.
+    pub(super) fn at_start(play: &Play) -> Self {
+        let (mesh, start) = (&play.geometry.mesh, play.simulation.positions());
+        let distance = measure::distance_from_rest(mesh, start, play.simulation.pinned().len());
+        Self {
+            inverted_at_start: measure::inverted(&mesh.positions, start, &mesh.tets),
+            // Until the forces of the first step are known.
+            stationary_start: distance > Summary::RECOVERED,
+            min_det_f: f64::INFINITY,
+            newton_iterations: 0,
+            steps: StepCounts::default(),
+            energy: 0.0,
+            motion: Vec::new(),
+        }
+    }
+}
+
 /// A state of a run, from which it continues as if it had not been interrupted.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Saved {
+struct Saved {
     format: Format,
-    pub(super) vtu: bool,
-    pub(super) moment: Moment,
-    pub(super) progress: Progress,
+    vtu: bool,
+    moment: Moment,
+    progress: Progress,
 }
 
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -41,46 +63,62 @@ enum Format {
     One,
 }
 
-impl Saved {
-    pub(super) fn new(vtu: bool, moment: Moment, progress: Progress) -> Self {
-        Self { format: Format::One, vtu, moment, progress }
-    }
+/// Writes the state of a run, with tetrahedra or without, to its folder.
+pub(super) fn save(folder: &Folder, vtu: bool, play: &Play, progress: &Progress) -> Result<(), Error> {
+    let saved = Saved { format: Format::One, vtu, moment: Moment::of(play), progress: progress.clone() };
+    folder.replace(STATE_FILE, |file| file.write_all(&seal(&saved)?))
+}
 
-    /// Reads a state, and checks that a run with these settings can continue from it.
-    pub(super) fn read(text: &str, settings: &Settings, vtu: bool) -> Result<Self, String> {
-        let saved: Self = unseal(text).map_err(|error| format!("its state cannot be read: {error}"))?;
-        let frame = saved.moment.clock().frame();
-        let motion = &saved.progress.motion;
-        if motion.len() != frame + 1 || !motion.iter().all(|way| way.is_finite()) {
-            return Err("its state names other frames than it has".into());
+/// Takes a body to the last state of the run in a folder, if a run with its settings, and with tetrahedra or
+/// without, can continue from there.
+pub(super) fn restore(folder: &Folder, vtu: bool, play: &mut Play) -> Result<Progress, Error> {
+    let refused = |reason| {
+        Error::Usage(format!(
+            "the run in {} cannot continue: {reason}; give the options that it was begun with, or leave out --resume \
+             to begin anew",
+            folder.path().display()
+        ))
+    };
+    let text = read_text(&folder.path().join(STATE_FILE), MAX_LENGTH)?;
+    let Saved { mut moment, progress, .. } =
+        read(text.trim_end_matches('\n'), &play.settings, vtu).map_err(refused)?;
+    moment.settings = play.settings.clone();
+    *play = moment.resume(play.geometry.clone())?;
+    for frame in 0..=play.clock.frame {
+        if !folder.path().join(frame_file(frame)).is_file() {
+            return Err(refused(format!("{} is missing", frame_file(frame))));
         }
-        if saved.vtu != vtu {
-            let option = if vtu { "without" } else { "with" };
-            return Err(format!("it was begun {option} --vtu"));
-        }
-        if frame > settings.frames {
-            return Err(format!("it has {frame} frames already, and {} are wanted", settings.frames));
-        }
-        match difference(saved.moment.settings(), settings) {
-            Some(difference) => Err(difference),
-            None => Ok(saved),
-        }
+    }
+    Ok(progress)
+}
+
+/// Reads a state, and checks that a run with these settings can continue from it.
+fn read(text: &str, settings: &Settings, vtu: bool) -> Result<Saved, String> {
+    let saved: Saved = unseal(text).map_err(|error| format!("its state cannot be read: {error}"))?;
+    let frame = saved.moment.clock.frame;
+    let motion = &saved.progress.motion;
+    if motion.len() != frame + 1 || !motion.iter().all(|way| way.is_finite()) {
+        return Err("its state names other frames than it has".into());
+    }
+    if saved.vtu != vtu {
+        let option = if vtu { "without" } else { "with" };
+        return Err(format!("it was begun {option} --vtu"));
+    }
+    if frame > settings.frames {
+        return Err(format!("it has {frame} frames already, and {} are wanted", settings.frames));
+    }
+    match difference(&saved.moment.settings, settings) {
+        Some(difference) => Err(difference),
+        None => Ok(saved),
     }
 }
 
 /// The first setting in which two runs differ, apart from the numbers of frames and threads, which do not
 /// affect any frame.
 fn difference(before: &Settings, now: &Settings) -> Option<String> {
-    let values = |settings: &Settings| match serde_json::to_value(settings) {
-        Ok(Value::Object(values)) => values,
-        _ => serde_json::Map::new(),
-    };
-    let (before, now) = (values(before), values(now));
-    let differs = |name: &&String| {
-        !["frames", "threads"].contains(&name.as_str()) && before.get(*name) != now.get(*name)
-    };
-    let name = now.keys().find(differs)?;
-    let text =
-        |values: &serde_json::Map<String, Value>| values.get(name).map(Value::to_string).unwrap_or_default();
-    Some(format!("its setting `{name}` was {}, and is {} now", text(&before), text(&now)))
+    let (before, now) = (serde_json::to_value(before).ok()?, serde_json::to_value(now).ok()?);
+    let differs =
+        |name: &&String| !["frames", "threads"].contains(&name.as_str()) && before[*name] != now[*name];
+    let name = now.as_object()?.keys().find(differs)?;
+    Some(format!("its setting `{name}` was {}, and is {} now", before[name], now[name]))
 }

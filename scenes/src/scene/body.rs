@@ -30,12 +30,12 @@ pub struct Style {
 /// Source of the tetrahedra of a body and of its surface.
 #[derive(Clone, Copy, Debug)]
 pub enum Shape {
-    /// Files.
+    /// Files, named after the body in messages.
     Files {
-        /// The tetrahedra, as a Gmsh file.
-        mesh: Asset,
-        /// The surface embedded in them, as an OBJ file.
-        surface: Asset,
+        /// The tetrahedra: the text of a Gmsh file.
+        mesh: &'static str,
+        /// The surface embedded in them: the text of an OBJ file.
+        surface: &'static str,
     },
     /// A box, [generated](piola_bodies::mesh::tetrahedral_box); the surface is its boundary.
     Box {
@@ -46,22 +46,13 @@ pub enum Shape {
     },
 }
 
-/// A file that is part of the program.
-#[derive(Clone, Copy, Debug)]
-pub struct Asset {
-    /// Its name, for messages.
-    pub name: &'static str,
-    /// Content.
-    pub text: &'static str,
-}
-
 impl Body {
     /// A horse in a cage of 2646 tetrahedra.
     pub const HORSE: Self = Self {
         name: "horse",
         shape: Shape::Files {
-            mesh: Asset { name: "horse.msh", text: include_str!("../../assets/horse.msh") },
-            surface: Asset { name: "horse.obj", text: include_str!("../../assets/horse.obj") },
+            mesh: include_str!("../../assets/horse.msh"),
+            surface: include_str!("../../assets/horse.obj"),
         },
         style: Style { colour: [0.42, 0.20, 0.10], azimuth: 35.0, elevation: 14.0 },
     };
@@ -70,8 +61,8 @@ impl Body {
     pub const DINOSAUR: Self = Self {
         name: "dinosaur",
         shape: Shape::Files {
-            mesh: Asset { name: "dinosaur.msh", text: include_str!("../../assets/dinosaur.msh") },
-            surface: Asset { name: "dinosaur.obj", text: include_str!("../../assets/dinosaur.obj") },
+            mesh: include_str!("../../assets/dinosaur.msh"),
+            surface: include_str!("../../assets/dinosaur.obj"),
         },
         style: Style { colour: [0.20, 0.36, 0.13], azimuth: 60.0, elevation: 20.0 },
     };

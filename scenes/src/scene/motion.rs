@@ -24,20 +24,6 @@ pub enum Motion {
     Turn(f64),
 }
 
-impl Pull {
-    /// Share of the full motion at the end of a stretch of time, s; `None` once released before it.
-    #[must_use]
-    pub fn share_during(&self, start: f64, end: f64) -> Option<f64> {
-        (start < self.released).then(|| (end / self.reached).clamp(0.0, 1.0))
-    }
-
-    /// Times, s, of abrupt changes of the motion.
-    #[must_use]
-    pub fn events(&self) -> [f64; 2] {
-        [self.reached, self.released]
-    }
-}
-
 impl Motion {
     /// Position, m, of a point after a share of the motion, for a body with these bounds, m.
     #[must_use]

@@ -221,9 +221,9 @@ fn play_by(settings: Settings, scratch: &Path, files: Files) -> bool {
 fn step(session: &mut Session) {
     match session.step() {
         Ok(_) => {
-            let positions = session.play().simulation().positions().as_flattened();
+            let positions = session.play().simulation.positions().as_flattened();
             assert!(positions.iter().all(|x| x.is_finite()), "a step has led out of the world");
-            assert!(session.play().clock().time().is_finite());
+            assert!(session.play().clock.time().is_finite());
         }
         Err(error) => check_message(&error),
     }

@@ -12,6 +12,7 @@
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
 use std::error::Error;
+use std::sync::Arc;
 
 use clap::Parser;
 use rayon::prelude::*;
@@ -100,9 +101,9 @@ fn play(
 ) -> Result<Vec<TrialOutcome>, Box<dyn Error + Send + Sync>> {
     let material = MaterialSpec::matching(material, soft_moduli());
     let described = Settings { body, material, newton, ..Settings::new(scene) };
-    let geometry = Geometry::load(&described)?;
+    let geometry = Arc::new(Geometry::load(&described)?);
     let trial = |start| -> Result<TrialOutcome, Box<dyn Error + Send + Sync>> {
-        let outcome = run_trial(&Settings { start, ..described.clone() }, &geometry)?;
+        let outcome = run_trial(Settings { start, ..described.clone() }, geometry.clone())?;
         assert!(outcome.finite, "a position is not finite: {outcome:?}");
         assert!(outcome.largest_rise <= RISE, "the objective of a step has risen: {outcome:?}");
         Ok(outcome)
