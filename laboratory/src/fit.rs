@@ -164,12 +164,12 @@ pub fn fit_parameters(
     Ok(report(numbers, &minima, best, agreement))
 }
 
-/// The parameters of an energy one by one, those with these names and whole exponents being held; and the
-/// number of values of each parameter, with its form.
-fn numbers(
-    candidate: &dyn Candidate,
-    held: &[String],
-) -> Result<(Vec<Number>, Vec<(usize, Form)>), FitError> {
+/// The number of values of a parameter, and its form.
+type Shape = (usize, Form);
+
+/// The parameters of an energy one by one, those with these names and whole exponents being held, and their
+/// shapes.
+fn numbers(candidate: &dyn Candidate, held: &[String]) -> Result<(Vec<Number>, Vec<Shape>), FitError> {
     let (mut numbers, mut parameters) = (Vec::new(), Vec::new());
     let mut unknown: Vec<&str> = held.iter().map(String::as_str).collect();
     for (parameter, list) in candidate.description().parameters.iter().zip(candidate.values()) {
