@@ -10,6 +10,7 @@ use std::io::{self, Read, Write};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
+use piola_scenes::error::Error as SceneError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -74,7 +75,7 @@ pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Ser
         Header { format: FORMAT.to_owned(), nodes: homes.total(), checksum: checksum(team, &lists), about };
 
     let aside = path.with_extension("part");
-    let failed = |source| Error::Write { path: path.into(), source };
+    let failed = |source| Error::from(SceneError::Write { path: path.into(), source });
     let begin = || -> io::Result<()> {
         let mut text = serde_json::to_vec(&header)?;
         if text.len() >= HEADER {
@@ -123,7 +124,7 @@ pub fn read<T: DeserializeOwned>(
     let share = simulation.share();
     let nodes = share.totals[0] as u64;
     let homes = Homes::new(nodes, team.size());
-    let failed = |reason: String| Error::Checkpoint { path: path.into(), reason };
+    let failed = |reason: String| unusable(path, &reason);
     let loaded = read_header::<T>(path).and_then(|(file, header)| {
         if header.nodes != nodes {
             return Err(format!("it has {} nodes, and the mesh has {nodes}", header.nodes));
@@ -167,9 +168,9 @@ pub fn read<T: DeserializeOwned>(
 /// Reads a whole checkpoint without a team; returns its description and the state of all nodes.
 ///
 /// # Errors
-/// [`Error::Checkpoint`].
+/// [`Error::Scene`].
 pub fn read_alone<T: DeserializeOwned>(path: &Path) -> Result<(T, State), Error> {
-    let failed = |reason: String| Error::Checkpoint { path: path.into(), reason };
+    let failed = |reason: String| unusable(path, &reason);
     let (mut file, header) = read_header::<T>(path).map_err(failed)?;
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(|error| failed(error.to_string()))?;
@@ -181,6 +182,11 @@ pub fn read_alone<T: DeserializeOwned>(path: &Path) -> Result<(T, State), Error>
     let mut lists = numbers.as_chunks::<3>().0.chunks(header.nodes as usize).map(<[_]>::to_vec);
     let mut next = || lists.next().unwrap_or_default();
     Ok((header.about, State { positions: next(), velocities: next(), accelerations: next() }))
+}
+
+/// Error of a checkpoint from which a run cannot continue.
+fn unusable(path: &Path, reason: &str) -> Error {
+    Error::usage(format!("cannot continue from {}: {reason}", path.display()))
 }
 
 /// Opens a checkpoint and reads its header; the file is then positioned after the header.

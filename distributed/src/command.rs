@@ -157,7 +157,7 @@ impl RunOptions {
     /// Settings of the run.
     ///
     /// # Errors
-    /// [`Error::Scene`], [`Error::Options`].
+    /// [`Error::Scene`].
     pub fn task(&self) -> Result<Task, Error> {
         let mut task = self.body.task()?;
         let frames = self.frames.unwrap_or(task.settings.frames);
@@ -169,7 +169,7 @@ impl RunOptions {
     /// Settings of Newton's method.
     ///
     /// # Errors
-    /// [`Error::Options`].
+    /// [`Error::Scene`].
     pub fn newton(&self) -> Result<NewtonSettings, Error> {
         self.body.solver.settings(self.steps.newton == Newton::Single)
     }
@@ -179,18 +179,18 @@ impl SolverOptions {
     /// Settings of Newton's method, with one iteration or as many as needed.
     ///
     /// # Errors
-    /// [`Error::Options`] for a value that is out of range.
+    /// [`Error::Scene`] for a value that is out of range.
     pub fn settings(&self, is_single: bool) -> Result<NewtonSettings, Error> {
         let linear = self.linear_tolerance.unwrap_or(if is_single { 1e-8 } else { 1e-2 });
         for (option, value) in [("--newton-tolerance", self.newton_tolerance), ("--linear-tolerance", linear)]
         {
             if !(0.0..1.0).contains(&value) {
-                return Err(Error::Options(format!("{option} {value}: it must be at least 0 and below 1")));
+                return Err(Error::usage(format!("{option} {value}: it must be at least 0 and below 1")));
             }
         }
         if self.newton_iterations == 0 || !(1..=1024).contains(&self.threads) {
             let reason = "--newton-iterations must be at least 1, and --threads from 1 to 1024";
-            return Err(Error::Options(reason.to_owned()));
+            return Err(Error::usage(reason));
         }
         let usual = if is_single { Filtering::Always(Filter::Clamp) } else { Filtering::OnDemand };
         Ok(NewtonSettings::default()
@@ -205,7 +205,7 @@ impl BodyOptions {
     /// Settings of statics.
     ///
     /// # Errors
-    /// [`Error::Scene`], [`Error::Options`].
+    /// [`Error::Scene`].
     pub fn task(&self) -> Result<Task, Error> {
         let settings = self.scene.clone().settings(None)?;
         settings.check()?;
@@ -222,7 +222,7 @@ impl BodyOptions {
 
 /// Reads `GROUP=NAME;PARAM=V;…;density=RHO`.
 fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error> {
-    let wrong = |reason: &str| Error::Options(format!("--part {text}: {reason}"));
+    let wrong = |reason: &str| Error::usage(format!("--part {text}: {reason}"));
     let mut words = text.split(';');
     let (group, name) = words
         .next()

@@ -78,7 +78,7 @@ fn play(team: &Team, command: &Command) -> Result<(), Error> {
     };
     // This thread is one of the pool, so that a single thread does not wait for another one.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).use_current_thread().build_global();
-    team.agree(pool.map_err(|error| Error::Options(format!("--threads {threads}: {error}"))))?;
+    team.agree(pool.map_err(|error| Error::usage(format!("--threads {threads}: {error}"))))?;
     let summary = match command {
         Command::Box(options) => {
             let line = sag(team, options)?;

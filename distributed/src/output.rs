@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use piola_bodies::step::Integrator;
+use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::Parameters;
 use piola_scenes::output::{
     CAGES_FILE, Ended, Field, SUMMARY_FILE, StepCounts, write_pvd, write_vtu, write_whole,
@@ -78,11 +79,11 @@ pub struct Summary {
 /// [`Error::OnRank`].
 pub fn prepare(team: &Team, folder: &Path, may_replace: bool) -> Result<(), Error> {
     team.on_first(|| {
-        fs::create_dir_all(folder).map_err(|source| Error::Write { path: folder.into(), source })?;
+        fs::create_dir_all(folder).map_err(|source| SceneError::Write { path: folder.into(), source })?;
         let checkpoint = crate::checkpoint::file_in(folder);
         let results = [folder.join(SUMMARY_FILE), folder.join(CAGES_FILE), checkpoint];
         match results.iter().find(|path| path.exists()) {
-            Some(path) if !may_replace => Err(Error::Options(format!(
+            Some(path) if !may_replace => Err(Error::usage(format!(
                 "{} already contains results ({}): choose another folder, or replace them with --force",
                 folder.display(),
                 path.file_name().unwrap_or_default().display()
@@ -115,7 +116,7 @@ fn write_once(
 
 fn write(path: PathBuf, content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> Result<(), Error> {
     let mut bytes = Vec::new();
-    content(&mut bytes).map_err(|source| Error::Write { path: path.clone(), source })?;
+    content(&mut bytes).map_err(|source| SceneError::Write { path: path.clone(), source })?;
     Ok(write_whole(&path, &bytes)?)
 }
 

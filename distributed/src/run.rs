@@ -84,7 +84,7 @@ fn relative_residual(report: &NewtonReport) -> f64 {
 pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let newton = options.solver.settings(false)?;
     let cells = ((options.elements.max(1) as f64 / 6.0).cbrt() - 1e-9).ceil().max(1.0) as u64;
-    let moduli = Moduli::from_young_poisson(1e6, 0.45).map_err(|error| Error::Options(error.to_string()))?;
+    let moduli = Moduli::from_young_poisson(1e6, 0.45).map_err(Error::usage)?;
     let material = MaterialSpec::new("stable neo-Hookean")
         .with_parameter("mu", [moduli.mu])
         .with_parameter("lambda", [moduli.lambda]);
@@ -107,7 +107,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     }
     if report.convergence == Convergence::Limit {
         let residual = relative_residual(&report);
-        return Err(Error::Options(format!(
+        return Err(Error::usage(format!(
             "the body is not in equilibrium: the relative residual is {residual:.1e}"
         )));
     }
@@ -303,7 +303,7 @@ impl<'a> Course<'a> {
         let lasting: Settings = settings.clone().with_frames(1).with_threads(1).with_newton(Newton::Single);
         let materials: Vec<_> =
             groups.iter().zip(materials).map(|(group, part)| (group, &part.material, part.density)).collect();
-        serde_json::to_string(&(lasting, materials, moves)).map_err(|error| Error::Options(error.to_string()))
+        serde_json::to_string(&(lasting, materials, moves)).map_err(Error::usage)
     }
 
     fn about(&self, clock: Option<Clock>) -> Result<About, Error> {

@@ -72,16 +72,15 @@ impl Setting {
     /// 1, 2, …; all other elements have the material with the number 0.
     ///
     /// # Errors
-    /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Options`],
-    /// [`Error::TooManyRanks`], [`Error::Petsc`].
+    /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Petsc`].
     pub fn new(team: &Team, settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Self, Error> {
         if moves.len() > MOST || settings.scene.pulls.len() > MOST {
-            return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
+            return Err(Error::usage(format!("at most {MOST} motions can be prescribed")));
         }
         let (places, elements, facts) = team.on_first(|| read(settings, groups, moves))?;
         let facts = team.broadcast(0, facts);
         let body: BodyFacts = serde_json::from_slice(&facts)
-            .map_err(|error| Error::Options(format!("the ranks run different programs: {error}")))?;
+            .map_err(|error| Error::usage(format!("the ranks run different programs: {error}")))?;
         let share = Share::of(team, Portion::spread(team, places, elements))?;
         let pulls = settings.scene.pulls.iter().enumerate().map(|(number, &pull)| DragSprings {
             pull,
@@ -143,7 +142,7 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeB
             (None, Ok(region)) => Pins::in_box(mesh, region),
             _ => Pins::of_group(mesh, &motion.nodes),
         };
-        let moved = moved.map_err(|error| Error::Options(format!("--move {}: {error}", motion.nodes)))?;
+        let moved = moved.map_err(|error| Error::usage(format!("--move {}: {error}", motion.nodes)))?;
         moved.nodes().iter().for_each(|&node| marks[node] |= move_mark(number));
         pins = pins.and(&moved);
     }
@@ -168,7 +167,7 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeB
         .enumerate()
         .map(|(tet, &[a, b, c, d])| [a, b, c, d, mesh.tag(tet), materials[tet]].map(|word| word as u64));
     let facts = BodyFacts { bounds: mesh.bounds(), checksum: geometry.checksum(), warnings, stiffnesses };
-    let facts = serde_json::to_vec(&facts).map_err(|error| Error::Options(error.to_string()))?;
+    let facts = serde_json::to_vec(&facts).map_err(Error::usage)?;
     Ok((places, elements.collect(), facts))
 }
 
@@ -179,11 +178,11 @@ fn materials(groups: &[String], mesh: &TetMesh) -> Result<Vec<usize>, Error> {
     for (number, name) in groups.iter().enumerate() {
         let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
         let group =
-            group.ok_or_else(|| Error::Options(format!("the mesh has no group `{name}` of tetrahedra")))?;
+            group.ok_or_else(|| Error::usage(format!("the mesh has no group `{name}` of tetrahedra")))?;
         for &element in &group.tets {
             if std::mem::replace(&mut materials[element], number + 1) != 0 {
                 let tag = mesh.tag(element);
-                return Err(Error::Options(format!("element {tag} has two materials")));
+                return Err(Error::usage(format!("element {tag} has two materials")));
             }
         }
     }

@@ -40,12 +40,15 @@ impl Share {
     /// Divides a mesh.
     ///
     /// # Errors
-    /// [`Error::TooManyRanks`], [`Error::Petsc`].
+    /// [`Error::Scene`] for fewer elements than ranks, [`Error::Petsc`].
     pub fn of(team: &Team, portion: Portion) -> Result<Self, Error> {
         let Portion { homes, places, elements } = portion;
         let total = team.count(elements.len());
         if total < team.size() {
-            return Err(Error::TooManyRanks { ranks: team.size(), elements: total });
+            let ranks = team.size();
+            return Err(Error::usage(format!(
+                "{ranks} ranks cannot share {total} elements: use at most as many ranks as there are elements"
+            )));
         }
         let mut owner_here = owners(team, &homes, &elements)?;
 

@@ -5,6 +5,7 @@
 
 use piola_bodies::step::{self, Energies, LinearSolver, SetupError, SimulationSettings, StepError};
 use piola_bodies::system::Pins;
+use piola_scenes::error::Error as SceneError;
 
 use crate::error::{Error, Failure};
 use crate::part::{self, MaterialPart};
@@ -33,7 +34,7 @@ impl Simulation {
     ) -> Result<Self, Error> {
         let LinearSolver::ConjugateGradients { tolerance, max_iterations } = settings.newton.linear else {
             let reason = "a body that is divided among ranks needs conjugate gradients as linear solver";
-            return Err(Error::Options(reason.to_owned()));
+            return Err(Error::usage(reason));
         };
         let (body, failure) = (team.agree(part::body(&share, parts))?, Failure::default());
         let limits = (tolerance, max_iterations);
@@ -41,7 +42,7 @@ impl Simulation {
         let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
         let made = step::Simulation::divided(system, body, &Pins::at(share.pinned()), settings)
             .and_then(|mut part| part.set_positions(&start).map(|()| part));
-        let part = team.agree(made.map_err(Error::from))?;
+        let part = team.agree(made.map_err(|error| SceneError::from(error).into()))?;
         Ok(Self { team: team.clone(), share, failure, part })
     }
 
@@ -66,7 +67,7 @@ impl Simulation {
         &mut self,
         change: impl FnOnce(&mut step::Simulation<LinearSystem>) -> Result<(), SetupError>,
     ) -> Result<(), Error> {
-        self.team.agree(change(&mut self.part).map_err(Error::from))
+        self.team.agree(change(&mut self.part).map_err(|error| SceneError::from(error).into()))
     }
 
     /// Prescribes the positions of pinned nodes of this rank and its copies after the next step, m; `None`

@@ -279,7 +279,11 @@ impl LinearSystem {
             let mut names = self.team.library().unused_options()?;
             names.retain(|name| is_with_levels || !name.starts_with("coarse_"));
             if !names.is_empty() {
-                return Err(Error::UnusedOptions { names });
+                let names: Vec<_> = names.iter().map(|name| format!("-{name}")).collect();
+                return Err(Error::usage(format!(
+                    "PETSc does not use {}: the name is misspelt, or belongs to a solver that is not in use",
+                    names.join(", ")
+                )));
             }
         }
         Ok(())
