@@ -7,12 +7,11 @@ use piola::point::Filter;
 use piola_bodies::step::{Filtering, LinearSolver, NewtonSettings};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::options::{SceneOptions, StepOptions, in_file, parameter, scenes, with_values};
-use piola_scenes::output::Newton;
 use piola_scenes::settings::Settings;
+use serde::Serialize;
 
 use crate::error::Error;
 use crate::part::MaterialPart;
-use crate::setting::Move;
 
 /// Elastic bodies on many machines: scenes of piola with the solvers of PETSc, over MPI.
 ///
@@ -93,7 +92,7 @@ pub struct RunOptions {
     pub body: BodyOptions,
 
     #[command(flatten)]
-    steps: StepOptions,
+    pub(crate) steps: StepOptions,
 
     /// Number of time steps [default: the scene's].
     #[arg(long, value_name = "N")]
@@ -140,15 +139,24 @@ pub struct SolverOptions {
     pub threads: usize,
 }
 
+/// Prescribed motion of some nodes, which are pinned for it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Move {
+    /// Nodes that move: a box, or the name of a group.
+    pub nodes: String,
+    /// Displacement at the end of the motion, m.
+    pub displacement: [f64; 3],
+    /// End of the steady motion, s; the nodes are held afterwards.
+    pub reached: f64,
+}
+
 /// Settings of a run: scene, materials and prescribed motions.
 #[derive(Debug)]
 pub struct Task {
     /// The scene with its overrides.
     pub settings: Settings,
-    /// Names of the groups with another material.
-    pub groups: Vec<String>,
-    /// The materials of these groups.
-    pub materials: Vec<MaterialPart>,
+    /// Groups with another material, by name.
+    pub parts: Vec<(String, MaterialPart)>,
     /// Motions of nodes.
     pub moves: Vec<Move>,
 }
@@ -164,14 +172,6 @@ impl RunOptions {
         task.settings = self.steps.apply(task.settings).with_frames(frames);
         task.settings.check()?;
         Ok(task)
-    }
-
-    /// Settings of Newton's method.
-    ///
-    /// # Errors
-    /// [`Error::Scene`].
-    pub fn newton(&self) -> Result<NewtonSettings, Error> {
-        self.body.solver.settings(self.steps.newton == Newton::Single)
     }
 }
 
@@ -209,14 +209,8 @@ impl BodyOptions {
     pub fn task(&self) -> Result<Task, Error> {
         let settings = self.scene.clone().settings(None)?;
         settings.check()?;
-        let moves = self.moves.clone();
-        let mut task = Task { settings, groups: Vec::new(), materials: Vec::new(), moves };
-        for text in &self.parts {
-            let (group, material) = part(text, &task.settings)?;
-            task.groups.push(group);
-            task.materials.push(material);
-        }
-        Ok(task)
+        let parts = self.parts.iter().map(|text| part(text, &settings)).collect::<Result<_, _>>()?;
+        Ok(Task { settings, parts, moves: self.moves.clone() })
     }
 }
 

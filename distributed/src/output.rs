@@ -102,19 +102,10 @@ pub fn write_summary(team: &Team, folder: &Path, summary: &Summary) -> Result<()
         serde_json::to_writer_pretty(&mut *bytes, summary)?;
         writeln!(bytes)
     };
-    write_once(team, folder.join(SUMMARY_FILE), write)
+    team.on_first(|| write_file(folder.join(SUMMARY_FILE), write))
 }
 
-/// Writes a file on the first rank.
-fn write_once(
-    team: &Team,
-    path: PathBuf,
-    content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>,
-) -> Result<(), Error> {
-    team.on_first(|| write(path, content))
-}
-
-fn write(path: PathBuf, content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> Result<(), Error> {
+fn write_file(path: PathBuf, content: impl FnOnce(&mut Vec<u8>) -> io::Result<()>) -> Result<(), Error> {
     let mut bytes = Vec::new();
     content(&mut bytes).map_err(|source| SceneError::Write { path: path.clone(), source })?;
     Ok(write_whole(&path, &bytes)?)
@@ -137,11 +128,10 @@ pub fn write_frame(team: &Team, folder: &Path, frame: usize, simulation: &Simula
         Field { name: "velocity", components: 3, values: v.as_flattened() },
     ];
     let elemental = [Field { name: "rank", components: 1, values: &rank }];
-    let written =
-        write(folder.join(piece(team.rank())), |file| write_vtu(file, x, &tets, &nodal, &elemental));
-    team.agree(written)?;
+    let path = folder.join(piece(team.rank()));
+    team.agree(write_file(path, |file| write_vtu(file, x, &tets, &nodal, &elemental)))?;
     let pieces = (0..team.size()).map(piece);
-    write_once(team, folder.join(frame_file(frame)), |file| write_pvtu(file, pieces))
+    team.on_first(|| write_file(folder.join(frame_file(frame)), |file| write_pvtu(file, pieces)))
 }
 
 fn write_pvtu(target: &mut impl Write, pieces: impl Iterator<Item = String>) -> io::Result<()> {
@@ -176,5 +166,5 @@ fn frame_file(frame: usize) -> String {
 /// [`Error::OnRank`].
 pub fn write_frames(team: &Team, folder: &Path, last: usize, dt: f64) -> Result<(), Error> {
     let frames = (0..=last).map(|frame| (frame as f64 * dt, frame_file(frame)));
-    write_once(team, folder.join(CAGES_FILE), |file| write_pvd(file, frames))
+    team.on_first(|| write_file(folder.join(CAGES_FILE), |file| write_pvd(file, frames)))
 }

@@ -152,7 +152,7 @@ pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.solver.settings(false)?;
     let folder = folder(&options.out, &task);
-    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
+    let setting = Setting::new(team, &task)?;
     output::prepare(team, &folder, options.force)?;
     let mut course = Course::new(team, &task, &setting, newton)?;
     // In statics, prescribed motions are complete.
@@ -181,9 +181,9 @@ pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
 /// ends, and the summary contains the failure.
 pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
-    let newton = options.newton()?;
+    let newton = options.body.solver.settings(options.steps.newton == Newton::Single)?;
     let folder = folder(&options.body.out, &task);
-    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
+    let setting = Setting::new(team, &task)?;
     if !options.resume {
         output::prepare(team, &folder, options.body.force)?;
     }
@@ -259,7 +259,8 @@ impl<'a> Course<'a> {
         let settings = piola_scenes::play::step_settings(&task.settings).with_newton(newton);
         // The elements of groups have the materials with the numbers 1, 2, …; all others have the first one.
         let first = MaterialPart { material: task.settings.material.clone(), density: task.settings.density };
-        let materials: Vec<_> = std::iter::once(first).chain(task.materials.iter().cloned()).collect();
+        let materials: Vec<_> =
+            std::iter::once(first).chain(task.parts.iter().map(|(_, part)| part.clone())).collect();
         let simulation = Simulation::new(team, setting.share.clone(), &materials, settings)?;
         Ok(Self { team, task, setting, simulation, progress: Progress::new(), frame: 0 })
     }
@@ -299,10 +300,10 @@ impl<'a> Course<'a> {
 
     /// Settings on which the motion depends, as JSON.
     fn settings(&self) -> Result<String, Error> {
-        let Task { settings, groups, materials, moves, .. } = self.task;
+        let Task { settings, parts, moves } = self.task;
         let lasting: Settings = settings.clone().with_frames(1).with_threads(1).with_newton(Newton::Single);
         let materials: Vec<_> =
-            groups.iter().zip(materials).map(|(group, part)| (group, &part.material, part.density)).collect();
+            parts.iter().map(|(group, part)| (group, &part.material, part.density)).collect();
         serde_json::to_string(&(lasting, materials, moves)).map_err(Error::usage)
     }
 

@@ -7,24 +7,14 @@ use piola_scenes::clock::Clock;
 use piola_scenes::geometry::{Geometry, NOTHING_PULLED};
 use piola_scenes::play::{self, DragSprings, Stretch};
 use piola_scenes::region;
-use piola_scenes::settings::Settings;
 use serde::{Deserialize, Serialize};
 
+use crate::command::{Move, Task};
 use crate::error::Error;
+use crate::part::MaterialPart;
 use crate::portion::{Element, Place, Portion};
 use crate::share::Share;
 use crate::team::Team;
-
-/// Prescribed motion of some nodes, which are pinned for it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Move {
-    /// Nodes that move: a box, or the name of a group.
-    pub nodes: String,
-    /// Displacement at the end of the motion, m.
-    pub displacement: [f64; 3],
-    /// End of the steady motion, s; the nodes are held afterwards.
-    pub reached: f64,
-}
 
 /// Setting of a run on one rank.
 #[derive(Debug)]
@@ -68,16 +58,17 @@ fn move_mark(number: usize) -> u64 {
 }
 
 impl Setting {
-    /// Reads the body on rank 0 and divides it. The elements of `groups` have the materials with the numbers
+    /// Reads the body on rank 0 and divides it. The elements of the parts have the materials with the numbers
     /// 1, 2, …; all other elements have the material with the number 0.
     ///
     /// # Errors
     /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Petsc`].
-    pub fn new(team: &Team, settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Self, Error> {
+    pub fn new(team: &Team, task: &Task) -> Result<Self, Error> {
+        let Task { settings, moves, .. } = task;
         if moves.len() > MOST || settings.scene.pulls.len() > MOST {
             return Err(Error::usage(format!("at most {MOST} motions can be prescribed")));
         }
-        let (places, elements, facts) = team.on_first(|| read(settings, groups, moves))?;
+        let (places, elements, facts) = team.on_first(|| read(task))?;
         let facts = team.broadcast(0, facts);
         let body: BodyFacts = serde_json::from_slice(&facts)
             .map_err(|error| Error::usage(format!("the ranks run different programs: {error}")))?;
@@ -91,7 +82,7 @@ impl Setting {
             bounds: body.bounds,
             stiffness: body.stiffnesses[number],
         });
-        Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), share, body })
+        Ok(Self { pulls: pulls.collect(), moves: moves.clone(), share, body })
     }
 
     /// Springs at owned nodes at the end of a time interval, s.
@@ -131,7 +122,7 @@ impl Setting {
 /// Places, elements and properties of the whole body; the properties are in JSON.
 type WholeBody = (Vec<Place>, Vec<Element>, Vec<u8>);
 
-fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeBody, Error> {
+fn read(Task { settings, parts, moves }: &Task) -> Result<WholeBody, Error> {
     let geometry = Geometry::load(settings)?;
     let mesh = &geometry.mesh;
     let young = settings.material.build()?.moduli.young();
@@ -160,7 +151,7 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeB
     let places = (0..mesh.positions.len())
         .map(|node| Place { rest: mesh.positions[node], start: start[node], marks: marks[node] })
         .collect();
-    let materials = materials(groups, mesh)?;
+    let materials = materials(parts, mesh)?;
     let elements = mesh
         .tets
         .iter()
@@ -171,11 +162,10 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeB
     Ok((places, elements.collect(), facts))
 }
 
-/// Number of the material of each element: 1, 2, … for the members of the groups with these names, otherwise
-/// 0.
-fn materials(groups: &[String], mesh: &TetMesh) -> Result<Vec<usize>, Error> {
+/// Number of the material of each element: 1, 2, … for the members of the groups of these parts, otherwise 0.
+fn materials(parts: &[(String, MaterialPart)], mesh: &TetMesh) -> Result<Vec<usize>, Error> {
     let mut materials = vec![0; mesh.tets.len()];
-    for (number, name) in groups.iter().enumerate() {
+    for (number, (name, _)) in parts.iter().enumerate() {
         let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
         let group =
             group.ok_or_else(|| Error::usage(format!("the mesh has no group `{name}` of tetrahedra")))?;
