@@ -65,7 +65,7 @@ pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Ser
         }
         row
     });
-    let mut rows = team.exchange_rows(&homes.sort(team, rows)).concat();
+    let mut rows = team.exchange_rows(homes.sort(team, rows)).concat();
     rows.sort_unstable_by_key(|row| row[0]);
     let list = |at: usize| -> Vec<u8> {
         rows.iter().flat_map(|row| &row[3 * at + 1..3 * at + 4]).flat_map(|bits| bits.to_le_bytes()).collect()

@@ -60,12 +60,12 @@ impl Homes {
         nodes: &[u64],
         answer: impl Fn(usize) -> [u64; N],
     ) -> Vec<[u64; N]> {
-        let asked = team.exchange_rows(&self.sort(team, nodes.iter().map(|&node| [node])));
+        let asked = team.exchange_rows(self.sort(team, nodes.iter().map(|&node| [node])));
         let first = self.range(team.rank()).start;
         let answers =
             |nodes: &Vec<[u64; 1]>| nodes.iter().map(|[node]| answer((node - first) as usize)).collect();
         // Homes ascend with the nodes.
-        team.exchange_rows(&asked.iter().map(answers).collect::<Vec<_>>()).concat()
+        team.exchange_rows(asked.iter().map(answers).collect::<Vec<_>>()).concat()
     }
 }
 
@@ -117,7 +117,7 @@ impl Portion {
         let [nodes, count] = [places.len(), elements.len()].map(|number| team.count(number) as u64);
         let homes = Homes::new(nodes, team.size());
         let rows = places.into_iter().enumerate().map(|(node, place)| place.to_row(node as u64));
-        let places = team.exchange_rows(&homes.sort(team, rows)).concat();
+        let places = team.exchange_rows(homes.sort(team, rows)).concat();
         let of_elements = Homes::new(count, team.size());
         let mut lists = vec![Vec::new(); team.size()];
         for (number, element) in elements.into_iter().enumerate() {
@@ -126,7 +126,7 @@ impl Portion {
         Self {
             homes,
             places: places.iter().map(|row| Place::from_row(row)).collect(),
-            elements: team.exchange_rows(&lists).concat(),
+            elements: team.exchange_rows(lists).concat(),
         }
     }
 

@@ -62,13 +62,13 @@ impl Share {
             let owners: [u64; 4] = std::array::from_fn(|corner| owner[&element[corner]]);
             lists[rank_of(owners, element[4])].push(element);
         }
-        let mut elements = team.exchange_rows(&lists).concat();
+        let mut elements = team.exchange_rows(lists).concat();
         elements.sort_unstable_by_key(|element| element[4]);
 
         // If a rank has no element of a node, another rank that has one becomes the owner of the node.
         let first = homes.range(team.rank()).start;
         let touched = nodes(&elements);
-        let of_ranks = team.exchange_rows(&homes.sort(team, touched.iter().map(|&node| [node])));
+        let of_ranks = team.exchange_rows(homes.sort(team, touched.iter().map(|&node| [node])));
         let mut with_elements = vec![Vec::new(); places.len()];
         for (rank, nodes) in of_ranks.iter().enumerate() {
             nodes.iter().for_each(|[node]| with_elements[(node - first) as usize].push(rank as u64));
@@ -84,7 +84,7 @@ impl Share {
         for (node, place) in places.iter().enumerate() {
             lists[owner_here[node] as usize].push(place.to_row(first + node as u64));
         }
-        let mut owned = team.exchange_rows(&lists).concat();
+        let mut owned = team.exchange_rows(lists).concat();
         owned.sort_unstable_by_key(|row| (row[7] & 1, row[0]));
         let free = owned.iter().filter(|row| row[7] & 1 == 0).count();
 
@@ -97,7 +97,7 @@ impl Share {
             .enumerate()
             .map(|(node, row)| [row[0], (first_owned + node) as u64, free_number(node)]);
         let mut known = vec![[0; 2]; places.len()];
-        for [node, number, free] in team.exchange_rows(&homes.sort(team, rows)).concat() {
+        for [node, number, free] in team.exchange_rows(homes.sort(team, rows)).concat() {
             known[(node - first) as usize] = [number, free];
         }
 

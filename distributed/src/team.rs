@@ -99,31 +99,31 @@ impl Team {
     /// Sends a list of integers to each rank, and returns the list received from each rank.
     #[must_use]
     pub fn exchange(&self, outgoing: &[Vec<u64>]) -> Vec<Vec<u64>> {
-        let lengths = outgoing.iter().map(|list| list.len() as Count).collect();
-        let (received, lengths) = self.exchange_entries(&outgoing.concat(), lengths);
-        lists(&received, lengths.into_iter())
+        let lengths: Vec<Count> = outgoing.iter().map(|list| list.len() as Count).collect();
+        let mut incoming = vec![0 as Count; self.size];
+        self.world().all_to_all_into(&lengths[..], &mut incoming[..]);
+        let sent = outgoing.concat();
+        let mut received = vec![0_u64; incoming.iter().map(|&length| length as usize).sum()];
+        {
+            let starts_of_sent = starts(&lengths);
+            let from = Partition::new(&sent[..], lengths, starts_of_sent);
+            let mut to = PartitionMut::new(&mut received[..], incoming.clone(), starts(&incoming));
+            self.world().all_to_all_varcount_into(&from, &mut to);
+        }
+        let mut rest = received.as_slice();
+        let next = |length: Count| {
+            let (list, after) = rest.split_at(length as usize);
+            rest = after;
+            list.to_vec()
+        };
+        incoming.into_iter().map(next).collect()
     }
 
     /// Sends rows of integers to each rank, and returns the rows received from each rank.
     #[must_use]
-    pub fn exchange_rows<const N: usize>(&self, outgoing: &[Vec<[u64; N]>]) -> Vec<Vec<[u64; N]>> {
-        let lengths = outgoing.iter().map(|rows| (N * rows.len()) as Count).collect();
-        let (received, lengths) = self.exchange_entries(&outgoing.concat().into_flattened(), lengths);
-        lists(received.as_chunks().0, lengths.into_iter().map(|length| length / N as Count))
-    }
-
-    /// Sends consecutive entries to each rank; returns the entries from all ranks, and the number from each.
-    fn exchange_entries(&self, sent: &[u64], lengths: Vec<Count>) -> (Vec<u64>, Vec<Count>) {
-        let mut incoming = vec![0 as Count; self.size];
-        self.world().all_to_all_into(&lengths[..], &mut incoming[..]);
-        let mut received = vec![0_u64; incoming.iter().map(|&length| length as usize).sum()];
-        {
-            let starts_of_sent = starts(&lengths);
-            let from = Partition::new(sent, lengths, starts_of_sent);
-            let mut to = PartitionMut::new(&mut received[..], incoming.clone(), starts(&incoming));
-            self.world().all_to_all_varcount_into(&from, &mut to);
-        }
-        (received, incoming)
+    pub fn exchange_rows<const N: usize>(&self, outgoing: Vec<Vec<[u64; N]>>) -> Vec<Vec<[u64; N]>> {
+        let outgoing: Vec<_> = outgoing.into_iter().map(Vec::into_flattened).collect();
+        self.exchange(&outgoing).iter().map(|list| list.as_chunks().0.to_vec()).collect()
     }
 
     /// Bytes of a rank, sent to all ranks.
@@ -170,17 +170,6 @@ impl Team {
     pub fn abort(&self) -> ! {
         self.world().abort(1)
     }
-}
-
-/// Lists of these lengths from consecutive entries.
-fn lists<T: Clone>(mut entries: &[T], lengths: impl Iterator<Item = Count>) -> Vec<Vec<T>> {
-    lengths
-        .map(|length| {
-            let (list, after) = entries.split_at(length as usize);
-            entries = after;
-            list.to_vec()
-        })
-        .collect()
 }
 
 fn starts(lengths: &[Count]) -> Vec<Count> {
