@@ -1,5 +1,6 @@
 //! Files of a run: a summary, and frames for ParaView, of which each rank writes its own part.
 
+use std::fmt;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -16,61 +17,57 @@ use crate::error::Error;
 use crate::simulation::Simulation;
 use crate::team::Team;
 
-/// Results of a run. The keys in JSON are the names of the fields, and have the same meaning as in `piola
-/// run`.
+/// Results of a run. The keys in JSON are the names of the fields. They have the same meaning as in
+/// [`piola_scenes::output::Summary`] unless documented here.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Name of the scene, or of the problem if there is no scene.
-    pub scene: String,
-    /// Name of the material.
-    pub material: String,
-    /// Parameters of the material by name, in SI units.
-    pub parameters: Parameters,
-    /// Number of tetrahedra.
-    pub tets: usize,
-    /// Number of nodes.
-    pub nodes: usize,
+    pub(crate) scene: String,
+    pub(crate) material: String,
+    pub(crate) parameters: Parameters,
+    pub(crate) tets: usize,
+    pub(crate) nodes: usize,
     /// Number of ranks.
-    pub ranks: usize,
+    pub(crate) ranks: usize,
     /// Largest number of copies, on one rank, of nodes of other ranks.
-    pub copies_max: usize,
-    /// Number of completed time steps.
-    pub frames: usize,
-    /// Requested number of time steps.
-    pub frames_wanted: usize,
-    /// End of the run.
-    pub ended: Ended,
-    /// Reasons why the run ended before its last step.
+    pub(crate) copies_max: usize,
+    pub(crate) frames: usize,
+    pub(crate) frames_wanted: usize,
+    pub(crate) ended: Ended,
+    /// Reasons why the run ended before its last step; none if it is finished.
     pub failures: Vec<String>,
-    /// Properties of the mesh that may be unintended.
-    pub warnings: Vec<String>,
+    pub(crate) warnings: Vec<String>,
     /// Time step, s; `None` in statics.
-    pub dt: Option<f64>,
+    pub(crate) dt: Option<f64>,
     /// Time integrator; `None` in statics.
-    pub integrator: Option<Integrator>,
-    /// Tolerance for the error of the motion in time steps, body heights per second; `None` for one step in
-    /// each frame.
+    pub(crate) integrator: Option<Integrator>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<f64>,
-    /// Numbers of time steps within the frames.
-    pub steps: StepCounts,
-    /// Mean number of Newton iterations per step.
-    pub newton_iterations_mean: f64,
+    pub(crate) tolerance: Option<f64>,
+    pub(crate) steps: StepCounts,
+    pub(crate) newton_iterations_mean: f64,
     /// Mean number of iterations of the linear solver per linear system.
-    pub linear_iterations_mean: f64,
+    pub(crate) linear_iterations_mean: f64,
     /// Norm of the gradient relative to its norm before the first iteration, in the last step.
-    pub relative_residual: f64,
-    /// Smallest determinant of a deformation gradient in any frame.
-    pub min_det_f: f64,
+    pub(crate) relative_residual: f64,
+    pub(crate) min_det_f: f64,
     /// Largest distance of a node from its rest position in the final frame, in body heights; `None` for
     /// bodies that can move as a whole.
-    pub max_distance_from_rest: Option<f64>,
-    /// Elastic energy of the final frame, J.
-    pub energy: f64,
-    /// Median wall-clock time of a step, ms; `None` without a step.
-    pub ms_per_step_median: Option<f64>,
-    /// Steps per second; `None` without a step.
-    pub steps_per_second: Option<f64>,
+    pub(crate) max_distance_from_rest: Option<f64>,
+    pub(crate) energy: f64,
+    pub(crate) ms_per_step_median: Option<f64>,
+    pub(crate) steps_per_second: Option<f64>,
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { scene, tets, nodes, ranks, frames, frames_wanted, min_det_f, energy, .. } = self;
+        write!(
+            f,
+            "{scene}: {tets} tetrahedra, {nodes} nodes on {ranks} ranks; {frames} of {frames_wanted} steps, {:.2} Newton \
+             iterations per step, {:.1} CG iterations per linear system (means); relative residual {:.1e}, smallest det F \
+             {min_det_f:.3}, elastic energy {energy:.6e} J",
+            self.newton_iterations_mean, self.linear_iterations_mean, self.relative_residual,
+        )
+    }
 }
 
 /// Creates the folder of a run. A folder with results of another run is refused unless `may_replace`.
