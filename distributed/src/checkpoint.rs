@@ -1,6 +1,6 @@
 //! Checkpoints: the state of all nodes in one file, from which a run on any number of ranks can continue.
 //!
-//! The header is a line of JSON, padded with spaces to [`HEADER`] bytes. The positions, velocities and
+//! The header is a line of JSON, padded with spaces to `HEADER` bytes. The positions, velocities and
 //! accelerations of all nodes follow in the order of the mesh, little-endian. Every rank writes the nodes
 //! that are at home on it into a new file. This file replaces the previous checkpoint when all of it is on
 //! the disk. All ranks must be able to access the same folder.
@@ -20,7 +20,7 @@ use crate::simulation::Simulation;
 use crate::team::Team;
 
 /// Length of the header, bytes.
-pub const HEADER: usize = 65536;
+const HEADER: usize = 65536;
 
 /// Name and version of the format, in the header of a checkpoint.
 const FORMAT: &str = "piola-mpi checkpoint 1";
@@ -54,7 +54,12 @@ pub struct State {
 /// # Errors
 /// [`Error::OnRank`] with the reason of the first rank that cannot write; the previous checkpoint is then
 /// unchanged.
-pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Serialize) -> Result<(), Error> {
+pub(crate) fn write(
+    team: &Team,
+    path: &Path,
+    simulation: &Simulation,
+    about: &impl Serialize,
+) -> Result<(), Error> {
     let (share, state) = (simulation.share(), simulation.part());
     let homes = Homes::new(share.totals[0] as u64, team.size());
     let rows = (0..share.owned).map(|node| {
@@ -115,7 +120,7 @@ pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Ser
 /// # Errors
 /// [`Error::OnRank`] if the checkpoint cannot be read, is damaged, belongs to another mesh, or is refused by
 /// `check`.
-pub fn read<T: DeserializeOwned>(
+pub(crate) fn read<T: DeserializeOwned>(
     team: &Team,
     path: &Path,
     simulation: &mut Simulation,

@@ -28,7 +28,7 @@ const FACTORED: usize = 512;
 const DEPENDENT: f64 = 1e-9;
 
 /// Solver of the last level of piola's multigrid.
-pub struct Coarse {
+pub(crate) struct Coarse {
     krylov: Krylov,
     b: Vector<6>,
     x: Vector<6>,

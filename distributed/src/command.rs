@@ -141,32 +141,29 @@ pub struct SolverOptions {
 
 /// Prescribed motion of some nodes, which are pinned for it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Move {
+pub(crate) struct Move {
     /// Nodes that move: a box, or the name of a group.
-    pub nodes: String,
+    pub(crate) nodes: String,
     /// Displacement at the end of the motion, m.
-    pub displacement: [f64; 3],
+    pub(crate) displacement: [f64; 3],
     /// End of the steady motion, s; the nodes are held afterwards.
-    pub reached: f64,
+    pub(crate) reached: f64,
 }
 
 /// Settings of a run: scene, materials and prescribed motions.
 #[derive(Debug)]
-pub struct Task {
+pub(crate) struct Task {
     /// The scene with its overrides.
-    pub settings: Settings,
+    pub(crate) settings: Settings,
     /// Groups with another material, by name.
-    pub parts: Vec<(String, MaterialPart)>,
+    pub(crate) parts: Vec<(String, MaterialPart)>,
     /// Motions of nodes.
-    pub moves: Vec<Move>,
+    pub(crate) moves: Vec<Move>,
 }
 
 impl RunOptions {
     /// Settings of the run.
-    ///
-    /// # Errors
-    /// [`Error::Scene`].
-    pub fn task(&self) -> Result<Task, Error> {
+    pub(crate) fn task(&self) -> Result<Task, Error> {
         let mut task = self.body.task()?;
         let frames = self.frames.unwrap_or(task.settings.frames);
         task.settings = self.steps.apply(task.settings).with_frames(frames);
@@ -177,10 +174,7 @@ impl RunOptions {
 
 impl SolverOptions {
     /// Settings of Newton's method, with one iteration or as many as needed.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] for a value that is out of range.
-    pub fn settings(&self, is_single: bool) -> Result<NewtonSettings, Error> {
+    pub(crate) fn settings(&self, is_single: bool) -> Result<NewtonSettings, Error> {
         let linear = self.linear_tolerance.unwrap_or(if is_single { 1e-8 } else { 1e-2 });
         for (option, value) in [("--newton-tolerance", self.newton_tolerance), ("--linear-tolerance", linear)]
         {
@@ -203,10 +197,7 @@ impl SolverOptions {
 
 impl BodyOptions {
     /// Settings of statics.
-    ///
-    /// # Errors
-    /// [`Error::Scene`].
-    pub fn task(&self) -> Result<Task, Error> {
+    pub(crate) fn task(&self) -> Result<Task, Error> {
         let settings = self.scene.clone().settings(None)?;
         settings.check()?;
         let parts = self.parts.iter().map(|text| part(text, &settings)).collect::<Result<_, _>>()?;

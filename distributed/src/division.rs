@@ -26,7 +26,7 @@ const MOST: usize = 512;
 const FEW_OF_A_RANK: usize = 32;
 
 /// Rows of a level on one rank: owned rows, and copies of rows of other ranks.
-pub struct RowsOfRank {
+pub(crate) struct RowsOfRank {
     team: Team,
     failure: Failure,
     /// Global numbers of the owned rows.
@@ -44,8 +44,7 @@ pub struct RowsOfRank {
 impl RowsOfRank {
     /// Division with a number of owned rows on this rank, and copies of the rows with the global numbers
     /// `numbers`, which are counted rank after rank. Errors of exchanges are noted in `failure`.
-    #[must_use]
-    pub fn new(team: &Team, failure: &Failure, owned: usize, numbers: Vec<usize>) -> Self {
+    pub(crate) fn new(team: &Team, failure: &Failure, owned: usize, numbers: Vec<usize>) -> Self {
         let mut starts = vec![0];
         for owned in team.all(owned) {
             starts.push(starts[starts.len() - 1] + owned);

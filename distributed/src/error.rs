@@ -62,11 +62,11 @@ fn remedy(error: &StepError) -> &'static str {
 
 /// First error, since the last call of [`Failure::take`], of functions that cannot return it.
 #[derive(Clone, Debug, Default)]
-pub struct Failure(Rc<RefCell<Option<Error>>>);
+pub(crate) struct Failure(Rc<RefCell<Option<Error>>>);
 
 impl Failure {
     /// Value of a result; an error is kept, unless an earlier one is.
-    pub fn note<T, E: Into<Error>>(&self, result: Result<T, E>) -> Option<T> {
+    pub(crate) fn note<T, E: Into<Error>>(&self, result: Result<T, E>) -> Option<T> {
         match result {
             Ok(value) => Some(value),
             Err(error) => {
@@ -77,16 +77,12 @@ impl Failure {
     }
 
     /// True if an error is kept.
-    #[must_use]
-    pub fn is_noted(&self) -> bool {
+    pub(crate) fn is_noted(&self) -> bool {
         self.0.borrow().is_some()
     }
 
     /// Removes the error, and returns it.
-    ///
-    /// # Errors
-    /// The first [`Error`] that was noted.
-    pub fn take(&self) -> Result<(), Error> {
+    pub(crate) fn take(&self) -> Result<(), Error> {
         self.0.borrow_mut().take().map_or(Ok(()), Err)
     }
 }

@@ -71,10 +71,7 @@ impl fmt::Display for Summary {
 }
 
 /// Creates the folder of a run. A folder with results of another run is refused unless `may_replace`.
-///
-/// # Errors
-/// [`Error::OnRank`].
-pub fn prepare(team: &Team, folder: &Path, may_replace: bool) -> Result<(), Error> {
+pub(crate) fn prepare(team: &Team, folder: &Path, may_replace: bool) -> Result<(), Error> {
     team.on_first(|| {
         fs::create_dir_all(folder).map_err(|source| SceneError::Write { path: folder.into(), source })?;
         let checkpoint = crate::checkpoint::file_in(folder);
@@ -91,10 +88,7 @@ pub fn prepare(team: &Team, folder: &Path, may_replace: bool) -> Result<(), Erro
 }
 
 /// Writes the summary.
-///
-/// # Errors
-/// [`Error::OnRank`].
-pub fn write_summary(team: &Team, folder: &Path, summary: &Summary) -> Result<(), Error> {
+pub(crate) fn write_summary(team: &Team, folder: &Path, summary: &Summary) -> Result<(), Error> {
     let write = |bytes: &mut Vec<u8>| {
         serde_json::to_writer_pretty(&mut *bytes, summary)?;
         writeln!(bytes)
@@ -109,10 +103,12 @@ fn write_file(path: PathBuf, content: impl FnOnce(&mut Vec<u8>) -> io::Result<()
 }
 
 /// Writes the tetrahedra of a frame: a piece for each rank, and a file that lists the pieces.
-///
-/// # Errors
-/// [`Error::OnRank`].
-pub fn write_frame(team: &Team, folder: &Path, frame: usize, simulation: &Simulation) -> Result<(), Error> {
+pub(crate) fn write_frame(
+    team: &Team,
+    folder: &Path,
+    frame: usize,
+    simulation: &Simulation,
+) -> Result<(), Error> {
     let (share, state) = (simulation.share(), simulation.part());
     let piece = |rank: usize| format!("frame_{frame:04}_{rank}.vtu");
     let (x, v) = (state.positions(), state.velocities());
@@ -158,10 +154,7 @@ fn frame_file(frame: usize) -> String {
 }
 
 /// Writes the list of all frames up to the frame `last`, at intervals of `dt`, s.
-///
-/// # Errors
-/// [`Error::OnRank`].
-pub fn write_frames(team: &Team, folder: &Path, last: usize, dt: f64) -> Result<(), Error> {
+pub(crate) fn write_frames(team: &Team, folder: &Path, last: usize, dt: f64) -> Result<(), Error> {
     let frames = (0..=last).map(|frame| (frame as f64 * dt, frame_file(frame)));
     team.on_first(|| write_file(folder.join(CAGES_FILE), |file| write_pvd(file, frames)))
 }

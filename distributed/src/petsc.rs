@@ -36,10 +36,10 @@ mod matrix;
 mod operators;
 mod vector;
 
-pub use krylov::Krylov;
-pub use matrix::Matrix;
-pub use operators::Operators;
-pub use vector::{GhostedVector, Vector};
+pub(crate) use krylov::Krylov;
+pub(crate) use matrix::Matrix;
+pub(crate) use operators::Operators;
+pub(crate) use vector::{GhostedVector, Vector};
 
 #[allow(
     clippy::all,
@@ -163,13 +163,12 @@ impl Library {
     }
 
     /// Communicator of all ranks.
-    #[must_use]
-    pub fn world(&self) -> &SimpleCommunicator {
+    pub(crate) fn world(&self) -> &SimpleCommunicator {
         &self.0.world
     }
 
     /// Value of an option, of at most 63 bytes; `None` for an option that is not set.
-    pub fn option(&self, name: &str) -> Result<Option<String>, PetscError> {
+    pub(crate) fn option(&self, name: &str) -> Result<Option<String>, PetscError> {
         let dashed = dashed(name)?;
         let (mut text, mut is_set): ([c_char; 64], _) = ([0; 64], ffi::PetscBool_PETSC_FALSE);
         // SAFETY: the name is a C string, PETSc writes a C string of at most the given number of bytes, and
@@ -183,7 +182,7 @@ impl Library {
     }
 
     /// Sets an option, unless the user has set it.
-    pub fn default_option(&self, name: &str, value: &str) -> Result<(), PetscError> {
+    pub(crate) fn default_option(&self, name: &str, value: &str) -> Result<(), PetscError> {
         if self.option(name)?.is_none() {
             set_option(name, Some(value))?;
             self.0.defaults.borrow_mut().push(name.to_owned());
@@ -193,7 +192,7 @@ impl Library {
 
     /// Options of the user that PETSc has not used up to now: they are misspelt, or belong to a solver that
     /// is not in use.
-    pub fn unused_options(&self) -> Result<Vec<String>, PetscError> {
+    pub(crate) fn unused_options(&self) -> Result<Vec<String>, PetscError> {
         let (mut count, mut names, mut values) = (0, null_mut(), null_mut());
         // SAFETY: the three results go to variables that outlive the call.
         check(unsafe { ffi::PetscOptionsLeftGet(null_mut(), &mut count, &mut names, &mut values) })?;

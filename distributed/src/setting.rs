@@ -18,11 +18,11 @@ use crate::team::Team;
 
 /// Setting of a run on one rank.
 #[derive(Debug)]
-pub struct Setting {
+pub(crate) struct Setting {
     /// Nodes and elements of this rank.
-    pub share: Share,
+    pub(crate) share: Share,
     /// Properties of the whole body, equal on all ranks.
-    pub body: BodyFacts,
+    pub(crate) body: BodyFacts,
     /// Springs of each pull, at the owned nodes of this rank.
     pulls: Vec<DragSprings>,
     moves: Vec<Move>,
@@ -30,13 +30,13 @@ pub struct Setting {
 
 /// Properties of the whole body, equal on all ranks.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct BodyFacts {
+pub(crate) struct BodyFacts {
     /// Bounding box at rest, m.
-    pub bounds: Bounds,
+    pub(crate) bounds: Bounds,
     /// Checksum of the mesh.
-    pub checksum: u32,
+    pub(crate) checksum: u32,
     /// Properties of the mesh that may be unintended.
-    pub warnings: Vec<String>,
+    pub(crate) warnings: Vec<String>,
     /// Stiffness of each spring of each pull, N/m.
     stiffnesses: Vec<f64>,
 }
@@ -60,10 +60,7 @@ fn move_mark(number: usize) -> u64 {
 impl Setting {
     /// Reads the body on rank 0 and divides it. The elements of the parts have the materials with the numbers
     /// 1, 2, …; all other elements have the material with the number 0.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Petsc`].
-    pub fn new(team: &Team, task: &Task) -> Result<Self, Error> {
+    pub(crate) fn new(team: &Team, task: &Task) -> Result<Self, Error> {
         let Task { settings, moves, .. } = task;
         if moves.len() > MOST || settings.scene.pulls.len() > MOST {
             return Err(Error::usage(format!("at most {MOST} motions can be prescribed")));
@@ -86,20 +83,17 @@ impl Setting {
     }
 
     /// Springs at owned nodes at the end of a time interval, s.
-    #[must_use]
-    pub fn springs(&self, start: f64, end: f64) -> Vec<Spring> {
+    pub(crate) fn springs(&self, start: f64, end: f64) -> Vec<Spring> {
         self.pulls.iter().flat_map(|pull| pull.during(start, end)).collect()
     }
 
     /// Time intervals of the next frame, equal on all ranks.
-    #[must_use]
-    pub fn stretches(&self, clock: Clock) -> (Vec<Stretch>, Stretch) {
+    pub(crate) fn stretches(&self, clock: Clock) -> (Vec<Stretch>, Stretch) {
         play::stretches(&self.pulls, clock)
     }
 
     /// Position of a pinned node at a time, s, if it has a prescribed motion.
-    #[must_use]
-    pub fn place(&self, node: usize, time: f64) -> Option<[f64; 3]> {
+    pub(crate) fn place(&self, node: usize, time: f64) -> Option<[f64; 3]> {
         let Place { rest, marks, .. } = self.share.places[node];
         let mut moved = None;
         for (number, motion) in self.moves.iter().enumerate() {
@@ -113,8 +107,7 @@ impl Setting {
     }
 
     /// Height of the body, m.
-    #[must_use]
-    pub fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         self.body.bounds.size()[1]
     }
 }

@@ -16,21 +16,21 @@ use crate::team::Team;
 #[derive(Clone, Debug)]
 pub struct Share {
     /// Number of each node in the whole mesh.
-    pub ids: Vec<u64>,
+    pub(crate) ids: Vec<u64>,
     /// Number of owned nodes, the first of the nodes.
-    pub owned: usize,
+    pub(crate) owned: usize,
     /// Number of free owned nodes, the first of the owned nodes.
-    pub free: usize,
+    pub(crate) free: usize,
     /// Positions and marks of the nodes.
-    pub places: Vec<Place>,
+    pub(crate) places: Vec<Place>,
     /// Global number of each copy, counted rank after rank.
-    pub copies: Vec<usize>,
+    pub(crate) copies: Vec<usize>,
     /// Global number of each node among the free nodes, counted rank after rank; `None` for a pinned node.
-    pub free_numbers: Vec<Option<usize>>,
+    pub(crate) free_numbers: Vec<Option<usize>>,
     /// Elements: indices of the four nodes in this share, tag, and number of the material.
     pub elements: Vec<([usize; 4], u64, u64)>,
     /// Numbers of nodes and of elements of all ranks.
-    pub totals: [usize; 2],
+    pub(crate) totals: [usize; 2],
 }
 
 /// Number among the free nodes that stands for a pinned node.
@@ -135,8 +135,7 @@ impl Share {
     }
 
     /// Pinned nodes of this rank, copies included, ascending.
-    #[must_use]
-    pub fn pinned(&self) -> Vec<usize> {
+    pub(crate) fn pinned(&self) -> Vec<usize> {
         (0..self.places.len()).filter(|&node| self.places[node].marks & 1 == 1).collect()
     }
 }

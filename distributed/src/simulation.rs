@@ -14,7 +14,7 @@ use crate::system::LinearSystem;
 use crate::team::Team;
 
 /// Divided body with its state, on one rank. All ranks must call all functions.
-pub struct Simulation {
+pub(crate) struct Simulation {
     team: Team,
     share: Share,
     failure: Failure,
@@ -23,10 +23,7 @@ pub struct Simulation {
 
 impl Simulation {
     /// Simulation that starts at rest, with the nodes at the start positions of the share.
-    ///
-    /// # Errors
-    /// An [`Error`] of an element, a material, a setting or of PETSc.
-    pub fn new(
+    pub(crate) fn new(
         team: &Team,
         share: Share,
         parts: &[MaterialPart],
@@ -47,23 +44,18 @@ impl Simulation {
     }
 
     /// Nodes and elements of this rank.
-    #[must_use]
-    pub fn share(&self) -> &Share {
+    pub(crate) fn share(&self) -> &Share {
         &self.share
     }
 
     /// Simulation of the part of this rank: positions, m, velocities, m/s, and accelerations, m/s², of its
     /// nodes, copies included.
-    #[must_use]
-    pub fn part(&self) -> &step::Simulation<LinearSystem> {
+    pub(crate) fn part(&self) -> &step::Simulation<LinearSystem> {
         &self.part
     }
 
     /// Changes the state, pins or springs of the part.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] if a rank refuses its change.
-    pub fn set(
+    pub(crate) fn set(
         &mut self,
         change: impl FnOnce(&mut step::Simulation<LinearSystem>) -> Result<(), SetupError>,
     ) -> Result<(), Error> {
@@ -72,19 +64,13 @@ impl Simulation {
 
     /// Prescribes the positions of pinned nodes of this rank and its copies after the next step, m; `None`
     /// leaves a node as it is.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] for a position that is not finite.
-    pub fn prescribe(&mut self, place: impl Fn(usize) -> Option<[f64; 3]>) -> Result<(), Error> {
+    pub(crate) fn prescribe(&mut self, place: impl Fn(usize) -> Option<[f64; 3]>) -> Result<(), Error> {
         let mut places = self.share.pinned().into_iter().filter_map(|node| Some((node, place(node)?)));
         self.set(|part| places.try_for_each(|(node, place)| part.prescribe(node, place)))
     }
 
     /// Advances the part by steps, or moves it to equilibrium.
-    ///
-    /// # Errors
-    /// An [`Error`] of Newton's method or of PETSc.
-    pub fn advance<T>(
+    pub(crate) fn advance<T>(
         &mut self,
         advance: impl FnOnce(&mut step::Simulation<LinearSystem>) -> Result<T, StepError>,
     ) -> Result<T, Error> {
@@ -95,13 +81,12 @@ impl Simulation {
     }
 
     /// Numbers of iterations of the linear systems since the last call, those of failed attempts included.
-    pub fn take_systems(&mut self) -> Vec<usize> {
+    pub(crate) fn take_systems(&mut self) -> Vec<usize> {
         self.part.machine().take_systems()
     }
 
     /// Energies of the current state, as those of one machine.
-    #[must_use]
-    pub fn energies(&mut self) -> Energies {
+    pub(crate) fn energies(&mut self) -> Energies {
         self.part.energies()
     }
 }

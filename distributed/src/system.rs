@@ -44,7 +44,7 @@ const SHELL: &str = "shell";
 const PATIENCE: f64 = 2.0;
 
 /// Linear system of the free nodes: matrix, vectors and solver.
-pub struct LinearSystem {
+pub(crate) struct LinearSystem {
     team: Team,
     nodes: RowsOfRank,
     failure: Failure,
@@ -129,7 +129,7 @@ impl LinearSystem {
     ///
     /// # Errors
     /// [`Error::Petsc`], also for an option with a value that PETSc does not support; [`Error::OnRank`].
-    pub fn new(
+    pub(crate) fn new(
         team: &Team,
         share: &Share,
         body: Option<&Body>,
@@ -183,7 +183,7 @@ impl LinearSystem {
     }
 
     /// Numbers of iterations of the linear systems since the last call, those of failed attempts included.
-    pub fn take_systems(&mut self) -> Vec<usize> {
+    pub(crate) fn take_systems(&mut self) -> Vec<usize> {
         std::mem::take(&mut self.systems)
     }
 

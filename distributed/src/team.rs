@@ -29,8 +29,7 @@ impl Team {
     }
 
     /// Library that runs on all ranks.
-    #[must_use]
-    pub fn library(&self) -> &Library {
+    pub(crate) fn library(&self) -> &Library {
         &self.library
     }
 
@@ -41,8 +40,7 @@ impl Team {
     }
 
     /// Number of ranks.
-    #[must_use]
-    pub fn size(&self) -> usize {
+    pub(crate) fn size(&self) -> usize {
         self.size
     }
 
@@ -51,24 +49,21 @@ impl Team {
     }
 
     /// Sum of each entry over the ranks.
-    #[must_use]
-    pub fn sum<const N: usize>(&self, entries: [f64; N]) -> [f64; N] {
+    pub(crate) fn sum<const N: usize>(&self, entries: [f64; N]) -> [f64; N] {
         let mut total = [0.0; N];
         self.world().all_reduce_into(&entries[..], &mut total[..], SystemOperation::sum());
         total
     }
 
     /// Sum of a number over the ranks.
-    #[must_use]
-    pub fn count(&self, number: usize) -> usize {
+    pub(crate) fn count(&self, number: usize) -> usize {
         let mut total = 0_u64;
         self.world().all_reduce_into(&(number as u64), &mut total, SystemOperation::sum());
         total as usize
     }
 
     /// Largest value of any rank; NaN if a value is NaN.
-    #[must_use]
-    pub fn max(&self, number: f64) -> f64 {
+    pub(crate) fn max(&self, number: f64) -> f64 {
         // MPI does not define the maximum of NaN.
         let mut total = [0.0; 2];
         let own =
@@ -78,8 +73,7 @@ impl Team {
     }
 
     /// Smallest value of any rank; NaN if a value is NaN.
-    #[must_use]
-    pub fn min(&self, number: f64) -> f64 {
+    pub(crate) fn min(&self, number: f64) -> f64 {
         -self.max(-number)
     }
 
@@ -92,13 +86,12 @@ impl Team {
     }
 
     /// Waits until all ranks have called this function.
-    pub fn wait(&self) {
+    pub(crate) fn wait(&self) {
         self.world().barrier();
     }
 
     /// Sends a list of integers to each rank, and returns the list received from each rank.
-    #[must_use]
-    pub fn exchange(&self, outgoing: &[Vec<u64>]) -> Vec<Vec<u64>> {
+    pub(crate) fn exchange(&self, outgoing: &[Vec<u64>]) -> Vec<Vec<u64>> {
         let lengths: Vec<Count> = outgoing.iter().map(|list| list.len() as Count).collect();
         let mut incoming = vec![0 as Count; self.size];
         self.world().all_to_all_into(&lengths[..], &mut incoming[..]);
@@ -120,15 +113,13 @@ impl Team {
     }
 
     /// Sends rows of integers to each rank, and returns the rows received from each rank.
-    #[must_use]
-    pub fn exchange_rows<const N: usize>(&self, outgoing: Vec<Vec<[u64; N]>>) -> Vec<Vec<[u64; N]>> {
+    pub(crate) fn exchange_rows<const N: usize>(&self, outgoing: Vec<Vec<[u64; N]>>) -> Vec<Vec<[u64; N]>> {
         let outgoing: Vec<_> = outgoing.into_iter().map(Vec::into_flattened).collect();
         self.exchange(&outgoing).iter().map(|list| list.as_chunks().0.to_vec()).collect()
     }
 
     /// Bytes of a rank, sent to all ranks.
-    #[must_use]
-    pub fn broadcast(&self, rank: usize, mut bytes: Vec<u8>) -> Vec<u8> {
+    pub(crate) fn broadcast(&self, rank: usize, mut bytes: Vec<u8>) -> Vec<u8> {
         let root = self.world().process_at_rank(rank as Rank);
         let mut length = bytes.len() as u64;
         root.broadcast_into(&mut length);
@@ -158,11 +149,9 @@ impl Team {
         Err(Error::OnRank { rank: first as usize, message: String::from_utf8_lossy(&message).into_owned() })
     }
 
-    /// Result of rank 0, which alone does this work; an empty result on the other ranks.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] on all ranks, if rank 0 fails.
-    pub fn on_first<T: Default>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    /// Result of rank 0, which alone does this work; an empty result on the other ranks. If rank 0 fails, all
+    /// ranks do.
+    pub(crate) fn on_first<T: Default>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
         self.agree(if self.rank == 0 { work() } else { Ok(T::default()) })
     }
 
