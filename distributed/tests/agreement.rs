@@ -5,10 +5,12 @@
 
 mod common;
 
-use common::{TestResult, checkpoint_in, command, finish, msh, state_after, words};
+use std::path::Path;
+
+use common::{TestResult, checkpoint_in, command, finish, state_after, words};
 use piola::material::Moduli;
 use piola::point::Filter;
-use piola_bodies::mesh::{Bounds, tetrahedral_box};
+use piola_bodies::mesh::{Bounds, TetMesh, tetrahedral_box};
 use piola_bodies::step::{
     Convergence, Filtering, Integrator, LinearSolver, NewtonSettings, Simulation, SimulationSettings,
 };
@@ -263,28 +265,47 @@ fn statics_end_as_on_one_machine() -> TestResult {
     check(&ranks(), &words(options), simulation.positions(), 1e-8)
 }
 
-/// A bar of two materials and densities under gravity, with damping; its top moves and its foot is held.
-#[test]
-fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
-    let mut mesh = tetrahedral_box([2, 8, 2], [0.25, 1.0, 0.25])?;
-    let scratch = tempfile::tempdir()?;
-    let file = scratch.path().join("bar.msh");
-    let upper: Vec<usize> = (0..mesh.tets.len()).filter(|&tet| tet >= mesh.tets.len() / 2).collect();
-    std::fs::write(&file, msh(&mesh, &upper))?;
-    mesh.groups.push(piola_bodies::mesh::Group {
-        name: "upper".to_owned(),
-        dimension: 3,
-        nodes: Vec::new(),
-        tets: upper,
-    });
+/// A bar in TetGen's files, with markers and regions, an unused node, comments, and tetrahedra in both
+/// orientations: the mesh as it is read, and the body of the materials and densities of [`PARTS`].
+fn bar_of_tetgen(file: &Path) -> Result<(TetMesh, Body), Box<dyn std::error::Error>> {
+    let bar = tetrahedral_box([2, 6, 2], [0.3, 1.0, 0.3])?;
+    let stray = 11;
+    let number = |node: usize| if node < stray { node + 1 } else { node + 2 };
+    let mut nodes = format!("# a bar\n{} 3 1 1\n", bar.positions.len() + 1);
+    for (node, [x, y, z]) in bar.positions.iter().enumerate() {
+        let marker = if *y == 0.0 { 5 } else { 0 };
+        nodes += &format!("{} {x:?} {y:?} {z:?} 0.5 {marker} # {y}\n", number(node));
+    }
+    nodes += &format!("{} 9 9 9 0.5 0\n", stray + 1);
+    let mut tets = format!("{} 4 1\n", bar.tets.len());
+    for (tet, nodes) in bar.tets.iter().enumerate() {
+        let [a, b, c, d] = nodes.map(number);
+        let [b, c] = if tet % 3 == 0 { [c, b] } else { [b, c] };
+        tets += &format!("{} {a} {b} {c} {d} {}\n", tet + 1, if tet % 2 == 0 { 7 } else { -1 });
+    }
+    std::fs::write(file, nodes)?;
+    std::fs::write(file.with_extension("ele"), tets)?;
 
+    let mesh = piola_bodies::mesh::read_tetgen(file)?;
     let soft = (HORSE.material)().build()?.moduli;
     let part = |group: Option<&str>, name: &str, density: f64| -> Result<Part, Box<dyn std::error::Error>> {
         let material = MaterialSpec::matching(name, soft).build()?.elements;
         Ok(Part { group: group.map(str::to_owned), material, density })
     };
-    let parts = vec![part(None, "neo-Hookean", 1000.0)?, part(Some("upper"), "stable neo-Hookean", 3000.0)?];
+    let parts = vec![part(None, "neo-Hookean", 1000.0)?, part(Some("7"), "stable neo-Hookean", 3000.0)?];
     let body = Body::from_parts(&mesh, parts)?;
+    Ok((mesh, body))
+}
+
+/// Options of the materials of [`bar_of_tetgen`].
+const PARTS: [&str; 4] = ["--material", "neo-Hookean", "--part", "7=stable neo-Hookean;density=3000"];
+
+/// A bar of two materials and densities under gravity, with damping; its top moves and its foot is held.
+#[test]
+fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
+    let scratch = tempfile::tempdir()?;
+    let file = scratch.path().join("bar.node");
+    let (mesh, body) = bar_of_tetgen(&file)?;
     let at = |height: f64| Bounds { min: [-1.0, height - 1e-9, -1.0], max: [1.0, height + 1e-9, 1.0] };
     let (foot, top) = (Pins::in_box(&mesh, at(0.0))?, Pins::in_box(&mesh, at(1.0))?);
     // The scene's damping.
@@ -300,62 +321,33 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
         }
         simulation.step(dt)?;
     }
-    let material =
-        ["--mesh", file.to_str().expect("UTF-8"), "--part", "upper=stable neo-Hookean;density=3000"];
     let options = format!(
-        "run scramble --amplitude 0 --material neo-Hookean --gravity 9.81 --pin :,:0.000001,: \
-         --move :,0.999999:,:=0.1,0.2,0@0.15 --frames {frames} {SOLVED}"
+        "run scramble --amplitude 0 --gravity 9.81 --pin :,:0.000001,: --move :,0.999999:,:=0.1,0.2,0@0.15 \
+         --frames {frames} {SOLVED} --mesh {}",
+        file.display()
     );
-    let words = [words(&options), material.map(str::to_owned).to_vec()].concat();
+    let words = [words(&options), PARTS.map(str::to_owned).to_vec()].concat();
     check(&ranks(), &words, simulation.positions(), 1e-9 * f64::from(frames))
 }
 
-/// A bar in TetGen's files, with markers and regions, an unused node, comments, and tetrahedra in both
-/// orientations.
 #[test]
 fn a_bar_in_files_of_tetgen_is_that_of_one_machine() -> TestResult {
-    let bar = tetrahedral_box([2, 6, 2], [0.3, 1.0, 0.3])?;
     let scratch = tempfile::tempdir()?;
     let file = scratch.path().join("bar.node");
-    let stray = 11;
-    let number = |node: usize| if node < stray { node + 1 } else { node + 2 };
-    let mut nodes = format!("# a bar\n{} 3 1 1\n", bar.positions.len() + 1);
-    for (node, [x, y, z]) in bar.positions.iter().enumerate() {
-        let marker = if *y == 0.0 { 5 } else { 0 };
-        nodes += &format!("{} {x:?} {y:?} {z:?} 0.5 {marker} # {y}\n", number(node));
-    }
-    nodes += &format!("{} 9 9 9 0.5 0\n", stray + 1);
-    let mut tets = format!("{} 4 1\n", bar.tets.len());
-    for (tet, nodes) in bar.tets.iter().enumerate() {
-        let [a, b, c, d] = nodes.map(number);
-        let [b, c] = if tet % 3 == 0 { [c, b] } else { [b, c] };
-        tets += &format!("{} {a} {b} {c} {d} {}\n", tet + 1, if tet % 2 == 0 { 7 } else { -1 });
-    }
-    std::fs::write(&file, nodes)?;
-    std::fs::write(file.with_extension("ele"), tets)?;
-
-    let mesh = piola_bodies::mesh::read_tetgen(&file)?;
-    let soft = (HORSE.material)().build()?.moduli;
-    let part = |group: Option<&str>, name: &str, density: f64| -> Result<Part, Box<dyn std::error::Error>> {
-        let material = MaterialSpec::matching(name, soft).build()?.elements;
-        Ok(Part { group: group.map(str::to_owned), material, density })
-    };
-    let parts = vec![part(None, "neo-Hookean", 1000.0)?, part(Some("7"), "stable neo-Hookean", 3000.0)?];
-    let body = Body::from_parts(&mesh, parts)?;
+    let (mesh, body) = bar_of_tetgen(&file)?;
     let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
     let mut simulation = Simulation::new(body, &Pins::of_group(&mesh, "5")?, settings)?;
     simulation.equilibrate()?;
 
-    let file = file.to_str().expect("UTF-8");
-    let options = words(&format!(
+    let options = format!(
         "statics scramble --amplitude 0 --gravity 9.81 --pin 5 --newton-tolerance 1e-12 --newton-iterations 200 \
-         --filter clamp --mesh {file}"
-    ));
-    let material = ["--material", "neo-Hookean", "--part", "7=stable neo-Hookean;density=3000"];
+         --filter clamp --mesh {}",
+        file.display()
+    );
+    let words = [words(&options), PARTS.map(str::to_owned).to_vec()].concat();
     for count in ranks() {
         let folder = scratch.path().join(count.to_string());
-        let words = [options.clone(), material.map(str::to_owned).to_vec()].concat();
-        let found = state_after(count, words, &folder)?;
+        let found = state_after(count, words.clone(), &folder)?;
         let error = distance(&found.positions, simulation.positions());
         assert!(error <= 1e-8, "{error:e} m on {count} ranks");
         let summary: serde_json::Value =

@@ -7,7 +7,6 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use piola_bodies::mesh::TetMesh;
 use piola_distributed::checkpoint::{self, State};
 use piola_distributed::run::About;
 
@@ -65,22 +64,4 @@ pub(crate) fn state_after(
 /// The checkpoint in the folder of a run.
 pub(crate) fn checkpoint_in(folder: &Path) -> Result<(About, State), Box<dyn Error>> {
     Ok(checkpoint::read_alone(&checkpoint::file_in(folder))?)
-}
-
-/// A mesh with one group of tetrahedra, in Gmsh's format 2.2.
-pub(crate) fn msh(mesh: &TetMesh, upper: &[usize]) -> String {
-    let mut text =
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 2 \"upper\"\n$EndPhysicalNames\n"
-            .to_owned();
-    text += &format!("$Nodes\n{}\n", mesh.positions.len());
-    for (node, [x, y, z]) in mesh.positions.iter().enumerate() {
-        text += &format!("{} {x:?} {y:?} {z:?}\n", node + 1);
-    }
-    text += &format!("$EndNodes\n$Elements\n{}\n", mesh.tets.len());
-    for (tet, nodes) in mesh.tets.iter().enumerate() {
-        let group = if upper.contains(&tet) { 2 } else { 1 };
-        let [a, b, c, d] = nodes.map(|node| node + 1);
-        text += &format!("{} 4 2 {group} {group} {a} {b} {c} {d}\n", tet + 1);
-    }
-    text + "$EndElements\n"
 }
