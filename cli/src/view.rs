@@ -33,7 +33,6 @@ use piola_viewer::topology;
 
 use crate::error::Error;
 use driver::OwnThreads;
-use patience::Patience;
 use request::Door;
 use server::Server;
 use token::Token;
@@ -75,8 +74,7 @@ impl Viewer {
         let is_over = Arc::new(AtomicBool::new(false));
         let door = Door { port: address.port(), token: token.clone() };
         let driver = Driver::new(OwnThreads::new(threads), session, save);
-        let patience = Patience::default();
-        let server = Server { listener, door, patience, topology, orders, is_over: is_over.clone(), first };
+        let server = Server { listener, door, topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {
             thread::Builder::new().name(name.into()).spawn(work).map_err(Error::system("start a thread"))
         };

@@ -6,14 +6,13 @@
 //! own.
 
 use std::io::{ErrorKind, Read};
-use std::time::Duration;
 
 use tungstenite::Error;
 use tungstenite::error::ProtocolError;
 use tungstenite::handshake::machine::TryParse;
 use tungstenite::handshake::server::{Request as HttpRequest, Response, create_response};
 
-use super::patience::{TimedStream, is_silence};
+use super::patience::{REQUEST, TimedStream, is_silence};
 use super::token::Token;
 
 /// Browsers send less than one kilobyte.
@@ -39,11 +38,11 @@ pub(super) enum Request {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Denied(pub(super) &'static str, pub(super) &'static str);
 
-/// Reads a request to a viewer at this address, if it comes in this time.
+/// Reads a request to a viewer at this address, if it comes in time.
 ///
 /// `None` if the other side goes away, which browsers do with connections that they open in advance.
-pub(super) fn read(stream: &mut TimedStream, time: Duration, door: &Door) -> Option<Result<Request, Denied>> {
-    stream.allow(time);
+pub(super) fn read(stream: &mut TimedStream, door: &Door) -> Option<Result<Request, Denied>> {
+    stream.allow(REQUEST);
     let mut text = Vec::new();
     let mut part = [0; 4096];
     loop {

@@ -12,7 +12,7 @@ use tungstenite::Bytes;
 
 use super::connection;
 use super::page;
-use super::patience::{Patience, TimedStream};
+use super::patience::{ANSWER, TimedStream};
 use super::request::{self, Denied, Door, Request};
 
 /// A browser opens half a dozen for the files of a page and keeps one.
@@ -22,7 +22,6 @@ const MAX_CONNECTIONS: usize = 32;
 pub(super) struct Server {
     pub(super) listener: TcpListener,
     pub(super) door: Door,
-    pub(super) patience: Patience,
     pub(super) topology: Bytes,
     pub(super) orders: SyncSender<Order>,
     /// True if no more connections are accepted.
@@ -46,20 +45,19 @@ impl Server {
             let place = Arc::clone(&open);
             if Arc::strong_count(&open) > 1 + MAX_CONNECTIONS {
                 let denied = Denied("503 Service Unavailable", "there are too many connections");
-                answer(&mut stream, page::denied(denied), self.patience);
+                answer(&mut stream, page::denied(denied));
                 continue;
             }
             let (door, topology, orders) = (self.door.clone(), self.topology.clone(), self.orders.clone());
-            let patience = self.patience;
             let talk = move || {
                 let _place = place;
-                match request::read(&mut stream, patience.request, &door) {
+                match request::read(&mut stream, &door) {
                     None => {}
-                    Some(Ok(Request::File { path })) => answer(&mut stream, page::file(&path), patience),
+                    Some(Ok(Request::File { path })) => answer(&mut stream, page::file(&path)),
                     Some(Ok(Request::Socket(response))) => {
-                        connection::serve(stream, patience, &response, number, topology, &orders);
+                        connection::serve(stream, &response, number, topology, &orders);
                     }
-                    Some(Err(denied)) => answer(&mut stream, page::denied(denied), patience),
+                    Some(Err(denied)) => answer(&mut stream, page::denied(denied)),
                 }
             };
             // Where the system has no thread left, the browser sees a connection that ends.
@@ -69,8 +67,8 @@ impl Server {
 }
 
 /// Writes an answer; if it is not read, nothing is lost.
-fn answer(stream: &mut TimedStream, (header, content): (String, &'static str), patience: Patience) {
-    stream.allow(patience.answer);
+fn answer(stream: &mut TimedStream, (header, content): (String, &'static str)) {
+    stream.allow(ANSWER);
     let _ = stream
         .write_all(header.as_bytes())
         .and_then(|()| stream.write_all(content.as_bytes()))
@@ -90,21 +88,15 @@ mod tests {
     use super::super::token::Token;
     use super::*;
 
-    /// A server that waits for milliseconds, to which nobody gives a body.
+    /// A server to which nobody gives a body.
     fn serve() -> (SocketAddr, Token, Receiver<Order>) {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
         let address = listener.local_addr().expect("an address");
         let door = Door { port: address.port(), token: Token::new().expect("a system") };
         let token = door.token.clone();
-        let patience = Patience {
-            request: Duration::from_millis(100),
-            answer: Duration::from_millis(100),
-            ping: Duration::from_millis(100),
-            silence: Duration::from_millis(500),
-        };
         let (orders, taken) = sync_channel(256);
         let (topology, is_over) = (Bytes::from_static(b"body"), Arc::default());
-        let server = Server { listener, door, patience, topology, orders, is_over, first: 0 };
+        let server = Server { listener, door, topology, orders, is_over, first: 0 };
         thread::spawn(move || server.run());
         (address, token, taken)
     }
@@ -129,7 +121,7 @@ mod tests {
         start.elapsed()
     }
 
-    /// Ten times the longest of the times above: a machine may be busy.
+    /// Ten times the longest limit in tests: a machine may be busy.
     const SOON: Duration = Duration::from_secs(5);
 
     #[test]
