@@ -14,6 +14,9 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
+/// A file that declares an energy.
+const OGDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../materials/src/ogden.rs");
+
 /// A new folder in which commands are given.
 struct Folder(TempDir);
 
@@ -51,38 +54,45 @@ impl Folder {
         serde_json::from_str(&self.read(&format!("{folder}/summary.json"))).expect("JSON")
     }
 
-    fn command(&self, arguments: &[&str]) -> Command {
+    /// The command with a line of arguments; quotes enclose an argument with spaces.
+    fn command(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
-        command.current_dir(self.0.path()).args(arguments);
+        command.current_dir(self.0.path());
+        for (index, part) in arguments.split('\'').enumerate() {
+            match index % 2 {
+                0 => command.args(part.split_whitespace()),
+                _ => command.arg(part),
+            };
+        }
         command
     }
 
-    fn piola(&self, arguments: &[&str]) -> Output {
+    fn piola(&self, arguments: &str) -> Output {
         self.command(arguments).output().expect("the command starts")
     }
 
     /// Standard output and standard error of a command that succeeds.
     #[track_caller]
-    fn outputs(&self, arguments: &[&str]) -> (String, String) {
+    fn outputs(&self, arguments: &str) -> (String, String) {
         let output = self.piola(arguments);
-        assert!(output.status.success(), "{arguments:?}: {}", stderr(&output));
+        assert!(output.status.success(), "{arguments}: {}", stderr(&output));
         (String::from_utf8(output.stdout.clone()).expect("text"), stderr(&output))
     }
 
     /// Standard output of a command that succeeds.
     #[track_caller]
-    fn answer(&self, arguments: &[&str]) -> String {
+    fn answer(&self, arguments: &str) -> String {
         self.outputs(arguments).0
     }
 
     /// The message of a command that is refused with status 2, and has written nothing.
     #[track_caller]
-    fn refusal(&self, arguments: &[&str]) -> String {
+    fn refusal(&self, arguments: &str) -> String {
         let before = self.content("");
         let output = self.piola(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
-        assert!(output.stdout.is_empty(), "{arguments:?} wrote to standard output");
-        assert_eq!(self.content(""), before, "{arguments:?} wrote files");
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {}", stderr(&output));
+        assert!(output.stdout.is_empty(), "{arguments} wrote to standard output");
+        assert_eq!(self.content(""), before, "{arguments} wrote files");
         stderr(&output)
     }
 }
