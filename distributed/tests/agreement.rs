@@ -7,7 +7,7 @@ mod common;
 
 use std::path::Path;
 
-use common::{TestResult, checkpoint_in, command, finish, state_after, words};
+use common::{TestResult, checkpoint_in, command, finish, state_after};
 use piola::material::Moduli;
 use piola::point::Filter;
 use piola_bodies::mesh::{Bounds, TetMesh, tetrahedral_box};
@@ -63,8 +63,7 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
     for count in ranks() {
         let folder = scratch.path().join(count.to_string());
         let run = |options: String| {
-            let scene = ["run", scene.name, "--material", material].map(str::to_owned);
-            state_after(count, scene.into_iter().chain(words(&options)), &folder)
+            state_after(count, &format!("run {} --material '{material}' {options}", scene.name), &folder)
         };
         run(format!("--frames {before} --newton single"))?;
         let (about, state) = checkpoint_in(&folder)?;
@@ -106,30 +105,30 @@ fn a_horse_of_three_energies_moves_equally() -> TestResult {
 /// Compares the final positions of a run on each number of ranks with positions on one machine, m.
 #[track_caller]
 #[expect(clippy::print_stdout, reason = "figures, shown with --nocapture")]
-fn check(ranks: &[usize], words: &[String], expected: &[[f64; 3]], most: f64) -> TestResult {
+fn check(ranks: &[usize], arguments: &str, expected: &[[f64; 3]], most: f64) -> TestResult {
     let scratch = tempfile::tempdir()?;
     for &count in ranks {
         let folder = scratch.path().join(count.to_string());
-        let found = state_after(count, words.to_vec(), &folder)?;
+        let found = state_after(count, arguments, &folder)?;
         let error = distance(&found.positions, expected);
-        println!("{} on {count} ranks: {error:.1e} m", words.join(" "));
-        assert!(error <= most, "{error:e} m on {count} ranks: {words:?}");
+        println!("{arguments} on {count} ranks: {error:.1e} m");
+        assert!(error <= most, "{error:e} m on {count} ranks: {arguments}");
     }
     Ok(())
 }
 
 /// Compares two ranks with one machine after fully solved frames of the dinosaur.
 #[track_caller]
-fn check_dinosaur(settings: &Settings, frames: usize, options: &[String]) -> TestResult {
+fn check_dinosaur(settings: &Settings, frames: usize, options: &str) -> TestResult {
     let geometry = Geometry::load(settings)?;
     let mut play = Play::new(settings, &geometry)?;
     play.simulation_mut().set_settings(step_settings(settings).with_newton(newton()))?;
     for _ in 0..frames {
         play.step()?;
     }
-    let run = words(&format!("run dinosaur --frames {frames} {SOLVED}"));
+    let run = format!("run dinosaur --frames {frames} {SOLVED} {options}");
     let most = 1e-9 * frames as f64 * geometry.mesh.bounds().size()[1];
-    check(&[2], &[run.as_slice(), options].concat(), play.simulation().positions(), most)
+    check(&[2], &run, play.simulation().positions(), most)
 }
 
 /// All integrators except implicit Euler, in the pull of the dinosaur.
@@ -137,7 +136,7 @@ fn check_dinosaur(settings: &Settings, frames: usize, options: &[String]) -> Tes
 fn integrators_agree() -> TestResult {
     for (name, integrator) in [("sdirk2", Integrator::Sdirk2), ("sdirk3", Integrator::Sdirk3)] {
         let settings = Settings::new(&DINOSAUR).with_integrator(integrator).with_gravity(9.81);
-        check_dinosaur(&settings, 5, &words(&format!("--gravity 9.81 --integrator {name}")))?;
+        check_dinosaur(&settings, 5, &format!("--gravity 9.81 --integrator {name}"))?;
     }
     Ok(())
 }
@@ -149,13 +148,8 @@ fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
     let parameters = spec.build()?.parameters;
     let [mu, lambda] = ["mu", "lambda"].map(|name| parameters[name][0]);
     let settings = Settings::new(&DINOSAUR).with_material(spec).with_dt(0.4);
-    let options = [
-        "--dt=0.4".to_owned(),
-        "--energy".to_owned(),
-        "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2".to_owned(),
-        format!("--param=mu={mu}"),
-        format!("--param=lambda={lambda}"),
-    ];
+    let energy = "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2";
+    let options = format!("--dt=0.4 --energy '{energy}' --param=mu={mu} --param=lambda={lambda}");
     // The pull reaches its end at 1.5 s, and is released at 2 s.
     check_dinosaur(&settings, 4, &options)
 }
@@ -182,7 +176,7 @@ fn steps_within_a_tolerance_agree() -> TestResult {
     let options = format!(
         "run dinosaur --dt {dt} --frames {frames} --integrator sdirk2 --tolerance {tolerance} --newton full"
     );
-    let found = state_after(2, words(&options), &folder)?;
+    let found = state_after(2, &options, &folder)?;
     let error = distance(&found.positions, play.simulation().positions()) / geometry.mesh.bounds().size()[1];
     let summary: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("summary.json"))?)?;
     println!("{taken} steps, and {} on two ranks: {error:.1e} body heights", summary["steps"]["taken"]);
@@ -209,7 +203,7 @@ fn a_box_sags_as_on_one_machine() -> TestResult {
     let mut simulation = Simulation::new(body, &pins, settings)?;
     simulation.equilibrate()?;
     let options = format!("box --elements {} --newton-tolerance 1e-12", mesh.tets.len());
-    check(&ranks(), &words(&options), simulation.positions(), 1e-8)
+    check(&ranks(), &options, simulation.positions(), 1e-8)
 }
 
 /// `-ksp_view` shows piola's levels and the solver of the last one. Options replace this solver and the
@@ -230,7 +224,7 @@ fn preconditioners_are_shown_and_replaced() -> TestResult {
         let folder = scratch.path().join(number.to_string());
         let sag = "box --elements 10000 --newton-tolerance 1e-10 -ksp_view";
         let options = format!("{sag} --out {} {options}", folder.display());
-        let output = finish(command(3, words(&options)))?;
+        let output = finish(command(3, &options))?;
         let text = String::from_utf8_lossy(&output.stdout);
         assert!(output.status.success(), "{options}: {}", String::from_utf8_lossy(&output.stderr));
         for shown in shown {
@@ -262,7 +256,7 @@ fn statics_end_as_on_one_machine() -> TestResult {
     simulation.equilibrate()?;
     let options = "statics twist --gravity 9.81 --move :,1:1,:=0.1,0,0@1 --newton-tolerance 1e-12 --newton-iterations 200 \
                    --filter clamp";
-    check(&ranks(), &words(options), simulation.positions(), 1e-8)
+    check(&ranks(), options, simulation.positions(), 1e-8)
 }
 
 /// A bar in TetGen's files, with markers and regions, an unused node, comments, and tetrahedra in both
@@ -298,7 +292,7 @@ fn bar_of_tetgen(file: &Path) -> Result<(TetMesh, Body), Box<dyn std::error::Err
 }
 
 /// Options of the materials of [`bar_of_tetgen`].
-const PARTS: [&str; 4] = ["--material", "neo-Hookean", "--part", "7=stable neo-Hookean;density=3000"];
+const PARTS: &str = "--material neo-Hookean --part '7=stable neo-Hookean;density=3000'";
 
 /// A bar of two materials and densities under gravity, with damping; its top moves and its foot is held.
 #[test]
@@ -323,11 +317,10 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
     }
     let options = format!(
         "run scramble --amplitude 0 --gravity 9.81 --pin :,:0.000001,: --move :,0.999999:,:=0.1,0.2,0@0.15 \
-         --frames {frames} {SOLVED} --mesh {}",
+         --frames {frames} {SOLVED} {PARTS} --mesh {}",
         file.display()
     );
-    let words = [words(&options), PARTS.map(str::to_owned).to_vec()].concat();
-    check(&ranks(), &words, simulation.positions(), 1e-9 * f64::from(frames))
+    check(&ranks(), &options, simulation.positions(), 1e-9 * f64::from(frames))
 }
 
 #[test]
@@ -341,13 +334,12 @@ fn a_bar_in_files_of_tetgen_is_that_of_one_machine() -> TestResult {
 
     let options = format!(
         "statics scramble --amplitude 0 --gravity 9.81 --pin 5 --newton-tolerance 1e-12 --newton-iterations 200 \
-         --filter clamp --mesh {}",
+         --filter clamp {PARTS} --mesh {}",
         file.display()
     );
-    let words = [words(&options), PARTS.map(str::to_owned).to_vec()].concat();
     for count in ranks() {
         let folder = scratch.path().join(count.to_string());
-        let found = state_after(count, words.clone(), &folder)?;
+        let found = state_after(count, &options, &folder)?;
         let error = distance(&found.positions, simulation.positions());
         assert!(error <= 1e-8, "{error:e} m on {count} ranks");
         let summary: serde_json::Value =
