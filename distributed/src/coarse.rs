@@ -68,7 +68,6 @@ impl Coarse {
             }
         }
         let mut matrix = Matrix::new(library, 6 * owned, 6, places.iter().copied())?;
-        matrix.set_symmetric()?;
         matrix.set_values(&values)?;
         let kind = if team.count(owned) <= FACTORED { "redundant" } else { "gamg" };
         matrix.set_motions(&orthonormal(team, library, level.motions())?)?;

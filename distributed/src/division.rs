@@ -30,7 +30,7 @@ pub(crate) struct RowsOfRank {
     team: Team,
     failure: Failure,
     /// Global numbers of the owned rows.
-    owned: Range<u64>,
+    owned: Range<usize>,
     /// Global number of each copy.
     numbers: Vec<usize>,
     /// Owned rows, for each rank, of which that rank has copies.
@@ -59,17 +59,13 @@ impl RowsOfRank {
         let rows = |rows: Vec<u64>| rows.into_iter().map(|row| row as usize).collect();
         Self {
             failure: failure.clone(),
-            owned: starts[team.rank()] as u64..starts[team.rank() + 1] as u64,
+            owned: starts[team.rank()]..starts[team.rank() + 1],
             numbers,
             sent: team.exchange(&asked).into_iter().map(rows).collect(),
             received,
             vectors: [None, None],
             team: team.clone(),
         }
-    }
-
-    fn owned(&self) -> usize {
-        (self.owned.end - self.owned.start) as usize
     }
 
     /// Exchanges a vector of N components, if there are several ranks.
@@ -80,7 +76,7 @@ impl RowsOfRank {
         if self.team.size() == 1 {
             return;
         }
-        let owned = self.owned();
+        let owned = self.owned.len();
         let vector = &mut self.vectors[usize::from(N > 3)];
         let exchanged = match vector {
             Some(vector) => exchange(vector),
@@ -181,8 +177,7 @@ impl Division for RowsOfRank {
     }
 
     fn last(&self, level: &LastLevel<'_>) -> Result<Coarse, Error> {
-        let owned = self.owned.clone().map(|number| number as usize);
-        let numbers: Vec<usize> = owned.chain(self.numbers.iter().copied()).collect();
-        Ok(Coarse::new(&self.team, &self.failure, self.owned(), &numbers, level)?)
+        let numbers: Vec<usize> = self.owned.clone().chain(self.numbers.iter().copied()).collect();
+        Ok(Coarse::new(&self.team, &self.failure, self.owned.len(), &numbers, level)?)
     }
 }

@@ -402,8 +402,7 @@ impl Assembled {
         let entries = |[row, column]: [usize; 2]| {
             (0..9).map(move |entry| [3 * row + entry / 3, 3 * column + entry % 3])
         };
-        let mut matrix = Matrix::new(library, 3 * share.free, 3, blocks.iter().copied().flat_map(entries))?;
-        matrix.set_symmetric()?;
+        let matrix = Matrix::new(library, 3 * share.free, 3, blocks.iter().copied().flat_map(entries))?;
         let values = vec![0.0; 9 * blocks.len()];
         drop(blocks);
         let matrix = Rc::new(RefCell::new(matrix));

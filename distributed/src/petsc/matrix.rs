@@ -15,8 +15,8 @@ pub(crate) struct Matrix {
 }
 
 impl Matrix {
-    /// Matrix with `rows` rows on this rank, in square blocks, with entries at these places. A place may
-    /// occur more than once, and in the rows of another rank.
+    /// Matrix with `rows` rows on this rank, in square blocks, with entries at these places, that is always
+    /// symmetric. A place may occur more than once, and in the rows of another rank.
     pub(crate) fn new(
         library: &Library,
         rows: usize,
@@ -45,6 +45,9 @@ impl Matrix {
                 row_numbers.as_mut_ptr(),
                 columns.as_mut_ptr(),
             ))?;
+            for option in [ffi::MatOption_MAT_SYMMETRIC, ffi::MatOption_MAT_SYMMETRY_ETERNAL] {
+                check(ffi::MatSetOption(raw, option, ffi::PetscBool_PETSC_TRUE))?;
+            }
         }
         Ok(matrix)
     }
@@ -73,15 +76,6 @@ impl Matrix {
             ffi::MatShellSetOperation(raw, ffi::MatOperation_MATOP_MULT, Some(function))
         })?;
         Ok(matrix)
-    }
-
-    /// Declares that the matrix is always symmetric.
-    pub(crate) fn set_symmetric(&mut self) -> Result<(), PetscError> {
-        for option in [ffi::MatOption_MAT_SYMMETRIC, ffi::MatOption_MAT_SYMMETRY_ETERNAL] {
-            // SAFETY: the matrix exists, and both are options of matrices.
-            check(unsafe { ffi::MatSetOption(self.raw, option, ffi::PetscBool_PETSC_TRUE) })?;
-        }
-        Ok(())
     }
 
     /// Replaces all entries by the sums of these values, one for each place.
