@@ -3,8 +3,8 @@
 //!
 //! The mathematics of materials and elements, and the steps, are piola's: each rank runs a simulation of its
 //! part of the body by [`piola_bodies::step`]. This crate contains the division of a mesh ([`portion`],
-//! [`share`]), the messages between ranks ([`team`], `division`), and the linear systems (`system`, [`petsc`]).
-//! Its program is `piola-mpi`; the library contains what program and tests use.
+//! [`share`]), the messages between ranks ([`team`], `division`), and the linear systems (`system`,
+//! [`petsc`]). Its program is `piola-mpi`; public items are those that program and tests use.
 //!
 //! Every rank calls every function, in the same order. An error on one rank is sent to all ranks, and ends
 //! them together.
