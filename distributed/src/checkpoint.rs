@@ -60,7 +60,7 @@ pub(crate) fn write(
     simulation: &Simulation,
     about: &impl Serialize,
 ) -> Result<(), Error> {
-    let (share, state) = (simulation.share(), simulation.part());
+    let (share, state) = (&simulation.share, &simulation.part);
     let homes = Homes::new(share.totals[0] as u64, team.size());
     let rows = (0..share.owned).map(|node| {
         let mut row = [share.ids[node]; 10];
@@ -126,7 +126,7 @@ pub(crate) fn read<T: DeserializeOwned>(
     simulation: &mut Simulation,
     check: impl FnOnce(&T) -> Result<(), String>,
 ) -> Result<T, Error> {
-    let share = simulation.share();
+    let share = &simulation.share;
     let nodes = share.totals[0] as u64;
     let homes = Homes::new(nodes, team.size());
     let failed = |reason: String| unusable(path, &reason);

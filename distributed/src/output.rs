@@ -109,7 +109,7 @@ pub(crate) fn write_frame(
     frame: usize,
     simulation: &Simulation,
 ) -> Result<(), Error> {
-    let (share, state) = (simulation.share(), simulation.part());
+    let (share, state) = (&simulation.share, &simulation.part);
     let piece = |rank: usize| format!("frame_{frame:04}_{rank}.vtu");
     let (x, v) = (state.positions(), state.velocities());
     let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();

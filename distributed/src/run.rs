@@ -66,10 +66,10 @@ impl Progress {
     }
 
     fn note_start(&mut self, team: &Team, simulation: &Simulation) {
-        let share = simulation.share();
+        let share = &simulation.share;
         let rest: Vec<[f64; 3]> = share.places.iter().map(|place| place.rest).collect();
         let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();
-        self.min_det_f = team.min(measure::min_det_f(&rest, simulation.part().positions(), &tets));
+        self.min_det_f = team.min(measure::min_det_f(&rest, simulation.part.positions(), &tets));
     }
 }
 
@@ -96,7 +96,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     team.wait();
     let (set_up, clock) = (clock.elapsed(), Instant::now());
     let report = simulation.advance(|part| part.equilibrate_here())?.newton;
-    let systems = simulation.take_systems();
+    let systems = simulation.part.machine().take_systems();
     team.wait();
     let solved = clock.elapsed();
     if let Some(folder) = &options.out {
@@ -112,7 +112,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
         )));
     }
     let memory = team.sum([peak_memory()])[0] / f64::from(1 << 20);
-    let share = simulation.share();
+    let share = &simulation.share;
     let copies = team.max((share.ids.len() - share.owned) as f64);
     let total: usize = systems.iter().sum();
     let mean = total as f64 / systems.len().max(1) as f64;
@@ -159,7 +159,7 @@ pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
     course.simulation.prescribe(|node| setting.place(node, f64::INFINITY))?;
     let clock = Instant::now();
     let report = course.simulation.advance(|part| part.equilibrate_here())?;
-    course.progress.note(&report, &course.simulation.take_systems());
+    course.progress.note(&report, &course.simulation.part.machine().take_systems());
     course.frame = 1;
     let about = course.about(None)?;
     output::write_frame(team, &folder, 1, &course.simulation)?;
@@ -294,7 +294,7 @@ impl<'a> Course<'a> {
             }
         };
         progress.steps += steps;
-        progress.note(&report, &simulation.take_systems());
+        progress.note(&report, &simulation.part.machine().take_systems());
         Ok(())
     }
 
@@ -335,8 +335,8 @@ impl<'a> Course<'a> {
 
     fn summary(&mut self, times: &[Duration]) -> Summary {
         let team = self.team;
-        let energy = self.simulation.energies().elastic;
-        let (share, state) = (self.simulation.share(), self.simulation.part());
+        let energy = self.simulation.part.energies().elastic;
+        let (share, state) = (&self.simulation.share, &self.simulation.part);
         let distance = |node: usize| {
             let (x, rest) = (state.positions()[node], share.places[node].rest);
             (0..3).map(|c| (x[c] - rest[c]).powi(2)).sum::<f64>().sqrt()

@@ -3,7 +3,7 @@
 //! Newton's method is piola's instead of PETSc's SNES, which does not support pins that move into the first
 //! system, a filter on demand, or an end below the rounding error of the energy.
 
-use piola_bodies::step::{self, Energies, LinearSolver, SetupError, SimulationSettings, StepError};
+use piola_bodies::step::{self, LinearSolver, SetupError, SimulationSettings, StepError};
 use piola_bodies::system::Pins;
 use piola_scenes::error::Error as SceneError;
 
@@ -16,9 +16,12 @@ use crate::team::Team;
 /// Divided body with its state, on one rank. All ranks must call all functions.
 pub(crate) struct Simulation {
     team: Team,
-    share: Share,
+    /// Nodes and elements of this rank.
+    pub(crate) share: Share,
     failure: Failure,
-    part: step::Simulation<LinearSystem>,
+    /// Simulation of the part of this rank: positions, m, velocities, m/s, and accelerations, m/s², of its
+    /// nodes, copies included. Changes and steps are made by the functions below.
+    pub(crate) part: step::Simulation<LinearSystem>,
 }
 
 impl Simulation {
@@ -41,17 +44,6 @@ impl Simulation {
             .and_then(|mut part| part.set_positions(&start).map(|()| part));
         let part = team.agree(made.map_err(|error| SceneError::from(error).into()))?;
         Ok(Self { team: team.clone(), share, failure, part })
-    }
-
-    /// Nodes and elements of this rank.
-    pub(crate) fn share(&self) -> &Share {
-        &self.share
-    }
-
-    /// Simulation of the part of this rank: positions, m, velocities, m/s, and accelerations, m/s², of its
-    /// nodes, copies included.
-    pub(crate) fn part(&self) -> &step::Simulation<LinearSystem> {
-        &self.part
     }
 
     /// Changes the state, pins or springs of the part.
@@ -78,15 +70,5 @@ impl Simulation {
         // The error of an exchange or a solver on the way is the reason of the error of a step.
         self.failure.take()?;
         Ok(made?)
-    }
-
-    /// Numbers of iterations of the linear systems since the last call, those of failed attempts included.
-    pub(crate) fn take_systems(&mut self) -> Vec<usize> {
-        self.part.machine().take_systems()
-    }
-
-    /// Energies of the current state, as those of one machine.
-    pub(crate) fn energies(&mut self) -> Energies {
-        self.part.energies()
     }
 }

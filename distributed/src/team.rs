@@ -28,7 +28,6 @@ impl Team {
         Self { library: library.clone(), rank, size }
     }
 
-    /// Library that runs on all ranks.
     pub(crate) fn library(&self) -> &Library {
         &self.library
     }
@@ -39,7 +38,6 @@ impl Team {
         self.rank
     }
 
-    /// Number of ranks.
     pub(crate) fn size(&self) -> usize {
         self.size
     }
