@@ -130,7 +130,6 @@ fn heard(said: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Writes a warning to standard error.
 fn warn_of(warning: &String) {
     warn(format_args!("warning: {warning}"));
 }

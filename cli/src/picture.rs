@@ -11,7 +11,6 @@ use crate::render::{Frame, contact_sheet};
 /// Tiles of the contact sheet.
 const TILES: usize = 12;
 
-/// Adds the picture to the files of a run.
 pub(crate) fn add(finished: &mut Finished, settings: &Settings) {
     let frame = |number: usize| -> io::Result<Frame> {
         let vertices = finished.surface_in(number)?;

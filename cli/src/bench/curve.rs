@@ -62,7 +62,6 @@ const MAX_ROWS: usize = 100_000;
 const MAX_STRETCH: f64 = 1e6;
 
 impl Curve {
-    /// Computes test curves as tables, and draws them if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
         if self.material.material.as_deref() == Some(ranking::ALL) {
             return self.rank();
@@ -131,7 +130,6 @@ impl Curve {
         Ok(text)
     }
 
-    /// Ranks all rubbers by their agreement with the data.
     fn rank(self) -> Result<String, Error> {
         for (is_given, option) in [
             (!self.material.formula.parameters.is_empty(), "--param"),

@@ -62,7 +62,6 @@ impl Data {
         self.files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")
     }
 
-    /// The points of all files.
     pub(super) fn read(&self) -> Result<Measured, Error> {
         let files = self.files.len();
         for (option, given) in [

@@ -52,7 +52,6 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    /// Fits the parameters, and draws the result if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
         let Measured { points: data, notes } = self.data.read()?;
         let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);

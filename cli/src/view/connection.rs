@@ -114,7 +114,6 @@ impl Connection<'_> {
         }
     }
 
-    /// Sends the messages that are ready for the page.
     fn reply(&mut self) -> Result<(), End> {
         for words in self.conversation.words() {
             self.send(match words {

@@ -41,7 +41,6 @@ pub(super) fn file(path: &str) -> (String, &'static str) {
     (header("200 OK", kind, content.len()), content)
 }
 
-/// The answer to a request that is denied.
 pub(super) fn denied(Denied(status, reason): Denied) -> (String, &'static str) {
     (header(status, "plain", reason.len()), reason)
 }
