@@ -27,12 +27,11 @@ use piola_laboratory::AtRest;
 use piola_laboratory::curve::Volume;
 use piola_scenes::error::Error as SceneError;
 use piola_viewer::conversation::Conversation;
-use piola_viewer::driver::{Driver, Order};
+use piola_viewer::driver::Order;
 use piola_viewer::session::Session;
 use piola_viewer::topology;
 
 use crate::error::Error;
-use driver::OwnThreads;
 use request::Door;
 use server::Server;
 use token::Token;
@@ -73,13 +72,12 @@ impl Viewer {
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));
         let door = Door { port: address.port(), token: token.clone() };
-        let driver = Driver::new(OwnThreads::new(threads), session, save);
         let server = Server { listener, door, topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {
             thread::Builder::new().name(name.into()).spawn(work).map_err(Error::system("start a thread"))
         };
         // The driver ends when the server and all its connections have.
-        start("driver", Box::new(move || driver::run(driver, &taken)))?;
+        start("driver", Box::new(move || driver::run(threads, session, save, &taken)))?;
         let server = Some(start("server", Box::new(move || server.run()))?);
         Ok(Self { address, at_rest, token, is_over, server, warnings })
     }

@@ -70,7 +70,7 @@ impl Curve {
         let material = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
         let specimen = &material.interpreted()?;
-        let data::Measured { points: data, notes } = self.data.read()?;
+        let (data, notes) = self.data.read()?;
         let is_asked = |mode: &Mode| self.data.tests.iter().any(|test| test.mode == *mode);
         let modes = match Mode::ALL.into_iter().filter(is_asked).collect::<Vec<_>>() {
             asked if !asked.is_empty() => asked,
