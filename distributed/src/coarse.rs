@@ -7,7 +7,6 @@ use std::rc::Rc;
 
 use piola_bodies::step::divided::{LastLevel, LastSolver};
 
-use crate::error::Failure;
 use crate::petsc::{Krylov, Library, Matrix, PetscError, Vector};
 use crate::team::Team;
 
@@ -32,18 +31,17 @@ pub(crate) struct Coarse {
     krylov: Krylov,
     b: Vector<6>,
     x: Vector<6>,
-    failure: Failure,
+    team: Team,
 }
 
 impl Coarse {
     /// Sets up a solver for a level of which this rank owns `owned` rows. `numbers` are the global numbers of
-    /// all rows of this rank, copies of rows of other ranks last. Errors of solutions are noted in `failure`.
+    /// all rows of this rank, copies of rows of other ranks last. Errors of solutions are noted by the team.
     ///
     /// # Errors
     /// [`PetscError`], also for an option with a value that PETSc does not support.
     pub(crate) fn new(
         team: &Team,
-        failure: &Failure,
         owned: usize,
         numbers: &[usize],
         level: &LastLevel<'_>,
@@ -76,7 +74,7 @@ impl Coarse {
             krylov: Krylov::new(library, Rc::new(RefCell::new(matrix)), "coarse_", Some(kind))?,
             b: vector()?,
             x: vector()?,
-            failure: failure.clone(),
+            team: team.clone(),
         })
     }
 
@@ -97,7 +95,7 @@ impl Coarse {
 impl LastSolver for Coarse {
     fn solve(&mut self, b: &mut [[f32; 6]]) {
         let done = self.replace(b);
-        self.failure.note(done);
+        self.team.note(done);
     }
 }
 

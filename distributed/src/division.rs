@@ -9,7 +9,7 @@ use std::ops::Range;
 use piola_bodies::step::divided::{Division, LastLevel};
 
 use crate::coarse::Coarse;
-use crate::error::{Error, Failure};
+use crate::error::Error;
 use crate::petsc::{GhostedVector, PetscError};
 use crate::team::Team;
 
@@ -28,7 +28,6 @@ const FEW_OF_A_RANK: usize = 32;
 /// Rows of a level on one rank: owned rows, and copies of rows of other ranks.
 pub(crate) struct RowsOfRank {
     team: Team,
-    failure: Failure,
     /// Global numbers of the owned rows.
     owned: Range<usize>,
     /// Global number of each copy.
@@ -43,8 +42,8 @@ pub(crate) struct RowsOfRank {
 
 impl RowsOfRank {
     /// Division with a number of owned rows on this rank, and copies of the rows with the global numbers
-    /// `numbers`, which are counted rank after rank. Errors of exchanges are noted in `failure`.
-    pub(crate) fn new(team: &Team, failure: &Failure, owned: usize, numbers: Vec<usize>) -> Self {
+    /// `numbers`, which are counted rank after rank. Errors of exchanges are noted by the team.
+    pub(crate) fn new(team: &Team, owned: usize, numbers: Vec<usize>) -> Self {
         let mut starts = vec![0];
         for owned in team.all(owned) {
             starts.push(starts[starts.len() - 1] + owned);
@@ -58,7 +57,6 @@ impl RowsOfRank {
         }
         let rows = |rows: Vec<u64>| rows.into_iter().map(|row| row as usize).collect();
         Self {
-            failure: failure.clone(),
             owned: starts[team.rank()]..starts[team.rank() + 1],
             numbers,
             sent: team.exchange(&asked).into_iter().map(rows).collect(),
@@ -83,7 +81,7 @@ impl RowsOfRank {
             None => GhostedVector::new(self.team.library(), N, owned, &self.numbers)
                 .and_then(|made| exchange(vector.insert(made))),
         };
-        self.failure.note(exchanged);
+        self.team.note(exchanged);
     }
 
     /// Sends the lists of the rows `rows` to other ranks, and returns the lists received for the rows `to`.
@@ -169,7 +167,7 @@ impl Division for RowsOfRank {
 
     fn coarse(&self, rows: usize, copies: Vec<u64>) -> Result<Self, Error> {
         let numbers = copies.into_iter().map(|number| number as usize).collect();
-        Ok(Self::new(&self.team, &self.failure, rows, numbers))
+        Ok(Self::new(&self.team, rows, numbers))
     }
 
     fn is_last(&self, rows: usize, nodes: usize) -> bool {
@@ -178,6 +176,6 @@ impl Division for RowsOfRank {
 
     fn last(&self, level: &LastLevel<'_>) -> Result<Coarse, Error> {
         let numbers: Vec<usize> = self.owned.clone().chain(self.numbers.iter().copied()).collect();
-        Ok(Coarse::new(&self.team, &self.failure, self.owned.len(), &numbers, level)?)
+        Ok(Coarse::new(&self.team, self.owned.len(), &numbers, level)?)
     }
 }

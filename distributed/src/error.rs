@@ -1,8 +1,6 @@
 //! Errors of a run.
 
-use std::cell::RefCell;
 use std::fmt::Display;
-use std::rc::Rc;
 
 use piola_bodies::step::{NewtonError, StepError};
 use piola_bodies::system::LinearError;
@@ -57,32 +55,5 @@ fn remedy(error: &StepError) -> &'static str {
             " (`--inversion` continues energies beyond J > 0)"
         }
         _ => "",
-    }
-}
-
-/// First error, since the last call of [`Failure::take`], of functions that cannot return it.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Failure(Rc<RefCell<Option<Error>>>);
-
-impl Failure {
-    /// Value of a result; an error is kept, unless an earlier one is.
-    pub(crate) fn note<T, E: Into<Error>>(&self, result: Result<T, E>) -> Option<T> {
-        match result {
-            Ok(value) => Some(value),
-            Err(error) => {
-                self.0.borrow_mut().get_or_insert_with(|| error.into());
-                None
-            }
-        }
-    }
-
-    /// True if an error is kept.
-    pub(crate) fn is_noted(&self) -> bool {
-        self.0.borrow().is_some()
-    }
-
-    /// Removes the error, and returns it.
-    pub(crate) fn take(&self) -> Result<(), Error> {
-        self.0.borrow_mut().take().map_or(Ok(()), Err)
     }
 }

@@ -7,7 +7,7 @@ use piola_bodies::step::{self, LinearSolver, SetupError, SimulationSettings, Ste
 use piola_bodies::system::Pins;
 use piola_scenes::error::Error as SceneError;
 
-use crate::error::{Error, Failure};
+use crate::error::Error;
 use crate::part::{self, MaterialPart};
 use crate::share::Share;
 use crate::system::LinearSystem;
@@ -18,7 +18,6 @@ pub(crate) struct Simulation {
     team: Team,
     /// Nodes and elements of this rank.
     pub(crate) share: Share,
-    failure: Failure,
     /// Simulation of the part of this rank: positions, m, velocities, m/s, and accelerations, m/s², of its
     /// nodes, copies included. Changes and steps are made by the functions below.
     pub(crate) part: step::Simulation<LinearSystem>,
@@ -36,14 +35,13 @@ impl Simulation {
             let reason = "a body that is divided among ranks needs conjugate gradients as linear solver";
             return Err(Error::usage(reason));
         };
-        let (body, failure) = (team.agree(part::body(&share, parts))?, Failure::default());
-        let limits = (tolerance, max_iterations);
-        let system = LinearSystem::new(team, &share, body.as_ref(), limits, &failure)?;
+        let body = team.agree(part::body(&share, parts))?;
+        let system = LinearSystem::new(team, &share, body.as_ref(), tolerance, max_iterations)?;
         let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
         let made = step::Simulation::divided(system, body, &Pins::at(share.pinned()), settings)
             .and_then(|mut part| part.set_positions(&start).map(|()| part));
         let part = team.agree(made.map_err(|error| SceneError::from(error).into()))?;
-        Ok(Self { team: team.clone(), share, failure, part })
+        Ok(Self { team: team.clone(), share, part })
     }
 
     /// Changes the state, pins or springs of the part.
@@ -68,7 +66,7 @@ impl Simulation {
     ) -> Result<T, Error> {
         let made = advance(&mut self.part);
         // The error of an exchange or a solver on the way is the reason of the error of a step.
-        self.failure.take()?;
+        self.team.take_failure()?;
         Ok(made?)
     }
 }

@@ -2,6 +2,9 @@
 //!
 //! This module does not depend on bodies. All ranks must call every function, in the same order.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use mpi::collective::SystemOperation;
 use mpi::datatype::{Partition, PartitionMut};
 use mpi::topology::SimpleCommunicator;
@@ -17,6 +20,8 @@ pub struct Team {
     library: Library,
     rank: usize,
     size: usize,
+    /// First error, since the last call of [`Team::take_failure`], of functions that cannot return it.
+    failure: Rc<RefCell<Option<Error>>>,
 }
 
 impl Team {
@@ -25,7 +30,7 @@ impl Team {
     pub fn new(library: &Library) -> Self {
         let world = library.world();
         let (rank, size) = (world.rank() as usize, world.size() as usize);
-        Self { library: library.clone(), rank, size }
+        Self { library: library.clone(), rank, size, failure: Rc::default() }
     }
 
     pub(crate) fn library(&self) -> &Library {
@@ -151,6 +156,27 @@ impl Team {
     /// ranks do.
     pub(crate) fn on_first<T: Default>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
         self.agree(if self.rank == 0 { work() } else { Ok(T::default()) })
+    }
+
+    /// Value of a result of this rank; an error is kept, unless an earlier one is.
+    pub(crate) fn note<T, E: Into<Error>>(&self, result: Result<T, E>) -> Option<T> {
+        match result {
+            Ok(value) => Some(value),
+            Err(error) => {
+                self.failure.borrow_mut().get_or_insert_with(|| error.into());
+                None
+            }
+        }
+    }
+
+    /// True if an error of this rank is kept.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.failure.borrow().is_some()
+    }
+
+    /// Removes the error that is kept, and returns it.
+    pub(crate) fn take_failure(&self) -> Result<(), Error> {
+        self.failure.borrow_mut().take().map_or(Ok(()), Err)
     }
 
     /// Ends all ranks at once, after an error that cannot be sent to the others.
