@@ -70,7 +70,7 @@ pub(crate) fn write(
         }
         row
     });
-    let mut rows = team.exchange_rows(homes.sort(team, rows)).concat();
+    let mut rows = homes.send(team, rows).concat();
     rows.sort_unstable_by_key(|row| row[0]);
     let list = |at: usize| -> Vec<u8> {
         rows.iter().flat_map(|row| &row[3 * at + 1..3 * at + 4]).flat_map(|bits| bits.to_le_bytes()).collect()

@@ -62,18 +62,10 @@ pub struct PetscError {
     pub message: String,
 }
 
-/// Error for an integer that is too large for PETSc's integers.
-fn too_large(number: usize) -> PetscError {
-    let bits = PetscInt::BITS;
-    PetscError {
-        message: format!(
-            "{number} does not fit into the {bits}-bit integers of this PETSc; build PETSc with 64-bit indices"
-        ),
-    }
-}
-
 fn int(number: usize) -> Result<PetscInt, PetscError> {
-    PetscInt::try_from(number).map_err(|_| too_large(number))
+    let (bits, remedy) = (PetscInt::BITS, "build PETSc with 64-bit indices");
+    let message = || format!("{number} does not fit into the {bits}-bit integers of this PETSc; {remedy}");
+    PetscInt::try_from(number).map_err(|_| PetscError { message: message() })
 }
 
 /// Value of the C macros PETSC_DECIDE and PETSC_DETERMINE: a size that PETSc computes.
@@ -141,12 +133,11 @@ impl Library {
     /// # Errors
     /// [`PetscError`] if MPI or PETSc cannot be started, or was started before.
     pub fn start(options: &[(String, Option<String>)]) -> Result<Self, PetscError> {
-        let failed = |message: &str| PetscError { message: message.to_owned() };
         // Partitioners such as PTScotch divide graphs on several threads, each of which sends messages to
         // other ranks. With a lower level of thread support they occasionally hang.
         let universe = mpi::initialize_with_threading(mpi::Threading::Multiple)
             .map(|(universe, _)| universe)
-            .ok_or_else(|| failed("MPI was started before"))?;
+            .ok_or_else(|| PetscError { message: "MPI was started before".to_owned() })?;
         let world = universe.world();
         // Signals end the program, without a handler of PETSc.
         set_option("no_signal_handler", None)?;

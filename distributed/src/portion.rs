@@ -35,15 +35,16 @@ impl Homes {
         at(rank)..at(rank + 1)
     }
 
-    /// List of rows for each rank; the first entry of a row is a node, whose home is the rank.
-    pub(crate) fn sort<const N: usize>(
+    /// Sends rows to the homes of the nodes that are their first entries; returns the rows received from each
+    /// rank.
+    pub(crate) fn send<const N: usize>(
         &self,
         team: &Team,
         rows: impl IntoIterator<Item = [u64; N]>,
     ) -> Vec<Vec<[u64; N]>> {
         let mut lists = vec![Vec::new(); team.size()];
         rows.into_iter().for_each(|row| lists[self.of(row[0])].push(row));
-        lists
+        team.exchange_rows(lists)
     }
 
     /// Answers of the homes of these nodes, which must be ascending; `answer` has the index of a node in the
@@ -54,7 +55,7 @@ impl Homes {
         nodes: &[u64],
         answer: impl Fn(usize) -> [u64; N],
     ) -> Vec<[u64; N]> {
-        let asked = team.exchange_rows(self.sort(team, nodes.iter().map(|&node| [node])));
+        let asked = self.send(team, nodes.iter().map(|&node| [node]));
         let first = self.range(team.rank()).start;
         let answers =
             |nodes: &Vec<[u64; 1]>| nodes.iter().map(|[node]| answer((node - first) as usize)).collect();
@@ -108,7 +109,7 @@ impl Portion {
         let [nodes, count] = [places.len(), elements.len()].map(|number| team.count(number) as u64);
         let homes = Homes::new(nodes, team.size());
         let rows = places.into_iter().enumerate().map(|(node, place)| place.to_row(node as u64));
-        let places = team.exchange_rows(homes.sort(team, rows)).concat();
+        let places = homes.send(team, rows).concat();
         let of_elements = Homes::new(count, team.size());
         let mut lists = vec![Vec::new(); team.size()];
         for (number, element) in elements.into_iter().enumerate() {

@@ -68,7 +68,7 @@ impl Share {
         // If a rank has no element of a node, another rank that has one becomes the owner of the node.
         let first = homes.range(team.rank()).start;
         let touched = nodes(&elements);
-        let of_ranks = team.exchange_rows(homes.sort(team, touched.iter().map(|&node| [node])));
+        let of_ranks = homes.send(team, touched.iter().map(|&node| [node]));
         let mut with_elements = vec![Vec::new(); places.len()];
         for (rank, nodes) in of_ranks.iter().enumerate() {
             nodes.iter().for_each(|[node]| with_elements[(node - first) as usize].push(rank as u64));
@@ -97,7 +97,7 @@ impl Share {
             .enumerate()
             .map(|(node, row)| [row[0], (first_owned + node) as u64, free_number(node)]);
         let mut known = vec![[0; 2]; places.len()];
-        for [node, number, free] in team.exchange_rows(homes.sort(team, rows)).concat() {
+        for [node, number, free] in homes.send(team, rows).concat() {
             known[(node - first) as usize] = [number, free];
         }
 
