@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use piola_bodies::step::divided::{LastLevel, LastSolver};
 
-use crate::petsc::{Krylov, Library, Matrix, PetscError, Vector};
+use crate::petsc::{Krylov, Matrix, PetscError, Vector};
 use crate::team::Team;
 
 /// Default options of PETSc for the solver of the last level.
@@ -68,7 +68,7 @@ impl Coarse {
         let mut matrix = Matrix::new(library, 6 * owned, 6, places.iter().copied())?;
         matrix.set_values(&values)?;
         let kind = if team.count(owned) <= FACTORED { "redundant" } else { "gamg" };
-        matrix.set_motions(&orthonormal(team, library, level.motions())?)?;
+        matrix.set_motions(&orthonormal(team, level.motions())?)?;
         let vector = || Vector::new(library, owned);
         Ok(Self {
             krylov: Krylov::new(library, Rc::new(RefCell::new(matrix)), "coarse_", Some(kind))?,
@@ -100,11 +100,7 @@ impl LastSolver for Coarse {
 }
 
 /// Orthonormal basis of the columns of these blocks; dependent columns are left out.
-fn orthonormal(
-    team: &Team,
-    library: &Library,
-    motions: &[[[f64; 6]; 6]],
-) -> Result<Vec<Vector<6>>, PetscError> {
+fn orthonormal(team: &Team, motions: &[[[f64; 6]; 6]]) -> Result<Vec<Vector<6>>, PetscError> {
     let mut found: Vec<Vec<[f64; 6]>> = Vec::new();
     let dot = |a: &[[f64; 6]], b: &[[f64; 6]]| {
         team.sum([a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()])[0]
@@ -126,7 +122,7 @@ fn orthonormal(
         }
     }
     let vector = |motion: &Vec<[f64; 6]>| {
-        let mut vector = Vector::new(library, motion.len())?;
+        let mut vector = Vector::new(team.library(), motion.len())?;
         vector.with(|entries| entries.copy_from_slice(motion))?;
         Ok(vector)
     };
