@@ -18,51 +18,45 @@ use super::request::{self, Denied, Door, Request};
 /// A browser opens half a dozen for the files of a page and keeps one.
 const MAX_CONNECTIONS: usize = 32;
 
-/// Everything that connections need.
-pub(super) struct Server {
-    pub(super) listener: TcpListener,
-    pub(super) door: Door,
-    pub(super) topology: Bytes,
-    pub(super) orders: SyncSender<Order>,
-    /// True if no more connections are accepted.
-    pub(super) is_over: Arc<AtomicBool>,
-    /// The number of the first connection; below it, drags of a loaded state may still pull.
-    pub(super) first: u64,
-}
-
-impl Server {
-    /// Takes connections until it is over.
-    pub(super) fn run(self) {
-        // Each connection holds a share of it.
-        let open = Arc::new(());
-        for (stream, number) in self.listener.incoming().zip(self.first..) {
-            if self.is_over.load(Ordering::Relaxed) {
-                return;
-            }
-            // A connection that fails before it begins concerns no other.
-            let Ok(stream) = stream else { continue };
-            let mut stream = TimedStream::new(stream);
-            let place = Arc::clone(&open);
-            if Arc::strong_count(&open) > 1 + MAX_CONNECTIONS {
-                let denied = Denied("503 Service Unavailable", "there are too many connections");
-                answer(&mut stream, page::denied(denied));
-                continue;
-            }
-            let (door, topology, orders) = (self.door.clone(), self.topology.clone(), self.orders.clone());
-            let talk = move || {
-                let _place = place;
-                match request::read(&mut stream, &door) {
-                    None => {}
-                    Some(Ok(Request::File { path })) => answer(&mut stream, page::file(&path)),
-                    Some(Ok(Request::Socket(response))) => {
-                        connection::serve(stream, &response, number, topology, &orders);
-                    }
-                    Some(Err(denied)) => answer(&mut stream, page::denied(denied)),
-                }
-            };
-            // Where the system has no thread left, the browser sees a connection that ends.
-            let _ = thread::Builder::new().name(format!("page {number}")).spawn(talk);
+/// Takes connections until it is over. They are numbered from `first` on; below it, drags of a loaded state
+/// may still pull.
+pub(super) fn run(
+    listener: &TcpListener,
+    door: &Door,
+    topology: &Bytes,
+    orders: &SyncSender<Order>,
+    is_over: &AtomicBool,
+    first: u64,
+) {
+    // Each connection holds a share of it.
+    let open = Arc::new(());
+    for (stream, number) in listener.incoming().zip(first..) {
+        if is_over.load(Ordering::Relaxed) {
+            return;
         }
+        // A connection that fails before it begins concerns no other.
+        let Ok(stream) = stream else { continue };
+        let mut stream = TimedStream::new(stream);
+        let place = Arc::clone(&open);
+        if Arc::strong_count(&open) > 1 + MAX_CONNECTIONS {
+            let denied = Denied("503 Service Unavailable", "there are too many connections");
+            answer(&mut stream, page::denied(denied));
+            continue;
+        }
+        let (door, topology, orders) = (door.clone(), topology.clone(), orders.clone());
+        let talk = move || {
+            let _place = place;
+            match request::read(&mut stream, &door) {
+                None => {}
+                Some(Ok(Request::File { path })) => answer(&mut stream, page::file(&path)),
+                Some(Ok(Request::Socket(response))) => {
+                    connection::serve(stream, &response, number, topology, &orders);
+                }
+                Some(Err(denied)) => answer(&mut stream, page::denied(denied)),
+            }
+        };
+        // Where the system has no thread left, the browser sees a connection that ends.
+        let _ = thread::Builder::new().name(format!("page {number}")).spawn(talk);
     }
 }
 
@@ -95,9 +89,8 @@ mod tests {
         let door = Door { port: address.port(), token: Token::new().expect("a system") };
         let token = door.token.clone();
         let (orders, taken) = sync_channel(256);
-        let (topology, is_over) = (Bytes::from_static(b"body"), Arc::default());
-        let server = Server { listener, door, topology, orders, is_over, first: 0 };
-        thread::spawn(move || server.run());
+        let (topology, is_over) = (Bytes::from_static(b"body"), AtomicBool::new(false));
+        thread::spawn(move || run(&listener, &door, &topology, &orders, &is_over, 0));
         (address, token, taken)
     }
 
