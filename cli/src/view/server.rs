@@ -13,7 +13,7 @@ use tungstenite::Bytes;
 use super::connection;
 use super::page;
 use super::patience::{ANSWER, TimedStream};
-use super::request::{self, Denied, Door, Request};
+use super::request::{self, Door, Request};
 
 /// A browser opens half a dozen for the files of a page and keeps one.
 const MAX_CONNECTIONS: usize = 32;
@@ -39,8 +39,7 @@ pub(super) fn run(
         let mut stream = TimedStream::new(stream);
         let place = Arc::clone(&open);
         if Arc::strong_count(&open) > 1 + MAX_CONNECTIONS {
-            let denied = Denied("503 Service Unavailable", "there are too many connections");
-            answer(&mut stream, page::denied(denied));
+            answer(&mut stream, page::denied("503 Service Unavailable", "there are too many connections"));
             continue;
         }
         let (door, topology, orders) = (door.clone(), topology.clone(), orders.clone());
@@ -48,11 +47,11 @@ pub(super) fn run(
             let _place = place;
             match request::read(&mut stream, &door) {
                 None => {}
-                Some(Ok(Request::File { path })) => answer(&mut stream, page::file(&path)),
-                Some(Ok(Request::Socket(response))) => {
+                Some(Request::File { path }) => answer(&mut stream, page::file(&path)),
+                Some(Request::Socket(response)) => {
                     connection::serve(stream, &response, number, topology, &orders);
                 }
-                Some(Err(denied)) => answer(&mut stream, page::denied(denied)),
+                Some(Request::Denied(status, reason)) => answer(&mut stream, page::denied(status, reason)),
             }
         };
         // Where the system has no thread left, the browser sees a connection that ends.
