@@ -34,7 +34,8 @@ impl Matrix {
         let matrix = Self { library: library.clone(), raw, places: row_numbers.len(), _operators: None };
         let kind = string("aij")?;
         // SAFETY: the matrix exists and has neither type nor sizes; `kind` is a C string; the two slices have
-        // the given length, and PETSc may overwrite them, because they are not read again.
+        // the given length, and PETSc may overwrite them, because they are not read again; both options are
+        // those of matrices.
         unsafe {
             check(ffi::MatSetSizes(raw, rows, rows, DECIDE, DECIDE))?;
             check(ffi::MatSetType(raw, kind.as_ptr()))?;
