@@ -77,7 +77,7 @@ pub(crate) fn write(
     };
     let lists = [list(0), list(1), list(2)];
     let header =
-        Header { format: FORMAT.to_owned(), nodes: homes.total(), checksum: checksum(team, &lists), about };
+        Header { format: FORMAT.to_owned(), nodes: homes.total, checksum: checksum(team, &lists), about };
 
     let aside = path.with_extension("part");
     let failed = |source| Error::from(SceneError::Write { path: path.into(), source });
@@ -205,7 +205,7 @@ fn read_header<T: DeserializeOwned>(path: &Path) -> Result<(File, Header<T>), St
 
 /// Position, in the file, of the nodes at home on a rank in one of the lists.
 fn place(homes: &Homes, rank: usize, list: usize) -> u64 {
-    HEADER as u64 + NODE * (list as u64 * homes.total() + homes.range(rank).start)
+    HEADER as u64 + NODE * (list as u64 * homes.total + homes.range(rank).start)
 }
 
 /// Checksum of three consecutive lists, of each of which every rank has a part.

@@ -28,7 +28,8 @@ const DEPENDENT: f64 = 1e-9;
 
 /// Solver of the last level of piola's multigrid.
 pub(crate) struct Coarse {
-    krylov: Krylov,
+    /// Solver of PETSc, for `-ksp_view`.
+    pub(crate) krylov: Krylov,
     b: Vector<6>,
     x: Vector<6>,
     team: Team,
@@ -76,11 +77,6 @@ impl Coarse {
             x: vector()?,
             team: team.clone(),
         })
-    }
-
-    /// Solver of PETSc, for `-ksp_view`.
-    pub(crate) fn krylov(&self) -> &Krylov {
-        &self.krylov
     }
 
     fn replace(&mut self, b: &mut [[f32; 6]]) -> Result<(), PetscError> {

@@ -9,7 +9,8 @@ use crate::team::Team;
 /// Home rank of each node: contiguous ranges of node numbers of equal length, rank after rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Homes {
-    total: u64,
+    /// Number of nodes.
+    pub(crate) total: u64,
     each: u64,
 }
 
@@ -17,11 +18,6 @@ impl Homes {
     /// Divides a number of nodes among all ranks.
     pub(crate) fn new(total: u64, ranks: usize) -> Self {
         Self { total, each: total.div_ceil(ranks as u64).max(1) }
-    }
-
-    /// Number of nodes.
-    pub(crate) fn total(&self) -> u64 {
-        self.total
     }
 
     /// Home rank of a node.

@@ -130,7 +130,7 @@ impl Share {
             copies: answers.iter().map(|row| row[0] as usize).collect(),
             free_numbers: numbers.map(|number| (number != PINNED).then_some(number as usize)).collect(),
             elements: elements.iter().map(local).collect(),
-            totals: [homes.total() as usize, total],
+            totals: [homes.total as usize, total],
         })
     }
 

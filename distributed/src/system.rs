@@ -118,7 +118,7 @@ impl Operators for MatrixFree {
             return ("blocks on the diagonal".to_owned(), None);
         };
         let rows: Vec<String> = rows.iter().map(ToString::to_string).collect();
-        (format!("multigrid: levels of {} rows; the last is solved by", rows.join(", ")), Some(last.krylov()))
+        (format!("multigrid: levels of {} rows; the last is solved by", rows.join(", ")), Some(&last.krylov))
     }
 }
 
