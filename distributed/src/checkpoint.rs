@@ -61,7 +61,7 @@ pub(crate) fn write(
     about: &impl Serialize,
 ) -> Result<(), Error> {
     let (share, state) = (&simulation.share, &simulation.part);
-    let homes = Homes::new(share.totals[0] as u64, team.size());
+    let homes = Homes::new(share.totals[0] as u64, team.size);
     let rows = (0..share.owned).map(|node| {
         let mut row = [share.ids[node]; 10];
         let vectors = [state.positions()[node], state.velocities()[node], state.accelerations()[node]];
@@ -128,7 +128,7 @@ pub(crate) fn read<T: DeserializeOwned>(
 ) -> Result<T, Error> {
     let share = &simulation.share;
     let nodes = share.totals[0] as u64;
-    let homes = Homes::new(nodes, team.size());
+    let homes = Homes::new(nodes, team.size);
     let failed = |reason: String| unusable(path, &reason);
     let loaded = read_header::<T>(path).and_then(|(file, header)| {
         if header.nodes != nodes {

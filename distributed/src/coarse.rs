@@ -47,7 +47,7 @@ impl Coarse {
         numbers: &[usize],
         level: &LastLevel<'_>,
     ) -> Result<Self, PetscError> {
-        let library = team.library();
+        let library = &team.library;
         for (name, value) in DEFAULTS {
             library.default_option(name, value)?;
         }
@@ -118,7 +118,7 @@ fn orthonormal(team: &Team, motions: &[[[f64; 6]; 6]]) -> Result<Vec<Vector<6>>,
         }
     }
     let vector = |motion: &Vec<[f64; 6]>| {
-        let mut vector = Vector::new(team.library(), motion.len())?;
+        let mut vector = Vector::new(&team.library, motion.len())?;
         vector.with(|entries| entries.copy_from_slice(motion))?;
         Ok(vector)
     };

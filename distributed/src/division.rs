@@ -48,8 +48,8 @@ impl RowsOfRank {
         for owned in team.all(owned) {
             starts.push(starts[starts.len() - 1] + owned);
         }
-        let mut received = vec![Vec::new(); team.size()];
-        let mut asked = vec![Vec::new(); team.size()];
+        let mut received = vec![Vec::new(); team.size];
+        let mut asked = vec![Vec::new(); team.size];
         for (copy, &number) in numbers.iter().enumerate() {
             let rank = starts.partition_point(|&start| start <= number) - 1;
             received[rank].push(copy);
@@ -71,14 +71,14 @@ impl RowsOfRank {
         &mut self,
         exchange: impl FnOnce(&mut GhostedVector) -> Result<(), PetscError>,
     ) {
-        if self.team.size() == 1 {
+        if self.team.size == 1 {
             return;
         }
         let owned = self.owned.len();
         let vector = &mut self.vectors[usize::from(N > 3)];
         let exchanged = match vector {
             Some(vector) => exchange(vector),
-            None => GhostedVector::new(self.team.library(), N, owned, &self.numbers)
+            None => GhostedVector::new(&self.team.library, N, owned, &self.numbers)
                 .and_then(|made| exchange(vector.insert(made))),
         };
         self.team.note(exchanged);
@@ -171,7 +171,7 @@ impl Division for RowsOfRank {
     }
 
     fn is_last(&self, rows: usize, nodes: usize) -> bool {
-        rows <= (nodes.isqrt() / 2).clamp(FEW, MOST).max(FEW_OF_A_RANK * self.team.size())
+        rows <= (nodes.isqrt() / 2).clamp(FEW, MOST).max(FEW_OF_A_RANK * self.team.size)
     }
 
     fn last(&self, level: &LastLevel<'_>) -> Result<Coarse, Error> {

@@ -123,7 +123,7 @@ pub(crate) fn write_frame(
     let elemental = [Field { name: "rank", components: 1, values: &rank }];
     let path = folder.join(piece(team.rank()));
     team.agree(write_file(path, |file| write_vtu(file, x, &tets, &nodal, &elemental)))?;
-    let pieces = (0..team.size()).map(piece);
+    let pieces = (0..team.size).map(piece);
     team.on_first(|| write_file(folder.join(frame_file(frame)), |file| write_pvtu(file, pieces)))
 }
 

@@ -38,9 +38,7 @@ impl Homes {
         team: &Team,
         rows: impl IntoIterator<Item = [u64; N]>,
     ) -> Vec<Vec<[u64; N]>> {
-        let mut lists = vec![Vec::new(); team.size()];
-        rows.into_iter().for_each(|row| lists[self.of(row[0])].push(row));
-        team.exchange_rows(lists)
+        team.send(rows.into_iter().map(|row| (self.of(row[0]), row)))
     }
 
     /// Answers of the homes of these nodes, which must be ascending; `answer` has the index of a node in the
@@ -53,10 +51,10 @@ impl Homes {
     ) -> Vec<[u64; N]> {
         let asked = self.send(team, nodes.iter().map(|&node| [node]));
         let first = self.range(team.rank()).start;
-        let answers =
-            |nodes: &Vec<[u64; 1]>| nodes.iter().map(|[node]| answer((node - first) as usize)).collect();
+        let asked =
+            asked.iter().enumerate().flat_map(|(rank, nodes)| nodes.iter().map(move |node| (rank, node)));
         // Homes ascend with the nodes.
-        team.exchange_rows(asked.iter().map(answers).collect::<Vec<_>>()).concat()
+        team.send(asked.map(|(rank, [node])| (rank, answer((node - first) as usize)))).concat()
     }
 }
 
@@ -103,18 +101,16 @@ impl Portion {
     /// Distributes a mesh from rank 0; the lists of other ranks must be empty.
     pub(crate) fn spread(team: &Team, places: Vec<Place>, elements: Vec<Element>) -> Self {
         let [nodes, count] = [places.len(), elements.len()].map(|number| team.count(number) as u64);
-        let homes = Homes::new(nodes, team.size());
+        let homes = Homes::new(nodes, team.size);
         let rows = places.into_iter().enumerate().map(|(node, place)| place.to_row(node as u64));
         let places = homes.send(team, rows).concat();
-        let of_elements = Homes::new(count, team.size());
-        let mut lists = vec![Vec::new(); team.size()];
-        for (number, element) in elements.into_iter().enumerate() {
-            lists[of_elements.of(number as u64)].push(element);
-        }
+        let of_elements = Homes::new(count, team.size);
+        let elements = elements.into_iter().enumerate();
+        let elements = elements.map(|(number, element)| (of_elements.of(number as u64), element));
         Self {
             homes,
             places: places.iter().map(|row| Place::from_row(row)).collect(),
-            elements: team.exchange_rows(lists).concat(),
+            elements: team.send(elements).concat(),
         }
     }
 
@@ -124,14 +120,14 @@ impl Portion {
     #[must_use]
     pub fn of_cube(team: &Team, cells: u64, length: f64) -> Self {
         let side = cells + 1;
-        let homes = Homes::new(side * side * side, team.size());
+        let homes = Homes::new(side * side * side, team.size);
         let coordinate = |at: u64| length * (at as f64 / cells as f64);
         let place = |node: u64| {
             let at = [node / (side * side), node / side % side, node % side];
             let rest = at.map(coordinate);
             Place { rest, start: rest, marks: u64::from(at[0] == 0) }
         };
-        let of_cells = Homes::new(cells * cells * cells, team.size());
+        let of_cells = Homes::new(cells * cells * cells, team.size);
         // Paths from a corner of the cell to the opposite corner, along the three axes; odd orders are
         // mirrored.
         const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];

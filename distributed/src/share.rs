@@ -44,8 +44,8 @@ impl Share {
     pub fn of(team: &Team, portion: Portion) -> Result<Self, Error> {
         let Portion { homes, places, elements } = portion;
         let total = team.count(elements.len());
-        if total < team.size() {
-            let ranks = team.size();
+        if total < team.size {
+            let ranks = team.size;
             return Err(Error::usage(format!(
                 "{ranks} ranks cannot share {total} elements: use at most as many ranks as there are elements"
             )));
@@ -57,12 +57,9 @@ impl Share {
         let answers = homes.ask(team, &touched, |node| [owner_here[node]]);
         let owner: HashMap<u64, u64> =
             touched.iter().zip(&answers).map(|(&node, &[owner])| (node, owner)).collect();
-        let mut lists = vec![Vec::new(); team.size()];
-        for element in elements {
-            let owners: [u64; 4] = std::array::from_fn(|corner| owner[&element[corner]]);
-            lists[rank_of(owners, element[4])].push(element);
-        }
-        let mut elements = team.exchange_rows(lists).concat();
+        let rank =
+            |element: &Element| rank_of(std::array::from_fn(|corner| owner[&element[corner]]), element[4]);
+        let mut elements = team.send(elements.into_iter().map(|element| (rank(&element), element))).concat();
         elements.sort_unstable_by_key(|element| element[4]);
 
         // If a rank has no element of a node, another rank that has one becomes the owner of the node.
@@ -80,11 +77,8 @@ impl Share {
         }
 
         // Send nodes to their owners.
-        let mut lists = vec![Vec::new(); team.size()];
-        for (node, place) in places.iter().enumerate() {
-            lists[owner_here[node] as usize].push(place.to_row(first + node as u64));
-        }
-        let mut owned = team.exchange_rows(lists).concat();
+        let row = |node: usize| (owner_here[node] as usize, places[node].to_row(first + node as u64));
+        let mut owned = team.send((0..places.len()).map(row)).concat();
         owned.sort_unstable_by_key(|row| (row[7] & 1, row[0]));
         let free = owned.iter().filter(|row| row[7] & 1 == 0).count();
 
@@ -163,7 +157,7 @@ fn rank_of(mut owners: [u64; 4], tag: u64) -> usize {
 fn owners(team: &Team, homes: &Homes, elements: &[Element]) -> Result<Vec<u64>, Error> {
     let range = homes.range(team.rank());
     let here = (range.end - range.start) as usize;
-    if team.size() == 1 {
+    if team.size == 1 {
         return Ok(vec![0; here]);
     }
     let mut pairs = Vec::with_capacity(12 * elements.len());
@@ -177,7 +171,7 @@ fn owners(team: &Team, homes: &Homes, elements: &[Element]) -> Result<Vec<u64>, 
     pairs.sort_unstable();
     pairs.dedup();
     let places = pairs.iter().map(|pair| pair.map(|node| node as usize));
-    let mut graph = Matrix::new(team.library(), here, 1, places)?;
+    let mut graph = Matrix::new(&team.library, here, 1, places)?;
     graph.set_values(&vec![1.0; pairs.len()])?;
     Ok(graph.partition()?.into_iter().map(|rank| rank as u64).collect())
 }

@@ -134,7 +134,7 @@ impl LinearSystem {
         tolerance: f64,
         max_iterations: usize,
     ) -> Result<Self, Error> {
-        let library = team.library();
+        let library = &team.library;
         let stiffness = body.map_or_else(NodalStiffness::empty, NodalStiffness::of_body);
         let stiffness = team.agree(stiffness.map_err(Error::from))?;
         let own = body.map_or(&[][..], Body::masses);
@@ -273,7 +273,7 @@ impl LinearSystem {
             Form::Assembled(_) => true,
         };
         if !std::mem::replace(&mut self.is_checked[usize::from(is_with_levels)], true) {
-            let mut names = self.team.library().unused_options()?;
+            let mut names = self.team.library.unused_options()?;
             names.retain(|name| is_with_levels || !name.starts_with("coarse_"));
             if !names.is_empty() {
                 let names: Vec<_> = names.iter().map(|name| format!("-{name}")).collect();
@@ -384,7 +384,7 @@ struct Assembled {
 impl Assembled {
     /// Computes the places of all entries.
     fn new(team: &Team, share: &Share, stiffness: &NodalStiffness) -> Result<Self, Error> {
-        let library = team.library();
+        let library = &team.library;
         let mut blocks = Vec::new();
         let mut block = |row: usize, column: usize| {
             blocks.extend(share.free_numbers[row].zip(share.free_numbers[column]).map(<[usize; 2]>::from));

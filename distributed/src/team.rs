@@ -17,9 +17,11 @@ use crate::petsc::Library;
 /// Team of all ranks of a run, on one rank.
 #[derive(Clone)]
 pub struct Team {
-    library: Library,
+    /// Library that runs on all ranks.
+    pub(crate) library: Library,
     rank: usize,
-    size: usize,
+    /// Number of ranks.
+    pub(crate) size: usize,
     /// First error, since the last call of [`Team::take_failure`], of functions that cannot return it.
     failure: Rc<RefCell<Option<Error>>>,
 }
@@ -33,18 +35,10 @@ impl Team {
         Self { library: library.clone(), rank, size, failure: Rc::default() }
     }
 
-    pub(crate) fn library(&self) -> &Library {
-        &self.library
-    }
-
     /// Number of this rank, from 0.
     #[must_use]
     pub fn rank(&self) -> usize {
         self.rank
-    }
-
-    pub(crate) fn size(&self) -> usize {
-        self.size
     }
 
     fn world(&self) -> &SimpleCommunicator {
@@ -115,9 +109,13 @@ impl Team {
         incoming.into_iter().map(next).collect()
     }
 
-    /// Sends rows of integers to each rank, and returns the rows received from each rank.
-    pub(crate) fn exchange_rows<const N: usize>(&self, outgoing: Vec<Vec<[u64; N]>>) -> Vec<Vec<[u64; N]>> {
-        let outgoing: Vec<_> = outgoing.into_iter().map(Vec::into_flattened).collect();
+    /// Sends each row of integers to its rank, and returns the rows received from each rank.
+    pub(crate) fn send<const N: usize>(
+        &self,
+        rows: impl IntoIterator<Item = (usize, [u64; N])>,
+    ) -> Vec<Vec<[u64; N]>> {
+        let mut outgoing = vec![Vec::new(); self.size];
+        rows.into_iter().for_each(|(rank, row)| outgoing[rank].extend(row));
         self.exchange(&outgoing).iter().map(|list| list.as_chunks().0.to_vec()).collect()
     }
 
