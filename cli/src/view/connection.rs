@@ -34,7 +34,7 @@ pub(super) fn serve(
     orders: &SyncSender<Order>,
 ) {
     stream.allow(ANSWER);
-    let greeting = stream.stream().set_nodelay(true).map_err(SocketError::from);
+    let greeting = stream.stream.set_nodelay(true).map_err(SocketError::from);
     let greeting = greeting.and_then(|()| write_response(&mut stream, response));
     if greeting.is_err() {
         return;

@@ -23,7 +23,7 @@ const fn limit(seconds: u64, in_tests: u64) -> Duration {
 /// A connection whose reads and writes together end by a set time, regardless of the speed of the other side.
 #[derive(Debug)]
 pub(super) struct TimedStream {
-    stream: TcpStream,
+    pub(super) stream: TcpStream,
     until: Instant,
 }
 
@@ -36,10 +36,6 @@ impl TimedStream {
     /// Gives this much time to the reads and writes to come, from now on.
     pub(super) fn allow(&mut self, time: Duration) {
         self.until = Instant::now() + time;
-    }
-
-    pub(super) fn stream(&self) -> &TcpStream {
-        &self.stream
     }
 
     fn left(&self) -> io::Result<Duration> {

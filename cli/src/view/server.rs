@@ -65,7 +65,7 @@ fn answer(stream: &mut TimedStream, (header, content): (String, &'static str)) {
     let _ = stream
         .write_all(header.as_bytes())
         .and_then(|()| stream.write_all(content.as_bytes()))
-        .and_then(|()| stream.stream().shutdown(Shutdown::Write));
+        .and_then(|()| stream.stream.shutdown(Shutdown::Write));
 }
 
 #[cfg(test)]

@@ -81,10 +81,10 @@ impl Krylov {
     }
 
     /// Solves A x = b from x = 0 to a residual of `tolerance` times |b|.
-    pub(crate) fn solve<const N: usize>(
+    pub(crate) fn solve(
         &mut self,
-        b: &Vector<N>,
-        x: &mut Vector<N>,
+        b: &Vector<3>,
+        x: &mut Vector<3>,
         tolerance: f64,
         max_iterations: usize,
     ) -> Result<Iteration, PetscError> {
@@ -110,11 +110,7 @@ impl Krylov {
     }
 
     /// Solves A x = b to the tolerance of the options.
-    pub(crate) fn apply<const N: usize>(
-        &mut self,
-        b: &Vector<N>,
-        x: &mut Vector<N>,
-    ) -> Result<(), PetscError> {
+    pub(crate) fn apply(&mut self, b: &Vector<6>, x: &mut Vector<6>) -> Result<(), PetscError> {
         // SAFETY: solver and vectors exist.
         check(unsafe { ffi::KSPSolve(self.raw, b.raw, x.raw) })
     }

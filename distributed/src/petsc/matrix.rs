@@ -101,7 +101,7 @@ impl Matrix {
     }
 
     /// Sets the near null space for preconditioners to these vectors, which must be orthonormal.
-    pub(crate) fn set_motions<const N: usize>(&mut self, motions: &[Vector<N>]) -> Result<(), PetscError> {
+    pub(crate) fn set_motions(&mut self, motions: &[Vector<6>]) -> Result<(), PetscError> {
         let vectors: Vec<ffi::Vec> = motions.iter().map(|vector| vector.raw).collect();
         let (is_constant, count) = (ffi::PetscBool_PETSC_FALSE, int(vectors.len())?);
         let mut space = null_mut();
