@@ -114,7 +114,7 @@ impl Team {
         &self,
         rows: impl IntoIterator<Item = (usize, [u64; N])>,
     ) -> Vec<Vec<[u64; N]>> {
-        let mut outgoing = vec![Vec::new(); self.size];
+        let mut outgoing: Vec<Vec<u64>> = vec![Vec::new(); self.size];
         rows.into_iter().for_each(|(rank, row)| outgoing[rank].extend(row));
         self.exchange(&outgoing).iter().map(|list| list.as_chunks().0.to_vec()).collect()
     }
