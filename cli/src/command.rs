@@ -142,7 +142,6 @@ impl Run {
 }
 
 impl View {
-    /// The viewer of the scene or of the saved state.
     pub(crate) fn start(self) -> Result<Viewer, Error> {
         let session = match &self.load {
             None => Session::new(self.choice.settings()?)?,
@@ -170,7 +169,6 @@ impl Choice {
         }
     }
 
-    /// The scene with the overrides.
     fn settings(self) -> Result<Settings, Error> {
         let settings = self.scene.settings(self.surface)?;
         Ok(Settings { threads: self.threads, ..self.steps.apply(settings) })

@@ -21,7 +21,6 @@ pub(crate) struct Contract {
 }
 
 impl Contract {
-    /// Checks the rules.
     pub(crate) fn run(self) -> Result<String, Error> {
         let spec = self.material.spec()?;
         let inversions = self.extend.map(|epsilon| Inversion::Extend { epsilon });

@@ -32,12 +32,9 @@ impl Declare {
             .with_forms("--param NAME=VALUE", "--free-rest");
         let options = if self.kappa { options.with_bulk("kappa") } else { options };
         let energy = Energy::from_formula_with(&self.formula, &options).map_err(SceneError::Declaration)?;
-        Ok(format!("{}\n{}", energy.source(), as_comment(energy.documentation())))
+        // The documentation is a comment, so that all of the output is Rust.
+        let lines = energy.documentation().trim().lines();
+        let comment: Vec<_> = lines.map(|line| format!("// {line}").trim_end().to_owned()).collect();
+        Ok(format!("{}\n{}", energy.source(), comment.join("\n")))
     }
-}
-
-/// Documentation as a comment, so that all of the output is Rust.
-fn as_comment(documentation: &str) -> String {
-    let lines = documentation.trim().lines().map(|line| format!("// {line}").trim_end().to_owned());
-    lines.collect::<Vec<_>>().join("\n")
 }

@@ -29,7 +29,6 @@ use piola_scenes::run::run;
 
 use command::{Cli, Command, Run, View};
 use error::Error;
-use signals::Signals;
 
 /// Parses the command line and runs the command; returns the exit status: 2 if the command line is invalid, 1
 /// if something failed on the way, and 128 with the number of a signal that has ended a run.
@@ -66,19 +65,19 @@ pub fn main() -> ExitCode {
 /// Runs a scene; the count of its steps goes to standard error, or nowhere if that is not a terminal.
 fn play(arguments: Run) -> Result<ExitCode, Error> {
     let (settings, output) = arguments.settings()?;
-    let signals = Signals::listen().map_err(Error::system("listen to signals"))?;
+    let signal = signals::listen().map_err(Error::system("listen to signals"))?;
     let is_shown = io::stderr().is_terminal();
     let result = run(&settings, &output, &mut |frame| {
         if is_shown {
             let (scene, frames) = (settings.scene.name, settings.frames);
             let _ = write!(io::stderr(), "\r{scene}: {frame} of {frames} steps");
         }
-        signals.exit_code().is_some()
+        signal().is_some()
     });
     if is_shown {
         let _ = write!(io::stderr(), "\r\x1b[K");
     }
-    let mut finished = match (result, signals.exit_code()) {
+    let mut finished = match (result, signal()) {
         (Err(error @ SceneError::Interrupted), Some(code)) => {
             warn(format_args!("error: {error}"));
             return Ok(code.into());
@@ -86,7 +85,7 @@ fn play(arguments: Run) -> Result<ExitCode, Error> {
         (result, _) => result?,
     };
     picture::add(&mut finished, &settings);
-    report(&finished.close()?, &output.folder, signals.exit_code())
+    report(&finished.close()?, &output.folder, signal())
 }
 
 /// Prints the results of a run, and returns the exit status.
@@ -130,7 +129,6 @@ fn heard(said: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Writes a warning to standard error.
 fn warn_of(warning: &String) {
     warn(format_args!("warning: {warning}"));
 }

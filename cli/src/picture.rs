@@ -11,7 +11,6 @@ use crate::render::{Frame, contact_sheet};
 /// Tiles of the contact sheet.
 const TILES: usize = 12;
 
-/// Adds the picture to the files of a run.
 pub(crate) fn add(finished: &mut Finished, settings: &Settings) {
     let frame = |number: usize| -> io::Result<Frame> {
         let vertices = finished.surface_in(number)?;
@@ -35,27 +34,21 @@ fn tiles(motion: &[f64]) -> Vec<usize> {
         (0..motion.len()).map(|frame| share(frame as f64, last) + share(motion[frame], way)).collect();
     evenly_spread(&progress, TILES)
 }
+
 /// Indices of at most `count` of these ascending numbers, as evenly spaced as different ones can be, both
 /// ends among them.
 fn evenly_spread(progress: &[f64], count: usize) -> Vec<usize> {
     let (Some(first), Some(last)) = (progress.first(), progress.last()) else { return Vec::new() };
     let count = count.min(progress.len());
-    let mut chosen = Vec::with_capacity(count);
-    let mut next = 0;
+    let mut chosen: Vec<usize> = Vec::with_capacity(count);
     for k in 0..count {
         let wanted = first + (last - first) * k as f64 / (count - 1).max(1) as f64;
-        let after = progress.partition_point(|&other| other < wanted);
-        let nearest = match after {
-            0 => 0,
-            after if after == progress.len() => after - 1,
-            after if wanted - progress[after - 1] < progress[after] - wanted => after - 1,
-            after => after,
-        };
+        let distance = |index: usize| (progress[index] - wanted).abs();
         // Enough must be left for those still to come, and of equal numbers at the end the last is wanted.
+        let next = chosen.last().map_or(0, |index| index + 1);
         let latest = progress.len() - (count - k);
-        let index = if k + 1 == count { latest } else { nearest.clamp(next, latest) };
-        chosen.push(index);
-        next = index + 1;
+        let nearest = (next..=latest).min_by(|&one, &other| distance(one).total_cmp(&distance(other)));
+        chosen.push(nearest.filter(|_| k + 1 < count).unwrap_or(latest));
     }
     chosen
 }

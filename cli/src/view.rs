@@ -27,15 +27,13 @@ use piola_laboratory::AtRest;
 use piola_laboratory::curve::Volume;
 use piola_scenes::error::Error as SceneError;
 use piola_viewer::conversation::Conversation;
-use piola_viewer::driver::{Driver, Order};
+use piola_viewer::driver::Order;
 use piola_viewer::session::Session;
 use piola_viewer::topology;
+use tungstenite::Bytes;
 
 use crate::error::Error;
-use driver::OwnThreads;
-use patience::Patience;
 use request::Door;
-use server::Server;
 use token::Token;
 
 /// Orders that wait for the driver; connections with more of them wait themselves, in turn. A page waits
@@ -69,21 +67,20 @@ impl Viewer {
         let threads = rayon::ThreadPoolBuilder::new().num_threads(play.settings.threads).build();
         let threads = threads.map_err(SceneError::from)?;
         let warnings = play.warnings();
-        let topology = topology(&play.geometry).into();
+        let topology = Bytes::from(topology(&play.geometry));
         let at_rest = AtRest { moduli: play.moduli, volume: Volume::Free };
         let first = Conversation::after(session.pulls().map(|(drag, _)| drag));
         let (orders, taken) = sync_channel::<Order>(ORDERS);
         let is_over = Arc::new(AtomicBool::new(false));
         let door = Door { port: address.port(), token: token.clone() };
-        let driver = Driver::new(OwnThreads::new(threads), session, save);
-        let patience = Patience::default();
-        let server = Server { listener, door, patience, topology, orders, is_over: is_over.clone(), first };
         let start = |name: &str, work: Box<dyn FnOnce() + Send>| {
             thread::Builder::new().name(name.into()).spawn(work).map_err(Error::system("start a thread"))
         };
         // The driver ends when the server and all its connections have.
-        start("driver", Box::new(move || driver::run(driver, &taken)))?;
-        let server = Some(start("server", Box::new(move || server.run()))?);
+        start("driver", Box::new(move || driver::run(threads, session, save, &taken)))?;
+        let is_stopped = is_over.clone();
+        let serve = move || server::run(&listener, &door, &topology, &orders, &is_stopped, first);
+        let server = Some(start("server", Box::new(serve))?);
         Ok(Self { address, at_rest, token, is_over, server, warnings })
     }
 

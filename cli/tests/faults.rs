@@ -1,13 +1,17 @@
 //! Runs that are killed, and disks that fill up: the folder holds a shorter run afterwards.
 #![cfg(unix)]
 
+#[path = "command/shell.rs"]
+mod shell;
+
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use piola::__private::random::Random;
+
+use shell::{Folder, assert_contains};
 
 /// Number of kills at random moments, unless the environment variable `PIOLA_KILLS` gives another.
 const KILLS: usize = 4;
@@ -15,30 +19,20 @@ const KILLS: usize = 4;
 const FEWER_KILLS: usize = 2;
 /// Number of kills for each run that then continues to its end.
 const SEQUELS: usize = 4;
-/// Steps of a run of a cube: together about as long as the picture at its end.
-const FRAMES: usize = 1500;
+/// Run of a cube: its steps take together about as long as the picture at its end.
+const RUN: &str = "run horse --mesh cube.ele --dt 0.03 --frames 1500 --out out";
 /// A cube of six tetrahedra around its diagonal.
 const NODES: &str = "8 3\n1 0 0 0\n2 0 0 1\n3 0 1 0\n4 0 1 1\n5 1 0 0\n6 1 0 1\n7 1 1 0\n8 1 1 1\n";
 const TETRAHEDRA: &str = "6 4\n1 1 5 7 8\n2 1 5 8 6\n3 1 3 8 7\n4 1 3 4 8\n5 1 2 6 8\n6 1 2 8 4\n";
 
 type Files = BTreeMap<String, Vec<u8>>;
 
-/// The command for a run of the cube.
-fn run(scratch: &Path, out: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
-    let frames = FRAMES.to_string();
-    for (name, text) in [("cube.node", NODES), ("cube.ele", TETRAHEDRA)] {
-        fs::write(scratch.join(name), text).expect("a scratch file");
-    }
-    command.args(["run", "horse", "--mesh", "cube.ele", "--dt", "0.03", "--frames", &frames, "--out", out]);
-    command.current_dir(scratch).stdout(Stdio::null()).stderr(Stdio::null());
-    command
-}
-
-#[track_caller]
-fn complete(command: &mut Command) {
-    let output = command.stderr(Stdio::piped()).output().expect("the command starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+/// A folder with the cube.
+fn with_cube() -> Folder {
+    let folder = Folder::new();
+    folder.write("cube.node", NODES);
+    folder.write("cube.ele", TETRAHEDRA);
+    folder
 }
 
 /// Sends a signal to a run after some time, and waits for its end; whether it has come before the end.
@@ -54,12 +48,9 @@ fn kill(mut run: Child, after: Duration, signal: &str) -> bool {
     was_running
 }
 
-/// The files of a folder; none if it does not exist.
-fn files(folder: &Path) -> Files {
-    let Ok(entries) = fs::read_dir(folder) else { return Files::new() };
-    let names = entries.map(|entry| entry.expect("an entry").file_name());
-    let names = names.map(|name| name.into_string().expect("UTF-8"));
-    names.map(|name| (name.clone(), fs::read(folder.join(&name)).expect("a file"))).collect()
+/// The files of a run; none if it has not begun.
+fn files(folder: &Folder) -> Files {
+    if folder.path("out").exists() { folder.content("out") } else { Files::new() }
 }
 
 fn frames(files: &Files) -> Vec<(&String, &Vec<u8>)> {
@@ -77,42 +68,36 @@ struct Whole(Files);
 
 impl Whole {
     fn new() -> Self {
-        let scratch = scratch();
-        complete(&mut run(scratch.path(), "out"));
-        Self(files(&scratch.path().join("out")))
+        let folder = with_cube();
+        folder.answer(RUN);
+        Self(files(&folder))
     }
 
     /// Sends a signal to a run after some time, and checks its folder, which is that of a shorter run with a
     /// summary, or of one without if it was killed; true if the signal has come before the end.
     #[track_caller]
-    fn strike(&self, scratch: &Path, after: Duration, signal: &str) -> bool {
-        let came = kill(run(scratch, "out").spawn().expect("the command starts"), after, signal);
-        let now = files(&scratch.join("out"));
+    fn strike(&self, folder: &Folder, after: Duration, signal: &str) -> bool {
+        let run = folder.command(RUN).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+        let came = kill(run.expect("the command starts"), after, signal);
+        let now = files(folder);
         let context = format!("{signal} after {after:?}: {:?}", now.keys());
         assert!(is_beginning(&now, &self.0), "{context}");
-        match now.get("summary.json") {
-            Some(text) => {
-                let summary: serde_json::Value = serde_json::from_slice(text).expect("JSON");
-                assert_eq!(summary["frames"], frames(&now).len() - 1, "{context}");
-            }
-            None => assert!(signal == "KILL" || frames(&now).is_empty(), "{context}"),
+        if now.contains_key("summary.json") {
+            assert_eq!(folder.summary("out")["frames"], frames(&now).len() - 1, "{context}");
+        } else {
+            assert!(signal == "KILL" || frames(&now).is_empty(), "{context}");
         }
         came
     }
 
     /// Lets a run go on that was cut off, if it had saved a state.
     #[track_caller]
-    fn go_on(&self, scratch: &Path, context: &str) {
-        let out = scratch.join("out");
-        if out.join("state.json").is_file() {
-            complete(run(scratch, "out").arg("--resume"));
-            assert!(frames(&files(&out)) == frames(&self.0), "{context}: it goes on otherwise");
+    fn go_on(&self, folder: &Folder, context: &str) {
+        if folder.path("out/state.json").is_file() {
+            folder.answer(&format!("{RUN} --resume"));
+            assert!(frames(&files(folder)) == frames(&self.0), "{context}: it goes on otherwise");
         }
     }
-}
-
-fn scratch() -> tempfile::TempDir {
-    tempfile::tempdir().expect("a scratch folder")
 }
 
 #[test]
@@ -126,12 +111,12 @@ fn killed_at_any_moment() {
     let mut counts = BTreeMap::new();
     for number in 0..kills {
         let signal = ["KILL", "INT", "TERM"][number % 3];
-        let scratch = scratch();
+        let folder = with_cube();
         let after = duration.mul_f64(random.uniform(0.0, 1.1));
-        let came = whole.strike(scratch.path(), after, signal);
+        let came = whole.strike(&folder, after, signal);
         *counts.entry((signal, came)).or_insert(0) += 1;
         if number % SEQUELS == 0 {
-            whole.go_on(scratch.path(), &format!("kill {number} by {signal} after {after:?}"));
+            whole.go_on(&folder, &format!("kill {number} by {signal} after {after:?}"));
         }
     }
     println!("{counts:?}");
@@ -144,25 +129,22 @@ fn killed_at_any_moment() {
 /// nobody to have them, there is nothing to fill.
 #[test]
 fn a_disk_that_fills_up() {
-    let scratch = scratch();
+    let folder = Folder::new();
     let script = "mount -t tmpfs -o size=1m none disk && { \"$0\" run horse --frames 40 --out disk/out; echo $? >code; \
                   cp -r disk/out kept; umount disk; }";
-    fs::create_dir(scratch.path().join("disk")).expect("a folder");
+    fs::create_dir(folder.path("disk")).expect("a folder");
     let mut unshare = Command::new("unshare");
     unshare.args(["--map-root-user", "--mount", "sh", "-c", script, env!("CARGO_BIN_EXE_piola")]);
-    let output = unshare.current_dir(scratch.path()).output();
-    let Ok(code) = fs::read_to_string(scratch.path().join("code")) else {
+    let output = unshare.current_dir(folder.path("")).output();
+    let Ok(code) = fs::read_to_string(folder.path("code")) else {
         println!("not checked: no disk could be made: {output:?}");
         return;
     };
-    let output = output.expect("unshare starts");
-    let message = String::from_utf8_lossy(&output.stderr);
+    let message = shell::stderr(&output.expect("unshare starts"));
     assert_eq!(code.trim(), "1", "{message}");
-    assert!(message.contains("No space left") && message.contains("--resume"), "{message}");
-    let kept = files(&scratch.path().join("kept"));
-    let summary: serde_json::Value = serde_json::from_slice(&kept["summary.json"]).expect("JSON");
-    assert_eq!(summary["frames"], frames(&kept).len() - 1, "{summary}");
+    assert_contains(&message, &["No space left", "--resume"]);
+    let summary = folder.summary("kept");
+    assert_eq!(summary["frames"], frames(&folder.content("kept")).len() - 1, "{summary}");
     assert_eq!(summary["ended"], "failed", "{summary}");
-    let reason = summary["failures"][0].as_str().expect("a text");
-    assert!(reason.contains("frame_0002.ply") && reason.contains("No space left"), "{reason}");
+    assert_contains(summary["failures"][0].as_str().expect("a text"), &["frame_0002.ply", "No space left"]);
 }

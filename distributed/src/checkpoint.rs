@@ -1,6 +1,6 @@
 //! Checkpoints: the state of all nodes in one file, from which a run on any number of ranks can continue.
 //!
-//! The header is a line of JSON, padded with spaces to [`HEADER`] bytes. The positions, velocities and
+//! The header is a line of JSON, padded with spaces to `HEADER` bytes. The positions, velocities and
 //! accelerations of all nodes follow in the order of the mesh, little-endian. Every rank writes the nodes
 //! that are at home on it into a new file. This file replaces the previous checkpoint when all of it is on
 //! the disk. All ranks must be able to access the same folder.
@@ -10,6 +10,7 @@ use std::io::{self, Read, Write};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
+use piola_scenes::error::Error as SceneError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +20,7 @@ use crate::simulation::Simulation;
 use crate::team::Team;
 
 /// Length of the header, bytes.
-pub const HEADER: usize = 65536;
+const HEADER: usize = 65536;
 
 /// Name and version of the format, in the header of a checkpoint.
 const FORMAT: &str = "piola-mpi checkpoint 1";
@@ -53,9 +54,14 @@ pub struct State {
 /// # Errors
 /// [`Error::OnRank`] with the reason of the first rank that cannot write; the previous checkpoint is then
 /// unchanged.
-pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Serialize) -> Result<(), Error> {
-    let (share, state) = (simulation.share(), simulation.part());
-    let homes = Homes::new(share.totals[0] as u64, team.size());
+pub(crate) fn write(
+    team: &Team,
+    path: &Path,
+    simulation: &Simulation,
+    about: &impl Serialize,
+) -> Result<(), Error> {
+    let (share, state) = (&simulation.share, &simulation.part);
+    let homes = Homes::new(share.totals[0] as u64, team.size);
     let rows = (0..share.owned).map(|node| {
         let mut row = [share.ids[node]; 10];
         let vectors = [state.positions()[node], state.velocities()[node], state.accelerations()[node]];
@@ -64,17 +70,17 @@ pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Ser
         }
         row
     });
-    let mut rows = team.exchange_rows(&homes.sort(team, rows)).concat();
+    let mut rows = homes.send(team, rows).concat();
     rows.sort_unstable_by_key(|row| row[0]);
     let list = |at: usize| -> Vec<u8> {
         rows.iter().flat_map(|row| &row[3 * at + 1..3 * at + 4]).flat_map(|bits| bits.to_le_bytes()).collect()
     };
     let lists = [list(0), list(1), list(2)];
     let header =
-        Header { format: FORMAT.to_owned(), nodes: homes.total(), checksum: checksum(team, &lists), about };
+        Header { format: FORMAT.to_owned(), nodes: homes.total, checksum: checksum(team, &lists), about };
 
     let aside = path.with_extension("part");
-    let failed = |source| Error::Write { path: path.into(), source };
+    let failed = |source| Error::from(SceneError::Write { path: path.into(), source });
     let begin = || -> io::Result<()> {
         let mut text = serde_json::to_vec(&header)?;
         if text.len() >= HEADER {
@@ -114,16 +120,16 @@ pub fn write(team: &Team, path: &Path, simulation: &Simulation, about: &impl Ser
 /// # Errors
 /// [`Error::OnRank`] if the checkpoint cannot be read, is damaged, belongs to another mesh, or is refused by
 /// `check`.
-pub fn read<T: DeserializeOwned>(
+pub(crate) fn read<T: DeserializeOwned>(
     team: &Team,
     path: &Path,
     simulation: &mut Simulation,
     check: impl FnOnce(&T) -> Result<(), String>,
 ) -> Result<T, Error> {
-    let share = simulation.share();
+    let share = &simulation.share;
     let nodes = share.totals[0] as u64;
-    let homes = Homes::new(nodes, team.size());
-    let failed = |reason: String| Error::Checkpoint { path: path.into(), reason };
+    let homes = Homes::new(nodes, team.size);
+    let failed = |reason: String| unusable(path, &reason);
     let loaded = read_header::<T>(path).and_then(|(file, header)| {
         if header.nodes != nodes {
             return Err(format!("it has {} nodes, and the mesh has {nodes}", header.nodes));
@@ -167,9 +173,9 @@ pub fn read<T: DeserializeOwned>(
 /// Reads a whole checkpoint without a team; returns its description and the state of all nodes.
 ///
 /// # Errors
-/// [`Error::Checkpoint`].
+/// [`Error::Scene`].
 pub fn read_alone<T: DeserializeOwned>(path: &Path) -> Result<(T, State), Error> {
-    let failed = |reason: String| Error::Checkpoint { path: path.into(), reason };
+    let failed = |reason: String| unusable(path, &reason);
     let (mut file, header) = read_header::<T>(path).map_err(failed)?;
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(|error| failed(error.to_string()))?;
@@ -183,6 +189,11 @@ pub fn read_alone<T: DeserializeOwned>(path: &Path) -> Result<(T, State), Error>
     Ok((header.about, State { positions: next(), velocities: next(), accelerations: next() }))
 }
 
+/// Error of a checkpoint from which a run cannot continue.
+fn unusable(path: &Path, reason: &str) -> Error {
+    Error::usage(format!("cannot continue from {}: {reason}", path.display()))
+}
+
 /// Opens a checkpoint and reads its header; the file is then positioned after the header.
 fn read_header<T: DeserializeOwned>(path: &Path) -> Result<(File, Header<T>), String> {
     let mut text = vec![0; HEADER];
@@ -194,7 +205,7 @@ fn read_header<T: DeserializeOwned>(path: &Path) -> Result<(File, Header<T>), St
 
 /// Position, in the file, of the nodes at home on a rank in one of the lists.
 fn place(homes: &Homes, rank: usize, list: usize) -> u64 {
-    HEADER as u64 + NODE * (list as u64 * homes.total() + homes.range(rank).start)
+    HEADER as u64 + NODE * (list as u64 * homes.total + homes.range(rank).start)
 }
 
 /// Checksum of three consecutive lists, of each of which every rank has a part.

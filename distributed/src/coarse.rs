@@ -7,8 +7,7 @@ use std::rc::Rc;
 
 use piola_bodies::step::divided::{LastLevel, LastSolver};
 
-use crate::error::Failure;
-use crate::petsc::{Krylov, Library, Matrix, PetscError, Vector};
+use crate::petsc::{Krylov, Matrix, PetscError, Vector};
 use crate::team::Team;
 
 /// Default options of PETSc for the solver of the last level.
@@ -28,27 +27,27 @@ const FACTORED: usize = 512;
 const DEPENDENT: f64 = 1e-9;
 
 /// Solver of the last level of piola's multigrid.
-pub struct Coarse {
-    krylov: Krylov,
+pub(crate) struct Coarse {
+    /// Solver of PETSc, for `-ksp_view`.
+    pub(crate) krylov: Krylov,
     b: Vector<6>,
     x: Vector<6>,
-    failure: Failure,
+    team: Team,
 }
 
 impl Coarse {
     /// Sets up a solver for a level of which this rank owns `owned` rows. `numbers` are the global numbers of
-    /// all rows of this rank, copies of rows of other ranks last. Errors of solutions are noted in `failure`.
+    /// all rows of this rank, copies of rows of other ranks last. Errors of solutions are noted by the team.
     ///
     /// # Errors
     /// [`PetscError`], also for an option with a value that PETSc does not support.
     pub(crate) fn new(
         team: &Team,
-        failure: &Failure,
         owned: usize,
         numbers: &[usize],
         level: &LastLevel<'_>,
     ) -> Result<Self, PetscError> {
-        let library = team.library();
+        let library = &team.library;
         for (name, value) in DEFAULTS {
             library.default_option(name, value)?;
         }
@@ -68,22 +67,16 @@ impl Coarse {
             }
         }
         let mut matrix = Matrix::new(library, 6 * owned, 6, places.iter().copied())?;
-        matrix.set_symmetric()?;
         matrix.set_values(&values)?;
         let kind = if team.count(owned) <= FACTORED { "redundant" } else { "gamg" };
-        matrix.set_motions(&orthonormal(team, library, level.motions())?)?;
+        matrix.set_motions(&orthonormal(team, level.motions())?)?;
         let vector = || Vector::new(library, owned);
         Ok(Self {
             krylov: Krylov::new(library, Rc::new(RefCell::new(matrix)), "coarse_", Some(kind))?,
             b: vector()?,
             x: vector()?,
-            failure: failure.clone(),
+            team: team.clone(),
         })
-    }
-
-    /// Solver of PETSc, for `-ksp_view`.
-    pub(crate) fn krylov(&self) -> &Krylov {
-        &self.krylov
     }
 
     fn replace(&mut self, b: &mut [[f32; 6]]) -> Result<(), PetscError> {
@@ -98,16 +91,12 @@ impl Coarse {
 impl LastSolver for Coarse {
     fn solve(&mut self, b: &mut [[f32; 6]]) {
         let done = self.replace(b);
-        self.failure.note(done);
+        self.team.note(done);
     }
 }
 
 /// Orthonormal basis of the columns of these blocks; dependent columns are left out.
-fn orthonormal(
-    team: &Team,
-    library: &Library,
-    motions: &[[[f64; 6]; 6]],
-) -> Result<Vec<Vector<6>>, PetscError> {
+fn orthonormal(team: &Team, motions: &[[[f64; 6]; 6]]) -> Result<Vec<Vector<6>>, PetscError> {
     let mut found: Vec<Vec<[f64; 6]>> = Vec::new();
     let dot = |a: &[[f64; 6]], b: &[[f64; 6]]| {
         team.sum([a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()])[0]
@@ -129,7 +118,7 @@ fn orthonormal(
         }
     }
     let vector = |motion: &Vec<[f64; 6]>| {
-        let mut vector = Vector::new(library, motion.len())?;
+        let mut vector = Vector::new(&team.library, motion.len())?;
         vector.with(|entries| entries.copy_from_slice(motion))?;
         Ok(vector)
     };

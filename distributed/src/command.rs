@@ -7,12 +7,11 @@ use piola::point::Filter;
 use piola_bodies::step::{Filtering, LinearSolver, NewtonSettings};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::options::{SceneOptions, StepOptions, in_file, parameter, scenes, with_values};
-use piola_scenes::output::Newton;
 use piola_scenes::settings::Settings;
+use serde::Serialize;
 
 use crate::error::Error;
 use crate::part::MaterialPart;
-use crate::setting::Move;
 
 /// Elastic bodies on many machines: scenes of piola with the solvers of PETSc, over MPI.
 ///
@@ -93,7 +92,7 @@ pub struct RunOptions {
     pub body: BodyOptions,
 
     #[command(flatten)]
-    steps: StepOptions,
+    pub(crate) steps: StepOptions,
 
     /// Number of time steps [default: the scene's].
     #[arg(long, value_name = "N")]
@@ -140,25 +139,31 @@ pub struct SolverOptions {
     pub threads: usize,
 }
 
+/// Prescribed motion of some nodes, which are pinned for it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Move {
+    /// Nodes that move: a box, or the name of a group.
+    pub(crate) nodes: String,
+    /// Displacement at the end of the motion, m.
+    pub(crate) displacement: [f64; 3],
+    /// End of the steady motion, s; the nodes are held afterwards.
+    pub(crate) reached: f64,
+}
+
 /// Settings of a run: scene, materials and prescribed motions.
 #[derive(Debug)]
-pub struct Task {
+pub(crate) struct Task {
     /// The scene with its overrides.
-    pub settings: Settings,
-    /// Names of the groups with another material.
-    pub groups: Vec<String>,
-    /// The materials of these groups.
-    pub materials: Vec<MaterialPart>,
+    pub(crate) settings: Settings,
+    /// Groups with another material, by name.
+    pub(crate) parts: Vec<(String, MaterialPart)>,
     /// Motions of nodes.
-    pub moves: Vec<Move>,
+    pub(crate) moves: Vec<Move>,
 }
 
 impl RunOptions {
     /// Settings of the run.
-    ///
-    /// # Errors
-    /// [`Error::Scene`], [`Error::Options`].
-    pub fn task(&self) -> Result<Task, Error> {
+    pub(crate) fn task(&self) -> Result<Task, Error> {
         let mut task = self.body.task()?;
         let frames = self.frames.unwrap_or(task.settings.frames);
         task.settings = self.steps.apply(task.settings);
@@ -166,32 +171,21 @@ impl RunOptions {
         task.settings.check()?;
         Ok(task)
     }
-
-    /// Settings of Newton's method.
-    ///
-    /// # Errors
-    /// [`Error::Options`].
-    pub fn newton(&self) -> Result<NewtonSettings, Error> {
-        self.body.solver.settings(self.steps.newton == Newton::Single)
-    }
 }
 
 impl SolverOptions {
     /// Settings of Newton's method, with one iteration or as many as needed.
-    ///
-    /// # Errors
-    /// [`Error::Options`] for a value that is out of range.
-    pub fn settings(&self, is_single: bool) -> Result<NewtonSettings, Error> {
+    pub(crate) fn settings(&self, is_single: bool) -> Result<NewtonSettings, Error> {
         let linear = self.linear_tolerance.unwrap_or(if is_single { 1e-8 } else { 1e-2 });
         for (option, value) in [("--newton-tolerance", self.newton_tolerance), ("--linear-tolerance", linear)]
         {
             if !(0.0..1.0).contains(&value) {
-                return Err(Error::Options(format!("{option} {value}: it must be at least 0 and below 1")));
+                return Err(Error::usage(format!("{option} {value}: it must be at least 0 and below 1")));
             }
         }
         if self.newton_iterations == 0 || !(1..=1024).contains(&self.threads) {
             let reason = "--newton-iterations must be at least 1, and --threads from 1 to 1024";
-            return Err(Error::Options(reason.to_owned()));
+            return Err(Error::usage(reason));
         }
         let usual = if is_single { Filtering::Always(Filter::Clamp) } else { Filtering::OnDemand };
         Ok(NewtonSettings::default()
@@ -204,26 +198,17 @@ impl SolverOptions {
 
 impl BodyOptions {
     /// Settings of statics.
-    ///
-    /// # Errors
-    /// [`Error::Scene`], [`Error::Options`].
-    pub fn task(&self) -> Result<Task, Error> {
+    pub(crate) fn task(&self) -> Result<Task, Error> {
         let settings = self.scene.clone().settings(None)?;
         settings.check()?;
-        let moves = self.moves.clone();
-        let mut task = Task { settings, groups: Vec::new(), materials: Vec::new(), moves };
-        for text in &self.parts {
-            let (group, material) = part(text, &task.settings)?;
-            task.groups.push(group);
-            task.materials.push(material);
-        }
-        Ok(task)
+        let parts = self.parts.iter().map(|text| part(text, &settings)).collect::<Result<_, _>>()?;
+        Ok(Task { settings, parts, moves: self.moves.clone() })
     }
 }
 
 /// Reads `GROUP=NAME;PARAM=V;…;density=RHO`.
 fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error> {
-    let wrong = |reason: &str| Error::Options(format!("--part {text}: {reason}"));
+    let wrong = |reason: &str| Error::usage(format!("--part {text}: {reason}"));
     let mut words = text.split(';');
     let (group, name) = words
         .next()
@@ -320,20 +305,8 @@ mod tests {
 
     #[test]
     fn options_of_petsc_are_separated() {
-        let words = [
-            "piola-mpi",
-            "run",
-            "-ksp_type",
-            "cg",
-            "horse",
-            "-ksp_view",
-            "--gravity",
-            "-9.81",
-            "-x",
-            "-1",
-            "-h",
-        ];
-        let (own, petsc) = split(words.map(str::to_owned));
+        let words = "piola-mpi run -ksp_type cg horse -ksp_view --gravity -9.81 -x -1 -h";
+        let (own, petsc) = split(words.split(' ').map(str::to_owned));
         assert_eq!(own, ["piola-mpi", "run", "horse", "--gravity", "-9.81", "-h"]);
         let expected = [("ksp_type", Some("cg")), ("ksp_view", None), ("x", Some("-1"))];
         assert_eq!(petsc, expected.map(|(name, value)| (name.to_owned(), value.map(str::to_owned))));

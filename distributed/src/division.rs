@@ -10,7 +10,7 @@ use piola::lanes::Real;
 use piola_bodies::step::divided::{Division, LastLevel};
 
 use crate::coarse::Coarse;
-use crate::error::{Error, Failure};
+use crate::error::Error;
 use crate::petsc::{GhostedVector, PetscError};
 use crate::team::Team;
 
@@ -27,11 +27,10 @@ const MOST: usize = 512;
 const FEW_OF_A_RANK: usize = 32;
 
 /// Rows of a level on one rank: owned rows, and copies of rows of other ranks.
-pub struct RowsOfRank {
+pub(crate) struct RowsOfRank {
     team: Team,
-    failure: Failure,
     /// Global numbers of the owned rows.
-    owned: Range<u64>,
+    owned: Range<usize>,
     /// Global number of each copy.
     numbers: Vec<usize>,
     /// Owned rows, for each rank, of which that rank has copies.
@@ -44,15 +43,14 @@ pub struct RowsOfRank {
 
 impl RowsOfRank {
     /// Division with a number of owned rows on this rank, and copies of the rows with the global numbers
-    /// `numbers`, which are counted rank after rank. Errors of exchanges are noted in `failure`.
-    #[must_use]
-    pub fn new(team: &Team, failure: &Failure, owned: usize, numbers: Vec<usize>) -> Self {
+    /// `numbers`, which are counted rank after rank. Errors of exchanges are noted by the team.
+    pub(crate) fn new(team: &Team, owned: usize, numbers: Vec<usize>) -> Self {
         let mut starts = vec![0];
         for owned in team.all(owned) {
             starts.push(starts[starts.len() - 1] + owned);
         }
-        let mut received = vec![Vec::new(); team.size()];
-        let mut asked = vec![Vec::new(); team.size()];
+        let mut received = vec![Vec::new(); team.size];
+        let mut asked = vec![Vec::new(); team.size];
         for (copy, &number) in numbers.iter().enumerate() {
             let rank = starts.partition_point(|&start| start <= number) - 1;
             received[rank].push(copy);
@@ -60,8 +58,7 @@ impl RowsOfRank {
         }
         let rows = |rows: Vec<u64>| rows.into_iter().map(|row| row as usize).collect();
         Self {
-            failure: failure.clone(),
-            owned: starts[team.rank()] as u64..starts[team.rank() + 1] as u64,
+            owned: starts[team.rank()]..starts[team.rank() + 1],
             numbers,
             sent: team.exchange(&asked).into_iter().map(rows).collect(),
             received,
@@ -70,26 +67,22 @@ impl RowsOfRank {
         }
     }
 
-    fn owned(&self) -> usize {
-        (self.owned.end - self.owned.start) as usize
-    }
-
     /// Exchanges a vector of N components, if there are several ranks.
     fn with_vector<const N: usize>(
         &mut self,
         exchange: impl FnOnce(&mut GhostedVector) -> Result<(), PetscError>,
     ) {
-        if self.team.size() == 1 {
+        if self.team.size == 1 {
             return;
         }
-        let owned = self.owned();
+        let owned = self.owned.len();
         let vector = &mut self.vectors[usize::from(N > 3)];
         let exchanged = match vector {
             Some(vector) => exchange(vector),
-            None => GhostedVector::new(self.team.library(), N, owned, &self.numbers)
+            None => GhostedVector::new(&self.team.library, N, owned, &self.numbers)
                 .and_then(|made| exchange(vector.insert(made))),
         };
-        self.failure.note(exchanged);
+        self.team.note(exchanged);
     }
 
     /// Sends the lists of the rows `rows` to other ranks, and returns the lists received for the rows `to`.
@@ -167,16 +160,15 @@ impl Division for RowsOfRank {
 
     fn coarse(&self, rows: usize, copies: Vec<u64>) -> Result<Self, Error> {
         let numbers = copies.into_iter().map(|number| number as usize).collect();
-        Ok(Self::new(&self.team, &self.failure, rows, numbers))
+        Ok(Self::new(&self.team, rows, numbers))
     }
 
     fn is_last(&self, rows: usize, nodes: usize) -> bool {
-        rows <= (nodes.isqrt() / 2).clamp(FEW, MOST).max(FEW_OF_A_RANK * self.team.size())
+        rows <= (nodes.isqrt() / 2).clamp(FEW, MOST).max(FEW_OF_A_RANK * self.team.size)
     }
 
     fn last(&self, level: &LastLevel<'_>) -> Result<Coarse, Error> {
-        let owned = self.owned.clone().map(|number| number as usize);
-        let numbers: Vec<usize> = owned.chain(self.numbers.iter().copied()).collect();
-        Ok(Coarse::new(&self.team, &self.failure, self.owned(), &numbers, level)?)
+        let numbers: Vec<usize> = self.owned.clone().chain(self.numbers.iter().copied()).collect();
+        Ok(Coarse::new(&self.team, self.owned.len(), &numbers, level)?)
     }
 }

@@ -3,8 +3,8 @@
 //!
 //! The mathematics of materials and elements, and the steps, are piola's: each rank runs a simulation of its
 //! part of the body by [`piola_bodies::step`]. This crate contains the division of a mesh ([`portion`],
-//! [`share`]), the messages between ranks ([`team`], [`division`]), and the linear systems ([`system`],
-//! [`petsc`]).
+//! [`share`]), the messages between ranks ([`team`], `division`), and the linear systems (`system`,
+//! [`petsc`]). Its program is `piola-mpi`; public items are those that program and tests use.
 //!
 //! Every rank calls every function, in the same order. An error on one rank is sent to all ranks, and ends
 //! them together.
@@ -12,17 +12,17 @@
 //! Contact, and surfaces embedded in the tetrahedra, are not supported.
 
 pub mod checkpoint;
-pub mod coarse;
+mod coarse;
 pub mod command;
-pub mod division;
+mod division;
 pub mod error;
-pub mod output;
+mod output;
 pub mod part;
 pub mod petsc;
 pub mod portion;
 pub mod run;
-pub mod setting;
+mod setting;
 pub mod share;
-pub mod simulation;
-pub mod system;
+mod simulation;
+mod system;
 pub mod team;

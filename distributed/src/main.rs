@@ -10,7 +10,6 @@ use piola_distributed::error::Error;
 use piola_distributed::petsc::Library;
 use piola_distributed::run::{TITLES, run, sag, statics};
 use piola_distributed::team::Team;
-use piola_scenes::output::Ended;
 
 /// Time that a rank waits before it ends all ranks because of its error: rank 0 may report the same error.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -78,7 +77,7 @@ fn play(team: &Team, command: &Command) -> Result<(), Error> {
     };
     // This thread is one of the pool, so that a single thread does not wait for another one.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).use_current_thread().build_global();
-    team.agree(pool.map_err(|error| Error::Options(format!("--threads {threads}: {error}"))))?;
+    team.agree(pool.map_err(|error| Error::usage(format!("--threads {threads}: {error}"))))?;
     let summary = match command {
         Command::Box(options) => {
             let line = sag(team, options)?;
@@ -91,24 +90,10 @@ fn play(team: &Team, command: &Command) -> Result<(), Error> {
         Command::Run(options) => run(team, options)?,
     };
     if team.rank() == 0 {
-        println!(
-            "{}: {} tetrahedra, {} nodes on {} ranks; {} of {} steps, {:.2} Newton iterations per step, {:.1} CG \
-             iterations per linear system (means); relative residual {:.1e}, smallest det F {:.3}, elastic energy {:.6e} J",
-            summary.scene,
-            summary.tets,
-            summary.nodes,
-            summary.ranks,
-            summary.frames,
-            summary.frames_wanted,
-            summary.newton_iterations_mean,
-            summary.linear_iterations_mean,
-            summary.relative_residual,
-            summary.min_det_f,
-            summary.energy
-        );
+        println!("{summary}");
     }
-    match (summary.ended, summary.failures.first()) {
-        (Ended::Finished, None) => Ok(()),
-        (_, failure) => Err(Error::OnRank { rank: 0, message: failure.cloned().unwrap_or_default() }),
+    match summary.failures.first() {
+        None => Ok(()),
+        Some(failure) => Err(Error::OnRank { rank: 0, message: failure.clone() }),
     }
 }

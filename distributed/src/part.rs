@@ -2,6 +2,7 @@
 
 use piola_bodies::mesh::{Group, TetMesh};
 use piola_bodies::system::{Body, Part};
+use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 
 use crate::error::Error;
@@ -19,7 +20,7 @@ pub struct MaterialPart {
 /// Body of the elements of a share, which have the numbers of their parts; `None` without elements.
 ///
 /// # Errors
-/// [`Error::Body`] for an invalid element, such as an inverted one; [`Error::Scene`] for a material.
+/// [`Error::Scene`] for an invalid element, such as an inverted one, or for a material.
 pub fn body(share: &Share, parts: &[MaterialPart]) -> Result<Option<Body>, Error> {
     let Share { elements, places, .. } = share;
     if elements.is_empty() {
@@ -39,5 +40,5 @@ pub fn body(share: &Share, parts: &[MaterialPart]) -> Result<Option<Body>, Error
             in_body.push(Part { group: Some(name), material, density: part.density });
         }
     }
-    Ok(Some(Body::from_parts(&mesh, in_body)?))
+    Ok(Some(Body::from_parts(&mesh, in_body).map_err(SceneError::from)?))
 }

@@ -36,10 +36,10 @@ mod matrix;
 mod operators;
 mod vector;
 
-pub use krylov::Krylov;
-pub use matrix::Matrix;
-pub use operators::Operators;
-pub use vector::{GhostedVector, Vector};
+pub(crate) use krylov::Krylov;
+pub(crate) use matrix::Matrix;
+pub(crate) use operators::Operators;
+pub(crate) use vector::{GhostedVector, Vector};
 
 #[allow(
     clippy::all,
@@ -62,18 +62,10 @@ pub struct PetscError {
     pub message: String,
 }
 
-/// Error for an integer that is too large for PETSc's integers.
-fn too_large(number: usize) -> PetscError {
-    let bits = PetscInt::BITS;
-    PetscError {
-        message: format!(
-            "{number} does not fit into the {bits}-bit integers of this PETSc; build PETSc with 64-bit indices"
-        ),
-    }
-}
-
 fn int(number: usize) -> Result<PetscInt, PetscError> {
-    PetscInt::try_from(number).map_err(|_| too_large(number))
+    let (bits, remedy) = (PetscInt::BITS, "build PETSc with 64-bit indices");
+    let message = || format!("{number} does not fit into the {bits}-bit integers of this PETSc; {remedy}");
+    PetscInt::try_from(number).map_err(|_| PetscError { message: message() })
 }
 
 /// Value of the C macros PETSC_DECIDE and PETSC_DETERMINE: a size that PETSc computes.
@@ -141,12 +133,11 @@ impl Library {
     /// # Errors
     /// [`PetscError`] if MPI or PETSc cannot be started, or was started before.
     pub fn start(options: &[(String, Option<String>)]) -> Result<Self, PetscError> {
-        let failed = |message: &str| PetscError { message: message.to_owned() };
         // Partitioners such as PTScotch divide graphs on several threads, each of which sends messages to
         // other ranks. With a lower level of thread support they occasionally hang.
         let universe = mpi::initialize_with_threading(mpi::Threading::Multiple)
             .map(|(universe, _)| universe)
-            .ok_or_else(|| failed("MPI was started before"))?;
+            .ok_or_else(|| PetscError { message: "MPI was started before".to_owned() })?;
         let world = universe.world();
         // Signals end the program, without a handler of PETSc.
         set_option("no_signal_handler", None)?;
@@ -163,13 +154,12 @@ impl Library {
     }
 
     /// Communicator of all ranks.
-    #[must_use]
-    pub fn world(&self) -> &SimpleCommunicator {
+    pub(crate) fn world(&self) -> &SimpleCommunicator {
         &self.0.world
     }
 
     /// Value of an option, of at most 63 bytes; `None` for an option that is not set.
-    pub fn option(&self, name: &str) -> Result<Option<String>, PetscError> {
+    pub(crate) fn option(&self, name: &str) -> Result<Option<String>, PetscError> {
         let dashed = dashed(name)?;
         let (mut text, mut is_set): ([c_char; 64], _) = ([0; 64], ffi::PetscBool_PETSC_FALSE);
         // SAFETY: the name is a C string, PETSc writes a C string of at most the given number of bytes, and
@@ -183,7 +173,7 @@ impl Library {
     }
 
     /// Sets an option, unless the user has set it.
-    pub fn default_option(&self, name: &str, value: &str) -> Result<(), PetscError> {
+    pub(crate) fn default_option(&self, name: &str, value: &str) -> Result<(), PetscError> {
         if self.option(name)?.is_none() {
             set_option(name, Some(value))?;
             self.0.defaults.borrow_mut().push(name.to_owned());
@@ -193,7 +183,7 @@ impl Library {
 
     /// Options of the user that PETSc has not used up to now: they are misspelt, or belong to a solver that
     /// is not in use.
-    pub fn unused_options(&self) -> Result<Vec<String>, PetscError> {
+    pub(crate) fn unused_options(&self) -> Result<Vec<String>, PetscError> {
         let (mut count, mut names, mut values) = (0, null_mut(), null_mut());
         // SAFETY: the three results go to variables that outlive the call.
         check(unsafe { ffi::PetscOptionsLeftGet(null_mut(), &mut count, &mut names, &mut values) })?;

@@ -8,89 +8,76 @@ use crate::team::Team;
 
 /// Home rank of each node: contiguous ranges of node numbers of equal length, rank after rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Homes {
-    total: u64,
+pub(crate) struct Homes {
+    /// Number of nodes.
+    pub(crate) total: u64,
     each: u64,
 }
 
 impl Homes {
     /// Divides a number of nodes among all ranks.
-    #[must_use]
-    pub fn new(total: u64, ranks: usize) -> Self {
+    pub(crate) fn new(total: u64, ranks: usize) -> Self {
         Self { total, each: total.div_ceil(ranks as u64).max(1) }
     }
 
-    /// Number of nodes.
-    #[must_use]
-    pub fn total(&self) -> u64 {
-        self.total
-    }
-
     /// Home rank of a node.
-    #[must_use]
-    pub fn of(&self, node: u64) -> usize {
+    pub(crate) fn of(&self, node: u64) -> usize {
         (node / self.each) as usize
     }
 
     /// Numbers of the nodes that are at home on a rank.
-    #[must_use]
-    pub fn range(&self, rank: usize) -> Range<u64> {
+    pub(crate) fn range(&self, rank: usize) -> Range<u64> {
         let at = |rank: usize| (rank as u64 * self.each).min(self.total);
         at(rank)..at(rank + 1)
     }
 
-    /// List of rows for each rank; the first entry of a row is a node, whose home is the rank.
-    #[must_use]
-    pub fn sort<const N: usize>(
+    /// Sends rows to the homes of the nodes that are their first entries; returns the rows received from each
+    /// rank.
+    pub(crate) fn send<const N: usize>(
         &self,
         team: &Team,
         rows: impl IntoIterator<Item = [u64; N]>,
     ) -> Vec<Vec<[u64; N]>> {
-        let mut lists = vec![Vec::new(); team.size()];
-        rows.into_iter().for_each(|row| lists[self.of(row[0])].push(row));
-        lists
+        team.send(rows.into_iter().map(|row| (self.of(row[0]), row)))
     }
 
     /// Answers of the homes of these nodes, which must be ascending; `answer` has the index of a node in the
     /// home range.
-    #[must_use]
-    pub fn ask<const N: usize>(
+    pub(crate) fn ask<const N: usize>(
         &self,
         team: &Team,
         nodes: &[u64],
         answer: impl Fn(usize) -> [u64; N],
     ) -> Vec<[u64; N]> {
-        let asked = team.exchange_rows(&self.sort(team, nodes.iter().map(|&node| [node])));
+        let asked = self.send(team, nodes.iter().map(|&node| [node]));
         let first = self.range(team.rank()).start;
-        let answers =
-            |nodes: &Vec<[u64; 1]>| nodes.iter().map(|[node]| answer((node - first) as usize)).collect();
+        let asked =
+            asked.iter().enumerate().flat_map(|(rank, nodes)| nodes.iter().map(move |node| (rank, node)));
         // Homes ascend with the nodes.
-        team.exchange_rows(&asked.iter().map(answers).collect::<Vec<_>>()).concat()
+        team.send(asked.map(|(rank, [node])| (rank, answer((node - first) as usize)))).concat()
     }
 }
 
 /// Node before the mesh is divided.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub(crate) struct Place {
     /// Position at rest, m.
-    pub rest: [f64; 3],
+    pub(crate) rest: [f64; 3],
     /// Position before the first step, m.
-    pub start: [f64; 3],
+    pub(crate) start: [f64; 3],
     /// Prescribed motions and springs of the node: bit 0 for a pin; the caller defines the other bits.
-    pub marks: u64,
+    pub(crate) marks: u64,
 }
 
 impl Place {
     /// Row of a number, such as that of the node, and the words of the place.
-    #[must_use]
-    pub fn to_row(self, number: u64) -> [u64; 8] {
+    pub(crate) fn to_row(self, number: u64) -> [u64; 8] {
         let [r, s] = [self.rest, self.start].map(|x| x.map(f64::to_bits));
         [number, r[0], r[1], r[2], s[0], s[1], s[2], self.marks]
     }
 
     /// Place in a row of [`Place::to_row`].
-    #[must_use]
-    pub fn from_row(row: &[u64]) -> Self {
+    pub(crate) fn from_row(row: &[u64]) -> Self {
         let vector = |at: usize| std::array::from_fn(|c| f64::from_bits(row[at + c]));
         Self { rest: vector(1), start: vector(4), marks: row[7] }
     }
@@ -103,30 +90,27 @@ pub type Element = [u64; 6];
 #[derive(Clone, Debug, PartialEq)]
 pub struct Portion {
     /// Homes of all nodes.
-    pub homes: Homes,
+    pub(crate) homes: Homes,
     /// Nodes that are at home on this rank.
-    pub places: Vec<Place>,
+    pub(crate) places: Vec<Place>,
     /// Some elements of the mesh; each element is on one rank.
     pub elements: Vec<Element>,
 }
 
 impl Portion {
     /// Distributes a mesh from rank 0; the lists of other ranks must be empty.
-    #[must_use]
-    pub fn spread(team: &Team, places: Vec<Place>, elements: Vec<Element>) -> Self {
+    pub(crate) fn spread(team: &Team, places: Vec<Place>, elements: Vec<Element>) -> Self {
         let [nodes, count] = [places.len(), elements.len()].map(|number| team.count(number) as u64);
-        let homes = Homes::new(nodes, team.size());
+        let homes = Homes::new(nodes, team.size);
         let rows = places.into_iter().enumerate().map(|(node, place)| place.to_row(node as u64));
-        let places = team.exchange_rows(&homes.sort(team, rows)).concat();
-        let of_elements = Homes::new(count, team.size());
-        let mut lists = vec![Vec::new(); team.size()];
-        for (number, element) in elements.into_iter().enumerate() {
-            lists[of_elements.of(number as u64)].push(element);
-        }
+        let places = homes.send(team, rows).concat();
+        let of_elements = Homes::new(count, team.size);
+        let elements = elements.into_iter().enumerate();
+        let elements = elements.map(|(number, element)| (of_elements.of(number as u64), element));
         Self {
             homes,
             places: places.iter().map(|row| Place::from_row(row)).collect(),
-            elements: team.exchange_rows(&lists).concat(),
+            elements: team.send(elements).concat(),
         }
     }
 
@@ -136,14 +120,14 @@ impl Portion {
     #[must_use]
     pub fn of_cube(team: &Team, cells: u64, length: f64) -> Self {
         let side = cells + 1;
-        let homes = Homes::new(side * side * side, team.size());
+        let homes = Homes::new(side * side * side, team.size);
         let coordinate = |at: u64| length * (at as f64 / cells as f64);
         let place = |node: u64| {
             let at = [node / (side * side), node / side % side, node % side];
             let rest = at.map(coordinate);
             Place { rest, start: rest, marks: u64::from(at[0] == 0) }
         };
-        let of_cells = Homes::new(cells * cells * cells, team.size());
+        let of_cells = Homes::new(cells * cells * cells, team.size);
         // Paths from a corner of the cell to the opposite corner, along the three axes; odd orders are
         // mirrored.
         const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];

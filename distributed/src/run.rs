@@ -66,10 +66,10 @@ impl Progress {
     }
 
     fn note_start(&mut self, team: &Team, simulation: &Simulation) {
-        let share = simulation.share();
+        let share = &simulation.share;
         let rest: Vec<[f64; 3]> = share.places.iter().map(|place| place.rest).collect();
         let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();
-        self.min_det_f = team.min(measure::min_det_f(&rest, simulation.part().positions(), &tets));
+        self.min_det_f = team.min(measure::min_det_f(&rest, simulation.part.positions(), &tets));
     }
 }
 
@@ -84,7 +84,7 @@ fn relative_residual(report: &NewtonReport) -> f64 {
 pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let newton = options.solver.settings(false)?;
     let cells = ((options.elements.max(1) as f64 / 6.0).cbrt() - 1e-9).ceil().max(1.0) as u64;
-    let moduli = Moduli::from_young_poisson(1e6, 0.45).map_err(|error| Error::Options(error.to_string()))?;
+    let moduli = Moduli::from_young_poisson(1e6, 0.45).map_err(Error::usage)?;
     let material = MaterialSpec::new("stable neo-Hookean")
         .with_parameter("mu", [moduli.mu])
         .with_parameter("lambda", [moduli.lambda]);
@@ -96,7 +96,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     team.wait();
     let (set_up, clock) = (clock.elapsed(), Instant::now());
     let report = simulation.advance(|part| part.equilibrate_here())?.newton;
-    let systems = simulation.take_systems();
+    let systems = simulation.part.machine().take_systems();
     team.wait();
     let solved = clock.elapsed();
     if let Some(folder) = &options.out {
@@ -107,12 +107,12 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     }
     if report.convergence == Convergence::Limit {
         let residual = relative_residual(&report);
-        return Err(Error::Options(format!(
+        return Err(Error::usage(format!(
             "the body is not in equilibrium: the relative residual is {residual:.1e}"
         )));
     }
     let memory = team.sum([peak_memory()])[0] / f64::from(1 << 20);
-    let share = simulation.share();
+    let share = &simulation.share;
     let copies = team.max((share.ids.len() - share.owned) as f64);
     let total: usize = systems.iter().sum();
     let mean = total as f64 / systems.len().max(1) as f64;
@@ -120,7 +120,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
         "| {} | {} | {} | {} | {total} | {mean:.1} | {} | {:.1e} | {:.2} | {:.2} | {memory:.0} | {copies:.0} |",
         share.totals[1],
         share.totals[0],
-        team.size(),
+        team.size,
         report.iterations,
         systems.iter().max().unwrap_or(&0),
         relative_residual(&report),
@@ -152,14 +152,14 @@ pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
     let newton = options.solver.settings(false)?;
     let folder = folder(&options.out, &task);
-    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
+    let setting = Setting::new(team, &task)?;
     output::prepare(team, &folder, options.force)?;
     let mut course = Course::new(team, &task, &setting, newton)?;
     // In statics, prescribed motions are complete.
     course.simulation.prescribe(|node| setting.place(node, f64::INFINITY))?;
     let clock = Instant::now();
     let report = course.simulation.advance(|part| part.equilibrate_here())?;
-    course.progress.note(&report, &course.simulation.take_systems());
+    course.progress.note(&report, &course.simulation.part.machine().take_systems());
     course.frame = 1;
     let about = course.about(None)?;
     output::write_frame(team, &folder, 1, &course.simulation)?;
@@ -181,9 +181,9 @@ pub fn statics(team: &Team, options: &BodyOptions) -> Result<Summary, Error> {
 /// ends, and the summary contains the failure.
 pub fn run(team: &Team, options: &RunOptions) -> Result<Summary, Error> {
     let task = team.agree(options.task())?;
-    let newton = options.newton()?;
+    let newton = options.body.solver.settings(options.steps.newton == Newton::Single)?;
     let folder = folder(&options.body.out, &task);
-    let setting = Setting::new(team, &task.settings, &task.groups, &task.moves)?;
+    let setting = Setting::new(team, &task)?;
     if !options.resume {
         output::prepare(team, &folder, options.body.force)?;
     }
@@ -259,7 +259,8 @@ impl<'a> Course<'a> {
         let settings = piola_scenes::play::step_settings(&task.settings).with_newton(newton);
         // The elements of groups have the materials with the numbers 1, 2, …; all others have the first one.
         let first = MaterialPart { material: task.settings.material.clone(), density: task.settings.density };
-        let materials: Vec<_> = std::iter::once(first).chain(task.materials.iter().cloned()).collect();
+        let materials: Vec<_> =
+            std::iter::once(first).chain(task.parts.iter().map(|(_, part)| part.clone())).collect();
         let simulation = Simulation::new(team, setting.share.clone(), &materials, settings)?;
         Ok(Self { team, task, setting, simulation, progress: Progress::new(), frame: 0 })
     }
@@ -293,17 +294,17 @@ impl<'a> Course<'a> {
             }
         };
         progress.steps += steps;
-        progress.note(&report, &simulation.take_systems());
+        progress.note(&report, &simulation.part.machine().take_systems());
         Ok(())
     }
 
     /// Settings on which the motion depends, as JSON.
     fn settings(&self) -> Result<String, Error> {
-        let Task { settings, groups, materials, moves, .. } = self.task;
+        let Task { settings, parts, moves } = self.task;
         let lasting = Settings { frames: 1, threads: 1, newton: Newton::Single, ..settings.clone() };
         let materials: Vec<_> =
-            groups.iter().zip(materials).map(|(group, part)| (group, &part.material, part.density)).collect();
-        serde_json::to_string(&(lasting, materials, moves)).map_err(|error| Error::Options(error.to_string()))
+            parts.iter().map(|(group, part)| (group, &part.material, part.density)).collect();
+        serde_json::to_string(&(lasting, materials, moves)).map_err(Error::usage)
     }
 
     fn about(&self, clock: Option<Clock>) -> Result<About, Error> {
@@ -334,8 +335,8 @@ impl<'a> Course<'a> {
 
     fn summary(&mut self, times: &[Duration]) -> Summary {
         let team = self.team;
-        let energy = self.simulation.energies().elastic;
-        let (share, state) = (self.simulation.share(), self.simulation.part());
+        let energy = self.simulation.part.energies().elastic;
+        let (share, state) = (&self.simulation.share, &self.simulation.part);
         let distance = |node: usize| {
             let (x, rest) = (state.positions()[node], share.places[node].rest);
             (0..3).map(|c| (x[c] - rest[c]).powi(2)).sum::<f64>().sqrt()
@@ -355,7 +356,7 @@ impl<'a> Course<'a> {
             parameters: info.map(|info| info.parameters).unwrap_or_default(),
             tets: share.totals[1],
             nodes: share.totals[0],
-            ranks: team.size(),
+            ranks: team.size,
             copies_max: team.max((share.ids.len() - share.owned) as f64) as usize,
             frames: self.frame,
             frames_wanted: settings.frames,

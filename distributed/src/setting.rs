@@ -7,32 +7,22 @@ use piola_scenes::clock::Clock;
 use piola_scenes::geometry::{Geometry, NOTHING_PULLED};
 use piola_scenes::play::{self, DragSprings, Stretch};
 use piola_scenes::region;
-use piola_scenes::settings::Settings;
 use serde::{Deserialize, Serialize};
 
+use crate::command::{Move, Task};
 use crate::error::Error;
+use crate::part::MaterialPart;
 use crate::portion::{Element, Place, Portion};
 use crate::share::Share;
 use crate::team::Team;
 
-/// Prescribed motion of some nodes, which are pinned for it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Move {
-    /// Nodes that move: a box, or the name of a group.
-    pub nodes: String,
-    /// Displacement at the end of the motion, m.
-    pub displacement: [f64; 3],
-    /// End of the steady motion, s; the nodes are held afterwards.
-    pub reached: f64,
-}
-
 /// Setting of a run on one rank.
 #[derive(Debug)]
-pub struct Setting {
+pub(crate) struct Setting {
     /// Nodes and elements of this rank.
-    pub share: Share,
+    pub(crate) share: Share,
     /// Properties of the whole body, equal on all ranks.
-    pub body: BodyFacts,
+    pub(crate) body: BodyFacts,
     /// Springs of each pull, at the owned nodes of this rank.
     pulls: Vec<DragSprings>,
     moves: Vec<Move>,
@@ -40,13 +30,13 @@ pub struct Setting {
 
 /// Properties of the whole body, equal on all ranks.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct BodyFacts {
+pub(crate) struct BodyFacts {
     /// Bounding box at rest, m.
-    pub bounds: Bounds,
+    pub(crate) bounds: Bounds,
     /// Checksum of the mesh.
-    pub checksum: u32,
+    pub(crate) checksum: u32,
     /// Properties of the mesh that may be unintended.
-    pub warnings: Vec<String>,
+    pub(crate) warnings: Vec<String>,
     /// Stiffness of each spring of each pull, N/m.
     stiffnesses: Vec<f64>,
 }
@@ -68,20 +58,17 @@ fn move_mark(number: usize) -> u64 {
 }
 
 impl Setting {
-    /// Reads the body on rank 0 and divides it. The elements of `groups` have the materials with the numbers
+    /// Reads the body on rank 0 and divides it. The elements of the parts have the materials with the numbers
     /// 1, 2, …; all other elements have the material with the number 0.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] for an error of the settings or the body, [`Error::Scene`], [`Error::Options`],
-    /// [`Error::TooManyRanks`], [`Error::Petsc`].
-    pub fn new(team: &Team, settings: &Settings, groups: &[String], moves: &[Move]) -> Result<Self, Error> {
+    pub(crate) fn new(team: &Team, task: &Task) -> Result<Self, Error> {
+        let Task { settings, moves, .. } = task;
         if moves.len() > MOST || settings.scene.pulls.len() > MOST {
-            return Err(Error::Options(format!("at most {MOST} motions can be prescribed")));
+            return Err(Error::usage(format!("at most {MOST} motions can be prescribed")));
         }
-        let (places, elements, facts) = team.on_first(|| read(settings, groups, moves))?;
+        let (places, elements, facts) = team.on_first(|| read(task))?;
         let facts = team.broadcast(0, facts);
         let body: BodyFacts = serde_json::from_slice(&facts)
-            .map_err(|error| Error::Options(format!("the ranks run different programs: {error}")))?;
+            .map_err(|error| Error::usage(format!("the ranks run different programs: {error}")))?;
         let share = Share::of(team, Portion::spread(team, places, elements))?;
         let pulls = settings.scene.pulls.iter().enumerate().map(|(number, &pull)| DragSprings {
             pull,
@@ -92,24 +79,21 @@ impl Setting {
             bounds: body.bounds,
             stiffness: body.stiffnesses[number],
         });
-        Ok(Self { pulls: pulls.collect(), moves: moves.to_vec(), share, body })
+        Ok(Self { pulls: pulls.collect(), moves: moves.clone(), share, body })
     }
 
     /// Springs at owned nodes at the end of a time interval, s.
-    #[must_use]
-    pub fn springs(&self, start: f64, end: f64) -> Vec<Spring> {
+    pub(crate) fn springs(&self, start: f64, end: f64) -> Vec<Spring> {
         self.pulls.iter().flat_map(|pull| pull.during(start, end)).collect()
     }
 
     /// Time intervals of the next frame, equal on all ranks.
-    #[must_use]
-    pub fn stretches(&self, clock: Clock) -> (Vec<Stretch>, Stretch) {
+    pub(crate) fn stretches(&self, clock: Clock) -> (Vec<Stretch>, Stretch) {
         play::stretches(&self.pulls, clock)
     }
 
     /// Position of a pinned node at a time, s, if it has a prescribed motion.
-    #[must_use]
-    pub fn place(&self, node: usize, time: f64) -> Option<[f64; 3]> {
+    pub(crate) fn place(&self, node: usize, time: f64) -> Option<[f64; 3]> {
         let Place { rest, marks, .. } = self.share.places[node];
         let mut moved = None;
         for (number, motion) in self.moves.iter().enumerate() {
@@ -123,8 +107,7 @@ impl Setting {
     }
 
     /// Height of the body, m.
-    #[must_use]
-    pub fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         self.body.bounds.size()[1]
     }
 }
@@ -132,7 +115,7 @@ impl Setting {
 /// Places, elements and properties of the whole body; the properties are in JSON.
 type WholeBody = (Vec<Place>, Vec<Element>, Vec<u8>);
 
-fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeBody, Error> {
+fn read(Task { settings, parts, moves }: &Task) -> Result<WholeBody, Error> {
     let geometry = Geometry::load(settings)?;
     let mesh = &geometry.mesh;
     let young = settings.material.build()?.moduli.young();
@@ -143,7 +126,7 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeB
             (None, Ok(region)) => Pins::in_box(mesh, region),
             _ => Pins::of_group(mesh, &motion.nodes),
         };
-        let moved = moved.map_err(|error| Error::Options(format!("--move {}: {error}", motion.nodes)))?;
+        let moved = moved.map_err(|error| Error::usage(format!("--move {}: {error}", motion.nodes)))?;
         moved.nodes().iter().for_each(|&node| marks[node] |= move_mark(number));
         pins = pins.and(&moved);
     }
@@ -161,29 +144,28 @@ fn read(settings: &Settings, groups: &[String], moves: &[Move]) -> Result<WholeB
     let places = (0..mesh.positions.len())
         .map(|node| Place { rest: mesh.positions[node], start: start[node], marks: marks[node] })
         .collect();
-    let materials = materials(groups, mesh)?;
+    let materials = materials(parts, mesh)?;
     let elements = mesh
         .tets
         .iter()
         .enumerate()
         .map(|(tet, &[a, b, c, d])| [a, b, c, d, mesh.tag(tet), materials[tet]].map(|word| word as u64));
     let facts = BodyFacts { bounds: mesh.bounds(), checksum: geometry.checksum(), warnings, stiffnesses };
-    let facts = serde_json::to_vec(&facts).map_err(|error| Error::Options(error.to_string()))?;
+    let facts = serde_json::to_vec(&facts).map_err(Error::usage)?;
     Ok((places, elements.collect(), facts))
 }
 
-/// Number of the material of each element: 1, 2, … for the members of the groups with these names, otherwise
-/// 0.
-fn materials(groups: &[String], mesh: &TetMesh) -> Result<Vec<usize>, Error> {
+/// Number of the material of each element: 1, 2, … for the members of the groups of these parts, otherwise 0.
+fn materials(parts: &[(String, MaterialPart)], mesh: &TetMesh) -> Result<Vec<usize>, Error> {
     let mut materials = vec![0; mesh.tets.len()];
-    for (number, name) in groups.iter().enumerate() {
+    for (number, (name, _)) in parts.iter().enumerate() {
         let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
         let group =
-            group.ok_or_else(|| Error::Options(format!("the mesh has no group `{name}` of tetrahedra")))?;
+            group.ok_or_else(|| Error::usage(format!("the mesh has no group `{name}` of tetrahedra")))?;
         for &element in &group.tets {
             if std::mem::replace(&mut materials[element], number + 1) != 0 {
                 let tag = mesh.tag(element);
-                return Err(Error::Options(format!("element {tag} has two materials")));
+                return Err(Error::usage(format!("element {tag} has two materials")));
             }
         }
     }

@@ -16,21 +16,21 @@ use crate::team::Team;
 #[derive(Clone, Debug)]
 pub struct Share {
     /// Number of each node in the whole mesh.
-    pub ids: Vec<u64>,
+    pub(crate) ids: Vec<u64>,
     /// Number of owned nodes, the first of the nodes.
-    pub owned: usize,
+    pub(crate) owned: usize,
     /// Number of free owned nodes, the first of the owned nodes.
-    pub free: usize,
+    pub(crate) free: usize,
     /// Positions and marks of the nodes.
-    pub places: Vec<Place>,
+    pub(crate) places: Vec<Place>,
     /// Global number of each copy, counted rank after rank.
-    pub copies: Vec<usize>,
+    pub(crate) copies: Vec<usize>,
     /// Global number of each node among the free nodes, counted rank after rank; `None` for a pinned node.
-    pub free_numbers: Vec<Option<usize>>,
+    pub(crate) free_numbers: Vec<Option<usize>>,
     /// Elements: indices of the four nodes in this share, tag, and number of the material.
     pub elements: Vec<([usize; 4], u64, u64)>,
     /// Numbers of nodes and of elements of all ranks.
-    pub totals: [usize; 2],
+    pub(crate) totals: [usize; 2],
 }
 
 /// Number among the free nodes that stands for a pinned node.
@@ -40,12 +40,15 @@ impl Share {
     /// Divides a mesh.
     ///
     /// # Errors
-    /// [`Error::TooManyRanks`], [`Error::Petsc`].
+    /// [`Error::Scene`] for fewer elements than ranks, [`Error::Petsc`].
     pub fn of(team: &Team, portion: Portion) -> Result<Self, Error> {
         let Portion { homes, places, elements } = portion;
         let total = team.count(elements.len());
-        if total < team.size() {
-            return Err(Error::TooManyRanks { ranks: team.size(), elements: total });
+        if total < team.size {
+            let ranks = team.size;
+            return Err(Error::usage(format!(
+                "{ranks} ranks cannot share {total} elements: use at most as many ranks as there are elements"
+            )));
         }
         let mut owner_here = owners(team, &homes, &elements)?;
 
@@ -54,18 +57,15 @@ impl Share {
         let answers = homes.ask(team, &touched, |node| [owner_here[node]]);
         let owner: HashMap<u64, u64> =
             touched.iter().zip(&answers).map(|(&node, &[owner])| (node, owner)).collect();
-        let mut lists = vec![Vec::new(); team.size()];
-        for element in elements {
-            let owners: [u64; 4] = std::array::from_fn(|corner| owner[&element[corner]]);
-            lists[rank_of(owners, element[4])].push(element);
-        }
-        let mut elements = team.exchange_rows(&lists).concat();
+        let rank =
+            |element: &Element| rank_of(std::array::from_fn(|corner| owner[&element[corner]]), element[4]);
+        let mut elements = team.send(elements.into_iter().map(|element| (rank(&element), element))).concat();
         elements.sort_unstable_by_key(|element| element[4]);
 
         // If a rank has no element of a node, another rank that has one becomes the owner of the node.
         let first = homes.range(team.rank()).start;
         let touched = nodes(&elements);
-        let of_ranks = team.exchange_rows(&homes.sort(team, touched.iter().map(|&node| [node])));
+        let of_ranks = homes.send(team, touched.iter().map(|&node| [node]));
         let mut with_elements = vec![Vec::new(); places.len()];
         for (rank, nodes) in of_ranks.iter().enumerate() {
             nodes.iter().for_each(|[node]| with_elements[(node - first) as usize].push(rank as u64));
@@ -77,11 +77,8 @@ impl Share {
         }
 
         // Send nodes to their owners.
-        let mut lists = vec![Vec::new(); team.size()];
-        for (node, place) in places.iter().enumerate() {
-            lists[owner_here[node] as usize].push(place.to_row(first + node as u64));
-        }
-        let mut owned = team.exchange_rows(&lists).concat();
+        let row = |node: usize| (owner_here[node] as usize, places[node].to_row(first + node as u64));
+        let mut owned = team.send((0..places.len()).map(row)).concat();
         owned.sort_unstable_by_key(|row| (row[7] & 1, row[0]));
         let free = owned.iter().filter(|row| row[7] & 1 == 0).count();
 
@@ -94,7 +91,7 @@ impl Share {
             .enumerate()
             .map(|(node, row)| [row[0], (first_owned + node) as u64, free_number(node)]);
         let mut known = vec![[0; 2]; places.len()];
-        for [node, number, free] in team.exchange_rows(&homes.sort(team, rows)).concat() {
+        for [node, number, free] in homes.send(team, rows).concat() {
             known[(node - first) as usize] = [number, free];
         }
 
@@ -127,13 +124,12 @@ impl Share {
             copies: answers.iter().map(|row| row[0] as usize).collect(),
             free_numbers: numbers.map(|number| (number != PINNED).then_some(number as usize)).collect(),
             elements: elements.iter().map(local).collect(),
-            totals: [homes.total() as usize, total],
+            totals: [homes.total as usize, total],
         })
     }
 
     /// Pinned nodes of this rank, copies included, ascending.
-    #[must_use]
-    pub fn pinned(&self) -> Vec<usize> {
+    pub(crate) fn pinned(&self) -> Vec<usize> {
         (0..self.places.len()).filter(|&node| self.places[node].marks & 1 == 1).collect()
     }
 }
@@ -161,7 +157,7 @@ fn rank_of(mut owners: [u64; 4], tag: u64) -> usize {
 fn owners(team: &Team, homes: &Homes, elements: &[Element]) -> Result<Vec<u64>, Error> {
     let range = homes.range(team.rank());
     let here = (range.end - range.start) as usize;
-    if team.size() == 1 {
+    if team.size == 1 {
         return Ok(vec![0; here]);
     }
     let mut pairs = Vec::with_capacity(12 * elements.len());
@@ -175,7 +171,7 @@ fn owners(team: &Team, homes: &Homes, elements: &[Element]) -> Result<Vec<u64>, 
     pairs.sort_unstable();
     pairs.dedup();
     let places = pairs.iter().map(|pair| pair.map(|node| node as usize));
-    let mut graph = Matrix::new(team.library(), here, 1, places)?;
+    let mut graph = Matrix::new(&team.library, here, 1, places)?;
     graph.set_values(&vec![1.0; pairs.len()])?;
     Ok(graph.partition()?.into_iter().map(|rank| rank as u64).collect())
 }

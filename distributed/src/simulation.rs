@@ -3,29 +3,29 @@
 //! Newton's method is piola's instead of PETSc's SNES, which does not support pins that move into the first
 //! system, a filter on demand, or an end below the rounding error of the energy.
 
-use piola_bodies::step::{self, Energies, LinearSolver, SetupError, SimulationSettings, StepError};
+use piola_bodies::step::{self, LinearSolver, SetupError, SimulationSettings, StepError};
 use piola_bodies::system::Pins;
+use piola_scenes::error::Error as SceneError;
 
-use crate::error::{Error, Failure};
+use crate::error::Error;
 use crate::part::{self, MaterialPart};
 use crate::share::Share;
 use crate::system::LinearSystem;
 use crate::team::Team;
 
 /// Divided body with its state, on one rank. All ranks must call all functions.
-pub struct Simulation {
+pub(crate) struct Simulation {
     team: Team,
-    share: Share,
-    failure: Failure,
-    part: step::Simulation<LinearSystem>,
+    /// Nodes and elements of this rank.
+    pub(crate) share: Share,
+    /// Simulation of the part of this rank: positions, m, velocities, m/s, and accelerations, m/s², of its
+    /// nodes, copies included. Changes and steps are made by the functions below.
+    pub(crate) part: step::Simulation<LinearSystem>,
 }
 
 impl Simulation {
     /// Simulation that starts at rest, with the nodes at the start positions of the share.
-    ///
-    /// # Errors
-    /// An [`Error`] of an element, a material, a setting or of PETSc.
-    pub fn new(
+    pub(crate) fn new(
         team: &Team,
         share: Share,
         parts: &[MaterialPart],
@@ -33,74 +33,40 @@ impl Simulation {
     ) -> Result<Self, Error> {
         let LinearSolver::ConjugateGradients { tolerance, max_iterations } = settings.newton.linear else {
             let reason = "a body that is divided among ranks needs conjugate gradients as linear solver";
-            return Err(Error::Options(reason.to_owned()));
+            return Err(Error::usage(reason));
         };
-        let (body, failure) = (team.agree(part::body(&share, parts))?, Failure::default());
-        let limits = (tolerance, max_iterations);
-        let system = LinearSystem::new(team, &share, body.as_ref(), limits, &failure)?;
+        let body = team.agree(part::body(&share, parts))?;
+        let system = LinearSystem::new(team, &share, body.as_ref(), tolerance, max_iterations)?;
         let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
         let made = step::Simulation::divided(system, body, &Pins::at(share.pinned()), settings)
             .and_then(|mut part| part.set_positions(&start).map(|()| part));
-        let part = team.agree(made.map_err(Error::from))?;
-        Ok(Self { team: team.clone(), share, failure, part })
-    }
-
-    /// Nodes and elements of this rank.
-    #[must_use]
-    pub fn share(&self) -> &Share {
-        &self.share
-    }
-
-    /// Simulation of the part of this rank: positions, m, velocities, m/s, and accelerations, m/s², of its
-    /// nodes, copies included.
-    #[must_use]
-    pub fn part(&self) -> &step::Simulation<LinearSystem> {
-        &self.part
+        let part = team.agree(made.map_err(|error| SceneError::from(error).into()))?;
+        Ok(Self { team: team.clone(), share, part })
     }
 
     /// Changes the state, pins or springs of the part.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] if a rank refuses its change.
-    pub fn set(
+    pub(crate) fn set(
         &mut self,
         change: impl FnOnce(&mut step::Simulation<LinearSystem>) -> Result<(), SetupError>,
     ) -> Result<(), Error> {
-        self.team.agree(change(&mut self.part).map_err(Error::from))
+        self.team.agree(change(&mut self.part).map_err(|error| SceneError::from(error).into()))
     }
 
     /// Prescribes the positions of pinned nodes of this rank and its copies after the next step, m; `None`
     /// leaves a node as it is.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] for a position that is not finite.
-    pub fn prescribe(&mut self, place: impl Fn(usize) -> Option<[f64; 3]>) -> Result<(), Error> {
+    pub(crate) fn prescribe(&mut self, place: impl Fn(usize) -> Option<[f64; 3]>) -> Result<(), Error> {
         let mut places = self.share.pinned().into_iter().filter_map(|node| Some((node, place(node)?)));
         self.set(|part| places.try_for_each(|(node, place)| part.prescribe(node, place)))
     }
 
     /// Advances the part by steps, or moves it to equilibrium.
-    ///
-    /// # Errors
-    /// An [`Error`] of Newton's method or of PETSc.
-    pub fn advance<T>(
+    pub(crate) fn advance<T>(
         &mut self,
         advance: impl FnOnce(&mut step::Simulation<LinearSystem>) -> Result<T, StepError>,
     ) -> Result<T, Error> {
         let made = advance(&mut self.part);
         // The error of an exchange or a solver on the way is the reason of the error of a step.
-        self.failure.take()?;
+        self.team.take_failure()?;
         Ok(made?)
-    }
-
-    /// Numbers of iterations of the linear systems since the last call, those of failed attempts included.
-    pub fn take_systems(&mut self) -> Vec<usize> {
-        self.part.machine().take_systems()
-    }
-
-    /// Energies of the current state, as those of one machine.
-    #[must_use]
-    pub fn energies(&mut self) -> Energies {
-        self.part.energies()
     }
 }

@@ -16,7 +16,7 @@ use piola_bodies::step::{NewtonError, StepError};
 use piola_bodies::system::{Body, LinearError, NodalStiffness};
 
 use crate::division::RowsOfRank;
-use crate::error::{Error, Failure};
+use crate::error::Error;
 use crate::petsc::{GhostedVector, Krylov, Matrix, Operators, PetscError, Vector};
 use crate::share::Share;
 use crate::team::Team;
@@ -44,10 +44,9 @@ const SHELL: &str = "shell";
 const PATIENCE: f64 = 2.0;
 
 /// Linear system of the free nodes: matrix, vectors and solver.
-pub struct LinearSystem {
+pub(crate) struct LinearSystem {
     team: Team,
     nodes: RowsOfRank,
-    failure: Failure,
     /// Relative tolerance of the first linear system, and upper bound of later tolerances.
     tolerance: f64,
     max_iterations: usize,
@@ -86,7 +85,7 @@ struct MatrixFree {
     stiffness: NodalStiffness,
     preconditioner: Preconditioner<RowsOfRank>,
     exchange: GhostedVector,
-    failure: Failure,
+    team: Team,
     is_free: Vec<bool>,
     /// Vector with an entry for each node of the rank, and its product with the stiffness.
     x: Vec<[f64; 3]>,
@@ -108,7 +107,7 @@ impl Operators for MatrixFree {
 
     fn precondition(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) -> Result<(), PetscError> {
         self.preconditioner.apply(r, z);
-        self.failure.take().map_err(|error| match error {
+        self.team.take_failure().map_err(|error| match error {
             Error::Petsc(error) => error,
             other => PetscError { message: other.to_string() },
         })
@@ -119,24 +118,23 @@ impl Operators for MatrixFree {
             return ("blocks on the diagonal".to_owned(), None);
         };
         let rows: Vec<String> = rows.iter().map(ToString::to_string).collect();
-        (format!("multigrid: levels of {} rows; the last is solved by", rows.join(", ")), Some(last.krylov()))
+        (format!("multigrid: levels of {} rows; the last is solved by", rows.join(", ")), Some(&last.krylov))
     }
 }
 
 impl LinearSystem {
-    /// Sets up PETSc's solver for the body of a share; `None` if the share has no elements. The failure keeps
-    /// errors that are not returned.
+    /// Sets up PETSc's solver for the body of a share; `None` if the share has no elements.
     ///
     /// # Errors
     /// [`Error::Petsc`], also for an option with a value that PETSc does not support; [`Error::OnRank`].
-    pub fn new(
+    pub(crate) fn new(
         team: &Team,
         share: &Share,
         body: Option<&Body>,
-        (tolerance, max_iterations): (f64, usize),
-        failure: &Failure,
+        tolerance: f64,
+        max_iterations: usize,
     ) -> Result<Self, Error> {
-        let library = team.library();
+        let library = &team.library;
         let stiffness = body.map_or_else(NodalStiffness::empty, NodalStiffness::of_body);
         let stiffness = team.agree(stiffness.map_err(Error::from))?;
         let own = body.map_or(&[][..], Body::masses);
@@ -146,12 +144,12 @@ impl LinearSystem {
             library.default_option(name, value)?;
         }
         let nodes = share.ids.len();
-        let rows = || RowsOfRank::new(team, failure, share.owned, share.copies.clone());
+        let rows = || RowsOfRank::new(team, share.owned, share.copies.clone());
         let matrix_free = Rc::new(RefCell::new(MatrixFree {
             stiffness,
             preconditioner: Preconditioner::new(share.owned, rows()),
             exchange: GhostedVector::new(library, 3, share.owned, &share.copies)?,
-            failure: failure.clone(),
+            team: team.clone(),
             is_free: share.free_numbers.iter().map(Option::is_some).collect(),
             x: vec![[0.0; 3]; nodes],
             product: vec![[0.0; 3]; nodes],
@@ -168,7 +166,6 @@ impl LinearSystem {
         Ok(Self {
             team: team.clone(),
             nodes: rows(),
-            failure: failure.clone(),
             tolerance,
             max_iterations,
             free: (0..share.free).collect(),
@@ -183,7 +180,7 @@ impl LinearSystem {
     }
 
     /// Numbers of iterations of the linear systems since the last call, those of failed attempts included.
-    pub fn take_systems(&mut self) -> Vec<usize> {
+    pub(crate) fn take_systems(&mut self) -> Vec<usize> {
         std::mem::take(&mut self.systems)
     }
 
@@ -276,10 +273,14 @@ impl LinearSystem {
             Form::Assembled(_) => true,
         };
         if !std::mem::replace(&mut self.is_checked[usize::from(is_with_levels)], true) {
-            let mut names = self.team.library().unused_options()?;
+            let mut names = self.team.library.unused_options()?;
             names.retain(|name| is_with_levels || !name.starts_with("coarse_"));
             if !names.is_empty() {
-                return Err(Error::UnusedOptions { names });
+                let names: Vec<_> = names.iter().map(|name| format!("-{name}")).collect();
+                return Err(Error::usage(format!(
+                    "PETSc does not use {}: the name is misspelt, or belongs to a solver that is not in use",
+                    names.join(", ")
+                )));
             }
         }
         Ok(())
@@ -331,8 +332,8 @@ impl Solver for LinearSystem {
         match self.find_direction(objective, x, gradient, owned, tolerance, definiteness) {
             Err(Error::Step(StepError::Newton(error @ NewtonError::NotPositive { .. }))) => Err(error),
             // An earlier exchange may have failed, too.
-            found => match self.failure.note(found) {
-                Some(solution) if !self.failure.is_noted() => Ok(solution),
+            found => match self.team.note(found) {
+                Some(solution) if !self.team.has_failed() => Ok(solution),
                 _ => Err(LinearError::External.into()),
             },
         }
@@ -351,10 +352,9 @@ fn solve(
     let mut given_up = 0;
     loop {
         let limit = {
-            let MatrixFree { stiffness, preconditioner, is_free, failure, .. } =
-                &mut *matrix_free.borrow_mut();
+            let MatrixFree { stiffness, preconditioner, is_free, team, .. } = &mut *matrix_free.borrow_mut();
             let taken = preconditioner.take(stiffness, is_free, x, &inertia);
-            failure.take()?;
+            team.take_failure()?;
             taken?;
             preconditioner.patience(*tolerance).min(*max_iterations - given_up)
         };
@@ -384,7 +384,7 @@ struct Assembled {
 impl Assembled {
     /// Computes the places of all entries.
     fn new(team: &Team, share: &Share, stiffness: &NodalStiffness) -> Result<Self, Error> {
-        let library = team.library();
+        let library = &team.library;
         let mut blocks = Vec::new();
         let mut block = |row: usize, column: usize| {
             blocks.extend(share.free_numbers[row].zip(share.free_numbers[column]).map(<[usize; 2]>::from));
@@ -398,8 +398,7 @@ impl Assembled {
         let entries = |[row, column]: [usize; 2]| {
             (0..9).map(move |entry| [3 * row + entry / 3, 3 * column + entry % 3])
         };
-        let mut matrix = Matrix::new(library, 3 * share.free, 3, blocks.iter().copied().flat_map(entries))?;
-        matrix.set_symmetric()?;
+        let matrix = Matrix::new(library, 3 * share.free, 3, blocks.iter().copied().flat_map(entries))?;
         let values = vec![0.0; 9 * blocks.len()];
         drop(blocks);
         let matrix = Rc::new(RefCell::new(matrix));

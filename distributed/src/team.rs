@@ -2,6 +2,9 @@
 //!
 //! This module does not depend on bodies. All ranks must call every function, in the same order.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use mpi::collective::SystemOperation;
 use mpi::datatype::{Partition, PartitionMut};
 use mpi::topology::SimpleCommunicator;
@@ -14,9 +17,13 @@ use crate::petsc::Library;
 /// Team of all ranks of a run, on one rank.
 #[derive(Clone)]
 pub struct Team {
-    library: Library,
+    /// Library that runs on all ranks.
+    pub(crate) library: Library,
     rank: usize,
-    size: usize,
+    /// Number of ranks.
+    pub(crate) size: usize,
+    /// First error, since the last call of [`Team::take_failure`], of functions that cannot return it.
+    failure: Rc<RefCell<Option<Error>>>,
 }
 
 impl Team {
@@ -25,13 +32,7 @@ impl Team {
     pub fn new(library: &Library) -> Self {
         let world = library.world();
         let (rank, size) = (world.rank() as usize, world.size() as usize);
-        Self { library: library.clone(), rank, size }
-    }
-
-    /// Library that runs on all ranks.
-    #[must_use]
-    pub fn library(&self) -> &Library {
-        &self.library
+        Self { library: library.clone(), rank, size, failure: Rc::default() }
     }
 
     /// Number of this rank, from 0.
@@ -40,35 +41,26 @@ impl Team {
         self.rank
     }
 
-    /// Number of ranks.
-    #[must_use]
-    pub fn size(&self) -> usize {
-        self.size
-    }
-
     fn world(&self) -> &SimpleCommunicator {
         self.library.world()
     }
 
     /// Sum of each entry over the ranks.
-    #[must_use]
-    pub fn sum<const N: usize>(&self, entries: [f64; N]) -> [f64; N] {
+    pub(crate) fn sum<const N: usize>(&self, entries: [f64; N]) -> [f64; N] {
         let mut total = [0.0; N];
         self.world().all_reduce_into(&entries[..], &mut total[..], SystemOperation::sum());
         total
     }
 
     /// Sum of a number over the ranks.
-    #[must_use]
-    pub fn count(&self, number: usize) -> usize {
+    pub(crate) fn count(&self, number: usize) -> usize {
         let mut total = 0_u64;
         self.world().all_reduce_into(&(number as u64), &mut total, SystemOperation::sum());
         total as usize
     }
 
     /// Largest value of any rank; NaN if a value is NaN.
-    #[must_use]
-    pub fn max(&self, number: f64) -> f64 {
+    pub(crate) fn max(&self, number: f64) -> f64 {
         // MPI does not define the maximum of NaN.
         let mut total = [0.0; 2];
         let own =
@@ -78,8 +70,7 @@ impl Team {
     }
 
     /// Smallest value of any rank; NaN if a value is NaN.
-    #[must_use]
-    pub fn min(&self, number: f64) -> f64 {
+    pub(crate) fn min(&self, number: f64) -> f64 {
         -self.max(-number)
     }
 
@@ -92,43 +83,44 @@ impl Team {
     }
 
     /// Waits until all ranks have called this function.
-    pub fn wait(&self) {
+    pub(crate) fn wait(&self) {
         self.world().barrier();
     }
 
     /// Sends a list of integers to each rank, and returns the list received from each rank.
-    #[must_use]
-    pub fn exchange(&self, outgoing: &[Vec<u64>]) -> Vec<Vec<u64>> {
-        let lengths = outgoing.iter().map(|list| list.len() as Count).collect();
-        let (received, lengths) = self.exchange_entries(&outgoing.concat(), lengths);
-        lists(&received, lengths.into_iter())
-    }
-
-    /// Sends rows of integers to each rank, and returns the rows received from each rank.
-    #[must_use]
-    pub fn exchange_rows<const N: usize>(&self, outgoing: &[Vec<[u64; N]>]) -> Vec<Vec<[u64; N]>> {
-        let lengths = outgoing.iter().map(|rows| (N * rows.len()) as Count).collect();
-        let (received, lengths) = self.exchange_entries(&outgoing.concat().into_flattened(), lengths);
-        lists(received.as_chunks().0, lengths.into_iter().map(|length| length / N as Count))
-    }
-
-    /// Sends consecutive entries to each rank; returns the entries from all ranks, and the number from each.
-    fn exchange_entries(&self, sent: &[u64], lengths: Vec<Count>) -> (Vec<u64>, Vec<Count>) {
+    pub(crate) fn exchange(&self, outgoing: &[Vec<u64>]) -> Vec<Vec<u64>> {
+        let lengths: Vec<Count> = outgoing.iter().map(|list| list.len() as Count).collect();
         let mut incoming = vec![0 as Count; self.size];
         self.world().all_to_all_into(&lengths[..], &mut incoming[..]);
+        let sent = outgoing.concat();
         let mut received = vec![0_u64; incoming.iter().map(|&length| length as usize).sum()];
         {
             let starts_of_sent = starts(&lengths);
-            let from = Partition::new(sent, lengths, starts_of_sent);
+            let from = Partition::new(&sent[..], lengths, starts_of_sent);
             let mut to = PartitionMut::new(&mut received[..], incoming.clone(), starts(&incoming));
             self.world().all_to_all_varcount_into(&from, &mut to);
         }
-        (received, incoming)
+        let mut rest = received.as_slice();
+        let next = |length: Count| {
+            let (list, after) = rest.split_at(length as usize);
+            rest = after;
+            list.to_vec()
+        };
+        incoming.into_iter().map(next).collect()
+    }
+
+    /// Sends each row of integers to its rank, and returns the rows received from each rank.
+    pub(crate) fn send<const N: usize>(
+        &self,
+        rows: impl IntoIterator<Item = (usize, [u64; N])>,
+    ) -> Vec<Vec<[u64; N]>> {
+        let mut outgoing: Vec<Vec<u64>> = vec![Vec::new(); self.size];
+        rows.into_iter().for_each(|(rank, row)| outgoing[rank].extend(row));
+        self.exchange(&outgoing).iter().map(|list| list.as_chunks().0.to_vec()).collect()
     }
 
     /// Bytes of a rank, sent to all ranks.
-    #[must_use]
-    pub fn broadcast(&self, rank: usize, mut bytes: Vec<u8>) -> Vec<u8> {
+    pub(crate) fn broadcast(&self, rank: usize, mut bytes: Vec<u8>) -> Vec<u8> {
         let root = self.world().process_at_rank(rank as Rank);
         let mut length = bytes.len() as u64;
         root.broadcast_into(&mut length);
@@ -158,29 +150,37 @@ impl Team {
         Err(Error::OnRank { rank: first as usize, message: String::from_utf8_lossy(&message).into_owned() })
     }
 
-    /// Result of rank 0, which alone does this work; an empty result on the other ranks.
-    ///
-    /// # Errors
-    /// [`Error::OnRank`] on all ranks, if rank 0 fails.
-    pub fn on_first<T: Default>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    /// Result of rank 0, which alone does this work; an empty result on the other ranks. If rank 0 fails, all
+    /// ranks do.
+    pub(crate) fn on_first<T: Default>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
         self.agree(if self.rank == 0 { work() } else { Ok(T::default()) })
+    }
+
+    /// Value of a result of this rank; an error is kept, unless an earlier one is.
+    pub(crate) fn note<T, E: Into<Error>>(&self, result: Result<T, E>) -> Option<T> {
+        match result {
+            Ok(value) => Some(value),
+            Err(error) => {
+                self.failure.borrow_mut().get_or_insert_with(|| error.into());
+                None
+            }
+        }
+    }
+
+    /// True if an error of this rank is kept.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.failure.borrow().is_some()
+    }
+
+    /// Removes the error that is kept, and returns it.
+    pub(crate) fn take_failure(&self) -> Result<(), Error> {
+        self.failure.borrow_mut().take().map_or(Ok(()), Err)
     }
 
     /// Ends all ranks at once, after an error that cannot be sent to the others.
     pub fn abort(&self) -> ! {
         self.world().abort(1)
     }
-}
-
-/// Lists of these lengths from consecutive entries.
-fn lists<T: Clone>(mut entries: &[T], lengths: impl Iterator<Item = Count>) -> Vec<Vec<T>> {
-    lengths
-        .map(|length| {
-            let (list, after) = entries.split_at(length as usize);
-            entries = after;
-            list.to_vec()
-        })
-        .collect()
 }
 
 fn starts(lengths: &[Count]) -> Vec<Count> {

@@ -5,10 +5,12 @@
 
 mod common;
 
-use common::{TestResult, checkpoint_in, command, finish, msh, state_after, words};
+use std::path::Path;
+
+use common::{TestResult, checkpoint_in, command, finish, state_after};
 use piola::material::Moduli;
 use piola::point::Filter;
-use piola_bodies::mesh::{Bounds, tetrahedral_box};
+use piola_bodies::mesh::{Bounds, TetMesh, tetrahedral_box};
 use piola_bodies::step::{
     Convergence, Filtering, Integrator, LinearSolver, NewtonSettings, Simulation, SimulationSettings,
 };
@@ -60,8 +62,7 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
     for count in ranks() {
         let folder = scratch.path().join(count.to_string());
         let run = |options: String| {
-            let scene = ["run", scene.name, "--material", material].map(str::to_owned);
-            state_after(count, scene.into_iter().chain(words(&options)), &folder)
+            state_after(count, &format!("run {} --material '{material}' {options}", scene.name), &folder)
         };
         run(format!("--frames {before} --newton single"))?;
         let (about, state) = checkpoint_in(&folder)?;
@@ -103,30 +104,30 @@ fn a_horse_of_three_energies_moves_equally() -> TestResult {
 /// Compares the final positions of a run on each number of ranks with positions on one machine, m.
 #[track_caller]
 #[expect(clippy::print_stdout, reason = "figures, shown with --nocapture")]
-fn check(ranks: &[usize], words: &[String], expected: &[[f64; 3]], most: f64) -> TestResult {
+fn check(ranks: &[usize], arguments: &str, expected: &[[f64; 3]], most: f64) -> TestResult {
     let scratch = tempfile::tempdir()?;
     for &count in ranks {
         let folder = scratch.path().join(count.to_string());
-        let found = state_after(count, words.to_vec(), &folder)?;
+        let found = state_after(count, arguments, &folder)?;
         let error = distance(&found.positions, expected);
-        println!("{} on {count} ranks: {error:.1e} m", words.join(" "));
-        assert!(error <= most, "{error:e} m on {count} ranks: {words:?}");
+        println!("{arguments} on {count} ranks: {error:.1e} m");
+        assert!(error <= most, "{error:e} m on {count} ranks: {arguments}");
     }
     Ok(())
 }
 
 /// Compares two ranks with one machine after fully solved frames of the dinosaur.
 #[track_caller]
-fn check_dinosaur(settings: &Settings, frames: usize, options: &[String]) -> TestResult {
+fn check_dinosaur(settings: &Settings, frames: usize, options: &str) -> TestResult {
     let geometry = Geometry::load(settings)?;
     let mut play = Play::new(settings.clone(), geometry)?;
     play.simulation.set_settings(step_settings(settings).with_newton(newton()))?;
     for _ in 0..frames {
         play.step()?;
     }
-    let run = words(&format!("run dinosaur --frames {frames} {SOLVED}"));
+    let run = format!("run dinosaur --frames {frames} {SOLVED} {options}");
     let most = 1e-9 * frames as f64 * play.height;
-    check(&[2], &[run.as_slice(), options].concat(), play.simulation.positions(), most)
+    check(&[2], &run, play.simulation.positions(), most)
 }
 
 /// All integrators except implicit Euler, in the pull of the dinosaur.
@@ -134,7 +135,7 @@ fn check_dinosaur(settings: &Settings, frames: usize, options: &[String]) -> Tes
 fn integrators_agree() -> TestResult {
     for (name, integrator) in [("sdirk2", Integrator::Sdirk2), ("sdirk3", Integrator::Sdirk3)] {
         let settings = Settings { integrator, gravity: 9.81, ..Settings::new(&DINOSAUR) };
-        check_dinosaur(&settings, 5, &words(&format!("--gravity 9.81 --integrator {name}")))?;
+        check_dinosaur(&settings, 5, &format!("--gravity 9.81 --integrator {name}"))?;
     }
     Ok(())
 }
@@ -146,13 +147,8 @@ fn events_within_a_frame_are_met_with_a_formula_too() -> TestResult {
     let parameters = spec.build()?.parameters;
     let [mu, lambda] = ["mu", "lambda"].map(|name| parameters[name][0]);
     let settings = Settings { material: spec, dt: 0.4, ..Settings::new(&DINOSAUR) };
-    let options = [
-        "--dt=0.4".to_owned(),
-        "--energy".to_owned(),
-        "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2".to_owned(),
-        format!("--param=mu={mu}"),
-        format!("--param=lambda={lambda}"),
-    ];
+    let energy = "mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2";
+    let options = format!("--dt=0.4 --energy '{energy}' --param=mu={mu} --param=lambda={lambda}");
     // The pull reaches its end at 1.5 s, and is released at 2 s.
     check_dinosaur(&settings, 4, &options)
 }
@@ -181,7 +177,7 @@ fn steps_within_a_tolerance_agree() -> TestResult {
     let options = format!(
         "run dinosaur --dt {dt} --frames {frames} --integrator sdirk2 --tolerance {tolerance} --newton full"
     );
-    let found = state_after(2, words(&options), &folder)?;
+    let found = state_after(2, &options, &folder)?;
     let error = distance(&found.positions, play.simulation.positions()) / play.height;
     let summary: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("summary.json"))?)?;
     println!("{taken} steps, and {} on two ranks: {error:.1e} body heights", summary["steps"]["taken"]);
@@ -208,7 +204,7 @@ fn a_box_sags_as_on_one_machine() -> TestResult {
     let mut simulation = Simulation::new(body, &pins, settings)?;
     simulation.equilibrate()?;
     let options = format!("box --elements {} --newton-tolerance 1e-12", mesh.tets.len());
-    check(&ranks(), &words(&options), simulation.positions(), 1e-8)
+    check(&ranks(), &options, simulation.positions(), 1e-8)
 }
 
 /// `-ksp_view` shows piola's levels and the solver of the last one. Options replace this solver and the
@@ -229,7 +225,7 @@ fn preconditioners_are_shown_and_replaced() -> TestResult {
         let folder = scratch.path().join(number.to_string());
         let sag = "box --elements 10000 --newton-tolerance 1e-10 -ksp_view";
         let options = format!("{sag} --out {} {options}", folder.display());
-        let output = finish(command(3, words(&options)))?;
+        let output = finish(command(3, &options))?;
         let text = String::from_utf8_lossy(&output.stdout);
         assert!(output.status.success(), "{options}: {}", String::from_utf8_lossy(&output.stderr));
         for shown in shown {
@@ -261,31 +257,50 @@ fn statics_end_as_on_one_machine() -> TestResult {
     simulation.equilibrate()?;
     let options = "statics twist --gravity 9.81 --move :,1:1,:=0.1,0,0@1 --newton-tolerance 1e-12 --newton-iterations 200 \
                    --filter clamp";
-    check(&ranks(), &words(options), simulation.positions(), 1e-8)
+    check(&ranks(), options, simulation.positions(), 1e-8)
 }
 
-/// A bar of two materials and densities under gravity, with damping; its top moves and its foot is held.
-#[test]
-fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
-    let mut mesh = tetrahedral_box([2, 8, 2], [0.25, 1.0, 0.25])?;
-    let scratch = tempfile::tempdir()?;
-    let file = scratch.path().join("bar.msh");
-    let upper: Vec<usize> = (0..mesh.tets.len()).filter(|&tet| tet >= mesh.tets.len() / 2).collect();
-    std::fs::write(&file, msh(&mesh, &upper))?;
-    mesh.groups.push(piola_bodies::mesh::Group {
-        name: "upper".to_owned(),
-        dimension: 3,
-        nodes: Vec::new(),
-        tets: upper,
-    });
+/// A bar in TetGen's files, with markers and regions, an unused node, comments, and tetrahedra in both
+/// orientations: the mesh as it is read, and the body of the materials and densities of [`PARTS`].
+fn bar_of_tetgen(file: &Path) -> Result<(TetMesh, Body), Box<dyn std::error::Error>> {
+    let bar = tetrahedral_box([2, 6, 2], [0.3, 1.0, 0.3])?;
+    let stray = 11;
+    let number = |node: usize| if node < stray { node + 1 } else { node + 2 };
+    let mut nodes = format!("# a bar\n{} 3 1 1\n", bar.positions.len() + 1);
+    for (node, [x, y, z]) in bar.positions.iter().enumerate() {
+        let marker = if *y == 0.0 { 5 } else { 0 };
+        nodes += &format!("{} {x:?} {y:?} {z:?} 0.5 {marker} # {y}\n", number(node));
+    }
+    nodes += &format!("{} 9 9 9 0.5 0\n", stray + 1);
+    let mut tets = format!("{} 4 1\n", bar.tets.len());
+    for (tet, nodes) in bar.tets.iter().enumerate() {
+        let [a, b, c, d] = nodes.map(number);
+        let [b, c] = if tet % 3 == 0 { [c, b] } else { [b, c] };
+        tets += &format!("{} {a} {b} {c} {d} {}\n", tet + 1, if tet % 2 == 0 { 7 } else { -1 });
+    }
+    std::fs::write(file, nodes)?;
+    std::fs::write(file.with_extension("ele"), tets)?;
 
+    let mesh = piola_bodies::mesh::read_tetgen(file)?;
     let soft = (HORSE.material)().build()?.moduli;
     let part = |group: Option<&str>, name: &str, density: f64| -> Result<Part, Box<dyn std::error::Error>> {
         let material = MaterialSpec::matching(name, soft).build()?.elements;
         Ok(Part { group: group.map(str::to_owned), material, density })
     };
-    let parts = vec![part(None, "neo-Hookean", 1000.0)?, part(Some("upper"), "stable neo-Hookean", 3000.0)?];
+    let parts = vec![part(None, "neo-Hookean", 1000.0)?, part(Some("7"), "stable neo-Hookean", 3000.0)?];
     let body = Body::from_parts(&mesh, parts)?;
+    Ok((mesh, body))
+}
+
+/// Options of the materials of [`bar_of_tetgen`].
+const PARTS: &str = "--material neo-Hookean --part '7=stable neo-Hookean;density=3000'";
+
+/// A bar of two materials and densities under gravity, with damping; its top moves and its foot is held.
+#[test]
+fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
+    let scratch = tempfile::tempdir()?;
+    let file = scratch.path().join("bar.node");
+    let (mesh, body) = bar_of_tetgen(&file)?;
     let at = |height: f64| Bounds { min: [-1.0, height - 1e-9, -1.0], max: [1.0, height + 1e-9, 1.0] };
     let (foot, top) = (Pins::in_box(&mesh, at(0.0))?, Pins::in_box(&mesh, at(1.0))?);
     // The scene's damping.
@@ -301,62 +316,31 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
         }
         simulation.step(dt)?;
     }
-    let material =
-        ["--mesh", file.to_str().expect("UTF-8"), "--part", "upper=stable neo-Hookean;density=3000"];
     let options = format!(
-        "run scramble --amplitude 0 --material neo-Hookean --gravity 9.81 --pin :,:0.000001,: \
-         --move :,0.999999:,:=0.1,0.2,0@0.15 --frames {frames} {SOLVED}"
+        "run scramble --amplitude 0 --gravity 9.81 --pin :,:0.000001,: --move :,0.999999:,:=0.1,0.2,0@0.15 \
+         --frames {frames} {SOLVED} {PARTS} --mesh {}",
+        file.display()
     );
-    let words = [words(&options), material.map(str::to_owned).to_vec()].concat();
-    check(&ranks(), &words, simulation.positions(), 1e-9 * f64::from(frames))
+    check(&ranks(), &options, simulation.positions(), 1e-9 * f64::from(frames))
 }
 
-/// A bar in TetGen's files, with markers and regions, an unused node, comments, and tetrahedra in both
-/// orientations.
 #[test]
 fn a_bar_in_files_of_tetgen_is_that_of_one_machine() -> TestResult {
-    let bar = tetrahedral_box([2, 6, 2], [0.3, 1.0, 0.3])?;
     let scratch = tempfile::tempdir()?;
     let file = scratch.path().join("bar.node");
-    let stray = 11;
-    let number = |node: usize| if node < stray { node + 1 } else { node + 2 };
-    let mut nodes = format!("# a bar\n{} 3 1 1\n", bar.positions.len() + 1);
-    for (node, [x, y, z]) in bar.positions.iter().enumerate() {
-        let marker = if *y == 0.0 { 5 } else { 0 };
-        nodes += &format!("{} {x:?} {y:?} {z:?} 0.5 {marker} # {y}\n", number(node));
-    }
-    nodes += &format!("{} 9 9 9 0.5 0\n", stray + 1);
-    let mut tets = format!("{} 4 1\n", bar.tets.len());
-    for (tet, nodes) in bar.tets.iter().enumerate() {
-        let [a, b, c, d] = nodes.map(number);
-        let [b, c] = if tet % 3 == 0 { [c, b] } else { [b, c] };
-        tets += &format!("{} {a} {b} {c} {d} {}\n", tet + 1, if tet % 2 == 0 { 7 } else { -1 });
-    }
-    std::fs::write(&file, nodes)?;
-    std::fs::write(file.with_extension("ele"), tets)?;
-
-    let mesh = piola_bodies::mesh::read_tetgen(&file)?;
-    let soft = (HORSE.material)().build()?.moduli;
-    let part = |group: Option<&str>, name: &str, density: f64| -> Result<Part, Box<dyn std::error::Error>> {
-        let material = MaterialSpec::matching(name, soft).build()?.elements;
-        Ok(Part { group: group.map(str::to_owned), material, density })
-    };
-    let parts = vec![part(None, "neo-Hookean", 1000.0)?, part(Some("7"), "stable neo-Hookean", 3000.0)?];
-    let body = Body::from_parts(&mesh, parts)?;
+    let (mesh, body) = bar_of_tetgen(&file)?;
     let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
     let mut simulation = Simulation::new(body, &Pins::of_group(&mesh, "5")?, settings)?;
     simulation.equilibrate()?;
 
-    let file = file.to_str().expect("UTF-8");
-    let options = words(&format!(
+    let options = format!(
         "statics scramble --amplitude 0 --gravity 9.81 --pin 5 --newton-tolerance 1e-12 --newton-iterations 200 \
-         --filter clamp --mesh {file}"
-    ));
-    let material = ["--material", "neo-Hookean", "--part", "7=stable neo-Hookean;density=3000"];
+         --filter clamp {PARTS} --mesh {}",
+        file.display()
+    );
     for count in ranks() {
         let folder = scratch.path().join(count.to_string());
-        let words = [options.clone(), material.map(str::to_owned).to_vec()].concat();
-        let found = state_after(count, words, &folder)?;
+        let found = state_after(count, &options, &folder)?;
         let error = distance(&found.positions, simulation.positions());
         assert!(error <= 1e-8, "{error:e} m on {count} ranks");
         let summary: serde_json::Value =

@@ -7,7 +7,7 @@ use std::fs;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{TestResult, checkpoint_in, command, finish, state_after, words};
+use common::{TestResult, checkpoint_in, command, finish, state_after};
 use piola_distributed::error::Error;
 use piola_distributed::part::{self, MaterialPart};
 use piola_distributed::petsc::Library;
@@ -40,7 +40,7 @@ fn wrong_options_are_named_once() -> TestResult {
             "cannot continue from no-such-folder",
         ),
     ] {
-        check_failure(&finish(command(ranks, words(options)))?, expected);
+        check_failure(&finish(command(ranks, options))?, expected);
     }
     Ok(())
 }
@@ -50,11 +50,11 @@ fn a_run_continues_with_other_ranks() -> TestResult {
     let scratch = tempfile::tempdir()?;
     let [whole, parts] = ["whole", "parts"].map(|name| scratch.path().join(name));
     let solved = "run dinosaur --newton full --newton-tolerance 1e-12 --filter clamp --integrator sdirk2";
-    let expected = state_after(1, words(&format!("{solved} --frames 9")), &whole)?;
+    let expected = state_after(1, &format!("{solved} --frames 9"), &whole)?;
     let mut found = None;
     for (ranks, frames, how) in [(3, 3, ""), (2, 6, "--resume"), (4, 9, "--resume")] {
         let options = format!("{solved} --frames {frames} {how}");
-        found = Some(state_after(ranks, words(&options), &parts)?);
+        found = Some(state_after(ranks, &options, &parts)?);
     }
     let found = found.ok_or("three runs")?;
     for (found, expected) in found.positions.as_flattened().iter().zip(expected.positions.as_flattened()) {
@@ -62,14 +62,14 @@ fn a_run_continues_with_other_ranks() -> TestResult {
     }
     // Other options, and a damaged checkpoint, are refused.
     let other = format!("{solved} --gravity 1 --frames 12 --resume --out {}", parts.display());
-    check_failure(&finish(command(2, words(&other)))?, "began with other options");
+    check_failure(&finish(command(2, &other))?, "began with other options");
     let damaged = parts.join("checkpoint.piola");
     let mut bytes = fs::read(&damaged)?;
     let last = bytes.len() - 1;
     bytes[last] ^= 1;
     fs::write(&damaged, bytes)?;
     let again = format!("{solved} --frames 12 --resume --out {}", parts.display());
-    check_failure(&finish(command(2, words(&again)))?, "it is damaged");
+    check_failure(&finish(command(2, &again))?, "it is damaged");
     Ok(())
 }
 
@@ -96,7 +96,7 @@ fn a_killed_rank_ends_all_and_leaves_a_checkpoint() -> TestResult {
     let scratch = tempfile::tempdir()?;
     let folder = scratch.path().join("run");
     let options = format!("run dinosaur --frames 100000 --checkpoint-every 1 --out {}", folder.display());
-    let mut child = command(3, words(&options)).stdin(Stdio::null()).spawn()?;
+    let mut child = command(3, &options).stdin(Stdio::null()).spawn()?;
     let begun = Instant::now();
     while !folder.join("checkpoint.piola").exists() {
         assert!(begun.elapsed() < Duration::from_secs(120), "no checkpoint");
@@ -115,7 +115,7 @@ fn a_killed_rank_ends_all_and_leaves_a_checkpoint() -> TestResult {
     assert!(String::from_utf8_lossy(&output.stderr).contains("signal 9"), "{output:?}");
     let (about, _) = checkpoint_in(&folder)?;
     let more = about.frame + 1;
-    state_after(2, words(&format!("run dinosaur --frames {more} --resume")), &folder)?;
+    state_after(2, &format!("run dinosaur --frames {more} --resume"), &folder)?;
     assert_eq!(checkpoint_in(&folder)?.0.frame, more);
     Ok(())
 }
@@ -129,7 +129,7 @@ fn a_full_disk_ends_the_run_and_leaves_the_checkpoint() -> TestResult {
     let user = if fs::metadata(scratch.path()).map(|folder| is_root(&folder))? { "-m" } else { "-rm" };
     let run = |frames: usize, how: &str| {
         let options = format!("run dinosaur --frames {frames} {how} --out {}", disk.display());
-        let run = command(2, words(&options));
+        let run = command(2, &options);
         let arguments: Vec<_> = run.get_args().map(|word| word.to_string_lossy().into_owned()).collect();
         format!("mpirun {}", arguments.join(" "))
     };
@@ -175,7 +175,7 @@ fn an_inverted_element_of_a_file_is_named() -> TestResult {
     // Rank 0 reads the file, or both ranks do.
     for start in ["", "--amplitude 0 "] {
         let options = format!("statics scramble {start}--mesh {}", file.display());
-        check_failure(&finish(command(2, words(&options)))?, "element 2");
+        check_failure(&finish(command(2, &options))?, "element 2");
     }
     Ok(())
 }

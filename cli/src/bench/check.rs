@@ -45,7 +45,6 @@ pub(crate) struct Check {
 }
 
 impl Check {
-    /// Examines the material and writes the map if one is wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
         let material = self.material.spec()?.with_inversion(self.inversion);
         let stretches = SurveySettings { from: self.from, to: self.to, resolution: self.resolution };

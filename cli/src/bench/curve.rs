@@ -62,7 +62,6 @@ const MAX_ROWS: usize = 100_000;
 const MAX_STRETCH: f64 = 1e6;
 
 impl Curve {
-    /// Computes test curves as tables, and draws them if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
         if self.material.material.as_deref() == Some(ranking::ALL) {
             return self.rank();
@@ -71,13 +70,12 @@ impl Curve {
         let material = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
         let info = material.build()?;
         let specimen = &material.interpreted()?;
-        let data::Measured { points, notes } = self.data.read()?;
-        let data = (!points.points.is_empty()).then_some(points);
+        let (data, notes) = self.data.read()?;
         let is_asked = |mode: &Mode| self.data.tests.iter().any(|test| test.mode == *mode);
-        let modes = match (&data, Mode::ALL.into_iter().filter(is_asked).collect::<Vec<_>>()) {
-            (Some(data), modes) if modes.is_empty() => data.modes().collect(),
-            (None, modes) if modes.is_empty() => vec![Mode::Uniaxial, Mode::Equibiaxial, Mode::PureShear],
-            (_, modes) => modes,
+        let modes = match Mode::ALL.into_iter().filter(is_asked).collect::<Vec<_>>() {
+            asked if !asked.is_empty() => asked,
+            _ if data.points.is_empty() => vec![Mode::Uniaxial, Mode::Equibiaxial, Mode::PureShear],
+            _ => data.modes().collect(),
         };
         let has_range = self.from.or(self.to).is_some() || self.rows.is_some();
         let rows = self.rows.unwrap_or(ROWS);
@@ -93,16 +91,12 @@ impl Curve {
         text += &notes;
         for mode in modes {
             // Points at rest alone have neither a range nor a curve.
-            let measured: Vec<Measured> = data
-                .iter()
-                .filter(|data| data.modes().any(|measured| measured == mode))
-                .flat_map(|data| data.of(mode))
-                .copied()
-                .collect();
-            let [least, greatest] = match (&data, mode) {
-                (Some(data), _) if !measured.is_empty() => data.range(mode),
-                (_, Mode::SimpleShear) => [0.0, 2.0],
-                (_, Mode::Volumetric) => [0.8, 1.2],
+            let has_curve = data.modes().any(|measured| measured == mode);
+            let measured: Vec<Measured> = data.of(mode).filter(|_| has_curve).copied().collect();
+            let [least, greatest] = match mode {
+                _ if has_curve => data.range(mode),
+                Mode::SimpleShear => [0.0, 2.0],
+                Mode::Volumetric => [0.8, 1.2],
                 _ => [0.5, 3.0],
             };
             let (from, to) = (self.from.unwrap_or(least), self.to.unwrap_or(greatest));
@@ -123,20 +117,19 @@ impl Curve {
             let points = sweep(specimen, mode, volume, &spaced(from, to, FINE));
             curves.push(chart::Curve { mode, points });
         }
-        let agreement = data.as_ref().map(|data| data.agreement(specimen, volume));
+        let agreement = (!data.points.is_empty()).then(|| data.agreement(specimen, volume));
         match &agreement {
             None => {}
             Some(Ok(agreement)) => text += &format!("R²: {agreement}\n"),
             Some(Err(unanswered)) => text += &format!("R²: none, since there is no stress in {unanswered}\n"),
         }
         if let Some(file) = &self.svg {
-            let compared = data.as_ref().zip(agreement.as_ref().and_then(|found| found.as_ref().ok()));
-            draw(file, &title, &options, &curves, compared)?;
+            let compared = agreement.as_ref().and_then(|found| found.as_ref().ok());
+            draw(file, &title, &options, &curves, compared.map(|agreement| (&data, agreement)))?;
         }
         Ok(text)
     }
 
-    /// Ranks all rubbers by their agreement with the data.
     fn rank(self) -> Result<String, Error> {
         for (is_given, option) in [
             (!self.material.formula.parameters.is_empty(), "--param"),

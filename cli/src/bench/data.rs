@@ -48,22 +48,14 @@ pub(crate) struct Data {
     stresses: Vec<String>,
 }
 
-/// Measured points of all files, and how these were understood.
-#[derive(Default)]
-pub(super) struct Measured {
-    pub(super) points: Measurements,
-    /// A line for each file.
-    pub(super) notes: String,
-}
-
 impl Data {
     /// The files in sentences.
     pub(super) fn names(&self) -> String {
         self.files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", ")
     }
 
-    /// The points of all files.
-    pub(super) fn read(&self) -> Result<Measured, Error> {
+    /// The points of all files, and a line for each file on how it was understood.
+    pub(super) fn read(&self) -> Result<(Measurements, String), Error> {
         let files = self.files.len();
         for (option, given) in [
             ("--unit", self.units.len()),
@@ -80,13 +72,13 @@ impl Data {
                 return Err(unpaired(option, given, files));
             }
         }
-        let mut all = Measured::default();
+        let (mut all, mut notes) = (Measurements::default(), String::new());
         for (index, file) in self.files.iter().enumerate() {
-            let (points, note) = self.file(index, file)?;
-            all.points.points.extend(points.points);
-            all.notes += &format!("  read     {}: {note}\n", file.display());
+            let (measured, note) = self.file(index, file)?;
+            all.points.extend(measured.points);
+            notes += &format!("  read     {}: {note}\n", file.display());
         }
-        Ok(all)
+        Ok((all, notes))
     }
 
     /// The points of a file, and how it was understood.

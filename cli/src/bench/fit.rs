@@ -8,7 +8,7 @@ use piola_laboratory::chart;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::fit::{self, FitError, FitSettings};
 
-use super::data::{Data, HELP, Measured};
+use super::data::{Data, HELP};
 use super::{FINE, Material, as_options, at_rest, draw, spaced, titled};
 use crate::error::Error;
 
@@ -52,9 +52,8 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    /// Fits the parameters, and draws the result if wanted.
     pub(crate) fn run(self) -> Result<String, Error> {
-        let Measured { points: data, notes } = self.data.read()?;
+        let (data, notes) = self.data.read()?;
         let is_volumetric = data.modes().any(|mode| mode == Mode::Volumetric);
         let volume = match self.compressible || is_volumetric && !self.incompressible {
             true => Volume::Free,

@@ -12,7 +12,7 @@ use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::write_whole;
 
-use super::data::{Data, Measured};
+use super::data::Data;
 use crate::error::Error;
 
 /// The word given instead of a material.
@@ -35,7 +35,7 @@ const NOTE: &str = "fitted so that R² of all points is greatest; n parameters; 
 
 /// Fits every rubber and ranks them, as a table and, if wanted, as a chart.
 pub(super) fn run(data: &Data, svg: Option<&Path>) -> Result<String, Error> {
-    let (files, Measured { points: data, notes }) = (data.names(), data.read()?);
+    let (files, (data, notes)) = (data.names(), data.read()?);
     if data.points.is_empty() {
         return Err(Error::usage(
             "`piola curve all` compares energies with measured points: add --data FILE, or --data treloar",

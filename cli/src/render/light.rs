@@ -24,7 +24,8 @@ const SKY_COLOUR: [f32; 3] = [0.34, 0.39, 0.47];
 #[derive(Debug)]
 pub(super) struct Lights {
     lamps: Vec<Lamp>,
-    key: Vector,
+    /// Towards the key light, unit length.
+    pub(super) key: Vector,
     /// Points are lifted off their surface by this much before they look for shadows, so that none shades
     /// itself.
     lift: f32,
@@ -65,11 +66,6 @@ impl Lights {
             .collect::<Vec<_>>();
         let open_floor = lamps.iter().map(|lamp| lamp.power * lamp.direction.y).sum();
         Self { lamps, key, lift: 3.0 * radius / MAP as f32, open_floor }
-    }
-
-    /// Towards the key light.
-    pub(super) fn key(&self) -> Vector {
-        self.key
     }
 
     /// The light that a surface at `point` receives from the side of its unit normal `normal`.

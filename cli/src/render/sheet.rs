@@ -173,7 +173,7 @@ fn body_light(
     let received = lights.at(point, smooth);
     // The floor throws some of its light back from below.
     let bounce = Vector::from(FLOOR) * (0.13 * (1.0 - smooth.y));
-    let half_way = (lights.key() - direction).normalize();
+    let half_way = (lights.key - direction).normalize();
     let gloss = 0.10 * received.key_share * smooth.dot(&half_way).max(0.0).powi(36);
     Vector::from(colour).component_mul(&(received.irradiance + bounce)) + Vector::repeat(gloss)
 }

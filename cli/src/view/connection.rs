@@ -15,7 +15,7 @@ use tungstenite::protocol::frame::coding::CloseCode;
 use tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};
 use tungstenite::{Bytes, Error as SocketError, Message as Envelope, Utf8Bytes, WebSocket};
 
-use super::patience::{Patience, TimedStream, is_silence};
+use super::patience::{ANSWER, PING, SILENCE, TimedStream, is_silence};
 
 /// The longest message that makes sense is a declaration with its parameters.
 const MAX_MESSAGE: usize = 16 * 1024;
@@ -29,14 +29,13 @@ const LAST_WORDS: Duration = Duration::from_secs(1);
 /// Serves a page until it is closed, goes away or breaks the protocol; none of these is an error.
 pub(super) fn serve(
     mut stream: TimedStream,
-    patience: Patience,
     response: &Response,
     number: u64,
     topology: Bytes,
     orders: &SyncSender<Order>,
 ) {
-    stream.allow(patience.answer);
-    let greeting = stream.stream().set_nodelay(true).map_err(SocketError::from);
+    stream.allow(ANSWER);
+    let greeting = stream.stream.set_nodelay(true).map_err(SocketError::from);
     let greeting = greeting.and_then(|()| write_response(&mut stream, response));
     if greeting.is_err() {
         return;
@@ -47,8 +46,7 @@ pub(super) fn serve(
         .read_buffer_size(MAX_MESSAGE);
     let socket = WebSocket::from_raw_socket(stream, Role::Server, Some(limits));
     let conversation = Conversation::new(number);
-    let mut connection =
-        Connection { socket, patience, heard: Instant::now(), is_pinged: false, orders, conversation };
+    let mut connection = Connection { socket, heard: Instant::now(), is_pinged: false, orders, conversation };
     if connection.send(Envelope::Binary(topology)).is_ok() {
         let end = connection.talk();
         connection.part(end);
@@ -57,7 +55,6 @@ pub(super) fn serve(
 
 struct Connection<'a> {
     socket: WebSocket<TimedStream>,
-    patience: Patience,
     /// Time of the last message or answer to a ping from the page.
     heard: Instant,
     /// True if a ping has been sent since then.
@@ -118,7 +115,6 @@ impl Connection<'_> {
         }
     }
 
-    /// Sends the messages that are ready for the page.
     fn reply(&mut self) -> Result<(), End> {
         for words in self.conversation.words() {
             self.send(match words {
@@ -132,10 +128,10 @@ impl Connection<'_> {
     /// Pings a silent page, and disconnects it if there is no answer.
     fn ping(&mut self) -> Result<(), End> {
         let silence = self.heard.elapsed();
-        if silence > self.patience.silence {
+        if silence > SILENCE {
             return Err(End::Because(CloseCode::Away, "the page does not answer".into()));
         }
-        if silence > self.patience.ping && !self.is_pinged {
+        if silence > PING && !self.is_pinged {
             self.is_pinged = true;
             self.send(Envelope::Ping(Bytes::new()))?;
         }
@@ -143,7 +139,7 @@ impl Connection<'_> {
     }
 
     fn send(&mut self, envelope: Envelope) -> Result<(), End> {
-        self.socket.get_mut().allow(self.patience.answer);
+        self.socket.get_mut().allow(ANSWER);
         self.socket.send(envelope).map_err(|_| End::Gone)
     }
 

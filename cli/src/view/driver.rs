@@ -1,5 +1,6 @@
 //! The thread that owns the body: waits for orders and for the time of the next step.
 
+use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -13,16 +14,9 @@ use rayon::ThreadPool;
 const FOREVER: Duration = Duration::from_secs(3600);
 
 /// The clock of this machine, and threads to make steps with.
-#[derive(Debug)]
-pub(super) struct OwnThreads {
+struct OwnThreads {
     start: Instant,
     threads: ThreadPool,
-}
-
-impl OwnThreads {
-    pub(super) fn new(threads: ThreadPool) -> Self {
-        Self { start: Instant::now(), threads }
-    }
 }
 
 impl Host for OwnThreads {
@@ -35,8 +29,9 @@ impl Host for OwnThreads {
     }
 }
 
-/// Plays until every sender of orders is gone.
-pub(super) fn run(mut driver: Driver<OwnThreads>, orders: &Receiver<Order>) {
+/// Plays a session, whose state a page saves to a file, until every sender of orders is gone.
+pub(super) fn run(threads: ThreadPool, session: Session, save: Option<PathBuf>, orders: &Receiver<Order>) {
+    let mut driver = Driver::new(OwnThreads { start: Instant::now(), threads }, session, save);
     loop {
         match orders.recv_timeout(driver.rest().unwrap_or(FOREVER)) {
             Ok(order) => driver.obey(order),

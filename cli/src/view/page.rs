@@ -1,7 +1,5 @@
 //! The page: a few files inside the program, and the headers that keep it to itself.
 
-use super::request::Denied;
-
 /// Files with their names.
 macro_rules! files {
     ($($name:literal),+ $(,)?) => {
@@ -30,7 +28,7 @@ const FILES: &[(&str, &str)] = files![
 pub(super) fn file(path: &str) -> (String, &'static str) {
     let wanted = if path == "/" { "index.html" } else { path.trim_start_matches('/') };
     let Some((name, content)) = FILES.iter().find(|(name, _)| *name == wanted) else {
-        return denied(Denied("404 Not Found", "there is no such file"));
+        return denied("404 Not Found", "there is no such file");
     };
     let kind = match name.rsplit('.').next() {
         Some("html") => "html",
@@ -41,8 +39,7 @@ pub(super) fn file(path: &str) -> (String, &'static str) {
     (header("200 OK", kind, content.len()), content)
 }
 
-/// The answer to a request that is denied.
-pub(super) fn denied(Denied(status, reason): Denied) -> (String, &'static str) {
+pub(super) fn denied(status: &str, reason: &'static str) -> (String, &'static str) {
     (header(status, "plain", reason.len()), reason)
 }
 

@@ -4,35 +4,26 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-/// Times after which a connection is closed: it holds one of a few places.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Patience {
-    /// Limit for a whole request; a browser sends it at once.
-    pub(super) request: Duration,
-    /// Limit for sending one answer, frame or message; on one machine that takes milliseconds.
-    pub(super) answer: Duration,
-    /// Silence of a page after which it is pinged. A paused page may be silent for hours.
-    pub(super) ping: Duration,
-    /// Silence after which a page is disconnected. A browser answers a ping by itself, even for a page in the
-    /// background or one that computes; while the machine sleeps, this clock stands still.
-    pub(super) silence: Duration,
-}
+/// Limit for a whole request; a browser sends it at once.
+pub(super) const REQUEST: Duration = limit(5, 100);
+/// Limit for sending one answer, frame or message; on one machine that takes milliseconds.
+pub(super) const ANSWER: Duration = limit(10, 100);
+/// Silence of a page after which it is pinged. A paused page may be silent for hours.
+pub(super) const PING: Duration = limit(20, 100);
+/// Silence after which a page is disconnected. A browser answers a ping by itself, even for a page in the
+/// background or one that computes; while the machine sleeps, this clock stands still.
+pub(super) const SILENCE: Duration = limit(60, 500);
 
-impl Default for Patience {
-    fn default() -> Self {
-        Self {
-            request: Duration::from_secs(5),
-            answer: Duration::from_secs(10),
-            ping: Duration::from_secs(20),
-            silence: Duration::from_secs(60),
-        }
-    }
+/// Time after which a connection is closed, which holds one of a few places: seconds, or in the unit tests
+/// milliseconds.
+const fn limit(seconds: u64, in_tests: u64) -> Duration {
+    if cfg!(test) { Duration::from_millis(in_tests) } else { Duration::from_secs(seconds) }
 }
 
 /// A connection whose reads and writes together end by a set time, regardless of the speed of the other side.
 #[derive(Debug)]
 pub(super) struct TimedStream {
-    stream: TcpStream,
+    pub(super) stream: TcpStream,
     until: Instant,
 }
 
@@ -45,10 +36,6 @@ impl TimedStream {
     /// Gives this much time to the reads and writes to come, from now on.
     pub(super) fn allow(&mut self, time: Duration) {
         self.until = Instant::now() + time;
-    }
-
-    pub(super) fn stream(&self) -> &TcpStream {
-        &self.stream
     }
 
     fn left(&self) -> io::Result<Duration> {

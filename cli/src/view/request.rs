@@ -6,14 +6,13 @@
 //! own.
 
 use std::io::{ErrorKind, Read};
-use std::time::Duration;
 
 use tungstenite::Error;
 use tungstenite::error::ProtocolError;
 use tungstenite::handshake::machine::TryParse;
 use tungstenite::handshake::server::{Request as HttpRequest, Response, create_response};
 
-use super::patience::{TimedStream, is_silence};
+use super::patience::{REQUEST, TimedStream, is_silence};
 use super::token::Token;
 
 /// Browsers send less than one kilobyte.
@@ -26,24 +25,22 @@ pub(super) struct Door {
     pub(super) token: Token,
 }
 
-/// A request that may be answered.
+/// A request, judged.
 #[derive(Debug)]
 pub(super) enum Request {
     /// Request for a file of the page.
     File { path: String },
     /// Request for a socket, with the answer that opens it.
     Socket(Response),
+    /// A request that is not answered, with status and reason.
+    Denied(&'static str, &'static str),
 }
 
-/// Reason why a request is not answered: status and text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Denied(pub(super) &'static str, pub(super) &'static str);
-
-/// Reads a request to a viewer at this address, if it comes in this time.
+/// Reads a request to a viewer at this address, if it comes in time.
 ///
 /// `None` if the other side goes away, which browsers do with connections that they open in advance.
-pub(super) fn read(stream: &mut TimedStream, time: Duration, door: &Door) -> Option<Result<Request, Denied>> {
-    stream.allow(time);
+pub(super) fn read(stream: &mut TimedStream, door: &Door) -> Option<Request> {
+    stream.allow(REQUEST);
     let mut text = Vec::new();
     let mut part = [0; 4096];
     loop {
@@ -52,33 +49,33 @@ pub(super) fn read(stream: &mut TimedStream, time: Duration, door: &Door) -> Opt
             Ok(count) => text.extend_from_slice(&part[..count]),
             Err(error) if error.kind() == ErrorKind::Interrupted => continue,
             Err(error) if is_silence(&error) => {
-                return Some(Err(Denied("408 Request Timeout", "the request took too long")));
+                return Some(Request::Denied("408 Request Timeout", "the request took too long"));
             }
             Err(_) => return None,
         }
-        if let Some(result) = parse(&text, door) {
-            return Some(result);
+        if let Some(request) = parse(&text, door) {
+            return Some(request);
         }
         if text.len() > MAX_LENGTH {
-            return Some(Err(Denied("431 Request Header Fields Too Large", "the request is too long")));
+            return Some(Request::Denied("431 Request Header Fields Too Large", "the request is too long"));
         }
     }
 }
 
 /// Parses and judges a request; `None` if more is to come.
-fn parse(text: &[u8], door: &Door) -> Option<Result<Request, Denied>> {
+fn parse(text: &[u8], door: &Door) -> Option<Request> {
     match HttpRequest::try_parse(text) {
         Ok(None) => None,
         // A page that sends before the socket stands breaks the protocol.
         Ok(Some((length, request))) if length == text.len() => Some(judge(&request, door)),
         Err(Error::Protocol(ProtocolError::WrongHttpMethod)) => {
-            Some(Err(Denied("405 Method Not Allowed", "files can be read and nothing else")))
+            Some(Request::Denied("405 Method Not Allowed", "files can be read and nothing else"))
         }
-        _ => Some(Err(Denied("400 Bad Request", "the request is malformed"))),
+        _ => Some(Request::Denied("400 Bad Request", "the request is malformed")),
     }
 }
 
-fn judge(request: &HttpRequest, Door { port, token }: &Door) -> Result<Request, Denied> {
+fn judge(request: &HttpRequest, Door { port, token }: &Door) -> Request {
     // Of two values of a header, none is taken: which one counts is not defined.
     let header = |name: &str| {
         let mut values = request.headers().get_all(name).iter();
@@ -87,24 +84,25 @@ fn judge(request: &HttpRequest, Door { port, token }: &Door) -> Result<Request, 
     let is_own =
         |host: &str| [format!("127.0.0.1:{port}"), format!("localhost:{port}")].iter().any(|own| own == host);
     if !header("host").is_some_and(is_own) {
-        return Err(Denied("403 Forbidden", "this page is served to 127.0.0.1 and localhost only"));
+        return Request::Denied("403 Forbidden", "this page is served to 127.0.0.1 and localhost only");
     }
     let from_own = header("origin").and_then(|origin| origin.strip_prefix("http://")).is_some_and(is_own);
     if request.headers().contains_key("origin") && !from_own {
-        return Err(Denied("403 Forbidden", "the request comes from another page"));
+        return Request::Denied("403 Forbidden", "the request comes from another page");
     }
     let path = request.uri().path();
     if ["/", "/index.html", "/socket"].contains(&path) && !token.is_in(request.uri().query()) {
-        return Err(Denied(
+        return Request::Denied(
             "403 Forbidden",
             "Open the address that `piola view` has printed: it ends with a token, which this one lacks.\n",
-        ));
+        );
     }
     match path {
-        "/socket" if !from_own => Err(Denied("403 Forbidden", "a socket needs an origin")),
-        "/socket" => create_response(request)
-            .map(Request::Socket)
-            .map_err(|_| Denied("400 Bad Request", "the page's socket is a WebSocket of version 13")),
-        path => Ok(Request::File { path: path.into() }),
+        "/socket" if !from_own => Request::Denied("403 Forbidden", "a socket needs an origin"),
+        "/socket" => create_response(request).map_or(
+            Request::Denied("400 Bad Request", "the page's socket is a WebSocket of version 13"),
+            Request::Socket,
+        ),
+        path => Request::File { path: path.into() },
     }
 }

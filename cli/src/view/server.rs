@@ -12,69 +12,60 @@ use tungstenite::Bytes;
 
 use super::connection;
 use super::page;
-use super::patience::{Patience, TimedStream};
-use super::request::{self, Denied, Door, Request};
+use super::patience::{ANSWER, TimedStream};
+use super::request::{self, Door, Request};
 
 /// A browser opens half a dozen for the files of a page and keeps one.
 const MAX_CONNECTIONS: usize = 32;
 
-/// Everything that connections need.
-pub(super) struct Server {
-    pub(super) listener: TcpListener,
-    pub(super) door: Door,
-    pub(super) patience: Patience,
-    pub(super) topology: Bytes,
-    pub(super) orders: SyncSender<Order>,
-    /// True if no more connections are accepted.
-    pub(super) is_over: Arc<AtomicBool>,
-    /// The number of the first connection; below it, drags of a loaded state may still pull.
-    pub(super) first: u64,
-}
-
-impl Server {
-    /// Takes connections until it is over.
-    pub(super) fn run(self) {
-        // Each connection holds a share of it.
-        let open = Arc::new(());
-        for (stream, number) in self.listener.incoming().zip(self.first..) {
-            if self.is_over.load(Ordering::Relaxed) {
-                return;
-            }
-            // A connection that fails before it begins concerns no other.
-            let Ok(stream) = stream else { continue };
-            let mut stream = TimedStream::new(stream);
-            let place = Arc::clone(&open);
-            if Arc::strong_count(&open) > 1 + MAX_CONNECTIONS {
-                let denied = Denied("503 Service Unavailable", "there are too many connections");
-                answer(&mut stream, page::denied(denied), self.patience);
-                continue;
-            }
-            let (door, topology, orders) = (self.door.clone(), self.topology.clone(), self.orders.clone());
-            let patience = self.patience;
-            let talk = move || {
-                let _place = place;
-                match request::read(&mut stream, patience.request, &door) {
-                    None => {}
-                    Some(Ok(Request::File { path })) => answer(&mut stream, page::file(&path), patience),
-                    Some(Ok(Request::Socket(response))) => {
-                        connection::serve(stream, patience, &response, number, topology, &orders);
-                    }
-                    Some(Err(denied)) => answer(&mut stream, page::denied(denied), patience),
-                }
-            };
-            // Where the system has no thread left, the browser sees a connection that ends.
-            let _ = thread::Builder::new().name(format!("page {number}")).spawn(talk);
+/// Takes connections until it is over. They are numbered from `first` on; below it, drags of a loaded state
+/// may still pull.
+pub(super) fn run(
+    listener: &TcpListener,
+    door: &Door,
+    topology: &Bytes,
+    orders: &SyncSender<Order>,
+    is_over: &AtomicBool,
+    first: u64,
+) {
+    // Each connection holds a share of it.
+    let open = Arc::new(());
+    for (stream, number) in listener.incoming().zip(first..) {
+        if is_over.load(Ordering::Relaxed) {
+            return;
         }
+        // A connection that fails before it begins concerns no other.
+        let Ok(stream) = stream else { continue };
+        let mut stream = TimedStream::new(stream);
+        let place = Arc::clone(&open);
+        if Arc::strong_count(&open) > 1 + MAX_CONNECTIONS {
+            answer(&mut stream, page::denied("503 Service Unavailable", "there are too many connections"));
+            continue;
+        }
+        let (door, topology, orders) = (door.clone(), topology.clone(), orders.clone());
+        let talk = move || {
+            let _place = place;
+            match request::read(&mut stream, &door) {
+                None => {}
+                Some(Request::File { path }) => answer(&mut stream, page::file(&path)),
+                Some(Request::Socket(response)) => {
+                    connection::serve(stream, &response, number, topology, &orders);
+                }
+                Some(Request::Denied(status, reason)) => answer(&mut stream, page::denied(status, reason)),
+            }
+        };
+        // Where the system has no thread left, the browser sees a connection that ends.
+        let _ = thread::Builder::new().name(format!("page {number}")).spawn(talk);
     }
 }
 
 /// Writes an answer; if it is not read, nothing is lost.
-fn answer(stream: &mut TimedStream, (header, content): (String, &'static str), patience: Patience) {
-    stream.allow(patience.answer);
+fn answer(stream: &mut TimedStream, (header, content): (String, &'static str)) {
+    stream.allow(ANSWER);
     let _ = stream
         .write_all(header.as_bytes())
         .and_then(|()| stream.write_all(content.as_bytes()))
-        .and_then(|()| stream.stream().shutdown(Shutdown::Write));
+        .and_then(|()| stream.stream.shutdown(Shutdown::Write));
 }
 
 #[cfg(test)]
@@ -90,22 +81,15 @@ mod tests {
     use super::super::token::Token;
     use super::*;
 
-    /// A server that waits for milliseconds, to which nobody gives a body.
+    /// A server to which nobody gives a body.
     fn serve() -> (SocketAddr, Token, Receiver<Order>) {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
         let address = listener.local_addr().expect("an address");
         let door = Door { port: address.port(), token: Token::new().expect("a system") };
         let token = door.token.clone();
-        let patience = Patience {
-            request: Duration::from_millis(100),
-            answer: Duration::from_millis(100),
-            ping: Duration::from_millis(100),
-            silence: Duration::from_millis(500),
-        };
         let (orders, taken) = sync_channel(256);
-        let (topology, is_over) = (Bytes::from_static(b"body"), Arc::default());
-        let server = Server { listener, door, patience, topology, orders, is_over, first: 0 };
-        thread::spawn(move || server.run());
+        let (topology, is_over) = (Bytes::from_static(b"body"), AtomicBool::new(false));
+        thread::spawn(move || run(&listener, &door, &topology, &orders, &is_over, 0));
         (address, token, taken)
     }
 
@@ -129,7 +113,7 @@ mod tests {
         start.elapsed()
     }
 
-    /// Ten times the longest of the times above: a machine may be busy.
+    /// Ten times the longest limit in tests: a machine may be busy.
     const SOON: Duration = Duration::from_secs(5);
 
     #[test]

@@ -8,9 +8,9 @@ use crate::{Folder, assert_contains};
 #[test]
 fn treloars_rubber_by_ogdens_parameters() {
     let folder = Folder::new();
-    let ogdens = ["--param", "mu=0.63e6,0.0012e6,-0.01e6", "--param", "alpha=1.3,5,-2"];
-    let curve = ["curve", "ogden", "--incompressible", "--data", "treloar", "--svg", "ogden.svg"];
-    let text = folder.answer(&[&curve[..], &ogdens].concat());
+    let ogdens = "--param mu=0.63e6,0.0012e6,-0.01e6 --param alpha=1.3,5,-2";
+    let text =
+        folder.answer(&format!("curve ogden --incompressible --data treloar --svg ogden.svg {ogdens}"));
     let agreement = ["uniaxial 0.97591", "equibiaxial 0.99761", "pure_shear 0.99759", "all 0.98288"];
     assert_contains(&text, &agreement);
     assert_contains(&text, &["measured/Pa"]);
@@ -21,9 +21,8 @@ fn treloars_rubber_by_ogdens_parameters() {
 
 #[test]
 fn curves_say_where_they_end() {
-    let curve = ["curve", "gent", "--param", "jm=5", "--to", "4"];
-    let modes = ["--mode", "uniaxial,simple_shear,volumetric"];
-    let text = Folder::new().answer(&[&curve[..], &modes].concat());
+    let curve = "curve gent --param jm=5 --to 4 --mode uniaxial,simple_shear,volumetric";
+    let text = Folder::new().answer(curve);
     assert_contains(&text, &["no lateral stretch makes the sides free", "P12/Pa", "mean stress/Pa"]);
     assert_contains(&text, &["--param mu=330000 --param jm=5 --param kappa=2e7"]);
 }
@@ -31,8 +30,7 @@ fn curves_say_where_they_end() {
 #[test]
 fn fitted_parameters_can_be_pasted() {
     let folder = Folder::new();
-    let fit = ["fit", "yeoh", "--data", "treloar", "--svg", "yeoh.svg", "--starts", "3"];
-    let text = folder.answer(&fit);
+    let text = folder.answer("fit yeoh --data treloar --svg yeoh.svg --starts 3");
     // What the catalogue's typical parameters are rounded from.
     assert_contains(&text, &["--param c1=185", "kappa=2e7", "held: the data do not determine it"]);
     assert!(folder.path("yeoh.svg").exists());
@@ -41,9 +39,8 @@ fn fitted_parameters_can_be_pasted() {
         after.lines().next().map(str::to_owned)
     };
     let options = text.lines().find(|line| line.trim().starts_with("--param")).expect("options");
-    let mut arguments = vec!["curve", "yeoh", "--incompressible", "--data", "treloar"];
-    arguments.extend(options.split_whitespace());
-    assert_eq!(agreement(&folder.answer(&arguments)), agreement(&text));
+    let again = folder.answer(&format!("curve yeoh --incompressible --data treloar {options}"));
+    assert_eq!(agreement(&again), agreement(&text));
 }
 
 #[test]
@@ -52,10 +49,10 @@ fn data_of_ones_own_are_fitted_as_they_ask_for() {
     // ∂ψ/∂J = κ (J − 1): with a volumetric test the volume is free.
     let text = "# by hand\nmode,stretch,nominal_stress_kPa\nvolumetric,0.9,-200\nvolumetric,1.1,200\nvolumetric,1.05,100\n";
     folder.write("bulk.csv", text);
-    let text = folder.answer(&["fit", "yeoh", "--data", "bulk.csv", "--hold", "c2"]);
+    let text = folder.answer("fit yeoh --data bulk.csv --hold c2");
     assert_contains(&text, &["kappa=2000000\n", " held\n", "held: the data do not determine it"]);
     // The same file under the curve that goes through it.
-    let text = folder.answer(&["curve", "yeoh", "--data", "bulk.csv", "--param", "kappa=2000000"]);
+    let text = folder.answer("curve yeoh --data bulk.csv --param kappa=2000000");
     assert_contains(&text, &["volumetric 1.00000"]);
 }
 
@@ -70,24 +67,23 @@ fn data_say_what_they_are_or_are_told_by_options() {
     folder.write("headless.csv", headless.collect::<String>());
     folder.write("whole.csv", whole);
     folder.write("bare.csv", bare);
-    let fit = |data: &[&str]| {
-        let text = folder.answer(&[&["fit", "gent", "--starts", "0", "--data"], data].concat());
+    let fit = |data: &str| {
+        let text = folder.answer(&format!("fit gent --starts 0 --data {data}"));
         let line =
             |word: &str| text.lines().find(|line| line.trim().starts_with(word)).expect("a line").to_owned();
         (line("read"), line("--param"), line("R²"))
     };
-    let (read, options, agreement) = fit(&["whole.csv"]);
+    let (read, options, agreement) = fit("whole.csv");
     let expected = "whole.csv: `stretch` as stretch, `nominal_stress_MPa` as nominal stress in MPa; 25 points of uniaxial, \
                     λ from 1 to 7.61";
     assert!(read.ends_with(expected), "{read}");
-    for (file, columns, said) in [
-        ("bare.csv", &[][..], "`stress` as nominal stress in MPa"),
-        ("headless.csv", &["--strain", "1=stretch", "--stress", "2"], "decimal commas"),
+    for (data, said) in [
+        ("bare.csv --mode UT --unit MPa", "`stress` as nominal stress in MPa"),
+        ("headless.csv --mode UT --unit MPa --strain 1=stretch --stress 2", "decimal commas"),
     ] {
-        let (read, again, agreement_again) =
-            fit(&[&[file, "--mode", "UT", "--unit", "MPa"], columns].concat());
+        let (read, again, agreement_again) = fit(data);
         assert!(read.contains(said), "{read}");
-        assert_eq!((again, agreement_again), (options.clone(), agreement.clone()), "{file}");
+        assert_eq!((again, agreement_again), (options.clone(), agreement.clone()), "{data}");
     }
 }
 
@@ -96,42 +92,36 @@ fn files_of_several_tests_are_read_together() {
     let folder = Folder::new();
     folder.write("ut.csv", "Strain [%],Stress [MPa]\n50,0.4\n100,0.6\n");
     folder.write("ps.txt", "stretch stress\n1.5 450\n2 700\n");
-    let curve = ["curve", "yeoh", "--incompressible"];
-    let files =
-        ["--data", "ut.csv", "--mode", "uniaxial", "--data", "ps.txt", "--mode", "planar", "--unit", "kPa"];
-    let text = folder.answer(&[&curve, &files[..]].concat());
+    let curve = |data: &str| folder.answer(&format!("curve yeoh --incompressible {data}"));
+    let text = curve("--data ut.csv --mode uniaxial --data ps.txt --mode planar --unit kPa");
     assert_contains(&text, &["2 points of uniaxial", "2 points of pure_shear", "7.00000e5"]);
     assert_contains(&text, &["\nuniaxial\n", "\npure_shear\n"]);
     // Of a file that names its tests, those that are asked for.
-    let text = folder.answer(&["fit", "yeoh", "--data", "treloar", "--mode", "EB", "--starts", "0"]);
+    let text = folder.answer("fit yeoh --data treloar --mode EB --starts 0");
     assert!(text.contains("17 of 56 points used, by --mode") && !text.contains("pure_shear 0."), "{text}");
     // Together with a file that names none.
-    let files = ["--data", "treloar", "--data", "ut.csv", "--mode", "uniaxial"];
-    let text = folder.answer(&[&curve, &files[..]].concat());
+    let text = curve("--data treloar --data ut.csv --mode uniaxial");
     assert_contains(&text, &["25 of 56 points used, by --mode", "2 points of uniaxial", "6.00000e5"]);
 }
 
 #[test]
 fn single_points_are_a_table() {
     let folder = Folder::new();
-    let at = |material: &[&str], points: &str| {
-        let point = ["--mode", "uniaxial", "--at", points];
-        folder.answer(&[&["curve"], material, &point].concat())
-    };
     // P = μ (λ − 1/λ²)
-    let text = at(&["neo_hookean", "--incompressible", "--param", "mu=1MPa"], "2");
+    let text = folder.answer("curve neo_hookean --incompressible --param mu=1MPa --mode uniaxial --at 2");
     let stress = text.lines().last().and_then(|row| row.split_whitespace().nth(1));
     assert_eq!(stress, Some("1.75000e6"), "{text}");
-    let text = at(&["gent"], "1.1,1.2");
+    let text = folder.answer("curve gent --mode uniaxial --at 1.1,1.2");
     assert_eq!(text.lines().filter(|row| row.trim().starts_with("1.")).count(), 2, "{text}");
-    assert_contains(&at(&["gent"], "1.00001,1.00002"), &["\n   1.00001 ", "\n   1.00002 "]);
+    let text = folder.answer("curve gent --mode uniaxial --at 1.00001,1.00002");
+    assert_contains(&text, &["\n   1.00001 ", "\n   1.00002 "]);
 }
 
 #[test]
 fn a_test_with_points_at_rest_alone_has_the_curve_of_one_without() {
     let folder = Folder::new();
     folder.write("rest.csv", "mode,stretch,nominal_stress_MPa\nuniaxial,2,0.6\nplanar,1,0\n");
-    let text = folder.answer(&["curve", "gent", "--data", "rest.csv", "--mode", "uniaxial,planar"]);
+    let text = folder.answer("curve gent --data rest.csv --mode uniaxial,planar");
     let (_, sheet) = text.split_once("\npure_shear\n").expect("a table");
     assert_contains(sheet, &["\n    0.5000 ", "\n    3.0000 "]);
 }
@@ -139,22 +129,22 @@ fn a_test_with_points_at_rest_alone_has_the_curve_of_one_without() {
 #[test]
 fn poissons_ratio_is_said_and_an_odd_one_warned_of() {
     let folder = Folder::new();
-    let mixed = ["--param", "mu=0.4MPa", "--param", "kappa=1e5"];
+    let mixed = "--param mu=0.4MPa --param kappa=1e5";
     let warning = "warning: Poisson's ratio of the material is -0.3571: it grows thicker when it is pulled";
     for command in [
-        &["curve", "isochoric_neo_hookean", "--at", "1"][..],
-        &["curve", "isochoric_neo_hookean", "--at", "1", "--incompressible"],
-        &["contract", "isochoric_neo_hookean"],
-        &["check", "isochoric_neo_hookean", "--resolution", "3"],
+        "curve isochoric_neo_hookean --at 1",
+        "curve isochoric_neo_hookean --at 1 --incompressible",
+        "contract isochoric_neo_hookean",
+        "check isochoric_neo_hookean --resolution 3",
     ] {
-        assert_contains(&folder.answer(&[command, &mixed[..]].concat()), &[warning]);
+        assert_contains(&folder.answer(&format!("{command} {mixed}")), &[warning]);
         let text = folder.answer(command);
-        assert!(text.contains("ν = 0.49") && !text.contains("warning: Poisson"), "{command:?}: {text}");
+        assert!(text.contains("ν = 0.49") && !text.contains("warning: Poisson"), "{command}: {text}");
     }
-    let text = folder.answer(&["fit", "yeoh", "--data", "treloar", "--starts", "0"]);
+    let text = folder.answer("fit yeoh --data treloar --starts 0");
     assert_contains(&text, &["ν = 0.49", "the volume is kept"]);
-    let run = ["run", "stretch", "--frames", "1", "--material", "isochoric_neo_hookean", "--out", "run"];
-    let (said, errors) = folder.outputs(&[&run[..], &mixed].concat());
+    let run = format!("run stretch --frames 1 --material isochoric_neo_hookean --out run {mixed}");
+    let (said, errors) = folder.outputs(&run);
     assert_contains(&said, &["\n  at rest  μ = 400 kPa, K = 100 kPa, ν = -0.3571\n"]);
     assert_contains(&errors, &[warning]);
     let summary = folder.summary("run");
@@ -167,9 +157,8 @@ fn poissons_ratio_is_said_and_an_odd_one_warned_of() {
 /// D1 of Abaqus and CalculiX: K = 2/D1.
 #[test]
 fn compressibilities_have_units() {
-    let energy = "C10*(I1b - 3) + (J - 1)^2/D1";
-    let curve = ["curve", "--at", "1", "--energy", energy, "--param", "C10=0.2MPa", "--param", "D1=0.1/MPa"];
-    assert_contains(&Folder::new().answer(&curve), &["μ = 400 kPa, K = 20 MPa, ν = 0.4901"]);
+    let curve = "curve --at 1 --energy 'C10*(I1b - 3) + (J - 1)^2/D1' --param C10=0.2MPa --param D1=0.1/MPa";
+    assert_contains(&Folder::new().answer(curve), &["μ = 400 kPa, K = 20 MPa, ν = 0.4901"]);
 }
 
 #[test]
@@ -178,7 +167,7 @@ fn rubbers_are_ranked_and_those_without_a_fit_named() {
     let text = "mode,stretch,nominal_stress_MPa\nuniaxial,2,0.6\nuniaxial,4,1.2\nuniaxial,6,2.5\n\
                 equibiaxial,2,0.8\nequibiaxial,3,1.2\n";
     folder.write("few.csv", text);
-    let text = folder.answer(&["curve", "all", "--data", "few.csv", "--svg", "few.svg"]);
+    let text = folder.answer("curve all --data few.csv --svg few.svg");
     let (_, table) = text.split_once("stability\n").expect("a table");
     let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split_whitespace().collect()).collect();
     let (failed, ranked): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.get(1) == Some(&"not"));
@@ -203,8 +192,7 @@ fn rubbers_are_ranked_and_those_without_a_fit_named() {
 #[test]
 fn a_material_is_checked() {
     let folder = Folder::new();
-    let check = ["check", "st_venant_kirchhoff", "--resolution", "9", "--svg", "map.svg"];
-    let (text, errors) = folder.outputs(&check);
+    let (text, errors) = folder.outputs("check st_venant_kirchhoff --resolution 9 --svg map.svg");
     assert_eq!(errors, "");
     // Steel, with its typical parameters, and where an oblique wave stands still under confined compression.
     let words = ["StVenantKirchhoff mu=8.1e10 lambda=1.2e11", "μ = 81 GPa", "strong ellipticity", "0.7043"];

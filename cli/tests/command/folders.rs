@@ -3,10 +3,10 @@
 use std::fs;
 use std::process::Output;
 
-use crate::{Folder, assert_contains, stderr};
+use crate::{Folder, OGDEN, assert_contains, stderr};
 
 /// Run of a small body into the folder `out`.
-const BAR: [&str; 6] = ["run", "horse", "--body", "bar", "--out", "out"];
+const BAR: &str = "run horse --body bar --out out";
 
 #[track_caller]
 fn assert_code(output: &Output, code: i32) {
@@ -19,16 +19,16 @@ fn a_run_begins_in_a_new_folder_and_leaves_others_alone() {
     fs::create_dir(folder.path("out")).expect("a folder");
     folder.write("out/frame_0001.ply", "mine");
     // This number of steps would take minutes.
-    let message = folder.refusal(&[&BAR[..], &["--frames", "100000"]].concat());
+    let message = folder.refusal(&format!("{BAR} --frames 100000"));
     assert_contains(&message, &["the folder out: it exists already", "--out", "--resume"]);
     assert_eq!(folder.content("out"), [("frame_0001.ply".to_owned(), b"mine".to_vec())].into());
 
     for out in ["out/horse", "out/horse-2"] {
-        let said = folder.answer(&["run", "horse", "--body", "bar", "--frames", "1"]);
+        let said = folder.answer("run horse --body bar --frames 1");
         assert_contains(&said, &[&format!("are in {out}\n")]);
     }
     assert_same(&folder, "out/horse", "out/horse-2");
-    folder.refusal(&["run", "horse", "--resume"]);
+    folder.refusal("run horse --resume");
 }
 
 /// Asserts that two runs have the same frames, picture and results, except for the times of solving.
@@ -54,59 +54,59 @@ fn assert_same(folder: &Folder, one: &str, other: &str) {
 
 #[test]
 fn a_run_goes_on_to_the_last_bit() {
-    let folder = Folder::new();
-    let euler = "implicit-euler";
-    for how in [["single", euler], ["full", euler], ["full", "sdirk2"], ["full", "sdirk3"]] {
-        let [newton, integrator] = how;
-        let dinosaur = |more: &[&str]| {
-            let run = ["run", "dinosaur", "--newton", newton, "--integrator", integrator, "--vtu"];
-            folder.answer(&[&run, more].concat());
-        };
-        let (whole, parts) = (how.join("-"), format!("{}-in-parts", how.join("-")));
-        dinosaur(&["--frames", "3", "--out", &parts]);
-        dinosaur(&["--frames", "5", "--out", &parts, "--resume", "--threads", "2"]);
-        dinosaur(&["--frames", "8", "--out", &parts, "--resume"]);
-        dinosaur(&["--frames", "8", "--out", &whole]);
-        assert_same(&folder, &parts, &whole);
+    let ogden = fs::read_to_string(OGDEN).expect("a file");
+    let long = ogden.replace("#[", &format!("// {}\n#[", "x".repeat(20_000)));
+    for how in [
+        "--newton single --integrator implicit-euler --vtu",
+        "--newton full --integrator implicit-euler --vtu",
+        "--newton full --integrator sdirk2 --vtu",
+        "--newton full --integrator sdirk3 --vtu",
+        // The energy of a formula or a file is in the state, even a long one.
+        "--energy 'mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2' --param mu=345kPa --param lambda=3.1MPa",
+        "--material long.rs",
+    ] {
+        let folder = Folder::new();
+        folder.write("long.rs", &long);
+        let dinosaur = |more: &str| folder.answer(&format!("run dinosaur {how} {more}"));
+        dinosaur("--out parts --frames 3");
+        dinosaur("--out parts --frames 5 --resume --threads 2");
+        dinosaur("--out parts --frames 8 --resume");
+        dinosaur("--out whole --frames 8");
+        assert_same(&folder, "parts", "whole");
     }
 }
 
 #[test]
 fn only_the_same_run_goes_on() {
     let folder = Folder::new();
-    let refused = |more: &[&str], words: &[&str]| {
+    let refused = |more: &str, words: &[&str]| {
         let before = folder.path("out").exists().then(|| folder.content("out"));
-        assert_contains(&folder.refusal(&[&BAR[..], &["--resume"], more].concat()), words);
+        assert_contains(&folder.refusal(&format!("{BAR} --resume {more}")), words);
         assert_eq!(folder.path("out").exists().then(|| folder.content("out")), before);
     };
-    refused(&[], &["no run", "--resume"]);
-    folder.answer(&[&BAR[..], &["--frames", "3"]].concat());
-    refused(&["--frames", "4", "--dt", "0.01"], &["`dt`", "0.01"]);
-    refused(&["--frames", "4", "--gravity", "1"], &["`gravity`"]);
-    refused(&["--frames", "4", "--vtu"], &["--vtu"]);
-    refused(&["--frames", "2"], &["3 frames already", "2 are wanted"]);
+    refused("", &["no run", "--resume"]);
+    folder.answer(&format!("{BAR} --frames 3"));
+    refused("--frames 4 --dt 0.01", &["`dt`", "0.01"]);
+    refused("--frames 4 --gravity 1", &["`gravity`"]);
+    refused("--frames 4 --vtu", &["--vtu"]);
+    refused("--frames 2", &["3 frames already", "2 are wanted"]);
 
     // A state that was changed by a bit, and a frame that is missing.
     let state = folder.content("out")["state.json"].clone();
     let mut changed = state.clone();
     changed[state.len() / 2] ^= 1;
     folder.write("out/state.json", changed);
-    refused(&["--frames", "4"], &["its state cannot be read"]);
+    refused("--frames 4", &["its state cannot be read"]);
     folder.write("out/state.json", state);
     fs::remove_file(folder.path("out/frame_0001.ply")).expect("a frame");
-    refused(&["--frames", "4"], &["frame_0001.ply is missing"]);
+    refused("--frames 4", &["frame_0001.ply is missing"]);
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn output_that_cannot_be_written_is_an_error() {
     let folder = Folder::new();
-    for arguments in [
-        &["materials"][..],
-        &["--help"],
-        &["curve", "gent"],
-        &["run", "horse", "--body", "bar", "--frames", "1"],
-    ] {
+    for arguments in ["materials", "--help", "curve gent", "run horse --body bar --frames 1"] {
         let full = fs::File::options().write(true).open("/dev/full").expect("/dev/full");
         let output = folder.command(arguments).stdout(full).output();
         assert_code(&output.expect("the command starts"), 1);
@@ -114,6 +114,6 @@ fn output_that_cannot_be_written_is_an_error() {
     // A reader who goes away has seen enough.
     let (reader, writer) = std::io::pipe().expect("a pipe");
     drop(reader);
-    let output = folder.command(&["materials"]).stdout(writer).output().expect("the command starts");
+    let output = folder.command("materials").stdout(writer).output().expect("the command starts");
     assert_code(&output, 0);
 }

@@ -12,17 +12,10 @@ const KEYS: &str = "scene material parameters shear_modulus bulk_modulus poisson
                     min_det_f max_distance_from_rest energy ms_per_step_median steps_per_second integrator steps newton \
                     recovered";
 
-/// Runs a scene and returns its summary, having seen that everything is there and every number finite.
+/// Runs a scene and returns its summary, which may have `more` keys, having seen that everything is there and
+/// every number finite.
 #[track_caller]
-fn check(arguments: &[&str], scene: &str, frames: u64) -> Value {
-    let summary = check_with(arguments, scene, frames, &[]);
-    assert!(summary.get("reading").is_none(), "{summary}");
-    summary
-}
-
-/// Same check with additional keys of the summary.
-#[track_caller]
-fn check_with(arguments: &[&str], scene: &str, frames: u64, more: &[&str]) -> Value {
+fn check(arguments: &str, scene: &str, frames: u64, more: &str) -> Value {
     let folder = Folder::new();
     let (_, told) = folder.outputs(arguments);
     // No count of steps where there is no terminal.
@@ -36,7 +29,7 @@ fn check_with(arguments: &[&str], scene: &str, frames: u64, more: &[&str]) -> Va
     // A body that is not back is looked at.
     let is_held = object["warnings"].to_string().contains("the body is pulled until");
     assert_eq!(object["final_state"].is_null(), is_held || object["recovered"] == true, "{summary}");
-    let keys: Vec<&str> = KEYS.split(' ').chain(more.iter().copied()).collect();
+    let keys: Vec<&str> = KEYS.split(' ').chain(more.split_whitespace()).collect();
     assert_eq!(object.len(), keys.len() + 1, "{summary}");
     for key in keys {
         // What is not finite would be null.
@@ -60,9 +53,8 @@ fn check_with(arguments: &[&str], scene: &str, frames: u64, more: &[&str]) -> Va
 #[test]
 fn a_tolerance_chooses_the_steps_of_time() {
     let run = |tolerance: &str| {
-        let arguments = ["run", "dinosaur", "--frames", "2", "--integrator", "sdirk2", "--newton", "full"];
-        let arguments = [&arguments[..], &["--tolerance", tolerance]].concat();
-        let summary = check_with(&arguments, "dinosaur", 2, &["tolerance"]);
+        let run = "run dinosaur --frames 2 --integrator sdirk2 --newton full --tolerance";
+        let summary = check(&format!("{run} {tolerance}"), "dinosaur", 2, "tolerance");
         assert_eq!((&summary["integrator"], &summary["newton"]), (&"sdirk2".into(), &"full".into()));
         assert_eq!(summary["steps"]["unresolved"], 0, "{summary}");
         assert!(summary["newton_iterations_mean"].as_f64().is_some_and(|mean| mean >= 2.0), "{summary}");
@@ -74,7 +66,7 @@ fn a_tolerance_chooses_the_steps_of_time() {
 
 #[test]
 fn a_steady_pull_turns_elements_inside_out() {
-    let summary = check(&["run", "dinosaur-overstretched", "--frames", "60"], "dinosaur-overstretched", 60);
+    let summary = check("run dinosaur-overstretched --frames 60", "dinosaur-overstretched", 60, "");
     assert!(summary["min_det_f"].as_f64().is_some_and(|det| det < -0.1), "{summary}");
 }
 
@@ -88,8 +80,8 @@ fn a_mesh_of_ones_own_is_drawn_by_its_boundary() {
          $Elements\n1 1 7 7\n3 1 4 1\n7 1 2 3 4\n$EndElements\n";
     folder.write("wedge.msh", mesh);
     let run = |pin: &str, out: &str| {
-        let arguments = ["run", "horse", "--mesh", "wedge.msh", "--frames", "10", "--gravity", "9.81"];
-        folder.answer(&[&arguments[..], &["--pin", pin, "--out", out]].concat());
+        let run = "run horse --mesh wedge.msh --frames 10 --gravity 9.81";
+        folder.answer(&format!("{run} --pin {pin} --out {out}"));
         let summary = folder.summary(out);
         assert_eq!((&summary["tets"], &summary["surface_vertices"]), (&1.into(), &4.into()));
         summary["max_distance_from_rest"].as_f64().expect("a number")
@@ -103,19 +95,19 @@ fn a_mesh_of_ones_own_is_drawn_by_its_boundary() {
 
 /// Runs a scene on a mesh in a folder; returns its output, with its warnings, and its summary.
 #[track_caller]
-fn run_on(folder: &Folder, mesh: &str, scene: &str, options: &[&str]) -> (String, Value) {
+fn run_on(folder: &Folder, mesh: &str, scene: &str, options: &str) -> (String, Value) {
     folder.write("body.msh", mesh);
     // Of an earlier run.
     let _ = fs::remove_dir_all(folder.path("out"));
-    let arguments = ["run", scene, "--mesh", "body.msh", "--frames", "2", "--out", "out"];
-    let (said, warned) = folder.outputs(&[&arguments[..], options].concat());
+    let (said, warned) =
+        folder.outputs(&format!("run {scene} --mesh body.msh --frames 2 --out out {options}"));
     (said + &warned, folder.summary("out"))
 }
 
 #[test]
 fn elements_that_are_left_out_are_in_the_warnings() {
     let mesh = bar(1e3).replace("$Elements\n18\n", "$Elements\n19\n2 6 0 1 2 3 5 6 7\n");
-    let (said, summary) = run_on(&Folder::new(), &mesh, "horse", &["--only-tetrahedra"]);
+    let (said, summary) = run_on(&Folder::new(), &mesh, "horse", "--only-tetrahedra");
     let warning = "only linear tetrahedra are read; left out of the body, which lacks their volume: 1 prism";
     assert!(said.contains(&format!("warning: {warning}")), "{said}");
     assert_eq!((&summary["tets"], &summary["warnings"][0]), (&18.into(), &warning.into()));
@@ -124,7 +116,7 @@ fn elements_that_are_left_out_are_in_the_warnings() {
 /// A bar without nodes between the marks.
 #[test]
 fn a_reading_that_finds_no_nodes_says_so() {
-    let (said, summary) = run_on(&Folder::new(), &bar(1e3), "stretch", &[]);
+    let (said, summary) = run_on(&Folder::new(), &bar(1e3), "stretch", "");
     let missing = "no stretch was measured: between the marks, nodes lie at fewer than two heights";
     assert_eq!(said.matches(missing).count(), 2, "in the text and as a warning: {said}");
     assert!(!said.contains("NaN"), "{said}");
@@ -159,19 +151,19 @@ fn bar(times: f64) -> String {
 #[test]
 fn a_mesh_in_millimetres_is_the_body_in_metres() {
     let folder = Folder::new();
-    let surface = |times: f64, options: &[&str]| {
+    let surface = |times: f64, options: &str| {
         let (said, _) = run_on(&folder, &bar(times), "horse", options);
         (said, fs::read(folder.path("out/frame_0002.ply")).expect("a surface"))
     };
-    let (said, metres) = surface(1e3, &[]);
+    let (said, metres) = surface(1e3, "");
     assert!(!said.contains("warning"), "{said}");
     for (times, unit) in [(1.0, "mm"), (10.0, "cm")] {
-        let (said, other) = surface(times, &["--unit", unit]);
+        let (said, other) = surface(times, &format!("--unit {unit}"));
         assert!(!said.contains("warning") && other == metres, "{unit}: {said}");
     }
-    let (said, _) = surface(1.0, &[]);
+    let (said, _) = surface(1.0, "");
     assert!(said.contains("warning: the body is 150 m long") && said.contains("--unit mm"), "{said}");
-    let (said, _) = surface(1e7, &[]);
+    let (said, _) = surface(1e7, "");
     assert!(said.contains("warning: the body is 0.000015 m long"), "{said}");
 }
 
@@ -181,7 +173,7 @@ fn a_pull_that_finds_no_node_says_so() {
     let corner = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
                   $Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n\
                   $Elements\n1\n1 4 0 1 2 3 4\n$EndElements\n";
-    let (said, _) = run_on(&Folder::new(), corner, "dinosaur", &[]);
+    let (said, _) = run_on(&Folder::new(), corner, "dinosaur", "");
     assert!(said.contains("warning: no node of the body lies where the scene pulls"), "{said}");
 }
 
@@ -190,7 +182,7 @@ fn tetrahedra_with_fields_are_written_for_paraview() {
     let folder = Folder::new();
     folder.write("one.node", "4 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
     folder.write("one.ele", "1 4\n1 1 2 3 4\n");
-    folder.answer(&["run", "point", "--mesh", "one.ele", "--frames", "2", "--vtu"]);
+    folder.answer("run point --mesh one.ele --frames 2 --vtu");
     let file = |name: &str| folder.read(&format!("out/point/{name}"));
     for frame in ["frame_0000.vtu", "frame_0001.vtu", "frame_0002.vtu"] {
         assert!(file("frames.pvd").contains(&format!("file=\"{frame}\"")), "{frame}");
@@ -202,7 +194,7 @@ fn tetrahedra_with_fields_are_written_for_paraview() {
 
 #[test]
 fn horse_stands_up_again() {
-    let summary = check(&["run", "horse"], "horse", 150);
+    let summary = check("run horse", "horse", 150, "");
     assert_eq!((&summary["tets"], &summary["nodes"]), (&2646.into(), &787.into()));
     assert_eq!(summary["newton_iterations_mean"], 1.0);
     assert_eq!((&summary["integrator"], &summary["newton"]), (&"implicit_euler".into(), &"single".into()));
@@ -213,22 +205,22 @@ fn horse_stands_up_again() {
 #[test]
 fn dinosaur_comes_back_after_it_is_let_go() {
     // Released at 2 s, which is frame 60.
-    let summary = check(&["run", "dinosaur"], "dinosaur", 360);
+    let summary = check("run dinosaur", "dinosaur", 360, "");
     assert_eq!(summary["recovered"], true, "{summary}");
 }
 
 #[test]
 fn a_twisted_bar_unwinds() {
-    let summary = check(&["run", "twist"], "twist", 300);
+    let summary = check("run twist", "twist", 300, "");
     assert_eq!(summary["recovered"], true, "{summary}");
     // Wound up for two seconds, which the summary of an earlier frame shows.
-    let wound = check(&["run", "twist", "--frames", "60"], "twist", 60);
+    let wound = check("run twist --frames 60", "twist", 60, "");
     assert!(wound["max_distance_from_rest"].as_f64().is_some_and(|distance| distance > 0.1), "{wound}");
 }
 
 #[test]
 fn rubber_is_stretched_as_its_energy_says() {
-    let summary = check_with(&["run", "stretch"], "stretch", 240, &["reading"]);
+    let summary = check("run stretch", "stretch", 240, "reading");
     let read = |name: &str| summary["reading"][name].as_f64().expect("a number");
     assert!((6.5..8.0).contains(&read("stretch")), "{summary}");
     // The bar is not quite uniform between its marks: half a per cent at rest. It is still a little in
@@ -239,8 +231,7 @@ fn rubber_is_stretched_as_its_energy_says() {
 
 #[test]
 fn a_scrambled_body_finds_its_shape() {
-    let arguments = ["run", "scramble", "--body", "dinosaur", "--seed", "3", "--amplitude", "0.5"];
-    let summary = check(&arguments, "scramble", 300);
+    let summary = check("run scramble --body dinosaur --seed 3 --amplitude 0.5", "scramble", 300, "");
     assert_eq!(summary["tets"], 1031);
     assert!(summary["inverted_at_start"].as_u64().is_some_and(|count| count > 10), "{summary}");
     assert_eq!((&summary["recovered"], &summary["stationary_start"]), (&true.into(), &false.into()));
@@ -250,16 +241,7 @@ fn a_scrambled_body_finds_its_shape() {
 fn a_point_without_forces_is_called_a_saddle() {
     // Not by `check`: pictures of a point are smaller than it expects.
     let folder = Folder::new();
-    folder.answer(&[
-        "run",
-        "point",
-        "--material",
-        "st_venant_kirchhoff",
-        "--body",
-        "dinosaur",
-        "--frames",
-        "1",
-    ]);
+    folder.answer("run point --material st_venant_kirchhoff --body dinosaur --frames 1");
     let summary = folder.summary("out/point");
     assert_eq!(summary["stationary_start"], true);
     assert_eq!(summary["final_state"]["place"], "saddle", "{summary}");
@@ -267,7 +249,7 @@ fn a_point_without_forces_is_called_a_saddle() {
 
 #[test]
 fn another_material_is_as_stiff_as_that_of_the_scene() {
-    let summary = check(&["run", "horse", "--material", "st_venant_kirchhoff", "--frames", "1"], "horse", 1);
+    let summary = check("run horse --material st_venant_kirchhoff --frames 1", "horse", 1, "");
     let value = |name: &str| summary["parameters"][name][0].as_f64().expect("a number");
     // E = 1 MPa and ν = 0.45; a dozen roundings.
     assert!((value("mu") * 2.9 / 1e6 - 1.0).abs() < 1e-14, "{summary}");
@@ -276,6 +258,6 @@ fn another_material_is_as_stiff_as_that_of_the_scene() {
 
 #[test]
 fn materials_are_described() {
-    let text = Folder::new().answer(&["materials"]);
+    let text = Folder::new().answer("materials");
     assert_contains(&text, &["ψ = ", "domain", "typical", "small strain", "Ogden", "mu", "Pa"]);
 }

@@ -10,7 +10,7 @@ use super::operators::{Shared, precondition, view};
 use super::{Library, Matrix, PetscError, Vector, check, ffi, int, string};
 
 /// Solver of linear systems, configured by the options of PETSc.
-pub struct Krylov {
+pub(crate) struct Krylov {
     pub(super) raw: ffi::KSP,
     /// Matrix to which the solver refers.
     matrix: Rc<RefCell<Matrix>>,
@@ -24,7 +24,7 @@ impl Krylov {
     ///
     /// # Errors
     /// [`PetscError`], also for an option with a value that PETSc does not support.
-    pub fn new(
+    pub(crate) fn new(
         library: &Library,
         matrix: Rc<RefCell<Matrix>>,
         prefix: &str,
@@ -59,7 +59,7 @@ impl Krylov {
     }
 
     /// Preconditions by operators; the type of the preconditioner in options is `shell`.
-    pub fn precondition_by(&mut self, operators: Shared) -> Result<(), PetscError> {
+    pub(crate) fn precondition_by(&mut self, operators: Shared) -> Result<(), PetscError> {
         let preconditioner = self.preconditioner()?;
         let operators = self.operators.insert(Box::new(operators));
         let context: *const Shared = &raw const **operators;
@@ -74,17 +74,17 @@ impl Krylov {
     }
 
     /// Keeps the preconditioner for the next system, or sets up a new one.
-    pub fn keep_preconditioner(&mut self, keep: bool) -> Result<(), PetscError> {
+    pub(crate) fn keep_preconditioner(&mut self, keep: bool) -> Result<(), PetscError> {
         let keep = if keep { ffi::PetscBool_PETSC_TRUE } else { ffi::PetscBool_PETSC_FALSE };
         // SAFETY: the solver exists.
         check(unsafe { ffi::KSPSetReusePreconditioner(self.raw, keep) })
     }
 
     /// Solves A x = b from x = 0 to a residual of `tolerance` times |b|.
-    pub fn solve<const N: usize>(
+    pub(crate) fn solve(
         &mut self,
-        b: &Vector<N>,
-        x: &mut Vector<N>,
+        b: &Vector<3>,
+        x: &mut Vector<3>,
         tolerance: f64,
         max_iterations: usize,
     ) -> Result<Iteration, PetscError> {
@@ -110,7 +110,7 @@ impl Krylov {
     }
 
     /// Solves A x = b to the tolerance of the options.
-    pub fn apply<const N: usize>(&mut self, b: &Vector<N>, x: &mut Vector<N>) -> Result<(), PetscError> {
+    pub(crate) fn apply(&mut self, b: &Vector<6>, x: &mut Vector<6>) -> Result<(), PetscError> {
         // SAFETY: solver and vectors exist.
         check(unsafe { ffi::KSPSolve(self.raw, b.raw, x.raw) })
     }

@@ -6,7 +6,7 @@ use super::operators::{Shared, multiply};
 use super::{DECIDE, Library, PetscError, PetscInt, Vector, check, ffi, int, string};
 
 /// Square sparse matrix in compressed rows, divided among the ranks by rows; or a function.
-pub struct Matrix {
+pub(crate) struct Matrix {
     library: Library,
     pub(super) raw: ffi::Mat,
     places: usize,
@@ -15,9 +15,9 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Matrix with `rows` rows on this rank, in square blocks, with entries at these places. A place may
-    /// occur more than once, and in the rows of another rank.
-    pub fn new(
+    /// Matrix with `rows` rows on this rank, in square blocks, with entries at these places, that is always
+    /// symmetric. A place may occur more than once, and in the rows of another rank.
+    pub(crate) fn new(
         library: &Library,
         rows: usize,
         block: usize,
@@ -34,7 +34,8 @@ impl Matrix {
         let matrix = Self { library: library.clone(), raw, places: row_numbers.len(), _operators: None };
         let kind = string("aij")?;
         // SAFETY: the matrix exists and has neither type nor sizes; `kind` is a C string; the two slices have
-        // the given length, and PETSc may overwrite them, because they are not read again.
+        // the given length, and PETSc may overwrite them, because they are not read again; both options are
+        // those of matrices.
         unsafe {
             check(ffi::MatSetSizes(raw, rows, rows, DECIDE, DECIDE))?;
             check(ffi::MatSetType(raw, kind.as_ptr()))?;
@@ -45,12 +46,19 @@ impl Matrix {
                 row_numbers.as_mut_ptr(),
                 columns.as_mut_ptr(),
             ))?;
+            for option in [ffi::MatOption_MAT_SYMMETRIC, ffi::MatOption_MAT_SYMMETRY_ETERNAL] {
+                check(ffi::MatSetOption(raw, option, ffi::PetscBool_PETSC_TRUE))?;
+            }
         }
         Ok(matrix)
     }
 
     /// Matrix that is a function: the product with an operator on the free nodes of this rank.
-    pub fn of_function(library: &Library, nodes: usize, operators: Shared) -> Result<Self, PetscError> {
+    pub(crate) fn of_function(
+        library: &Library,
+        nodes: usize,
+        operators: Shared,
+    ) -> Result<Self, PetscError> {
         type Product = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> ffi::PetscErrorCode;
         let (rows, operators) = (int(3 * nodes)?, Box::new(operators));
         let context: *const Shared = &raw const *operators;
@@ -71,20 +79,11 @@ impl Matrix {
         Ok(matrix)
     }
 
-    /// Declares that the matrix is always symmetric.
-    pub fn set_symmetric(&mut self) -> Result<(), PetscError> {
-        for option in [ffi::MatOption_MAT_SYMMETRIC, ffi::MatOption_MAT_SYMMETRY_ETERNAL] {
-            // SAFETY: the matrix exists, and both are options of matrices.
-            check(unsafe { ffi::MatSetOption(self.raw, option, ffi::PetscBool_PETSC_TRUE) })?;
-        }
-        Ok(())
-    }
-
     /// Replaces all entries by the sums of these values, one for each place.
     ///
     /// # Errors
     /// [`PetscError`], also unless there is one value for each place.
-    pub fn set_values(&mut self, values: &[f64]) -> Result<(), PetscError> {
+    pub(crate) fn set_values(&mut self, values: &[f64]) -> Result<(), PetscError> {
         if values.len() != self.places {
             let message = format!("{} values for {} places of a matrix", values.len(), self.places);
             return Err(PetscError { message });
@@ -94,7 +93,7 @@ impl Matrix {
     }
 
     /// Sets the near null space for preconditioners to the rigid motions of nodes at these places, m.
-    pub fn set_rigid_motions(&mut self, places: &Vector<3>) -> Result<(), PetscError> {
+    pub(crate) fn set_rigid_motions(&mut self, places: &Vector<3>) -> Result<(), PetscError> {
         let mut space = null_mut();
         // SAFETY: the vector exists, and the result goes to a variable that outlives the call.
         check(unsafe { ffi::MatNullSpaceCreateRigidBody(places.raw, &mut space) })?;
@@ -102,7 +101,7 @@ impl Matrix {
     }
 
     /// Sets the near null space for preconditioners to these vectors, which must be orthonormal.
-    pub fn set_motions<const N: usize>(&mut self, motions: &[Vector<N>]) -> Result<(), PetscError> {
+    pub(crate) fn set_motions(&mut self, motions: &[Vector<6>]) -> Result<(), PetscError> {
         let vectors: Vec<ffi::Vec> = motions.iter().map(|vector| vector.raw).collect();
         let (is_constant, count) = (ffi::PetscBool_PETSC_FALSE, int(vectors.len())?);
         let mut space = null_mut();
@@ -126,7 +125,7 @@ impl Matrix {
     }
 
     /// Rank of each row of this rank, chosen by a partitioner so that few neighbours are separated.
-    pub fn partition(&self) -> Result<Vec<usize>, PetscError> {
+    pub(crate) fn partition(&self) -> Result<Vec<usize>, PetscError> {
         let (mut partitioning, mut set) = (null_mut(), null_mut());
         let mut ranks = Vec::new();
         // SAFETY: the matrix exists, the results outlive the calls, and created objects are destroyed once.

@@ -10,7 +10,7 @@ use super::{Krylov, MESSAGE, PetscError, check, ffi, string};
 
 /// Stiffness and preconditioner as functions that PETSc calls. Their vectors have the unknowns of the free
 /// nodes of this rank.
-pub trait Operators {
+pub(crate) trait Operators {
     /// Replaces `product`, N, by the product of the stiffness with a displacement, m.
     fn multiply(&mut self, x: &[[f64; 3]], product: &mut [[f64; 3]]) -> Result<(), PetscError>;
 

@@ -5,7 +5,7 @@ use std::ptr::{null, null_mut};
 use super::{DECIDE, Library, PetscError, PetscInt, check, ffi, int};
 
 /// Vector with some components for each row. Each rank owns some rows, and has copies of other rows.
-pub struct GhostedVector {
+pub(crate) struct GhostedVector {
     _library: Library,
     raw: ffi::Vec,
     local: usize,
@@ -15,7 +15,7 @@ pub struct GhostedVector {
 impl GhostedVector {
     /// Vector with a number of owned rows on this rank and copies of the rows with the numbers `ghosts`. Rows
     /// are numbered rank after rank, and have this number of `components`.
-    pub fn new(
+    pub(crate) fn new(
         library: &Library,
         components: usize,
         owned: usize,
@@ -41,7 +41,7 @@ impl GhostedVector {
 
     /// Replaces the copies, the last rows of `all`, by the entries of their owners. Entries are sent in f64,
     /// and `narrow` returns their nearest values in the type of `all`.
-    pub fn copy<E: Copy + Into<f64>>(
+    pub(crate) fn copy<E: Copy + Into<f64>>(
         &mut self,
         all: &mut [E],
         narrow: impl Fn(f64) -> E,
@@ -55,7 +55,7 @@ impl GhostedVector {
 
     /// Adds the copies, the last rows of `all`, to the entries of their owners, as in
     /// [`copy`](Self::copy).
-    pub fn sum<E: Copy + Into<f64>>(
+    pub(crate) fn sum<E: Copy + Into<f64>>(
         &mut self,
         all: &mut [E],
         narrow: impl Fn(f64) -> E,
@@ -130,7 +130,7 @@ pub(super) fn with_given<T>(raw: ffi::Vec, work: impl FnOnce(&[f64]) -> T) -> Re
 destroyed!([] GhostedVector, ffi::VecDestroy);
 
 /// Vector of unknowns, N for each row.
-pub struct Vector<const N: usize> {
+pub(crate) struct Vector<const N: usize> {
     _library: Library,
     pub(super) raw: ffi::Vec,
     rows: usize,
@@ -138,7 +138,7 @@ pub struct Vector<const N: usize> {
 
 impl<const N: usize> Vector<N> {
     /// Vector of zeros, with a number of rows on this rank.
-    pub fn new(library: &Library, rows: usize) -> Result<Self, PetscError> {
+    pub(crate) fn new(library: &Library, rows: usize) -> Result<Self, PetscError> {
         let mut raw = null_mut();
         // SAFETY: the result goes to a variable that outlives the call.
         check(unsafe { ffi::VecCreateMPI(library.comm(), int(N * rows)?, DECIDE, &mut raw) })?;
@@ -149,7 +149,7 @@ impl<const N: usize> Vector<N> {
     }
 
     /// Calls `work` with the entries of this rank.
-    pub fn with(&mut self, work: impl FnOnce(&mut [[f64; N]])) -> Result<(), PetscError> {
+    pub(crate) fn with(&mut self, work: impl FnOnce(&mut [[f64; N]])) -> Result<(), PetscError> {
         with_entries(self.raw, N * self.rows, |entries| work(entries.as_chunks_mut().0))
     }
 }

@@ -7,7 +7,6 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use piola_bodies::mesh::TetMesh;
 use piola_distributed::checkpoint::{self, State};
 use piola_distributed::run::About;
 
@@ -16,21 +15,22 @@ pub(crate) type TestResult = Result<(), Box<dyn Error>>;
 /// Time after which a run counts as hanging; every run of a test is shorter.
 const LIMIT: Duration = Duration::from_secs(240);
 
-/// Words of a command line without words that contain spaces.
-pub(crate) fn words(text: &str) -> Vec<String> {
-    text.split_whitespace().map(str::to_owned).collect()
-}
-
-/// Command that starts the program on a number of ranks, for any number of cores and any user.
-pub(crate) fn command(ranks: usize, words: impl IntoIterator<Item = String>) -> Command {
+/// Command that starts the program on a number of ranks, for any number of cores and any user, with a line of
+/// arguments; quotes enclose an argument with spaces.
+pub(crate) fn command(ranks: usize, arguments: &str) -> Command {
     let mut command = Command::new("mpirun");
     command
         .env("OMPI_ALLOW_RUN_AS_ROOT", "1")
         .env("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
         .args(["--oversubscribe", "-n", &ranks.to_string(), env!("CARGO_BIN_EXE_piola-mpi")])
-        .args(words)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
+    for (index, part) in arguments.split('\'').enumerate() {
+        match index % 2 {
+            0 => command.args(part.split_whitespace()),
+            _ => command.arg(part),
+        };
+    }
     command
 }
 
@@ -49,13 +49,8 @@ pub(crate) fn finish(mut command: Command) -> Result<Output, Box<dyn Error>> {
 }
 
 /// Runs the program with results in a folder, and reads the state in the checkpoint there.
-pub(crate) fn state_after(
-    ranks: usize,
-    words: impl IntoIterator<Item = String>,
-    folder: &Path,
-) -> Result<State, Box<dyn Error>> {
-    let out = ["--out".to_owned(), folder.display().to_string()];
-    let output = finish(command(ranks, words.into_iter().chain(out)))?;
+pub(crate) fn state_after(ranks: usize, arguments: &str, folder: &Path) -> Result<State, Box<dyn Error>> {
+    let output = finish(command(ranks, &format!("{arguments} --out {}", folder.display())))?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into());
     }
@@ -65,22 +60,4 @@ pub(crate) fn state_after(
 /// The checkpoint in the folder of a run.
 pub(crate) fn checkpoint_in(folder: &Path) -> Result<(About, State), Box<dyn Error>> {
     Ok(checkpoint::read_alone(&checkpoint::file_in(folder))?)
-}
-
-/// A mesh with one group of tetrahedra, in Gmsh's format 2.2.
-pub(crate) fn msh(mesh: &TetMesh, upper: &[usize]) -> String {
-    let mut text =
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 2 \"upper\"\n$EndPhysicalNames\n"
-            .to_owned();
-    text += &format!("$Nodes\n{}\n", mesh.positions.len());
-    for (node, [x, y, z]) in mesh.positions.iter().enumerate() {
-        text += &format!("{} {x:?} {y:?} {z:?}\n", node + 1);
-    }
-    text += &format!("$EndNodes\n$Elements\n{}\n", mesh.tets.len());
-    for (tet, nodes) in mesh.tets.iter().enumerate() {
-        let group = if upper.contains(&tet) { 2 } else { 1 };
-        let [a, b, c, d] = nodes.map(|node| node + 1);
-        text += &format!("{} 4 2 {group} {group} {a} {b} {c} {d}\n", tet + 1);
-    }
-    text + "$EndElements\n"
 }
