@@ -66,12 +66,15 @@ pub(crate) fn stiffness_product(
     let mut product = vec![[0.0; 3]; x.len()];
     for (number, element) in body.elements().iter().enumerate() {
         let deformation = element.deformation_gradient(positions);
-        let rest: Vec<f64> =
-            element.shape.inverse.as_flattened().iter().copied().chain([element.shape.volume]).collect();
         let (mut gradient, mut stiffness) = ([0.0; 12], [0.0; 144]);
         Batch::new(body.material(number))
             .with_filter(filter)
-            .stiffnesses(deformation.as_flattened(), &rest, &mut gradient, &mut stiffness)
+            .stiffnesses(
+                deformation.as_flattened(),
+                &element.shape.components(),
+                &mut gradient,
+                &mut stiffness,
+            )
             .expect("one element");
         for row in 0..12 {
             let sum = (0..12).map(|k| stiffness[12 * row + k] * x[element.nodes[k / 3]][k % 3]).sum::<f64>();
