@@ -1,6 +1,5 @@
 //! Stress, tangent and filters against dense algebra, finite differences and a 9×9 eigensolver.
 
-use super::tangent::assemble_blocks;
 use super::*;
 use crate::hand_written::{NeoHookean, RotatedLinear, SaintVenantKirchhoff};
 use crate::lanes::Lanes;
@@ -110,21 +109,6 @@ fn in_the_world(U: &Matrix3<f64>, W: &Matrix3<f64>, A: &[[f64; 9]; 9]) -> [[f64;
 
 fn difference<const N: usize>(A: &[[f64; N]; N], B: &[[f64; N]; N]) -> f64 {
     norm(A.iter().flatten().zip(B.iter().flatten()).map(|(a, b)| a - b).collect::<Vec<_>>().iter())
-}
-
-#[test]
-fn the_contraction_equals_the_dense_product() {
-    let mut random = Random::new(11);
-    for _ in 0..200 {
-        // W need not be a rotation: an element's has any shape.
-        let (U, W, blocks) = (random.rotation(), random.matrix(), random_blocks(&mut random));
-        let expected = in_the_world(&U, &W, &dense(&blocks));
-        let mut K = [[0.0; 9]; 9];
-        assemble_blocks(&U, &W, &blocks, &mut K);
-        // Each entry is a sum of 81 products here and of 15 there, with terms of up to ‖W‖²‖A‖.
-        let error = difference(&K, &expected);
-        assert!(error < 100.0 * f64::EPSILON * norm(dense(&blocks).iter().flatten()), "{error:e}");
-    }
 }
 
 /// The claim of `docs/emit.md` on the bounds between which roundings decide whether a point is `bounded`.
