@@ -24,15 +24,9 @@ pub(crate) fn neo_hookean() -> Scaled<NeoHookean> {
     scaled(3.0e3, NeoHookean)
 }
 
-/// [`neo_hookean`] as a function of I1 and J.
+/// [`neo_hookean`] as a function of I1 and J, moduli in Pa.
 #[piola::material(domain(J > 0.0))]
-pub(crate) fn ByInvariants(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Pa. */
-    lambda: f64,
-) -> f64 {
+pub(crate) fn ByInvariants([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
 }
 
