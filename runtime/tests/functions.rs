@@ -41,19 +41,15 @@ pub fn ByInvariants([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, f: Locking) -> 
 struct Root;
 
 impl Univariate for Root {
-    #[inline(always)]
     fn admits<R: Real>(&self, x: R) -> R::Mask {
         R::splat(0.0).less(x)
     }
-    #[inline(always)]
     fn value<R: Real>(&self, x: R) -> R {
         x + x * x.sqrt()
     }
-    #[inline(always)]
     fn derivative<R: Real>(&self, x: R) -> R {
         R::splat(1.0) + R::splat(1.5) * x.sqrt()
     }
-    #[inline(always)]
     fn second_derivative<R: Real>(&self, x: R) -> R {
         R::splat(0.75) / x.sqrt()
     }
@@ -230,15 +226,12 @@ struct Power {
 }
 
 impl Univariate for Power {
-    #[inline(always)]
     fn value<R: Real>(&self, x: R) -> R {
         R::splat(self.c) * x.powf(R::splat(self.n))
     }
-    #[inline(always)]
     fn derivative<R: Real>(&self, x: R) -> R {
         R::splat(self.c * self.n) * x.powf(R::splat(self.n - 1.0))
     }
-    #[inline(always)]
     fn second_derivative<R: Real>(&self, x: R) -> R {
         R::splat(self.c * self.n * (self.n - 1.0)) * x.powf(R::splat(self.n - 2.0))
     }

@@ -148,9 +148,4 @@ fn the_status_says_what_the_numbers_cannot() {
     let collapsed = evaluate(&RotatedLinear, &diagonal([0.0; 3]), Filter::Clamp);
     assert_eq!(collapsed.status, Status { bounded: true, filtered: true, ..fine });
     assert!(collapsed.tangent.blocks.twist == [0.0; 3]);
-
-    let broken = diagonal([1.0, f64::NAN, 1.0]);
-    assert!(evaluate(&SaintVenantKirchhoff, &broken, Filter::Clamp).status.nonfinite);
-    assert!(evaluate_energy(&SaintVenantKirchhoff, &broken).status.nonfinite);
-    assert!(evaluate_stress(&SaintVenantKirchhoff, &broken).status.nonfinite);
 }
