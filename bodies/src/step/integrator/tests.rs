@@ -24,7 +24,7 @@ fn coefficients_have_their_order() {
     }
 }
 
-/// What moves the body at a time, given its positions at rest.
+/// Function that prescribes places of a body at a time, given the positions at rest.
 type Drive = fn(&mut Simulation, &[[f64; 3]], f64);
 
 /// A bar, how it is held and driven, the scale of its velocities at the start, and the rate of its damping.
