@@ -14,15 +14,9 @@ use piola_bodies::system::{Body, Pins};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// Neo-Hookean solid.
+/// Neo-Hookean solid, moduli in Pa.
 #[material(domain(J > 0.0), extend)]
-fn Rubber(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Pa. */
-    lambda: f64,
-) -> f64 {
+fn Rubber([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
 }
 

@@ -194,10 +194,6 @@ impl<M: Material> Material for Scaled<M> {
         self.material.energy(stretches) * R::splat(self.factor)
     }
 
-    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-        self.material.gradient(stretches).map(|number| number * R::splat(self.factor))
-    }
-
     fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
         let Blocks { gradient, hessian, flip, twist } = self.material.blocks(stretches);
         let factor = R::splat(self.factor);

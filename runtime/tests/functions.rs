@@ -1,7 +1,7 @@
 //! Functions as parameters: they may end, and a material ends with them. Energies with splines are judged as
 //! text, by `tests/tests/declarations`.
 
-use piola::material::{Declared, Fittable, Limit, MaterialError};
+use piola::material::{Constraint, Declared, Fittable, Limit, MaterialError};
 use piola::{Inversion, Material, Real, Univariate, material};
 
 /// φ(s) = −limit/2 ln(1 − s/limit) for s < limit.
@@ -41,19 +41,15 @@ pub fn ByInvariants([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, f: Locking) -> 
 struct Root;
 
 impl Univariate for Root {
-    #[inline(always)]
     fn admits<R: Real>(&self, x: R) -> R::Mask {
         R::splat(0.0).less(x)
     }
-    #[inline(always)]
     fn value<R: Real>(&self, x: R) -> R {
         x + x * x.sqrt()
     }
-    #[inline(always)]
     fn derivative<R: Real>(&self, x: R) -> R {
         R::splat(1.0) + R::splat(1.5) * x.sqrt()
     }
-    #[inline(always)]
     fn second_derivative<R: Real>(&self, x: R) -> R {
         R::splat(0.75) / x.sqrt()
     }
@@ -179,10 +175,12 @@ fn a_function_is_defined_at_rest() {
 #[cfg(feature = "batch")]
 #[test]
 fn every_point_has_the_end_of_its_own_function() -> Result<(), Box<dyn std::error::Error>> {
-    use piola::StatusCell;
-    use piola::batch::Batch;
+    use piola::batch::{Batch, LengthError, TileMaterial};
     use piola::lanes::Backend;
     use piola::material::PerPoint;
+    use piola::{Status, StatusCell, Survey};
+
+    type Results = Result<(Survey, Vec<(Status, Vec<u64>)>), LengthError>;
 
     let limits = [1.5, 2.0, 2.0, 3.0, 1e9];
     let materials = limits.map(|limit| ByInvariants::new(2.0, 50.0, Locking { limit }).expect("a material"));
@@ -192,25 +190,23 @@ fn every_point_has_the_end_of_its_own_function() -> Result<(), Box<dyn std::erro
         points.push([l, 0.1, 0.0, 0.0, 1.0 / l.sqrt(), 0.0, 0.2, 0.0, 1.0 / l.sqrt()]);
         solids.push(&materials[p * p % 5]);
     }
-    for backend in Backend::available() {
+    let results = |material: &dyn TileMaterial<f64>, backend: Backend, points: &[[f64; 9]]| -> Results {
         let statuses: Vec<_> = points.iter().map(|_| StatusCell::default()).collect();
-        let mut energies = vec![0.0; points.len()];
-        let mut stresses = vec![0.0; 9 * points.len()];
-        let each = PerPoint::new(&solids)?;
-        let batch = Batch::new(&each).with_backend(backend).with_statuses(&statuses);
+        let (mut energies, mut stresses) = (vec![0.0; points.len()], vec![0.0; 9 * points.len()]);
+        let batch = Batch::new(material).with_backend(backend).with_statuses(&statuses);
         let survey = batch.energies(points.as_flattened(), &mut energies)?;
         batch.stresses(points.as_flattened(), &mut stresses)?;
+        let numbers = stresses.chunks(9).zip(energies).map(|(stress, energy)| [stress, &[energy]].concat());
+        let bits = numbers.map(|numbers| numbers.into_iter().map(f64::to_bits).collect::<Vec<_>>());
+        Ok((survey, statuses.iter().map(StatusCell::get).zip(bits).collect()))
+    };
+    let each = PerPoint::new(&solids)?;
+    for backend in Backend::available() {
+        let (survey, together) = results(&each, backend, &points)?;
         assert!(survey.refused > 10 && survey.refused < 60, "{survey:?}");
         for (p, (point, solid)) in points.iter().zip(&solids).enumerate() {
-            let (mut energy, mut stress) = ([0.0], [0.0; 9]);
-            let alone = StatusCell::default();
-            let own = Batch::new(*solid).with_backend(backend).with_statuses(std::slice::from_ref(&alone));
-            own.energies(point, &mut energy)?;
-            own.stresses(point, &mut stress)?;
-            assert_eq!(statuses[p].get(), alone.get(), "point {p}, {backend}");
-            assert_eq!(energies[p].to_bits(), energy[0].to_bits(), "point {p}, {backend}");
-            let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-            assert_eq!(bits(&stresses[9 * p..][..9]), bits(&stress), "point {p}, {backend}");
+            let (_, alone) = results(*solid, backend, &[*point])?;
+            assert_eq!(together[p], alone[0], "point {p}, {backend}");
         }
     }
     Ok(())
@@ -230,15 +226,12 @@ struct Power {
 }
 
 impl Univariate for Power {
-    #[inline(always)]
     fn value<R: Real>(&self, x: R) -> R {
         R::splat(self.c) * x.powf(R::splat(self.n))
     }
-    #[inline(always)]
     fn derivative<R: Real>(&self, x: R) -> R {
         R::splat(self.c * self.n) * x.powf(R::splat(self.n - 1.0))
     }
-    #[inline(always)]
     fn second_derivative<R: Real>(&self, x: R) -> R {
         R::splat(self.c * self.n * (self.n - 1.0)) * x.powf(R::splat(self.n - 2.0))
     }
@@ -271,9 +264,17 @@ fn fitted() -> Fitted {
 }
 
 #[track_caller]
-fn close(found: f64, expected: f64, scale: f64) {
-    // 470 u of what is differenced, and a few roundings of it, by values near 1.
-    assert!((found - expected).abs() <= 2000.0 * f64::EPSILON * scale, "{found} for {expected}");
+fn close(found: &[f64], expected: &[f64], scale: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        // 470 u of what is differenced, and a few roundings of it, by values near 1.
+        assert!((found - expected).abs() <= 2000.0 * f64::EPSILON * scale, "{found} for {expected}");
+    }
+}
+
+/// The value of a constraint, followed by its derivatives.
+fn numbers(constraint: &Constraint) -> Vec<f64> {
+    [&[constraint.value][..], &constraint.gradient].concat()
 }
 
 #[test]
@@ -288,9 +289,9 @@ fn values_of_functions_have_derivatives() {
     for (i, l) in stretches.into_iter().enumerate() {
         // dx/dλ = 2/3 (J^(−2/3) λ − I1b/(3 λ)).
         let dx = 2.0 / 3.0 * (j.powf(-2.0 / 3.0) * l - i1b / (3.0 * l));
-        close(by_mu[i], l - 1.0 / l, 1.0);
-        close(by_c[i], n * x.powf(n - 1.0) * dx, 10.0);
-        close(by_n[i], c * x.powf(n - 1.0) * (1.0 + n * x.ln()) * dx, 10.0);
+        let slope = x.powf(n - 1.0) * dx;
+        close(&[by_mu[i]], &[l - 1.0 / l], 1.0);
+        close(&[by_c[i], by_n[i]], &[n * slope, c * slope * (1.0 + n * x.ln())], 10.0);
     }
     let extended = solid.clone().with_inversion(Inversion::Extend { epsilon: 0.9 }).expect("restoring");
     assert_eq!(extended.gradient_by_parameters(stretches), solid.gradient_by_parameters(stretches));
@@ -303,24 +304,15 @@ fn constraints_have_derivatives_by_values_of_functions() {
     assert_eq!((upper.value, upper.gradient), (8.0, vec![-1.0, 0.0, 0.0]));
     // μ + 2/3 f′(1) + 2 g′(0) with f′(1) = c n and g′(0) = 1/2; the bulk modulus is 2/3 μ.
     assert_eq!(shear.limit, Limit::ShearModulus);
-    for (found, expected) in
-        [shear.value].iter().chain(&shear.gradient).zip([2.0 + 2.5 + 1.0, 1.0, 5.0 / 3.0, 1.0])
-    {
-        close(*found, expected, 10.0);
-    }
+    close(&numbers(&shear), &[2.0 + 2.5 + 1.0, 1.0, 5.0 / 3.0, 1.0], 10.0);
     assert_eq!(bulk.limit, Limit::BulkModulus);
-    for (found, expected) in [bulk.value].iter().chain(&bulk.gradient).zip([4.0 / 3.0, 2.0 / 3.0, 0.0, 0.0]) {
-        close(*found, expected, 10.0);
-    }
+    close(&numbers(&bulk), &[4.0 / 3.0, 2.0 / 3.0, 0.0, 0.0], 10.0);
     // 20 μ − f(x) with x = I1b/3 = 5/3, at constant volume and twice as long.
     let tension = [2.0, 0.5f64.sqrt(), 0.5f64.sqrt()];
     let [domain] = <[_; 1]>::try_from(solid.domain_constraints(tension)).expect("one");
     let x: f64 = (4.0 + 2.0 / 2.0) / 3.0;
     let power = x.powf(2.5);
-    let expected = [40.0 - 1.5 * power, 20.0, -power, -1.5 * power * x.ln()];
-    for (found, expected) in [domain.value].iter().chain(&domain.gradient).zip(expected) {
-        close(*found, expected, 50.0);
-    }
+    close(&numbers(&domain), &[40.0 - 1.5 * power, 20.0, -power, -1.5 * power * x.ln()], 50.0);
 }
 
 #[test]
@@ -329,14 +321,11 @@ fn conditions_beyond_the_second_derivative_of_a_function_are_differenced() {
     let f = Power { c: 1.5, n: 2.0 };
     let solid = Sprung::new(2.0, [0.5, 1.5], 2.0 * 1.5 * 6.5, f).expect("a material");
     let [shear, _] = <[_; 2]>::try_from(solid.constraints()).expect("two");
-    close(shear.value, 2.0 * 1.5 * 6.5, 20.0);
+    close(&[shear.value], &[2.0 * 1.5 * 6.5], 20.0);
     // By a: 2 c a; by k: ½; by c: 6.5. By n, of ½ c Σ n (n − 1) bⁿ: ½ c Σ (2 n − 1 + n (n − 1) ln b) bⁿ.
     let by_n = |b: f64| 0.75 * (3.0 + 2.0 * b.ln()) * b * b;
-    let expected = [6.0, 1.5, 4.5, 0.5, 6.5, by_n(2.0) + by_n(0.5) + by_n(1.5)];
-    assert_eq!(shear.gradient.len(), expected.len());
-    for (found, expected) in shear.gradient.iter().zip(expected) {
-        close(*found, expected, 40.0);
-    }
+    let by_n = by_n(2.0) + by_n(0.5) + by_n(1.5);
+    close(&shear.gradient, &[6.0, 1.5, 4.5, 0.5, 6.5, by_n], 40.0);
 }
 
 #[test]
@@ -374,7 +363,7 @@ fn data_of_every_kind_go_through_a_fit() -> Result<(), MaterialError> {
         let coefficients = derivatives.iter().zip(data.c());
         let [first, _, _] = data.gradient(stretches);
         let sum: f64 = coefficients.map(|(by_coefficient, c)| by_coefficient[0] * c).sum();
-        close(sum, first, first.abs());
+        close(&[sum], &[first], first.abs());
         assert!(derivatives[data.c().len()..].iter().all(|by_exponent| *by_exponent == [0.0; 3]));
     }
     Ok(())

@@ -122,40 +122,28 @@ mod tests {
         assert_eq!(backtrack(&mut line, 1.0, slope), Ok(expected));
     }
 
+    fn accepted(step: f64, difference: f64, refused: usize, by_slope: bool) -> Outcome {
+        Outcome::Accepted { step, difference, refused, by_slope }
+    }
+
     #[test]
     fn a_good_step_is_taken_whole() {
-        check(
-            |s| Some(s * s / 2.0 - s),
-            |s| s - 1.0,
-            0.0,
-            Outcome::Accepted { step: 1.0, difference: -0.5, refused: 0, by_slope: false },
-        );
+        check(|s| Some(s * s / 2.0 - s), |s| s - 1.0, 0.0, accepted(1.0, -0.5, 0, false));
     }
 
     #[test]
     fn a_step_too_long_or_out_of_the_domain_is_halved() {
-        check(
-            |s| Some(8.0 * s * s - s),
-            |s| 16.0 * s - 1.0,
-            0.0,
-            Outcome::Accepted { step: 0.0625, difference: -0.03125, refused: 0, by_slope: false },
-        );
-        check(
-            |s| (s < 0.3).then_some(-s),
-            |_| -1.0,
-            0.0,
-            Outcome::Accepted { step: 0.25, difference: -0.25, refused: 2, by_slope: false },
-        );
+        let halved = accepted(0.0625, -0.03125, 0, false);
+        check(|s| Some(8.0 * s * s - s), |s| 16.0 * s - 1.0, 0.0, halved);
+        check(|s| (s < 0.3).then_some(-s), |_| -1.0, 0.0, accepted(0.25, -0.25, 2, false));
     }
 
     #[test]
     fn below_the_noise_the_slope_decides() {
         // The difference says "uphill", but it is noise: the minimum is at 1.
-        let accepted = Outcome::Accepted { step: 1.0, difference: 1e-16, refused: 0, by_slope: true };
-        check(|_| Some(1e-16), |s| 1e-12 * (s - 1.0), 1e-15, accepted);
+        check(|_| Some(1e-16), |s| 1e-12 * (s - 1.0), 1e-15, accepted(1.0, 1e-16, 0, true));
         // Here the slope at 1 is steeper than at 0: the minimum is at ⅓.
-        let halved = Outcome::Accepted { step: 0.5, difference: 1e-16, refused: 0, by_slope: true };
-        check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, halved);
+        check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, accepted(0.5, 1e-16, 0, true));
     }
 
     #[test]

@@ -24,15 +24,9 @@ pub(crate) fn neo_hookean() -> Scaled<NeoHookean> {
     scaled(3.0e3, NeoHookean)
 }
 
-/// [`neo_hookean`] as a function of I1 and J.
+/// [`neo_hookean`] as a function of I1 and J, moduli in Pa.
 #[piola::material(domain(J > 0.0))]
-pub(crate) fn ByInvariants(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    mu: f64,
-    /** Pa. */
-    lambda: f64,
-) -> f64 {
+pub(crate) fn ByInvariants([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
     mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
 }
 
@@ -66,12 +60,15 @@ pub(crate) fn stiffness_product(
     let mut product = vec![[0.0; 3]; x.len()];
     for (number, element) in body.elements().iter().enumerate() {
         let deformation = element.deformation_gradient(positions);
-        let rest: Vec<f64> =
-            element.shape.inverse.as_flattened().iter().copied().chain([element.shape.volume]).collect();
         let (mut gradient, mut stiffness) = ([0.0; 12], [0.0; 144]);
         Batch::new(body.material(number))
             .with_filter(filter)
-            .stiffnesses(deformation.as_flattened(), &rest, &mut gradient, &mut stiffness)
+            .stiffnesses(
+                deformation.as_flattened(),
+                &element.shape.components(),
+                &mut gradient,
+                &mut stiffness,
+            )
             .expect("one element");
         for row in 0..12 {
             let sum = (0..12).map(|k| stiffness[12 * row + k] * x[element.nodes[k / 3]][k % 3]).sum::<f64>();

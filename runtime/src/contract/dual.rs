@@ -199,6 +199,8 @@ mod tests {
         assert!((found - expected).abs() <= 1e-10 * (1.0 + expected.abs()), "{found} for {expected}");
     }
 
+    /// Slopes of functions that declarations contain are compared with generated derivatives by the rule
+    /// itself, for `tests/declarations`.
     #[test]
     fn slopes_are_those_of_difference_quotients() {
         let c = Dual::splat;
@@ -206,12 +208,9 @@ mod tests {
             check(x, |x| x * x * x - x + c(2.0) / x);
             check(x, |x| (x * x + c(1.0)) / (x + c(3.0)));
             check(x, |x| x.mul_add(x, -x));
-            check(x, Real::sqrt);
             check(x, Real::reciprocal_sqrt);
             check(x, Real::rough_sqrt);
             check(x, Real::cbrt);
-            check(x, Real::ln);
-            check(x, Real::exp);
             check(x, |x| x.powf(c(-2.3)));
             check(x, |x| c(1.5).powf(x));
             check(x, |x| x.powf(x));
@@ -223,21 +222,6 @@ mod tests {
         }
         check(-0.7, |x| x.abs() * x);
         check(-0.7, Real::cbrt);
-        for x in [-2.3, -0.7, 0.3, 1.0, 1.7, 4.0] {
-            check(x, Real::exp_m1);
-            check(x.abs(), Real::ln_1p);
-            check(-x.abs() / 8.0, Real::ln_1p);
-            check(x, Real::sinh);
-            check(x, Real::cosh);
-            check(x, Real::tanh);
-            check(x, Real::asinh);
-            check(x, Real::sin);
-            check(x, Real::cos);
-            check(x, Real::atan);
-            check(x, Real::erf);
-            check(x, Real::softplus);
-            check(x, Real::sigmoid);
-        }
     }
 
     #[test]

@@ -181,8 +181,6 @@ const fn newton_steps(unit_roundoff: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::point::tests::framed;
-    use crate::random::Random;
 
     #[test]
     fn the_cosine_of_a_third_is_that_of_trigonometric_functions() {
@@ -192,31 +190,6 @@ mod tests {
             // acos loses digits next to 1, but its third part only those that the cosine does not show.
             assert!((cosine_of_third(x) - expected).abs() <= 2.0 * f64::EPSILON, "{x}");
             assert!((cosine_of_third(x as f32) - expected as f32).abs() <= 2.0 * f32::EPSILON, "{x}");
-        }
-    }
-
-    /// The vector apart is an eigenvector to rounding, its eigenvalue is the largest or smallest one, and the
-    /// frame is a rotation, for any gaps.
-    #[test]
-    fn one_eigenvector_is_split_off() {
-        let mut random = Random::new(1);
-        for k in 0..20_000 {
-            let gap = 2f64.powf(random.uniform(-60.0, 0.0));
-            let eigenvalues = [[1.0, 1.0 - gap, 0.3], [1.0, gap, 0.0], [1.0, 1.0 + gap, 1.0 - gap]][k % 3];
-            let Q = random.rotation();
-            let A = framed(&Q, eigenvalues, &Q);
-            let Deflation { frame: [v, p, q], is_largest } =
-                deflate([A[0][0], A[1][1], A[2][2], A[0][1], A[0][2], A[1][2]]);
-            let dot = |x: [f64; 3], y: [f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-            let [Av, Ap, Aq] = [v, p, q].map(|x| A.map(|row| dot(row, x)));
-            let rounding = 20.0 * f64::EPSILON;
-            assert!(dot(p, Av).abs() < rounding && dot(q, Av).abs() < rounding, "{A:?}");
-            let (apart, others) = (dot(v, Av), [dot(p, Ap), dot(q, Aq)]);
-            let beyond = others.map(|other| if is_largest { apart - other } else { other - apart });
-            assert!(beyond.into_iter().all(|gap| gap > -rounding), "{A:?}");
-            for (x, y) in [(v, p), (p, q), (q, v)] {
-                assert!(dot(x, y).abs() < rounding && (dot(x, x) - 1.0).abs() < rounding, "{A:?}");
-            }
         }
     }
 }

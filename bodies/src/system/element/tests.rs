@@ -1,6 +1,6 @@
 use piola::__private::random::Random;
+use piola::batch::Batch;
 use piola::batch::element::{MAX_STIFFNESS_RATIO, survey};
-use piola::point::svd;
 
 use super::*;
 use crate::system::Body;
@@ -12,12 +12,6 @@ fn sample(seed: u64, amplitude: f64) -> (Tetrahedron, Vec<[f64; 3]>) {
     let body = Body::new(&mesh, kirchhoff(), 1000.0).expect("a body");
     let element = body.elements()[(seed % 12) as usize];
     (element, shake(&mut Random::new(seed), &mesh.positions, amplitude))
-}
-
-fn energy(material: &dyn TileMaterial<f64>, element: &Tetrahedron, positions: &[[f64; 3]]) -> f64 {
-    let mut group = ElementGroup::new(0, &[*element]);
-    group.evaluate(material, &[*element], positions);
-    group.energies[0]
 }
 
 /// Gradient of an element, N.
@@ -61,96 +55,56 @@ pub(crate) fn to_matrix(stiffness: &StiffnessBlocks) -> [[f64; 12]; 12] {
     })
 }
 
-fn moved(element: &Tetrahedron, positions: &[[f64; 3]], unknown: usize, by: f64) -> Vec<[f64; 3]> {
-    let mut positions = positions.to_vec();
-    positions[element.nodes[unknown / 3]][unknown % 3] += by;
-    positions
-}
-
-/// The error of a central difference falls by 4 when the step is halved: a slope, not a closeness.
-#[track_caller]
-fn check_slope(exact: f64, scale: f64, difference: impl Fn(f64) -> f64) {
-    // The elements are 0.1 m wide, so that these are relative steps of 10⁻² and less.
-    let error = |h: f64| (difference(h) - exact).abs();
-    let (coarse, fine) = (error(1e-3), error(2.5e-4));
-    // Rounding of the difference, of terms that are at most `scale`·h large: u·scale·h/h², with room.
-    let rounding = 1e-9 * scale;
-    assert!(
-        fine <= coarse / 12.0 + rounding,
-        "error {coarse:e} at 1e-3, {fine:e} at 2.5e-4, exact {exact:e}"
-    );
-}
-
+/// Elements have the results of a batch at their deformation gradients, which the test `batch` of `piola`
+/// compares with points and dense algebra. Those by invariants have the results of a decomposition.
 #[test]
-fn gradients_are_the_slope_of_the_energy_and_stiffnesses_that_of_the_gradients() {
-    for seed in 0..12 {
-        // Up to twice the size of an element: many of these are inverted.
-        let (element, positions) = sample(seed, if seed % 2 == 0 { 0.02 } else { 0.2 });
-        for material in [&kirchhoff() as &dyn TileMaterial<f64>, &rotated()] {
-            let (gradient, stiffness, _) = derivatives(material, &element, &positions, Filter::None);
-            let scale = stiffness.iter().flatten().fold(0.0f64, |largest, entry| largest.max(entry.abs()));
-            for unknown in 0..12 {
-                let at = |by: f64| moved(&element, &positions, unknown, by);
-                check_slope(gradient[unknown / 3][unknown % 3], scale, |h| {
-                    (energy(material, &element, &at(h)) - energy(material, &element, &at(-h))) / (2.0 * h)
-                });
-                for row in 0..12 {
-                    let entry =
-                        |by: f64| derivatives(material, &element, &at(by), Filter::None).0[row / 3][row % 3];
-                    // Third derivatives of rotated linear elasticity grow without bound towards its pole.
-                    if positions_are_tame(&element, &positions) {
-                        check_slope(stiffness[row][unknown], scale, |h| (entry(h) - entry(-h)) / (2.0 * h));
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// True if λ2 + λ3 is so large that steps of a hundredth do not reach the pole.
-fn positions_are_tame(element: &Tetrahedron, positions: &[[f64; 3]]) -> bool {
-    let [_, second, third] = svd(&element.deformation_gradient(positions)).stretches;
-    second + third > 0.3
-}
-
-#[test]
-fn invariants_give_what_a_decomposition_gives() {
-    let mut refused = 0;
-    for seed in 0..40 {
-        let (element, positions) = sample(seed, if seed % 2 == 0 { 0.02 } else { 0.08 });
-        let evaluate = |material: &dyn TileMaterial<f64>| {
+fn elements_have_the_results_of_a_batch() {
+    let (even, pole) = (kirchhoff(), rotated());
+    let (by_invariants, by_stretches) = (by_invariants(), neo_hookean());
+    // Up to twice the size of an element: many of these are inverted.
+    let subjects: [(f64, &dyn TileMaterial<f64>, &dyn TileMaterial<f64>); 3] =
+        [(0.2, &even, &even), (0.2, &pole, &pole), (0.08, &by_invariants, &by_stretches)];
+    for (large, material, exact) in subjects {
+        let mut refused = 0;
+        for seed in 0..40 {
+            let (element, positions) = sample(seed, if seed % 2 == 0 { 0.02 } else { large });
             let mut group = ElementGroup::new(0, &[element]);
             let (status, min_det) = group.evaluate(material, &[element], &positions);
-            (survey(status, 0), min_det, group.energies[0])
-        };
-        let (survey, det, energy) = evaluate(&by_invariants());
-        let (exact_survey, exact_det, exact_energy) = evaluate(&neo_hookean());
-        // Some thirty roundings of sums that are ten times their largest entry.
-        let close = |x: f64, exact: f64, scale: f64| (x - exact).abs() <= 300.0 * f64::EPSILON * scale;
-        assert!(survey == exact_survey && close(det, exact_det, 1.0), "{det}, not {exact_det}");
-        if survey.refused == 1 {
-            refused += 1;
-            continue;
-        }
-        for filter in [Filter::None, Filter::Clamp] {
-            let (gradients, stiffness, survey) = declared(&by_invariants(), &element, &positions, filter);
-            let (exact_gradient, exact_stiffness, exact_survey) =
-                derivatives(&neo_hookean(), &element, &positions, filter);
-            assert_eq!(survey, exact_survey);
-            let scale = exact_stiffness.as_flattened().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-            // Edges of 0.1 m.
-            assert!(close(energy, exact_energy, 0.01 * scale), "{energy}, not {exact_energy}");
-            for gradient in gradients {
-                for (x, exact) in gradient.as_flattened().iter().zip(exact_gradient.as_flattened()) {
-                    assert!(close(*x, *exact, 0.1 * scale), "{x}, not {exact}");
-                }
+            let F = group.deformation_gradient(0);
+            assert_eq!(min_det, determinant(&F));
+            // Sums of three products of up to 5.
+            check_close(F.as_flattened(), element.deformation_gradient(&positions).as_flattened(), 0.3);
+            let (batch, rest) = (Batch::new(exact), element.shape.components());
+            let mut energy = [0.0];
+            let expected = batch.energies(F.as_flattened(), &mut energy).expect("one point");
+            assert_eq!(survey(status, 0).refused, expected.refused);
+            if expected.refused == 1 {
+                refused += 1;
+                continue;
             }
-            for (x, exact) in stiffness.as_flattened().iter().zip(exact_stiffness.as_flattened()) {
-                assert!(close(*x, *exact, scale), "{x}, not {exact}");
+            for filter in [Filter::None, Filter::Clamp, Filter::Absolute] {
+                let (mut gradient, mut full) = ([0.0; 12], [0.0; 144]);
+                let batch = batch.with_filter(filter);
+                let expected = batch.stiffnesses(F.as_flattened(), &rest, &mut gradient, &mut full);
+                let (gradients, stiffness, found) = declared(material, &element, &positions, filter);
+                assert_eq!(Ok(found), expected);
+                let scale = full.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+                // Edges of 0.1 m.
+                check_close(&group.energies[..1], &[energy[0] * element.shape.volume], 0.01 * scale);
+                gradients.iter().for_each(|found| check_close(found.as_flattened(), &gradient, 0.1 * scale));
+                check_close(stiffness.as_flattened(), &full, scale);
             }
         }
+        assert!(refused < 30 && (large > 0.1 || refused > 0), "{refused} of 40 are inside out");
     }
-    assert!((1..30).contains(&refused), "{refused} of 40 are inside out");
+}
+
+/// Some thirty roundings of sums that are ten times their largest entry.
+#[track_caller]
+fn check_close(found: &[f64], expected: &[f64], scale: f64) {
+    for (x, exact) in found.iter().zip(expected) {
+        assert!((x - exact).abs() <= 300.0 * f64::EPSILON * scale, "{x}, not {exact}");
+    }
 }
 
 /// Elements for which the invariants cannot be used make the whole tile decompose, and their digits are kept.
@@ -162,7 +116,9 @@ fn an_element_out_of_range_is_decomposed() {
     elements[1].shape.inverse = element.shape.inverse.map(|row| row.map(|x| x * 1e60));
     let mut group = ElementGroup::new(0, &elements);
     let (status, _) = group.evaluate(&by_invariants(), &elements, &positions);
-    let alone = energy(&by_invariants(), &element, &positions);
+    let mut single = ElementGroup::new(0, &[element]);
+    single.evaluate(&by_invariants(), &[element], &positions);
+    let alone = single.energies[0];
     assert!(survey(status, 0).is_clean(), "{status:?}");
     assert!(
         (group.energies[0] - alone).abs() <= 1e-12 * alone.abs() && group.energies[0] == group.energies[2]
@@ -171,10 +127,12 @@ fn an_element_out_of_range_is_decomposed() {
 }
 
 #[test]
-fn stiffnesses_are_exactly_symmetric_and_know_no_translation() {
-    for seed in 0..12 {
+fn filtered_stiffnesses_are_exactly_symmetric_semidefinite_and_know_no_translation() {
+    let mut filtered = 0;
+    for (seed, filter) in (0..12).flat_map(|seed| [(seed, Filter::Clamp), (seed, Filter::Absolute)]) {
         let (element, positions) = sample(seed, 0.1);
-        let (gradient, stiffness, _) = derivatives(&kirchhoff(), &element, &positions, Filter::Clamp);
+        let (gradient, stiffness, survey) = derivatives(&kirchhoff(), &element, &positions, filter);
+        filtered += survey.filtered;
         let scale = stiffness.iter().flatten().fold(0.0f64, |largest, entry| largest.max(entry.abs()));
         for row in 0..12 {
             for column in 0..12 {
@@ -190,22 +148,9 @@ fn stiffnesses_are_exactly_symmetric_and_know_no_translation() {
             let (sum, size) = gradient.iter().fold((0.0, 0.0), |(s, a), g| (s + g[c], a + g[c].abs()));
             assert!(f64::abs(sum) <= 4.0 * f64::EPSILON * size);
         }
-    }
-}
-
-#[test]
-fn a_filtered_stiffness_is_semidefinite_and_counted() {
-    let mut filtered = 0;
-    for seed in 0..12 {
-        let (element, positions) = sample(seed, 0.1);
-        for filter in [Filter::Clamp, Filter::Absolute] {
-            let (_, stiffness, survey) = derivatives(&kirchhoff(), &element, &positions, filter);
-            filtered += survey.filtered;
-            let matrix = nalgebra::SMatrix::<f64, 12, 12>::from_fn(|row, column| stiffness[row][column]);
-            let eigenvalues = matrix.symmetric_eigenvalues();
-            // Backward error of a symmetric eigensolver: a small multiple of n u ‖K‖.
-            assert!(eigenvalues.min() >= -24.0 * f64::EPSILON * eigenvalues.max(), "{eigenvalues}");
-        }
+        let eigenvalues = nalgebra::SMatrix::<f64, 12, 12>::from(stiffness).symmetric_eigenvalues();
+        // Backward error of a symmetric eigensolver: a small multiple of n u ‖K‖.
+        assert!(eigenvalues.min() >= -24.0 * f64::EPSILON * eigenvalues.max(), "{eigenvalues}");
     }
     assert!(filtered > 0, "some of these elements are compressed so much that the filter has work");
 }

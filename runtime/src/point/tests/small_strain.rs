@@ -69,10 +69,7 @@ fn size(A: &Matrix3<f64>) -> f64 {
 }
 
 /// Worst error of a stress in units of u (‖P‖ + ‖dP/dF‖ ‖H‖) at one size of strain.
-fn worst_error<R: Real<Mask = bool> + Into<f64>>(
-    strain: f64,
-    evaluate: impl Fn(&Matrix3<R>) -> StressPoint<R>,
-) -> f64 {
+fn worst_error<R: Real<Mask = bool> + Into<f64>>(strain: f64) -> f64 {
     let mut random = Random::new(51);
     let mut worst = 0.0f64;
     for _ in 0..20 {
@@ -81,7 +78,8 @@ fn worst_error<R: Real<Mask = bool> + Into<f64>>(
             let H = rounded.map(|row| row.map(Into::into));
             let expected = saint_venant_kirchhoff(&H);
             let scale = size(&expected) + stiffness(&H) * size(&H);
-            let StressPoint { stress, status } = evaluate(&rounded);
+            let from_H = evaluate_stress(&SaintVenantKirchhoff, DisplacementGradient(&rounded));
+            let StressPoint { stress, status } = from_H;
             assert_eq!(status, Status::default(), "{H:?}");
             let found = stress.map(|row| row.map(|x| x.into() / scale));
             let expected = expected.map(|row| row.map(|x| x / scale));
@@ -96,8 +94,7 @@ fn worst_error<R: Real<Mask = bool> + Into<f64>>(
 #[track_caller]
 fn check<R: Real<Mask = bool> + Into<f64>>(strains: &[f64]) {
     for &strain in strains {
-        let from_H = |H: &Matrix3<R>| evaluate_stress(&SaintVenantKirchhoff, DisplacementGradient(H));
-        let worst = worst_error::<R>(strain, from_H);
+        let worst = worst_error::<R>(strain);
         assert!(worst <= 30.0, "strains of {strain:e}: {worst:.1} u");
     }
 }
@@ -111,13 +108,6 @@ fn every_strain_keeps_its_digits() {
     check::<f64>(&[1e-30, 1e-100, 1e-160, 1e-300]);
     check::<f32>(&STRAINS);
     check::<f32>(&[1e-19, 1e-25, 1e-30]);
-}
-
-#[test]
-fn the_way_through_F_does_not() {
-    let through_F = |H: &Matrix3<f64>| evaluate_stress(&SaintVenantKirchhoff, &plus_identity(H));
-    let worst = worst_error::<f64>(1e-10, through_F);
-    assert!(worst > 1e4, "{worst} u");
 }
 
 #[test]

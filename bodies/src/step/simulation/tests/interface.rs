@@ -78,22 +78,6 @@ fn the_solver_fits_the_body() {
     assert!(matches!(LinearSolver::for_elements(5000), LinearSolver::ConjugateGradients { .. }));
 }
 
-/// A copy taken in the middle of a motion continues with the same bits, and does not move the original.
-#[test]
-fn a_clone_is_independent_and_exact() {
-    let mesh = beam(4);
-    for linear in solvers(1e-3) {
-        let mut body = held(&mesh, neo_hookean(), falling(solved_by(linear)).with_damping(1.0));
-        body.step(0.01).expect("a step");
-        let before = body.positions().to_vec();
-        let mut copy = body.clone();
-        let first: Vec<_> = (0..3).map(|_| copy.step(0.01).expect("a step")).collect();
-        assert_eq!(body.positions(), before);
-        let second: Vec<_> = (0..3).map(|_| body.step(0.01).expect("a step")).collect();
-        assert_eq!((first, copy.positions()), (second, body.positions()));
-    }
-}
-
 #[test]
 fn simulations_go_to_other_threads() {
     fn check<T: Clone + Send + Sync + 'static>() {}
