@@ -90,7 +90,7 @@ fn every_entry<R: Judged>() {
     for (name, tallies) in tallies {
         for (inversion, tally) in tallies {
             for (fault, (count, F)) in &tally.faults {
-                let _ = writeln!(report, "{count:7} × {name} {} {inversion:?}: {fault:?}: {F}", R::NAME);
+                let _ = writeln!(report, "{count:7} × {name} {} {inversion:?}: {fault}: {F}", R::NAME);
             }
             total.add(tally);
         }
@@ -185,15 +185,17 @@ fn trial<R: Judged>(subject: &Subject, seed: u64, patterns: usize) -> Tally {
     tally
 }
 
+const PANIC: &str = "a panic";
+
 fn judge<R: Judged>(subject: &Subject, F: &Matrix3<R>, closely: bool) -> Result<Answer, Fault> {
-    catch_unwind(AssertUnwindSafe(|| R::judge(subject, F, closely))).unwrap_or(Err(Fault::Panic))
+    catch_unwind(AssertUnwindSafe(|| R::judge(subject, F, closely))).unwrap_or_else(|_| Err(PANIC.to_owned()))
 }
 
 /// The faults of elements, each with its index; those of a batch that panics are found one by one.
 fn judge_elements<R: Judged>(subject: &Subject, F: &[Matrix3<R>]) -> Vec<(usize, Fault)> {
     match catch_unwind(AssertUnwindSafe(|| R::judge_elements(subject, F))) {
         Ok(faults) => faults,
-        Err(_) if F.len() == 1 => vec![(0, Fault::Panic)],
+        Err(_) if F.len() == 1 => vec![(0, PANIC.to_owned())],
         Err(_) => {
             let one = |at: usize| {
                 judge_elements(subject, &F[at..=at]).into_iter().map(move |(_, fault)| (at, fault))
