@@ -1,60 +1,40 @@
-//! Energies as formulas in the stretches, for numbers of any kind.
-//!
-//! Each is the formula of the same name in the catalogue, which names its source.
+//! Energies of the catalogue as formulas in the stretches, for numbers of any kind.
 
 #![expect(non_snake_case, reason = "I1, J as in the literature")]
 
 use num_dual::{DualNum, DualNumFloat};
+use piola_materials::{Hencky, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
 
 use super::Potential;
-pub use crate::invariants::{NeoHookean, StVenantKirchhoff};
-pub use crate::polar::RotatedLinear;
 
-/// Σₚ μₚ/αₚ (λ1^αₚ + λ2^αₚ + λ3^αₚ − 3) − (Σₚ μₚ) ln J + κ/2 (J − 1)².
-#[derive(Clone, Copy, Debug)]
-pub struct Ogden<const N: usize> {
-    /// Moduli μₚ, Pa.
-    pub mu: [f64; N],
-    /// Exponents αₚ.
-    pub alpha: [f64; N],
-    /// Volumetric modulus κ, Pa.
-    pub kappa: f64,
-}
-
-/// μ Σ (ln λi)² + λ/2 (ln J)².
-#[derive(Clone, Copy, Debug)]
-pub struct Hencky {
-    /// Shear modulus μ, Pa.
-    pub mu: f64,
-    /// First Lamé parameter λ, Pa.
-    pub lambda: f64,
-}
-
+/// μ/4 Σ (λi² − 1)² + λ/8 (I1 − 3)².
 impl Potential for StVenantKirchhoff {
     #[inline(always)]
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
-        quadratic(stretches.map(|l| l * l - real::<T>(1.0)), self.mu / 4.0, self.lambda / 8.0)
+        quadratic(stretches.map(|l| l * l - real::<T>(1.0)), self.mu() / 4.0, self.lambda() / 8.0)
     }
 }
 
+/// μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
 impl Potential for NeoHookean {
     #[inline(always)]
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, [l1, l2, l3]: [D; 3]) -> D {
         let I1 = l1 * l1 + l2 * l2 + l3 * l3;
         let log = (l1 * l2 * l3).ln();
-        (I1 - real::<T>(3.0)) * real::<T>(self.mu / 2.0) - log * real::<T>(self.mu)
-            + log * log * real::<T>(self.lambda / 2.0)
+        (I1 - real::<T>(3.0)) * real::<T>(self.mu() / 2.0) - log * real::<T>(self.mu())
+            + log * log * real::<T>(self.lambda() / 2.0)
     }
 }
 
+/// Σₚ μₚ/αₚ (λ1^αₚ + λ2^αₚ + λ3^αₚ − 3) − (Σₚ μₚ) ln J + κ/2 (J − 1)².
 impl<const N: usize> Potential for Ogden<N> {
     #[inline(always)]
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, [l1, l2, l3]: [D; 3]) -> D {
         let J = l1 * l2 * l3;
         let volume = J - real::<T>(1.0);
-        let total: f64 = self.mu.iter().sum();
-        let mut energy = volume * volume * real::<T>(self.kappa / 2.0) - J.ln() * real::<T>(total);
-        for (mu, alpha) in self.mu.into_iter().zip(self.alpha) {
+        let total: f64 = self.mu().iter().sum();
+        let mut energy = volume * volume * real::<T>(self.kappa() / 2.0) - J.ln() * real::<T>(total);
+        for (mu, alpha) in self.mu().into_iter().zip(self.alpha()) {
             let exponent = real::<T>(alpha);
             let powers = l1.powf(exponent) + l2.powf(exponent) + l3.powf(exponent);
             energy += (powers - real::<T>(3.0)) * real::<T>(mu / alpha);
@@ -67,14 +47,15 @@ impl<const N: usize> Potential for Ogden<N> {
 impl Potential for RotatedLinear {
     #[inline(always)]
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
-        quadratic(stretches.map(|l| l - real::<T>(1.0)), self.mu, self.lambda / 2.0)
+        quadratic(stretches.map(|l| l - real::<T>(1.0)), self.mu(), self.lambda() / 2.0)
     }
 }
 
+/// μ Σ (ln λi)² + λ/2 (ln J)².
 impl Potential for Hencky {
     #[inline(always)]
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
-        quadratic(stretches.map(|l| l.ln()), self.mu, self.lambda / 2.0)
+        quadratic(stretches.map(|l| l.ln()), self.mu(), self.lambda() / 2.0)
     }
 }
 
