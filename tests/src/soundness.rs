@@ -178,16 +178,18 @@ pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> 
         _ => return Ok(false),
     }
     let is_ordinary = stretches.iter().all(|stretch| (1.0 / ORDINARY..ORDINARY).contains(&stretch.abs()));
-    let around = Neighbourhood::of(material, stretches);
+    let floor = 64.0 * SINGLE * stretches[0] + 64.0 * f64::from(f32::MIN_POSITIVE).sqrt();
+    let is_far_from_pole = stretches[1] + stretches[2] > floor;
+    let [energy_fits, stress_fits, tangent_fits] = fits(material, stretches, is_far_from_pole);
     let quantities = [
-        ("energy", around.energy_fits && energy.nonfinite),
-        ("stress alone", around.stress_fits && stress.nonfinite),
-        ("tangent", around.tangent_fits && tangent.nonfinite),
+        ("energy", energy_fits && energy.nonfinite),
+        ("stress alone", stress_fits && stress.nonfinite),
+        ("tangent", tangent_fits && tangent.nonfinite),
     ];
     if let Some((quantity, _)) = quantities.into_iter().find(|(_, is_early)| *is_early) {
         return if is_ordinary { Err(format!("{quantity}: flagged though it fits")) } else { Ok(true) };
     }
-    if around.is_far_from_pole && tangent.bounded && !tangent.nonfinite {
+    if is_far_from_pole && tangent.bounded && !tangent.nonfinite {
         return Err("said to be at a pole though far from one".to_owned());
     }
     Ok(false)
@@ -259,33 +261,21 @@ fn agreed(material: &dyn Response<f64>, stretches: [f64; 3]) -> Option<bool> {
     others.all(|there| material.admits(there) == here).then_some(here)
 }
 
-/// Results that fit `f32` at all deformations that an `f32` decomposition cannot tell from given stretches.
-struct Neighbourhood {
-    energy_fits: bool,
-    stress_fits: bool,
-    tangent_fits: bool,
-    is_far_from_pole: bool,
-}
-
-impl Neighbourhood {
-    fn of(material: &dyn Response<f64>, stretches: [f64; 3]) -> Self {
-        // A result of entries up to this fits `f32` with room for the sums that its entries are.
-        let limit = f32::LARGEST / 32.0;
-        let fits = |values: &[f64]| values.iter().all(|value| value.abs() < limit);
-        let floor = 64.0 * SINGLE * stretches[0] + 64.0 * f64::from(f32::MIN_POSITIVE).sqrt();
-        let is_far_from_pole = stretches[1] + stretches[2] > floor;
-        let has_tangent = is_far_from_pole || !material.has_pole();
-        let mut around =
-            Self { energy_fits: true, stress_fits: has_tangent, tangent_fits: has_tangent, is_far_from_pole };
-        for stretches in indistinguishable(material.ends_at_zero_volume(), stretches) {
-            let blocks = material.blocks(stretches);
-            around.energy_fits &= fits(&[material.energy(stretches)]) && fits(&stretches);
-            around.stress_fits &= fits(&blocks.gradient) && fits(&stretches);
-            around.tangent_fits &= around.stress_fits;
-            around.tangent_fits &= fits(&blocks.hessian) && fits(&blocks.flip) && fits(&blocks.twist);
-        }
-        around
+/// True for ψ, P and dP/dF each if it fits `f32` at all deformations that an `f32` decomposition cannot tell
+/// from given stretches.
+fn fits(material: &dyn Response<f64>, stretches: [f64; 3], is_far_from_pole: bool) -> [bool; 3] {
+    // A result of entries up to this fits `f32` with room for the sums that its entries are.
+    let limit = f32::LARGEST / 32.0;
+    let fits = |values: &[f64]| values.iter().all(|value| value.abs() < limit);
+    let (mut energy, mut stress) = (true, is_far_from_pole || !material.has_pole());
+    let mut tangent = stress;
+    for stretches in indistinguishable(material.ends_at_zero_volume(), stretches) {
+        let blocks = material.blocks(stretches);
+        energy &= fits(&[material.energy(stretches)]) && fits(&stretches);
+        stress &= fits(&blocks.gradient) && fits(&stretches);
+        tangent &= stress && fits(&blocks.hessian) && fits(&blocks.flip) && fits(&blocks.twist);
     }
+    [energy, stress, tangent]
 }
 
 /// The corners, faces and centre of the box of stretches within the error of an `f32` decomposition, which is
