@@ -11,7 +11,6 @@ use piola::material::Description;
 use piola::point::Matrix3;
 use serde::Deserialize;
 
-/// A file of cases.
 #[derive(Debug, Deserialize)]
 struct File {
     schema: String,

@@ -234,7 +234,6 @@ impl Judge<'_, '_> {
     }
 }
 
-/// What has been judged.
 #[derive(Clone, Default)]
 struct Tally {
     judged: usize,

@@ -82,7 +82,6 @@ fn own_cases() -> Result<Vec<Case>, String> {
 /// A case of an energy, and its results.
 type Judged = (&'static str, Case, Vec<Judgement>);
 
-/// All cases of one energy.
 fn judge_energy(name: &str, mut cases: Vec<Case>, runner: Option<&Runner>) -> Result<Vec<Judged>, String> {
     let energy = find(name).ok_or_else(|| format!("{name} is not in the catalogue"))?;
     if runner.is_some_and(|runner| runner.precision == Precision::F32) {
@@ -160,7 +159,6 @@ impl Table {
     }
 }
 
-/// One result of one case.
 struct Judgement {
     precision: &'static str,
     quantity: Quantity,
