@@ -166,9 +166,8 @@ fn a_part_has_a_material_for_all_elements_or_for_each() -> Outcome {
 
 #[test]
 fn a_parameter_can_be_replaced_and_is_checked() -> Result<(), MaterialError> {
-    let extend = Inversion::Extend { epsilon: 0.25 };
-    let rubber = NeoHookean::new(1.0, 3.0)?.with_inversion(extend)?;
-    assert_eq!(rubber.with_lambda(5.0)?, NeoHookean::new(1.0, 5.0)?.with_inversion(extend)?);
+    let rubber = NeoHookean::new(1.0, 3.0)?.with_inversion(EXTEND)?;
+    assert_eq!(rubber.with_lambda(5.0)?, NeoHookean::new(1.0, 5.0)?.with_inversion(EXTEND)?);
     assert!(matches!(rubber.with_mu(-1.0), Err(MaterialError::Violated { .. })));
     assert!(matches!(rubber.with_lambda(f64::NAN), Err(MaterialError::NotFinite { .. })));
     Ok(())

@@ -8,7 +8,7 @@
 //! regardless of their derivatives, and at rest it never begins. Close to that point derivatives of the
 //! eigenvectors, gap⁻¹ and gap⁻² in size, cancel in the result.
 
-#![expect(non_snake_case, reason = "F, P, C as in the literature")]
+#![expect(non_snake_case, reason = "F, P, C, I1, J as in the literature")]
 
 use nalgebra::SVector;
 use num_dual::linalg::jacobi_eigenvalue;
@@ -16,15 +16,80 @@ use num_dual::{Dual2SVec, DualNum, DualNumFloat, hessian};
 use piola::Real;
 use piola::material::Blocks;
 use piola::point::{Matrix3, Svd};
+use piola_materials::{Hencky, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
 
 use crate::quotients;
-
-mod potentials;
 
 /// An energy density that can be evaluated on dual numbers.
 pub trait Potential {
     /// ψ, J/m³ of rest volume, from signed stretches.
     fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D;
+}
+
+/// μ/4 Σ (λi² − 1)² + λ/8 (I1 − 3)².
+impl Potential for StVenantKirchhoff {
+    #[inline(always)]
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
+        quadratic(stretches.map(|l| l * l - real::<T>(1.0)), self.mu() / 4.0, self.lambda() / 8.0)
+    }
+}
+
+/// μ/2 (I1 − 3) − μ ln J + λ/2 (ln J)².
+impl Potential for NeoHookean {
+    #[inline(always)]
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, [l1, l2, l3]: [D; 3]) -> D {
+        let I1 = l1 * l1 + l2 * l2 + l3 * l3;
+        let log = (l1 * l2 * l3).ln();
+        (I1 - real::<T>(3.0)) * real::<T>(self.mu() / 2.0) - log * real::<T>(self.mu())
+            + log * log * real::<T>(self.lambda() / 2.0)
+    }
+}
+
+/// Σₚ μₚ/αₚ (λ1^αₚ + λ2^αₚ + λ3^αₚ − 3) − (Σₚ μₚ) ln J + κ/2 (J − 1)².
+impl<const N: usize> Potential for Ogden<N> {
+    #[inline(always)]
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, [l1, l2, l3]: [D; 3]) -> D {
+        let J = l1 * l2 * l3;
+        let volume = J - real::<T>(1.0);
+        let total: f64 = self.mu().iter().sum();
+        let mut energy = volume * volume * real::<T>(self.kappa() / 2.0) - J.ln() * real::<T>(total);
+        for (mu, alpha) in self.mu().into_iter().zip(self.alpha()) {
+            let exponent = real::<T>(alpha);
+            let powers = l1.powf(exponent) + l2.powf(exponent) + l3.powf(exponent);
+            energy += (powers - real::<T>(3.0)) * real::<T>(mu / alpha);
+        }
+        energy
+    }
+}
+
+/// μ Σ (λi − 1)² + λ/2 (λ1 + λ2 + λ3 − 3)².
+impl Potential for RotatedLinear {
+    #[inline(always)]
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
+        quadratic(stretches.map(|l| l - real::<T>(1.0)), self.mu(), self.lambda() / 2.0)
+    }
+}
+
+/// μ Σ (ln λi)² + λ/2 (ln J)².
+impl Potential for Hencky {
+    #[inline(always)]
+    fn energy<T: DualNumFloat, D: DualNum<T> + Copy>(&self, stretches: [D; 3]) -> D {
+        quadratic(stretches.map(|l| l.ln()), self.mu(), self.lambda() / 2.0)
+    }
+}
+
+/// a Σ ei² + b (e1 + e2 + e3)².
+#[inline(always)]
+fn quadratic<T: DualNumFloat, D: DualNum<T> + Copy>([e1, e2, e3]: [D; 3], a: f64, b: f64) -> D {
+    let trace = e1 + e2 + e3;
+    (e1 * e1 + e2 * e2 + e3 * e3) * real::<T>(a) + trace * trace * real::<T>(b)
+}
+
+/// The number nearest to `value`.
+#[inline(always)]
+fn real<T: DualNumFloat>(value: f64) -> T {
+    // Every format has one.
+    T::from_f64(value).unwrap_or_else(T::nan)
 }
 
 /// ψi and ψij by automatic differentiation, flips and twists as (ψi ∓ ψj)/(λi ∓ λj), NaN where stretches are
@@ -73,7 +138,6 @@ fn signed_stretches<T: DualNumFloat, D: DualNum<T> + Copy>(F: &SVector<D, 9>) ->
 mod tests {
     use piola::Material;
     use piola::point::{Tangent, svd};
-    use piola_materials::{Hencky, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
 
     use super::*;
     use crate::testing::{IDENTITY, SHEARED, convert, error, exact};

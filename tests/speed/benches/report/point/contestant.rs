@@ -14,9 +14,7 @@ pub(crate) const POINTS: usize = 64;
 /// `f64` or `f32`: a format of batches, and of the libraries of the baselines.
 pub(crate) trait Number: Kernels + LibraryNumber {}
 
-impl Number for f64 {}
-
-impl Number for f32 {}
+impl<T: Kernels + LibraryNumber> Number for T {}
 
 /// Deformation gradients, one by one and in lines.
 pub(crate) struct Points<E> {
