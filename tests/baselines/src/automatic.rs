@@ -13,12 +13,11 @@
 use nalgebra::SVector;
 use num_dual::linalg::jacobi_eigenvalue;
 use num_dual::{Dual2SVec, DualNum, DualNumFloat, hessian};
-use piola::Real;
 use piola::material::Blocks;
 use piola::point::{Matrix3, Svd};
 use piola_materials::{Hencky, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
 
-use crate::quotients;
+use crate::{LibraryNumber, quotients};
 
 /// An energy density that can be evaluated on dual numbers.
 pub trait Potential {
@@ -95,10 +94,7 @@ fn real<T: DualNumFloat>(value: f64) -> T {
 /// ψi and ψij by automatic differentiation, flips and twists as (ψi ∓ ψj)/(λi ∓ λj), NaN where stretches are
 /// equal.
 #[must_use]
-pub fn through_stretches<T: Real + DualNumFloat + DualNum<T>>(
-    potential: &impl Potential,
-    svd: &Svd<T>,
-) -> Blocks<T> {
+pub fn through_stretches<T: LibraryNumber>(potential: &impl Potential, svd: &Svd<T>) -> Blocks<T> {
     let energy = |l: SVector<Dual2SVec<T, T, 3>, 3>| potential.energy([l[0], l[1], l[2]]);
     let (_, gradient, h) = hessian(energy, &SVector::from(svd.stretches));
     let hessian = [h[(0, 0)], h[(1, 1)], h[(2, 2)], h[(0, 1)], h[(0, 2)], h[(1, 2)]];
@@ -107,7 +103,7 @@ pub fn through_stretches<T: Real + DualNumFloat + DualNum<T>>(
 
 /// P and dP/dF, Pa, as derivatives of ψ by the nine entries of F; wrong where two stretches are equal.
 #[must_use]
-pub fn through_decomposition<T: Real + DualNumFloat + DualNum<T>>(
+pub fn through_decomposition<T: LibraryNumber>(
     potential: &impl Potential,
     F: &Matrix3<T>,
 ) -> (Matrix3<T>, [[T; 9]; 9]) {
@@ -146,7 +142,7 @@ mod tests {
 
     /// The errors of both ways to dP/dF, in units of u.
     #[track_caller]
-    fn errors<T: Real + DualNumFloat + DualNum<T> + Into<f64>>(
+    fn errors<T: LibraryNumber + Into<f64>>(
         material: &(impl Material + Potential),
         F: &Matrix3<f64>,
     ) -> [f64; 2] {

@@ -52,7 +52,7 @@ pub(crate) fn all<E: Number>(
         all.push(entries(label, Differences { material, step }, filter));
     }
     all.push(Contestant::one_by_one(Label::new("hyper-dual ψ(λ)"), DualStretches { material, filter }));
-    all.push(entries(Label::new("hyper-dual ψ(F)"), DualDecomposition(material), filter));
+    all.push(entries(Label::new("hyper-dual ψ(F)"), DualDecomposition { material }, filter));
     let by_nalgebra = Decomposed { material, filter, decompose: decompositions::nalgebra };
     all.push(Contestant::one_by_one(Label::new("nalgebra SVD"), by_nalgebra));
     let by_faer = Decomposed { material, filter, decompose: decompositions::faer };
@@ -70,7 +70,7 @@ pub(crate) fn with_invariants<E: Number>(
     filter: Filter,
 ) -> Vec<Contestant<E>> {
     let mut all = all(material, filter);
-    all.push(entries(Label::special("[TSIF05]"), Invariants(material), filter));
+    all.push(entries(Label::special("[TSIF05]"), Invariants { material }, filter));
     all.push(without_frames(Label::special("invariants without SVD"), Direct(material), filter));
     if filter == Filter::None {
         let label = Label::special("invariants without SVD, point by point");
@@ -110,80 +110,52 @@ impl<T: AtPoint<E>, E: Number> AtPoint<E> for Projected<T> {
     }
 }
 
-struct Ours<M> {
-    material: M,
-    filter: Filter,
+/// Declares methods at a point: traits of the material, the setting, and P and dP/dF at F.
+macro_rules! at_point {
+    ($($Method:ident<M: $Trait:ident $(+ $Other:ident)?> { $($setting:ident: $Setting:ty)? } |$self:ident, $F:ident| $evaluation:block)+) => {$(
+        struct $Method<M> {
+            material: M,
+            $($setting: $Setting,)?
+        }
+
+        impl<M: $Trait $(+ $Other)?, E: Number> AtPoint<E> for $Method<M> {
+            #[inline(always)]
+            fn evaluate(&$self, $F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) $evaluation
+        }
+    )+};
 }
 
-impl<M: Material, E: Number> AtPoint<E> for Ours<M> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+at_point! {
+    Ours<M: Material> { filter: Filter } |self, F| {
         let point = evaluate_dense(&self.material, F, self.filter);
         (point.stress, point.tangent)
     }
-}
 
-struct SvdGradients<M> {
-    material: M,
-    epsilon: f64,
-}
-
-impl<M: Material, E: Number> AtPoint<E> for SvdGradients<M> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+    SvdGradients<M: Material> { epsilon: f64 } |self, F| {
         let svd = decompose(&self.material, F);
         let K = svd_gradients::tangent(&self.material, &svd, self.epsilon);
         (stress(&svd, self.material.gradient(svd.stretches)), K)
     }
-}
 
-struct Coincidences<M> {
-    material: M,
-    threshold: f64,
-}
-
-impl<M: Material, E: Number> AtPoint<E> for Coincidences<M> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+    Coincidences<M: Material> { threshold: f64 } |self, F| {
         let svd = decompose(&self.material, F);
         let K = coincidences::tangent(&self.material, &svd, self.threshold);
         (stress(&svd, self.material.gradient(svd.stretches)), K)
     }
-}
 
-struct Differences<M> {
-    material: M,
-    step: f64,
-}
-
-impl<M: Material, E: Number> AtPoint<E> for Differences<M> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+    Differences<M: Material> { step: f64 } |self, F| {
         let P = piola::point::evaluate_stress(&self.material, F).stress;
         (P, differences::tangent(&self.material, F, self.step))
     }
-}
 
-struct DualStretches<M> {
-    material: M,
-    filter: Filter,
-}
-
-impl<M: Material + Potential, E: Number> AtPoint<E> for DualStretches<M> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+    DualStretches<M: Material + Potential> { filter: Filter } |self, F| {
         let svd = decompose(&self.material, F);
         from_blocks(&svd, automatic::through_stretches(&self.material, &svd), self.filter)
     }
-}
 
-struct DualDecomposition<T>(T);
+    DualDecomposition<M: Potential> {} |self, F| { automatic::through_decomposition(&self.material, F) }
 
-impl<T: Potential, E: Number> AtPoint<E> for DualDecomposition<T> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
-        automatic::through_decomposition(&self.0, F)
-    }
+    Invariants<M: InvariantEnergy> {} |self, F| { invariants::evaluate(&self.material, &svd(F)) }
 }
 
 /// Our derivatives after somebody else's decomposition.
@@ -214,15 +186,6 @@ impl<M: Material> OnLanes for Jacobi<M> {
     fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]) {
         let svd = decompositions::jacobi(F, self.sweeps);
         from_blocks(&svd, self.material.blocks(svd.stretches), self.filter)
-    }
-}
-
-struct Invariants<T>(T);
-
-impl<T: InvariantEnergy, E: Number> AtPoint<E> for Invariants<T> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
-        invariants::evaluate(&self.0, &svd(F))
     }
 }
 
