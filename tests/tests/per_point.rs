@@ -103,16 +103,7 @@ fn energy_and_product(body: &Body, x: &[[f64; 3]]) -> Result<EnergyAndProduct, B
     let mut stiffness = NodalStiffness::of_body(body)?;
     response.stiffness_here(body, Filter::Clamp, &mut vec![[0.0; 3]; x.len()], &mut stiffness)?;
     let mut product = vec![[0.0; 3]; x.len()];
-    for (row, column, block) in stiffness.blocks() {
-        for a in 0..3 {
-            for c in 0..3 {
-                product[row][a] += block[a][c] * x[column][c];
-                if row != column {
-                    product[column][c] += block[a][c] * x[row][a];
-                }
-            }
-        }
-    }
+    stiffness.multiply(x, &mut product)?;
     Ok((energy, product))
 }
 
