@@ -10,14 +10,14 @@
 use std::sync::LazyLock;
 
 use libfuzzer_sys::fuzz_target;
-use piola_hostile::{FORMATS, Format};
+use piola_hostile::{FORMATS, Judge};
 
-static FORMAT: LazyLock<&Format> = LazyLock::new(|| {
+static JUDGE: LazyLock<Judge> = LazyLock::new(|| {
     let name = std::env::var("PIOLA_FORMAT").expect("PIOLA_FORMAT is not set");
-    FORMATS.iter().find(|format| format.name == name).expect("PIOLA_FORMAT is not a format")
+    FORMATS.iter().find(|(format, _)| *format == name).expect("PIOLA_FORMAT is not a format").1
 });
 
 fuzz_target!(|bytes: &[u8]| {
     let scratch = tempfile::tempdir().expect("a scratch folder");
-    (FORMAT.judge)(scratch.path(), bytes);
+    (*JUDGE)(scratch.path(), bytes);
 });

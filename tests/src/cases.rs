@@ -3,6 +3,8 @@
 //! The schema is described in `reference/SCHEMA.md`. A result X is judged by ‖X − X*‖ ≤ C u (‖X*‖ + sens),
 //! Frobenius norms, where sens = ‖∂X/∂F‖ ‖F‖ is what a relative change of F changes in X.
 
+#![expect(non_snake_case, reason = "P, F as in the files")]
+
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -11,7 +13,6 @@ use piola::material::Description;
 use piola::point::Matrix3;
 use serde::Deserialize;
 
-/// A file of cases.
 #[derive(Debug, Deserialize)]
 struct File {
     schema: String,
@@ -35,22 +36,17 @@ pub struct Case {
     pub f32_exact: bool,
     stretches: Vec<String>,
     psi: String,
-    #[serde(rename = "P")]
-    stress: Vec<String>,
-    #[serde(rename = "dPdF")]
-    tangent: Vec<String>,
-    #[serde(rename = "dPdF_psd")]
-    projected: Vec<String>,
+    P: Vec<String>,
+    dPdF: Vec<String>,
+    dPdF_psd: Vec<String>,
     sens: Sensitivities,
 }
 
 #[derive(Debug, Deserialize)]
 struct Sensitivities {
     psi: f64,
-    #[serde(rename = "P")]
-    stress: f64,
-    #[serde(rename = "dPdF")]
-    tangent: f64,
+    P: f64,
+    dPdF: f64,
     psd: f64,
 }
 
@@ -122,7 +118,6 @@ impl Case {
     }
 
     /// The deformation gradient, rounded to a format.
-    #[expect(non_snake_case, reason = "F as in the literature")]
     pub fn F<R: Real>(&self) -> Matrix3<R> {
         [0, 1, 2].map(|i| [0, 1, 2].map(|j| R::splat(self.deformation[3 * i + j])))
     }
@@ -138,9 +133,9 @@ impl Case {
     fn stated(&self, quantity: Quantity) -> (usize, &[String], f64) {
         match quantity {
             Quantity::Energy => (1, std::slice::from_ref(&self.psi), self.sens.psi),
-            Quantity::Stress => (9, &self.stress, self.sens.stress),
-            Quantity::Tangent => (81, &self.tangent, self.sens.tangent),
-            Quantity::Projected => (81, &self.projected, self.sens.psd),
+            Quantity::Stress => (9, &self.P, self.sens.P),
+            Quantity::Tangent => (81, &self.dPdF, self.sens.dPdF),
+            Quantity::Projected => (81, &self.dPdF_psd, self.sens.psd),
         }
     }
 

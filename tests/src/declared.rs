@@ -67,13 +67,12 @@ impl Declared {
         evaluate(&self.model.graph, root, &Point { stretches, ..self.point.clone() }).magnitude
     }
 
-    /// Σ|terms| of the flips and twists of the pairs, Pa.
-    pub fn terms(&self, stretches: [f64; 3]) -> ([f64; 3], [f64; 3]) {
+    /// Σ|terms| of the flips, then of the twists, of the pairs, Pa.
+    pub fn terms(&self, stretches: [f64; 3]) -> [[f64; 3]; 2] {
         let variant = match &self.model.extended {
             Some(extended) if self.is_extended => extended,
             _ => &self.model.plain,
         };
-        let terms = |id| self.terms_of(id, stretches);
-        (variant.flip.map(terms), variant.twist.map(terms))
+        [variant.flip, variant.twist].map(|ids| ids.map(|id| self.terms_of(id, stretches)))
     }
 }

@@ -98,9 +98,7 @@ impl Runner {
         let folder = tempfile::tempdir().map_err(|error| fail(&error))?;
         let [source, from, to] = ["energy.h", "points", "results"].map(|name| folder.path().join(name));
         std::fs::write(&source, text).map_err(|error| fail(&error))?;
-        let mut bytes = Vec::new();
-        points.iter().for_each(|&x| put(x, self.precision, &mut bytes));
-        std::fs::write(&from, bytes).map_err(|error| fail(&error))?;
+        std::fs::write(&from, bytes(points.into_iter(), self.precision)).map_err(|error| fail(&error))?;
         let output = Command::new(&self.program)
             .args([&source, &from, &to])
             .arg(cases.len().to_string())
@@ -121,11 +119,11 @@ impl Runner {
     }
 }
 
-/// Appends a number in the format of a text.
-pub fn put(number: f64, precision: Precision, to: &mut Vec<u8>) {
+/// Numbers in the format of a text.
+pub fn bytes(numbers: impl Iterator<Item = f64>, precision: Precision) -> Vec<u8> {
     match precision {
-        Precision::F32 => to.extend((number as f32).to_ne_bytes()),
-        Precision::F64 => to.extend(number.to_ne_bytes()),
+        Precision::F32 => numbers.flat_map(|number| (number as f32).to_ne_bytes()).collect(),
+        Precision::F64 => numbers.flat_map(f64::to_ne_bytes).collect(),
     }
 }
 

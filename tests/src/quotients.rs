@@ -59,12 +59,12 @@ pub struct Error {
     pub conditioned: f64,
 }
 
-/// The flips and twists of the [`PAIRS`] at stretches that are exact numbers.
+/// Flips, then twists, of the [`PAIRS`] at stretches that are exact numbers.
 ///
 /// All stretches are nudged by about 10⁻³⁰ of the largest one, each differently, so that no gap is zero; this
 /// changes a quotient by 10⁻³⁰ of its sensitivity. Second derivatives and the quotients' own derivatives are
 /// forward differences over 10⁻⁴⁰.
-pub fn expected(material: &impl Material, stretches: [f64; 3]) -> ([Quotient; 3], [Quotient; 3]) {
+pub fn expected(material: &impl Material, stretches: [f64; 3]) -> [[Quotient; 3]; 2] {
     let size = Number::splat(stretches[0].abs());
     let nudge = size * Number::splat(1e-30);
     let step = size * Number::splat(1e-40);
@@ -88,8 +88,7 @@ pub fn expected(material: &impl Material, stretches: [f64; 3]) -> ([Quotient; 3]
         });
         Quotient { value, scale: value.abs().max(second(i, i) + second(i, j)), sensitivity }
     };
-    let one = Number::splat(1.0);
-    (PAIRS.map(|pair| judge(pair, -one)), PAIRS.map(|pair| judge(pair, one)))
+    [-1.0, 1.0].map(|sign| PAIRS.map(|pair| judge(pair, Number::splat(sign))))
 }
 
 /// Triples λ1 ≥ λ2 ≥ |λ3| in which two stretches, or their magnitudes, differ by every gap.

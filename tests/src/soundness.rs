@@ -39,47 +39,8 @@ pub enum Answer {
     FlaggedEarly,
 }
 
-/// A quantity that an evaluation returns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Quantity {
-    /// ψ.
-    Energy,
-    /// P from `evaluate_stress`.
-    StressAlone,
-    /// P from `evaluate`.
-    Stress,
-    /// dP/dF.
-    Tangent,
-    /// Nodal forces of an element.
-    Forces,
-    /// Stiffness of an element.
-    Stiffness,
-}
-
-/// A fault of a result at a deformation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Fault {
-    /// An infinite or NaN entry under a clean status.
-    Unflagged(Quantity),
-    /// Energy, stress and tangent of one deformation disagree on whether it is refused.
-    Disagreement,
-    /// A clean dP/dF that is not exactly symmetric.
-    Asymmetric,
-    /// An eigenvalue of a filtered tangent is negative.
-    Indefinite,
-    /// Flagged as non-finite though it fits.
-    FlaggedInRange(Quantity),
-    /// Refused well inside the domain.
-    RefusedInside,
-    /// Admitted well outside the domain.
-    AdmittedOutside,
-    /// Said to be at a pole though far from one.
-    BoundedFarFromPole,
-    /// Clean, and off by more than rounding of F and of the result.
-    Inexact(Quantity),
-    /// A panic.
-    Panic,
-}
+/// What is wrong with a result at a deformation.
+pub type Fault = String;
 
 /// For any entries of F a clean status means finite numbers, and the status does not depend on the requested
 /// results.
@@ -92,11 +53,11 @@ pub fn check<R: Precision>(material: &dyn Response<R>, F: &Matrix3<R>) -> Result
         let point = evaluate(material, F, filter);
         let status = point.status;
         if status.refused != energy_status.refused || status.refused != stress_status.refused {
-            return Err(Fault::Disagreement);
+            return Err("energy, stress and tangent disagree on whether it is refused".to_owned());
         }
         let all_flagged = status.nonfinite && energy_status.nonfinite && stress_status.nonfinite;
         if !finite_input && !all_flagged {
-            return Err(Fault::Unflagged(Quantity::Tangent));
+            return Err(unflagged("tangent"));
         }
         if status.refused {
             return Ok(Answer::Refused);
@@ -108,30 +69,31 @@ pub fn check<R: Precision>(material: &dyn Response<R>, F: &Matrix3<R>) -> Result
         if status.bounded {
             answer = Answer::Bounded;
         }
-        finite(Quantity::Stress, point.stress.iter().flatten())?;
+        finite("stress", point.stress.iter().flatten())?;
         let tangent = point.tangent.to_matrix();
-        finite(Quantity::Tangent, tangent.iter().flatten())?;
+        finite("tangent", tangent.iter().flatten())?;
         if (0..9).any(|row| (0..row).any(|column| tangent[row][column] != tangent[column][row])) {
-            return Err(Fault::Asymmetric);
+            return Err("a clean tangent is not symmetric".to_owned());
         }
         if filter != Filter::None && !is_semidefinite(&point.tangent.blocks) {
-            return Err(Fault::Indefinite);
+            return Err("a filtered tangent has a negative eigenvalue".to_owned());
         }
     }
     if !energy_status.nonfinite {
-        finite(Quantity::Energy, [&energy])?;
+        finite("energy", [&energy])?;
     }
     if !stress_status.nonfinite {
-        finite(Quantity::StressAlone, stress.iter().flatten())?;
+        finite("stress alone", stress.iter().flatten())?;
     }
     Ok(answer)
 }
 
-fn finite<'a, R: Precision>(
-    quantity: Quantity,
-    entries: impl IntoIterator<Item = &'a R>,
-) -> Result<(), Fault> {
-    if entries.into_iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Fault::Unflagged(quantity)) }
+fn finite<'a, R: Precision>(quantity: &str, entries: impl IntoIterator<Item = &'a R>) -> Result<(), Fault> {
+    if entries.into_iter().all(|x| x.is_finite()) { Ok(()) } else { Err(unflagged(quantity)) }
+}
+
+fn unflagged(quantity: &str) -> Fault {
+    format!("{quantity}: infinite or NaN under a clean status")
 }
 
 /// Flips and twists are eigenvalues themselves; of the 3×3 block the eigenvalues are known to a few u of the
@@ -160,7 +122,7 @@ pub fn check_elements(material: &dyn TileMaterial<f64>, F: &[Matrix3<f64>]) -> V
     let (F, rest) = (F.as_flattened().as_flattened(), REST.repeat(points));
     let statuses: Vec<StatusCell> = F.chunks(9).map(|_| StatusCell::default()).collect();
     let mut faults = BTreeMap::new();
-    let mut check = |quantity: Quantity, results: &[f64]| {
+    let mut check = |quantity: &str, results: &[f64]| {
         for (point, entries) in results.chunks(results.len() / points).enumerate() {
             if statuses[point].get().is_clean()
                 && let Err(fault) = finite(quantity, entries)
@@ -173,15 +135,15 @@ pub fn check_elements(material: &dyn TileMaterial<f64>, F: &[Matrix3<f64>]) -> V
     let batch = Batch::new(material).with_statuses(&statuses);
     let (mut energies, mut stresses) = (vec![0.0; points], vec![0.0; 9 * points]);
     batch.energies(F, &mut energies).expect(FITS);
-    check(Quantity::Energy, &energies);
+    check("energy", &energies);
     batch.stresses(F, &mut stresses).expect(FITS);
-    check(Quantity::StressAlone, &stresses);
+    check("stress alone", &stresses);
     let (mut gradients, mut stiffnesses) = (vec![0.0; 12 * points], vec![0.0; 144 * points]);
     for filter in FILTERS {
         let batch = Batch::new(material).with_statuses(&statuses).with_filter(filter);
         batch.stiffnesses(F, &rest, &mut gradients, &mut stiffnesses).expect(FITS);
-        check(Quantity::Forces, &gradients);
-        check(Quantity::Stiffness, &stiffnesses);
+        check("forces", &gradients);
+        check("stiffness", &stiffnesses);
     }
     faults.into_iter().collect()
 }
@@ -206,23 +168,29 @@ pub fn check_single(subject: &Subject, F: &Matrix3<f32>) -> Result<bool, Fault> 
         return Ok(false);
     }
     match agreed(material, stretches) {
-        Some(true) if energy.refused && !energy.nonfinite => return Err(Fault::RefusedInside),
-        Some(false) if !energy.refused && !energy.nonfinite => return Err(Fault::AdmittedOutside),
+        Some(true) if energy.refused && !energy.nonfinite => {
+            return Err("refused well inside the domain".to_owned());
+        }
+        Some(false) if !energy.refused && !energy.nonfinite => {
+            return Err("admitted well outside the domain".to_owned());
+        }
         Some(true) if is_flagged => {}
         _ => return Ok(false),
     }
     let is_ordinary = stretches.iter().all(|stretch| (1.0 / ORDINARY..ORDINARY).contains(&stretch.abs()));
-    let around = Neighbourhood::of(material, stretches);
+    let floor = 64.0 * SINGLE * stretches[0] + 64.0 * f64::from(f32::MIN_POSITIVE).sqrt();
+    let is_far_from_pole = stretches[1] + stretches[2] > floor;
+    let [energy_fits, stress_fits, tangent_fits] = fits(material, stretches, is_far_from_pole);
     let quantities = [
-        (Quantity::Energy, around.energy_fits && energy.nonfinite),
-        (Quantity::StressAlone, around.stress_fits && stress.nonfinite),
-        (Quantity::Tangent, around.tangent_fits && tangent.nonfinite),
+        ("energy", energy_fits && energy.nonfinite),
+        ("stress alone", stress_fits && stress.nonfinite),
+        ("tangent", tangent_fits && tangent.nonfinite),
     ];
     if let Some((quantity, _)) = quantities.into_iter().find(|(_, is_early)| *is_early) {
-        return if is_ordinary { Err(Fault::FlaggedInRange(quantity)) } else { Ok(true) };
+        return if is_ordinary { Err(format!("{quantity}: flagged though it fits")) } else { Ok(true) };
     }
-    if around.is_far_from_pole && tangent.bounded && !tangent.nonfinite {
-        return Err(Fault::BoundedFarFromPole);
+    if is_far_from_pole && tangent.bounded && !tangent.nonfinite {
+        return Err("said to be at a pole though far from one".to_owned());
     }
     Ok(false)
 }
@@ -269,11 +237,11 @@ pub fn check_single_accuracy(subject: &Subject, F: &Matrix3<f32>) -> Result<(), 
     let allowed = |norm: f64, change: f64| C * SINGLE * norm + change + underflow;
     let zero = [[0.0; 9]; 9];
     if distance(&widen(&single.stress), &stress) > allowed(distance(&stress, &[[0.0; 3]; 3]), stress_change) {
-        return Err(Fault::Inexact(Quantity::Stress));
+        return Err("stress: off by more than rounding of F and of the result".to_owned());
     }
     let found = single.tangent.to_matrix().map(|row| row.map(f32::widen));
     if distance(&found, &tangent) > allowed(distance(&tangent, &zero), tangent_change) {
-        return Err(Fault::Inexact(Quantity::Tangent));
+        return Err("tangent: off by more than rounding of F and of the result".to_owned());
     }
     Ok(())
 }
@@ -293,33 +261,21 @@ fn agreed(material: &dyn Response<f64>, stretches: [f64; 3]) -> Option<bool> {
     others.all(|there| material.admits(there) == here).then_some(here)
 }
 
-/// Results that fit `f32` at all deformations that an `f32` decomposition cannot tell from given stretches.
-struct Neighbourhood {
-    energy_fits: bool,
-    stress_fits: bool,
-    tangent_fits: bool,
-    is_far_from_pole: bool,
-}
-
-impl Neighbourhood {
-    fn of(material: &dyn Response<f64>, stretches: [f64; 3]) -> Self {
-        // A result of entries up to this fits `f32` with room for the sums that its entries are.
-        let limit = f32::LARGEST / 32.0;
-        let fits = |values: &[f64]| values.iter().all(|value| value.abs() < limit);
-        let floor = 64.0 * SINGLE * stretches[0] + 64.0 * f64::from(f32::MIN_POSITIVE).sqrt();
-        let is_far_from_pole = stretches[1] + stretches[2] > floor;
-        let has_tangent = is_far_from_pole || !material.has_pole();
-        let mut around =
-            Self { energy_fits: true, stress_fits: has_tangent, tangent_fits: has_tangent, is_far_from_pole };
-        for stretches in indistinguishable(material.ends_at_zero_volume(), stretches) {
-            let blocks = material.blocks(stretches);
-            around.energy_fits &= fits(&[material.energy(stretches)]) && fits(&stretches);
-            around.stress_fits &= fits(&blocks.gradient) && fits(&stretches);
-            around.tangent_fits &= around.stress_fits;
-            around.tangent_fits &= fits(&blocks.hessian) && fits(&blocks.flip) && fits(&blocks.twist);
-        }
-        around
+/// True for ψ, P and dP/dF each if it fits `f32` at all deformations that an `f32` decomposition cannot tell
+/// from given stretches.
+fn fits(material: &dyn Response<f64>, stretches: [f64; 3], is_far_from_pole: bool) -> [bool; 3] {
+    // A result of entries up to this fits `f32` with room for the sums that its entries are.
+    let limit = f32::LARGEST / 32.0;
+    let fits = |values: &[f64]| values.iter().all(|value| value.abs() < limit);
+    let (mut energy, mut stress) = (true, is_far_from_pole || !material.has_pole());
+    let mut tangent = stress;
+    for stretches in indistinguishable(material.ends_at_zero_volume(), stretches) {
+        let blocks = material.blocks(stretches);
+        energy &= fits(&[material.energy(stretches)]) && fits(&stretches);
+        stress &= fits(&blocks.gradient) && fits(&stretches);
+        tangent &= stress && fits(&blocks.hessian) && fits(&blocks.flip) && fits(&blocks.twist);
     }
+    [energy, stress, tangent]
 }
 
 /// The corners, faces and centre of the box of stretches within the error of an `f32` decomposition, which is

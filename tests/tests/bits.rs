@@ -26,20 +26,37 @@ const PATTERNS: usize = 30_000;
 /// [`PATTERNS`] with `PIOLA_FULL`.
 const ALL_PATTERNS: usize = 100_000;
 
+/// Judges a deformation; the flag adds the slowest judge.
+type Judge<R> = fn(&Subject, &Matrix3<R>, bool) -> Result<Answer, Fault>;
+
+/// Judges deformations of elements: the faults, each with its index.
+type JudgeElements<R> = fn(&Subject, &[Matrix3<R>]) -> Vec<(usize, Fault)>;
+
 #[test]
 fn f64_is_sound_at_every_pattern_of_bits() {
-    every_entry::<f64>();
+    every_entry::<f64>(
+        |subject, F, _| check(f64::of(subject), F),
+        |subject, F| check_elements(&*subject.double, F),
+    );
 }
 
 #[test]
 fn f32_is_sound_at_every_pattern_of_bits() {
-    every_entry::<f32>();
+    let judge: Judge<f32> = |subject, F, closely| {
+        let answer = check(f32::of(subject), F)?;
+        let is_flagged_early = check_single(subject, F)?;
+        if closely {
+            check_single_accuracy(subject, F)?;
+        }
+        Ok(if is_flagged_early { Answer::FlaggedEarly } else { answer })
+    };
+    every_entry(judge, |_, _| Vec::new());
 }
 
 /// An entry that is NaN or infinite, at every place of moderate deformations.
 #[test]
 fn what_is_not_finite_is_said_to_be() {
-    fn judge<R: Judged>(subject: &Subject, what: &str) {
+    fn judge<R: Format>(subject: &Subject, what: &str) {
         let mut random = Random::new(384);
         for _ in 0..384 {
             let F: Matrix3<R> = random.matrix().map(|row| row.map(|x| R::splat(2.0 * x)));
@@ -74,7 +91,7 @@ fn patterns() -> usize {
     std::env::var("PIOLA_BITS").ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-fn every_entry<R: Judged>() {
+fn every_entry<R: Format>(judge: Judge<R>, judge_elements: JudgeElements<R>) {
     let start = Instant::now();
     let mut total = Tally::default();
     let mut report = String::new();
@@ -82,7 +99,8 @@ fn every_entry<R: Judged>() {
         let inversions: Vec<_> = energy.inversions(0.1).collect();
         let of_inversion = |&inversion: &Inversion| {
             let subject = energy.subject(&energy.typical(), inversion).expect("typical parameters");
-            (inversion, trial::<R>(&subject, seed(index, energy.name), patterns() / inversions.len()))
+            let patterns = patterns() / inversions.len();
+            (inversion, trial(&subject, seed(index, energy.name), patterns, judge, judge_elements))
         };
         (energy.name, inversions.iter().map(of_inversion).collect::<Vec<_>>())
     };
@@ -90,7 +108,7 @@ fn every_entry<R: Judged>() {
     for (name, tallies) in tallies {
         for (inversion, tally) in tallies {
             for (fault, (count, F)) in &tally.faults {
-                let _ = writeln!(report, "{count:7} × {name} {} {inversion:?}: {fault:?}: {F}", R::NAME);
+                let _ = writeln!(report, "{count:7} × {name} {} {inversion:?}: {fault}: {F}", R::NAME);
             }
             total.add(tally);
         }
@@ -104,38 +122,6 @@ fn every_entry<R: Judged>() {
     // A judge that never meets one of the answers judges nothing.
     let all = [Answer::Clean, Answer::Bounded, Answer::Refused, Answer::Nonfinite];
     assert!(all.iter().all(|answer| answers.contains_key(answer)), "{answers:?}");
-}
-
-/// A precision with all the judges that it has.
-trait Judged: Format {
-    /// `closely` adds the slowest judge.
-    fn judge(subject: &Subject, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault>;
-
-    /// Judges elements, if there are any of this precision: the faults, each with its index.
-    fn judge_elements(_: &Subject, _: &[Matrix3<Self>]) -> Vec<(usize, Fault)> {
-        Vec::new()
-    }
-}
-
-impl Judged for f64 {
-    fn judge(subject: &Subject, F: &Matrix3<Self>, _closely: bool) -> Result<Answer, Fault> {
-        check(Self::of(subject), F)
-    }
-
-    fn judge_elements(subject: &Subject, F: &[Matrix3<Self>]) -> Vec<(usize, Fault)> {
-        check_elements(&*subject.double, F)
-    }
-}
-
-impl Judged for f32 {
-    fn judge(subject: &Subject, F: &Matrix3<Self>, closely: bool) -> Result<Answer, Fault> {
-        let answer = check(Self::of(subject), F)?;
-        let is_flagged_early = check_single(subject, F)?;
-        if closely {
-            check_single_accuracy(subject, F)?;
-        }
-        Ok(if is_flagged_early { Answer::FlaggedEarly } else { answer })
-    }
 }
 
 #[derive(Default)]
@@ -160,21 +146,30 @@ impl Tally {
 const TOGETHER: usize = 64;
 
 /// One material at random patterns of bits.
-fn trial<R: Judged>(subject: &Subject, seed: u64, patterns: usize) -> Tally {
+fn trial<R: Format>(
+    subject: &Subject,
+    seed: u64,
+    patterns: usize,
+    judge: Judge<R>,
+    judge_elements: JudgeElements<R>,
+) -> Tally {
+    let judge_elements = |F: &[Matrix3<R>]| faults(subject, F, judge_elements);
     let mut random = Random::new(seed);
     let mut tally = Tally::default();
     let all: Vec<usize> = (0..patterns).collect();
     for patterns in all.chunks(TOGETHER) {
         let together: Vec<Matrix3<R>> = patterns.iter().map(|&pattern| draw(pattern, &mut random)).collect();
-        let mut faults = judge_elements(subject, &together);
+        let mut faults = judge_elements(&together);
         // A batch of few points has kernels of its own; another place in turn, so that it meets all families.
         let place = patterns[0] / TOGETHER % together.len();
-        let alone = judge_elements(subject, &together[place..=place]);
+        let alone = judge_elements(&together[place..=place]);
         faults.extend(alone.into_iter().map(|(_, fault)| (place, fault)));
         for (at, (pattern, F)) in patterns.iter().zip(&together).enumerate() {
-            match judge(subject, F, (pattern / FAMILIES).is_multiple_of(8)) {
-                Ok(answer) => *tally.answers.entry(answer).or_default() += 1,
-                Err(fault) => faults.push((at, fault)),
+            let closely = (pattern / FAMILIES).is_multiple_of(8);
+            match catch_unwind(AssertUnwindSafe(|| judge(subject, F, closely))) {
+                Ok(Ok(answer)) => *tally.answers.entry(answer).or_default() += 1,
+                Ok(Err(fault)) => faults.push((at, fault)),
+                Err(_) => faults.push((at, PANIC.to_owned())),
             }
         }
         tally.patterns += together.len();
@@ -185,18 +180,16 @@ fn trial<R: Judged>(subject: &Subject, seed: u64, patterns: usize) -> Tally {
     tally
 }
 
-fn judge<R: Judged>(subject: &Subject, F: &Matrix3<R>, closely: bool) -> Result<Answer, Fault> {
-    catch_unwind(AssertUnwindSafe(|| R::judge(subject, F, closely))).unwrap_or(Err(Fault::Panic))
-}
+const PANIC: &str = "a panic";
 
 /// The faults of elements, each with its index; those of a batch that panics are found one by one.
-fn judge_elements<R: Judged>(subject: &Subject, F: &[Matrix3<R>]) -> Vec<(usize, Fault)> {
-    match catch_unwind(AssertUnwindSafe(|| R::judge_elements(subject, F))) {
+fn faults<R: Format>(subject: &Subject, F: &[Matrix3<R>], judge: JudgeElements<R>) -> Vec<(usize, Fault)> {
+    match catch_unwind(AssertUnwindSafe(|| judge(subject, F))) {
         Ok(faults) => faults,
-        Err(_) if F.len() == 1 => vec![(0, Fault::Panic)],
+        Err(_) if F.len() == 1 => vec![(0, PANIC.to_owned())],
         Err(_) => {
             let one = |at: usize| {
-                judge_elements(subject, &F[at..=at]).into_iter().map(move |(_, fault)| (at, fault))
+                faults(subject, &F[at..=at], judge).into_iter().map(move |(_, fault)| (at, fault))
             };
             (0..F.len()).flat_map(one).collect()
         }

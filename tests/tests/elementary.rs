@@ -22,7 +22,6 @@ type Exact = Multiprecision<3>;
 /// Declares functions of x, or of x and y, by their methods.
 macro_rules! functions {
     (($x:ident, $y:ident) $($Function:ident $method:ident $arguments:tt,)*) => {
-        /// A function of one argument, or of two.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         enum Function {
             $($Function,)*
@@ -100,7 +99,6 @@ impl Function {
     }
 }
 
-/// Where arguments come from.
 #[derive(Clone, Copy, Debug)]
 enum Region {
     /// Stretches and exponents of rubber.

@@ -19,7 +19,7 @@ use piola::{Inversion, Material, Status};
 use piola_declare::emit::{Emission, EmitError, PointFunction, Precision, Target};
 use piola_tests::cases::{Case, FILES};
 use piola_tests::compiled;
-use piola_tests::emitted::put;
+use piola_tests::emitted::bytes;
 use piola_tests::energies::{Format, Judged, find};
 
 const STRICT: [&str; 6] = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off"];
@@ -132,10 +132,8 @@ fn check<R: Format + Kernels>(name: &str, target: Target) {
         let rest = format!("{REST:?}").replace('[', "{").replace(']', "}");
         let program = PROGRAM.replace("NUMBER", in_c).replace("REST", &rest);
         std::fs::write(folder.path().join("main.c"), program).expect("a file");
-        let mut bytes = Vec::new();
-        let numbers = points.as_flattened().as_flattened();
-        numbers.iter().for_each(|number| put(number.widen(), precision, &mut bytes));
-        std::fs::write(folder.path().join("points"), bytes).expect("a file");
+        let numbers = points.as_flattened().as_flattened().iter().map(|number| number.widen());
+        std::fs::write(folder.path().join("points"), bytes(numbers, precision)).expect("a file");
         compile(folder.path(), &["-std=c99", level, "main.c", "-lm", "-o", "main"]);
         let status = Command::new(folder.path().join("main")).current_dir(folder.path()).status();
         assert!(status.expect("the program").success());
@@ -145,8 +143,7 @@ fn check<R: Format + Kernels>(name: &str, target: Target) {
         let mut different = String::new();
         for F in &points {
             for (function, (numbers, status)) in results(energy, inversion, F).into_iter().enumerate() {
-                let mut wanted = Vec::new();
-                numbers.iter().for_each(|number| put(number.widen(), precision, &mut wanted));
+                let wanted = bytes(numbers.into_iter().map(R::widen), precision);
                 let (results, rest) = found.split_at(wanted.len());
                 let (word, rest) = rest.split_at(4);
                 found = rest;

@@ -23,17 +23,13 @@ const EXTEND: Inversion = Inversion::Extend { epsilon: 0.03 };
 
 const REST: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.2, 0.9, 0.0], [0.3, 0.2, 1.1]];
 
-fn times(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
-    matrix.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
-}
-
 /// Minimises from F0 by long, damped time steps and returns the stretches at the end.
 fn relax(material: Box<dyn TileMaterial<f64>>, start: &[[f64; 3]; 3]) -> Result<[f64; 3], StepError> {
     let mesh = TetMesh::new(REST.to_vec(), vec![[0, 1, 2, 3]]);
     let body = Body::from_parts(&mesh, vec![Part { group: None, material, density: 1.0 }]).expect("a body");
     let settings = SimulationSettings::default().with_damping(1.0);
     let mut simulation = Simulation::new(body, &Pins::none(), settings).expect("a simulation");
-    let positions = REST.map(|x| times(start, x));
+    let positions = REST.map(|x| start.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2]));
     simulation.set_positions(&positions).expect("finite positions");
     for _ in 0..400 {
         simulation.step(1.0)?;

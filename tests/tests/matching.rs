@@ -21,7 +21,6 @@ fn matched(energy: &Judged, wanted: Moduli) -> Result<Vec<Vec<f64>>, MaterialErr
     matching(energy.description(), moduli, wanted)
 }
 
-/// The material whose parameters match.
 fn subject(energy: &Judged, wanted: Moduli) -> Result<Subject, MaterialError> {
     energy.subject(&slices(&matched(energy, wanted)?), Inversion::Refuse)
 }

@@ -17,6 +17,7 @@ use piola::__private::pole_floor;
 use piola::Inversion;
 use piola::interpreter::Interpreted;
 use piola::material::{MaterialError, PAIRS, Response};
+use piola_tests::declarations::slices;
 use piola_tests::declared::Declared;
 use piola_tests::energies::{ENERGIES, Format, Judged, Subject, is_asked_for};
 use piola_tests::quotients::{expected, samples};
@@ -123,9 +124,9 @@ fn print(table: &mut [Line]) {
 /// # Errors
 /// Why the material cannot be judged.
 fn judge((energy, word, values, inversion): Trial) -> Result<Vec<Line>, String> {
-    let rounded: Vec<Vec<f64>> =
+    let rounded =
         values.iter().map(|list| list.iter().map(|&value| f64::from(value as f32)).collect()).collect();
-    let values: Vec<&[f64]> = rounded.iter().map(Vec::as_slice).collect();
+    let values = slices(&rounded);
     let build =
         |inversion| energy.subject(&values, inversion).map_err(|error| format!("{}: {error}", energy.name));
     let subject = build(inversion)?;
@@ -189,12 +190,11 @@ impl Judge<'_, '_> {
                 continue;
             }
             let blocks = material.blocks(stretches);
-            let (flips, twists) = expected(&subject.exact, exact);
+            let (found, quotients) = ([blocks.flip, blocks.twist], expected(&subject.exact, exact));
             let floor = pole_floor(stretches).widen();
             for (pair, (i, j)) in PAIRS.into_iter().enumerate() {
-                for (sign, quotient, found) in
-                    [('-', flips[pair], blocks.flip[pair]), ('+', twists[pair], blocks.twist[pair])]
-                {
+                for (kind, sign) in ['-', '+'].into_iter().enumerate() {
+                    let mut quotient = quotients[kind][pair];
                     if sign == '+' && material.has_pole() && exact[i] + exact[j] < floor {
                         tally.pole += 1;
                         continue;
@@ -203,24 +203,20 @@ impl Judge<'_, '_> {
                         tally.range += 1;
                         continue;
                     }
-                    let found = found.widen();
-                    let mut quotient = quotient;
+                    let found = found[kind][pair].widen();
                     let mut error = quotient.error(found, R::UNIT_ROUNDOFF);
                     if error.conditioned > C
                         && let Some(moved) = moved
                     {
-                        let (flips, twists) = expected(moved, exact);
-                        let there = if sign == '-' { flips[pair] } else { twists[pair] };
+                        let there = expected(moved, exact)[kind][pair];
                         quotient = quotient.with_threshold(there.value, FRACTION);
                         error = quotient.error(found, R::UNIT_ROUNDOFF);
                     }
                     tally.judged += 1;
                     tally.flat += usize::from(error.flat <= C);
                     if error.conditioned > C {
-                        let (flip_terms, twist_terms) =
-                            declared.as_ref().map_err(String::clone)?.terms(exact);
-                        let terms = if sign == '-' { flip_terms[pair] } else { twist_terms[pair] };
-                        error = quotient.with_terms(terms).error(found, R::UNIT_ROUNDOFF);
+                        let terms = declared.as_ref().map_err(String::clone)?.terms(exact);
+                        error = quotient.with_terms(terms[kind][pair]).error(found, R::UNIT_ROUNDOFF);
                         tally.terms += 1;
                     }
                     tally.failed += usize::from(error.conditioned > C);
@@ -238,7 +234,6 @@ impl Judge<'_, '_> {
     }
 }
 
-/// What has been judged.
 #[derive(Clone, Default)]
 struct Tally {
     judged: usize,

@@ -22,9 +22,10 @@ use piola_declare::emit::Precision;
 use piola_tests::answers::Answers;
 use piola_tests::cases::{Case, FILES, Quantity};
 use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
+use piola_tests::declarations::slices;
 use piola_tests::declared::Declared;
 use piola_tests::emitted::{Answer, Runner};
-use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find, is_asked_for};
+use piola_tests::energies::{self, ENERGIES, Format, Subject, find, is_asked_for};
 use rayon::prelude::*;
 
 /// The constant of the judgement ‖X − X*‖ ≤ C u (‖X*‖ + sens).
@@ -58,15 +59,13 @@ fn judge_all() -> Result<(), String> {
         by_energy.entry(case.material.clone()).or_default().push(case);
     }
     by_energy.retain(|name, _| is_asked_for(name));
+    let energies = by_energy.len();
     let judged: Result<Vec<_>, String> =
         by_energy.into_par_iter().map(|(name, cases)| judge_energy(&name, cases, runner.as_ref())).collect();
-    let (mut table, mut failures) = (Table::default(), Vec::new());
-    for (of_energy, failed) in judged? {
-        table.extend(of_energy);
-        failures.extend(failed);
-    }
-    table.print();
-    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
+    let mut table = Table::default();
+    judged?.into_iter().flatten().for_each(|of_case| table.add(of_case));
+    table.print(energies);
+    if table.failures.is_empty() { Ok(()) } else { Err(table.failures.join("\n")) }
 }
 
 /// The cases of all files, which leave no energy of the catalogue out.
@@ -80,91 +79,72 @@ fn own_cases() -> Result<Vec<Case>, String> {
     Ok(cases)
 }
 
-/// The table of all cases of one energy, and the results that fail.
-fn judge_energy(
-    name: &str,
-    mut cases: Vec<Case>,
-    runner: Option<&Runner>,
-) -> Result<(Table, Vec<String>), String> {
+/// A case of an energy, and its results.
+type Judged = (&'static str, Case, Vec<Judgement>);
+
+fn judge_energy(name: &str, mut cases: Vec<Case>, runner: Option<&Runner>) -> Result<Vec<Judged>, String> {
     let energy = find(name).ok_or_else(|| format!("{name} is not in the catalogue"))?;
     if runner.is_some_and(|runner| runner.precision == Precision::F32) {
         cases.retain(|case| case.f32_exact);
     }
     let first = cases.first().ok_or_else(|| format!("{name} has no reference cases"))?;
     let values = first.values(energy.description())?;
-    let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-    let declared = Declared::read(energy.energy.text(), &values, Inversion::Refuse)?;
-    let mut table = Table { cases: cases.len(), energies: 1, ..Table::default() };
-    let mut failures = Vec::new();
+    let declared = Declared::read(energy.energy.text(), &slices(&values), Inversion::Refuse)?;
     let mut answers = runner.map(|runner| runner.answers(energy, &cases)).transpose()?.map(Vec::into_iter);
-    for case in &cases {
+    let judge = |case: Case| {
         let values = case.values(energy.description())?;
-        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-        let judge = Judge { case, terms: declared.energy_terms(&values, case.stretches()?) };
+        let terms = declared.energy_terms(&slices(&values), case.stretches()?);
+        let judge = Judge { case: &case, terms };
         let judgements = match (runner, answers.as_mut().and_then(Iterator::next)) {
             (Some(runner), Some(answer)) => judge.answer(runner.precision, answer),
-            _ => judge.subject(energy, &values)?,
+            _ => judge.subject(energy, &slices(&values))?,
         };
-        for judgement in judgements {
-            if let Some(complaint) = table.add(energy.name, case, &judgement) {
-                let Judgement { precision, quantity, .. } = judgement;
-                failures
-                    .push(format!("{} {name} {precision} {} {quantity:?}: {complaint}", case.id, case.tag));
-            }
-        }
-    }
-    Ok((table, failures))
+        Ok((energy.name, case, judgements))
+    };
+    cases.into_iter().map(judge).collect()
 }
 
 /// Counts and worst errors of results.
 #[derive(Default)]
 struct Table {
     cases: usize,
-    energies: usize,
     passed: usize,
     flagged: usize,
-    failed: usize,
+    /// The results that fail, each with what is wrong with it.
+    failures: Vec<String>,
     /// The largest error of each energy, format and quantity, with its case.
     worst: BTreeMap<(&'static str, &'static str, Quantity), (f64, String)>,
 }
 
 impl Table {
-    /// Counts one result; returns what is wrong with it.
-    fn add(&mut self, energy: &'static str, case: &Case, judgement: &Judgement) -> Option<String> {
-        let complaint = match judgement.verdict {
-            Ok(Some(error)) => {
-                let key = (energy, judgement.precision, judgement.quantity);
-                self.keep_worse(key, (error, format!("{} {}", case.id, case.tag)));
+    fn add(&mut self, (energy, case, judgements): Judged) {
+        let Case { id, tag, .. } = &case;
+        self.cases += 1;
+        for Judgement { precision, quantity, verdict } in judgements {
+            if let Ok(Some(error)) = verdict {
+                let worst = self.worst.entry((energy, precision, quantity)).or_default();
+                if error >= worst.0 {
+                    *worst = (error, format!("{id} {tag}"));
+                }
+            }
+            let complaint = match verdict {
+                Ok(None) => {
+                    self.flagged += 1;
+                    continue;
+                }
+                Ok(Some(error)) if error <= C => {
+                    self.passed += 1;
+                    continue;
+                }
                 // A NaN is not an error within the bound.
-                if error <= C { None } else { Some(format!("{error:.1}")) }
-            }
-            Ok(None) => {
-                self.flagged += 1;
-                return None;
-            }
-            Err(complaint) => Some(complaint.to_owned()),
-        };
-        *(if complaint.is_none() { &mut self.passed } else { &mut self.failed }) += 1;
-        complaint
-    }
-
-    fn keep_worse(&mut self, key: (&'static str, &'static str, Quantity), found: (f64, String)) {
-        let worst = self.worst.entry(key).or_default();
-        if found.0 >= worst.0 {
-            *worst = found;
+                Ok(Some(error)) => format!("{error:.1}"),
+                Err(complaint) => complaint.to_owned(),
+            };
+            self.failures.push(format!("{id} {energy} {precision} {tag} {quantity:?}: {complaint}"));
         }
     }
 
-    fn extend(&mut self, other: Self) {
-        self.cases += other.cases;
-        self.energies += other.energies;
-        self.passed += other.passed;
-        self.flagged += other.flagged;
-        self.failed += other.failed;
-        other.worst.into_iter().for_each(|(key, worst)| self.keep_worse(key, worst));
-    }
-
-    fn print(&self) {
+    fn print(&self, energies: usize) {
         println!(
             "Worst errors in units of u (‖X‖ + sens), for ψ of u (|ψ| + sens + Σ|terms|); each may reach {C}.\n"
         );
@@ -172,13 +152,13 @@ impl Table {
         for ((material, precision, quantity), (error, case)) in &self.worst {
             println!("{material:21} {precision:9} {:10} {error:10.3}  {case}", format!("{quantity:?}"));
         }
-        let Self { cases, energies, passed, flagged, failed, .. } = self;
+        let Self { cases, passed, flagged, failures, .. } = self;
+        let failed = failures.len();
         println!("\n{cases} cases of {energies} energies: {passed} results passed, {failed} failed;");
         println!("{flagged} more have no representation in their format, and their status says so");
     }
 }
 
-/// One result of one case.
 struct Judgement {
     precision: &'static str,
     quantity: Quantity,
@@ -220,7 +200,7 @@ struct Judge<'a> {
 
 impl Judge<'_> {
     /// Judges the energy as it is here, in all its formats.
-    fn subject(self, energy: &Judged, values: &[&[f64]]) -> Result<Vec<Judgement>, String> {
+    fn subject(self, energy: &energies::Judged, values: &[&[f64]]) -> Result<Vec<Judgement>, String> {
         let refused = |error| format!("{}: {} {error}", self.case.id, energy.name);
         let subject = energy.subject(values, Inversion::Refuse).map_err(refused)?;
         let mut judgements = self.points::<f64>(&subject);

@@ -59,7 +59,6 @@ mod tests {
         })
     }
 
-    /// The worst defect of a method over the samples.
     #[track_caller]
     fn worst<R: Real<Mask = bool> + Into<f64>>(
         stretches: [f64; 3],

@@ -159,7 +159,6 @@ fn worst(rows: &[Row], column: usize) -> String {
     }
 }
 
-/// The errors of all methods at one case.
 fn row<R: Format + LibraryNumber>(case: &Case, subject: &Subject) -> Row {
     let (material, F) = (<R as Format>::of(subject), case.F::<R>());
     COLUMNS.map(|(_, method, quantity)| {

@@ -30,26 +30,14 @@ use piola_viewer::state::State;
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-/// A kind of file that piola reads.
-#[derive(Clone, Copy, Debug)]
-pub struct Format {
-    /// Name of the folder with its seeds.
-    pub name: &'static str,
-    /// Feeds bytes to the reader, in a folder for files; whether it has taken them.
-    ///
-    /// Panics if the reader or what follows it does what it must not do.
-    pub judge: fn(&Path, &[u8]) -> bool,
-}
+/// Feeds bytes to a reader, in a folder for files; whether it has taken them.
+///
+/// Panics if the reader or what follows it does what it must not do.
+pub type Judge = fn(&Path, &[u8]) -> bool;
 
-/// Every kind of file that piola reads.
-pub const FORMATS: &[Format] = &[
-    Format { name: "msh", judge: msh },
-    Format { name: "tetgen", judge: tetgen },
-    Format { name: "obj", judge: obj },
-    Format { name: "csv", judge: csv },
-    Format { name: "energy", judge: energy },
-    Format { name: "state", judge: state },
-];
+/// Every kind of file that piola reads: the name of the folder with its seeds, and its judge.
+pub const FORMATS: [(&str, Judge); 6] =
+    [("msh", msh), ("tetgen", tetgen), ("obj", obj), ("csv", csv), ("energy", energy), ("state", state)];
 
 /// The folder with the seeds of a format.
 #[must_use]
@@ -61,7 +49,7 @@ pub fn seeds(format: &str) -> PathBuf {
 pub fn msh(scratch: &Path, bytes: &[u8]) -> bool {
     let files = Files { mesh: write(scratch, "body.msh", bytes), surface: None };
     let settings = Settings { only_tetrahedra: true, ..Settings::new(&STRETCH) };
-    play(scratch, files.clone()) || play_by(settings, scratch, files)
+    play(Settings::new(&HORSE), scratch, files.clone()) || play(settings, scratch, files)
 }
 
 /// Tetrahedra of TetGen: nodes, a line `# elements`, elements.
@@ -71,13 +59,13 @@ pub fn tetgen(scratch: &Path, bytes: &[u8]) -> bool {
     let (nodes, elements) = bytes.split_at(at.unwrap_or(bytes.len()));
     write(scratch, "body.node", nodes);
     let mesh = write(scratch, "body.ele", elements);
-    play(scratch, Files { mesh, surface: None })
+    play(Settings::new(&HORSE), scratch, Files { mesh, surface: None })
 }
 
 /// A surface in a cube of tetrahedra.
 pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
     let surface = write(scratch, "skin.obj", bytes);
-    play(scratch, Files { surface: Some(surface), ..cube() })
+    play(Settings::new(&HORSE), scratch, Files { surface: Some(surface), ..cube() })
 }
 
 /// Measured points, with the curves of a material in a chart.
@@ -156,13 +144,19 @@ pub fn state(scratch: &Path, bytes: &[u8]) -> bool {
         Ok(state) => state.with_files(Some(cube())),
         Err(error) => return refused(&error),
     };
-    match Session::resume(state) {
-        Ok(mut session) => {
-            step(&mut session);
-            true
+    let mut session = match Session::resume(state) {
+        Ok(session) => session,
+        Err(error) => return refused(&error),
+    };
+    match session.step() {
+        Ok(_) => {
+            let positions = session.play().simulation.positions().as_flattened();
+            assert!(positions.iter().all(|x| x.is_finite()), "a step has led out of the world");
+            assert!(session.play().clock.time().is_finite());
         }
-        Err(error) => refused(&error),
+        Err(error) => check_message(&error),
     }
+    true
 }
 
 /// A cube of tetrahedra, which states are of.
@@ -192,11 +186,7 @@ fn write(scratch: &Path, name: &str, bytes: &[u8]) -> PathBuf {
 }
 
 /// Plays a step of a body with all files of a run.
-fn play(scratch: &Path, files: Files) -> bool {
-    play_by(Settings::new(&HORSE), scratch, files)
-}
-
-fn play_by(settings: Settings, scratch: &Path, files: Files) -> bool {
+fn play(settings: Settings, scratch: &Path, files: Files) -> bool {
     let settings = Settings { files: Some(files), frames: 1, ..settings };
     // Of an earlier run.
     let _ = fs::remove_dir_all(scratch.join("out"));
@@ -216,17 +206,6 @@ fn play_by(settings: Settings, scratch: &Path, files: Files) -> bool {
     assert!(surface.as_flattened().iter().all(|x| x.is_finite()), "{surface:?}");
     finished.close().unwrap_or_else(|error| panic!("{error}"));
     true
-}
-
-fn step(session: &mut Session) {
-    match session.step() {
-        Ok(_) => {
-            let positions = session.play().simulation.positions().as_flattened();
-            assert!(positions.iter().all(|x| x.is_finite()), "a step has led out of the world");
-            assert!(session.play().clock.time().is_finite());
-        }
-        Err(error) => check_message(&error),
-    }
 }
 
 /// Not taken, with a message that is fit to be read.

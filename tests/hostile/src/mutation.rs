@@ -2,39 +2,9 @@
 
 use piola::__private::random::Random;
 
-/// Values that readers stumble over.
-const VALUES: &[&str] = &[
-    "0",
-    "-0",
-    "-1",
-    "1",
-    "2",
-    "9",
-    "1e308",
-    "-1e308",
-    "1e-308",
-    "5e-324",
-    "1e400",
-    "NaN",
-    "inf",
-    "-inf",
-    "1e103",
-    "1e-103",
-    "3.5e38",
-    "65536",
-    "4294967296",
-    "18446744073709551615",
-    "9223372036854775808",
-    "99999999999999999999",
-    "0x10",
-    "1_000",
-    "",
-    "null",
-    "\"\"",
-    "[]",
-    "{}",
-    "tetrahedron",
-];
+/// Values that readers stumble over, separated by spaces; one of them is empty.
+const VALUES: &str = "0 -0 -1 1 2 9 1e308 -1e308 1e-308 5e-324 1e400 NaN inf -inf 1e103 1e-103 3.5e38 65536 \
+    4294967296 18446744073709551615 9223372036854775808 99999999999999999999 0x10 1_000  null \"\" [] {} tetrahedron";
 
 /// Pieces that do not belong into a text.
 const PIECES: &[&str] =
@@ -68,7 +38,8 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
             let is_border = |byte: &u8| !byte.is_ascii_alphanumeric() && !b"+-._".contains(byte);
             let end = bytes[start..].iter().position(is_border).map_or(bytes.len(), |length| start + length);
             let start = bytes[..start].iter().rposition(is_border).map_or(0, |before| before + 1);
-            drop(bytes.splice(start..end, VALUES[random.below(VALUES.len())].bytes()));
+            let values: Vec<&str> = VALUES.split(' ').collect();
+            drop(bytes.splice(start..end, values[random.below(values.len())].bytes()));
         }
     }
 }

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use piola::__private::random::Random;
 use piola_hostile::mutation::mutated;
-use piola_hostile::{FORMATS, Format, cube, seeds};
+use piola_hostile::{FORMATS, cube, seeds};
 use piola_scenes::scene::HORSE;
 use piola_scenes::settings::Settings;
 use piola_viewer::protocol::Act;
@@ -26,7 +26,7 @@ fn count() -> usize {
 
 #[track_caller]
 fn check(name: &str) {
-    let Format { judge, .. } = FORMATS.iter().find(|format| format.name == name).expect("a format");
+    let (_, judge) = FORMATS.iter().find(|(format, _)| *format == name).expect("a format");
     let mut files: Vec<_> =
         fs::read_dir(seeds(name)).expect("seeds").map(|file| file.expect("a file").path()).collect();
     files.sort();

@@ -28,28 +28,23 @@ pub fn beats((time, error): Pair, (other_time, other_error): Pair, unit: f64) ->
 mod tests {
     use super::*;
 
-    fn front(pairs: &[Pair]) -> Vec<bool> {
-        pairs.iter().map(|&pair| is_on_front(pair, pairs, 0.1)).collect()
+    #[track_caller]
+    fn check(pairs: &[Pair], expected: &[bool]) {
+        let front: Vec<bool> = pairs.iter().map(|&pair| is_on_front(pair, pairs, 0.1)).collect();
+        assert_eq!(front, expected);
     }
 
     #[test]
-    fn what_is_worse_in_both_is_beaten() {
+    fn what_is_worse_in_both_is_beaten_and_ties_are_not() {
         let pairs = [(1.0, 5.0), (2.0, 3.0), (3.0, 4.0), (4.0, 1.0), (0.5, f64::INFINITY), (0.1, f64::NAN)];
-        assert_eq!(front(&pairs), [true, true, false, true, false, false]);
-    }
-
-    #[test]
-    fn equals_do_not_beat_each_other_but_a_tie_in_one_does() {
-        let pairs = [(1.0, 1.0), (1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
-        assert_eq!(front(&pairs), [true, true, false, false]);
-    }
-
-    #[test]
-    fn what_is_hardly_longer_or_hardly_larger_is_a_tie() {
-        assert_eq!(front(&[(1.0, 1.0), (1.04, 1.0)]), [true, true]);
-        assert_eq!(front(&[(1.0, 1.0), (1.06, 1.0)]), [true, false]);
-        assert_eq!(front(&[(1.0, 1.0), (1.0, 1.09)]), [true, true]);
-        assert_eq!(front(&[(1.0, 1.0), (1.0, 1.11)]), [true, false]);
-        assert_eq!(front(&[(1.0, 1.09), (1.06, 1.0)]), [true, false]);
+        check(&pairs, &[true, true, false, true, false, false]);
+        // Equals do not beat each other, but a tie in one does.
+        check(&[(1.0, 1.0), (1.0, 1.0), (1.0, 2.0), (2.0, 1.0)], &[true, true, false, false]);
+        // What is hardly longer or hardly larger is a tie.
+        check(&[(1.0, 1.0), (1.04, 1.0)], &[true, true]);
+        check(&[(1.0, 1.0), (1.06, 1.0)], &[true, false]);
+        check(&[(1.0, 1.0), (1.0, 1.09)], &[true, true]);
+        check(&[(1.0, 1.0), (1.0, 1.11)], &[true, false]);
+        check(&[(1.0, 1.09), (1.06, 1.0)], &[true, false]);
     }
 }

@@ -16,16 +16,14 @@ use piola_materials::{NeoHookean, Ogden, StVenantKirchhoff};
 mod arrays;
 mod decomposition;
 mod front;
-mod machine;
 mod task;
 mod timing;
 
 pub use arrays::Arrays;
 pub use decomposition::Decompositions;
 pub use front::{RESOLUTION, beats, is_on_front};
-pub use machine::processor;
 pub use task::{Task, deformation_gradients};
-pub use timing::{Effort, Times, time, time_in_turns};
+pub use timing::{Effort, Times, processor, time, time_in_turns};
 
 /// Points whose numbers stay in the caches of a core.
 pub const IN_CACHE: usize = 128;

@@ -27,16 +27,21 @@ impl Task {
     pub const ALL: [Self; 5] =
         [Self::Energies, Self::Stresses, Self::Tangents, Self::Stiffnesses, Self::StiffnessesAt];
 
+    /// Name of the method, the quantities that it reads at each point, and the number of values that it writes.
+    fn signature(self) -> (&'static str, [Input; 2], [usize; 2]) {
+        match self {
+            Self::Energies => ("energies", [Input::Deformation, Input::Nothing], [1, 0]),
+            Self::Stresses => ("stresses", [Input::Deformation, Input::Nothing], [9, 0]),
+            Self::Tangents => ("tangents", [Input::Deformation, Input::Nothing], [9, 81]),
+            Self::Stiffnesses => ("stiffnesses", [Input::Deformation, Input::RestShape], [12, 144]),
+            Self::StiffnessesAt => ("stiffnesses_at", [Input::Nothing, Input::RestShapeAtNodes], [12, 144]),
+        }
+    }
+
     /// The name of the method.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Energies => "energies",
-            Self::Stresses => "stresses",
-            Self::Tangents => "tangents",
-            Self::Stiffnesses => "stiffnesses",
-            Self::StiffnessesAt => "stiffnesses_at",
-        }
+        self.signature().0
     }
 
     /// Its name, with a mark where a filter acts: `tangents +C`.
@@ -55,23 +60,12 @@ impl Task {
         }
     }
 
-    /// The quantities that the task reads at each point.
     pub(super) fn inputs(self) -> [Input; 2] {
-        match self {
-            Self::Stiffnesses => [Input::Deformation, Input::RestShape],
-            Self::StiffnessesAt => [Input::Nothing, Input::RestShapeAtNodes],
-            _ => [Input::Deformation, Input::Nothing],
-        }
+        self.signature().1
     }
 
-    /// Number of values written for each point.
     pub(super) fn outputs(self) -> [usize; 2] {
-        match self {
-            Self::Energies => [1, 0],
-            Self::Stresses => [9, 0],
-            Self::Tangents => [9, 81],
-            Self::Stiffnesses | Self::StiffnessesAt => [12, 144],
-        }
+        self.signature().2
     }
 }
 

@@ -1,4 +1,4 @@
-//! Times of calls.
+//! Times of calls, and the machine that measures them.
 
 use std::time::{Duration, Instant};
 
@@ -66,5 +66,20 @@ impl Times {
     pub fn of(mut times: Vec<f64>) -> Self {
         times.sort_by(f64::total_cmp);
         Self { least: times[0], median: times[times.len() / 2] }
+    }
+}
+
+/// The processor's name, if the system reports it.
+#[must_use]
+pub fn processor() -> String {
+    let cpuinfo = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let field = |name: &str| {
+        let mut fields = cpuinfo.lines().filter_map(|line| line.split_once(':'));
+        fields.find(|(key, _)| key.trim() == name).map(|(_, value)| value.trim())
+    };
+    match (field("model name"), field("cpu family"), field("model")) {
+        (Some(name), Some(family), Some(model)) => format!("{name} (family {family}, model {model})"),
+        (Some(name), ..) => name.to_owned(),
+        _ => format!("unknown {}", std::env::consts::ARCH),
     }
 }

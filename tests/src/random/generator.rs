@@ -210,7 +210,6 @@ impl Maker {
         }
     }
 
-    /// A positive quantity.
     fn positive(&mut self) -> Expression {
         let kind = self.random.below(7);
         self.positive_of(kind)

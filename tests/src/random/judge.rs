@@ -148,7 +148,6 @@ fn compile_and_run(
 /// A name, values, what they must be, and their expressions.
 type Group<'a> = (&'a str, &'a [f64], &'a [Expected], &'a [Id]);
 
-/// Judges all programs at stretches.
 fn judge_stretches(
     declaration: &Declaration,
     declared: &Declared,

@@ -1,9 +1,9 @@
 //! The contract for every energy, unextended and extended: that of the compiled material where this build has
 //! it, else that of the interpreted one. What they compute on lanes is judged by `batch.rs`.
 
+use piola::Material;
 use piola::contract::{Settings, Violations, check_without_lanes};
 use piola::material::{Declared, MaterialError};
-use piola::{Inversion, Material};
 use piola_materials::Visitor;
 use piola_tests::declarations::{Sample, Values, slices};
 
@@ -55,30 +55,21 @@ fn settings(sample: &Sample) -> Settings {
     Settings { points, range, stress_free_at_rest: !sample.is_prestressed(), ..default }
 }
 
-fn verdict(
-    sample: &Sample,
-    values: &Values,
-    inversion: Inversion,
-) -> Result<Result<(), Violations>, MaterialError> {
-    let contract = Contract(settings(sample));
-    match sample.judged.compiled {
-        Some(entry) => entry.visit(&slices(values), inversion, contract),
-        None => {
-            sample.judged.energy.material(&slices(values), inversion).map(|material| contract.of(&material))
-        }
-    }
-}
-
 /// Says what each of the materials breaks, not only the first.
 pub(crate) fn judge(sample: &Sample) {
     let further = FURTHER.iter().filter(|(name, _)| *name == sample.judged.name);
     let further = further.map(|(_, values)| values.iter().map(|list| list.to_vec()).collect::<Values>());
+    let epsilon = sample.text.numbers("epsilon").map_or(EPSILON, |[epsilon]| epsilon);
+    let energy = &sample.judged.energy;
     let mut broken = String::new();
     for values in sample.values().into_iter().chain(further) {
-        for inversion in
-            sample.judged.inversions(sample.text.numbers("epsilon").map_or(EPSILON, |[epsilon]| epsilon))
-        {
-            match verdict(sample, &values, inversion) {
+        for inversion in sample.judged.inversions(epsilon) {
+            let contract = Contract(settings(sample));
+            let verdict = match sample.judged.compiled {
+                Some(entry) => entry.visit(&slices(&values), inversion, contract),
+                None => energy.material(&slices(&values), inversion).map(|material| contract.of(&material)),
+            };
+            match verdict {
                 Ok(Ok(())) => {}
                 Ok(Err(violations)) => broken += &format!("{values:?} {inversion:?}:\n{violations}\n"),
                 // Typical parameters can be extended wherever the energy can; some of the others may not.

@@ -2,7 +2,7 @@
 //! has them, and those of the folder `declarations/`, which only [`Energy::from_rust`] compiles:
 //! `cargo test -p piola-tests --test declarations`.
 //!
-//! Equal bits of compiled and interpreted energies are proven by `declare/tests` and `inlined.rs`.
+//! Equal bits of compiled and interpreted energies are proven by `interpreted.rs` and `attribute.rs`.
 //!
 //! [`Energy::from_rust`]: piola_declare::Energy::from_rust
 

@@ -66,8 +66,8 @@ impl Judge<'_> {
         }
         for stretches in points {
             let point = Point { stretches, ..self.sample.clone() };
-            self.check::<f64>(subject, &point, 256.0);
-            self.check::<f32>(subject, &point, 256.0);
+            self.check::<f64>(subject, &point);
+            self.check::<f32>(subject, &point);
         }
         let moduli = subject.moduli;
         for (id, value) in self.model.moduli.into_iter().zip([moduli.mu, moduli.lambda]) {
@@ -75,20 +75,9 @@ impl Judge<'_> {
             self.close("modulus", expected, value, 64.0 * f64::UNIT_ROUNDOFF, self.sample);
         }
     }
-}
 
-/// λ1 ≥ λ2 ≥ |λ3|, as a material may expect them.
-fn ordered(stretches: [f64; 3]) -> [f64; 3] {
-    let sign = stretches.iter().product::<f64>().signum();
-    let mut magnitudes = stretches.map(f64::abs);
-    magnitudes.sort_by(|a, b| b.total_cmp(a));
-    [magnitudes[0], magnitudes[1], sign * magnitudes[2]]
-}
-
-impl Judge<'_> {
-    /// Within `roundings` times u of the magnitudes that enter, exponents included: a count of operations,
-    /// generously.
-    fn check<R: Format>(&self, subject: &Subject, point: &Point, roundings: f64) {
+    /// Within 256 u of the magnitudes that enter, exponents included: a count of operations, generously.
+    fn check<R: Format>(&self, subject: &Subject, point: &Point) {
         let material = R::of(subject);
         let stretches = point.stretches.map(R::splat);
         let Blocks { gradient, hessian, flip, twist } = material.blocks(stretches);
@@ -105,7 +94,7 @@ impl Judge<'_> {
         for (what, ids, values) in groups {
             for (&id, &value) in ids.iter().zip(values) {
                 let expected = evaluate(&self.model.graph, id, point);
-                self.close(what, expected, value.widen(), roundings * R::UNIT_ROUNDOFF, point);
+                self.close(what, expected, value.widen(), 256.0 * R::UNIT_ROUNDOFF, point);
             }
         }
     }
@@ -121,4 +110,12 @@ impl Judge<'_> {
             point.parameters
         );
     }
+}
+
+/// λ1 ≥ λ2 ≥ |λ3|, as a material may expect them.
+fn ordered(stretches: [f64; 3]) -> [f64; 3] {
+    let sign = stretches.iter().product::<f64>().signum();
+    let mut magnitudes = stretches.map(f64::abs);
+    magnitudes.sort_by(|a, b| b.total_cmp(a));
+    [magnitudes[0], magnitudes[1], sign * magnitudes[2]]
 }

@@ -128,7 +128,6 @@ impl<'a> Graph<'a> {
         Self { modules: &of.modules, own_name: &of.name, names }
     }
 
-    /// Every need of one module of another.
     fn edges(&self) -> Vec<Edge> {
         let mut edges = Vec::new();
         for (from, module) in self.modules.iter().enumerate() {

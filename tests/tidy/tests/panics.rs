@@ -74,7 +74,6 @@ fn what_returns_a_result_is_tried_with_hostile_arguments() {
     assert!(judged > 30, "{judged} functions");
 }
 
-/// A function or method with a body.
 struct Function<'a> {
     attributes: &'a [Attribute],
     is_public: bool,
@@ -84,7 +83,6 @@ struct Function<'a> {
     body: &'a Block,
 }
 
-/// The functions that an item is or has.
 fn functions(item: &Item) -> Vec<Function<'_>> {
     match item {
         Item::Fn(ItemFn { attrs: attributes, vis, sig: signature, block: body, .. }) => {

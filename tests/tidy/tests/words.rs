@@ -66,7 +66,6 @@ fn nothing_is_left_undone() {
     forbid("marks of what is left undone", &found);
 }
 
-/// The targets of the links in a document.
 fn links(text: &str) -> impl Iterator<Item = &str> {
     text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(link, _)| link)
 }

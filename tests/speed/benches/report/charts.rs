@@ -9,11 +9,9 @@ mod steps;
 
 pub(crate) use point::best_settings;
 
-/// A chart and its caption.
 pub(crate) struct Chart {
     pub(crate) file: String,
     pub(crate) svg: String,
-    /// Caption, in a sentence.
     pub(crate) caption: String,
 }
 

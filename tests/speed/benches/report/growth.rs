@@ -55,7 +55,6 @@ fn ways() -> [Way; 5] {
     ]
 }
 
-/// A row for each way and box.
 pub(crate) fn rows(is_quick: bool, memory: &PeakAlloc) -> Outcome<Vec<GrowthRow>> {
     eprintln!("growing bodies …");
     let mut rows = Vec::new();

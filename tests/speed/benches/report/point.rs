@@ -38,7 +38,6 @@ pub(crate) struct PointRow {
     pub(crate) worst_error: f64,
     pub(crate) median_error: f64,
     pub(crate) family: String,
-    /// Number of reference cases.
     pub(crate) cases: usize,
     /// True if it takes any ψ(λ1, λ2, λ3).
     pub(crate) is_general: bool,
@@ -56,7 +55,6 @@ pub(crate) const HARD: &str = "every hard family";
 const WORKS: [(&str, Filter, Quantity); 2] =
     [("tangent", Filter::None, Quantity::Tangent), ("projected", Filter::Clamp, Quantity::Projected)];
 
-/// All rows.
 pub(crate) fn rows(effort: Effort) -> Result<Vec<PointRow>, String> {
     // Those whose energies take part.
     let cases = Case::own(&["cases", "cases-ordinary"])?;
@@ -108,7 +106,6 @@ struct Group<'a, E> {
     contestants: Vec<Contestant<E>>,
 }
 
-/// The rows of one family.
 fn contest<E: Number>(
     (work, filter, quantity): (&'static str, Filter, Quantity),
     energy: &'static str,

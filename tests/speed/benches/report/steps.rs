@@ -58,7 +58,6 @@ pub(crate) struct StepRow {
     pub(crate) final_error: f64,
 }
 
-/// One way to go the course.
 struct Way {
     setting: &'static str,
     /// Steps in a frame; less than one makes steps longer.

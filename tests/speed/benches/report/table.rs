@@ -107,7 +107,6 @@ fn one_a_call(label: &str, stress: Option<Times>, tangents: [Times; 2]) -> Vec<S
     cells
 }
 
-/// Times a call at each of the points.
 fn each_point(effort: Effort, mut call: impl FnMut(&Matrix3<f64>)) -> Times {
     let gradients: Vec<_> = deformation_gradients().take(IN_CACHE).collect();
     time(effort, IN_CACHE, || gradients.iter().for_each(&mut call))

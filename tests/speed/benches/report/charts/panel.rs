@@ -19,10 +19,8 @@ pub(super) const FONT: &str = "sans-serif";
 /// Height of a label, pixels.
 pub(super) const LINE: i32 = 14;
 
-/// A drawing area in pixels.
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Drawing over two axes.
 pub(crate) struct Panel {
     pub(crate) title: String,
     pub(crate) x_axis: &'static str,
@@ -233,7 +231,6 @@ fn range(numbers: impl Iterator<Item = f64>, below: f64, above: f64) -> Range<f6
     least * 10f64.powf(-below)..greatest * 10f64.powf(above)
 }
 
-/// A number for an axis.
 pub(crate) fn short(x: f64) -> String {
     let exponent = x.log10();
     if (-2.0..4.0).contains(&exponent) {

@@ -14,9 +14,7 @@ pub(crate) const POINTS: usize = 64;
 /// `f64` or `f32`: a format of batches, and of the libraries of the baselines.
 pub(crate) trait Number: Kernels + LibraryNumber {}
 
-impl Number for f64 {}
-
-impl Number for f32 {}
+impl<T: Kernels + LibraryNumber> Number for T {}
 
 /// Deformation gradients, one by one and in lines.
 pub(crate) struct Points<E> {
@@ -55,14 +53,12 @@ impl<E: Kernels> Output<E> {
         self.K.fill(E::splat(f64::NAN));
     }
 
-    /// P and dP/dF of a point.
     pub(crate) fn of_point(&self, point: usize, layout: Layout) -> ([f64; 9], [f64; 81]) {
         let P = std::array::from_fn(|k| self.P[layout.index::<E>(point, 9, k)].into());
         (P, std::array::from_fn(|k| self.K[layout.index::<E>(point, 81, k)].into()))
     }
 }
 
-/// Name and kind of a method.
 #[derive(Clone, Debug)]
 pub(crate) struct Label {
     pub(crate) method: &'static str,
@@ -86,7 +82,6 @@ impl Label {
     }
 }
 
-/// A computation of all points.
 type Run<E> = dyn Fn(&Points<E>, &mut Output<E>);
 
 /// A method for one energy.
@@ -98,7 +93,6 @@ pub(crate) struct Contestant<E> {
 }
 
 impl<E: Kernels> Contestant<E> {
-    /// A batch of a material.
     pub(crate) fn batch(label: Label, material: impl TileMaterial<E> + 'static, filter: Filter) -> Self {
         let run = move |points: &Points<E>, output: &mut Output<E>| {
             let layout = Layout::Lines;

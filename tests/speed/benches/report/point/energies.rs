@@ -1,12 +1,11 @@
 //! The energies of the report.
 
-use std::fmt::Display;
-
-use piola::material::MaterialError;
+use piola::Inversion;
+use piola::material::Declared;
 use piola::point::Filter;
-use piola_baselines::{automatic, invariants, polar};
-use piola_materials::{Hencky, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
+use piola_materials::{Hencky, NeoHookean, Ogden, StVenantKirchhoff};
 use piola_tests::cases::Case;
+use piola_tests::declarations::slices;
 use piola_tests::energies::find;
 
 use super::contestant::{Contestant, Number};
@@ -23,37 +22,25 @@ pub(crate) const ENERGIES: [(&str, &str); 5] = [
 
 /// All methods for the energy and the parameters of a case.
 pub(crate) fn contestants<E: Number>(case: &Case, filter: Filter) -> Result<Vec<Contestant<E>>, String> {
-    let misfit = |reason: &dyn Display| format!("{}: {reason}", case.id);
-    let refused = |error: MaterialError| misfit(&error);
-    let energy = find(&case.material).ok_or_else(|| misfit(&"not in the catalogue"))?;
+    let energy = find(&case.material).ok_or_else(|| format!("{}: not in the catalogue", case.id))?;
     let values = case.values(energy.description())?;
-    let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-    Ok(match (energy.name, &values[..]) {
-        ("st_venant_kirchhoff", &[&[mu], &[lambda]]) => {
-            let material = StVenantKirchhoff::new(mu, lambda).map_err(refused)?;
-            methods::with_invariants(material, invariants::StVenantKirchhoff { mu, lambda }, filter)
-        }
-        ("neo_hookean", &[&[mu], &[lambda]]) => {
-            let material = NeoHookean::new(mu, lambda).map_err(refused)?;
-            methods::with_invariants(material, invariants::NeoHookean { mu, lambda }, filter)
-        }
-        ("rotated_linear", &[&[mu], &[lambda]]) => {
-            let by_hand = polar::RotatedLinear { mu, lambda };
-            let mut all = methods::all(RotatedLinear::new(mu, lambda).map_err(refused)?, by_hand, filter);
-            all.push(methods::by_polar(by_hand, filter));
-            all
-        }
-        ("hencky", &[&[mu], &[lambda]]) => {
-            let material = Hencky::new(mu, lambda).map_err(refused)?;
-            methods::all(material, automatic::Hencky { mu, lambda }, filter)
-        }
-        ("ogden", &[mu, alpha, &[kappa]]) => {
+    let values = slices(&values);
+    Ok(match energy.name {
+        "st_venant_kirchhoff" => methods::with_invariants(made::<StVenantKirchhoff>(case, &values)?, filter),
+        "neo_hookean" => methods::with_invariants(made::<NeoHookean>(case, &values)?, filter),
+        "rotated_linear" => methods::with_polar(made(case, &values)?, filter),
+        "hencky" => methods::all(made::<Hencky>(case, &values)?, filter),
+        "ogden" => {
             // Terms that a case does not have get a modulus of zero, and any exponent.
-            let filled = |list: &[f64], with| std::array::from_fn(|p| list.get(p).copied().unwrap_or(with));
-            let (mu, alpha): ([f64; 3], _) = (filled(mu, 0.0), filled(alpha, 2.0));
-            let material = Ogden::new(mu, alpha, kappa).map_err(refused)?;
-            methods::all(material, automatic::Ogden { mu, alpha, kappa }, filter)
+            let [mut mu, mut alpha] = [0, 1].map(|k| values[k].to_vec());
+            mu.resize(3, 0.0);
+            alpha.resize(3, 2.0);
+            methods::all(made::<Ogden<3>>(case, &[&mu, &alpha, values[2]])?, filter)
         }
-        (name, _) => return Err(misfit(&format_args!("no method for {name} with these parameters"))),
+        name => return Err(format!("{}: no method for {name}", case.id)),
     })
+}
+
+fn made<M: Declared>(case: &Case, values: &[&[f64]]) -> Result<M, String> {
+    M::from_values(values, Inversion::Refuse).map_err(|error| format!("{}: {error}", case.id))
 }

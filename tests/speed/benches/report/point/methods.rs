@@ -9,9 +9,9 @@ use piola_baselines::automatic::{self, Potential};
 use piola_baselines::clamped::Clamped;
 use piola_baselines::direct::{self, DirectEnergy};
 use piola_baselines::invariants::{self, InvariantEnergy};
-use piola_baselines::polar;
 use piola_baselines::quotients::{Naive, Switched};
-use piola_baselines::{coincidences, decompositions, differences, eigen, svd_gradients};
+use piola_baselines::{coincidences, decompositions, differences, eigen, polar, svd_gradients};
+use piola_materials::RotatedLinear;
 
 use super::contestant::{AtPoint, Contestant, Label, Number, OnLanes};
 
@@ -23,8 +23,7 @@ pub(crate) const OURS_AS_A_SCALAR: &str = "piola, point by point";
 
 /// The methods for any energy, given as it is declared and as a potential of hyper-dual numbers.
 pub(crate) fn all<E: Number>(
-    material: impl Material + Copy + 'static,
-    potential: impl Potential + Copy + 'static,
+    material: impl Material + Potential + Copy + 'static,
     filter: Filter,
 ) -> Vec<Contestant<E>> {
     let mut all = vec![
@@ -52,11 +51,8 @@ pub(crate) fn all<E: Number>(
         let label = Label::set("finite differences", format_args!("{step:e}"));
         all.push(entries(label, Differences { material, step }, filter));
     }
-    all.push(Contestant::one_by_one(
-        Label::new("hyper-dual ψ(λ)"),
-        DualStretches { material, potential, filter },
-    ));
-    all.push(entries(Label::new("hyper-dual ψ(F)"), DualDecomposition(potential), filter));
+    all.push(Contestant::one_by_one(Label::new("hyper-dual ψ(λ)"), DualStretches { material, filter }));
+    all.push(entries(Label::new("hyper-dual ψ(F)"), DualDecomposition { material }, filter));
     let by_nalgebra = Decomposed { material, filter, decompose: decompositions::nalgebra };
     all.push(Contestant::one_by_one(Label::new("nalgebra SVD"), by_nalgebra));
     let by_faer = Decomposed { material, filter, decompose: decompositions::faer };
@@ -70,23 +66,24 @@ pub(crate) fn all<E: Number>(
 
 /// The same, and the methods for energies that somebody has written in invariants.
 pub(crate) fn with_invariants<E: Number>(
-    material: impl Material + Copy + 'static,
-    energy: impl Potential + InvariantEnergy + DirectEnergy + Copy + 'static,
+    material: impl Material + Potential + InvariantEnergy + DirectEnergy + Copy + 'static,
     filter: Filter,
 ) -> Vec<Contestant<E>> {
-    let mut all = all(material, energy, filter);
-    all.push(entries(Label::special("[TSIF05]"), Invariants(energy), filter));
-    all.push(without_frames(Label::special("invariants without SVD"), Direct(energy), filter));
+    let mut all = all(material, filter);
+    all.push(entries(Label::special("[TSIF05]"), Invariants { material }, filter));
+    all.push(without_frames(Label::special("invariants without SVD"), Direct(material), filter));
     if filter == Filter::None {
         let label = Label::special("invariants without SVD, point by point");
-        all.push(Contestant::one_by_one(label, Direct(energy)));
+        all.push(Contestant::one_by_one(label, Direct(material)));
     }
     all
 }
 
-/// The method for the energy that somebody has written in the polar decomposition.
-pub(crate) fn by_polar<E: Number>(energy: polar::RotatedLinear, filter: Filter) -> Contestant<E> {
-    without_frames(Label::special("polar decomposition"), Polar(energy), filter)
+/// The same, and the method for the energy that somebody has written in the polar decomposition.
+pub(crate) fn with_polar<E: Number>(material: RotatedLinear, filter: Filter) -> Vec<Contestant<E>> {
+    let mut all = all(material, filter);
+    all.push(without_frames(Label::special("polar decomposition"), Polar(material), filter));
+    all
 }
 
 /// A method on lanes that computes the tangent by its entries; a projection takes one point after the other.
@@ -113,81 +110,52 @@ impl<T: AtPoint<E>, E: Number> AtPoint<E> for Projected<T> {
     }
 }
 
-struct Ours<M> {
-    material: M,
-    filter: Filter,
+/// Declares methods at a point: traits of the material, the setting, and P and dP/dF at F.
+macro_rules! at_point {
+    ($($Method:ident<M: $Trait:ident $(+ $Other:ident)?> { $($setting:ident: $Setting:ty)? } |$self:ident, $F:ident| $evaluation:block)+) => {$(
+        struct $Method<M> {
+            material: M,
+            $($setting: $Setting,)?
+        }
+
+        impl<M: $Trait $(+ $Other)?, E: Number> AtPoint<E> for $Method<M> {
+            #[inline(always)]
+            fn evaluate(&$self, $F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) $evaluation
+        }
+    )+};
 }
 
-impl<M: Material, E: Number> AtPoint<E> for Ours<M> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+at_point! {
+    Ours<M: Material> { filter: Filter } |self, F| {
         let point = evaluate_dense(&self.material, F, self.filter);
         (point.stress, point.tangent)
     }
-}
 
-struct SvdGradients<M> {
-    material: M,
-    epsilon: f64,
-}
-
-impl<M: Material, E: Number> AtPoint<E> for SvdGradients<M> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+    SvdGradients<M: Material> { epsilon: f64 } |self, F| {
         let svd = decompose(&self.material, F);
         let K = svd_gradients::tangent(&self.material, &svd, self.epsilon);
         (stress(&svd, self.material.gradient(svd.stretches)), K)
     }
-}
 
-struct Coincidences<M> {
-    material: M,
-    threshold: f64,
-}
-
-impl<M: Material, E: Number> AtPoint<E> for Coincidences<M> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+    Coincidences<M: Material> { threshold: f64 } |self, F| {
         let svd = decompose(&self.material, F);
         let K = coincidences::tangent(&self.material, &svd, self.threshold);
         (stress(&svd, self.material.gradient(svd.stretches)), K)
     }
-}
 
-struct Differences<M> {
-    material: M,
-    step: f64,
-}
-
-impl<M: Material, E: Number> AtPoint<E> for Differences<M> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+    Differences<M: Material> { step: f64 } |self, F| {
         let P = piola::point::evaluate_stress(&self.material, F).stress;
         (P, differences::tangent(&self.material, F, self.step))
     }
-}
 
-struct DualStretches<M, T> {
-    material: M,
-    potential: T,
-    filter: Filter,
-}
-
-impl<M: Material, T: Potential, E: Number> AtPoint<E> for DualStretches<M, T> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
+    DualStretches<M: Material + Potential> { filter: Filter } |self, F| {
         let svd = decompose(&self.material, F);
-        from_blocks(&svd, automatic::through_stretches(&self.potential, &svd), self.filter)
+        from_blocks(&svd, automatic::through_stretches(&self.material, &svd), self.filter)
     }
-}
 
-struct DualDecomposition<T>(T);
+    DualDecomposition<M: Potential> {} |self, F| { automatic::through_decomposition(&self.material, F) }
 
-impl<T: Potential, E: Number> AtPoint<E> for DualDecomposition<T> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
-        automatic::through_decomposition(&self.0, F)
-    }
+    Invariants<M: InvariantEnergy> {} |self, F| { invariants::evaluate(&self.material, &svd(F)) }
 }
 
 /// Our derivatives after somebody else's decomposition.
@@ -221,15 +189,6 @@ impl<M: Material> OnLanes for Jacobi<M> {
     }
 }
 
-struct Invariants<T>(T);
-
-impl<T: InvariantEnergy, E: Number> AtPoint<E> for Invariants<T> {
-    #[inline(always)]
-    fn evaluate(&self, F: &Matrix3<E>) -> (Matrix3<E>, [[E; 9]; 9]) {
-        invariants::evaluate(&self.0, &svd(F))
-    }
-}
-
 struct Direct<T>(T);
 
 impl<T: DirectEnergy> OnLanes for Direct<T> {
@@ -239,12 +198,12 @@ impl<T: DirectEnergy> OnLanes for Direct<T> {
     }
 }
 
-struct Polar(polar::RotatedLinear);
+struct Polar(RotatedLinear);
 
 impl OnLanes for Polar {
     #[inline(always)]
     fn evaluate<R: Real>(&self, F: &Matrix3<R>) -> (Matrix3<R>, [[R; 9]; 9]) {
-        self.0.evaluate(F)
+        polar::evaluate(&self.0, F)
     }
 }
 
