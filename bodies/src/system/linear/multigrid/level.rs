@@ -409,10 +409,7 @@ fn sum<const N: usize>(
 
 /// Blocks on the diagonal of a coarse matrix. Motions that are impossible for an aggregate are first given a
 /// diagonal entry, so that the inverse exists.
-fn regular_diagonals(
-    matrix: &mut SymmetricBlocks<f64, 6>,
-    division: &mut impl Division,
-) -> Vec<Block> {
+fn regular_diagonals(matrix: &mut SymmetricBlocks<f64, 6>, division: &mut impl Division) -> Vec<Block> {
     let mut diagonals = diagonals(matrix, division);
     for (row, sum) in diagonals.iter_mut().enumerate() {
         let at = matrix.pattern().diagonal(row);
