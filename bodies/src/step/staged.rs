@@ -43,7 +43,7 @@ pub(super) struct StagedSteps {
     pub(super) pins_move: Vec<[f64; 3]>,
     pub(super) springs: Vec<Spring>,
     /// Targets of the springs where the next step starts, m.
-    targets_before: Vec<[f64; 3]>,
+    pub(super) targets_before: Vec<[f64; 3]>,
 }
 
 impl StagedSteps {
@@ -95,34 +95,6 @@ impl StagedSteps {
             }
         }
         self.pins = pins.clone();
-    }
-
-    /// Prescribes the position of a pinned node, m, after the next step and from then on.
-    pub(super) fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
-        if self.pins.nodes().binary_search(&node).is_err() {
-            return Err(SetupError(format!(
-                "node {node} (from 0) is not pinned, so its motion cannot be prescribed"
-            )));
-        }
-        if position.iter().any(|x| !x.is_finite()) {
-            return Err(not_finite(node));
-        }
-        self.targets[node] = position;
-        Ok(())
-    }
-
-    /// Replaces the springs. If a spring has the same index and anchor as one before, its target moves evenly
-    /// in the course of the next step.
-    pub(super) fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
-        springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
-        let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
-            Some(old) if old.anchor == spring.anchor => self.targets_before[index],
-            _ => spring.target,
-        };
-        self.targets_before = springs.iter().enumerate().map(before).collect();
-        self.springs.clear();
-        self.springs.extend_from_slice(springs);
-        Ok(())
     }
 
     /// Begins a step of `dt`, s, infinite for statics. Returns the number of its stages.
@@ -193,31 +165,6 @@ impl StagedSteps {
             self.springs[index].target = on_the_way(*before, spring.target, end);
         }
     }
-
-    pub(super) fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
-        let (nodes, found) = (self.state.x.len(), vectors.len());
-        if found != nodes {
-            return Err(SetupError(format!("expected one entry for each of {nodes} nodes, found {found}")));
-        }
-        match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
-            Some(node) => Err(not_finite(node)),
-            None => Ok(()),
-        }
-    }
-
-    fn check_spring(&self, index: usize, spring: &Spring) -> Result<(), SetupError> {
-        let nodes = self.state.x.len();
-        if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
-            return Err(NoSuchNode { element: None, node, nodes }.into());
-        }
-        let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
-        if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
-            return Err(SetupError(format!(
-                "spring {index} (from 0) has a negative stiffness or an entry that is not finite"
-            )));
-        }
-        Ok(())
-    }
 }
 
 /// Point at a share of the way between two points; exactly these at the ends.
@@ -233,8 +180,4 @@ fn add(sum: &mut [[f64; 3]], factor: f64, x: &[[f64; 3]]) {
     for (sum, x) in sum.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
         *sum += factor * x;
     }
-}
-
-fn not_finite(node: usize) -> SetupError {
-    SetupError(format!("the entry of node {node} (from 0) is not finite"))
 }
