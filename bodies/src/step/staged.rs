@@ -18,10 +18,10 @@ use crate::system::Pins;
 /// minimum of a stage is where
 ///
 /// ```text
-/// M a = −∇Ψ(x) + other forces at x and v, with v = (x − s)/τ and a = (v − w)/σ
+/// M a = −∇Ψ(x) + other forces at x and v, with v = (x − s)/τ and a = (v − w)/τ
 /// ```
 ///
-/// for the s, w, τ and σ of its [`Stage`].
+/// for the s, w and τ of its [`Stage`].
 #[derive(Clone, Debug)]
 pub(super) struct StagedSteps {
     pub(super) integrator: Integrator,
@@ -104,15 +104,15 @@ impl StagedSteps {
         self.method = integrator.method();
         self.dt = dt;
         self.next.x.copy_from_slice(&self.state.x);
-        self.method.stages()
+        self.method.rows.len()
     }
 
     /// Begins a stage of the step, counted from 0: pinned nodes and targets of springs are at its share of
     /// their motion through the step. Returns true if a pinned node moves.
     pub(super) fn begin_stage(&mut self, stage: usize) -> bool {
         let State { x, v, a } = &self.state;
-        let Stage { start, velocities, lengths, accelerations, .. } = &mut self.stage;
-        *lengths = self.method.lengths(self.dt);
+        let Stage { start, velocities, length, accelerations, .. } = &mut self.stage;
+        *length = self.method.diagonal * self.dt;
         accelerations.copy_from_slice(stage.checked_sub(1).map_or(a, |before| &self.done[before][1]));
         start.copy_from_slice(x);
         velocities.copy_from_slice(v);
@@ -139,7 +139,7 @@ impl StagedSteps {
 
     /// Ends a stage, with the positions of `next` at the minimum.
     pub(super) fn end_stage(&mut self, stage: usize) {
-        let is_last = stage + 1 == self.method.stages();
+        let is_last = stage + 1 == self.method.rows.len();
         let State { x, v, a } = &mut self.next;
         let [v, a] = if is_last { [v, a] } else { self.done[stage].each_mut() };
         for (node, &x) in x.iter().enumerate() {
