@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use piola::__private::interpreter::{ByInvariants, Calls, ParameterValues, Programs, Value, Variant};
+use piola::__private::interpreter::{ByInvariants, Calls, Programs, Value, Variant};
 use piola::__private::{Condition, record};
 use piola::contract::Notation;
 use piola::interpreter::Interpreted;
@@ -183,7 +183,7 @@ impl Energy {
     ) -> Result<Interpreted, MaterialError> {
         let Compiled { description, programs, constructor, .. } = &*self.0;
         let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
-        let values = constructor.values(description, &values, material.values().all())?;
+        let values = constructor.values(description, &values, material.values())?;
         constructor.build(description, programs, values, Inversion::Refuse)
     }
 
@@ -219,14 +219,14 @@ impl Energy {
             k += 1;
             if is_whole { *number } else { record::parameter(k - 1) }
         };
-        let pairs = material.values().all().iter().zip(&self.0.programs.are_whole);
+        let pairs = material.values().iter().zip(&self.0.programs.are_whole);
         let marked = pairs.map(|(value, &is_whole)| match value {
             Value::Numbers(numbers) => {
                 Value::Numbers(numbers.iter().map(|number| mark(number, is_whole)).collect())
             }
             function => function.clone(),
         });
-        material.clone_with(ParameterValues::new(marked.collect()))
+        material.clone_with(marked.collect())
     }
 
     /// The conditions on the parameters of a material, with those of its extension.
@@ -241,7 +241,7 @@ impl Energy {
 
     /// The material without extension.
     pub(crate) fn without_extension(&self, material: &Interpreted) -> Interpreted {
-        Interpreted::new(self.0.programs.clone(), material.values().clone(), Inversion::Refuse)
+        Interpreted::new(self.0.programs.clone(), material.values().to_vec(), Inversion::Refuse)
     }
 }
 

@@ -30,7 +30,7 @@ pub use crate::Real;
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod interpreter {
     pub use crate::interpreter::material::{ByInvariants, Calls, Programs, Variant};
-    pub use crate::interpreter::parameters::{ParameterValues, Value};
+    pub use crate::interpreter::parameters::Value;
     pub use crate::interpreter::program::*;
 }
 

@@ -7,7 +7,7 @@ use piola_codegen::read::domain::Volume;
 
 use super::domain::VolumeBound;
 use super::execute::{execute_alone, execute_tile};
-use super::parameters::{Context, ParameterValues, Parameters};
+use super::parameters::{Context, Parameters, Value, are_alike};
 use super::program::{Program, Sizes};
 use super::registers::Registers;
 use crate::lanes::{Mask, Real, Scalar};
@@ -91,7 +91,7 @@ pub struct Interpreted {
     /// Identity of the parameter values; shared by clones.
     number: u64,
     programs: Arc<Programs>,
-    values: ParameterValues,
+    values: Vec<Value>,
     inversion: Inversion,
 }
 
@@ -105,23 +105,23 @@ impl Interpreted {
     /// The material with these values, which have been checked, and without extension.
     #[doc(hidden)]
     #[must_use]
-    pub fn new(programs: Arc<Programs>, values: ParameterValues, inversion: Inversion) -> Self {
+    pub fn new(programs: Arc<Programs>, values: Vec<Value>, inversion: Inversion) -> Self {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         Self { number, programs, values, inversion }
     }
 
-    /// The values of the parameters.
+    /// The values of the parameters, in the order of the declaration.
     #[doc(hidden)]
     #[must_use]
-    pub fn values(&self) -> &ParameterValues {
+    pub fn values(&self) -> &[Value] {
         &self.values
     }
 
     /// The material of the same energy with other values, which are not checked.
     #[doc(hidden)]
     #[must_use]
-    pub fn clone_with(&self, values: ParameterValues) -> Self {
+    pub fn clone_with(&self, values: Vec<Value>) -> Self {
         Self::new(self.programs.clone(), values, self.inversion)
     }
 
@@ -388,7 +388,7 @@ impl Material for Interpreted {
         }
         // They differ in real numbers only. Lanes beyond the points have the values of the last.
         let last = tile.materials - 1;
-        let each = |point: usize| &material(point.min(last)).values;
+        let each = |point: usize| material(point.min(last)).values();
         let parameters = Parameters { each: Some(&each), ..Parameters::same(&first.values) };
         first.respond(response, parameters, &mut tile)
     }
@@ -403,7 +403,7 @@ impl Graded for Interpreted {
 
     /// True if both differ in real numbers only.
     fn shares_lanes(&self, other: &Self) -> bool {
-        let is_alike = || self.values.are_alike(&other.values, &self.programs.are_whole);
+        let is_alike = || are_alike(&self.values, &other.values, &self.programs.are_whole);
         std::ptr::eq(self, other) || self.is_of_the_same_energy(other) && is_alike()
     }
 }

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::cell::{Cell, RefCell};
 
-use super::parameters::{Context, Parameters};
+use super::parameters::{Context, Parameters, number};
 use super::program::{Program, Register, Sizes};
 use crate::lanes::Real;
 use crate::quotient::Pair;
@@ -234,7 +234,7 @@ impl<'a, R: Real, const G: usize> Files<'a, R, G> {
     ) {
         let to = self.number(register);
         if to.is_constant() {
-            return to.set(0, R::splat(parameters.some.number(parameter, entry)));
+            return to.set(0, R::splat(number(parameters.some, parameter, entry)));
         }
         for group in 0..G {
             to.set(group, parameters.number(parameter, entry, group));
