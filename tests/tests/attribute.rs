@@ -173,15 +173,16 @@ fn typed_constructors_refuse_what_is_inadmissible() -> Result<(), MaterialError>
     assert_eq!(Terms::new(vec![1.0; 3], vec![2.0; 2], 1.0).err(), shape(message));
     let nothing = Terms::new(vec![], vec![], 1.0);
     assert!(matches!(nothing, Err(MaterialError::UnstableRest { .. })), "{nothing:?}");
+    let number = |name: &'static str, value| Argument { parameter: name.into(), index: None, value };
     let not_whole = |given| Some(MaterialError::NotWhole { given });
     let large = Series::new(vec![1.0; 2], vec![1, 65], vec![0; 2], 1.0).err();
-    assert_eq!(large, not_whole(Argument::entry("i", 1, 65.0)));
-    assert_eq!(Springs::new([1.0; 2], [1, 2], 70).err(), not_whole(Argument::scalar("m", 70.0)));
+    assert_eq!(large, not_whole(Argument { index: Some(1), ..number("i", 65.0) }));
+    assert_eq!(Springs::new([1.0; 2], [1, 2], 70).err(), not_whole(number("m", 70.0)));
     let outside = |condition: &'static str, given: &[Argument]| MaterialError::RestOutside {
         condition: condition.into(),
         given: given.to_vec(),
     };
-    let given = |lm, n| [Argument::scalar("lm", lm), Argument::scalar("n", n)];
+    let given = |lm, n| [number("lm", lm), number("n", n)];
     assert_eq!(Locking::new(1.0, 1.5, 2, 1.0).err(), Some(outside("I1b < lm.powi(n)", &given(1.5, 2.0))));
     let solid = Locking::new(1.0, 1.5, 3, 1.0)?;
     assert!(solid.admits([1.0f64; 3]));
