@@ -40,10 +40,10 @@ pub(super) fn execute_tile<E: Scalar>(
     program: &Program,
     context: Context<'_>,
     volume: VolumeBound,
-    tile: &mut RawTile<'_, E>,
+    tile: RawTile<'_, E>,
 ) -> u64 {
-    let RawTile { backend, count, materials, stride, unread, .. } = *tile;
-    match E::by_format(tile.arguments, tile.results) {
+    let RawTile { backend, count, materials, stride, arguments, results, unread } = tile;
+    match E::by_format(arguments, results) {
         ByFormat::F64(arguments, results) => {
             let tile = RawTile { backend, count, materials, stride, arguments, results, unread };
             execute_in_f64(backend, Execution { program, context, volume, tile })

@@ -8,7 +8,7 @@ use crate::univariate::Spline;
 pub enum Value {
     /// A number, as one entry, or the entries of a list; whole exponents too.
     Numbers(Vec<f64>),
-    /// A function.
+    /// A function, which is defined everywhere and so ends no domain.
     Function(Spline),
 }
 

@@ -69,13 +69,8 @@ fn with_spare<R: Real, T>(body: impl FnOnce(&mut Vec<Registers<R>>) -> T) -> T {
 }
 
 impl<R: Real> Registers<R> {
-    /// Registers of at least these sizes; nothing is allocated once a thread has had them.
-    #[inline(never)]
-    pub(super) fn take(sizes: Sizes, groups: usize) -> Self {
-        with_spare(Vec::<Self>::pop).unwrap_or_default().with_room(sizes, groups)
-    }
-
-    /// Registers for a program, with its constants in them where a set of the thread has these.
+    /// Registers for a program, with its constants in them where a set of the thread has these; nothing is
+    /// allocated once a thread has had them.
     #[inline(never)]
     pub(super) fn take_for(program: &Program, context: &Context<'_>, groups: usize) -> Self {
         let these = Prepared::new(program, context, groups);
@@ -104,12 +99,6 @@ impl<R: Real> Registers<R> {
     #[inline(never)]
     pub(super) fn give_back(self) {
         with_spare(|sets| sets.push(self));
-    }
-
-    /// All registers for numbers, one after the other.
-    pub(super) fn numbers(&mut self) -> &mut [R] {
-        self.prepared = None;
-        &mut self.numbers
     }
 
     /// Returns true if the constants of a program for this number of groups are in their registers, which
