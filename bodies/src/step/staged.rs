@@ -24,7 +24,6 @@ use crate::system::Pins;
 /// for the s, w and τ of its [`Stage`].
 #[derive(Clone, Debug)]
 pub(super) struct StagedSteps {
-    pub(super) integrator: Integrator,
     method: Method,
     dt: f64,
     pub(super) state: State,
@@ -59,7 +58,6 @@ impl StagedSteps {
         }
         let state = State::at_rest(positions);
         let mut steps = Self {
-            integrator,
             method: integrator.method(),
             dt: 0.0,
             next: state.clone(),
@@ -80,7 +78,6 @@ impl StagedSteps {
     /// Replaces the integrator from the next step on.
     pub(super) fn set_integrator(&mut self, integrator: Integrator) {
         let zero = || vec![[0.0; 3]; self.state.x.len()];
-        self.integrator = integrator;
         self.stage.is_second_order = integrator.order() > 1;
         self.done.resize_with(integrator.method().rows.len() - 1, || [zero(), zero()]);
     }
@@ -98,9 +95,9 @@ impl StagedSteps {
     }
 
     /// Begins a step of `dt`, s, infinite for statics. Returns the number of its stages.
-    pub(super) fn begin(&mut self, dt: f64) -> usize {
+    pub(super) fn begin(&mut self, integrator: Integrator, dt: f64) -> usize {
         let is_static = dt == f64::INFINITY;
-        let integrator = if is_static { Integrator::ImplicitEuler } else { self.integrator };
+        let integrator = if is_static { Integrator::ImplicitEuler } else { integrator };
         self.method = integrator.method();
         self.dt = dt;
         self.next.x.copy_from_slice(&self.state.x);

@@ -87,7 +87,7 @@ impl<M: Machine> Simulation<M> {
         let mut survey = self.survey();
         self.evaluated = None;
         let mut newton: Option<NewtonReport> = None;
-        for stage in 0..self.steps.begin(dt) {
+        for stage in 0..self.steps.begin(self.settings.integrator, dt) {
             let report;
             (report, survey) = self.minimize_stage(stage, survey)?;
             self.steps.end_stage(stage);
