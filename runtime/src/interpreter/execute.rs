@@ -105,7 +105,7 @@ impl<E: Scalar> Execution<'_, '_, E> {
         let Self { program, mut context, volume, tile } = self;
         let RawTile { count, stride, arguments, results, unread, .. } = tile;
         context.parameters.lanes = R::LANES;
-        let mut registers = Registers::<R>::take_for(program, &context, G);
+        let mut registers = Registers::<R>::take(program, &context, G);
         let mut admitted = if volume.is_any() && program.bounds.is_empty() { u64::MAX } else { 0 };
         let mut start = 0;
         while start < count {

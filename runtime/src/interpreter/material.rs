@@ -205,7 +205,7 @@ fn execute_at<R: Real, T>(
     arguments: &[R],
     read: impl FnOnce(&Registers<R>) -> T,
 ) -> T {
-    let mut registers = Registers::take_for(program, &context, 1);
+    let mut registers = Registers::take(program, &context, 1);
     execute_alone(program, context, arguments, &mut registers);
     let results = read(&registers);
     registers.give_back();

@@ -72,7 +72,7 @@ impl<R: Real> Registers<R> {
     /// Registers for a program, with its constants in them where a set of the thread has these; nothing is
     /// allocated once a thread has had them.
     #[inline(never)]
-    pub(super) fn take_for(program: &Program, context: &Context<'_>, groups: usize) -> Self {
+    pub(super) fn take(program: &Program, context: &Context<'_>, groups: usize) -> Self {
         let these = Prepared::new(program, context, groups);
         let spare = with_spare(|sets: &mut Vec<Self>| {
             let is_ready = |one: &Self| these.is_some() && one.prepared == these;
@@ -83,16 +83,14 @@ impl<R: Real> Registers<R> {
                 None => Some(sets.remove(0)),
             }
         });
-        spare.unwrap_or_default().with_room(program.sizes, groups)
-    }
-
-    fn with_room(mut self, sizes: Sizes, groups: usize) -> Self {
-        self.constants = sizes.constants;
+        let mut registers = spare.unwrap_or_default();
+        let Sizes { numbers, constants, logarithms, pairs } = program.sizes;
+        registers.constants = constants;
         let one = R::splat(1.0);
-        grow(&mut self.numbers, sizes.numbers * groups, || one);
-        grow(&mut self.logarithms, sizes.logarithms * groups, || one.logarithm());
-        grow(&mut self.pairs, sizes.pairs * groups, || Pair::of(one, one));
-        self
+        grow(&mut registers.numbers, numbers * groups, || one);
+        grow(&mut registers.logarithms, logarithms * groups, || one.logarithm());
+        grow(&mut registers.pairs, pairs * groups, || Pair::of(one, one));
+        registers
     }
 
     /// Keeps the registers for the next program of the thread.

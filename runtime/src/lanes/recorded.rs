@@ -14,7 +14,6 @@ mod tape;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::elementary::{self, Logarithm};
@@ -39,14 +38,8 @@ thread_local!(static RECORDER: RefCell<Recorder> = RefCell::default());
 
 /// A number of a program, in the format that [`record`] was given: the code that records is compiled once for
 /// all formats.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Recorded(Id);
-
-impl fmt::Debug for Recorded {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "operation {}", self.0)
-    }
-}
 
 /// A truth value of a program.
 #[derive(Clone, Copy, Debug)]
