@@ -65,13 +65,10 @@ impl Integrator {
         }
     }
 
-    /// Order of the integrator: the power of the step's length with which errors of smooth motions fall.
-    pub(super) fn order(self) -> i32 {
-        match self {
-            Self::ImplicitEuler => 1,
-            Self::Sdirk2 => 2,
-            Self::Sdirk3 => 3,
-        }
+    /// Order of the integrator: the power of the step's length with which errors of smooth motions fall. The
+    /// methods have as many stages.
+    pub(super) fn order(self) -> usize {
+        self.method().rows.len()
     }
 }
 
