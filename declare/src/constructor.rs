@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use piola::__private::interpreter::{ParameterValues, Program, Programs, Value};
+use piola::__private::interpreter::{Program, Programs, Value};
 use piola::__private::{
     Condition, Term, Values, at_rest, check_parameters, extends, inside_at_rest, same_length,
 };
@@ -79,7 +79,7 @@ impl Constructor {
         description: &Description,
         given: &[&[f64]],
         old: &[Value],
-    ) -> Result<ParameterValues, MaterialError> {
+    ) -> Result<Vec<Value>, MaterialError> {
         let function = |k: usize, list: &[f64]| match old.get(k) {
             Some(Value::Function(function)) => function.with_values(list),
             _ => Spline::from_values(list),
@@ -103,7 +103,7 @@ impl Constructor {
             };
             values.push(value);
         }
-        Ok(ParameterValues::new(values))
+        Ok(values)
     }
 
     /// The material with these values, if they are admissible.
@@ -111,10 +111,10 @@ impl Constructor {
         &self,
         description: &Description,
         programs: &Arc<Programs>,
-        values: ParameterValues,
+        values: Vec<Value>,
         inversion: Inversion,
     ) -> Result<Interpreted, MaterialError> {
-        let numbers: Vec<_> = values.all().iter().map(numbers).collect();
+        let numbers: Vec<_> = values.iter().map(Value::numbers).collect();
         let parameters = &description.parameters;
         check_parameters(parameters, &numbers, &self.admissible)?;
         let material = Interpreted::new(programs.clone(), values.clone(), Inversion::Refuse);
@@ -146,12 +146,4 @@ fn condition(declaration: &Declaration, condition: &syn::Expr) -> Condition {
             condition::Term::Call(name, operands) => Term::Call(name.into(), operands.into()),
         });
     Condition { text: text.into(), sides, comparison, list, names: names.into() }
-}
-
-/// The numbers of a value; none of a function.
-pub(crate) fn numbers(value: &Value) -> &[f64] {
-    match value {
-        Value::Numbers(numbers) => numbers,
-        Value::Function(_) => &[],
-    }
 }

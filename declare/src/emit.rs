@@ -283,7 +283,7 @@ impl Energy {
         wanted.sort_unstable();
         wanted.dedup();
         // A material keeps what it has computed of its parameters, which belongs to one recording.
-        let fresh = || material.clone_with(material.values().clone());
+        let fresh = || material.clone_with(material.values().to_vec());
         let recorded = |one| recorded(format, one, &fresh()).map(|recording| (one, recording));
         let functions = wanted.into_iter().map(recorded).collect::<Result<Vec<_>, _>>()?;
         let rest = at_rest(format, &self.without_extension(&fresh()))?;

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use piola::__private::interpreter::{ByInvariants, Calls, ParameterValues, Programs, Value, Variant};
+use piola::__private::interpreter::{ByInvariants, Programs, Value, Variant};
 use piola::__private::{Condition, record};
 use piola::contract::Notation;
 use piola::interpreter::Interpreted;
@@ -14,7 +14,6 @@ use piola::material::{
 };
 use piola::{DynMaterial, Inversion};
 use piola::{Spline, Univariate};
-use piola_codegen::algebra::calls::calls;
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::algebra::invariants;
 use piola_codegen::emit::documentation::page;
@@ -183,7 +182,7 @@ impl Energy {
     ) -> Result<Interpreted, MaterialError> {
         let Compiled { description, programs, constructor, .. } = &*self.0;
         let values: Vec<_> = values.iter().map(Vec::as_slice).collect();
-        let values = constructor.values(description, &values, material.values().all())?;
+        let values = constructor.values(description, &values, material.values())?;
         constructor.build(description, programs, values, Inversion::Refuse)
     }
 
@@ -219,14 +218,14 @@ impl Energy {
             k += 1;
             if is_whole { *number } else { record::parameter(k - 1) }
         };
-        let pairs = material.values().all().iter().zip(&self.0.programs.are_whole);
+        let pairs = material.values().iter().zip(&self.0.programs.are_whole);
         let marked = pairs.map(|(value, &is_whole)| match value {
             Value::Numbers(numbers) => {
                 Value::Numbers(numbers.iter().map(|number| mark(number, is_whole)).collect())
             }
             function => function.clone(),
         });
-        material.clone_with(ParameterValues::new(marked.collect()))
+        material.clone_with(marked.collect())
     }
 
     /// The conditions on the parameters of a material, with those of its extension.
@@ -241,7 +240,7 @@ impl Energy {
 
     /// The material without extension.
     pub(crate) fn without_extension(&self, material: &Interpreted) -> Interpreted {
-        Interpreted::new(self.0.programs.clone(), material.values().clone(), Inversion::Refuse)
+        Interpreted::new(self.0.programs.clone(), material.values().to_vec(), Inversion::Refuse)
     }
 }
 
@@ -266,7 +265,6 @@ pub fn programs(declaration: &Declaration, model: &mut Model) -> Option<Programs
             gradient: within(model, &by.gradient, &by.bounds)?,
             derivatives: within(model, &[&by.gradient[..], &by.hessian].concat(), &by.bounds)?,
             bounds: program(model, &by.bounds)?,
-            calls: calls_of(declaration, model, by.energy)?,
             has_second_invariant: !model.graph.is_zero(by.gradient[1]),
             curvature: match by.curvature(&model.graph) {
                 invariants::Curvature::Volume => Curvature::Volume,
@@ -295,28 +293,8 @@ fn variant(declaration: &Declaration, model: &mut Model, of: &model::Variant) ->
         energy: within(&[energy])?,
         gradient: within(&gradient)?,
         blocks: within(&of.blocks())?,
-        calls: calls_of(declaration, model, energy)?,
         has_pole,
     })
-}
-
-/// The calls of functions in an energy, those together whose arguments are made of lists of one length.
-fn calls_of(declaration: &Declaration, model: &mut Model, energy: Id) -> Option<Vec<Calls>> {
-    let all = calls(&model.graph, energy);
-    let length = |list: Option<usize>| list.and_then(|k| declaration.parameters[k].length());
-    let mut found = Vec::new();
-    for wanted in std::iter::once(None).chain((0..declaration.lengths.len()).map(Some)) {
-        let alike: Vec<_> = all.iter().filter(|call| length(call.list) == wanted).collect();
-        if let Some(first) = alike.first() {
-            let arguments: Vec<_> = alike.iter().map(|call| call.argument).collect();
-            found.push(Calls {
-                list: first.list,
-                arguments: lower(declaration, &model.program(&arguments))?,
-                functions: alike.iter().map(|call| call.function).collect(),
-            });
-        }
-    }
-    Some(found)
 }
 
 /// Names, texts and forms of a declaration as data.

@@ -1,7 +1,7 @@
 //! Derivatives by the parameters, and the conditions that keep these admissible, for fits.
 
 use piola::__private::by_values;
-use piola::__private::interpreter::{ParameterValues, Program, Value};
+use piola::__private::interpreter::{Program, Value};
 use piola::Univariate;
 use piola::interpreter::Interpreted;
 use piola::material::{Constraint, Limit, Material};
@@ -9,7 +9,6 @@ use piola_codegen::algebra::expr::Id;
 use piola_codegen::model::{self, Model};
 use piola_codegen::read::parse::Declaration;
 
-use crate::constructor::numbers;
 use crate::lower::lower;
 
 /// Programs for fits of an energy.
@@ -132,7 +131,7 @@ impl Slopes {
         results: &dyn Fn(&Interpreted) -> [f64; N],
     ) -> Vec<[f64; N]> {
         let values = material.values();
-        let mut slopes: Vec<Vec<[f64; N]>> = vec![Vec::new(); values.all().len()];
+        let mut slopes: Vec<Vec<[f64; N]>> = vec![Vec::new(); values.len()];
         for (list, parameters, program) in &self.programs {
             for entry in 0..list.map_or(1, |list| length(values, list)) {
                 let computed = material.compute(program, arguments, entry);
@@ -142,7 +141,7 @@ impl Slopes {
             }
         }
         for &k in &self.differences {
-            slopes[k] = match &values.all()[k] {
+            slopes[k] = match &values[k] {
                 Value::Numbers(numbers) => by_values(numbers, |moved| {
                     Some(results(&with(material, k, Value::Numbers(moved.to_vec()))))
                 }),
@@ -171,16 +170,16 @@ pub(crate) fn values(material: &Interpreted) -> Vec<Vec<f64>> {
         Value::Numbers(numbers) => numbers.clone(),
         Value::Function(function) => function.values(),
     };
-    material.values().all().iter().map(list).collect()
+    material.values().iter().map(list).collect()
 }
 
 /// The material with another value of a parameter, which is not checked.
 fn with(material: &Interpreted, parameter: usize, value: Value) -> Interpreted {
-    let mut values = material.values().all().to_vec();
+    let mut values = material.values().to_vec();
     values[parameter] = value;
-    material.clone_with(ParameterValues::new(values))
+    material.clone_with(values)
 }
 
-fn length(values: &ParameterValues, parameter: usize) -> usize {
-    values.all().get(parameter).map_or(0, |value| numbers(value).len())
+fn length(values: &[Value], parameter: usize) -> usize {
+    values.get(parameter).map_or(0, |value| value.numbers().len())
 }

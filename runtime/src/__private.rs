@@ -29,8 +29,8 @@ pub use crate::Real;
 /// Programs as the compiler of declarations fills them in.
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod interpreter {
-    pub use crate::interpreter::material::{ByInvariants, Calls, Programs, Variant};
-    pub use crate::interpreter::parameters::{ParameterValues, Value};
+    pub use crate::interpreter::material::{ByInvariants, Programs, Variant};
+    pub use crate::interpreter::parameters::Value;
     pub use crate::interpreter::program::*;
 }
 

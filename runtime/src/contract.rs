@@ -26,7 +26,7 @@
 //! invariants apply to materials that have them. A check returns its findings or the first [`Violation`];
 //! nothing is printed, and only the tests of [`contract!`](crate::contract!) panic. Samples are reproducible:
 //! they follow from [`Settings::seed`]. Points that the material does not admit are left out, and a check
-//! without any comparison is a violation, [`Violation::NothingToCheck`].
+//! without any comparison is a violation.
 //!
 //! Tolerances are stated where they are used, as c·u·scale: u = 2⁻⁵³ and the scale the largest entry of the
 //! tangent times the quantity that it multiplies. A backward-stable evaluation may lose this much; a wrong

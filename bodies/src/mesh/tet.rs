@@ -292,6 +292,11 @@ impl Bounds {
     pub fn size(&self) -> [f64; 3] {
         subtract(self.max, self.min)
     }
+
+    /// Distance of a point, 0 inside.
+    pub(super) fn distance(&self, x: [f64; 3]) -> f64 {
+        norm(std::array::from_fn(|c| (self.min[c] - x[c]).max(x[c] - self.max[c]).max(0.0)))
+    }
 }
 
 /// Reason why a mesh is not a body, in words.

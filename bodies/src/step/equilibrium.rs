@@ -136,19 +136,19 @@ impl Equilibrium {
         if !(residual.is_finite() && largest_force.is_finite() && unit_force.is_finite()) {
             return Err(NewtonError::NotFinite);
         }
-        let is_stress_free = largest_force <= NO_STRESS * unit_force;
-        Ok(Self {
+        let mut found = Self {
             residual,
             largest_force,
             unit_force,
-            stability: match residual > BALANCE * largest_force && !is_stress_free {
-                true => Stability::Unbalanced,
-                false => in_balance,
-            },
+            stability: in_balance,
             rigid_motions: rigid.len(),
             inverted: elastic.stretches().filter(|stretches| stretches[2] < 0.0).count(),
             smallest_sum: elastic.stretches().map(|[_, l2, l3]| l2 + l3).fold(f64::INFINITY, f64::min),
-        })
+        };
+        if residual > BALANCE * largest_force && !found.is_stress_free() {
+            found.stability = Stability::Unbalanced;
+        }
+        Ok(found)
     }
 
     /// True if no element bears stress above rounding.

@@ -1,19 +1,19 @@
 //! Time integrators, each as one or several minimisations for each step.
 //!
-//! Every method here is made of stages, and each stage finds positions x from its start s, w and two lengths
-//! τ, σ:
+//! Every method here is made of stages, and each stage finds positions x from its start s, w and its length
+//! τ:
 //!
 //! ```text
-//! v = (x − s)/τ        a = (v − w)/σ        M a = f(x, v)
+//! v = (x − s)/τ        a = (v − w)/τ        M a = f(x, v)
 //! ```
 //!
 //! which is the minimisation that [`super::objective`] describes; for implicit Euler s, w are the state
-//! before the step and τ = σ = h.
+//! before the step and τ = h.
 //!
 //! **Runge–Kutta methods** have coefficients aij, j ≤ i, with equal ones aii = γ on the diagonal:
 //!
 //! ```text
-//! s = xₙ + h Σ aij vj        w = vₙ + h Σ aij aj        (j < i)        τ = σ = γ h
+//! s = xₙ + h Σ aij vj        w = vₙ + h Σ aij aj        (j < i)        τ = γ h
 //! ```
 //!
 //! Those of Alexander are stiffly accurate: the last stage is the state after the step, so that a collapsed
@@ -47,7 +47,7 @@ pub enum Integrator {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Method {
     /// γ.
-    diagonal: f64,
+    pub(super) diagonal: f64,
     /// aij of each stage, for j < i.
     pub(super) rows: &'static [&'static [f64]],
 }
@@ -65,26 +65,14 @@ impl Integrator {
         }
     }
 
-    /// Order of the integrator: the power of the step's length with which errors of smooth motions fall.
-    pub(super) fn order(self) -> i32 {
-        match self {
-            Self::ImplicitEuler => 1,
-            Self::Sdirk2 => 2,
-            Self::Sdirk3 => 3,
-        }
+    /// Order of the integrator: the power of the step's length with which errors of smooth motions fall. The
+    /// methods have as many stages.
+    pub(super) fn order(self) -> usize {
+        self.method().rows.len()
     }
 }
 
 impl Method {
-    pub(super) fn stages(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// τ and σ of each stage.
-    pub(super) fn lengths(&self, dt: f64) -> [f64; 2] {
-        [self.diagonal * dt; 2]
-    }
-
     /// Share of the motion of pinned nodes that is done in a stage.
     pub(super) fn share(&self, stage: usize) -> f64 {
         if stage + 1 == self.rows.len() { 1.0 } else { self.rows[stage].iter().sum::<f64>() + self.diagonal }
@@ -112,15 +100,15 @@ impl State {
     }
 }
 
-/// Stage of a step: velocities v = (x − s)/τ and accelerations a = (v − w)/σ from positions x.
+/// Stage of a step: velocities v = (x − s)/τ and accelerations a = (v − w)/τ from positions x.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage {
     /// s, m.
     pub(crate) start: Vec<[f64; 3]>,
     /// w, m/s.
     pub(crate) velocities: Vec<[f64; 3]>,
-    /// τ and σ, s.
-    pub(crate) lengths: [f64; 2],
+    /// τ, s.
+    pub(crate) length: f64,
     /// Accelerations in the stage before or, of the first one, at the end of the step before, m/s²; zero
     /// where there was none.
     pub(crate) accelerations: Vec<[f64; 3]>,
@@ -135,7 +123,7 @@ impl Stage {
         Self {
             start: zero(),
             velocities: zero(),
-            lengths: [f64::INFINITY; 2],
+            length: f64::INFINITY,
             accelerations: zero(),
             is_second_order: false,
         }
@@ -143,22 +131,20 @@ impl Stage {
 
     /// Velocity, m/s, and acceleration, m/s², of a node that is at `x`, m.
     pub(super) fn motion(&self, node: usize, x: [f64; 3]) -> [[f64; 3]; 2] {
-        let [tau, sigma] = self.lengths;
-        let v: [f64; 3] = std::array::from_fn(|c| (x[c] - self.start[node][c]) / tau);
-        [v, std::array::from_fn(|c| (v[c] - self.velocities[node][c]) / sigma)]
+        let v: [f64; 3] = std::array::from_fn(|c| (x[c] - self.start[node][c]) / self.length);
+        [v, std::array::from_fn(|c| (v[c] - self.velocities[node][c]) / self.length)]
     }
 
-    /// Scale of the error in time of the step with its nodes at `x`, m: the largest τ σ |a|, or for methods
-    /// of higher order τ σ times the change of a.
+    /// Scale of the error in time of the step with its nodes at `x`, m: the largest τ² |a|, or for methods of
+    /// higher order τ² times the change of a.
     pub(super) fn error_scale(&self, x: &[[f64; 3]]) -> f64 {
-        let [tau, sigma] = self.lengths;
         let before = if self.is_second_order { 1.0 } else { 0.0 };
         let size = |node: usize| {
             let [_, a] = self.motion(node, x[node]);
             let change = |c: usize| a[c] - before * self.accelerations[node][c];
             (0..3).map(|c| change(c).powi(2)).sum::<f64>()
         };
-        tau * sigma * (0..x.len()).map(size).fold(0.0, f64::max).sqrt()
+        self.length * self.length * (0..x.len()).map(size).fold(0.0, f64::max).sqrt()
     }
 }
 

@@ -16,8 +16,9 @@ use crate::system::linear::multigrid::Division;
 
 use super::error::NewtonError;
 use super::line_search::Line;
+use super::newton::NewtonReport;
 use super::objective::{Objective, product};
-use super::solver::{Definiteness, Machine, Solution};
+use super::solver::{Definiteness, Machine};
 use super::term::EnergyChange;
 
 #[derive(Clone)]
@@ -70,16 +71,6 @@ pub(super) struct Minimisation<'a, M> {
     pub(super) survey: Evaluated,
     /// First and second derivative of the quadratic part along the direction.
     quadratic: [f64; 2],
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Linearised {
-    /// Norm of the gradient over the free variables, N.
-    pub(super) residual: f64,
-    /// Number of elements whose tangent the filter changed.
-    pub(super) filtered: usize,
-    /// Number of elements whose tangent is at a pole.
-    pub(super) bounded: usize,
 }
 
 impl<'a, M: Machine> Minimisation<'a, M> {
@@ -148,8 +139,13 @@ impl<M: Machine> Minimisation<'_, M> {
     }
 
     /// Evaluates g and the filtered second derivatives K; with `pins_move`, adds K times the displacement of
-    /// the pins to g.
-    pub(super) fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<Linearised, NewtonError> {
+    /// the pins to g. Returns the norm of g over the free variables, N.
+    pub(super) fn linearise(
+        &mut self,
+        filter: Filter,
+        pins_move: bool,
+        report: &mut NewtonReport,
+    ) -> Result<f64, NewtonError> {
         let Self { objective, workspace, x, .. } = self;
         objective.terms.linearise(x, objective.blocks)?;
         workspace.machine.join(objective.body, objective.blocks)?;
@@ -169,21 +165,28 @@ impl<M: Machine> Minimisation<'_, M> {
         let residual = workspace.free_norm();
         let counts = [tangents.survey.filtered, tangents.survey.bounded];
         let [filtered, bounded] = workspace.machine.nodes().totals(counts.map(|count| count as f64));
-        Ok(Linearised { residual, filtered: filtered as usize, bounded: bounded as usize })
+        report.filtered = report.filtered.max(filtered as usize);
+        report.bounded = report.bounded.max(bounded as usize);
+        Ok(residual)
     }
 
     /// Solves K d = −g. The relative tolerance takes effect if it is tighter than the solver's own.
-    /// Returns `None` if K is indefinite and [`Definiteness::Required`].
+    /// Returns false if K is indefinite and [`Definiteness::Required`].
     pub(super) fn solve(
         &mut self,
         tolerance: f64,
         definiteness: Definiteness,
-    ) -> Result<Option<Solution>, NewtonError> {
+        report: &mut NewtonReport,
+    ) -> Result<bool, NewtonError> {
         let NewtonWorkspace { machine, gradient, direction, .. } = &mut *self.workspace;
         let solver = machine.solver();
         let solved = solver.solve(&self.objective, self.x, gradient, direction, tolerance, definiteness)?;
         machine.nodes_mut().copy(direction);
-        Ok(solved)
+        let Some(solution) = solved else { return Ok(false) };
+        report.shift = report.shift.max(solution.shift);
+        report.linear_iterations += solution.iterations;
+        report.truncated += usize::from(solution.truncated);
+        Ok(true)
     }
 
     /// Moves the pins in x, and evaluates the energies there.

@@ -6,7 +6,7 @@ use piola::point::Filter;
 
 use super::error::NewtonError;
 use super::line_search::{Outcome, backtrack};
-use super::minimisation::{Linearised, Minimisation};
+use super::minimisation::Minimisation;
 use super::solver::{Definiteness, Machine};
 
 mod report;
@@ -71,11 +71,16 @@ impl<M: Machine> Newton<'_, '_, M> {
             if !self.find_direction(pins_move, forcing)? {
                 break;
             }
-            if std::mem::take(&mut pins_move) && !self.move_pins()? {
-                // The tangent before the move is not that of the state after it; the next iteration takes its
-                // own.
-                self.report.step_lengths.push(0.0);
-                continue;
+            if std::mem::take(&mut pins_move) {
+                self.minimisation.move_pins()?;
+                self.note_gradient()?;
+                // The tangent before the move is not that of the state after it; if the direction does not
+                // descend there, the next iteration takes its own.
+                let descends = self.minimisation.descent() < 0.0;
+                if !descends {
+                    self.report.step_lengths.push(0.0);
+                    continue;
+                }
             }
             progress = self.search()?;
             if progress == Progress::Nothing {
@@ -128,41 +133,17 @@ impl<M: Machine> Newton<'_, '_, M> {
             Filtering::Always(filter) => (filter, Definiteness::Optional),
             Filtering::OnDemand => (Filter::None, Definiteness::Required),
         };
-        let residual = self.linearise(filter, pins_move)?;
-        if !pins_move && self.report.iterations == 0 && self.report.note_residual(residual, self.settings)? {
+        let Self { minimisation, settings, report, .. } = self;
+        let residual = minimisation.linearise(filter, pins_move, report)?;
+        if !pins_move && report.iterations == 0 && report.note_residual(residual, settings)? {
             return Ok(false);
         }
-        if !self.solve(tolerance, definiteness)? {
-            self.linearise(Filter::Clamp, pins_move)?;
-            self.solve(tolerance, Definiteness::Optional)?;
+        if !minimisation.solve(tolerance, definiteness, report)? {
+            minimisation.linearise(Filter::Clamp, pins_move, report)?;
+            minimisation.solve(tolerance, Definiteness::Optional, report)?;
         }
-        self.report.iterations += 1;
+        report.iterations += 1;
         Ok(true)
-    }
-
-    /// Evaluates the gradient and the filtered second derivatives; returns the norm of the gradient.
-    fn linearise(&mut self, filter: Filter, pins_move: bool) -> Result<f64, NewtonError> {
-        let Linearised { residual, filtered, bounded } = self.minimisation.linearise(filter, pins_move)?;
-        self.report.filtered = self.report.filtered.max(filtered);
-        self.report.bounded = self.report.bounded.max(bounded);
-        Ok(residual)
-    }
-
-    /// Solves for the direction; returns false if the matrix is indefinite and definiteness is required.
-    fn solve(&mut self, tolerance: f64, definiteness: Definiteness) -> Result<bool, NewtonError> {
-        let Some(solution) = self.minimisation.solve(tolerance, definiteness)? else { return Ok(false) };
-        self.report.shift = self.report.shift.max(solution.shift);
-        self.report.linear_iterations += solution.iterations;
-        self.report.truncated += usize::from(solution.truncated);
-        Ok(true)
-    }
-
-    /// Moves the pins; returns false if the direction, found before the move, is not a descent direction
-    /// after it.
-    fn move_pins(&mut self) -> Result<bool, NewtonError> {
-        self.minimisation.move_pins()?;
-        self.note_gradient()?;
-        Ok(self.minimisation.descent() < 0.0)
     }
 
     /// Moves x along the direction by a step that the line search accepts.

@@ -1,18 +1,18 @@
 //! The function that a step of implicit Euler minimises, or a stage of another integrator.
 //!
 //! With M the lumped masses, D the quadratic form of damping, α M, and with s, w
-//! and the lengths τ, σ of the stage, for which v = (x − s)/τ and a = (v − w)/σ:
+//! and the length τ of the stage, for which v = (x − s)/τ and a = (v − w)/τ:
 //!
 //! ```text
-//! E(x) = ½‖x − s − τ w‖²_M / (τσ) + 1/(2τ) ‖x − s‖²_D + Ψ(x) − Σ (m g + f)·x + Σ terms
+//! E(x) = ½‖x − s − τ w‖²_M / τ² + 1/(2τ) ‖x − s‖²_D + Ψ(x) − Σ (m g + f)·x + Σ terms
 //! ```
 //!
 //! Where its gradient vanishes, M a = −∇Ψ(x) − D v + M g + f − ∇ terms. For implicit Euler s and w are the
-//! state before the step, and τ = σ is its length. Inertia, damping and given forces are quadratic, so that
+//! state before the step, and τ is its length. Inertia, damping and given forces are quadratic, so that
 //! along a line they need one slope and one curvature and no subtraction of close energies. Positions enter
 //! as displacements from s.
 //!
-//! With τ = σ = ∞ inertia and damping are zero by the arithmetic of infinity, and what is left is statics.
+//! With τ = ∞ inertia and damping are zero by the arithmetic of infinity, and what is left is statics.
 
 use std::iter;
 use std::sync::Arc;
@@ -119,10 +119,10 @@ impl Objective<'_> {
         }
     }
 
-    /// Second derivative of the quadratic part in each coordinate of a node: m (1/σ + α)/τ.
+    /// Second derivative of the quadratic part in each coordinate of a node: m (1/τ + α)/τ.
     fn diagonal(&self, node: usize) -> f64 {
-        let [tau, sigma] = self.stage.lengths;
-        self.body.masses()[node] * (1.0 / sigma + self.damping) / tau
+        let tau = self.stage.length;
+        self.body.masses()[node] * (1.0 / tau + self.damping) / tau
     }
 
     /// Curvature dᵀ H d of the quadratic part.

@@ -18,13 +18,12 @@ use crate::system::Pins;
 /// minimum of a stage is where
 ///
 /// ```text
-/// M a = −∇Ψ(x) + other forces at x and v, with v = (x − s)/τ and a = (v − w)/σ
+/// M a = −∇Ψ(x) + other forces at x and v, with v = (x − s)/τ and a = (v − w)/τ
 /// ```
 ///
-/// for the s, w, τ and σ of its [`Stage`].
+/// for the s, w and τ of its [`Stage`].
 #[derive(Clone, Debug)]
 pub(super) struct StagedSteps {
-    pub(super) integrator: Integrator,
     method: Method,
     dt: f64,
     pub(super) state: State,
@@ -43,7 +42,7 @@ pub(super) struct StagedSteps {
     pub(super) pins_move: Vec<[f64; 3]>,
     pub(super) springs: Vec<Spring>,
     /// Targets of the springs where the next step starts, m.
-    targets_before: Vec<[f64; 3]>,
+    pub(super) targets_before: Vec<[f64; 3]>,
 }
 
 impl StagedSteps {
@@ -59,7 +58,6 @@ impl StagedSteps {
         }
         let state = State::at_rest(positions);
         let mut steps = Self {
-            integrator,
             method: integrator.method(),
             dt: 0.0,
             next: state.clone(),
@@ -80,7 +78,6 @@ impl StagedSteps {
     /// Replaces the integrator from the next step on.
     pub(super) fn set_integrator(&mut self, integrator: Integrator) {
         let zero = || vec![[0.0; 3]; self.state.x.len()];
-        self.integrator = integrator;
         self.stage.is_second_order = integrator.order() > 1;
         self.done.resize_with(integrator.method().rows.len() - 1, || [zero(), zero()]);
     }
@@ -97,50 +94,22 @@ impl StagedSteps {
         self.pins = pins.clone();
     }
 
-    /// Prescribes the position of a pinned node, m, after the next step and from then on.
-    pub(super) fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
-        if self.pins.nodes().binary_search(&node).is_err() {
-            return Err(SetupError(format!(
-                "node {node} (from 0) is not pinned, so its motion cannot be prescribed"
-            )));
-        }
-        if position.iter().any(|x| !x.is_finite()) {
-            return Err(not_finite(node));
-        }
-        self.targets[node] = position;
-        Ok(())
-    }
-
-    /// Replaces the springs. If a spring has the same index and anchor as one before, its target moves evenly
-    /// in the course of the next step.
-    pub(super) fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
-        springs.iter().enumerate().try_for_each(|(index, spring)| self.check_spring(index, spring))?;
-        let before = |(index, spring): (usize, &Spring)| match self.springs.get(index) {
-            Some(old) if old.anchor == spring.anchor => self.targets_before[index],
-            _ => spring.target,
-        };
-        self.targets_before = springs.iter().enumerate().map(before).collect();
-        self.springs.clear();
-        self.springs.extend_from_slice(springs);
-        Ok(())
-    }
-
     /// Begins a step of `dt`, s, infinite for statics. Returns the number of its stages.
-    pub(super) fn begin(&mut self, dt: f64) -> usize {
+    pub(super) fn begin(&mut self, integrator: Integrator, dt: f64) -> usize {
         let is_static = dt == f64::INFINITY;
-        let integrator = if is_static { Integrator::ImplicitEuler } else { self.integrator };
+        let integrator = if is_static { Integrator::ImplicitEuler } else { integrator };
         self.method = integrator.method();
         self.dt = dt;
         self.next.x.copy_from_slice(&self.state.x);
-        self.method.stages()
+        self.method.rows.len()
     }
 
     /// Begins a stage of the step, counted from 0: pinned nodes and targets of springs are at its share of
     /// their motion through the step. Returns true if a pinned node moves.
     pub(super) fn begin_stage(&mut self, stage: usize) -> bool {
         let State { x, v, a } = &self.state;
-        let Stage { start, velocities, lengths, accelerations, .. } = &mut self.stage;
-        *lengths = self.method.lengths(self.dt);
+        let Stage { start, velocities, length, accelerations, .. } = &mut self.stage;
+        *length = self.method.diagonal * self.dt;
         accelerations.copy_from_slice(stage.checked_sub(1).map_or(a, |before| &self.done[before][1]));
         start.copy_from_slice(x);
         velocities.copy_from_slice(v);
@@ -167,7 +136,7 @@ impl StagedSteps {
 
     /// Ends a stage, with the positions of `next` at the minimum.
     pub(super) fn end_stage(&mut self, stage: usize) {
-        let is_last = stage + 1 == self.method.stages();
+        let is_last = stage + 1 == self.method.rows.len();
         let State { x, v, a } = &mut self.next;
         let [v, a] = if is_last { [v, a] } else { self.done[stage].each_mut() };
         for (node, &x) in x.iter().enumerate() {
@@ -193,31 +162,6 @@ impl StagedSteps {
             self.springs[index].target = on_the_way(*before, spring.target, end);
         }
     }
-
-    pub(super) fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
-        let (nodes, found) = (self.state.x.len(), vectors.len());
-        if found != nodes {
-            return Err(SetupError(format!("expected one entry for each of {nodes} nodes, found {found}")));
-        }
-        match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
-            Some(node) => Err(not_finite(node)),
-            None => Ok(()),
-        }
-    }
-
-    fn check_spring(&self, index: usize, spring: &Spring) -> Result<(), SetupError> {
-        let nodes = self.state.x.len();
-        if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
-            return Err(NoSuchNode { element: None, node, nodes }.into());
-        }
-        let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
-        if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
-            return Err(SetupError(format!(
-                "spring {index} (from 0) has a negative stiffness or an entry that is not finite"
-            )));
-        }
-        Ok(())
-    }
 }
 
 /// Point at a share of the way between two points; exactly these at the ends.
@@ -233,8 +177,4 @@ fn add(sum: &mut [[f64; 3]], factor: f64, x: &[[f64; 3]]) {
     for (sum, x) in sum.as_flattened_mut().iter_mut().zip(x.as_flattened()) {
         *sum += factor * x;
     }
-}
-
-fn not_finite(node: usize) -> SetupError {
-    SetupError(format!("the entry of node {node} (from 0) is not finite"))
 }

@@ -31,24 +31,31 @@ impl CsrPlaces {
     /// none.
     ///
     /// # Errors
-    /// [`CsrError`] for slices that are not a matrix, an entry that neither the matrix nor its transpose
-    /// holds, or too little memory.
+    /// [`CsrError`] for slices that are not a matrix, an unknown without a row, an entry that neither the
+    /// matrix nor its transpose holds, or too little memory.
     pub fn new<I: Copy + TryInto<usize>>(
         tetrahedra: Tetrahedra<'_>,
         unknowns: impl Fn(usize) -> Option<usize>,
         row_starts: &[I],
         columns: &[I],
     ) -> Result<Self, CsrError> {
-        let rows = row_starts.len().checked_sub(1).ok_or(CsrError::Rows { row: 0 })?;
+        let not_a_row = |row: usize| {
+            CsrError(format!(
+                "row {row} (from 0) is not one of compressed rows: its start must not be beyond its end, nor its end beyond \
+                 the columns"
+            ))
+        };
+        let too_large = || CsrError("the places of the stiffnesses do not fit into memory".to_owned());
+        let rows = row_starts.len().checked_sub(1).ok_or_else(|| not_a_row(0))?;
         let start = |row: usize| row_starts[row].try_into().ok();
         for row in 0..rows {
             let is_row = |(start, end): (usize, usize)| start <= end && end <= columns.len();
             if !start(row).zip(start(row + 1)).is_some_and(is_row) {
-                return Err(CsrError::Rows { row });
+                return Err(not_a_row(row));
             }
         }
         if columns.len() >= NONE as usize {
-            return Err(CsrError::OutOfMemory);
+            return Err(too_large());
         }
         let find = |row: usize, column: usize| {
             let (start, end) = (start(row)?, start(row + 1)?);
@@ -56,7 +63,7 @@ impl CsrPlaces {
             Some((start + at) as u32)
         };
         let mut places = Vec::new();
-        places.try_reserve_exact(tetrahedra.corners.len()).map_err(|_| CsrError::OutOfMemory)?;
+        places.try_reserve_exact(tetrahedra.corners.len()).map_err(|_| too_large())?;
         for corners in tetrahedra.corners {
             let unknown_of = corners.map(&unknowns);
             let mut of_element = [NONE; 144];
@@ -65,12 +72,20 @@ impl CsrPlaces {
                 let of = |at: usize| unknown_of[at / 3].map(|unknown| unknown.saturating_add(at % 3));
                 let Some((row, column)) = of(row).zip(of(column)) else { continue };
                 if row.max(column) >= rows {
-                    return Err(CsrError::NoRow { row: row.max(column), rows });
+                    return Err(CsrError(format!(
+                        "there is no row {}: the {rows} rows of the matrix are numbered from 0",
+                        row.max(column)
+                    )));
                 }
                 *place = match find(row, column) {
                     Some(place) => place,
                     None if find(column, row).is_some() => ACROSS,
-                    None => return Err(CsrError::NoEntry { row, column }),
+                    None => {
+                        return Err(CsrError(format!(
+                            "the matrix has no entry in row {row} and column {column} (from 0), nor across the diagonal, though a \
+                             tetrahedron joins these unknowns"
+                        )));
+                    }
                 };
             }
             places.push(of_element);
@@ -107,51 +122,13 @@ impl CsrPlaces {
     }
 }
 
-/// Reason why the stiffnesses of tetrahedra do not fit into a matrix.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum CsrError {
-    /// A row does not begin where the one before it ends, or ends beyond the columns.
-    Rows {
-        /// The row, from 0.
-        row: usize,
-    },
-    /// A node has an unknown without a row.
-    NoRow {
-        /// The missing row.
-        row: usize,
-        /// Number of rows.
-        rows: usize,
-    },
-    /// Two unknowns of one tetrahedron have no entry, on neither side of the diagonal.
-    NoEntry {
-        /// The row, from 0.
-        row: usize,
-        /// The column, from 0.
-        column: usize,
-    },
-    /// The places do not fit into memory, or there are more than four thousand million entries.
-    OutOfMemory,
-}
+/// Reason why the stiffnesses of tetrahedra do not fit into a matrix, in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CsrError(String);
 
 impl fmt::Display for CsrError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Rows { row } => write!(
-                f,
-                "row {row} (from 0) is not one of compressed rows: its start must not be beyond its end, nor its end beyond \
-                 the columns"
-            ),
-            Self::NoRow { row, rows } => {
-                write!(f, "there is no row {row}: the {rows} rows of the matrix are numbered from 0")
-            }
-            Self::NoEntry { row, column } => write!(
-                f,
-                "the matrix has no entry in row {row} and column {column} (from 0), nor across the diagonal, though a \
-                 tetrahedron joins these unknowns"
-            ),
-            Self::OutOfMemory => write!(f, "the places of the stiffnesses do not fit into memory"),
-        }
+        f.write_str(&self.0)
     }
 }
 
@@ -220,17 +197,19 @@ mod tests {
     #[test]
     fn what_does_not_fit_is_an_error() {
         let tetrahedra = Tetrahedra::new(5, &CORNERS).expect("nodes that exist");
-        let new =
-            |starts: &[i64], columns: &[i64]| CsrPlaces::new(tetrahedra, unknowns, starts, columns).map(drop);
-        assert_eq!(new(&[], &[]), Err(CsrError::Rows { row: 0 }));
-        assert_eq!(new(&[0, 2], &[0]), Err(CsrError::Rows { row: 0 }));
-        assert_eq!(new(&[0, 1, 0], &[0]), Err(CsrError::Rows { row: 1 }));
-        assert_eq!(new(&[-1, 1], &[0]), Err(CsrError::Rows { row: 0 }));
-        assert_eq!(new(&[0, 1], &[0]), Err(CsrError::NoRow { row: 9, rows: 1 }));
+        for (starts, columns, expected) in [
+            (&[0_i64; 0][..], &[0_i64; 0][..], "row 0 (from 0) is not one"),
+            (&[0, 2], &[0], "row 0 (from 0) is not one"),
+            (&[0, 1, 0], &[0], "row 1 (from 0) is not one"),
+            (&[-1, 1], &[0], "row 0 (from 0) is not one"),
+            (&[0, 1], &[0], "there is no row 9: the 1 rows"),
+        ] {
+            let error = CsrPlaces::new(tetrahedra, unknowns, starts, columns).expect_err(expected);
+            assert!(error.to_string().starts_with(expected), "{error}");
+        }
         let (starts, columns) = compressed(|r, c| (r, c) != (9, 6) && (r, c) != (6, 9));
         let missing =
             CsrPlaces::new(tetrahedra, unknowns, &starts, &columns).expect_err("an entry is missing");
-        assert_eq!(missing, CsrError::NoEntry { row: 9, column: 6 });
         assert!(missing.to_string().contains("row 9 and column 6"), "{missing}");
 
         let (starts, columns) = compressed(|_, _| true);

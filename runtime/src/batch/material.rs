@@ -6,7 +6,6 @@
 
 use crate::kernels::rows::{ROW, Rows, first_bits, for_each_group, to_rows};
 use crate::lanes::{Backend, Kernel, Lanes, Mask, Real, Scalar};
-use crate::material::properties::largest_rest_stiffness;
 use crate::material::{Curvature, Graded, Material, PerPoint, RawTile, ResponseKind};
 use crate::point::energy_is_finite;
 use crate::status::Status;
@@ -213,7 +212,8 @@ macro_rules! tile_responses {
             )*
 
             fn rest_stiffness(&self) -> f64 {
-                largest_rest_stiffness(self.materials())
+                let stiffness = |material: &P::Material| material.blocks([1.0f64; 3]).hessian[0];
+                self.materials().iter().map(stiffness).fold(0.0, f64::max)
             }
 
             fn properties(&self) -> Properties {

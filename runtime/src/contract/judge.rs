@@ -1,7 +1,7 @@
 //! Compares numbers, counts, and stops at the first that is wrong.
 
 use super::subject::Subject;
-use super::violation::{FINITE, Violation};
+use super::violation::Violation;
 use super::{Finding, Notation, Rule, Settings};
 use crate::random::Random;
 
@@ -10,6 +10,13 @@ pub(super) type Verdict = Result<(), Violation>;
 
 /// Ratio of a difference to its tolerance above which a formula is wrong; wrong ones mostly exceed 1e10.
 const MISTAKE: f64 = 1e6;
+
+/// Demand on a value that may not be infinite or NaN.
+const FINITE: &str = "a finite number";
+
+/// Explanation of values that are infinite or NaN, for which a difference, or a remedy for a sign, is useless.
+const SEE_DOMAIN: &str = "not a finite number, here or near by, but an overflow, or a root, real power or logarithm of something \
+                          negative; see the rule `domain`";
 
 /// Advice for a difference below [`MISTAKE`].
 fn lost_digits(notation: Notation) -> String {
@@ -73,8 +80,7 @@ impl<'a> Judge<'a> {
         let is_small = difference < MISTAKE * tolerance;
         let remedy =
             if is_small { Some(lost_digits(self.settings.notation)) } else { remedy.map(Into::into) };
-        let (rule, component) = (self.rule, component());
-        Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
+        self.differs(&component(), stretches, [found, expected], tolerance, remedy)
     }
 
     /// Demands that two values have the same bits; all NaN are equal.
@@ -89,9 +95,7 @@ impl<'a> Judge<'a> {
         if found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan()) {
             return Ok(());
         }
-        let (rule, component) = (self.rule, component());
-        let (tolerance, remedy) = (0.0, None);
-        Err(Violation::Differs { rule, component, stretches, found, expected, tolerance, remedy })
+        self.differs(&component(), stretches, [found, expected], 0.0, None)
     }
 
     /// Demands that a statement hold; the report gives it as 1 or 0.
@@ -132,13 +136,59 @@ impl<'a> Judge<'a> {
             return Ok(());
         }
         let (component, remedy) = words();
-        Err(Violation::WrongKind { rule: self.rule, component, stretches, found, expected, remedy })
+        if found.is_nan() && expected != FINITE {
+            let demand = format!(", where {expected} is expected: {SEE_DOMAIN}");
+            return self.wrong(&component, stretches, found, &demand, None);
+        }
+        self.wrong(&component, stretches, found, &format!("\n    expected    {expected}"), remedy)
+    }
+
+    /// A value that differs from another one by more than rounding explains: nothing, where both must have
+    /// the same bits.
+    fn differs(
+        &self,
+        component: &str,
+        stretches: [f64; 3],
+        [found, expected]: [f64; 2],
+        tolerance: f64,
+        remedy: Option<String>,
+    ) -> Verdict {
+        let difference = (found - expected).abs();
+        if difference.is_nan() || tolerance.is_nan() {
+            let demand = format!(", where {expected:e} is expected: {SEE_DOMAIN}");
+            return self.wrong(component, stretches, found, &demand, None);
+        }
+        let (explained, remedy) = match tolerance == 0.0 {
+            true => ("where both must have the same bits".to_owned(), None),
+            false => (format!("of which rounding explains {tolerance:.1e}"), remedy),
+        };
+        let demand = format!("\n    expected    {expected:e}\n    difference  {difference:.1e}, {explained}");
+        self.wrong(component, stretches, found, &demand, remedy)
+    }
+
+    /// A value that is not as demanded.
+    fn wrong(
+        &self,
+        component: &str,
+        [l1, l2, l3]: [f64; 3],
+        found: f64,
+        demand: &str,
+        remedy: Option<String>,
+    ) -> Verdict {
+        let remedy = remedy.map(|remedy| format!("\n    remedy      {remedy}")).unwrap_or_default();
+        let facts = format!(
+            "    component   {component}\n    stretches   {l1}, {l2}, {l3}\n    found       {found:e}{demand}{remedy}"
+        );
+        let is_not_finite = self.rule == Rule::Domain && !found.is_finite();
+        Err(Violation { rule: self.rule, is_not_finite, facts })
     }
 
     pub(super) fn finding(&self) -> Result<Finding, Violation> {
         let &Self { rule, comparisons, worst, .. } = self;
         if comparisons == 0 {
-            return Err(Violation::NothingToCheck { rule });
+            let facts = "    the material admits none of the points at which this is judged: choose other parameters or a wider \
+                         domain, or another `range` or more `points` of the settings";
+            return Err(Violation { rule, is_not_finite: false, facts: facts.to_owned() });
         }
         Ok(Finding { rule, comparisons, worst })
     }

@@ -40,10 +40,10 @@ pub(super) fn execute_tile<E: Scalar>(
     program: &Program,
     context: Context<'_>,
     volume: VolumeBound,
-    tile: &mut RawTile<'_, E>,
+    tile: RawTile<'_, E>,
 ) -> u64 {
-    let RawTile { backend, count, materials, stride, unread, .. } = *tile;
-    match E::by_format(tile.arguments, tile.results) {
+    let RawTile { backend, count, materials, stride, arguments, results, unread } = tile;
+    match E::by_format(arguments, results) {
         ByFormat::F64(arguments, results) => {
             let tile = RawTile { backend, count, materials, stride, arguments, results, unread };
             execute_in_f64(backend, Execution { program, context, volume, tile })
@@ -105,7 +105,7 @@ impl<E: Scalar> Execution<'_, '_, E> {
         let Self { program, mut context, volume, tile } = self;
         let RawTile { count, stride, arguments, results, unread, .. } = tile;
         context.parameters.lanes = R::LANES;
-        let mut registers = Registers::<R>::take_for(program, &context, G);
+        let mut registers = Registers::<R>::take(program, &context, G);
         let mut admitted = if volume.is_any() && program.bounds.is_empty() { u64::MAX } else { 0 };
         let mut start = 0;
         while start < count {

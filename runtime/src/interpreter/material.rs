@@ -7,12 +7,11 @@ use piola_codegen::read::domain::Volume;
 
 use super::domain::VolumeBound;
 use super::execute::{execute_alone, execute_tile};
-use super::parameters::{Context, ParameterValues, Parameters};
-use super::program::{Program, Sizes};
+use super::parameters::{Context, Parameters, Value, are_alike};
+use super::program::Program;
 use super::registers::Registers;
 use crate::lanes::{Mask, Real, Scalar};
 use crate::material::{Blocks, Curvature, Graded, Inversion, Material, Moduli, RawTile, ResponseKind};
-use crate::univariate::Univariate;
 
 /// Programs of an energy and of all its responses.
 #[derive(Debug, PartialEq)]
@@ -44,8 +43,6 @@ pub struct Variant {
     pub gradient: Program,
     /// The fifteen components of [`Blocks`], Pa, in the order of its fields.
     pub blocks: Program,
-    /// Calls of functions that are parameters.
-    pub calls: Vec<Calls>,
     /// True if a twist has a pole at λi + λj = 0.
     pub has_pole: bool,
 }
@@ -61,23 +58,10 @@ pub struct ByInvariants {
     pub derivatives: Program,
     /// Expressions that are positive inside the domain, J apart.
     pub bounds: Program,
-    /// Calls of functions that are parameters.
-    pub calls: Vec<Calls>,
     /// True if ψ depends on I2.
     pub has_second_invariant: bool,
     /// Second derivatives that do not vanish everywhere.
     pub curvature: Curvature,
-}
-
-/// Calls of functions: an energy is defined where each function admits its argument.
-#[derive(Debug, PartialEq)]
-pub struct Calls {
-    /// A list whose entries, one by one, make the arguments, by its place in the declaration.
-    pub list: Option<usize>,
-    /// The arguments of the calls.
-    pub arguments: Program,
-    /// The function of each call, by its place in the declaration.
-    pub functions: Vec<usize>,
 }
 
 /// Material whose energy was declared at run time, made by the crate `piola-declare`.
@@ -91,7 +75,7 @@ pub struct Interpreted {
     /// Identity of the parameter values; shared by clones.
     number: u64,
     programs: Arc<Programs>,
-    values: ParameterValues,
+    values: Vec<Value>,
     inversion: Inversion,
 }
 
@@ -105,23 +89,23 @@ impl Interpreted {
     /// The material with these values, which have been checked, and without extension.
     #[doc(hidden)]
     #[must_use]
-    pub fn new(programs: Arc<Programs>, values: ParameterValues, inversion: Inversion) -> Self {
+    pub fn new(programs: Arc<Programs>, values: Vec<Value>, inversion: Inversion) -> Self {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         Self { number, programs, values, inversion }
     }
 
-    /// The values of the parameters.
+    /// The values of the parameters, in the order of the declaration.
     #[doc(hidden)]
     #[must_use]
-    pub fn values(&self) -> &ParameterValues {
+    pub fn values(&self) -> &[Value] {
         &self.values
     }
 
     /// The material of the same energy with other values, which are not checked.
     #[doc(hidden)]
     #[must_use]
-    pub fn clone_with(&self, values: ParameterValues) -> Self {
+    pub fn clone_with(&self, values: Vec<Value>) -> Self {
         Self::new(self.programs.clone(), values, self.inversion)
     }
 
@@ -183,39 +167,21 @@ impl Interpreted {
         })
     }
 
-    /// Programs of the domain: expressions that are positive inside of it, and calls of functions; `None`
-    /// without invariants.
-    fn domain(&self, is_by_invariants: bool) -> Option<(&Program, &[Calls])> {
-        if !is_by_invariants {
-            return Some((&self.programs.bounds, &self.variant().calls));
-        }
-        let programs = self.programs.by_invariants.as_ref()?;
-        Some((&programs.bounds, &programs.calls))
-    }
-
     /// The volumes inside the domain, by stretches or by invariants.
     fn volume(&self, is_by_invariants: bool) -> VolumeBound {
         VolumeBound { volume: self.programs.volume, inversion: self.inversion, is_by_invariants }
     }
 
     fn admits_alone<R: Real>(&self, is_by_invariants: bool, at: [R; 3]) -> R::Mask {
-        let Some((bounds, calls)) = self.domain(is_by_invariants) else { return R::Mask::splat(false) };
-        let mut mask = self.volume(is_by_invariants).holds(at);
-        let context = self.context();
-        let mut and = |program: &Program, entry: usize, holds: &dyn Fn(usize, R) -> R::Mask| {
-            execute_at(program, Context { entry, ..context }, &at, |registers| {
-                for (k, &register) in program.results.iter().enumerate() {
-                    mask = mask & holds(k, registers.number(register));
-                }
-            });
+        let bounds = match (is_by_invariants, &self.programs.by_invariants) {
+            (false, _) => &self.programs.bounds,
+            (true, Some(programs)) => &programs.bounds,
+            (true, None) => return R::Mask::splat(false),
         };
-        and(bounds, 0, &|_, bound| R::splat(0.0).less(bound));
-        for Calls { list, arguments, functions } in calls {
-            for entry in 0..list.map_or(1, |list| context.parameters.length(list)) {
-                and(arguments, entry, &|k, argument| admits(&context.parameters, functions[k], argument));
-            }
-        }
-        mask
+        execute_at(bounds, self.context(), &at, |registers| {
+            let holds = bounds.results.iter().map(|&bound| R::splat(0.0).less(registers.number(bound)));
+            holds.fold(self.volume(is_by_invariants).holds(at), |all, one| all & one)
+        })
     }
 
     /// A response of a tile whose points have this material except for real numbers among its parameters.
@@ -224,23 +190,11 @@ impl Interpreted {
         &self,
         response: ResponseKind,
         parameters: Parameters<'_>,
-        tile: &mut RawTile<'_, E>,
+        tile: RawTile<'_, E>,
     ) -> u64 {
+        let Some(program) = self.program(response) else { return 0 };
         let context = Context { parameters, ..self.context() };
-        let is_by_invariants = response.is_by_invariants();
-        let (Some(program), Some((_, calls))) = (self.program(response), self.domain(is_by_invariants))
-        else {
-            return 0;
-        };
-        let mut admitted = execute_tile(program, context, self.volume(is_by_invariants), tile);
-        for Calls { list, arguments, functions } in calls {
-            for entry in 0..list.map_or(1, |list| parameters.length(list)) {
-                let context = Context { entry, ..context };
-                let is_defined = |k: usize, argument: E| admits(&parameters, functions[k], argument);
-                admitted &= domain_bits(tile, arguments, context, is_defined);
-            }
-        }
-        admitted
+        execute_tile(program, context, self.volume(response.is_by_invariants()), tile)
     }
 }
 
@@ -251,37 +205,11 @@ fn execute_at<R: Real, T>(
     arguments: &[R],
     read: impl FnOnce(&Registers<R>) -> T,
 ) -> T {
-    let mut registers = Registers::take_for(program, &context, 1);
+    let mut registers = Registers::take(program, &context, 1);
     execute_alone(program, context, arguments, &mut registers);
     let results = read(&registers);
     registers.give_back();
     results
-}
-
-/// The points for which all results of a program satisfy a condition, as bits.
-fn domain_bits<E: Scalar>(
-    tile: &RawTile<'_, E>,
-    program: &Program,
-    context: Context<'_>,
-    holds: impl Fn(usize, E) -> bool,
-) -> u64 {
-    let RawTile { backend, count, materials, stride, arguments, .. } = *tile;
-    let sizes = Sizes { numbers: program.results.len() * stride, ..Sizes::default() };
-    let mut rows = Registers::<E>::take(sizes, 1);
-    let volume = VolumeBound { volume: Volume::Any, inversion: Inversion::Refuse, is_by_invariants: false };
-    let results = rows.numbers();
-    let mut tile = RawTile { backend, count, materials, stride, arguments, results, unread: 0 };
-    execute_tile(program, context, volume, &mut tile);
-    let results = rows.numbers();
-    let is_inside = |point: usize| (0..program.results.len()).all(|k| holds(k, results[k * stride + point]));
-    let inside = (0..count).fold(0, |bits, point| bits | u64::from(is_inside(point)) << point);
-    rows.give_back();
-    inside
-}
-
-/// True if a function that is a parameter is defined at an argument.
-fn admits<R: Real>(parameters: &Parameters<'_>, function: usize, argument: R) -> R::Mask {
-    parameters.function(function).map_or(R::Mask::splat(true), |function| function.admits(argument))
 }
 
 impl Material for Interpreted {
@@ -361,8 +289,9 @@ impl Material for Interpreted {
 
     fn ends_at_zero_volume(&self) -> bool {
         let is_refused = self.inversion == Inversion::Refuse || self.programs.extended.is_none();
+        let has_functions = self.values.iter().any(|value| matches!(value, Value::Function(_)));
         self.programs.volume == Volume::Positive && is_refused
-            || !self.variant().calls.is_empty() && crate::material::constructor::sign_decides(self)
+            || has_functions && crate::material::constructor::sign_decides(self)
     }
 
     fn inversion(&self) -> Inversion {
@@ -379,18 +308,18 @@ impl Material for Interpreted {
     fn respond_together<'m, E: Scalar>(
         material: impl Fn(usize) -> &'m Self + Copy,
         response: ResponseKind,
-        mut tile: RawTile<'_, E>,
+        tile: RawTile<'_, E>,
     ) -> u64 {
         let first = material(0);
         let mut others = (1..tile.materials).map(material);
         if others.all(|other| std::ptr::eq(other, first) || other == first) {
-            return first.respond(response, Parameters::same(&first.values), &mut tile);
+            return first.respond(response, Parameters::same(&first.values), tile);
         }
         // They differ in real numbers only. Lanes beyond the points have the values of the last.
         let last = tile.materials - 1;
-        let each = |point: usize| &material(point.min(last)).values;
+        let each = |point: usize| material(point.min(last)).values();
         let parameters = Parameters { each: Some(&each), ..Parameters::same(&first.values) };
-        first.respond(response, parameters, &mut tile)
+        first.respond(response, parameters, tile)
     }
 }
 
@@ -403,7 +332,7 @@ impl Graded for Interpreted {
 
     /// True if both differ in real numbers only.
     fn shares_lanes(&self, other: &Self) -> bool {
-        let is_alike = || self.values.are_alike(&other.values, &self.programs.are_whole);
+        let is_alike = || are_alike(&self.values, &other.values, &self.programs.are_whole);
         std::ptr::eq(self, other) || self.is_of_the_same_energy(other) && is_alike()
     }
 }

@@ -3,66 +3,49 @@
 use crate::lanes::Real;
 use crate::univariate::Spline;
 
-/// The values of all parameters, in the order of the declaration.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ParameterValues(Vec<Value>);
-
 /// The value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number, as one entry, or the entries of a list; whole exponents too.
     Numbers(Vec<f64>),
-    /// A function.
+    /// A function, which is defined everywhere and so ends no domain.
     Function(Spline),
 }
 
-impl ParameterValues {
-    /// One value for each parameter of the declaration.
+impl Value {
+    /// The entries of a list, or a number as one; none of a function.
     #[must_use]
-    pub fn new(values: Vec<Value>) -> Self {
-        Self(values)
-    }
-
-    /// The values, one for each parameter.
-    #[must_use]
-    pub fn all(&self) -> &[Value] {
-        &self.0
-    }
-
-    /// Entry of a list, or the value of a number; NaN if there is none.
     #[inline(always)]
-    pub(super) fn number(&self, parameter: usize, entry: usize) -> f64 {
-        match self.0.get(parameter) {
-            Some(Value::Numbers(numbers)) => numbers.get(entry).copied().unwrap_or(f64::NAN),
-            _ => f64::NAN,
+    pub fn numbers(&self) -> &[f64] {
+        match self {
+            Self::Numbers(numbers) => numbers,
+            Self::Function(_) => &[],
         }
     }
+}
 
-    /// The number of entries of a list.
-    pub(super) fn length(&self, parameter: usize) -> usize {
-        match self.0.get(parameter) {
-            Some(Value::Numbers(numbers)) => numbers.len(),
-            _ => 0,
-        }
-    }
+/// Entry of a list, or the value of a number; NaN if there is none.
+#[inline(always)]
+pub(super) fn number(values: &[Value], parameter: usize, entry: usize) -> f64 {
+    values.get(parameter).and_then(|value| value.numbers().get(entry)).copied().unwrap_or(f64::NAN)
+}
 
-    /// True if both differ in real numbers only, so that lanes can hold values of both.
-    pub(super) fn are_alike(&self, other: &Self, is_whole: &[bool]) -> bool {
-        let mut pairs = self.0.iter().zip(&other.0).zip(is_whole);
-        pairs.all(|((one, other), &is_whole)| match (one, other) {
-            (Value::Numbers(one), Value::Numbers(other)) if !is_whole => one.len() == other.len(),
-            (one, other) => one == other,
-        })
-    }
+/// True if the values of two materials differ in real numbers only, so that lanes can hold both.
+pub(super) fn are_alike(one: &[Value], other: &[Value], is_whole: &[bool]) -> bool {
+    let mut pairs = one.iter().zip(other).zip(is_whole);
+    pairs.all(|((one, other), &is_whole)| match (one, other) {
+        (Value::Numbers(one), Value::Numbers(other)) if !is_whole => one.len() == other.len(),
+        (one, other) => one == other,
+    })
 }
 
 /// The parameters of the materials at all points of a program.
 #[derive(Clone, Copy)]
 pub(super) struct Parameters<'a> {
     /// Values of one of the points; lengths, functions and whole exponents are the same at all points.
-    pub(super) some: &'a ParameterValues,
+    pub(super) some: &'a [Value],
     /// Values of each point if these differ, in real numbers only.
-    pub(super) each: Option<&'a dyn Fn(usize) -> &'a ParameterValues>,
+    pub(super) each: Option<&'a dyn Fn(usize) -> &'a [Value]>,
     /// The number of points side by side in a group.
     pub(super) lanes: usize,
     /// The first point of the first group.
@@ -70,8 +53,8 @@ pub(super) struct Parameters<'a> {
 }
 
 impl<'a> Parameters<'a> {
-    /// ParameterValues that are the same at all points.
-    pub(super) fn same(values: &'a ParameterValues) -> Self {
+    /// Values that are the same at all points.
+    pub(super) fn same(values: &'a [Value]) -> Self {
         Self { some: values, each: None, lanes: 1, start: 0 }
     }
 
@@ -79,9 +62,9 @@ impl<'a> Parameters<'a> {
     #[inline(always)]
     pub(super) fn number<R: Real>(&self, parameter: usize, entry: usize, group: usize) -> R {
         match self.each {
-            None => R::splat(self.some.number(parameter, entry)),
+            None => R::splat(number(self.some, parameter, entry)),
             Some(each) => {
-                R::from_fn(|lane| each(self.start + group * self.lanes + lane).number(parameter, entry))
+                R::from_fn(|lane| number(each(self.start + group * self.lanes + lane), parameter, entry))
             }
         }
     }
@@ -89,12 +72,12 @@ impl<'a> Parameters<'a> {
     /// A whole exponent, or the entry of a list of them.
     pub(super) fn whole(&self, parameter: usize, entry: usize) -> u32 {
         let entry = if self.length(parameter) == 1 { 0 } else { entry };
-        self.some.number(parameter, entry) as u32
+        number(self.some, parameter, entry) as u32
     }
 
     /// A function, if the parameter is one.
     pub(super) fn function(&self, parameter: usize) -> Option<&'a Spline> {
-        match self.some.all().get(parameter) {
+        match self.some.get(parameter) {
             Some(Value::Function(function)) => Some(function),
             _ => None,
         }
@@ -102,7 +85,7 @@ impl<'a> Parameters<'a> {
 
     /// The number of entries of a list.
     pub(super) fn length(&self, parameter: usize) -> usize {
-        self.some.length(parameter)
+        self.some.get(parameter).map_or(0, |value| value.numbers().len())
     }
 }
 

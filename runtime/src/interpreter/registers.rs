@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::cell::{Cell, RefCell};
 
-use super::parameters::{Context, Parameters};
+use super::parameters::{Context, Parameters, number};
 use super::program::{Program, Register, Sizes};
 use crate::lanes::Real;
 use crate::quotient::Pair;
@@ -69,15 +69,10 @@ fn with_spare<R: Real, T>(body: impl FnOnce(&mut Vec<Registers<R>>) -> T) -> T {
 }
 
 impl<R: Real> Registers<R> {
-    /// Registers of at least these sizes; nothing is allocated once a thread has had them.
+    /// Registers for a program, with its constants in them where a set of the thread has these; nothing is
+    /// allocated once a thread has had them.
     #[inline(never)]
-    pub(super) fn take(sizes: Sizes, groups: usize) -> Self {
-        with_spare(Vec::<Self>::pop).unwrap_or_default().with_room(sizes, groups)
-    }
-
-    /// Registers for a program, with its constants in them where a set of the thread has these.
-    #[inline(never)]
-    pub(super) fn take_for(program: &Program, context: &Context<'_>, groups: usize) -> Self {
+    pub(super) fn take(program: &Program, context: &Context<'_>, groups: usize) -> Self {
         let these = Prepared::new(program, context, groups);
         let spare = with_spare(|sets: &mut Vec<Self>| {
             let is_ready = |one: &Self| these.is_some() && one.prepared == these;
@@ -88,28 +83,20 @@ impl<R: Real> Registers<R> {
                 None => Some(sets.remove(0)),
             }
         });
-        spare.unwrap_or_default().with_room(program.sizes, groups)
-    }
-
-    fn with_room(mut self, sizes: Sizes, groups: usize) -> Self {
-        self.constants = sizes.constants;
+        let mut registers = spare.unwrap_or_default();
+        let Sizes { numbers, constants, logarithms, pairs } = program.sizes;
+        registers.constants = constants;
         let one = R::splat(1.0);
-        grow(&mut self.numbers, sizes.numbers * groups, || one);
-        grow(&mut self.logarithms, sizes.logarithms * groups, || one.logarithm());
-        grow(&mut self.pairs, sizes.pairs * groups, || Pair::of(one, one));
-        self
+        grow(&mut registers.numbers, numbers * groups, || one);
+        grow(&mut registers.logarithms, logarithms * groups, || one.logarithm());
+        grow(&mut registers.pairs, pairs * groups, || Pair::of(one, one));
+        registers
     }
 
     /// Keeps the registers for the next program of the thread.
     #[inline(never)]
     pub(super) fn give_back(self) {
         with_spare(|sets| sets.push(self));
-    }
-
-    /// All registers for numbers, one after the other.
-    pub(super) fn numbers(&mut self) -> &mut [R] {
-        self.prepared = None;
-        &mut self.numbers
     }
 
     /// Returns true if the constants of a program for this number of groups are in their registers, which
@@ -234,7 +221,7 @@ impl<'a, R: Real, const G: usize> Files<'a, R, G> {
     ) {
         let to = self.number(register);
         if to.is_constant() {
-            return to.set(0, R::splat(parameters.some.number(parameter, entry)));
+            return to.set(0, R::splat(number(parameters.some, parameter, entry)));
         }
         for group in 0..G {
             to.set(group, parameters.number(parameter, entry, group));

@@ -14,7 +14,6 @@ mod tape;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::elementary::{self, Logarithm};
@@ -39,14 +38,8 @@ thread_local!(static RECORDER: RefCell<Recorder> = RefCell::default());
 
 /// A number of a program, in the format that [`record`] was given: the code that records is compiled once for
 /// all formats.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Recorded(Id);
-
-impl fmt::Debug for Recorded {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "operation {}", self.0)
-    }
-}
 
 /// A truth value of a program.
 #[derive(Clone, Copy, Debug)]
@@ -89,25 +82,23 @@ fn recorded(count: usize, computation: impl FnOnce(&[Recorded]) -> Vec<Id>) -> R
     RecordedProgram { arguments: count, ..tape.into_program(results) }
 }
 
-/// Results of a function, which is recorded when it is first called. The second is valid only if the function
-/// [is a pair](Function::is_pair).
-fn call(
+/// First result of a function, which is recorded when it is first called.
+fn call<const N: usize>(
     function: Function,
-    arguments: &[Recorded],
-    body: impl FnOnce(&[Recorded]) -> [Recorded; 2],
-) -> [Recorded; 2] {
+    arguments: [Recorded; N],
+    body: impl FnOnce([Recorded; N]) -> Vec<Recorded>,
+) -> Recorded {
     if !RECORDER.with_borrow(|recorder| recorder.functions.contains_key(&function)) {
-        let program = recorded(arguments.len(), |arguments: &[Recorded]| {
-            let results = body(arguments).map(|result| result.0);
-            results[..if function.is_pair() { 2 } else { 1 }].to_vec()
+        let program = recorded(N, |arguments| {
+            let results = body(std::array::from_fn(|k| arguments[k]));
+            results.into_iter().map(|result| result.0).collect()
         });
         RECORDER.with_borrow_mut(|recorder| recorder.functions.insert(function, program));
     }
-    let called = Recorded::of(RecordedOperation::Call(
+    Recorded::of(RecordedOperation::Call(
         function,
         std::array::from_fn(|k| arguments.get(k).map(|argument| argument.0)),
-    ));
-    [called, if function.is_pair() { Recorded::of(RecordedOperation::Second(called.0)) } else { called }]
+    ))
 }
 
 impl Format {
@@ -124,6 +115,11 @@ impl Recorded {
             None => 0,
         });
         Self(id)
+    }
+
+    /// The second result of a call.
+    fn second(self) -> Self {
+        Self::of(RecordedOperation::Second(self.0))
     }
 
     fn unary(self, operator: Unary) -> Self {
@@ -241,28 +237,24 @@ impl Real for Recorded {
     calls!();
 
     fn logarithm(self) -> Self::Logarithm {
-        let [high, low] = call(Function::Logarithm, &[self], |arguments| {
-            let Logarithm { high, low } = elementary::logarithm(arguments[0]);
-            [high, low]
+        let high = call(Function::Logarithm, [self], |[x]| {
+            let Logarithm { high, low } = elementary::logarithm(x);
+            vec![high, low]
         });
-        Logarithm { high, low }
+        Logarithm { high, low: high.second() }
     }
 
     fn power(Logarithm { high, low }: Self::Logarithm, exponent: Self) -> Self {
-        let [power, _] = call(Function::Power, &[high, low, exponent], |arguments| {
-            let &[high, low, exponent] = arguments else { return [arguments[0]; 2] };
-            [elementary::power(Logarithm { high, low }, exponent); 2]
-        });
-        power
+        call(Function::Power, [high, low, exponent], |[high, low, exponent]| {
+            vec![elementary::power(Logarithm { high, low }, exponent)]
+        })
     }
 
     fn logarithm_of_ratio(a: Self::Logarithm, b: Self::Logarithm) -> Self {
-        let [ratio, _] = call(Function::LogarithmOfRatio, &[a.high, a.low, b.high, b.low], |arguments| {
-            let &[a, a_low, b, b_low] = arguments else { return [arguments[0]; 2] };
+        call(Function::LogarithmOfRatio, [a.high, a.low, b.high, b.low], |[a, a_low, b, b_low]| {
             let [a, b] = [(a, a_low), (b, b_low)].map(|(high, low)| Logarithm { high, low });
-            [elementary::logarithm_of_ratio(a, b); 2]
-        });
-        ratio
+            vec![elementary::logarithm_of_ratio(a, b)]
+        })
     }
 
     fn abs(self) -> Self {
@@ -314,7 +306,7 @@ impl Primitive for Recorded {
 
     fn split(self) -> (Self, Self) {
         let called = Self::of(RecordedOperation::Call(Function::Split, [Some(self.0), None, None, None]));
-        (called, Self::of(RecordedOperation::Second(called.0)))
+        (called, called.second())
     }
 
     fn scale(self, exponent: Self) -> Self {

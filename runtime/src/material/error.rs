@@ -184,20 +184,6 @@ pub struct Argument {
 }
 
 impl Argument {
-    /// A parameter that is a number.
-    #[doc(hidden)] // for tests
-    #[must_use]
-    pub fn scalar(parameter: impl Into<Text>, value: f64) -> Self {
-        Self { parameter: parameter.into(), index: None, value }
-    }
-
-    /// An entry of a parameter that is a list.
-    #[doc(hidden)] // for tests
-    #[must_use]
-    pub fn entry(parameter: impl Into<Text>, index: usize, value: f64) -> Self {
-        Self { parameter: parameter.into(), index: Some(index), value }
-    }
-
     /// Name of the parameter, such as `mu`, with its index if it is an entry, such as `alpha[2]`.
     #[must_use]
     pub fn name(&self) -> String {

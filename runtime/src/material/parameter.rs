@@ -149,7 +149,8 @@ impl<M: Graded, S: AsRef<[M]>> PerPoint<M, S> {
     /// [`PerPointError`] if there is no material, or if two differ in their [`Inversion`].
     pub fn new(materials: S) -> Result<Self, PerPointError> {
         let list = materials.as_ref();
-        let first = list.first().ok_or(PerPointError::NoMaterial)?.inversion();
+        let empty = "the list of materials is empty: give one material for each point";
+        let first = list.first().ok_or_else(|| PerPointError(empty.to_owned()))?.inversion();
         match list.iter().position(|material| material.inversion() != first) {
             None => Ok(Self {
                 #[cfg(feature = "batch")]
@@ -157,7 +158,10 @@ impl<M: Graded, S: AsRef<[M]>> PerPoint<M, S> {
                 materials,
                 material: PhantomData,
             }),
-            Some(material) => Err(PerPointError::DifferentInversion { material }),
+            Some(material) => Err(PerPointError(format!(
+                "material {material} treats deformations outside its domain differently from material 0: \
+                 build all of them with the same inversion"
+            ))),
         }
     }
 
@@ -176,30 +180,13 @@ impl<M: Graded, S: AsRef<[M]>> PerPoint<M, S> {
     }
 }
 
-/// Reason why materials cannot be evaluated together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PerPointError {
-    /// The list of materials is empty.
-    NoMaterial,
-    /// A material differs from the first one in its [`Inversion`].
-    DifferentInversion {
-        /// Index of the first such material.
-        material: usize,
-    },
-}
+/// Reason why materials cannot be evaluated together, in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PerPointError(String);
 
 impl fmt::Display for PerPointError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoMaterial => {
-                f.write_str("the list of materials is empty: give one material for each point")
-            }
-            Self::DifferentInversion { material } => write!(
-                f,
-                "material {material} treats deformations outside its domain differently from material 0: \
-                 build all of them with the same inversion"
-            ),
-        }
+        f.write_str(&self.0)
     }
 }
 

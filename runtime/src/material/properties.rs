@@ -38,10 +38,3 @@ impl Properties {
         }
     }
 }
-
-/// The largest ψ11 at rest of these materials, Pa.
-#[cfg(feature = "batch")]
-pub(crate) fn largest_rest_stiffness<M: Material>(materials: &[M]) -> f64 {
-    let stiffness = |material: &M| material.blocks([1.0f64; 3]).hessian[0];
-    materials.iter().map(stiffness).fold(0.0, f64::max)
-}

@@ -6,15 +6,12 @@ use super::{Blocks, Curvature, Inversion, Material, Moduli};
 use crate::lanes::{Backend, Real, Scalar};
 
 /// Passes every response of a [`Material`] to a macro, so that code that forwards them all forwards a new one
-/// too.
-///
-/// Linear responses add up where energies do; the others are masks of a domain, and properties that do not
-/// depend on the deformation.
+/// too: responses at stretches, strains or invariants, and properties that do not depend on the deformation.
 macro_rules! with_responses {
     ($callback:ident $($context:tt)*) => {
         $callback! {
             [$($context)*]
-            linear {
+            responses {
                 energy -> R,
                 gradient -> [R; 3],
                 gradient_at_strains -> [R; 3],
@@ -23,8 +20,9 @@ macro_rules! with_responses {
                 energy_by_invariants -> R,
                 gradient_by_invariants -> [R; 3],
                 derivatives_by_invariants -> [R; 9],
+                admits -> R::Mask,
+                admits_invariants -> R::Mask,
             }
-            domain { admits, admits_invariants }
             properties {
                 has_invariants -> bool,
                 has_second_invariant -> bool,
@@ -85,8 +83,7 @@ pub struct RawTile<'a, E> {
 
 macro_rules! declare_response {
     (
-        [] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }
-        properties { $($property:ident -> $Property:ty,)* }
+        [] responses { $($response:ident -> $Answer:ty,)* } properties { $($property:ident -> $Property:ty,)* }
     ) => {
         /// Responses of a material for one type of real number: implemented for every [`Material`], with the
         /// methods of the same names.
@@ -102,11 +99,7 @@ macro_rules! declare_response {
         pub trait Response<R: Real>: Send + Sync {
             $(
                 #[doc(hidden)] // those of `Material`
-                fn $linear(&self, at: [R; 3]) -> $Linear;
-            )*
-            $(
-                #[doc(hidden)] // those of `Material`
-                fn $domain(&self, at: [R; 3]) -> R::Mask;
+                fn $response(&self, at: [R; 3]) -> $Answer;
             )*
             $(
                 #[doc(hidden)] // those of `Material`
@@ -117,14 +110,8 @@ macro_rules! declare_response {
         impl<M: Material, R: Real> Response<R> for M {
             $(
                 #[inline(always)]
-                fn $linear(&self, at: [R; 3]) -> $Linear {
-                    Material::$linear(self, at)
-                }
-            )*
-            $(
-                #[inline(always)]
-                fn $domain(&self, at: [R; 3]) -> R::Mask {
-                    Material::$domain(self, at)
+                fn $response(&self, at: [R; 3]) -> $Answer {
+                    Material::$response(self, at)
                 }
             )*
             $(
@@ -140,20 +127,14 @@ with_responses!(declare_response);
 
 macro_rules! forward_to_pointee {
     (
-        [$($head:tt)*] linear { $($linear:ident -> $Linear:ty,)* } domain { $($domain:ident),* }
-        properties { $($property:ident -> $Property:ty,)* }
+        [$($head:tt)*]
+        responses { $($response:ident -> $Answer:ty,)* } properties { $($property:ident -> $Property:ty,)* }
     ) => {
         $($head)* {
             $(
                 #[inline(always)]
-                fn $linear<R: Real>(&self, at: [R; 3]) -> $Linear {
-                    (**self).$linear(at)
-                }
-            )*
-            $(
-                #[inline(always)]
-                fn $domain<R: Real>(&self, at: [R; 3]) -> R::Mask {
-                    (**self).$domain(at)
+                fn $response<R: Real>(&self, at: [R; 3]) -> $Answer {
+                    (**self).$response(at)
                 }
             )*
             $(

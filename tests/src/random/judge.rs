@@ -5,7 +5,7 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use piola::__private::interpreter::{ParameterValues, Value};
+use piola::__private::interpreter::Value;
 use piola::__private::pole_floor;
 use piola::__private::random::Random;
 use piola::interpreter::Interpreted;
@@ -123,7 +123,7 @@ fn compile_and_run(
     // The interpreter executes the programs with the bits of generated code.
     let programs = Arc::new(programs(&read, &mut model).ok_or("too many registers")?);
     let values: Vec<_> = declaration.parameters.iter().map(|one| one.values.clone()).collect();
-    let numbers = ParameterValues::new(values.iter().cloned().map(Value::Numbers).collect());
+    let numbers: Vec<_> = values.iter().cloned().map(Value::Numbers).collect();
     let extend = Inversion::Extend { epsilon: EPSILON };
     let declared = Declared::new(&read, model, &slices(&values), extend);
     let [plain, extended] = [Inversion::Refuse, extend]

@@ -9,7 +9,6 @@
 use std::ops::Range;
 
 use crate::mesh::Bounds;
-use crate::mesh::tet::norm;
 
 /// Largest number of bodies of a leaf: visiting one costs about as much as visiting a few boxes.
 const LEAF: usize = 4;
@@ -96,7 +95,8 @@ impl Tree {
             }
             return;
         };
-        let mut halves = [branch + 1, second].map(|half| (self.distance(half, x), half));
+        // No body in a box is nearer than the box.
+        let mut halves = [branch + 1, second].map(|half| (self.branches[half].bounds.distance(x), half));
         if halves[1].0 < halves[0].0 {
             halves.swap(0, 1);
         }
@@ -105,12 +105,6 @@ impl Tree {
                 self.search(half, x, distance, best);
             }
         }
-    }
-
-    /// Distance of a point from the box of a branch: no body in it is nearer.
-    fn distance(&self, branch: usize, x: [f64; 3]) -> f64 {
-        let Bounds { min, max } = self.branches[branch].bounds;
-        norm(std::array::from_fn(|c| (min[c] - x[c]).max(x[c] - max[c]).max(0.0)))
     }
 }
 
@@ -121,12 +115,6 @@ mod tests {
     use piola::__private::random::Random;
 
     use super::*;
-
-    /// Distance of a point from a box; `None` inside.
-    fn distance(bounds: &Bounds, x: [f64; 3]) -> Option<f64> {
-        let gap = std::array::from_fn(|c| (bounds.min[c] - x[c]).max(x[c] - bounds.max[c]).max(0.0));
-        (!bounds.contains(x)).then(|| norm(gap))
-    }
 
     fn some(random: &mut Random, count: usize, spread: f64) -> Vec<Bounds> {
         let mut point = |reach: f64| [(); 3].map(|()| random.uniform(-reach, reach));
@@ -148,7 +136,7 @@ mod tests {
             for &x in &points {
                 let nearest = tree.nearest(x, |body| {
                     looks.set(looks.get() + 1);
-                    distance(&boxes[body], x)
+                    (!boxes[body].contains(x)).then(|| boxes[body].distance(x))
                 });
                 assert!(nearest.is_some());
             }

@@ -57,7 +57,7 @@ fn whole(path: &Path, mesh: TetMesh) -> Result<TetMesh, ReadError> {
 
 fn parse(text: &str) -> Result<TetMesh, Problem> {
     let mut file = File::default();
-    let mut cursor = Cursor::new(text);
+    let mut cursor = Cursor::new(text, None);
     let mut version = None;
     while let Some(line) = cursor.next_filled() {
         let section = line.text.trim();

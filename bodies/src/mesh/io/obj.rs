@@ -39,7 +39,7 @@ pub fn parse_surface_obj(text: &str, name: impl AsRef<Path>) -> Result<Surface, 
 fn parse(text: &str) -> Result<Surface, Problem> {
     let mut surface = Surface::default();
     let mut polygon = Vec::new();
-    let mut cursor = Cursor::new(text);
+    let mut cursor = Cursor::new(text, None);
     while let Some(mut line) = cursor.next_filled() {
         match line.words.next() {
             Some("v") => surface.positions.push(line.point()?),

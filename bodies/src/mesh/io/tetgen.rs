@@ -39,7 +39,7 @@ struct Nodes {
 
 /// `count 3 attributes markers`, then for each node `number x y z attribute … marker`.
 fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
-    let mut cursor = Cursor::with_comments(text, '#');
+    let mut cursor = Cursor::new(text, Some('#'));
     let mut line = cursor.next("the number of nodes")?;
     let count = line.number("the number of nodes")?;
     let dimension: usize = line.number("the dimension")?;
@@ -70,7 +70,7 @@ fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
 
 /// `count corners attributes`, then for each tetrahedron `number node … attribute …`.
 fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
-    let mut cursor = Cursor::with_comments(text, '#');
+    let mut cursor = Cursor::new(text, Some('#'));
     let mut line = cursor.next("the number of tetrahedra")?;
     let count = line.number("the number of tetrahedra")?;
     let corners: usize = line.number("the number of nodes of a tetrahedron")?;

@@ -129,11 +129,7 @@ pub(super) struct Line<'a> {
     pub(super) words: std::str::SplitAsciiWhitespace<'a>,
 }
 
-impl<'a> Line<'a> {
-    fn new(number: usize, text: &'a str) -> Self {
-        Self { number, text, words: text.split_ascii_whitespace() }
-    }
-
+impl Line<'_> {
     pub(super) fn problem(&self, text: impl Into<String>) -> Problem {
         Problem { line: self.number, text: text.into() }
     }
@@ -176,12 +172,9 @@ pub(super) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    pub(super) fn new(text: &'a str) -> Self {
-        Self { lines: text.lines(), number: 0, comment: None }
-    }
-
-    pub(super) fn with_comments(text: &'a str, comment: char) -> Self {
-        Self { comment: Some(comment), ..Self::new(text) }
+    /// Text in which comments begin with a character, if there are any.
+    pub(super) fn new(text: &'a str, comment: Option<char>) -> Self {
+        Self { lines: text.lines(), number: 0, comment }
     }
 
     /// Reads the next line that is not blank.
@@ -191,7 +184,7 @@ impl<'a> Cursor<'a> {
             self.number += 1;
             let text = self.comment.and_then(|comment| text.split(comment).next()).unwrap_or(text);
             if !text.trim().is_empty() {
-                return Some(Line::new(self.number, text));
+                return Some(Line { number: self.number, text, words: text.split_ascii_whitespace() });
             }
         }
     }

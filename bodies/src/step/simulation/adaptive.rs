@@ -136,7 +136,7 @@ struct Course<'a, M: Machine> {
 
 impl<M: Machine> Course<'_, M> {
     fn run(&mut self, allowed: f64) -> Result<AdaptiveReport, StepError> {
-        let weight = 2.0_f64.powi(self.whole.integrator.order().min(2)) - 1.0;
+        let weight = f64::from((1_u32 << self.body.settings.integrator.order().min(2)) - 1);
         let parts = 1_u32 << MAX_HALVINGS;
         let (mut taken, mut refused, mut unresolved, mut error) = (0, 0, 0, 0.0);
         let mut shortest = parts;

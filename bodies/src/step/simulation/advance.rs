@@ -65,8 +65,8 @@ impl<M: Machine> Simulation<M> {
     pub fn step_here(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let heaviest = self.body.masses().iter().copied().fold(0.0, f64::max);
         let heaviest = self.workspace.machine.nodes().largest(heaviest);
-        let [tau, sigma] = self.settings.integrator.method().lengths(dt);
-        let has_inertia = (heaviest / tau / sigma).is_finite() && tau * sigma >= f64::MIN_POSITIVE;
+        let tau = self.settings.integrator.method().diagonal * dt;
+        let has_inertia = (heaviest / tau / tau).is_finite() && tau * tau >= f64::MIN_POSITIVE;
         if !(dt > 0.0 && dt.is_finite() && has_inertia) {
             return Err(StepError::TimeStep { dt });
         }
@@ -87,7 +87,7 @@ impl<M: Machine> Simulation<M> {
         let mut survey = self.survey();
         self.evaluated = None;
         let mut newton: Option<NewtonReport> = None;
-        for stage in 0..self.steps.begin(dt) {
+        for stage in 0..self.steps.begin(self.settings.integrator, dt) {
             let report;
             (report, survey) = self.minimize_stage(stage, survey)?;
             self.steps.end_stage(stage);
@@ -115,9 +115,9 @@ impl<M: Machine> Simulation<M> {
         let [moves, pinned] = nodes.totals(own.map(|number| number as f64));
         let (pins_move, may_drift) = (moves > 0.0, pinned < 3.0);
         let StagedSteps { stage, stage_springs, pins_move: displacements, next, .. } = &mut self.steps;
-        let [tau, sigma] = stage.lengths;
+        let tau = stage.length;
         let is_static = tau == f64::INFINITY;
-        let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * sigma) };
+        let regularisation = if is_static { self.static_regularisation } else { 1.0 / (tau * tau) };
         let objective = Objective {
             body: &self.body,
             elastic: &mut self.elastic,

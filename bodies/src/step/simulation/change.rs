@@ -7,6 +7,7 @@ use piola::NoSuchNode;
 use crate::step::error::SetupError;
 use crate::step::solver::{Choice, Machine, OneMachine, SparseSolver};
 use crate::step::spring::Spring;
+use crate::step::staged::StagedSteps;
 use crate::step::term::Term;
 use crate::system::{LinearError, Pins};
 
@@ -19,7 +20,7 @@ impl<M: Machine> Simulation<M> {
     /// # Errors
     /// [`SetupError`] unless there is one finite position for each node.
     pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.steps.check_nodal(positions)?;
+        self.check_nodal(positions)?;
         self.steps.state.x.copy_from_slice(positions);
         self.steps.targets.copy_from_slice(positions);
         self.evaluated = None;
@@ -31,7 +32,7 @@ impl<M: Machine> Simulation<M> {
     /// # Errors
     /// [`SetupError`] unless there is one finite velocity for each node.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.steps.check_nodal(velocities)?;
+        self.check_nodal(velocities)?;
         self.steps.state.v.copy_from_slice(velocities);
         Ok(())
     }
@@ -45,7 +46,7 @@ impl<M: Machine> Simulation<M> {
     /// # Errors
     /// [`SetupError`] unless there is one finite acceleration for each node.
     pub fn set_accelerations(&mut self, accelerations: &[[f64; 3]]) -> Result<(), SetupError> {
-        self.steps.check_nodal(accelerations)?;
+        self.check_nodal(accelerations)?;
         self.steps.state.a.copy_from_slice(accelerations);
         Ok(())
     }
@@ -55,7 +56,16 @@ impl<M: Machine> Simulation<M> {
     /// # Errors
     /// [`SetupError`] for a node that is not pinned, or a position that is not finite.
     pub fn prescribe(&mut self, node: usize, position: [f64; 3]) -> Result<(), SetupError> {
-        self.steps.prescribe(node, position)
+        if self.pinned().binary_search(&node).is_err() {
+            return Err(SetupError(format!(
+                "node {node} (from 0) is not pinned, so its motion cannot be prescribed"
+            )));
+        }
+        if position.iter().any(|x| !x.is_finite()) {
+            return Err(not_finite(node));
+        }
+        self.steps.targets[node] = position;
+        Ok(())
     }
 
     /// Replaces all springs.
@@ -68,7 +78,28 @@ impl<M: Machine> Simulation<M> {
     /// [`SetupError`] for a node that does not exist, a negative stiffness or a number that is not finite. The
     /// springs then stay as they were.
     pub fn set_springs(&mut self, springs: &[Spring]) -> Result<(), SetupError> {
-        self.steps.set_springs(springs)
+        let nodes = self.positions().len();
+        springs.iter().enumerate().try_for_each(|(index, spring)| check_spring(index, spring, nodes))?;
+        let StagedSteps { springs: all, targets_before, .. } = &mut self.steps;
+        let before = |(index, spring): (usize, &Spring)| match all.get(index) {
+            Some(old) if old.anchor == spring.anchor => targets_before[index],
+            _ => spring.target,
+        };
+        *targets_before = springs.iter().enumerate().map(before).collect();
+        all.clear();
+        all.extend_from_slice(springs);
+        Ok(())
+    }
+
+    fn check_nodal(&self, vectors: &[[f64; 3]]) -> Result<(), SetupError> {
+        let (nodes, found) = (self.positions().len(), vectors.len());
+        if found != nodes {
+            return Err(SetupError(format!("expected one entry for each of {nodes} nodes, found {found}")));
+        }
+        match vectors.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
+            Some(node) => Err(not_finite(node)),
+            None => Ok(()),
+        }
     }
 }
 
@@ -98,7 +129,7 @@ impl Simulation {
     /// [`SetupError`] unless there is one finite force for each node.
     pub fn set_forces(&mut self, forces: &[[f64; 3]]) -> Result<(), SetupError> {
         if !forces.is_empty() {
-            self.steps.check_nodal(forces)?;
+            self.check_nodal(forces)?;
         }
         self.forces.clear();
         self.forces.extend_from_slice(forces);
@@ -143,4 +174,21 @@ impl Simulation {
         self.workspace.forget_direction();
         Ok(())
     }
+}
+
+fn check_spring(index: usize, spring: &Spring, nodes: usize) -> Result<(), SetupError> {
+    if let Some(&node) = spring.anchor.nodes.iter().find(|&&node| node >= nodes) {
+        return Err(NoSuchNode { element: None, node, nodes }.into());
+    }
+    let numbers = spring.anchor.weights.iter().chain(&spring.target).chain([&spring.stiffness]);
+    if spring.stiffness < 0.0 || !numbers.into_iter().all(|x| x.is_finite()) {
+        return Err(SetupError(format!(
+            "spring {index} (from 0) has a negative stiffness or an entry that is not finite"
+        )));
+    }
+    Ok(())
+}
+
+fn not_finite(node: usize) -> SetupError {
+    SetupError(format!("the entry of node {node} (from 0) is not finite"))
 }

@@ -67,10 +67,6 @@ impl<S: SparseSolver> OwnSolver for Assembled<S> {
         true
     }
 
-    fn joins(&self, a: usize, b: usize) -> bool {
-        self.stiffness.matrix().pattern().block(a, b).is_some()
-    }
-
     fn boxed_clone(&self) -> Box<dyn OwnSolver> {
         Box::new(self.clone())
     }

@@ -63,10 +63,6 @@ impl Conjugate {
 }
 
 impl OwnSolver for Conjugate {
-    fn joins(&self, a: usize, b: usize) -> bool {
-        self.stiffness.matrix().pattern().block(a, b).is_some()
-    }
-
     fn set_pins(&mut self, pins: &Pins) -> bool {
         self.nodes = Nodes::new(self.nodes.is_free.len(), pins);
         true

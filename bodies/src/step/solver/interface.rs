@@ -95,9 +95,6 @@ pub trait Solver {
 
 /// Solver of a body on one machine.
 pub(crate) trait OwnSolver: Solver + Send + Sync {
-    /// True if the matrix has a block for two free nodes.
-    fn joins(&self, a: usize, b: usize) -> bool;
-
     /// Replaces the pins; returns false if a new solver has to be set up for them.
     fn set_pins(&mut self, pins: &Pins) -> bool;
 

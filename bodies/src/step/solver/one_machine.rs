@@ -52,9 +52,14 @@ impl Machine for OneMachine {
     }
 
     fn join(&mut self, body: &Body, blocks: &NodeBlocks) -> Result<(), LinearError> {
-        let is_free = |node: &usize| self.pins.nodes().binary_search(node).is_err();
-        let is_missing = |[a, b]: &[usize; 2]| is_free(a) && is_free(b) && !self.solver.joins(*a, *b);
-        if blocks.pairs().any(|pair| is_missing(&pair)) {
+        let is_free = |node: usize| self.pins.nodes().binary_search(&node).is_err();
+        let mut is_missing = false;
+        self.solver.with_stiffness(&mut |stiffness| {
+            let pattern = stiffness.matrix().pattern();
+            let is_apart = |[a, b]: [usize; 2]| is_free(a) && is_free(b) && pattern.block(a, b).is_none();
+            is_missing = blocks.pairs().any(is_apart);
+        });
+        if is_missing {
             let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
             self.solver = self.choice.set_up(body, &self.pins, &pairs)?;
         }

@@ -121,10 +121,7 @@ macro_rules! functions {
         macro_rules! calls {
             () => {$(
                 fn $method(self) -> Self {
-                    let [first, _] = call(Function::$Function, &[self], |arguments| {
-                        [elementary::$method(arguments[0]), arguments[0]]
-                    });
-                    first
+                    call(Function::$Function, [self], |[x]| vec![elementary::$method(x)])
                 }
             )*};
         }
