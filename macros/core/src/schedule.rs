@@ -11,7 +11,6 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::algebra::expr::{Exponent, Graph, Id, Length, Node};
 use crate::algebra::rational::Rational;
-use crate::schedule::sorted::{Sorted, entry};
 pub use collect::Collector;
 use order::Order;
 use parts::Parts;
@@ -28,7 +27,6 @@ mod passes;
 mod powers;
 mod program;
 mod shifts;
-pub(crate) mod sorted;
 
 /// Orders the computation of the roots only. The collector keeps its findings for the next program of the
 /// same graph.
@@ -358,4 +356,17 @@ impl Scheduler<'_> {
         let id = self.graph.exponent_value(exponent);
         self.value(id)
     }
+}
+
+/// A short map: a list in the order of its keys. This crate is compiled before every crate that declares a
+/// material, and a list is compiled, and searched for one of a few entries, in less time than a tree.
+type Sorted<K, V> = Vec<(K, V)>;
+
+/// The value of a key, initially the default.
+fn entry<K: Ord, V: Default>(map: &mut Sorted<K, V>, key: K) -> &mut V {
+    let k = map.binary_search_by(|(other, _)| other.cmp(&key)).unwrap_or_else(|k| {
+        map.insert(k, (key, V::default()));
+        k
+    });
+    &mut map[k].1
 }

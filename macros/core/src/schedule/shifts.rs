@@ -14,7 +14,7 @@ use super::powers::{Evaluation, Powers};
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::rewrite;
-use crate::schedule::sorted::{Sorted, entry};
+use crate::schedule::{Sorted, entry};
 
 /// Bases with the whole exponents to which they are factors.
 type Shifts = Sorted<Id, i64>;
