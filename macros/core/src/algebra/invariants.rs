@@ -11,7 +11,6 @@
 //! graph, so that the same calculus differentiates it. An energy that names a stretch is of this kind only
 //! where [`power_sums`](super::power_sums) sees it.
 
-use crate::algebra::diff::derivatives;
 use crate::algebra::expr::{Graph, Id};
 
 /// An energy in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
@@ -41,11 +40,4 @@ impl ByInvariants {
             (_, true) => "All",
         }
     }
-}
-
-/// The derivatives of an energy of I1, I2, J, with the bounds of its domain, and the energy itself if it has
-/// its digits.
-pub fn by_invariants(graph: &mut Graph, energy: Id, has_energy: bool, bounds: Vec<Id>) -> ByInvariants {
-    let (gradient, hessian) = derivatives(graph, energy);
-    ByInvariants { energy, has_energy, gradient, hessian, bounds }
 }
