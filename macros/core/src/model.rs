@@ -13,7 +13,7 @@ use crate::algebra::expr::{Graph, Id, Length, Node};
 use crate::algebra::extension;
 use crate::algebra::increment::{Increments, substitute_rest};
 use crate::algebra::interpret::Point;
-use crate::algebra::invariants::{ByInvariants, by_invariants};
+use crate::algebra::invariants::ByInvariants;
 use crate::algebra::quotient::Quotients;
 use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
@@ -275,9 +275,10 @@ fn derive(
     // By invariants, I1b − 3 is not known well enough for real powers, be they of the energy or of a bound.
     let invariants = resolve::resolve_by_invariants(declaration, &mut graph)
         .filter(|_| !prepared.has_squares)
-        .map(|(energy, bounds, is_written_so)| {
+        .map(|(energy, bounds, has_energy)| {
             let energy = over_one_denominator(&mut graph, energy, &prepared.ways.by_invariants());
-            by_invariants(&mut graph, energy, is_written_so, bounds)
+            let (gradient, hessian) = derivatives(&mut graph, energy);
+            ByInvariants { energy, has_energy, gradient, hessian, bounds }
         });
     let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
     let by_parameters = options.fit.then(|| by_parameters(&mut graph, &variables, plain.gradient));

@@ -176,10 +176,6 @@ impl<'a> Printer<'a> {
         }
     }
 
-    fn by_invariants(graph: &'a Graph, declaration: &'a Declaration) -> Self {
-        Self::new(graph, declaration, Notation::Formula, ["I1", "I2", "J"].map(String::from))
-    }
-
     fn line(&self, id: Id) -> String {
         self.budget.set(LONGEST);
         self.print(id, Context::Sum)

@@ -11,7 +11,6 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::algebra::expr::{Exponent, Graph, Id, Length, Node};
 use crate::algebra::rational::Rational;
-use crate::schedule::sorted::{Sorted, entry};
 pub use collect::Collector;
 use order::Order;
 use parts::Parts;
@@ -28,7 +27,6 @@ mod passes;
 mod powers;
 mod program;
 mod shifts;
-pub(crate) mod sorted;
 
 /// Orders the computation of the roots only. The collector keeps its findings for the next program of the
 /// same graph.
@@ -55,7 +53,8 @@ pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> P
         statements: Vec::new(),
         numbers: FxHashMap::default(),
         values: FxHashMap::default(),
-        open_loop: None,
+        body: None,
+        varying: FxHashSet::default(),
     };
     if has_sums {
         scheduler.loops(&reachable);
@@ -74,16 +73,10 @@ struct Scheduler<'g> {
     statements: Vec<Statement>,
     numbers: FxHashMap<Op, Value>,
     values: FxHashMap<Id, Value>,
-    open_loop: Option<OpenLoop>,
-}
-
-/// Operations that depend on the current entry.
-#[derive(Default)]
-struct OpenLoop {
-    body: Vec<(Value, Op)>,
+    /// The operations of the open loop, which depend on the current entry.
+    body: Option<Vec<(Value, Op)>>,
+    /// Their values.
     varying: FxHashSet<Value>,
-    numbers: FxHashMap<Op, Value>,
-    values: FxHashMap<Id, Value>,
 }
 
 impl Scheduler<'_> {
@@ -102,9 +95,13 @@ impl Scheduler<'_> {
             depth.insert(id, own);
         }
         for ((_, length), sums) in sums {
-            self.open_loop = Some(OpenLoop::default());
+            self.body = Some(Vec::new());
             let terms: Vec<_> = sums.iter().map(|&(_, body)| self.value(body)).collect();
-            let OpenLoop { body, .. } = self.open_loop.take().unwrap_or_default();
+            let body = self.body.take().unwrap_or_default();
+            // What depends on the entry has no value outside its loop.
+            let varying = std::mem::take(&mut self.varying);
+            self.numbers.retain(|_, value| !varying.contains(value));
+            self.values.retain(|_, value| !varying.contains(value));
             let mut totals = Vec::new();
             for ((sum, _), term) in sums.into_iter().zip(terms) {
                 let total = self.fresh();
@@ -120,10 +117,6 @@ impl Scheduler<'_> {
         Value(self.count - 1)
     }
 
-    fn varies(&self, value: Value) -> bool {
-        self.open_loop.as_ref().is_some_and(|open| open.varying.contains(&value))
-    }
-
     /// Appends an operation, inside the open loop only if it depends on the entry.
     fn push(&mut self, op: Op) -> Value {
         let op = match op {
@@ -131,41 +124,29 @@ impl Scheduler<'_> {
             Op::Mul(a, b) if b < a => Op::Mul(b, a),
             op => op,
         };
-        let varies = self.open_loop.is_some()
-            && (matches!(op, Op::Entry(_)) || op.operands().into_iter().any(|value| self.varies(value)));
-        let known = match &self.open_loop {
-            Some(open) if varies => open.numbers.get(&op),
-            _ => self.numbers.get(&op),
-        };
-        if let Some(&value) = known {
+        if let Some(&value) = self.numbers.get(&op) {
             return value;
         }
         let value = self.fresh();
-        match &mut self.open_loop {
-            Some(open) if varies => {
-                open.body.push((value, op));
-                open.varying.insert(value);
-                open.numbers.insert(op, value);
+        let varies =
+            matches!(op, Op::Entry(_)) || op.operands().iter().any(|operand| self.varying.contains(operand));
+        match &mut self.body {
+            Some(body) if varies => {
+                body.push((value, op));
+                self.varying.insert(value);
             }
-            _ => {
-                self.statements.push(Statement::Let(value, op));
-                self.numbers.insert(op, value);
-            }
+            _ => self.statements.push(Statement::Let(value, op)),
         }
+        self.numbers.insert(op, value);
         value
     }
 
     fn value(&mut self, id: Id) -> Value {
-        let in_loop = self.open_loop.as_ref().and_then(|open| open.values.get(&id));
-        if let Some(&done) = in_loop.or_else(|| self.values.get(&id)) {
+        if let Some(&done) = self.values.get(&id) {
             return done;
         }
         let value = self.compute(id);
-        let varies = self.varies(value);
-        match &mut self.open_loop {
-            Some(open) if varies => open.values.insert(id, value),
-            _ => self.values.insert(id, value),
-        };
+        self.values.insert(id, value);
         value
     }
 
@@ -254,14 +235,13 @@ impl Scheduler<'_> {
 
     fn linear(&mut self, constant: Rational, terms: &[(Id, Rational)]) -> Value {
         let sum = self.parts.regrouped(constant, terms);
-        let (constant, groups) = (sum.0, self.parts.groups(&sum));
+        let (constant, mut groups) = (sum.0, self.parts.groups(&sum));
         // Added terms come first, subtracted ones next, the constant last.
-        let (subtracted, added): (Vec<_>, Vec<_>) =
-            groups.iter().partition(|group| group.iter().all(|(_, c)| c.is_negative()));
+        let is_subtracted = |group: &Vec<(Id, Rational)>| group.iter().all(|(_, c)| c.is_negative());
+        groups.sort_by_key(is_subtracted);
         let mut sum: Option<Value> = None;
-        for (group, is_subtracted) in
-            added.iter().map(|group| (group, false)).chain(subtracted.iter().map(|group| (group, true)))
-        {
+        for group in &groups {
+            let is_subtracted = is_subtracted(group);
             let value = self.multiple(group, is_subtracted);
             sum = Some(match (sum, is_subtracted) {
                 (None, false) => value,
@@ -275,7 +255,7 @@ impl Scheduler<'_> {
                 }
             });
         }
-        let is_used = added.is_empty() && !subtracted.is_empty() && !constant.is_negative();
+        let is_used = groups.first().is_some_and(is_subtracted) && !constant.is_negative();
         match sum {
             None => self.literal(constant),
             Some(sum) if constant.is_zero() || is_used => sum,
@@ -376,4 +356,17 @@ impl Scheduler<'_> {
         let id = self.graph.exponent_value(exponent);
         self.value(id)
     }
+}
+
+/// A short map: a list in the order of its keys. This crate is compiled before every crate that declares a
+/// material, and a list is compiled, and searched for one of a few entries, in less time than a tree.
+type Sorted<K, V> = Vec<(K, V)>;
+
+/// The value of a key, initially the default.
+fn entry<K: Ord, V: Default>(map: &mut Sorted<K, V>, key: K) -> &mut V {
+    let k = map.binary_search_by(|(other, _)| other.cmp(&key)).unwrap_or_else(|k| {
+        map.insert(k, (key, V::default()));
+        k
+    });
+    &mut map[k].1
 }

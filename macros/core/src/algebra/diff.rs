@@ -100,19 +100,11 @@ impl Differentiator {
                     graph.div(inner, a)
                 }
             },
-            Node::Exp(a) => {
-                let inner = self.derivative(graph, a, v);
-                graph.mul(e, inner)
-            }
+            Node::Exp(a) => self.chain_rule(graph, a, v, |_| e),
             Node::Excess(squares, _) => self.derivative(graph, squares, v),
             Node::Accurate(_, written) => self.derivative(graph, written, v),
             Node::Elementary(function, a) => {
-                let inner = self.derivative(graph, a, v);
-                if graph.is_zero(inner) {
-                    return inner;
-                }
-                let outer = function.derivative(graph, a);
-                graph.mul(outer, inner)
+                self.chain_rule(graph, a, v, |graph| function.derivative(graph, a))
             }
             Node::Function(f, order, a) => {
                 let inner = self.derivative(graph, a, v);
@@ -120,12 +112,7 @@ impl Differentiator {
                 graph.mul(outer, inner)
             }
             Node::WholePower(base, n, order) => {
-                let inner = self.derivative(graph, base, v);
-                if graph.is_zero(inner) {
-                    return inner;
-                }
-                let outer = graph.whole_power(base, n, order + 1);
-                graph.mul(outer, inner)
+                self.chain_rule(graph, base, v, |graph| graph.whole_power(base, n, order + 1))
             }
             // An entry in the body differs from one outside.
             Node::Sum(..) if matches!(graph.node(v), Node::Entry(_)) => graph.integer(0),
@@ -146,6 +133,15 @@ impl Differentiator {
             // increments and lowered extensions.
             _ => graph.integer(0),
         }
+    }
+
+    fn chain_rule(&mut self, graph: &mut Graph, a: Id, v: Id, outer: impl FnOnce(&mut Graph) -> Id) -> Id {
+        let inner = self.derivative(graph, a, v);
+        if graph.is_zero(inner) {
+            return inner;
+        }
+        let outer = outer(graph);
+        graph.mul(outer, inner)
     }
 }
 

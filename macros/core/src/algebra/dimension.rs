@@ -6,7 +6,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
 /// The exponent of Pa; `None` if it depends on a parameter without a unit.
@@ -86,21 +86,17 @@ impl<'a> Dimensions<'a> {
             }
             Node::Product(factors) => {
                 factors.iter().try_fold(Some(Rational::ZERO), |product, &(base, exponent)| {
-                    let power = self.power(graph, base, exponent)?;
+                    let power = match exponent.real {
+                        Some(real) => {
+                            self.without(graph, real)?;
+                            self.without(graph, base)?
+                        }
+                        None => self.of(graph, base)?.and_then(|base| base.checked_mul(exponent.rational)),
+                    };
                     Ok(product.zip(power).and_then(|(product, power)| product.checked_add(power)))
                 })
             }
             _ => Ok(Some(Rational::ZERO)),
-        }
-    }
-
-    fn power(&mut self, graph: &Graph, base: Id, exponent: Exponent) -> Result<Dimension, Clash> {
-        match exponent.real {
-            Some(real) => {
-                self.without(graph, real)?;
-                self.without(graph, base)
-            }
-            None => Ok(self.of(graph, base)?.and_then(|base| base.checked_mul(exponent.rational))),
         }
     }
 

@@ -89,26 +89,16 @@ fn rule(
     ln: impl FnOnce(&mut Graph) -> Id,
     power: impl FnOnce(&mut Graph, Exponent) -> Id,
 ) -> Id {
-    let lowering = Exponent::integer(-i64::from(order));
-    match function {
-        Extended::Ln if order == 0 => ln(graph),
-        Extended::Ln => {
-            let power = power(graph, lowering);
-            graph.scale(power, ln_coefficient(order))
-        }
-        Extended::Power(exponent) => {
-            let coefficient = falling(graph, exponent, order);
-            let lowered = graph.add_exponents(exponent, lowering);
-            let power = power(graph, lowered);
-            graph.mul(coefficient, power)
-        }
-    }
-}
-
-/// The k-th derivative of the logarithm, ln⁽ᵏ⁾ x = (−1)ᵏ⁻¹ (k − 1)! x⁻ᵏ.
-fn ln_coefficient(order: u8) -> Rational {
-    let factorial: i64 = (1..i64::from(order)).product();
-    Rational::integer(if order.is_multiple_of(2) { -factorial } else { factorial })
+    let (exponent, order) = match function {
+        Extended::Ln if order == 0 => return ln(graph),
+        // ln′ x = x⁻¹
+        Extended::Ln => (Exponent::integer(-1), order - 1),
+        Extended::Power(exponent) => (exponent, order),
+    };
+    let coefficient = falling(graph, exponent, order);
+    let lowered = graph.add_exponents(exponent, Exponent::integer(-i64::from(order)));
+    let power = power(graph, lowered);
+    graph.mul(coefficient, power)
 }
 
 /// The falling factorial r (r − 1) … (r − k + 1).

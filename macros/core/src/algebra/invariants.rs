@@ -11,7 +11,6 @@
 //! graph, so that the same calculus differentiates it. An energy that names a stretch is of this kind only
 //! where [`power_sums`](super::power_sums) sees it.
 
-use crate::algebra::diff::derivatives;
 use crate::algebra::expr::{Graph, Id};
 
 /// An energy in which λ1, λ2, λ3 of the graph stand for I1, I2, J.
@@ -29,33 +28,16 @@ pub struct ByInvariants {
     pub bounds: Vec<Id>,
 }
 
-/// Second derivatives by invariants that do not vanish everywhere, of which the runtime compiles terms.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Curvature {
-    /// WJJ only.
-    Volume,
-    /// W11 and WJJ.
-    Separate,
-    /// All of them.
-    All,
-}
-
 impl ByInvariants {
-    /// The second derivatives that do not vanish everywhere.
+    /// The second derivatives that do not vanish everywhere: the name of a `Curvature` of the runtime, which
+    /// compiles their terms.
     #[must_use]
-    pub fn curvature(&self, graph: &Graph) -> Curvature {
+    pub fn curvature(&self, graph: &Graph) -> &'static str {
         let [w11, w22, _, w12, w1j, w2j] = self.hessian.map(|derivative| !graph.is_zero(derivative));
         match (w11, w22 || w12 || w1j || w2j) {
-            (false, false) => Curvature::Volume,
-            (true, false) => Curvature::Separate,
-            (_, true) => Curvature::All,
+            (false, false) => "Volume",
+            (true, false) => "Separate",
+            (_, true) => "All",
         }
     }
-}
-
-/// The derivatives of an energy of I1, I2, J, with the bounds of its domain, and the energy itself if it has
-/// its digits.
-pub fn by_invariants(graph: &mut Graph, energy: Id, has_energy: bool, bounds: Vec<Id>) -> ByInvariants {
-    let (gradient, hessian) = derivatives(graph, energy);
-    ByInvariants { energy, has_energy, gradient, hessian, bounds }
 }

@@ -50,8 +50,7 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
         )
     });
     let has_second = !model.graph.is_zero(invariants.gradient[1]);
-    let curvature = invariants.curvature(&model.graph);
-    let curvature = format_ident!("{curvature:?}");
+    let curvature = format_ident!("{}", invariants.curvature(&model.graph));
 
     quote! {
         #[inline(always)]

@@ -24,7 +24,8 @@ pub fn formulas(graph: &mut Graph, declaration: &Declaration, roots: &[Id]) -> F
 /// Nodes as formulas of I1, I2 and J, for which the three stretches stand.
 #[must_use]
 pub fn formulas_by_invariants(graph: &Graph, declaration: &Declaration, roots: &[Id]) -> Formulas {
-    share(Printer::by_invariants(graph, declaration), roots)
+    let names = ["I1", "I2", "J"].map(String::from);
+    share(Printer::new(graph, declaration, Notation::Formula, names), roots)
 }
 
 /// Longest formula, in characters, that is not divided.

@@ -10,7 +10,7 @@ use syn::Expr;
 use crate::algebra::expr::Length;
 use crate::read::parse::{Declaration, Entries};
 use crate::schedule::program::{Op, Program, Statement};
-use crate::schedule::sorted::{Sorted, entry};
+use crate::schedule::{Sorted, entry};
 
 /// The counts of a declaration as a table in Markdown.
 #[must_use]

@@ -41,12 +41,11 @@ impl Degrees {
             Node::Sum(_, body) => self.of(graph, *body),
             Node::LnQuotient(a, _) => power(self.of(graph, *a), Exponent::integer(-1)),
             Node::PowerQuotient(a, _, exponent) => {
-                let [a, power] = [Exponent::integer(1), *exponent].map(|e| power(self.of(graph, *a), e));
-                [power[0] - a[0], power[1] - a[1]]
+                let degree = self.of(graph, *a);
+                sum(power(degree, *exponent), power(degree, Exponent::integer(-1)))
             }
             Node::PoleQuotient(a, b) => {
-                let [a, b] = [*a, *b].map(|id| self.of(graph, id));
-                [a[0] - b[0], a[1] - b[1]]
+                sum(self.of(graph, *a), power(self.of(graph, *b), Exponent::integer(-1)))
             }
             Node::WholePower(base, _, order) => {
                 power(self.of(graph, *base), Exponent::integer(-i64::from(*order)))

@@ -8,6 +8,8 @@
 //! Ties go to the factor whose partial product occurs in the most other products, because it is computed once
 //! for all of them.
 
+use std::cmp::Reverse;
+
 use rustc_hash::FxHashMap;
 
 use super::degrees::{Degree, Degrees, power, sum};
@@ -59,10 +61,9 @@ impl<'d> Order<'d> {
 
     /// The factors of a product in the order of multiplication, parameters first.
     pub(super) fn balanced(&mut self, graph: &Graph, product: Id) -> Vec<Factor> {
-        let mut left = self.products.get(&product).cloned().unwrap_or_default();
-        let mut degrees: Vec<Degree> = Vec::with_capacity(left.len());
-        for &((base, exponent), _) in &left {
-            degrees.push(power(self.degrees.of(graph, base), exponent));
+        let mut left = Vec::new();
+        for &(factor, place) in self.products.get(&product).into_iter().flatten() {
+            left.push((factor, place, power(self.degrees.of(graph, factor.0), factor.1)));
         }
         let mut order: Vec<Factor> = Vec::with_capacity(left.len());
         let mut total = [0.0; 2];
@@ -70,23 +71,19 @@ impl<'d> Order<'d> {
         let mut alike = self.all.clone();
         while !left.is_empty() {
             let size = |[low, high]: Degree| (total[0] + low).abs() + (total[1] + high).abs();
-            let smallest = degrees.iter().copied().map(size).fold(f64::INFINITY, f64::min);
+            let smallest = left.iter().map(|&(.., degree)| size(degree)).fold(f64::INFINITY, f64::min);
             // Of the factors with the smallest size, the first of the most shared.
-            let mut best: Option<(usize, u32)> = None;
-            for (k, &(factor, place)) in left.iter().enumerate() {
-                if size(degrees[k]) > smallest || left[..k].iter().any(|other| other.0 == factor) {
-                    continue;
-                }
+            let candidates = left.iter().enumerate().filter(|&(k, &(factor, _, degree))| {
+                size(degree) <= smallest && left[..k].iter().all(|other| other.0 != factor)
+            });
+            let best = candidates.min_by_key(|&(_, &(_, place, _))| {
                 let sharing = alike.iter().zip(&self.sets[place]);
-                let number = sharing.map(|(a, b)| (a & b).count_ones()).sum();
-                if best.is_none_or(|(_, most)| number > most) {
-                    best = Some((k, number));
-                }
-            }
+                Reverse(sharing.map(|(a, b)| (a & b).count_ones()).sum::<u32>())
+            });
             // If a degree is NaN, the first factor is taken.
-            let (k, _) = best.unwrap_or_default();
-            let (factor, place) = left.remove(k);
-            total = sum(total, degrees.remove(k));
+            let k = best.map_or(0, |(k, _)| k);
+            let (factor, place, degree) = left.remove(k);
+            total = sum(total, degree);
             order.push(factor);
             alike.iter_mut().zip(&self.sets[place]).for_each(|(a, b)| *a &= b);
         }

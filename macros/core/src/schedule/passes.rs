@@ -37,14 +37,13 @@ pub(super) fn fuse_multiply_add(mut program: Program, values: usize) -> Program 
             Statement::Loop { body, .. } => body.iter_mut().for_each(|(_, op)| fuse(op)),
         }
     }
-    for statement in &mut program.statements {
-        if let Statement::Loop { body, .. } = statement {
+    program.statements.retain_mut(|statement| match statement {
+        Statement::Let(value, _) => !is_fused[value.0],
+        Statement::Loop { body, .. } => {
             body.retain(|(value, _)| !is_fused[value.0]);
+            true
         }
-    }
-    program
-        .statements
-        .retain(|statement| !matches!(statement, Statement::Let(value, _) if is_fused[value.0]));
+    });
     program
 }
 

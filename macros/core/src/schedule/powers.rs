@@ -10,8 +10,8 @@ use crate::algebra::rational::{Rational, gcd};
 pub(super) struct Powers {
     /// Common denominator of the simple fractional exponents of a base.
     denominators: FxHashMap<Id, i128>,
-    /// The rational part of the exponent of the power that is computed.
-    representatives: FxHashMap<PowerClass, Rational>,
+    /// The rational part of the exponent of the power that is computed, after true if a quotient reads it.
+    representatives: FxHashMap<PowerClass, (bool, Rational)>,
 }
 
 /// Powers that follow from each other by multiplication with the base: the base, the real part of the
@@ -30,7 +30,15 @@ impl Powers {
     /// The powers that the nodes read.
     pub(super) fn used_by(graph: &Graph, reachable: &[Id]) -> Self {
         let mut denominators: FxHashMap<Id, i128> = FxHashMap::default();
-        let mut used: FxHashMap<PowerClass, (Vec<Rational>, Vec<Rational>)> = FxHashMap::default();
+        let mut representatives: FxHashMap<PowerClass, (bool, Rational)> = FxHashMap::default();
+        let mut read = |base, exponent: Exponent, by_quotient| {
+            let power = (by_quotient, exponent.rational);
+            let computed = representatives.entry(class(base, exponent)).or_insert(power);
+            // A quotient reads both powers: computing exactly those leaves no product for it.
+            if by_quotient && !computed.0 || by_quotient == computed.0 && is_less(computed.1, power.1) {
+                *computed = power;
+            }
+        };
         for &id in reachable {
             match graph.node(id) {
                 Node::Product(factors) => {
@@ -40,26 +48,16 @@ impl Powers {
                             let denominator = exponent.rational.denominator();
                             *common *= denominator / gcd(*common, denominator);
                         } else {
-                            used.entry(class(base, exponent)).or_default().0.push(exponent.rational);
+                            read(base, exponent, false);
                         }
                     }
                 }
-                // A quotient reads both powers: computing exactly those leaves no product for it.
                 Node::PowerQuotient(a, b, exponent) => {
-                    for base in [*a, *b] {
-                        used.entry(class(base, *exponent)).or_default().1.push(exponent.rational);
-                    }
+                    [*a, *b].into_iter().for_each(|base| read(base, *exponent, true));
                 }
                 _ => {}
             }
         }
-        let largest = |all: &[Rational]| all.iter().copied().reduce(larger);
-        let representatives = used
-            .into_iter()
-            .filter_map(|(key, (plain, quotient))| {
-                Some((key, largest(&quotient).or_else(|| largest(&plain))?))
-            })
-            .collect();
         Self { denominators, representatives }
     }
 
@@ -73,7 +71,8 @@ impl Powers {
             let common = self.denominators.get(&base).copied().filter(|&common| common <= LARGEST_ROOT);
             Evaluation::Root(common.unwrap_or(rational.denominator()))
         } else {
-            Evaluation::Real(self.representatives.get(&class(base, exponent)).copied().unwrap_or(rational))
+            let computed = self.representatives.get(&class(base, exponent));
+            Evaluation::Real(computed.map_or(rational, |&(_, computed)| computed))
         }
     }
 }
@@ -90,6 +89,6 @@ fn class(base: Id, exponent: Exponent) -> PowerClass {
     (base, real, fraction.unwrap_or(Rational::ZERO))
 }
 
-fn larger(a: Rational, b: Rational) -> Rational {
-    if a.checked_add(b.negated()).is_some_and(Rational::is_negative) { b } else { a }
+fn is_less(a: Rational, b: Rational) -> bool {
+    a.checked_add(b.negated()).is_some_and(Rational::is_negative)
 }

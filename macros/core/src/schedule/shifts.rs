@@ -14,7 +14,7 @@ use super::powers::{Evaluation, Powers};
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::rewrite;
-use crate::schedule::sorted::{Sorted, entry};
+use crate::schedule::{Sorted, entry};
 
 /// Bases with the whole exponents to which they are factors.
 type Shifts = Sorted<Id, i64>;
@@ -47,21 +47,18 @@ fn split(graph: &mut Graph, powers: &Powers, id: Id) -> (Shifts, Id) {
                     left.push((rest, Exponent::ONE));
                     continue;
                 }
-                let shift = match powers.evaluation(base, exponent) {
+                let rational = match powers.evaluation(base, exponent) {
                     // A base that may differ from entry to entry stays in its sum.
                     Evaluation::Real(computed) if !graph.contains(base, |e| matches!(e, Node::Entry(_))) => {
-                        exponent.rational.checked_add(computed.negated())
+                        computed
                     }
-                    Evaluation::Real(_) | Evaluation::Root(_) => None,
+                    Evaluation::Real(_) | Evaluation::Root(_) => exponent.rational,
                 };
+                let shift = exponent.rational.checked_add(rational.negated());
                 match shift.and_then(Rational::as_integer) {
                     Some(n) if n != 0 && exponent.real.is_some() => {
                         *entry(&mut shifts, base) += n;
-                        let rational = exponent.rational.checked_add(Rational::integer(-n));
-                        left.push((
-                            base,
-                            Exponent { rational: rational.unwrap_or(exponent.rational), ..exponent },
-                        ));
+                        left.push((base, Exponent { rational, ..exponent }));
                     }
                     _ => left.push((base, exponent)),
                 }

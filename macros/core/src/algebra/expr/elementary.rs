@@ -61,11 +61,8 @@ impl Elementary {
 
     /// Its value at zero if that is a whole number.
     pub(crate) fn at_zero(self) -> Option<i64> {
-        match self {
-            Self::Cos | Self::Cosh => Some(1),
-            Self::Sigmoid | Self::Softplus => None,
-            _ => Some(0),
-        }
+        let value = self.value(0.0);
+        (value.fract() == 0.0).then_some(value as i64)
     }
 
     /// True if its values are positive.

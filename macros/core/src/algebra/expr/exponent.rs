@@ -62,6 +62,13 @@ impl Graph {
         }
     }
 
+    /// An exponent whose expression in parameters has been replaced, without rational part in that.
+    pub(super) fn normal_exponent(&mut self, exponent: Exponent) -> Exponent {
+        let Some(real) = exponent.real else { return exponent };
+        let shift = self.exponent(real);
+        self.add_exponents(Exponent::rational(exponent.rational), shift)
+    }
+
     /// An expression in parameters as an exponent.
     pub fn exponent(&mut self, id: Id) -> Exponent {
         if let Node::Linear { constant, terms } = self.node(id).clone() {

@@ -2,90 +2,75 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Exponent, Extended, Graph, Id, Node, ParameterIndex};
+use super::{Extended, Graph, Id, Node, ParameterIndex};
+
+impl Node {
+    /// The ids of the direct subexpressions, those of exponents included.
+    fn children_mut(&mut self) -> Vec<&mut Id> {
+        match self {
+            Self::Linear { terms, .. } => terms.iter_mut().map(|(term, _)| term).collect(),
+            Self::Product(factors) => {
+                factors.iter_mut().flat_map(|(base, e)| [Some(base), e.real.as_mut()]).flatten().collect()
+            }
+            Self::Ln(a) | Self::Exp(a) | Self::Elementary(_, a) | Self::Function(.., a) | Self::Sum(_, a) => {
+                vec![a]
+            }
+            Self::Excess(a, b)
+            | Self::Accurate(a, b)
+            | Self::LnQuotient(a, b)
+            | Self::ExpQuotient(a, b)
+            | Self::ElementaryQuotient(_, a, b)
+            | Self::FunctionQuotient(.., a, b)
+            | Self::WholePower(a, b, _)
+            | Self::PoleQuotient(a, b) => vec![a, b],
+            Self::WhereNegative(a, b, c) | Self::WholePowerQuotient(a, b, c, _) => vec![a, b, c],
+            Self::PowerQuotient(a, b, e) => [a, b].into_iter().chain(&mut e.real).collect(),
+            Self::Extended(Extended::Power(e), ..) => e.real.as_mut().into_iter().collect(),
+            _ => Vec::new(),
+        }
+    }
+}
 
 impl Graph {
     /// Direct subexpressions, exponents included.
     #[must_use]
     pub fn children(&self, id: Id) -> Vec<Id> {
-        let with_exponent = |base: Id, exponent: &Exponent| [Some(base), exponent.real].into_iter().flatten();
         match self.node(id) {
             Node::Linear { terms, .. } => terms.iter().map(|&(term, _)| term).collect(),
-            Node::Product(factors) => factors.iter().flat_map(|(base, e)| with_exponent(*base, e)).collect(),
-            Node::Ln(a) | Node::Exp(a) | Node::Elementary(_, a) | Node::Function(.., a) | Node::Sum(_, a) => {
-                vec![*a]
-            }
             Node::Excess(a, b) if a == b => vec![*a],
-            Node::Excess(a, b) | Node::Accurate(a, b) => vec![*a, *b],
-            Node::WhereNegative(a, b, c) => vec![*a, *b, *c],
-            Node::LnQuotient(a, b)
-            | Node::ExpQuotient(a, b)
-            | Node::ElementaryQuotient(_, a, b)
-            | Node::FunctionQuotient(.., a, b)
-            | Node::WholePower(a, b, _)
-            | Node::PoleQuotient(a, b) => vec![*a, *b],
-            Node::WholePowerQuotient(a, b, n, _) => vec![*a, *b, *n],
-            Node::PowerQuotient(a, b, exponent) => [*a, *b].into_iter().chain(exponent.real).collect(),
-            Node::Extended(Extended::Power(exponent), ..) => exponent.real.into_iter().collect(),
-            _ => Vec::new(),
+            node => node.clone().children_mut().into_iter().map(|child| *child).collect(),
         }
     }
 
     /// A node with its subexpressions replaced, in normal form.
     ///
-    /// Leaves are returned unchanged: a caller that rewrites leaves does so before this call.
+    /// Leaves are returned unchanged, and so are extended functions: a caller that rewrites those does so
+    /// before this call.
     pub fn map_children(&mut self, id: Id, map: &mut impl FnMut(&mut Self, Id) -> Id) -> Id {
-        let exponent = |graph: &mut Self, e: Exponent, map: &mut dyn FnMut(&mut Self, Id) -> Id| match e.real
-        {
-            Some(real) => {
-                let real = map(graph, real);
-                let shift = graph.exponent(real);
-                graph.add_exponents(Exponent::rational(e.rational), shift)
-            }
-            None => e,
-        };
-        // Most children of most nodes are unchanged, and the node with them.
-        let mut is_changed = false;
-        let map = &mut |graph: &mut Self, child| {
-            let mapped = map(graph, child);
-            is_changed |= mapped != child;
-            mapped
-        };
-        if self.is_full() {
+        if self.is_full() || matches!(self.node(id), Node::Extended(..)) {
             return id;
         }
         let mut node = self.node(id).clone();
-        match &mut node {
-            Node::Linear { constant, terms } => {
-                terms.iter_mut().for_each(|(term, _)| *term = map(self, *term));
-                return if is_changed { self.linear(*constant, terms) } else { id };
-            }
-            Node::Product(factors) => {
-                for (base, e) in &mut *factors {
-                    (*base, *e) = (map(self, *base), exponent(self, *e, map));
-                }
-                return if is_changed { self.product(factors) } else { id };
-            }
-            Node::Ln(a) | Node::Exp(a) | Node::Elementary(_, a) | Node::Function(.., a) | Node::Sum(_, a) => {
-                *a = map(self, *a);
-            }
-            Node::Excess(a, b)
-            | Node::Accurate(a, b)
-            | Node::LnQuotient(a, b)
-            | Node::ExpQuotient(a, b)
-            | Node::ElementaryQuotient(_, a, b)
-            | Node::FunctionQuotient(.., a, b)
-            | Node::WholePower(a, b, _)
-            | Node::PoleQuotient(a, b) => (*a, *b) = (map(self, *a), map(self, *b)),
-            Node::WhereNegative(a, b, c) | Node::WholePowerQuotient(a, b, c, _) => {
-                (*a, *b, *c) = (map(self, *a), map(self, *b), map(self, *c));
-            }
-            Node::PowerQuotient(a, b, e) => {
-                (*a, *b, *e) = (map(self, *a), map(self, *b), exponent(self, *e, map));
-            }
-            _ => return id,
+        let mut is_changed = false;
+        for child in node.children_mut() {
+            let mapped = map(self, *child);
+            is_changed |= mapped != *child;
+            *child = mapped;
+        }
+        // Most children of most nodes are unchanged, and the node with them.
+        if !is_changed {
+            return id;
         }
         match node {
+            Node::Linear { constant, terms } => self.linear(constant, &terms),
+            Node::Product(mut factors) => {
+                factors.iter_mut().for_each(|(_, exponent)| *exponent = self.normal_exponent(*exponent));
+                self.product(&factors)
+            }
+            Node::PowerQuotient(a, b, exponent) => {
+                let exponent = self.normal_exponent(exponent);
+                self.leaf(Node::PowerQuotient(a, b, exponent))
+            }
             Node::Ln(a) => self.ln(a),
             Node::Exp(a) => self.exp(a),
             Node::Excess(a, b) => self.excess(a, b),
