@@ -14,8 +14,8 @@ use crate::{Error, PREFIX};
 /// Elements of a line, and invocations of a workgroup.
 const LINE: usize = 64;
 
-/// Components of the stiffness, the largest part of an element.
-const ENTRIES: usize = 144;
+/// Components of an element's results: the gradient, then the stiffness.
+pub const COMPONENTS: usize = 12 + 144;
 
 /// Elements on a device.
 #[derive(Debug)]
@@ -31,13 +31,9 @@ pub struct Elements<'a> {
 struct Chunk {
     lines: u32,
     bindings: BindGroup,
-    gradients: Buffer,
-    stiffnesses: Buffer,
+    results: Buffer,
     statuses: Buffer,
 }
-
-/// Gradients and stiffnesses, element by element.
-pub type Results = (Vec<[f32; 12]>, Vec<[f32; ENTRIES]>);
 
 /// The program for an energy: its own text, and an entry point.
 #[must_use]
@@ -47,9 +43,8 @@ pub fn shader(energy: &str, function: &str) -> String {
 @group(0) @binding(0) var<storage, read> positions: array<f32>;
 @group(0) @binding(1) var<storage, read> corners: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read> rests: array<f32>;
-@group(0) @binding(3) var<storage, read_write> gradients: array<f32>;
-@group(0) @binding(4) var<storage, read_write> stiffnesses: array<f32>;
-@group(0) @binding(5) var<storage, read_write> statuses: array<u32>;
+@group(0) @binding(3) var<storage, read_write> results: array<f32>;
+@group(0) @binding(4) var<storage, read_write> statuses: array<u32>;
 
 @compute @workgroup_size({LINE})
 fn elements(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {{
@@ -64,13 +59,13 @@ fn elements(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_i
         rest[k] = rests[(10u * group.x + k) * {LINE}u + lane];
     }}
     var gradient: array<f32, 12>;
-    var K: array<f32, {ENTRIES}>;
+    var K: array<f32, 144>;
     statuses[element] = {PREFIX}_{function}({PREFIX}_example(), x, rest, &gradient, &K);
     for (var k = 0u; k < 12u; k++) {{
-        gradients[(12u * group.x + k) * {LINE}u + lane] = gradient[k];
+        results[({COMPONENTS}u * group.x + k) * {LINE}u + lane] = gradient[k];
     }}
-    for (var k = 0u; k < {ENTRIES}u; k++) {{
-        stiffnesses[({ENTRIES}u * group.x + k) * {LINE}u + lane] = K[k];
+    for (var k = 0u; k < 144u; k++) {{
+        results[({COMPONENTS}u * group.x + 12u + k) * {LINE}u + lane] = K[k];
     }}
 }}
 "
@@ -91,7 +86,7 @@ impl<'a> Elements<'a> {
         }
         let program = device.programs(&shader(energy, function), &["elements"])?.remove(0);
         let positions = device.filled(&mesh.positions);
-        let lines = largest / (4 * ENTRIES * LINE) as u64;
+        let lines = largest / (4 * COMPONENTS * LINE) as u64;
         let lines = lines.min(limits.max_compute_workgroups_per_dimension.into()) as usize;
         let parts = mesh.corners.chunks(lines * LINE).zip(mesh.rest.chunks(lines * LINE));
         let chunks = parts.map(|(corners, rest)| {
@@ -102,12 +97,11 @@ impl<'a> Elements<'a> {
             let rest: Vec<f32> = (0..lines * LINE * 10)
                 .map(|k| rest[at(k / (10 * LINE) * LINE + k % LINE)][k / LINE % 10])
                 .collect();
-            let [gradients, stiffnesses, statuses] =
-                [12, ENTRIES, 1].map(|components| device.empty((4 * components * LINE * lines) as u64));
+            let [results, statuses] =
+                [COMPONENTS, 1].map(|components| device.empty((4 * components * LINE * lines) as u64));
             let (corners, rest) = (device.filled(&corners), device.filled(&rest));
-            let all = [&positions, &corners, &rest, &gradients, &stiffnesses, &statuses];
-            let bindings = device.bind(&program, &all.map(Some));
-            Chunk { lines: lines as u32, bindings, gradients, stiffnesses, statuses }
+            let bindings = device.bind(&program, &[&positions, &corners, &rest, &results, &statuses]);
+            Chunk { lines: lines as u32, bindings, results, statuses }
         });
         let chunks = chunks.collect();
         Ok(Self { device, count: mesh.corners.len(), program, chunks })
@@ -134,24 +128,18 @@ impl<'a> Elements<'a> {
         Ok(all)
     }
 
-    /// Results of the last computation.
+    /// Gradient and stiffness of each element.
     ///
     /// # Errors
     /// The device is lost, or has no memory.
-    pub fn results(&self) -> Result<Results, Error> {
-        let (mut gradients, mut stiffnesses) = (Vec::new(), Vec::new());
+    pub fn results(&self) -> Result<Vec<[f32; COMPONENTS]>, Error> {
+        let mut all = Vec::new();
         for chunk in &self.chunks {
-            gradients.extend(elements(&self.device.read(&chunk.gradients)?));
-            stiffnesses.extend(elements(&self.device.read(&chunk.stiffnesses)?));
+            let lines = self.device.read::<f32>(&chunk.results)?;
+            let component = |at: usize, k: usize| lines[(at / LINE * COMPONENTS + k) * LINE + at % LINE];
+            all.extend((0..lines.len() / COMPONENTS).map(|at| std::array::from_fn(|k| component(at, k))));
         }
-        gradients.truncate(self.count);
-        stiffnesses.truncate(self.count);
-        Ok((gradients, stiffnesses))
+        all.truncate(self.count);
+        Ok(all)
     }
-}
-
-/// Components of each element from lines.
-fn elements<const N: usize>(lines: &[f32]) -> impl Iterator<Item = [f32; N]> {
-    let all = 0..lines.len() / N;
-    all.map(|at| std::array::from_fn(|k| lines[(at / LINE * N + k) * LINE + at % LINE]))
 }
