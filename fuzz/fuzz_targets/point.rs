@@ -30,20 +30,24 @@ fuzz_target!(|input: &[u8]| {
         2 => Inversion::Extend { epsilon: 0.1 },
         _ => Inversion::Extend { epsilon: input.number::<f64>() },
     };
-    let origin = match switches >> 3 & 3 {
-        0 | 1 => Origin::Typical,
-        2 => Origin::Near,
-        _ => Origin::Anything,
+    let origin = switches >> 3 & 3;
+    let mut parameter = |&typical: &f64| match origin {
+        0 | 1 => typical,
+        // From an eighth to eight times as much, of either sign.
+        2 => {
+            let byte = input.byte();
+            let factor = f64::from(1 + (byte & 63)) / 8.0;
+            if byte & 128 == 0 { typical * factor } else { -typical * factor }
+        }
+        _ => input.number(),
     };
-    let parameters: Vec<Vec<f64>> = energy
-        .typical()
-        .iter()
-        .map(|list| list.iter().map(|&typical| origin.parameter(typical, &mut input)).collect())
-        .collect();
+    let parameters = energy.typical();
+    let parameters: Vec<Vec<f64>> =
+        parameters.iter().map(|list| list.iter().map(&mut parameter).collect()).collect();
     let parameters: Vec<&[f64]> = parameters.iter().map(Vec::as_slice).collect();
     // What single precision rounds to zero or infinity, or can hardly hold the square of, is another material
     // there.
-    let is_typical = origin == Origin::Typical
+    let is_typical = origin < 2
         && match inversion {
             Inversion::Refuse => true,
             Inversion::Extend { epsilon } => epsilon > 1e-3,
@@ -54,28 +58,6 @@ fuzz_target!(|input: &[u8]| {
         panic!("{} {parameters:?} {inversion:?}: {fault:?} at {F}", energy.name);
     }
 });
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Origin {
-    Typical,
-    Near,
-    Anything,
-}
-
-impl Origin {
-    fn parameter(self, typical: f64, input: &mut Input) -> f64 {
-        match self {
-            Self::Typical => typical,
-            // From an eighth to eight times as much, of either sign.
-            Self::Near => {
-                let byte = input.byte();
-                let factor = f64::from(1 + (byte & 63)) / 8.0;
-                if byte & 128 == 0 { typical * factor } else { -typical * factor }
-            }
-            Self::Anything => input.number(),
-        }
-    }
-}
 
 fn judge(
     subject: &Subject,
