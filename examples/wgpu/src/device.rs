@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use wgpu::util::DownloadBuffer;
 use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline, ErrorFilter, Limits, PollType};
 
 use crate::Error;
@@ -73,14 +74,10 @@ impl Device {
     /// A buffer of zeros.
     #[must_use]
     pub fn empty(&self, bytes: u64) -> Buffer {
-        self.buffer(bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)
-    }
-
-    fn buffer(&self, size: u64, usage: BufferUsages) -> Buffer {
         self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
-            size,
-            usage,
+            size: bytes,
+            usage: BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         })
     }
@@ -125,15 +122,11 @@ impl Device {
     /// # Errors
     /// The device is lost, or has no memory.
     pub fn read<T: bytemuck::Pod>(&self, buffer: &Buffer) -> Result<Vec<T>, Error> {
-        let copy = self.buffer(buffer.size(), BufferUsages::COPY_DST | BufferUsages::MAP_READ);
-        let mut encoder = self.device.create_command_encoder(&Default::default());
-        encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
-        self.queue.submit([encoder.finish()]);
         let (sender, receiver) = std::sync::mpsc::channel();
-        copy.slice(..).map_async(wgpu::MapMode::Read, move |result| _ = sender.send(result));
+        DownloadBuffer::read_buffer(&self.device, &self.queue, &buffer.slice(..), move |result| {
+            _ = sender.send(result);
+        });
         self.device.poll(PollType::wait_indefinitely())?;
-        receiver.recv()??;
-        let view = copy.slice(..).get_mapped_range()?;
-        Ok(bytemuck::pod_collect_to_vec(&view))
+        Ok(bytemuck::pod_collect_to_vec(&receiver.recv()??))
     }
 }
