@@ -18,8 +18,8 @@ use libfuzzer_sys::fuzz_target;
 use piola::Inversion;
 use piola::point::Matrix3;
 use piola_tests::bits::Precision;
-use piola_tests::energies::{ENERGIES, Format, Subject};
-use piola_tests::soundness::{Fault, check, check_elements, check_single, check_single_accuracy};
+use piola_tests::energies::{ENERGIES, Format};
+use piola_tests::soundness::{check, check_elements, check_single, check_single_accuracy};
 
 fuzz_target!(|input: &[u8]| {
     let mut input = Input(input);
@@ -54,22 +54,11 @@ fuzz_target!(|input: &[u8]| {
         };
     // A refusal of the parameters is an answer; what it may not be is a panic.
     let Ok(subject) = energy.subject(&parameters, inversion) else { return };
-    if let Err((fault, F)) = judge(&subject, switches & 1 == 1, is_typical, input) {
-        panic!("{} {parameters:?} {inversion:?}: {fault:?} at {F}", energy.name);
-    }
-});
-
-fn judge(
-    subject: &Subject,
-    is_single: bool,
-    is_typical: bool,
-    mut input: Input<'_>,
-) -> Result<(), (Fault, String)> {
-    if is_single {
+    let verdict = if switches & 1 == 1 {
         let F: Matrix3<f32> = input.matrix();
-        let mut verdict = check(f32::of(subject), &F).map(drop);
+        let mut verdict = check(f32::of(&subject), &F).map(drop);
         if verdict.is_ok() && is_typical && F.iter().flatten().all(|x| x.is_finite()) {
-            verdict = check_single(subject, &F).and_then(|_| check_single_accuracy(subject, &F));
+            verdict = check_single(&subject, &F).and_then(|_| check_single_accuracy(&subject, &F));
         }
         verdict.map_err(|fault| (fault, format!("{F:?}")))
     } else {
@@ -78,10 +67,13 @@ fn judge(
             Some(&(_, fault)) => Err(fault),
             None => Ok(()),
         };
-        let verdict = check(f64::of(subject), &F).and_then(of_element);
+        let verdict = check(f64::of(&subject), &F).and_then(of_element);
         verdict.map_err(|fault| (fault, format!("{F:?}")))
+    };
+    if let Err((fault, F)) = verdict {
+        panic!("{} {parameters:?} {inversion:?}: {fault:?} at {F}", energy.name);
     }
-}
+});
 
 /// The bytes that are left.
 struct Input<'a>(&'a [u8]);
