@@ -33,7 +33,7 @@ where
 {
     let positions: Vec<[E; 3]> = mesh.positions.iter().map(|at| at.map(E::from)).collect();
     let corners: Vec<[usize; 4]> = mesh.corners.iter().map(|all| all.map(|node| node as usize)).collect();
-    let rest: Vec<E> = mesh.rest.as_flattened().iter().map(|&x| x.into()).collect();
+    let rest: Vec<E> = mesh.rest.as_flattened().iter().map(|&x| E::from(x)).collect();
     let tetrahedra = Tetrahedra::new(positions.len(), &corners).expect("nodes of the mesh");
     let [mut gradients, mut K] = [12, 144].map(|count| vec![E::from(0.0f32); count * corners.len()]);
     let survey = Batch::<E>::new(material)
