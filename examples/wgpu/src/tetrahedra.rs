@@ -1,7 +1,7 @@
 //! Gradients and stiffnesses of linear tetrahedra, computed by one invocation each.
 //!
 //! Numbers of elements lie in lines: component k of the 64 elements of a workgroup, then component k + 1. So
-//! neighbours read and write side by side.
+//! neighbours read and write side by side. The program is in `tetrahedra.wgsl`.
 
 use std::time::Duration;
 
@@ -11,10 +11,10 @@ use crate::device::Device;
 use crate::mesh::Mesh;
 use crate::{Error, PREFIX};
 
-/// Elements of a line, and invocations of a workgroup.
+/// Elements of a line, and invocations of a workgroup, as in the program.
 const LINE: usize = 64;
 
-/// Components of an element's results: the gradient, then the stiffness.
+/// Components of an element's results, as in the program: the gradient, then the stiffness.
 pub const COMPONENTS: usize = 12 + 144;
 
 /// Elements on a device.
@@ -35,43 +35,6 @@ struct Chunk {
     statuses: Buffer,
 }
 
-/// The program for an energy: its own text, and an entry point.
-#[must_use]
-pub fn shader(energy: &str, function: &str) -> String {
-    format!(
-        "{energy}
-@group(0) @binding(0) var<storage, read> positions: array<f32>;
-@group(0) @binding(1) var<storage, read> corners: array<vec4<u32>>;
-@group(0) @binding(2) var<storage, read> rests: array<f32>;
-@group(0) @binding(3) var<storage, read_write> results: array<f32>;
-@group(0) @binding(4) var<storage, read_write> statuses: array<u32>;
-
-@compute @workgroup_size({LINE})
-fn elements(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {{
-    let element = {LINE}u * group.x + lane;
-    let nodes = corners[element];
-    var x: array<f32, 12>;
-    for (var k = 0u; k < 12u; k++) {{
-        x[k] = positions[3u * nodes[k / 3u] + k % 3u];
-    }}
-    var rest: array<f32, 10>;
-    for (var k = 0u; k < 10u; k++) {{
-        rest[k] = rests[(10u * group.x + k) * {LINE}u + lane];
-    }}
-    var gradient: array<f32, 12>;
-    var K: array<f32, 144>;
-    statuses[element] = {PREFIX}_{function}({PREFIX}_example(), x, rest, &gradient, &K);
-    for (var k = 0u; k < 12u; k++) {{
-        results[({COMPONENTS}u * group.x + k) * {LINE}u + lane] = gradient[k];
-    }}
-    for (var k = 0u; k < 144u; k++) {{
-        results[({COMPONENTS}u * group.x + 12u + k) * {LINE}u + lane] = K[k];
-    }}
-}}
-"
-    )
-}
-
 impl<'a> Elements<'a> {
     /// The elements of a mesh, with the text of an energy, whose parameters are those of its example, and the
     /// function that is called: `tetrahedron` or `projected_tetrahedron`.
@@ -84,7 +47,9 @@ impl<'a> Elements<'a> {
         if size_of_val(&mesh.positions[..]) as u64 > largest {
             return Err(format!("{} nodes are too many for {}", mesh.positions.len(), device.name).into());
         }
-        let program = device.programs(&shader(energy, function), &["elements"])?.remove(0);
+        let calls =
+            include_str!("tetrahedra.wgsl").replace("energy_tetrahedron", &format!("{PREFIX}_{function}"));
+        let program = device.programs(&[energy, &calls].join("\n"), &["elements"])?.remove(0);
         let positions = device.filled(&mesh.positions);
         let lines = largest / (4 * COMPONENTS * LINE) as u64;
         let lines = lines.min(limits.max_compute_workgroups_per_dimension.into()) as usize;
