@@ -18,7 +18,7 @@ use libfuzzer_sys::fuzz_target;
 use piola::Inversion;
 use piola::point::Matrix3;
 use piola_tests::bits::Precision;
-use piola_tests::energies::{ENERGIES, Format, Subject};
+use piola_tests::energies::{ENERGIES, Format};
 use piola_tests::soundness::{check, check_elements, check_single, check_single_accuracy};
 
 fuzz_target!(|input: &[u8]| {
@@ -30,64 +30,35 @@ fuzz_target!(|input: &[u8]| {
         2 => Inversion::Extend { epsilon: 0.1 },
         _ => Inversion::Extend { epsilon: input.number::<f64>() },
     };
-    let origin = match switches >> 3 & 3 {
-        0 | 1 => Origin::Typical,
-        2 => Origin::Near,
-        _ => Origin::Anything,
+    let origin = switches >> 3 & 3;
+    let mut parameter = |&typical: &f64| match origin {
+        0 | 1 => typical,
+        // From an eighth to eight times as much, of either sign.
+        2 => {
+            let byte = input.byte();
+            let factor = f64::from(1 + (byte & 63)) / 8.0;
+            if byte & 128 == 0 { typical * factor } else { -typical * factor }
+        }
+        _ => input.number(),
     };
-    let parameters: Vec<Vec<f64>> = energy
-        .typical()
-        .iter()
-        .map(|list| list.iter().map(|&typical| origin.parameter(typical, &mut input)).collect())
-        .collect();
+    let parameters = energy.typical();
+    let parameters: Vec<Vec<f64>> =
+        parameters.iter().map(|list| list.iter().map(&mut parameter).collect()).collect();
     let parameters: Vec<&[f64]> = parameters.iter().map(Vec::as_slice).collect();
     // What single precision rounds to zero or infinity, or can hardly hold the square of, is another material
     // there.
-    let is_typical = origin == Origin::Typical
+    let is_typical = origin < 2
         && match inversion {
             Inversion::Refuse => true,
             Inversion::Extend { epsilon } => epsilon > 1e-3,
         };
     // A refusal of the parameters is an answer; what it may not be is a panic.
     let Ok(subject) = energy.subject(&parameters, inversion) else { return };
-    if let Err((fault, F)) = judge(&subject, switches & 1 == 1, is_typical, input) {
-        panic!("{} {parameters:?} {inversion:?}: {fault} at {F}", energy.name);
-    }
-});
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Origin {
-    Typical,
-    Near,
-    Anything,
-}
-
-impl Origin {
-    fn parameter(self, typical: f64, input: &mut Input) -> f64 {
-        match self {
-            Self::Typical => typical,
-            // From an eighth to eight times as much, of either sign.
-            Self::Near => {
-                let byte = input.byte();
-                let factor = f64::from(1 + (byte & 63)) / 8.0;
-                if byte & 128 == 0 { typical * factor } else { -typical * factor }
-            }
-            Self::Anything => input.number(),
-        }
-    }
-}
-
-fn judge(
-    subject: &Subject,
-    is_single: bool,
-    is_typical: bool,
-    mut input: Input<'_>,
-) -> Result<(), (String, String)> {
-    if is_single {
+    let verdict = if switches & 1 == 1 {
         let F: Matrix3<f32> = input.matrix();
-        let mut verdict = check(f32::of(subject), &F).map(drop);
+        let mut verdict = check(f32::of(&subject), &F).map(drop);
         if verdict.is_ok() && is_typical && F.iter().flatten().all(|x| x.is_finite()) {
-            verdict = check_single(subject, &F).and_then(|_| check_single_accuracy(subject, &F));
+            verdict = check_single(&subject, &F).and_then(|_| check_single_accuracy(&subject, &F));
         }
         verdict.map_err(|fault| (fault, format!("{F:?}")))
     } else {
@@ -96,10 +67,13 @@ fn judge(
             Some((_, fault)) => Err(fault),
             None => Ok(()),
         };
-        let verdict = check(f64::of(subject), &F).and_then(of_element);
+        let verdict = check(f64::of(&subject), &F).and_then(of_element);
         verdict.map_err(|fault| (fault, format!("{F:?}")))
+    };
+    if let Err((fault, F)) = verdict {
+        panic!("{} {parameters:?} {inversion:?}: {fault} at {F}", energy.name);
     }
-}
+});
 
 /// The bytes that are left.
 struct Input<'a>(&'a [u8]);

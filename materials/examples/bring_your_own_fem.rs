@@ -10,7 +10,7 @@
 #![expect(clippy::print_stdout, reason = "a result to show")]
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use piola::batch::{Batch, Quadrature, TileMaterial};
+use piola::batch::{Batch, Quadrature};
 use piola::point::Filter;
 use piola_materials::NeoHookean;
 
@@ -18,9 +18,8 @@ type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 fn main() -> Result<()> {
     // Soft rubber: moduli in Pa.
-    let rubber = NeoHookean::new(1e5, 4e5)?;
-    let mut bar = Bar::new(&rubber)?;
-    check_slopes(&mut bar)?;
+    let bar = Bar::new(NeoHookean::new(1e5, 4e5)?)?;
+    check_slopes(&bar)?;
 
     // A kilonewton along the bar and 150 N across it, shared by the nine nodes of its tip.
     let mut load = DVector::zeros(bar.X.len());
@@ -28,7 +27,7 @@ fn main() -> Result<()> {
         load[3 * node] = 1000.0 / 9.0;
         load[3 * node + 2] = -150.0 / 9.0;
     }
-    let (x, residuals) = solve(&mut bar, &load)?;
+    let (x, residuals) = solve(&bar, &load)?;
     let by = (&x - &bar.X).rows_range(3 * (NODES - 1)..).into_owned();
     for steps in residuals[residuals.len().saturating_sub(3)..].windows(2) {
         // Newton's method squares a relative error, times what the second derivative of the forces makes of
@@ -54,8 +53,8 @@ const FREE: usize = 3 * FACE;
 /// A bar of hexahedra, held at x = 0.
 ///
 /// Unknown 3n+a is coordinate a of node n, in m. Point 8e+q is Gauss point q of element e, in every slice.
-struct Bar<'a> {
-    material: &'a dyn TileMaterial<f64>,
+struct Bar {
+    material: NeoHookean,
     /// Nodal positions at rest.
     X: DVector<f64>,
     elements: Vec<[usize; 8]>,
@@ -63,106 +62,76 @@ struct Bar<'a> {
     slopes: Vec<f64>,
     /// Volume of each point, m³: its weight times det ∂X/∂ξ.
     volumes: Vec<f64>,
-    hexahedra: Quadrature<f64>,
-    slices: Slices,
 }
 
-/// Input and output arrays of piola, allocated once.
-struct Slices {
-    positions: Vec<f64>,
-    F: Vec<f64>,
-    energies: Vec<f64>,
-    P: Vec<f64>,
-    dP_dF: Vec<f64>,
-    gradients: Vec<f64>,
-    stiffnesses: Vec<f64>,
-}
-
-impl<'a> Bar<'a> {
-    fn new(material: &'a dyn TileMaterial<f64>) -> Result<Self> {
+impl Bar {
+    fn new(material: NeoHookean) -> Result<Self> {
         let [_, ny, nz] = CELLS;
-        let node = |i: usize, j: usize, k: usize| FACE * i + (nz + 1) * j + k;
         // No element is a cube, so that ∂X/∂ξ differs from point to point.
         let X = DVector::from_fn(3 * NODES, |unknown, _| {
             let (n, a) = (unknown / 3, unknown % 3);
             let at = [n / FACE, n % FACE / (nz + 1), n % (nz + 1)];
             0.1 * at[a] as f64 + 0.01 * irregular(unknown)
         });
-        let slices = Slices {
-            positions: vec![0.0; 24 * ELEMENTS],
-            F: vec![0.0; 9 * POINTS],
-            energies: vec![0.0; POINTS],
-            P: vec![0.0; 9 * POINTS],
-            dP_dF: vec![0.0; 81 * POINTS],
-            gradients: vec![0.0; 24 * ELEMENTS],
-            stiffnesses: vec![0.0; 24 * 24 * ELEMENTS],
-        };
-        let hexahedra = Quadrature::new(8, 8);
-        let (elements, slopes, volumes) = Default::default();
-        let mut bar = Self { material, X, elements, slopes, volumes, hexahedra, slices };
+        let mut bar = Self { material, X, elements: Vec::new(), slopes: Vec::new(), volumes: Vec::new() };
         for e in 0..ELEMENTS {
             let [i, j, k] = [e / (ny * nz), e / nz % ny, e % nz];
-            bar.add(std::array::from_fn(|n| node(i + (n & 1), j + (n >> 1 & 1), k + (n >> 2))))?;
+            let node = |n: usize| FACE * (i + (n & 1)) + (nz + 1) * (j + (n >> 1 & 1)) + k + (n >> 2);
+            let nodes: [usize; 8] = std::array::from_fn(node);
+            for q in 0..8 {
+                let xi = [0, 1, 2].map(|axis| sign(q, axis) / f64::sqrt(3.0));
+                // N_n = Π (1 + s ξ)/8 with the signs s of corner n; J = ∂X/∂ξ.
+                let dN_dxi: [Vector3<f64>; 8] = std::array::from_fn(|n| {
+                    let factor = [0, 1, 2].map(|axis| 1.0 + sign(n, axis) * xi[axis]);
+                    Vector3::from_fn(|axis, _| {
+                        sign(n, axis) * factor[(axis + 1) % 3] * factor[(axis + 2) % 3] / 8.0
+                    })
+                });
+                let mut J = Matrix3::zeros();
+                for (&node, dN) in nodes.iter().zip(&dN_dxi) {
+                    J += bar.X.fixed_rows::<3>(3 * node) * dN.transpose();
+                }
+                // ∂N/∂X = J⁻ᵀ ∂N/∂ξ.
+                let inverse = J.try_inverse().ok_or("an element is flat")?;
+                for dN in dN_dxi {
+                    bar.slopes.extend_from_slice((inverse.transpose() * dN).as_slice());
+                }
+                bar.volumes.push(J.determinant());
+            }
+            bar.elements.push(nodes);
         }
         Ok(bar)
     }
 
-    /// Adds an element with its Gauss points.
-    fn add(&mut self, nodes: [usize; 8]) -> Result<()> {
-        for q in 0..8 {
-            let xi = [0, 1, 2].map(|axis| sign(q, axis) / f64::sqrt(3.0));
-            // N_n = Π (1 + s ξ)/8 with the signs s of corner n; J = ∂X/∂ξ.
-            let dN_dxi: [Vector3<f64>; 8] = std::array::from_fn(|n| {
-                let factor = [0, 1, 2].map(|axis| 1.0 + sign(n, axis) * xi[axis]);
-                Vector3::from_fn(|axis, _| {
-                    sign(n, axis) * factor[(axis + 1) % 3] * factor[(axis + 2) % 3] / 8.0
-                })
-            });
-            let mut J = Matrix3::zeros();
-            for (&node, dN) in nodes.iter().zip(&dN_dxi) {
-                J += self.X.fixed_rows::<3>(3 * node) * dN.transpose();
-            }
-            // ∂N/∂X = J⁻ᵀ ∂N/∂ξ.
-            let inverse = J.try_inverse().ok_or("an element is flat")?;
-            for dN in dN_dxi {
-                self.slopes.extend_from_slice((inverse.transpose() * dN).as_slice());
-            }
-            self.volumes.push(J.determinant());
-        }
-        self.elements.push(nodes);
-        Ok(())
-    }
-
-    /// F of all points, into their slice.
-    fn deform(&mut self, x: &DVector<f64>) -> Result<()> {
-        let Slices { positions, F, .. } = &mut self.slices;
-        for (node, to) in self.elements.as_flattened().iter().zip(positions.chunks_exact_mut(3)) {
-            to.copy_from_slice(&x.as_slice()[3 * node..][..3]);
-        }
-        self.hexahedra.deform(positions, &self.slopes, F)?;
-        Ok(())
+    /// F of all points.
+    fn deform(&self, x: &DVector<f64>) -> Result<Vec<f64>> {
+        let nodes = self.elements.as_flattened().iter();
+        let positions: Vec<f64> = nodes.flat_map(|node| [0, 1, 2].map(|a| x[3 * node + a])).collect();
+        let mut F = vec![0.0; 9 * POINTS];
+        Quadrature::<f64>::new(8, 8).deform(&positions, &self.slopes, &mut F)?;
+        Ok(F)
     }
 
     /// Elastic energy, J; infinite if a point lies outside the domain of the material.
-    fn energy(&mut self, x: &DVector<f64>) -> Result<f64> {
-        self.deform(x)?;
-        let Slices { F, energies, .. } = &mut self.slices;
-        let survey = Batch::new(self.material).energies(F, energies)?;
+    fn energy(&self, x: &DVector<f64>) -> Result<f64> {
+        let mut energies = vec![0.0; POINTS];
+        let survey = Batch::<f64>::new(&self.material).energies(&self.deform(x)?, &mut energies)?;
         let sum = energies.iter().zip(&self.volumes).map(|(energy, volume)| energy * volume).sum();
         Ok(if survey.is_clean() { sum } else { f64::INFINITY })
     }
 
     /// Gradient of the energy, N, and stiffness, N/m, with the filter on dP/dF of each point.
-    fn linearise(&mut self, x: &DVector<f64>, filter: Filter) -> Result<(DVector<f64>, DMatrix<f64>)> {
-        self.deform(x)?;
-        let Slices { F, P, dP_dF, gradients, stiffnesses, .. } = &mut self.slices;
-        let batch = Batch::new(self.material).with_filter(filter);
-        let survey = batch.tangents(F, P, dP_dF)?;
+    fn linearise(&self, x: &DVector<f64>, filter: Filter) -> Result<(DVector<f64>, DMatrix<f64>)> {
+        let (mut P, mut dP_dF) = (vec![0.0; 9 * POINTS], vec![0.0; 81 * POINTS]);
+        let batch = Batch::<f64>::new(&self.material).with_filter(filter);
+        let survey = batch.tangents(&self.deform(x)?, &mut P, &mut dP_dF)?;
         if let Some(point) = survey.first {
             return Err(format!("point {point} is outside the domain of the material").into());
         }
-        self.hexahedra.gradients(&self.slopes, &self.volumes, P, gradients)?;
-        self.hexahedra.stiffnesses(&self.slopes, &self.volumes, dP_dF, stiffnesses)?;
+        let mut hexahedra = Quadrature::<f64>::new(8, 8);
+        let (mut gradients, mut stiffnesses) = (vec![0.0; 24 * ELEMENTS], vec![0.0; 24 * 24 * ELEMENTS]);
+        hexahedra.gradients(&self.slopes, &self.volumes, &P, &mut gradients)?;
+        hexahedra.stiffnesses(&self.slopes, &self.volumes, &dP_dF, &mut stiffnesses)?;
 
         let (mut gradient, mut stiffness) = (DVector::zeros(x.len()), DMatrix::zeros(x.len(), x.len()));
         for (element, nodes) in self.elements.iter().enumerate() {
@@ -194,7 +163,7 @@ fn irregular(n: usize) -> f64 {
 ///
 /// Far from there the filtered tangent makes every step one downhill, whose length a line search finds; near
 /// it the tangent itself makes steps that square the residual.
-fn solve(bar: &mut Bar<'_>, load: &DVector<f64>) -> Result<(DVector<f64>, Vec<f64>)> {
+fn solve(bar: &Bar, load: &DVector<f64>) -> Result<(DVector<f64>, Vec<f64>)> {
     let (mut x, mut filter, mut residuals) = (bar.X.clone(), Filter::Clamp, Vec::new());
     for _ in 0..50 {
         let (gradient, stiffness) = bar.linearise(&x, filter)?;
@@ -225,7 +194,7 @@ fn solve(bar: &mut Bar<'_>, load: &DVector<f64>) -> Result<(DVector<f64>, Vec<f6
 
 /// Checks that forces are the slope of the energy and the stiffness that of the forces: halving the step of a
 /// central difference must divide its error by four.
-fn check_slopes(bar: &mut Bar<'_>) -> Result<()> {
+fn check_slopes(bar: &Bar) -> Result<()> {
     let unknowns = bar.X.len();
     // Strained by a tenth or so, every element in another way.
     let x = DVector::from_fn(unknowns, |n, _| bar.X[n] + 0.01 * irregular(n + unknowns));

@@ -1,25 +1,11 @@
 //! A graphics processor: its buffers, programs and calls of them. It is independent of energies.
 
-use std::fmt;
 use std::time::{Duration, Instant};
 
+use wgpu::util::DownloadBuffer;
 use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline, ErrorFilter, Limits, PollType};
 
 use crate::Error;
-
-/// No adapter supports Vulkan.
-#[derive(Debug)]
-pub struct NoAdapter(wgpu::RequestAdapterError);
-
-impl fmt::Display for NoAdapter {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let advice =
-            "a driver is needed, or Mesa's for the processor: mesa-vulkan-drivers and libvulkan1 in Debian";
-        write!(f, "no adapter for Vulkan: {advice} ({})", self.0)
-    }
-}
-
-impl std::error::Error for NoAdapter {}
 
 /// An open device.
 #[derive(Debug)]
@@ -36,14 +22,18 @@ impl Device {
     /// The fastest adapter, with its own limits.
     ///
     /// # Errors
-    /// [`NoAdapter`], or a device that cannot be opened.
+    /// There is no adapter for Vulkan, or it cannot be opened.
     pub fn open() -> Result<Self, Error> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()
         };
-        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(NoAdapter)?;
+        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|error| {
+            let advice =
+                "a driver is needed, or Mesa's for the processor: mesa-vulkan-drivers and libvulkan1 in Debian";
+            format!("no adapter for Vulkan: {advice} ({error})")
+        })?;
         let limits = adapter.limits();
         let descriptor = wgpu::DeviceDescriptor { required_limits: limits.clone(), ..Default::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))?;
@@ -84,24 +74,19 @@ impl Device {
     /// A buffer of zeros.
     #[must_use]
     pub fn empty(&self, bytes: u64) -> Buffer {
-        self.buffer(bytes, BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC)
-    }
-
-    fn buffer(&self, size: u64, usage: BufferUsages) -> Buffer {
         self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
-            size,
-            usage,
+            size: bytes,
+            usage: BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         })
     }
 
-    /// Buffers in the order of the bindings of a program; `None` for those that it does not use.
+    /// Buffers in the order of the bindings of a program.
     #[must_use]
-    pub fn bind(&self, program: &ComputePipeline, buffers: &[Option<&Buffer>]) -> BindGroup {
+    pub fn bind(&self, program: &ComputePipeline, buffers: &[&Buffer]) -> BindGroup {
         let entries: Vec<_> = (0u32..)
             .zip(buffers)
-            .filter_map(|(binding, buffer)| Some((binding, (*buffer)?)))
             .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
             .collect();
         let layout = &program.get_bind_group_layout(0);
@@ -137,15 +122,11 @@ impl Device {
     /// # Errors
     /// The device is lost, or has no memory.
     pub fn read<T: bytemuck::Pod>(&self, buffer: &Buffer) -> Result<Vec<T>, Error> {
-        let copy = self.buffer(buffer.size(), BufferUsages::COPY_DST | BufferUsages::MAP_READ);
-        let mut encoder = self.device.create_command_encoder(&Default::default());
-        encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
-        self.queue.submit([encoder.finish()]);
         let (sender, receiver) = std::sync::mpsc::channel();
-        copy.slice(..).map_async(wgpu::MapMode::Read, move |result| _ = sender.send(result));
+        DownloadBuffer::read_buffer(&self.device, &self.queue, &buffer.slice(..), move |result| {
+            _ = sender.send(result);
+        });
         self.device.poll(PollType::wait_indefinitely())?;
-        receiver.recv()??;
-        let view = copy.slice(..).get_mapped_range()?;
-        Ok(bytemuck::pod_collect_to_vec(&view))
+        Ok(bytemuck::pod_collect_to_vec(&receiver.recv()??))
     }
 }

@@ -8,5 +8,5 @@ pub mod tetrahedra;
 /// A sentence for the user.
 pub type Error = Box<dyn std::error::Error + Send + Sync>;
 
-/// First part of all names in the WGSL that this crate runs.
+/// First part of all names in the emitted WGSL, which the files `*.wgsl` of this crate call.
 pub const PREFIX: &str = "energy";

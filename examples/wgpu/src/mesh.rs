@@ -15,39 +15,36 @@ pub struct Mesh {
 /// and waved so that each element has another deformation gradient. All J are positive.
 #[must_use]
 pub fn bar(cells: [usize; 3]) -> Mesh {
-    let [nx, ny, nz] = cells.map(|count| count + 1);
-    let node = |at: [usize; 3]| (at[2] * ny + at[1]) * nx + at[0];
+    let counts @ [nx, ny, _] = cells.map(|count| count + 1);
     let size = 1.0 / cells[0] as f64;
-    let mut at_rest = Vec::with_capacity(nx * ny * nz);
-    for z in 0..nz {
-        for y in 0..ny {
-            at_rest.extend((0..nx).map(|x| [x, y, z].map(|count| count as f64 * size)));
-        }
-    }
+    let place = |node| grid(node, counts).map(|count| count as f64 * size);
+    let at_rest: Vec<[f64; 3]> = (0..counts.iter().product::<usize>()).map(place).collect();
     // A cube is cut into a tetrahedron in the middle and one at each corner that this leaves; neighbours are
     // mirror images, whose faces fit, and whose corners have the other order.
     const CUT: [[usize; 4]; 5] = [[0, 3, 6, 5], [1, 3, 0, 5], [2, 0, 3, 6], [4, 0, 6, 5], [7, 3, 5, 6]];
     let mut mesh = Mesh { positions: Vec::new(), corners: Vec::new(), rest: Vec::new() };
-    for z in 0..cells[2] {
-        for y in 0..cells[1] {
-            for x in 0..cells[0] {
-                let mirror = (x + y + z) % 2;
-                for tetrahedron in CUT {
-                    let mut corners = tetrahedron.map(|corner| {
-                        node([x + ((corner & 1) ^ mirror), y + (corner >> 1 & 1), z + (corner >> 2)])
-                    });
-                    if mirror == 1 {
-                        corners.swap(2, 3);
-                    }
-                    mesh.corners.push(corners.map(|corner| corner as u32));
-                    mesh.rest.push(rest_shape(corners.map(|corner| at_rest[corner])).map(|x| x as f32));
-                }
+    for [x, y, z] in (0..cells.iter().product::<usize>()).map(|cell| grid(cell, cells)) {
+        let mirror = (x + y + z) % 2;
+        for tetrahedron in CUT {
+            let mut corners = tetrahedron.map(|corner| {
+                let [x, y, z] = [x + ((corner & 1) ^ mirror), y + (corner >> 1 & 1), z + (corner >> 2)];
+                (z * ny + y) * nx + x
+            });
+            if mirror == 1 {
+                corners.swap(2, 3);
             }
+            mesh.corners.push(corners.map(|corner| corner as u32));
+            mesh.rest.push(rest_shape(corners.map(|corner| at_rest[corner])).map(|x| x as f32));
         }
     }
     let middle = [cells[1], cells[2]].map(|count| count as f64 * size / 2.0);
     mesh.positions.extend(at_rest.into_iter().map(|at| deformed(at, middle).map(|x| x as f32)));
     mesh
+}
+
+/// Place of a number in a grid, along each axis.
+fn grid(number: usize, [nx, ny, _]: [usize; 3]) -> [usize; 3] {
+    [number % nx, number / nx % ny, number / (nx * ny)]
 }
 
 /// Deformed position of a point of the bar: half of a turn over its length, a stretch between 0.5 and 1.5

@@ -1,7 +1,7 @@
 //! Gradients and stiffnesses of linear tetrahedra, computed by one invocation each.
 //!
 //! Numbers of elements lie in lines: component k of the 64 elements of a workgroup, then component k + 1. So
-//! neighbours read and write side by side.
+//! neighbours read and write side by side. The program is in `tetrahedra.wgsl`.
 
 use std::time::Duration;
 
@@ -11,11 +11,11 @@ use crate::device::Device;
 use crate::mesh::Mesh;
 use crate::{Error, PREFIX};
 
-/// Elements of a line, and invocations of a workgroup.
+/// Elements of a line, and invocations of a workgroup, as in the program.
 const LINE: usize = 64;
 
-/// Components of the stiffness, the largest part of an element.
-const ENTRIES: usize = 144;
+/// Components of an element's results, as in the program: the gradient, then the stiffness.
+pub const COMPONENTS: usize = 12 + 144;
 
 /// Elements on a device.
 #[derive(Debug)]
@@ -31,50 +31,8 @@ pub struct Elements<'a> {
 struct Chunk {
     lines: u32,
     bindings: BindGroup,
-    gradients: Buffer,
-    stiffnesses: Buffer,
+    results: Buffer,
     statuses: Buffer,
-}
-
-/// Gradients and stiffnesses, element by element.
-pub type Results = (Vec<[f32; 12]>, Vec<[f32; ENTRIES]>);
-
-/// The program for an energy: its own text, and an entry point.
-#[must_use]
-pub fn shader(energy: &str, function: &str) -> String {
-    format!(
-        "{energy}
-@group(0) @binding(0) var<storage, read> positions: array<f32>;
-@group(0) @binding(1) var<storage, read> corners: array<vec4<u32>>;
-@group(0) @binding(2) var<storage, read> rests: array<f32>;
-@group(0) @binding(3) var<storage, read_write> gradients: array<f32>;
-@group(0) @binding(4) var<storage, read_write> stiffnesses: array<f32>;
-@group(0) @binding(5) var<storage, read_write> statuses: array<u32>;
-
-@compute @workgroup_size({LINE})
-fn elements(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {{
-    let element = {LINE}u * group.x + lane;
-    let nodes = corners[element];
-    var x: array<f32, 12>;
-    for (var k = 0u; k < 12u; k++) {{
-        x[k] = positions[3u * nodes[k / 3u] + k % 3u];
-    }}
-    var rest: array<f32, 10>;
-    for (var k = 0u; k < 10u; k++) {{
-        rest[k] = rests[(10u * group.x + k) * {LINE}u + lane];
-    }}
-    var gradient: array<f32, 12>;
-    var K: array<f32, {ENTRIES}>;
-    statuses[element] = {PREFIX}_{function}({PREFIX}_example(), x, rest, &gradient, &K);
-    for (var k = 0u; k < 12u; k++) {{
-        gradients[(12u * group.x + k) * {LINE}u + lane] = gradient[k];
-    }}
-    for (var k = 0u; k < {ENTRIES}u; k++) {{
-        stiffnesses[({ENTRIES}u * group.x + k) * {LINE}u + lane] = K[k];
-    }}
-}}
-"
-    )
 }
 
 impl<'a> Elements<'a> {
@@ -89,9 +47,11 @@ impl<'a> Elements<'a> {
         if size_of_val(&mesh.positions[..]) as u64 > largest {
             return Err(format!("{} nodes are too many for {}", mesh.positions.len(), device.name).into());
         }
-        let program = device.programs(&shader(energy, function), &["elements"])?.remove(0);
+        let calls =
+            include_str!("tetrahedra.wgsl").replace("energy_tetrahedron", &format!("{PREFIX}_{function}"));
+        let program = device.programs(&[energy, &calls].join("\n"), &["elements"])?.remove(0);
         let positions = device.filled(&mesh.positions);
-        let lines = largest / (4 * ENTRIES * LINE) as u64;
+        let lines = largest / (4 * COMPONENTS * LINE) as u64;
         let lines = lines.min(limits.max_compute_workgroups_per_dimension.into()) as usize;
         let parts = mesh.corners.chunks(lines * LINE).zip(mesh.rest.chunks(lines * LINE));
         let chunks = parts.map(|(corners, rest)| {
@@ -102,12 +62,11 @@ impl<'a> Elements<'a> {
             let rest: Vec<f32> = (0..lines * LINE * 10)
                 .map(|k| rest[at(k / (10 * LINE) * LINE + k % LINE)][k / LINE % 10])
                 .collect();
-            let [gradients, stiffnesses, statuses] =
-                [12, ENTRIES, 1].map(|components| device.empty((4 * components * LINE * lines) as u64));
+            let [results, statuses] =
+                [COMPONENTS, 1].map(|components| device.empty((4 * components * LINE * lines) as u64));
             let (corners, rest) = (device.filled(&corners), device.filled(&rest));
-            let all = [&positions, &corners, &rest, &gradients, &stiffnesses, &statuses];
-            let bindings = device.bind(&program, &all.map(Some));
-            Chunk { lines: lines as u32, bindings, gradients, stiffnesses, statuses }
+            let bindings = device.bind(&program, &[&positions, &corners, &rest, &results, &statuses]);
+            Chunk { lines: lines as u32, bindings, results, statuses }
         });
         let chunks = chunks.collect();
         Ok(Self { device, count: mesh.corners.len(), program, chunks })
@@ -134,24 +93,18 @@ impl<'a> Elements<'a> {
         Ok(all)
     }
 
-    /// Results of the last computation.
+    /// Gradient and stiffness of each element.
     ///
     /// # Errors
     /// The device is lost, or has no memory.
-    pub fn results(&self) -> Result<Results, Error> {
-        let (mut gradients, mut stiffnesses) = (Vec::new(), Vec::new());
+    pub fn results(&self) -> Result<Vec<[f32; COMPONENTS]>, Error> {
+        let mut all = Vec::new();
         for chunk in &self.chunks {
-            gradients.extend(elements(&self.device.read(&chunk.gradients)?));
-            stiffnesses.extend(elements(&self.device.read(&chunk.stiffnesses)?));
+            let lines = self.device.read::<f32>(&chunk.results)?;
+            let component = |at: usize, k: usize| lines[(at / LINE * COMPONENTS + k) * LINE + at % LINE];
+            all.extend((0..lines.len() / COMPONENTS).map(|at| std::array::from_fn(|k| component(at, k))));
         }
-        gradients.truncate(self.count);
-        stiffnesses.truncate(self.count);
-        Ok((gradients, stiffnesses))
+        all.truncate(self.count);
+        Ok(all)
     }
-}
-
-/// Components of each element from lines.
-fn elements<const N: usize>(lines: &[f32]) -> impl Iterator<Item = [f32; N]> {
-    let all = 0..lines.len() / N;
-    all.map(|at| std::array::from_fn(|k| lines[(at / LINE * N + k) * LINE + at % LINE]))
 }

@@ -26,51 +26,40 @@ const U: f64 = 1.0 / (1 << 24) as f64;
 const FUNCTIONS: [(PointFunction, Filter); 2] =
     [(PointFunction::Tetrahedron, Filter::None), (PointFunction::ProjectedTetrahedron, Filter::Clamp)];
 
-/// Gradients and stiffnesses, element by element.
-type Results<E> = (Vec<E>, Vec<E>);
-
-/// Gradients and stiffnesses by a batch, in `f32` or `f64`.
-fn by_piola<E: Kernels>(
-    material: &Interpreted,
-    filter: Filter,
-    mesh: &Mesh,
-    number: impl Fn(f32) -> E,
-) -> Results<E>
+/// Gradient and stiffness of each element by a batch, in `f32` or `f64`.
+fn by_piola<E: Kernels + From<f32>>(material: &Interpreted, filter: Filter, mesh: &Mesh) -> Vec<[f64; 156]>
 where
     Interpreted: TileMaterial<E>,
 {
-    let positions: Vec<[E; 3]> = mesh.positions.iter().map(|at| at.map(&number)).collect();
+    let positions: Vec<[E; 3]> = mesh.positions.iter().map(|at| at.map(E::from)).collect();
     let corners: Vec<[usize; 4]> = mesh.corners.iter().map(|all| all.map(|node| node as usize)).collect();
-    let rest: Vec<E> = mesh.rest.as_flattened().iter().map(|&x| number(x)).collect();
+    let rest: Vec<E> = mesh.rest.as_flattened().iter().map(|&x| E::from(x)).collect();
     let tetrahedra = Tetrahedra::new(positions.len(), &corners).expect("nodes of the mesh");
-    let (mut gradients, mut K) =
-        (vec![number(0.0); 12 * corners.len()], vec![number(0.0); 144 * corners.len()]);
-    let batch = Batch::<E>::new(material).with_filter(filter);
-    let survey = batch
+    let [mut gradients, mut K] = [12, 144].map(|count| vec![E::from(0.0f32); count * corners.len()]);
+    let survey = Batch::<E>::new(material)
+        .with_filter(filter)
         .stiffnesses_at(tetrahedra, &positions, &rest, &mut gradients, &mut K)
         .expect("lengths that fit");
     assert_eq!((survey.refused, survey.nonfinite), (0, 0));
-    (gradients, K)
+    let number = |element: usize, k: usize| {
+        if k < 12 { gradients[12 * element + k] } else { K[144 * element + k - 12] }
+    };
+    (0..corners.len()).map(|element| std::array::from_fn(|k| number(element, k).into())).collect()
 }
 
 /// Largest errors of gradients and stiffnesses, as [`BOUND`] has them.
-fn errors(mesh: &Mesh, exact: &Results<f64>, found: (&[f32], &[f32])) -> [f64; 2] {
+fn errors(mesh: &Mesh, exact: &[[f64; 156]], found: &[[f64; 156]]) -> [f64; 2] {
+    assert_eq!([exact.len(), found.len()], [mesh.corners.len(); 2]);
+    let largest = |entries: &[f64]| entries.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let mut worst = [0.0f64; 2];
-    for (element, corners) in mesh.corners.iter().enumerate() {
-        let largest = |entries: &[f64]| entries.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let difference = |exact: &[f64], found: &[f32]| {
-            largest(&exact.iter().zip(found).map(|(x, &y)| x - f64::from(y)).collect::<Vec<_>>())
-        };
-        let (g, K) = (12 * element..12 * (element + 1), 144 * element..144 * (element + 1));
-        let [start, ..] = corners.map(|node| mesh.positions[node as usize]);
-        let edges = corners.map(|node| {
-            let at = mesh.positions[node as usize];
-            [0, 1, 2].map(|a| f64::from(at[a]) - f64::from(start[a]))
-        });
-        let stiffness = largest(&exact.1[K.clone()]);
-        let force = largest(&exact.0[g.clone()]) + stiffness * largest(edges.as_flattened());
-        worst[0] = worst[0].max(difference(&exact.0[g.clone()], &found.0[g]) / (U * force));
-        worst[1] = worst[1].max(difference(&exact.1[K.clone()], &found.1[K]) / (U * stiffness));
+    for (corners, (exact, found)) in mesh.corners.iter().zip(exact.iter().zip(found)) {
+        let places = corners.map(|node| mesh.positions[node as usize].map(f64::from));
+        let edges = places.map(|place| [0, 1, 2].map(|a| place[a] - places[0][a]));
+        let stiffness = largest(&exact[12..]);
+        let force = largest(&exact[..12]) + stiffness * largest(edges.as_flattened());
+        let difference: [f64; 156] = std::array::from_fn(|k| exact[k] - found[k]);
+        worst[0] = worst[0].max(largest(&difference[..12]) / (U * force));
+        worst[1] = worst[1].max(largest(&difference[12..]) / (U * stiffness));
     }
     worst
 }
@@ -93,16 +82,12 @@ fn check(formula: &str, values: &[&[f64]]) {
         let is_filtered = |&status: &u32| status == 8 && filter != Filter::None;
         assert!(statuses.iter().all(|status| *status == 0 || is_filtered(status)), "{statuses:?}");
         assert_eq!(statuses.iter().any(is_filtered), filter != Filter::None);
-        let (gradients, stiffnesses) = elements.results().expect("a device");
-        assert_eq!(stiffnesses.len(), mesh.corners.len());
-        let exact = by_piola(&material, filter, &mesh, f64::from);
-        let single = by_piola(&material, filter, &mesh, |x| x);
-        let here = errors(&mesh, &exact, (gradients.as_flattened(), stiffnesses.as_flattened()));
-        let there = errors(&mesh, &exact, (&single.0, &single.1));
-        println!(
-            "{formula}, {function}: gradients {:.1} u, K {:.1} u; by piola in f32 {there:.1?}",
-            here[0], here[1]
-        );
+        let results = elements.results().expect("a device");
+        let results: Vec<_> = results.iter().map(|element| element.map(f64::from)).collect();
+        let exact = by_piola::<f64>(&material, filter, &mesh);
+        let here = errors(&mesh, &exact, &results);
+        let there = errors(&mesh, &exact, &by_piola::<f32>(&material, filter, &mesh));
+        println!("{formula}, {function}: gradients and K {here:.1?} u; by piola in f32 {there:.1?} u");
         assert!(here.iter().all(|&error| error < BOUND), "{formula}, {function}: {here:.1?} u");
     }
 }
