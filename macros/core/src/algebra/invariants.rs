@@ -28,16 +28,26 @@ pub struct ByInvariants {
     pub bounds: Vec<Id>,
 }
 
+/// Second derivatives by invariants that do not vanish everywhere, of which the runtime compiles terms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Curvature {
+    /// WJJ only.
+    Volume,
+    /// W11 and WJJ.
+    Separate,
+    /// All of them.
+    All,
+}
+
 impl ByInvariants {
-    /// The second derivatives that do not vanish everywhere: the name of a `Curvature` of the runtime, which
-    /// compiles their terms.
+    /// The second derivatives that do not vanish everywhere.
     #[must_use]
-    pub fn curvature(&self, graph: &Graph) -> &'static str {
+    pub fn curvature(&self, graph: &Graph) -> Curvature {
         let [w11, w22, _, w12, w1j, w2j] = self.hessian.map(|derivative| !graph.is_zero(derivative));
         match (w11, w22 || w12 || w1j || w2j) {
-            (false, false) => "Volume",
-            (true, false) => "Separate",
-            (_, true) => "All",
+            (false, false) => Curvature::Volume,
+            (true, false) => Curvature::Separate,
+            (_, true) => Curvature::All,
         }
     }
 }

@@ -50,7 +50,8 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
         )
     });
     let has_second = !model.graph.is_zero(invariants.gradient[1]);
-    let curvature = format_ident!("{}", invariants.curvature(&model.graph));
+    let curvature = invariants.curvature(&model.graph);
+    let curvature = format_ident!("{curvature:?}");
 
     quote! {
         #[inline(always)]
