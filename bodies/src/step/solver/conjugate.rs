@@ -3,9 +3,8 @@
 use crate::step::error::NewtonError;
 use crate::step::objective::Objective;
 use crate::system::linear::LinearError;
-use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
+use crate::system::linear::conjugate_gradients::ConjugateGradients;
 use crate::system::linear::multigrid::Undivided;
-use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::{Body, Pins};
 
@@ -110,10 +109,16 @@ impl Solver for Conjugate {
             }
             nodes.pinned.iter().for_each(|&node| direction[node] = [0.0; 3]);
             let limit = preconditioner.patience(tolerance).min(self.max_iterations - given_up);
-            let matrix = stiffness.matrix_mut();
-            let mut system = Linearised { matrix, pinned: &nodes.pinned, preconditioner };
+            // The second derivatives, as an operator on displacements that are zero at pinned nodes.
+            let apply = |x: &[f64], product: &mut [f64]| {
+                let product = product.as_chunks_mut().0;
+                stiffness.matrix_mut().multiply(x.as_chunks().0, product);
+                nodes.pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
+            };
+            let precondition =
+                |r: &[f64], z: &mut [f64]| preconditioner.apply(r.as_chunks().0, z.as_chunks_mut().0);
             let unknowns = direction.as_flattened_mut();
-            let mut iteration = conjugate_gradients.solve(&mut system, unknowns, tolerance, limit);
+            let mut iteration = conjugate_gradients.solve(apply, precondition, unknowns, tolerance, limit);
             let again = preconditioner.judge(iteration, tolerance);
             iteration.iterations += given_up;
             if again && iteration.iterations < self.max_iterations {
@@ -127,27 +132,4 @@ impl Solver for Conjugate {
             return Ok(solution);
         }
     }
-}
-
-/// The second derivatives as an operator on displacements that are zero at pinned nodes.
-struct Linearised<'a> {
-    matrix: &'a mut SymmetricBlocks<f64, 3>,
-    pinned: &'a [usize],
-    preconditioner: &'a mut Preconditioner<Undivided>,
-}
-
-impl System for Linearised<'_> {
-    fn apply(&mut self, x: &[f64], product: &mut [f64]) {
-        let (x, product) = (vectors(x), product.as_chunks_mut().0);
-        self.matrix.multiply(x, product);
-        self.pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
-    }
-
-    fn precondition(&mut self, r: &[f64], z: &mut [f64]) {
-        self.preconditioner.apply(vectors(r), z.as_chunks_mut().0);
-    }
-}
-
-fn vectors(entries: &[f64]) -> &[[f64; 3]] {
-    entries.as_chunks().0
 }

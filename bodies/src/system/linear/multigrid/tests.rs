@@ -5,7 +5,7 @@ use super::*;
 use crate::mesh::tetrahedral_box;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
-use crate::system::linear::conjugate_gradients::{ConjugateGradients, End, Iteration, System};
+use crate::system::linear::conjugate_gradients::{ConjugateGradients, End, Iteration};
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::testing::{kirchhoff, shake};
 
@@ -26,28 +26,6 @@ fn cube(
     (stiffness, mesh.positions.iter().map(|x| x[0] > 1e-9).collect(), positions)
 }
 
-struct Preconditioned<'a> {
-    matrix: SymmetricBlocks<f64, 3>,
-    multigrid: Multigrid<Undivided>,
-    is_free: &'a [bool],
-}
-
-impl System for Preconditioned<'_> {
-    fn apply(&mut self, x: &[f64], product: &mut [f64]) {
-        let product = product.as_chunks_mut().0;
-        self.matrix.multiply(x.as_chunks().0, product);
-        for (product, is_free) in product.iter_mut().zip(self.is_free) {
-            if !is_free {
-                *product = [0.0; 3];
-            }
-        }
-    }
-
-    fn precondition(&mut self, r: &[f64], z: &mut [f64]) {
-        self.multigrid.solve(r.as_chunks().0, z.as_chunks_mut().0);
-    }
-}
-
 /// Solves a system with a random right side that is zero at pinned nodes.
 fn solve(
     stiffness: &NodalStiffness,
@@ -58,9 +36,19 @@ fn solve(
     let mut random = Random::new(5);
     let free = |is_free: &bool| [0; 3].map(|_| f64::from(*is_free) * random.uniform(-1.0, 1.0));
     let mut b: Vec<[f64; 3]> = is_free.iter().map(free).collect();
-    let mut system =
-        Preconditioned { matrix: stiffness.matrix().clone(), multigrid: multigrid.clone(), is_free };
-    ConjugateGradients::new(3 * b.len()).solve(&mut system, b.as_flattened_mut(), tolerance, 300)
+    let (mut matrix, mut multigrid) = (stiffness.matrix().clone(), multigrid.clone());
+    let apply = |x: &[f64], product: &mut [f64]| {
+        let product = product.as_chunks_mut().0;
+        matrix.multiply(x.as_chunks().0, product);
+        for (product, is_free) in product.iter_mut().zip(is_free) {
+            if !is_free {
+                *product = [0.0; 3];
+            }
+        }
+    };
+    let precondition = |r: &[f64], z: &mut [f64]| multigrid.solve(r.as_chunks().0, z.as_chunks_mut().0);
+    let mut memory = ConjugateGradients::new(3 * b.len());
+    memory.solve(apply, precondition, b.as_flattened_mut(), tolerance, 300)
 }
 
 fn set_up(stiffness: &NodalStiffness, is_free: &[bool], positions: &[[f64; 3]]) -> Multigrid<Undivided> {
