@@ -43,10 +43,10 @@ use rayon::prelude::*;
 
 use super::symmetric_blocks::SymmetricBlocks;
 use crate::system::graph::Graph;
-use crate::system::parts::for_each_part;
+use crate::system::parts::for_each_entry;
 
 use division::ROWS;
-use level::{Coarse, Level};
+use level::{Coarse, Level, POWERS};
 
 pub(crate) use division::diagonals;
 pub use division::{Division, Undivided};
@@ -147,7 +147,8 @@ impl<D: Division> Multigrid<D> {
         included: &[bool],
     ) {
         if let Some(levels) = &mut self.levels {
-            levels.finest.take(matrix, diagonals, levels.scale, included, &mut self.division);
+            let Levels { finest, scale, .. } = levels;
+            finest.take(matrix, diagonals, *scale, included, POWERS, &mut self.division);
         }
     }
 
@@ -164,9 +165,7 @@ impl<D: Division> Multigrid<D> {
         let largest = division.largest(largest);
         let unit = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         let rows = b.len().min(r.len());
-        for_each_part(&mut b[..rows], ROWS, |first, b| {
-            b.iter_mut().zip(&r[first..]).for_each(|(b, r)| *b = r.map(|r| (unit * r) as f32));
-        });
+        for_each_entry(&mut b[..rows], ROWS, |row, b| *b = r[row].map(|r| (unit * r) as f32));
         finest.down(b, &mut coarse_b[0], division);
         for (depth, (level, division)) in coarse.iter_mut().enumerate() {
             let (to_here, after) = coarse_b.split_at_mut(depth + 1);
@@ -186,9 +185,7 @@ impl<D: Division> Multigrid<D> {
         let unit = *scale / unit;
         let x = &finest.x;
         let rows = z.len().min(x.len());
-        for_each_part(&mut z[..rows], ROWS, |first, z| {
-            z.iter_mut().zip(&x[first..]).for_each(|(z, x)| *z = x.map(|x| unit * f64::from(x)));
-        });
+        for_each_entry(&mut z[..rows], ROWS, |row, z| *z = x[row].map(|x| unit * f64::from(x)));
     }
 }
 

@@ -10,7 +10,7 @@ use crate::system::graph::Graph;
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::lists::Lists;
-use crate::system::parts::for_each_part;
+use crate::system::parts::{for_each_entry, for_each_part};
 
 const DEGREE: usize = 2;
 
@@ -21,7 +21,7 @@ const DAMPED: f32 = 0.1;
 const FIRST_POWERS: usize = 12;
 
 /// Number of iterations of the power method for each later matrix.
-const POWERS: usize = 3;
+pub(super) const POWERS: usize = 3;
 
 /// Factor between the estimate of the power method and the bound of the eigenvalues.
 const MARGIN: f64 = 1.1;
@@ -86,8 +86,7 @@ impl<const N: usize> Level<N> {
             step: zeros(included.len()),
             product: zeros(included.len()),
         };
-        level.replace(matrix, diagonals, scale, included);
-        level.find_largest(FIRST_POWERS, division);
+        level.take(matrix, diagonals, scale, included, FIRST_POWERS, division);
 
         let aggregates = Aggregates::new(graph, order, included, owned);
         let mut numbers = Numbers::new(division.first(aggregates.len()), aggregates.len());
@@ -145,55 +144,38 @@ impl<const N: usize> Level<N> {
         Ok((level, Coarse { matrix: coarse, diagonals, graph, division, motions }))
     }
 
-    /// Replaces the matrix by `scale` times a matrix of the same pattern.
+    /// Replaces the matrix by `scale` times a matrix of the same pattern, and computes an upper bound of the
+    /// eigenvalues of D⁻¹A by so many iterations of the power method.
     pub(super) fn take(
         &mut self,
         matrix: &SymmetricBlocks<f64, N>,
         diagonals: &[[[f64; N]; N]],
         scale: f64,
         included: &[bool],
+        powers: usize,
         division: &mut impl Division,
-    ) {
-        self.replace(matrix, diagonals, scale, included);
-        self.find_largest(POWERS, division);
-    }
-
-    fn replace(
-        &mut self,
-        matrix: &SymmetricBlocks<f64, N>,
-        diagonals: &[[[f64; N]; N]],
-        scale: f64,
-        included: &[bool],
     ) {
         self.matrix.for_each_chunk(|_, first, blocks| {
             for (single, block) in blocks.iter_mut().zip(&matrix.blocks()[first..]) {
                 *single = block.map(|row| row.map(|entry| (scale * entry) as f32));
             }
         });
-        for_each_part(&mut self.inverses, ROWS, |first, inverses| {
-            for (single, row) in inverses.iter_mut().zip(first..) {
-                *single = match included[row] {
-                    true => inverse(&diagonals[row].map(|row| row.map(|entry| scale * entry)))
-                        .map(|row| row.map(|entry| entry as f32)),
-                    false => [[0.0; N]; N],
-                };
-            }
+        for_each_entry(&mut self.inverses, ROWS, |row, single| {
+            *single = match included[row] {
+                true => inverse(&diagonals[row].map(|row| row.map(|entry| scale * entry)))
+                    .map(|row| row.map(|entry| entry as f32)),
+                false => [[0.0; N]; N],
+            };
         });
-    }
-
-    /// Computes an upper bound of the eigenvalues of D⁻¹A by the power method.
-    fn find_largest(&mut self, iterations: usize, division: &mut impl Division) {
         let Self { matrix, roughest, product, inverses, .. } = self;
         let owned = inverses.len();
         let mut largest = 1.0;
-        for _ in 0..iterations {
+        for _ in 0..powers {
             division.copy(roughest);
             matrix.multiply(roughest, product);
             division.sum(product);
-            for_each_part(&mut roughest[..owned], ROWS, |first, x| {
-                for ((x, product), inverse) in x.iter_mut().zip(&product[first..]).zip(&inverses[first..]) {
-                    *x = times(inverse, product);
-                }
+            for_each_entry(&mut roughest[..owned], ROWS, |row, x| {
+                *x = times(&inverses[row], &product[row]);
             });
             let entries = roughest[..owned].as_flattened().iter();
             let square = division.total(entries.map(|&x| f64::from(x) * f64::from(x)).sum());
@@ -220,37 +202,33 @@ impl<const N: usize> Level<N> {
         self.residual.copy_from_slice(&b[..self.x.len()]);
         self.smooth(true, division);
         let Self { residual, prolongation, columns, .. } = self;
-        for_each_part(coarse, ROWS / 16, |first, coarse| {
-            for (coarse, column) in coarse.iter_mut().zip(first..) {
-                let mut sum = [0.0; 6];
-                for &(row, index) in columns.of(column) {
-                    let (block, residual) = (prolongation.block(index as usize), &residual[row as usize]);
-                    for k in 0..N {
-                        for c in 0..6 {
-                            sum[c] += block[k][c] * residual[k];
-                        }
+        for_each_entry(coarse, ROWS / 16, |column, coarse| {
+            let mut sum = [0.0; 6];
+            for &(row, index) in columns.of(column) {
+                let (block, residual) = (prolongation.block(index as usize), &residual[row as usize]);
+                for k in 0..N {
+                    for c in 0..6 {
+                        sum[c] += block[k][c] * residual[k];
                     }
                 }
-                *coarse = sum;
             }
+            *coarse = sum;
         });
     }
 
     /// Adds the correction of the next level, and smooths the error again.
     pub(super) fn up(&mut self, coarse: &[[f32; 6]], division: &mut impl Division) {
         let Self { step, prolongation, x, .. } = self;
-        for_each_part(&mut step[..x.len()], ROWS, |first, step| {
-            for (step, row) in step.iter_mut().zip(first..) {
-                let mut sum = [0.0; N];
-                for (column, block) in prolongation.row(row) {
-                    for r in 0..N {
-                        for c in 0..6 {
-                            sum[r] += block[r][c] * coarse[column][c];
-                        }
+        for_each_entry(&mut step[..x.len()], ROWS, |row, step| {
+            let mut sum = [0.0; N];
+            for (column, block) in prolongation.row(row) {
+                for r in 0..N {
+                    for c in 0..6 {
+                        sum[r] += block[r][c] * coarse[column][c];
                     }
                 }
-                *step = sum;
             }
+            *step = sum;
         });
         self.follow(division);
         self.smooth(false, division);
@@ -279,14 +257,11 @@ impl<const N: usize> Level<N> {
     /// Computes step = a step + b D⁻¹ r.
     fn advance(&mut self, a: f32, b: f32) {
         let Self { step, residual, inverses, .. } = self;
-        for_each_part(&mut step[..residual.len()], ROWS, |first, step| {
-            let rows = step.iter_mut().zip(&residual[first..]).zip(&inverses[first..]);
-            for ((step, residual), inverse) in rows {
-                let damped = times(inverse, residual);
-                for c in 0..N {
-                    // The previous step may contain any values, and must not be used.
-                    step[c] = if a == 0.0 { b * damped[c] } else { a * step[c] + b * damped[c] };
-                }
+        for_each_entry(&mut step[..residual.len()], ROWS, |row, step| {
+            let damped = times(&inverses[row], &residual[row]);
+            for c in 0..N {
+                // The previous step may contain any values, and must not be used.
+                step[c] = if a == 0.0 { b * damped[c] } else { a * step[c] + b * damped[c] };
             }
         });
     }
@@ -409,10 +384,7 @@ fn sum<const N: usize>(
 
 /// Blocks on the diagonal of a coarse matrix. Motions that are impossible for an aggregate are first given a
 /// diagonal entry, so that the inverse exists.
-fn regular_diagonals(
-    matrix: &mut SymmetricBlocks<f64, 6>,
-    division: &mut impl Division,
-) -> Vec<Block> {
+fn regular_diagonals(matrix: &mut SymmetricBlocks<f64, 6>, division: &mut impl Division) -> Vec<Block> {
     let mut diagonals = diagonals(matrix, division);
     for (row, sum) in diagonals.iter_mut().enumerate() {
         let at = matrix.pattern().diagonal(row);

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::lists::Lists;
-use crate::system::parts::for_each_part;
+use crate::system::parts::for_each_entry;
 
 /// Number of rows in a chunk, which one thread computes.
 const ROWS: usize = 512;
@@ -70,9 +70,7 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
             rows.push(row);
             rest = after;
         }
-        for_each_part(&mut rows, ROWS, |first, rows| {
-            (first..).zip(rows).for_each(|(row, blocks)| change(row, blocks));
-        });
+        for_each_entry(&mut rows, ROWS, |row, blocks| change(row, blocks));
     }
 
     pub(super) fn map<T>(self, change: impl Fn(E) -> T) -> Rows<T, R, C> {
