@@ -134,11 +134,7 @@ impl NodalStiffness {
     ///
     /// Two different nodes have one block; the block of `column` and `row` is its transpose.
     pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, &[[f64; 3]; 3])> {
-        let pattern = self.matrix.pattern();
-        let row = move |row: usize| pattern.upper(row).map(move |(block, column)| (row, column, block));
-        (0..pattern.rows())
-            .flat_map(row)
-            .map(|(row, column, block)| (row, column, &self.matrix.blocks()[block]))
+        self.matrix.stored()
     }
 
     /// Finds the places of all blocks, also of pairs of nodes that share no element, and allocates all memory

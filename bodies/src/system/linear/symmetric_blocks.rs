@@ -168,6 +168,12 @@ impl Pattern {
         let first = chunk.starts[0];
         range.map(move |block| (block, chunk.rows[chunk.columns[block - first] as usize] as usize))
     }
+
+    /// Row, column and index of each stored block, row by row.
+    pub(crate) fn stored(&self) -> impl Iterator<Item = (usize, usize, usize)> {
+        let row = move |row: usize| self.upper(row).map(move |(block, column)| (row, column, block));
+        (0..self.rows()).flat_map(row)
+    }
 }
 
 impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
@@ -194,6 +200,11 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
 
     pub(crate) fn blocks_mut(&mut self) -> &mut [[[E; N]; N]] {
         &mut self.blocks
+    }
+
+    /// Row, column and entries of each stored block, row by row.
+    pub(crate) fn stored(&self) -> impl Iterator<Item = (usize, usize, &[[E; N]; N])> {
+        self.pattern.stored().map(move |(row, column, block)| (row, column, &self.blocks[block]))
     }
 
     pub(crate) fn diagonal(&self, row: usize) -> &[[E; N]; N] {

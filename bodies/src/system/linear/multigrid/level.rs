@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::aggregation::Aggregates;
+use super::aggregation::aggregate;
 use super::division::{Division, Numbers, ROWS, diagonals};
 use super::last::Block;
 use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, columns_of};
@@ -80,7 +80,7 @@ impl<const N: usize> Level<N> {
             largest: 0.0,
             roughest: (0..included.len()).map(anything).collect(),
             prolongation: Rows::none(),
-            columns: columns_of(&Rows::<f32, N, 6>::none(), 0)?,
+            columns: Columns::none(),
             x: zeros(owned),
             residual: zeros(owned),
             step: zeros(included.len()),
@@ -88,9 +88,9 @@ impl<const N: usize> Level<N> {
         };
         level.take(matrix, diagonals, scale, included, FIRST_POWERS, division);
 
-        let aggregates = Aggregates::new(graph, order, included, owned);
-        let mut numbers = Numbers::new(division.first(aggregates.len()), aggregates.len());
-        let (mut tentative, motions) = orthonormal(&aggregates, motions)?;
+        let (aggregates, count) = aggregate(graph, order, included, owned);
+        let mut numbers = Numbers::new(division.first(count), count);
+        let (mut tentative, motions) = orthonormal(&aggregates, count, motions)?;
         extend(&mut tentative, &mut numbers, division);
         let whole = WholeRows::new(matrix.pattern())?;
         let product = whole.multiply(matrix, included, &tentative, numbers.len());
@@ -118,7 +118,7 @@ impl<const N: usize> Level<N> {
         let columns = columns_of(&prolongation, numbers.len())?;
         let upper = coarse_rows(&prolongation, &columns, &product);
         drop(product);
-        level.prolongation = prolongation.map(|entry| entry as f32).add(owned, &Parts::new());
+        level.prolongation = prolongation.map(|entry| entry as f32).first(owned);
         level.columns = match division.copies() {
             0 => columns,
             _ => columns_of(&level.prolongation, numbers.len())?,
@@ -132,20 +132,18 @@ impl<const N: usize> Level<N> {
         let order: Vec<u32> = (0..graph.rows() as u32).collect();
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
         let mut coarse = SymmetricBlocks::new(pattern.clone())?;
-        for row in 0..graph.rows() {
-            for (block, column) in pattern.upper(row) {
-                if let Some((_, entries)) = upper.row(row).find(|&(other, _)| other == column) {
-                    coarse.blocks_mut()[block] = *entries;
-                }
+        for (row, column, block) in pattern.stored() {
+            if let Some((_, entries)) = upper.row(row).find(|&(other, _)| other == column) {
+                coarse.blocks_mut()[block] = *entries;
             }
         }
-        let mut division = division.coarse(aggregates.len(), numbers.others())?;
+        let mut division = division.coarse(count, numbers.others())?;
         let diagonals = regular_diagonals(&mut coarse, &mut division);
         Ok((level, Coarse { matrix: coarse, diagonals, graph, division, motions }))
     }
 
     /// Replaces the matrix by `scale` times a matrix of the same pattern, and computes an upper bound of the
-    /// eigenvalues of D⁻¹A by so many iterations of the power method.
+    /// eigenvalues of D⁻¹A by `powers` iterations of the power method.
     pub(super) fn take(
         &mut self,
         matrix: &SymmetricBlocks<f64, N>,
@@ -313,13 +311,14 @@ fn times<const N: usize>(matrix: &[[f32; N]; N], x: &[f32; N]) -> [f32; N] {
 /// Rigid motions of each aggregate, orthonormal, at its rows, and rigid motions of the body as combinations
 /// of them. A motion that is impossible for an aggregate of few rows is zero in both.
 fn orthonormal<const N: usize>(
-    aggregates: &Aggregates,
+    aggregates: &[Option<usize>],
+    count: usize,
     motions: &[[[f64; 6]; N]],
 ) -> Result<(Rows<f64, N, 6>, Vec<Block>), LinearError> {
     let mut blocks = motions.to_vec();
-    let mut combinations = vec![[[0.0; 6]; 6]; aggregates.len()];
-    let members = || (0..motions.len()).filter_map(|row| Some((aggregates.of(row)?, row)));
-    let members = Lists::new(aggregates.len(), members)?;
+    let mut combinations = vec![[[0.0; 6]; 6]; count];
+    let members = || (0..motions.len()).filter_map(|row| Some((aggregates[row]?, row)));
+    let members = Lists::new(count, members)?;
     // Gram–Schmidt orthogonalisation, twice.
     for (aggregate, combination) in combinations.iter_mut().enumerate() {
         let rows = members.of(aggregate);
@@ -350,7 +349,7 @@ fn orthonormal<const N: usize>(
     }
     let mut rows = Rows::none();
     for (row, block) in blocks.into_iter().enumerate() {
-        if let Some(aggregate) = aggregates.of(row) {
+        if let Some(aggregate) = aggregates[row] {
             rows.push(aggregate, block);
         }
         rows.end();
@@ -379,7 +378,7 @@ fn sum<const N: usize>(
     for (row, list) in lists {
         parts.entry(row).or_default().extend(numbers.read(&list));
     }
-    rows.add(owned, &parts)
+    rows.add(owned, numbers.len(), &parts)
 }
 
 /// Blocks on the diagonal of a coarse matrix. Motions that are impossible for an aggregate are first given a
