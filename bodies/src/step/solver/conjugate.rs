@@ -3,7 +3,7 @@
 use crate::step::error::NewtonError;
 use crate::step::objective::Objective;
 use crate::system::linear::LinearError;
-use crate::system::linear::conjugate_gradients::ConjugateGradients;
+use crate::system::linear::conjugate_gradients::{ConjugateGradients, End};
 use crate::system::linear::multigrid::Undivided;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::{Body, Pins};
@@ -125,11 +125,16 @@ impl Solver for Conjugate {
                 given_up = iteration.iterations;
                 continue;
             }
-            let solution = Solution::of(iteration, definiteness)?;
-            if solution.is_some() && unknowns.iter().any(|x| !x.is_finite()) {
+            let truncated = match iteration.end {
+                End::NegativeCurvature if definiteness == Definiteness::Required => return Ok(None),
+                End::Converged => false,
+                End::Limit | End::NegativeCurvature => true,
+                End::NotFinite => return Err(NewtonError::NotFinite),
+            };
+            if unknowns.iter().any(|x| !x.is_finite()) {
                 return Err(NewtonError::NotFinite);
             }
-            return Ok(solution);
+            return Ok(Some(Solution { shift: 0.0, iterations: iteration.iterations, truncated }));
         }
     }
 }
