@@ -18,27 +18,13 @@ use super::preconditioner::Preconditioner;
 #[derive(Clone)]
 pub(super) struct Conjugate {
     stiffness: NodalStiffness,
-    nodes: Nodes,
+    pinned: Vec<usize>,
+    free: Vec<usize>,
+    is_free: Vec<bool>,
     preconditioner: Preconditioner<Undivided>,
     conjugate_gradients: ConjugateGradients,
     tolerance: f64,
     max_iterations: usize,
-}
-
-#[derive(Clone)]
-struct Nodes {
-    pinned: Vec<usize>,
-    free: Vec<usize>,
-    is_free: Vec<bool>,
-}
-
-impl Nodes {
-    fn new(nodes: usize, pins: &Pins) -> Self {
-        let mut is_free = vec![true; nodes];
-        pins.nodes().iter().for_each(|&node| is_free[node] = false);
-        let free = (0..nodes).filter(|&node| is_free[node]).collect();
-        Self { pinned: pins.nodes().to_vec(), free, is_free }
-    }
 }
 
 impl Conjugate {
@@ -50,14 +36,18 @@ impl Conjugate {
         max_iterations: usize,
     ) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
-        Ok(Self {
+        let mut solver = Self {
             stiffness: NodalStiffness::new(body, pairs)?,
-            nodes: Nodes::new(nodes, pins),
+            pinned: Vec::new(),
+            free: Vec::new(),
+            is_free: vec![true; nodes],
             preconditioner: Preconditioner::new(nodes, Undivided),
             conjugate_gradients: ConjugateGradients::new(3 * nodes),
             tolerance,
             max_iterations,
-        })
+        };
+        solver.set_pins(pins);
+        Ok(solver)
     }
 }
 
@@ -67,7 +57,10 @@ impl OwnSolver for Conjugate {
     }
 
     fn set_pins(&mut self, pins: &Pins) -> bool {
-        self.nodes = Nodes::new(self.nodes.is_free.len(), pins);
+        self.pinned = pins.nodes().to_vec();
+        self.is_free.fill(true);
+        pins.nodes().iter().for_each(|&node| self.is_free[node] = false);
+        self.free = (0..self.is_free.len()).filter(|&node| self.is_free[node]).collect();
         true
     }
 
@@ -78,7 +71,7 @@ impl OwnSolver for Conjugate {
 
 impl Solver for Conjugate {
     fn free_nodes(&self) -> &[usize] {
-        &self.nodes.free
+        &self.free
     }
 
     fn begin(&mut self) {
@@ -98,22 +91,22 @@ impl Solver for Conjugate {
         tolerance: f64,
         definiteness: Definiteness,
     ) -> Result<Option<Solution>, NewtonError> {
-        let Self { stiffness, nodes, preconditioner, conjugate_gradients, .. } = self;
+        let Self { stiffness, pinned, is_free, preconditioner, conjugate_gradients, .. } = self;
         objective.add_second_derivatives(stiffness);
         let tolerance = tolerance.min(self.tolerance);
         let mut given_up = 0;
         loop {
-            preconditioner.take(stiffness, &nodes.is_free, x, |node| objective.inertia(node))?;
+            preconditioner.take(stiffness, is_free, x, |node| objective.inertia(node))?;
             for (direction, gradient) in direction.iter_mut().zip(gradient) {
                 *direction = gradient.map(|g| -g);
             }
-            nodes.pinned.iter().for_each(|&node| direction[node] = [0.0; 3]);
+            pinned.iter().for_each(|&node| direction[node] = [0.0; 3]);
             let limit = preconditioner.patience(tolerance).min(self.max_iterations - given_up);
             // The second derivatives, as an operator on displacements that are zero at pinned nodes.
             let apply = |x: &[f64], product: &mut [f64]| {
                 let product = product.as_chunks_mut().0;
                 stiffness.matrix_mut().multiply(x.as_chunks().0, product);
-                nodes.pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
+                pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
             };
             let precondition =
                 |r: &[f64], z: &mut [f64]| preconditioner.apply(r.as_chunks().0, z.as_chunks_mut().0);
