@@ -71,7 +71,7 @@ impl Coarse {
         matrix.set_symmetric()?;
         matrix.set_values(&values)?;
         let kind = if team.count(owned) <= FACTORED { "redundant" } else { "gamg" };
-        matrix.set_motions(&orthonormal(team, library, level.motions())?)?;
+        matrix.set_motions(&orthonormal(team, library, level.motions)?)?;
         let vector = || Vector::new(library, owned);
         Ok(Self {
             krylov: Krylov::new(library, Rc::new(RefCell::new(matrix)), "coarse_", Some(kind))?,

@@ -19,7 +19,8 @@ pub struct LastLevel<'a> {
     pub(super) matrix: &'a SymmetricBlocks<f64, 6>,
     /// Scale of the matrix.
     pub(super) scale: f64,
-    pub(super) motions: &'a [Block],
+    /// Six rigid motions of the body in the unknowns of each owned row, each motion in a column.
+    pub motions: &'a [Block],
 }
 
 impl LastLevel<'_> {
@@ -28,12 +29,6 @@ impl LastLevel<'_> {
     pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, Block)> {
         let entries = |block: &Block| block.map(|row| row.map(|x| self.scale * x));
         self.matrix.stored().map(move |(row, column, block)| (row, column, entries(block)))
-    }
-
-    /// Six rigid motions of the body in the unknowns of each owned row, each motion in a column.
-    #[must_use]
-    pub fn motions(&self) -> &[Block] {
-        self.motions
     }
 }
 

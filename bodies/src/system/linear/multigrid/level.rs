@@ -94,16 +94,16 @@ impl<const N: usize> Level<N> {
         extend(&mut tentative, &mut numbers, division);
         let whole = WholeRows::new(matrix.pattern())?;
         let product = whole.multiply(matrix, included, &tentative, numbers.len());
-        let mut prolongation = sum(product, owned, &mut numbers, division);
+        let product = sum(product, owned, &mut numbers, division);
         let damping = scale * MARGIN * 4.0 / (3.0 * f64::from(level.largest));
-        prolongation.for_each_row(|row, blocks| {
+        let mut prolongation = Rows::make(owned, numbers.len(), |row, sum| {
             let inverse = level.inverses[row].map(|row| row.map(|entry| damping * f64::from(entry)));
-            for (column, block) in blocks {
-                let product = *block;
-                *block = match tentative.of(row).first() {
-                    Some((aggregate, tentative)) if *aggregate == *column => *tentative,
-                    _ => [[0.0; 6]; N],
-                };
+            for (column, product) in product.row(row) {
+                let block = sum.block(column);
+                let own = tentative.row(row).next().filter(|(aggregate, _)| *aggregate == column);
+                if let Some((_, tentative)) = own {
+                    *block = *tentative;
+                }
                 for r in 0..N {
                     for k in 0..N {
                         for c in 0..6 {
@@ -113,6 +113,7 @@ impl<const N: usize> Level<N> {
                 }
             }
         });
+        drop(product);
         extend(&mut prolongation, &mut numbers, division);
         let product = whole.multiply(matrix, included, &prolongation, numbers.len());
         let columns = columns_of(&prolongation, numbers.len())?;

@@ -7,7 +7,6 @@ use rayon::prelude::*;
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::lists::Lists;
-use crate::system::parts::for_each_entry;
 
 /// Number of rows in a chunk, which one thread computes.
 const ROWS: usize = 512;
@@ -38,21 +37,6 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         &self.values[index].1
     }
 
-    /// Calls `change` for each row, in parallel, with the columns and blocks of the row.
-    pub(super) fn for_each_row(&mut self, change: impl Fn(usize, &mut [(u32, [[E; C]; R])]) + Sync)
-    where
-        E: Send,
-    {
-        let mut rest = self.values.as_mut_slice();
-        let mut rows = Vec::with_capacity(self.starts.len() - 1);
-        for ends in self.starts.windows(2) {
-            let (row, after) = rest.split_at_mut(ends[1] - ends[0]);
-            rows.push(row);
-            rest = after;
-        }
-        for_each_entry(&mut rows, ROWS, |row, blocks| change(row, blocks));
-    }
-
     pub(super) fn map<T>(self, change: impl Fn(E) -> T) -> Rows<T, R, C> {
         let values = self.values.iter().map(|(column, block)| (*column, block.map(|row| row.map(&change))));
         Lists { values: values.collect(), starts: self.starts }
@@ -75,7 +59,7 @@ impl<const R: usize, const C: usize> Rows<f64, R, C> {
     }
 
     /// Computes rows in parallel, in chunks of fixed size.
-    fn make(rows: usize, columns: usize, make: impl Fn(usize, &mut Sum<R, C>) + Sync) -> Self {
+    pub(super) fn make(rows: usize, columns: usize, make: impl Fn(usize, &mut Sum<R, C>) + Sync) -> Self {
         let parts: Vec<Self> = (0..rows.div_ceil(ROWS))
             .into_par_iter()
             .map_init(
@@ -103,7 +87,7 @@ impl<const R: usize, const C: usize> Rows<f64, R, C> {
 }
 
 /// Row during its summation.
-struct Sum<const R: usize, const C: usize> {
+pub(super) struct Sum<const R: usize, const C: usize> {
     /// Place of each column of the matrix in the row; `u32::MAX` for a column without a block.
     place: Vec<u32>,
     row: Vec<(u32, [[f64; C]; R])>,
@@ -111,7 +95,7 @@ struct Sum<const R: usize, const C: usize> {
 
 impl<const R: usize, const C: usize> Sum<R, C> {
     /// Block of a column; a new block is zero.
-    fn block(&mut self, column: usize) -> &mut [[f64; C]; R] {
+    pub(super) fn block(&mut self, column: usize) -> &mut [[f64; C]; R] {
         let place = &mut self.place[column];
         if *place == u32::MAX {
             *place = self.row.len() as u32;

@@ -166,7 +166,7 @@ impl Division for Machine {
         }
         let cholesky = Cholesky::new(DMatrix::from_row_slice(unknowns, unknowns, &dense));
         let cholesky = cholesky.ok_or(LinearError::NotPositive { column: 0 })?;
-        assert_eq!(level.motions().len() as u64, self.own().end - self.own().start);
+        assert_eq!(level.motions.len() as u64, self.own().end - self.own().start);
         Ok(Gathered { rows: self.clone(), cholesky })
     }
 }
