@@ -68,7 +68,9 @@ impl<const R: usize, const C: usize> Rows<f64, R, C> {
                     let mut made = Self::none();
                     for row in part * ROWS..rows.min((part + 1) * ROWS) {
                         make(row, sum);
-                        sum.finish(&mut made);
+                        sum.row.iter().for_each(|&(column, _)| sum.place[column as usize] = u32::MAX);
+                        made.values.append(&mut sum.row);
+                        made.end();
                     }
                     made
                 },
@@ -102,13 +104,6 @@ impl<const R: usize, const C: usize> Sum<R, C> {
             self.row.push((column as u32, [[0.0; C]; R]));
         }
         &mut self.row[*place as usize].1
-    }
-
-    /// Moves the row to the end of a matrix.
-    fn finish(&mut self, to: &mut Rows<f64, R, C>) {
-        self.row.iter().for_each(|&(column, _)| self.place[column as usize] = u32::MAX);
-        to.values.append(&mut self.row);
-        to.end();
     }
 }
 
