@@ -95,10 +95,11 @@ impl<D: Division> Multigrid<D, D::Last> {
         let motions = rigid(&positions[..owned], division);
         let (finest, mut next) =
             Level::new(matrix, diagonals, scale, graph, order, included, &motions, division)?;
-        let mut coarse = Vec::new();
+        let (mut coarse, mut coarse_b) = (Vec::new(), Vec::new());
         let mut counts = vec![nodes];
         loop {
             let Coarse { matrix, diagonals, graph, motions, division } = &mut next;
+            coarse_b.push(vec![[0.0; 6]; graph.rows()]);
             let rows = division.total(diagonals.len() as f64) as usize;
             // An aggregate has at least two rows, unless all neighbours belong to other machines.
             let has_stalled = counts.last().is_some_and(|&before| 2 * rows > before);
@@ -114,9 +115,6 @@ impl<D: Division> Multigrid<D, D::Last> {
         }
         let Coarse { matrix, motions, division: last_division, .. } = next;
         let last = last_division.last(&LastLevel { matrix: &matrix, scale, motions: &motions })?;
-        let rows =
-            [finest.coarse_rows()].into_iter().chain(coarse.iter().map(|(level, _)| level.coarse_rows()));
-        let coarse_b = rows.map(|rows| vec![[0.0; 6]; rows]).collect();
         let b = vec![[0.0; 3]; owned];
         Ok(Self { rows: counts, scale, finest, coarse, last, last_division, b, coarse_b })
     }

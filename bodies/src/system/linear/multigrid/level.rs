@@ -189,11 +189,6 @@ impl<const N: usize> Level<N> {
         self.largest = (MARGIN * largest) as f32;
     }
 
-    /// Number of rows of the next level, copies included.
-    pub(super) fn coarse_rows(&self) -> usize {
-        self.columns.len()
-    }
-
     /// Smooths the error of x = 0 for a right side, and restricts this machine's part of the residual to the
     /// next level.
     pub(super) fn down(&mut self, b: &[[f32; N]], coarse: &mut [[f32; 6]], division: &mut impl Division) {
