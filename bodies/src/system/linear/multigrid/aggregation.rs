@@ -4,8 +4,8 @@ use crate::system::graph::Graph;
 
 /// Aggregate of each row, `None` for rows that only the smoother corrects, and number of aggregates.
 ///
-/// Groups rows in this order: a row without neighbours in an aggregate forms one with all its neighbours. Each
-/// remaining row then joins the aggregate to which most of its neighbours belong.
+/// Groups rows in this order: a row without neighbours in an aggregate forms one with all its neighbours.
+/// Each remaining row then joins the aggregate to which most of its neighbours belong.
 ///
 /// Rows that are not `included`, and rows without an included neighbour, do not belong to an aggregate. Only
 /// the first `owned` rows can belong to one; a row with no neighbour among them is an aggregate by itself.
