@@ -69,7 +69,7 @@ impl Coarse {
         let mut matrix = Matrix::new(library, 6 * owned, 6, places.iter().copied())?;
         matrix.set_values(&values)?;
         let kind = if team.count(owned) <= FACTORED { "redundant" } else { "gamg" };
-        matrix.set_motions(&orthonormal(team, level.motions())?)?;
+        matrix.set_motions(&orthonormal(team, level.motions)?)?;
         let vector = || Vector::new(library, owned);
         Ok(Self {
             krylov: Krylov::new(library, Rc::new(RefCell::new(matrix)), "coarse_", Some(kind))?,

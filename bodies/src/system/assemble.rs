@@ -33,7 +33,7 @@ use piola::point::{Filter, svd};
 
 use super::body::Body;
 use super::element::{ElementGroup, Evaluated, StiffnessBlocks, Tetrahedron};
-use super::parts::for_each_part;
+use super::parts::for_each_entry;
 
 /// Energies and gradients of all elements at the positions evaluated last.
 #[derive(Clone)]
@@ -82,7 +82,7 @@ impl Elastic {
     }
 
     fn for_each_group(&mut self, evaluate: impl Fn(&mut State) + Sync) {
-        for_each_part(&mut self.groups, 1, |_, states| states.iter_mut().for_each(&evaluate));
+        for_each_entry(&mut self.groups, 1, |_, state| evaluate(state));
     }
 
     /// Evaluates gradients and filtered stiffnesses of the groups from `first` on, one for each tile, where

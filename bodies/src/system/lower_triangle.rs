@@ -5,7 +5,6 @@
 //! feature `faer` they have the order of the nodes.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use piola::NoSuchNode;
 
@@ -23,7 +22,8 @@ use super::pins::Pins;
 /// same slices are the upper triangle.
 #[derive(Clone, Debug)]
 pub struct LowerTriangle {
-    pattern: Arc<Pattern>,
+    column_starts: Vec<usize>,
+    row_indices: Vec<usize>,
     values: Vec<f64>,
     /// Index of each entry among the scalars of the blocks of the stiffness.
     sources: Vec<u32>,
@@ -31,12 +31,6 @@ pub struct LowerTriangle {
     free_nodes: Vec<usize>,
     /// Index of each node in `free_nodes`; `None` for a pinned node.
     free_of_node: Vec<Option<usize>>,
-}
-
-#[derive(Debug)]
-struct Pattern {
-    column_starts: Vec<usize>,
-    row_indices: Vec<usize>,
 }
 
 impl LowerTriangle {
@@ -84,7 +78,8 @@ impl LowerTriangle {
         }
         Ok(Self {
             values: filled(rows.len(), 0.0)?,
-            pattern: Arc::new(Pattern { column_starts: starts, row_indices: rows }),
+            column_starts: starts,
+            row_indices: rows,
             sources,
             blocks,
             free_nodes,
@@ -113,7 +108,7 @@ impl LowerTriangle {
 
     /// Adds `added(row, node)` to the diagonal for each row, which belongs to a free node.
     pub(crate) fn add_to_diagonal(&mut self, added: impl Fn(usize, usize) -> f64) {
-        for (row, &start) in self.pattern.column_starts[..3 * self.free_nodes.len()].iter().enumerate() {
+        for (row, &start) in self.column_starts[..3 * self.free_nodes.len()].iter().enumerate() {
             self.values[start] += added(row, self.free_nodes[row / 3]);
         }
     }
@@ -125,7 +120,7 @@ impl LowerTriangle {
         for c in 0..3 {
             let range = self.column(3 * i.min(j) + c);
             let first = if i == j { c } else { 0 };
-            let rows = &self.pattern.row_indices[range.clone()];
+            let rows = &self.row_indices[range.clone()];
             let Ok(at) = rows.binary_search(&(3 * i.max(j) + first)) else { return };
             for (value, r) in self.values[range.start + at..].iter_mut().zip(first..3) {
                 *value += if i < j { block[c][r] } else { block[r][c] };
@@ -138,7 +133,7 @@ impl LowerTriangle {
     pub(crate) fn hold(&mut self, held: &[bool]) {
         for column in 0..3 * held.len() {
             for at in self.column(column) {
-                let row = self.pattern.row_indices[at];
+                let row = self.row_indices[at];
                 if held[row / 3] || held[column / 3] {
                     self.values[at] = f64::from(u8::from(row == column));
                 }
@@ -154,19 +149,19 @@ impl LowerTriangle {
     }
 
     fn column(&self, column: usize) -> Range<usize> {
-        self.pattern.column_starts[column]..self.pattern.column_starts[column + 1]
+        self.column_starts[column]..self.column_starts[column + 1]
     }
 
     /// Start of each column among the entries, and the end of the last.
     #[must_use]
     pub fn column_starts(&self) -> &[usize] {
-        &self.pattern.column_starts
+        &self.column_starts
     }
 
     /// Row of each entry.
     #[must_use]
     pub fn row_indices(&self) -> &[usize] {
-        &self.pattern.row_indices
+        &self.row_indices
     }
 
     /// The entries, N/m.

@@ -21,7 +21,7 @@ use super::element::{Evaluated, StiffnessBlocks, Tetrahedron, pair};
 use super::graph::Graph;
 use super::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use super::linear::{LinearError, fits};
-use super::memory::{filled, reserved};
+use super::memory::filled;
 use crate::mesh::Bounds;
 
 /// Tiles of a wave: 2.9 MB of stiffnesses.
@@ -53,12 +53,8 @@ struct Shape {
     gather: Vec<Gather>,
 }
 
-/// The element blocks that add up to a chunk of the matrix.
-struct Gather {
-    /// The wave and the index of its first contribution, for each wave that has one.
-    waves: Vec<(u32, u32)>,
-    contributions: Vec<Contribution>,
-}
+/// The element blocks that add up to a chunk of the matrix, for each wave that has any, with its number.
+type Gather = Vec<(usize, Vec<Contribution>)>;
 
 /// A block of an element, and the block of a chunk that it is added to.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -92,10 +88,7 @@ impl NodalStiffness {
     /// [`LinearError::OutOfMemory`].
     #[doc(hidden)]
     pub fn empty() -> Result<Self, LinearError> {
-        let graph = Graph::of_upper(0, std::iter::empty)?;
-        let pattern = Arc::new(Pattern::new(&graph, &[])?);
-        let shape = Shape { elements: 0, tiles: 0, graph, order: Vec::new(), gather: Vec::new() };
-        Ok(Self { shape: Arc::new(shape), matrix: SymmetricBlocks::new(pattern)?, tiles: Vec::new() })
+        Self::of_body(&Body::empty())
     }
 
     /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
@@ -134,11 +127,7 @@ impl NodalStiffness {
     ///
     /// Two different nodes have one block; the block of `column` and `row` is its transpose.
     pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, &[[f64; 3]; 3])> {
-        let pattern = self.matrix.pattern();
-        let row = move |row: usize| pattern.upper(row).map(move |(block, column)| (row, column, block));
-        (0..pattern.rows())
-            .flat_map(row)
-            .map(|(row, column, block)| (row, column, &self.matrix.blocks()[block]))
+        self.matrix.stored()
     }
 
     /// Finds the places of all blocks, also of pairs of nodes that share no element, and allocates all memory
@@ -236,8 +225,9 @@ impl NodalStiffness {
             elastic.linearise(body, filter, first, tiles);
             let elements = tiles.as_flattened();
             matrix.for_each_chunk(|chunk, _, blocks| {
-                for &Contribution { block, element, pair, transposed } in shape.gather[chunk].of_wave(number)
-                {
+                let waves = &shape.gather[chunk];
+                let Ok(at) = waves.binary_search_by_key(&number, |(wave, _)| *wave) else { return };
+                for &Contribution { block, element, pair, transposed } in &waves[at].1 {
                     let part = &elements[usize::from(element)][usize::from(pair)];
                     let block = &mut blocks[block as usize];
                     for r in 0..3 {
@@ -252,24 +242,11 @@ impl NodalStiffness {
     }
 }
 
-impl Gather {
-    fn of_wave(&self, wave: usize) -> &[Contribution] {
-        let at = self.waves.partition_point(|&(other, _)| (other as usize) < wave);
-        let first =
-            |at: usize| self.waves.get(at).map_or(self.contributions.len(), |&(_, first)| first as usize);
-        match self.waves.get(at) {
-            Some(&(other, _)) if other as usize == wave => &self.contributions[first(at)..first(at + 1)],
-            _ => &[],
-        }
-    }
-}
-
 /// Sorts the blocks of all elements by chunk, wave, block and element.
 fn gather(body: &Body, pattern: &Pattern) -> Result<Vec<Gather>, LinearError> {
-    let mut all: Vec<Gather> = reserved(pattern.chunks())?;
-    all.resize_with(pattern.chunks(), || Gather { waves: Vec::new(), contributions: Vec::new() });
+    let mut all = filled(pattern.chunks(), Gather::new())?;
     for (group, (_, elements)) in body.groups().enumerate() {
-        let (wave, tile) = ((group / WAVE) as u32, group % WAVE);
+        let (wave, tile) = (group / WAVE, group % WAVE);
         for (lane, element) in body.elements()[elements].iter().enumerate() {
             for i in 0..4 {
                 for j in 0..=i {
@@ -278,26 +255,23 @@ fn gather(body: &Body, pattern: &Pattern) -> Result<Vec<Gather>, LinearError> {
                         continue;
                     };
                     let (chunk, block) = pattern.chunk_of(block);
-                    let gather = &mut all[chunk];
-                    if gather.waves.last().is_none_or(|&(last, _)| last != wave) {
-                        gather.waves.push((wave, gather.contributions.len() as u32));
-                    }
-                    gather.contributions.push(Contribution {
+                    let contribution = Contribution {
                         block: block as u32,
                         element: (tile * TILE + lane) as u16,
                         pair: pair(i, j) as u8,
                         transposed,
-                    });
+                    };
+                    match all[chunk].last_mut() {
+                        Some((last, of_wave)) if *last == wave => of_wave.push(contribution),
+                        _ => all[chunk].push((wave, vec![contribution])),
+                    }
                 }
             }
         }
     }
-    for gather in &mut all {
-        for at in 0..gather.waves.len() {
-            let end =
-                gather.waves.get(at + 1).map_or(gather.contributions.len(), |&(_, first)| first as usize);
-            gather.contributions[gather.waves[at].1 as usize..end].sort_unstable();
-        }
+    for (_, of_wave) in all.iter_mut().flatten() {
+        of_wave.sort_unstable();
+        of_wave.shrink_to_fit();
     }
     Ok(all)
 }

@@ -14,6 +14,17 @@ pub(crate) fn for_each_part<T: Send>(
     }
 }
 
+/// Calls `change` for each entry, with its index; a thread takes up to `length` entries at a time.
+pub(crate) fn for_each_entry<T: Send>(
+    entries: &mut [T],
+    length: usize,
+    change: impl Fn(usize, &mut T) + Sync,
+) {
+    for_each_part(entries, length, |first, part| {
+        part.iter_mut().zip(first..).for_each(|(entry, index)| change(index, entry));
+    });
+}
+
 fn halve<T: Send>(first: usize, entries: &mut [T], length: usize, change: &(dyn Fn(usize, &mut [T]) + Sync)) {
     if entries.len() <= length {
         return change(first, entries);
@@ -33,8 +44,8 @@ mod tests {
             let mut entries = vec![0; count];
             for_each_part(&mut entries, 8, |first, part| {
                 assert!((1..=8).contains(&part.len()) && first % 8 == 0);
-                part.iter_mut().enumerate().for_each(|(index, entry)| *entry += first + index + 1);
             });
+            for_each_entry(&mut entries, 8, |index, entry| *entry += index + 1);
             assert_eq!(entries, (1..=count).collect::<Vec<_>>());
         }
     }

@@ -95,13 +95,10 @@ impl<S: SparseSolver> Solver for Assembled<S> {
         definiteness: Definiteness,
     ) -> Result<Option<Solution>, NewtonError> {
         let Self { stiffness, matrix, held, unknowns, solver, .. } = self;
-        for (unknown, &node) in unknowns.chunks_exact_mut(3).zip(matrix.free_nodes()) {
-            for c in 0..3 {
-                unknown[c] = -gradient[node][c];
-            }
-        }
-        for (unknown, _) in unknowns.chunks_exact_mut(3).zip(&*held).filter(|(_, is_held)| **is_held) {
-            unknown.fill(0.0);
+        for (free, &node) in matrix.free_nodes().iter().enumerate() {
+            let is_held = held.get(free) == Some(&true);
+            let right = if is_held { [0.0; 3] } else { gradient[node].map(|g| -g) };
+            unknowns[3 * free..3 * free + 3].copy_from_slice(&right);
         }
         let mut shift = 0.0;
         let iterations = loop {

@@ -3,9 +3,8 @@
 use crate::step::error::NewtonError;
 use crate::step::objective::Objective;
 use crate::system::linear::LinearError;
-use crate::system::linear::conjugate_gradients::{ConjugateGradients, System};
+use crate::system::linear::conjugate_gradients::{ConjugateGradients, End};
 use crate::system::linear::multigrid::Undivided;
-use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::{Body, Pins};
 
@@ -19,27 +18,13 @@ use super::preconditioner::Preconditioner;
 #[derive(Clone)]
 pub(super) struct Conjugate {
     stiffness: NodalStiffness,
-    nodes: Nodes,
+    pinned: Vec<usize>,
+    free: Vec<usize>,
+    is_free: Vec<bool>,
     preconditioner: Preconditioner<Undivided>,
     conjugate_gradients: ConjugateGradients,
     tolerance: f64,
     max_iterations: usize,
-}
-
-#[derive(Clone)]
-struct Nodes {
-    pinned: Vec<usize>,
-    free: Vec<usize>,
-    is_free: Vec<bool>,
-}
-
-impl Nodes {
-    fn new(nodes: usize, pins: &Pins) -> Self {
-        let mut is_free = vec![true; nodes];
-        pins.nodes().iter().for_each(|&node| is_free[node] = false);
-        let free = (0..nodes).filter(|&node| is_free[node]).collect();
-        Self { pinned: pins.nodes().to_vec(), free, is_free }
-    }
 }
 
 impl Conjugate {
@@ -51,20 +36,27 @@ impl Conjugate {
         max_iterations: usize,
     ) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
-        Ok(Self {
+        let mut solver = Self {
             stiffness: NodalStiffness::new(body, pairs)?,
-            nodes: Nodes::new(nodes, pins),
+            pinned: Vec::new(),
+            free: Vec::new(),
+            is_free: vec![true; nodes],
             preconditioner: Preconditioner::new(nodes, Undivided),
             conjugate_gradients: ConjugateGradients::new(3 * nodes),
             tolerance,
             max_iterations,
-        })
+        };
+        solver.set_pins(pins);
+        Ok(solver)
     }
 }
 
 impl OwnSolver for Conjugate {
     fn set_pins(&mut self, pins: &Pins) -> bool {
-        self.nodes = Nodes::new(self.nodes.is_free.len(), pins);
+        self.pinned = pins.nodes().to_vec();
+        self.is_free.fill(true);
+        pins.nodes().iter().for_each(|&node| self.is_free[node] = false);
+        self.free = (0..self.is_free.len()).filter(|&node| self.is_free[node]).collect();
         true
     }
 
@@ -75,7 +67,7 @@ impl OwnSolver for Conjugate {
 
 impl Solver for Conjugate {
     fn free_nodes(&self) -> &[usize] {
-        &self.nodes.free
+        &self.free
     }
 
     fn begin(&mut self) {
@@ -95,55 +87,43 @@ impl Solver for Conjugate {
         tolerance: f64,
         definiteness: Definiteness,
     ) -> Result<Option<Solution>, NewtonError> {
-        let Self { stiffness, nodes, preconditioner, conjugate_gradients, .. } = self;
+        let Self { stiffness, pinned, is_free, preconditioner, conjugate_gradients, .. } = self;
         objective.add_second_derivatives(stiffness);
         let tolerance = tolerance.min(self.tolerance);
         let mut given_up = 0;
         loop {
-            preconditioner.take(stiffness, &nodes.is_free, x, |node| objective.inertia(node))?;
+            preconditioner.take(stiffness, is_free, x, |node| objective.inertia(node))?;
             for (direction, gradient) in direction.iter_mut().zip(gradient) {
                 *direction = gradient.map(|g| -g);
             }
-            nodes.pinned.iter().for_each(|&node| direction[node] = [0.0; 3]);
+            pinned.iter().for_each(|&node| direction[node] = [0.0; 3]);
             let limit = preconditioner.patience(tolerance).min(self.max_iterations - given_up);
-            let matrix = stiffness.matrix_mut();
-            let mut system = Linearised { matrix, pinned: &nodes.pinned, preconditioner };
+            // The second derivatives, as an operator on displacements that are zero at pinned nodes.
+            let apply = |x: &[f64], product: &mut [f64]| {
+                let product = product.as_chunks_mut().0;
+                stiffness.matrix_mut().multiply(x.as_chunks().0, product);
+                pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
+            };
+            let precondition =
+                |r: &[f64], z: &mut [f64]| preconditioner.apply(r.as_chunks().0, z.as_chunks_mut().0);
             let unknowns = direction.as_flattened_mut();
-            let mut iteration = conjugate_gradients.solve(&mut system, unknowns, tolerance, limit);
+            let mut iteration = conjugate_gradients.solve(apply, precondition, unknowns, tolerance, limit);
             let again = preconditioner.judge(iteration, tolerance);
             iteration.iterations += given_up;
             if again && iteration.iterations < self.max_iterations {
                 given_up = iteration.iterations;
                 continue;
             }
-            let solution = Solution::of(iteration, definiteness)?;
-            if solution.is_some() && unknowns.iter().any(|x| !x.is_finite()) {
+            let truncated = match iteration.end {
+                End::NegativeCurvature if definiteness == Definiteness::Required => return Ok(None),
+                End::Converged => false,
+                End::Limit | End::NegativeCurvature => true,
+                End::NotFinite => return Err(NewtonError::NotFinite),
+            };
+            if unknowns.iter().any(|x| !x.is_finite()) {
                 return Err(NewtonError::NotFinite);
             }
-            return Ok(solution);
+            return Ok(Some(Solution { shift: 0.0, iterations: iteration.iterations, truncated }));
         }
     }
-}
-
-/// The second derivatives as an operator on displacements that are zero at pinned nodes.
-struct Linearised<'a> {
-    matrix: &'a mut SymmetricBlocks<f64, 3>,
-    pinned: &'a [usize],
-    preconditioner: &'a mut Preconditioner<Undivided>,
-}
-
-impl System for Linearised<'_> {
-    fn apply(&mut self, x: &[f64], product: &mut [f64]) {
-        let (x, product) = (vectors(x), product.as_chunks_mut().0);
-        self.matrix.multiply(x, product);
-        self.pinned.iter().for_each(|&node| product[node] = [0.0; 3]);
-    }
-
-    fn precondition(&mut self, r: &[f64], z: &mut [f64]) {
-        self.preconditioner.apply(vectors(r), z.as_chunks_mut().0);
-    }
-}
-
-fn vectors(entries: &[f64]) -> &[[f64; 3]] {
-    entries.as_chunks().0
 }

@@ -4,7 +4,6 @@ use crate::step::error::NewtonError;
 use crate::step::objective::Objective;
 use crate::step::term::NodeBlocks;
 use crate::system::linear::LinearError;
-use crate::system::linear::conjugate_gradients::{End, Iteration};
 use crate::system::linear::multigrid::Division;
 use crate::system::{Body, NodalStiffness, Pins};
 
@@ -104,21 +103,5 @@ pub(crate) trait OwnSolver: Solver + Send + Sync {
 impl Clone for Box<dyn OwnSolver> {
     fn clone(&self) -> Self {
         self.as_ref().boxed_clone()
-    }
-}
-
-impl Solution {
-    pub(super) fn of(
-        Iteration { iterations, end }: Iteration,
-        definiteness: Definiteness,
-    ) -> Result<Option<Self>, NewtonError> {
-        match end {
-            End::Converged => Ok(Some(Self { iterations, ..Self::default() })),
-            End::NegativeCurvature if definiteness == Definiteness::Required => Ok(None),
-            End::Limit | End::NegativeCurvature => {
-                Ok(Some(Self { iterations, truncated: true, ..Self::default() }))
-            }
-            End::NotFinite => Err(NewtonError::NotFinite),
-        }
     }
 }

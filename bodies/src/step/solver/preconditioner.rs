@@ -38,17 +38,12 @@ const SET_UP: f64 = 10.0;
 ///
 /// Chosen by the share of inertia in the diagonal, and by how many iterations systems take: the 3×3 blocks on
 /// the diagonal, or multigrid, whose levels serve for later matrices as long as they are worth it.
+#[derive(Clone)]
 pub struct Preconditioner<D: Division> {
+    division: D,
     blocks: BlockJacobi,
-    multigrid: Multigrid<D>,
+    multigrid: Option<Multigrid<D, D::Last>>,
     in_use: InUse,
-}
-
-impl<D: Division<Last: Clone> + Clone> Clone for Preconditioner<D> {
-    fn clone(&self) -> Self {
-        let Self { blocks, multigrid, in_use } = self;
-        Self { blocks: blocks.clone(), multigrid: multigrid.clone(), in_use: *in_use }
-    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +66,7 @@ impl<D: Division> Preconditioner<D> {
     /// Memory for the nodes that this machine owns, with their division.
     #[must_use]
     pub fn new(nodes: usize, division: D) -> Self {
-        Self { blocks: BlockJacobi::new(nodes), multigrid: Multigrid::new(division), in_use: InUse::Nothing }
+        Self { division, blocks: BlockJacobi::new(nodes), multigrid: None, in_use: InUse::Nothing }
     }
 
     /// Discards all information from earlier systems.
@@ -83,7 +78,7 @@ impl<D: Division> Preconditioner<D> {
     #[must_use]
     pub fn levels(&self) -> Option<(&[usize], &D::Last)> {
         let has_levels = matches!(self.in_use, InUse::Fresh | InUse::Old { .. });
-        self.multigrid.levels().filter(|_| has_levels)
+        self.multigrid.as_ref().filter(|_| has_levels).map(Multigrid::levels)
     }
 
     /// Takes a matrix, of which this is the machine's part, with the nodes at `x`, m. Inertia has added
@@ -100,7 +95,7 @@ impl<D: Division> Preconditioner<D> {
         inertia: impl Fn(usize) -> f64,
     ) -> Result<(), D::Error> {
         let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
-        let division = self.multigrid.division_mut();
+        let division = &mut self.division;
         let rows = matrix.pattern().rows();
         fits("is_free", is_free.len(), rows)?;
         let owned = rows.saturating_sub(division.copies());
@@ -111,12 +106,13 @@ impl<D: Division> Preconditioner<D> {
             let softness = softness(&diagonals, is_free, inertia, division);
             self.in_use = if softness >= SOFT { InUse::Blocks } else { InUse::Wanted };
         }
-        match self.in_use {
-            InUse::Nothing | InUse::Blocks => self.blocks.factor(|node| &diagonals[node]),
-            InUse::Old { .. } => self.multigrid.take(matrix, &diagonals, is_free),
-            InUse::Fresh | InUse::Wanted => {
-                self.multigrid.set_up(matrix, &diagonals, graph, order, is_free, x)?;
-                self.in_use = InUse::Fresh;
+        match (self.in_use, &mut self.multigrid) {
+            (InUse::Nothing | InUse::Blocks, _) => self.blocks.factor(|node| &diagonals[node]),
+            (InUse::Old { .. }, Some(multigrid)) => multigrid.take(division, matrix, &diagonals, is_free),
+            _ => {
+                self.multigrid = None;
+                let made = Multigrid::new(matrix, &diagonals, graph, order, is_free, x, division)?;
+                (self.multigrid, self.in_use) = (Some(made), InUse::Fresh);
             }
         }
         Ok(())
@@ -125,9 +121,9 @@ impl<D: Division> Preconditioner<D> {
     /// Replaces `z` by about A⁻¹ r, of the nodes that this machine owns, or of the first of them where zeros
     /// follow.
     pub fn apply(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
-        match self.in_use {
-            InUse::Nothing | InUse::Blocks => self.blocks.solve(r, z),
-            _ => self.multigrid.solve(r, z),
+        match (self.in_use, &mut self.multigrid) {
+            (InUse::Nothing | InUse::Blocks, _) | (_, None) => self.blocks.solve(r, z),
+            (_, Some(multigrid)) => multigrid.solve(&mut self.division, r, z),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Block-Jacobi preconditioning: the inverses of the 3×3 blocks on the diagonal of a matrix.
 
-use crate::system::parts::for_each_part;
+use crate::system::parts::for_each_entry;
 
 /// Number of blocks that a thread takes at a time.
 const BLOCKS: usize = 1024;
@@ -56,19 +56,13 @@ impl BlockJacobi {
 
     /// Factors the block of each row.
     pub(crate) fn factor<'a>(&mut self, block: impl Fn(usize) -> &'a [[f64; 3]; 3] + Sync) {
-        for_each_part(&mut self.factors, BLOCKS, |first, factors| {
-            factors.iter_mut().zip(first..).for_each(|(factor, row)| *factor = Factor::new(block(row)));
-        });
+        for_each_entry(&mut self.factors, BLOCKS, |row, factor| *factor = Factor::new(block(row)));
     }
 
     /// Computes z: the inverse of each block times its part of r.
     pub(crate) fn solve(&self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
         let blocks = z.len().min(r.len()).min(self.factors.len());
-        for_each_part(&mut z[..blocks], BLOCKS, |first, z| {
-            for ((z, r), factor) in z.iter_mut().zip(&r[first..]).zip(&self.factors[first..]) {
-                *z = factor.solve(*r);
-            }
-        });
+        for_each_entry(&mut z[..blocks], BLOCKS, |row, z| *z = self.factors[row].solve(r[row]));
     }
 }
 

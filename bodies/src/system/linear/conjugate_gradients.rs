@@ -21,15 +21,6 @@ use crate::system::parts::for_each_part;
 /// Number of entries in a chunk.
 const CHUNK: usize = 4096;
 
-/// Symmetric matrix, and a positive definite approximation of its inverse.
-pub(crate) trait System {
-    /// Computes A x.
-    fn apply(&mut self, x: &[f64], product: &mut [f64]);
-
-    /// Computes an approximation of A⁻¹ r.
-    fn precondition(&mut self, r: &[f64], z: &mut [f64]);
-}
-
 /// Memory of the iteration.
 #[derive(Clone)]
 pub(crate) struct ConjugateGradients {
@@ -80,10 +71,12 @@ impl ConjugateGradients {
     }
 
     /// Replaces b by x with ‖b − A x‖ ≤ tolerance ‖b‖ in Euclidean norms, or by the last iterate if the
-    /// iteration ends earlier.
+    /// iteration ends earlier. `apply` replaces its second argument by A times the first one, and
+    /// `precondition` by a positive definite approximation of A⁻¹ times the first one.
     pub(crate) fn solve(
         &mut self,
-        system: &mut impl System,
+        mut apply: impl FnMut(&[f64], &mut [f64]),
+        mut precondition: impl FnMut(&[f64], &mut [f64]),
         b: &mut [f64],
         tolerance: f64,
         max_iterations: usize,
@@ -107,11 +100,11 @@ impl ConjugateGradients {
             if iterations == max_iterations {
                 break End::Limit;
             }
-            system.precondition(r, z);
+            precondition(r, z);
             let rz = dot(r, z, sums);
             let beta = rz / rz_before;
             combine(p, |p, z| z + beta * p, z);
-            system.apply(p, Ap);
+            apply(p, Ap);
             iterations += 1;
             let curvature = dot(p, Ap, sums);
             if !(rz > 0.0 && curvature.is_finite()) {
@@ -177,18 +170,18 @@ mod tests {
             let along: f64 = x.iter().zip(&self.w).map(|(x, w)| x * w).sum();
             x.iter_mut().zip(&self.w).for_each(|(x, w)| *x -= 2.0 * along * w);
         }
-    }
 
-    impl System for Reflected {
-        fn apply(&mut self, x: &[f64], product: &mut [f64]) {
+        fn apply(&self, x: &[f64], product: &mut [f64]) {
             product.copy_from_slice(x);
             self.reflect(product);
             product.iter_mut().zip(&self.diagonal).for_each(|(x, d)| *x *= d);
             self.reflect(product);
         }
 
-        fn precondition(&mut self, r: &[f64], z: &mut [f64]) {
-            z.copy_from_slice(r);
+        fn solve(&self, b: &mut [f64], tolerance: f64, limit: usize) -> Iteration {
+            let mut memory = ConjugateGradients::new(b.len());
+            let apply = |x: &[f64], product: &mut [f64]| self.apply(x, product);
+            memory.solve(apply, |r, z| z.copy_from_slice(r), b, tolerance, limit)
         }
     }
 
@@ -197,8 +190,7 @@ mod tests {
         let mut random = Random::new(2);
         let b: Vec<f64> = diagonal.iter().map(|_| random.uniform(-1.0, 1.0)).collect();
         let mut x = b.clone();
-        let mut memory = ConjugateGradients::new(b.len());
-        let iteration = memory.solve(&mut Reflected::new(diagonal), &mut x, tolerance, limit);
+        let iteration = Reflected::new(diagonal).solve(&mut x, tolerance, limit);
         (b, x, iteration)
     }
 
@@ -240,15 +232,14 @@ mod tests {
 
     #[test]
     fn nothing_to_solve_takes_no_iteration_and_nonsense_is_said() {
-        let mut memory = ConjugateGradients::new(3);
         let mut system = Reflected::new(vec![1.0; 3]);
         let mut b = [0.0; 3];
-        let iteration = memory.solve(&mut system, &mut b, 1e-3, 10);
+        let iteration = system.solve(&mut b, 1e-3, 10);
         assert_eq!((iteration, b), (Iteration { iterations: 0, end: End::Converged }, [0.0; 3]));
         for wrong in [f64::NAN, f64::INFINITY, 1e200] {
-            assert_eq!(memory.solve(&mut system, &mut [1.0, wrong, 0.0], 1e-3, 10).end, End::NotFinite);
+            assert_eq!(system.solve(&mut [1.0, wrong, 0.0], 1e-3, 10).end, End::NotFinite);
         }
         system.diagonal[1] = f64::NAN;
-        assert_eq!(memory.solve(&mut system, &mut [1.0; 3], 1e-3, 10).end, End::NotFinite);
+        assert_eq!(system.solve(&mut [1.0; 3], 1e-3, 10).end, End::NotFinite);
     }
 }

@@ -43,24 +43,18 @@ use rayon::prelude::*;
 
 use super::symmetric_blocks::SymmetricBlocks;
 use crate::system::graph::Graph;
-use crate::system::parts::for_each_part;
+use crate::system::parts::for_each_entry;
 
 use division::ROWS;
-use level::{Coarse, Level};
+use level::{Coarse, Level, POWERS};
 
 pub(crate) use division::diagonals;
 pub use division::{Division, Undivided};
 pub use last::{LastLevel, LastSolver};
 
-/// Multigrid levels of a matrix of 3×3 blocks; initially there are none.
+/// Multigrid levels of a matrix of 3×3 blocks, with the solver `L` of the last level of a division `D`.
 #[derive(Clone)]
-pub(crate) struct Multigrid<D: Division> {
-    division: D,
-    levels: Option<Levels<D, D::Last>>,
-}
-
-#[derive(Clone)]
-struct Levels<D, L> {
+pub(crate) struct Multigrid<D, L> {
     /// Number of rows of each level, on all machines.
     rows: Vec<usize>,
     /// Scale of the matrix, with which its largest entry is 1.
@@ -75,47 +69,37 @@ struct Levels<D, L> {
     coarse_b: Vec<Vec<[f32; 6]>>,
 }
 
-impl<D: Division> Multigrid<D> {
-    /// Multigrid without levels, for nodes with this division.
-    pub(crate) fn new(division: D) -> Self {
-        Self { division, levels: None }
+impl<D: Division> Multigrid<D, D::Last> {
+    /// Number of rows of each level, on all machines, and the solver of the last.
+    pub(crate) fn levels(&self) -> (&[usize], &D::Last) {
+        (&self.rows, &self.last)
     }
 
-    pub(crate) fn division_mut(&mut self) -> &mut D {
-        &mut self.division
-    }
-
-    /// Number of rows of each level, on all machines, and the solver of the last, if levels have been made.
-    pub(crate) fn levels(&self) -> Option<(&[usize], &D::Last)> {
-        self.levels.as_ref().map(|levels| (levels.rows.as_slice(), &levels.last))
-    }
-
-    /// Sets up all levels for a matrix of 3×3 blocks, with one row for each node. `diagonals` are the blocks
-    /// on the diagonal of the sum of all machines' parts.
+    /// Sets up all levels for a matrix of 3×3 blocks, with one row for each node and the division of the
+    /// nodes. `diagonals` are the blocks on the diagonal of the sum of all machines' parts.
     ///
     /// `order` is the order of the aggregation, in which neighbours should be close to each other. Rows that
     /// are not `included` have zeros in right sides and solutions.
-    pub(crate) fn set_up(
-        &mut self,
+    pub(crate) fn new(
         matrix: &SymmetricBlocks<f64, 3>,
         diagonals: &[[[f64; 3]; 3]],
         graph: &Graph,
         order: &[u32],
         included: &[bool],
         positions: &[[f64; 3]],
-    ) -> Result<(), D::Error> {
-        self.levels = None;
-        let division = &mut self.division;
+        division: &mut D,
+    ) -> Result<Self, D::Error> {
         let owned = diagonals.len();
         let nodes = division.total(owned as f64) as usize;
         let scale = scale_of(diagonals, division);
         let motions = rigid(&positions[..owned], division);
         let (finest, mut next) =
             Level::new(matrix, diagonals, scale, graph, order, included, &motions, division)?;
-        let mut coarse = Vec::new();
+        let (mut coarse, mut coarse_b) = (Vec::new(), Vec::new());
         let mut counts = vec![nodes];
         loop {
             let Coarse { matrix, diagonals, graph, motions, division } = &mut next;
+            coarse_b.push(vec![[0.0; 6]; graph.rows()]);
             let rows = division.total(diagonals.len() as f64) as usize;
             // An aggregate has at least two rows, unless all neighbours belong to other machines.
             let has_stalled = counts.last().is_some_and(|&before| 2 * rows > before);
@@ -131,42 +115,31 @@ impl<D: Division> Multigrid<D> {
         }
         let Coarse { matrix, motions, division: last_division, .. } = next;
         let last = last_division.last(&LastLevel { matrix: &matrix, scale, motions: &motions })?;
-        let rows =
-            [finest.coarse_rows()].into_iter().chain(coarse.iter().map(|(level, _)| level.coarse_rows()));
-        let coarse_b = rows.map(|rows| vec![[0.0; 6]; rows]).collect();
         let b = vec![[0.0; 3]; owned];
-        self.levels = Some(Levels { rows: counts, scale, finest, coarse, last, last_division, b, coarse_b });
-        Ok(())
+        Ok(Self { rows: counts, scale, finest, coarse, last, last_division, b, coarse_b })
     }
 
     /// Replaces the entries of the finest level, and leaves the other levels unchanged.
     pub(crate) fn take(
         &mut self,
+        division: &mut D,
         matrix: &SymmetricBlocks<f64, 3>,
         diagonals: &[[[f64; 3]; 3]],
         included: &[bool],
     ) {
-        if let Some(levels) = &mut self.levels {
-            levels.finest.take(matrix, diagonals, levels.scale, included, &mut self.division);
-        }
+        self.finest.take(matrix, diagonals, self.scale, included, POWERS, division);
     }
 
     /// Computes an approximation of A⁻¹ r by one cycle, in the rows that this machine owns. If `r` and `z`
     /// are shorter, zeros follow.
-    pub(crate) fn solve(&mut self, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
-        let Self { division, levels } = self;
-        let Some(Levels { scale, finest, coarse, last, last_division, b, coarse_b, .. }) = levels else {
-            z.iter_mut().zip(r).for_each(|(z, r)| *z = *r);
-            return;
-        };
+    pub(crate) fn solve(&mut self, division: &mut D, r: &[[f64; 3]], z: &mut [[f64; 3]]) {
+        let Self { scale, finest, coarse, last, last_division, b, coarse_b, .. } = self;
         let largest =
             r.par_iter().with_min_len(ROWS).flatten_iter().map(|r| r.abs()).reduce(|| 0.0, f64::max);
         let largest = division.largest(largest);
         let unit = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         let rows = b.len().min(r.len());
-        for_each_part(&mut b[..rows], ROWS, |first, b| {
-            b.iter_mut().zip(&r[first..]).for_each(|(b, r)| *b = r.map(|r| (unit * r) as f32));
-        });
+        for_each_entry(&mut b[..rows], ROWS, |row, b| *b = r[row].map(|r| (unit * r) as f32));
         finest.down(b, &mut coarse_b[0], division);
         for (depth, (level, division)) in coarse.iter_mut().enumerate() {
             let (to_here, after) = coarse_b.split_at_mut(depth + 1);
@@ -186,9 +159,7 @@ impl<D: Division> Multigrid<D> {
         let unit = *scale / unit;
         let x = &finest.x;
         let rows = z.len().min(x.len());
-        for_each_part(&mut z[..rows], ROWS, |first, z| {
-            z.iter_mut().zip(&x[first..]).for_each(|(z, x)| *z = x.map(|x| unit * f64::from(x)));
-        });
+        for_each_entry(&mut z[..rows], ROWS, |row, z| *z = x[row].map(|x| unit * f64::from(x)));
     }
 }
 

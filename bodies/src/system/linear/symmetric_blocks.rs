@@ -16,7 +16,7 @@ use super::LinearError;
 use crate::system::graph::Graph;
 use crate::system::lists::Lists;
 use crate::system::memory::{filled, reserved};
-use crate::system::parts::for_each_part;
+use crate::system::parts::for_each_entry;
 
 /// Number of rows in a chunk: its sums and its part of the vector stay in the cache next to the processor.
 const ROWS: usize = 256;
@@ -168,6 +168,12 @@ impl Pattern {
         let first = chunk.starts[0];
         range.map(move |block| (block, chunk.rows[chunk.columns[block - first] as usize] as usize))
     }
+
+    /// Row, column and index of each stored block, row by row.
+    pub(crate) fn stored(&self) -> impl Iterator<Item = (usize, usize, usize)> {
+        let row = move |row: usize| self.upper(row).map(move |(block, column)| (row, column, block));
+        (0..self.rows()).flat_map(row)
+    }
 }
 
 impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
@@ -196,6 +202,11 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
         &mut self.blocks
     }
 
+    /// Row, column and entries of each stored block, row by row.
+    pub(crate) fn stored(&self) -> impl Iterator<Item = (usize, usize, &[[E; N]; N])> {
+        self.pattern.stored().map(move |(row, column, block)| (row, column, &self.blocks[block]))
+    }
+
     pub(crate) fn diagonal(&self, row: usize) -> &[[E; N]; N] {
         &self.blocks[self.pattern.diagonal(row)]
     }
@@ -210,33 +221,28 @@ impl<E: Real, const N: usize> SymmetricBlocks<E, N> {
             parts.push((chunk.range().start, part));
             rest = after;
         }
-        for_each_part(&mut parts, 1, |chunk, parts| {
-            parts.iter_mut().for_each(|(first, part)| change(chunk, *first, part));
-        });
+        for_each_entry(&mut parts, 1, |chunk, (first, part)| change(chunk, *first, part));
     }
 
     pub(crate) fn multiply(&mut self, x: &[[E; N]], product: &mut [[E; N]]) {
         let Self { pattern, blocks, memory } = self;
-        for_each_part(memory, 1, |first, part| {
-            for (memory, chunk) in part.iter_mut().zip(&pattern.chunks[first..]) {
-                for (here, &row) in memory.x.iter_mut().zip(&chunk.rows) {
-                    *here = x[row as usize];
-                }
-                chunk.multiply(&blocks[chunk.range()], memory);
+        for_each_entry(memory, 1, |at, memory| {
+            let chunk = &pattern.chunks[at];
+            for (here, &row) in memory.x.iter_mut().zip(&chunk.rows) {
+                *here = x[row as usize];
             }
+            chunk.multiply(&blocks[chunk.range()], memory);
         });
         let memory = &*memory;
-        for_each_part(product, SUMS, |first, part| {
-            for (total, row) in part.iter_mut().zip(first..) {
-                let mut sum = [E::splat(0.0); N];
-                for &Place { chunk, place } in pattern.sums.of(row) {
-                    let part = memory[chunk as usize].sums[place as usize];
-                    for a in 0..N {
-                        sum[a] = sum[a] + part[a];
-                    }
+        for_each_entry(product, SUMS, |row, total| {
+            let mut sum = [E::splat(0.0); N];
+            for &Place { chunk, place } in pattern.sums.of(row) {
+                let part = memory[chunk as usize].sums[place as usize];
+                for a in 0..N {
+                    sum[a] = sum[a] + part[a];
                 }
-                *total = sum;
             }
+            *total = sum;
         });
     }
 }

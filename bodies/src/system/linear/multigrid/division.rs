@@ -14,7 +14,7 @@ use piola::lanes::Real;
 use super::last::{Last, LastLevel, LastSolver};
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::SymmetricBlocks;
-use crate::system::parts::for_each_part;
+use crate::system::parts::for_each_entry;
 
 /// Number of rows that a thread takes at a time.
 pub(super) const ROWS: usize = 1024;
@@ -200,9 +200,7 @@ pub(crate) fn diagonals<const N: usize>(
 ) -> Vec<[[f64; N]; N]> {
     let owned = matrix.pattern().rows() - division.copies();
     let mut blocks = vec![[[0.0; N]; N]; owned];
-    for_each_part(&mut blocks, ROWS, |first, blocks| {
-        blocks.iter_mut().zip(first..).for_each(|(block, row)| *block = *matrix.diagonal(row));
-    });
+    for_each_entry(&mut blocks, ROWS, |row, block| *block = *matrix.diagonal(row));
     let parts = division.lists_for_owners(|copy, list| {
         list.extend(matrix.diagonal(owned + copy).as_flattened().iter().map(|entry| entry.to_bits()));
     });

@@ -19,23 +19,16 @@ pub struct LastLevel<'a> {
     pub(super) matrix: &'a SymmetricBlocks<f64, 6>,
     /// Scale of the matrix.
     pub(super) scale: f64,
-    pub(super) motions: &'a [Block],
+    /// Six rigid motions of the body in the unknowns of each owned row, each motion in a column.
+    pub motions: &'a [Block],
 }
 
 impl LastLevel<'_> {
     /// Row, column and entries of the blocks of this machine's part. There is one block for two different
     /// rows; the block of `column` and `row` is its transpose.
     pub fn blocks(&self) -> impl Iterator<Item = (usize, usize, Block)> {
-        let pattern = self.matrix.pattern();
-        let row = move |row: usize| pattern.upper(row).map(move |(block, column)| (row, column, block));
-        let entries = |block: usize| self.matrix.blocks()[block].map(|row| row.map(|x| self.scale * x));
-        (0..pattern.rows()).flat_map(row).map(move |(row, column, block)| (row, column, entries(block)))
-    }
-
-    /// Six rigid motions of the body in the unknowns of each owned row, each motion in a column.
-    #[must_use]
-    pub fn motions(&self) -> &[Block] {
-        self.motions
+        let entries = |block: &Block| block.map(|row| row.map(|x| self.scale * x));
+        self.matrix.stored().map(move |(row, column, block)| (row, column, entries(block)))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::aggregation::Aggregates;
+use super::aggregation::aggregate;
 use super::division::{Division, Numbers, ROWS, diagonals};
 use super::last::Block;
 use super::rows::{Columns, Parts, Rows, WholeRows, coarse_rows, columns_of};
@@ -10,7 +10,7 @@ use crate::system::graph::Graph;
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::lists::Lists;
-use crate::system::parts::for_each_part;
+use crate::system::parts::{for_each_entry, for_each_part};
 
 const DEGREE: usize = 2;
 
@@ -21,7 +21,7 @@ const DAMPED: f32 = 0.1;
 const FIRST_POWERS: usize = 12;
 
 /// Number of iterations of the power method for each later matrix.
-const POWERS: usize = 3;
+pub(super) const POWERS: usize = 3;
 
 /// Factor between the estimate of the power method and the bound of the eigenvalues.
 const MARGIN: f64 = 1.1;
@@ -80,31 +80,30 @@ impl<const N: usize> Level<N> {
             largest: 0.0,
             roughest: (0..included.len()).map(anything).collect(),
             prolongation: Rows::none(),
-            columns: columns_of(&Rows::<f32, N, 6>::none(), 0)?,
+            columns: Columns::none(),
             x: zeros(owned),
             residual: zeros(owned),
             step: zeros(included.len()),
             product: zeros(included.len()),
         };
-        level.replace(matrix, diagonals, scale, included);
-        level.find_largest(FIRST_POWERS, division);
+        level.take(matrix, diagonals, scale, included, FIRST_POWERS, division);
 
-        let aggregates = Aggregates::new(graph, order, included, owned);
-        let mut numbers = Numbers::new(division.first(aggregates.len()), aggregates.len());
-        let (mut tentative, motions) = orthonormal(&aggregates, motions)?;
+        let (aggregates, count) = aggregate(graph, order, included, owned);
+        let mut numbers = Numbers::new(division.first(count), count);
+        let (mut tentative, motions) = orthonormal(&aggregates, count, motions)?;
         extend(&mut tentative, &mut numbers, division);
         let whole = WholeRows::new(matrix.pattern())?;
         let product = whole.multiply(matrix, included, &tentative, numbers.len());
-        let mut prolongation = sum(product, owned, &mut numbers, division);
+        let product = sum(product, owned, &mut numbers, division);
         let damping = scale * MARGIN * 4.0 / (3.0 * f64::from(level.largest));
-        prolongation.for_each_row(|row, blocks| {
+        let mut prolongation = Rows::make(owned, numbers.len(), |row, sum| {
             let inverse = level.inverses[row].map(|row| row.map(|entry| damping * f64::from(entry)));
-            for (column, block) in blocks {
-                let product = *block;
-                *block = match tentative.of(row).first() {
-                    Some((aggregate, tentative)) if *aggregate == *column => *tentative,
-                    _ => [[0.0; 6]; N],
-                };
+            for (column, product) in product.row(row) {
+                let block = sum.block(column);
+                let own = tentative.row(row).next().filter(|(aggregate, _)| *aggregate == column);
+                if let Some((_, tentative)) = own {
+                    *block = *tentative;
+                }
                 for r in 0..N {
                     for k in 0..N {
                         for c in 0..6 {
@@ -114,12 +113,13 @@ impl<const N: usize> Level<N> {
                 }
             }
         });
+        drop(product);
         extend(&mut prolongation, &mut numbers, division);
         let product = whole.multiply(matrix, included, &prolongation, numbers.len());
         let columns = columns_of(&prolongation, numbers.len())?;
         let upper = coarse_rows(&prolongation, &columns, &product);
         drop(product);
-        level.prolongation = prolongation.map(|entry| entry as f32).add(owned, &Parts::new());
+        level.prolongation = prolongation.map(|entry| entry as f32).first(owned);
         level.columns = match division.copies() {
             0 => columns,
             _ => columns_of(&level.prolongation, numbers.len())?,
@@ -133,67 +133,48 @@ impl<const N: usize> Level<N> {
         let order: Vec<u32> = (0..graph.rows() as u32).collect();
         let pattern = Arc::new(Pattern::new(&graph, &order)?);
         let mut coarse = SymmetricBlocks::new(pattern.clone())?;
-        for row in 0..graph.rows() {
-            for (block, column) in pattern.upper(row) {
-                if let Some((_, entries)) = upper.row(row).find(|&(other, _)| other == column) {
-                    coarse.blocks_mut()[block] = *entries;
-                }
+        for (row, column, block) in pattern.stored() {
+            if let Some((_, entries)) = upper.row(row).find(|&(other, _)| other == column) {
+                coarse.blocks_mut()[block] = *entries;
             }
         }
-        let mut division = division.coarse(aggregates.len(), numbers.others())?;
+        let mut division = division.coarse(count, numbers.others())?;
         let diagonals = regular_diagonals(&mut coarse, &mut division);
         Ok((level, Coarse { matrix: coarse, diagonals, graph, division, motions }))
     }
 
-    /// Replaces the matrix by `scale` times a matrix of the same pattern.
+    /// Replaces the matrix by `scale` times a matrix of the same pattern, and computes an upper bound of the
+    /// eigenvalues of D⁻¹A by `powers` iterations of the power method.
     pub(super) fn take(
         &mut self,
         matrix: &SymmetricBlocks<f64, N>,
         diagonals: &[[[f64; N]; N]],
         scale: f64,
         included: &[bool],
+        powers: usize,
         division: &mut impl Division,
-    ) {
-        self.replace(matrix, diagonals, scale, included);
-        self.find_largest(POWERS, division);
-    }
-
-    fn replace(
-        &mut self,
-        matrix: &SymmetricBlocks<f64, N>,
-        diagonals: &[[[f64; N]; N]],
-        scale: f64,
-        included: &[bool],
     ) {
         self.matrix.for_each_chunk(|_, first, blocks| {
             for (single, block) in blocks.iter_mut().zip(&matrix.blocks()[first..]) {
                 *single = block.map(|row| row.map(|entry| (scale * entry) as f32));
             }
         });
-        for_each_part(&mut self.inverses, ROWS, |first, inverses| {
-            for (single, row) in inverses.iter_mut().zip(first..) {
-                *single = match included[row] {
-                    true => inverse(&diagonals[row].map(|row| row.map(|entry| scale * entry)))
-                        .map(|row| row.map(|entry| entry as f32)),
-                    false => [[0.0; N]; N],
-                };
-            }
+        for_each_entry(&mut self.inverses, ROWS, |row, single| {
+            *single = match included[row] {
+                true => inverse(&diagonals[row].map(|row| row.map(|entry| scale * entry)))
+                    .map(|row| row.map(|entry| entry as f32)),
+                false => [[0.0; N]; N],
+            };
         });
-    }
-
-    /// Computes an upper bound of the eigenvalues of D⁻¹A by the power method.
-    fn find_largest(&mut self, iterations: usize, division: &mut impl Division) {
         let Self { matrix, roughest, product, inverses, .. } = self;
         let owned = inverses.len();
         let mut largest = 1.0;
-        for _ in 0..iterations {
+        for _ in 0..powers {
             division.copy(roughest);
             matrix.multiply(roughest, product);
             division.sum(product);
-            for_each_part(&mut roughest[..owned], ROWS, |first, x| {
-                for ((x, product), inverse) in x.iter_mut().zip(&product[first..]).zip(&inverses[first..]) {
-                    *x = times(inverse, product);
-                }
+            for_each_entry(&mut roughest[..owned], ROWS, |row, x| {
+                *x = times(&inverses[row], &product[row]);
             });
             let entries = roughest[..owned].as_flattened().iter();
             let square = division.total(entries.map(|&x| f64::from(x) * f64::from(x)).sum());
@@ -208,11 +189,6 @@ impl<const N: usize> Level<N> {
         self.largest = (MARGIN * largest) as f32;
     }
 
-    /// Number of rows of the next level, copies included.
-    pub(super) fn coarse_rows(&self) -> usize {
-        self.columns.len()
-    }
-
     /// Smooths the error of x = 0 for a right side, and restricts this machine's part of the residual to the
     /// next level.
     pub(super) fn down(&mut self, b: &[[f32; N]], coarse: &mut [[f32; 6]], division: &mut impl Division) {
@@ -220,37 +196,33 @@ impl<const N: usize> Level<N> {
         self.residual.copy_from_slice(&b[..self.x.len()]);
         self.smooth(true, division);
         let Self { residual, prolongation, columns, .. } = self;
-        for_each_part(coarse, ROWS / 16, |first, coarse| {
-            for (coarse, column) in coarse.iter_mut().zip(first..) {
-                let mut sum = [0.0; 6];
-                for &(row, index) in columns.of(column) {
-                    let (block, residual) = (prolongation.block(index as usize), &residual[row as usize]);
-                    for k in 0..N {
-                        for c in 0..6 {
-                            sum[c] += block[k][c] * residual[k];
-                        }
+        for_each_entry(coarse, ROWS / 16, |column, coarse| {
+            let mut sum = [0.0; 6];
+            for &(row, index) in columns.of(column) {
+                let (block, residual) = (prolongation.block(index as usize), &residual[row as usize]);
+                for k in 0..N {
+                    for c in 0..6 {
+                        sum[c] += block[k][c] * residual[k];
                     }
                 }
-                *coarse = sum;
             }
+            *coarse = sum;
         });
     }
 
     /// Adds the correction of the next level, and smooths the error again.
     pub(super) fn up(&mut self, coarse: &[[f32; 6]], division: &mut impl Division) {
         let Self { step, prolongation, x, .. } = self;
-        for_each_part(&mut step[..x.len()], ROWS, |first, step| {
-            for (step, row) in step.iter_mut().zip(first..) {
-                let mut sum = [0.0; N];
-                for (column, block) in prolongation.row(row) {
-                    for r in 0..N {
-                        for c in 0..6 {
-                            sum[r] += block[r][c] * coarse[column][c];
-                        }
+        for_each_entry(&mut step[..x.len()], ROWS, |row, step| {
+            let mut sum = [0.0; N];
+            for (column, block) in prolongation.row(row) {
+                for r in 0..N {
+                    for c in 0..6 {
+                        sum[r] += block[r][c] * coarse[column][c];
                     }
                 }
-                *step = sum;
             }
+            *step = sum;
         });
         self.follow(division);
         self.smooth(false, division);
@@ -279,14 +251,11 @@ impl<const N: usize> Level<N> {
     /// Computes step = a step + b D⁻¹ r.
     fn advance(&mut self, a: f32, b: f32) {
         let Self { step, residual, inverses, .. } = self;
-        for_each_part(&mut step[..residual.len()], ROWS, |first, step| {
-            let rows = step.iter_mut().zip(&residual[first..]).zip(&inverses[first..]);
-            for ((step, residual), inverse) in rows {
-                let damped = times(inverse, residual);
-                for c in 0..N {
-                    // The previous step may contain any values, and must not be used.
-                    step[c] = if a == 0.0 { b * damped[c] } else { a * step[c] + b * damped[c] };
-                }
+        for_each_entry(&mut step[..residual.len()], ROWS, |row, step| {
+            let damped = times(&inverses[row], &residual[row]);
+            for c in 0..N {
+                // The previous step may contain any values, and must not be used.
+                step[c] = if a == 0.0 { b * damped[c] } else { a * step[c] + b * damped[c] };
             }
         });
     }
@@ -338,13 +307,14 @@ fn times<const N: usize>(matrix: &[[f32; N]; N], x: &[f32; N]) -> [f32; N] {
 /// Rigid motions of each aggregate, orthonormal, at its rows, and rigid motions of the body as combinations
 /// of them. A motion that is impossible for an aggregate of few rows is zero in both.
 fn orthonormal<const N: usize>(
-    aggregates: &Aggregates,
+    aggregates: &[Option<usize>],
+    count: usize,
     motions: &[[[f64; 6]; N]],
 ) -> Result<(Rows<f64, N, 6>, Vec<Block>), LinearError> {
     let mut blocks = motions.to_vec();
-    let mut combinations = vec![[[0.0; 6]; 6]; aggregates.len()];
-    let members = || (0..motions.len()).filter_map(|row| Some((aggregates.of(row)?, row)));
-    let members = Lists::new(aggregates.len(), members)?;
+    let mut combinations = vec![[[0.0; 6]; 6]; count];
+    let members = || (0..motions.len()).filter_map(|row| Some((aggregates[row]?, row)));
+    let members = Lists::new(count, members)?;
     // Gram–Schmidt orthogonalisation, twice.
     for (aggregate, combination) in combinations.iter_mut().enumerate() {
         let rows = members.of(aggregate);
@@ -375,7 +345,7 @@ fn orthonormal<const N: usize>(
     }
     let mut rows = Rows::none();
     for (row, block) in blocks.into_iter().enumerate() {
-        if let Some(aggregate) = aggregates.of(row) {
+        if let Some(aggregate) = aggregates[row] {
             rows.push(aggregate, block);
         }
         rows.end();
@@ -404,7 +374,7 @@ fn sum<const N: usize>(
     for (row, list) in lists {
         parts.entry(row).or_default().extend(numbers.read(&list));
     }
-    rows.add(owned, &parts)
+    rows.add(owned, numbers.len(), &parts)
 }
 
 /// Blocks on the diagonal of a coarse matrix. Motions that are impossible for an aggregate are first given a

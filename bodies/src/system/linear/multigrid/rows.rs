@@ -7,13 +7,12 @@ use rayon::prelude::*;
 use crate::system::linear::LinearError;
 use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::lists::Lists;
-use crate::system::parts::for_each_part;
 
 /// Number of rows in a chunk, which one thread computes.
 const ROWS: usize = 512;
 
 /// Blocks that are added to rows: each row, with its columns and blocks.
-pub(super) type Parts<E, const R: usize, const C: usize> = HashMap<usize, Vec<(usize, [[E; C]; R])>>;
+pub(super) type Parts<const R: usize, const C: usize> = HashMap<usize, Vec<(usize, [[f64; C]; R])>>;
 
 /// Sparse matrix of R×C blocks: the columns and blocks of each row.
 pub(super) type Rows<E, const R: usize, const C: usize> = Lists<(u32, [[E; C]; R])>;
@@ -23,31 +22,11 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         self.values.push((column as u32, block));
     }
 
-    /// Adds blocks to some of the first `rows` rows; the result does not have later rows.
-    pub(super) fn add(self, rows: usize, parts: &Parts<E, R, C>) -> Self
-    where
-        E: std::ops::AddAssign,
-    {
-        if rows == self.len() && parts.is_empty() {
-            return self;
-        }
-        let mut sum = Self::none();
-        for row in 0..rows {
-            let first = sum.values.len();
-            sum.values.extend_from_slice(self.of(row));
-            for (column, part) in parts.get(&row).into_iter().flatten() {
-                let place = sum.values[first..].iter().position(|&(other, _)| other as usize == *column);
-                match place {
-                    None => sum.push(*column, *part),
-                    Some(place) => {
-                        let entries = sum.values[first + place].1.as_flattened_mut().iter_mut();
-                        entries.zip(part.as_flattened()).for_each(|(entry, &part)| *entry += part);
-                    }
-                }
-            }
-            sum.end();
-        }
-        sum
+    /// The first `rows` rows.
+    pub(super) fn first(mut self, rows: usize) -> Self {
+        self.starts.truncate(rows + 1);
+        self.values.truncate(self.starts[rows]);
+        self
     }
 
     pub(super) fn row(&self, row: usize) -> impl Iterator<Item = (usize, &[[E; C]; R])> {
@@ -58,42 +37,40 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
         &self.values[index].1
     }
 
-    /// Calls `change` for each row, in parallel, with the columns and blocks of the row.
-    pub(super) fn for_each_row(&mut self, change: impl Fn(usize, &mut [(u32, [[E; C]; R])]) + Sync)
-    where
-        E: Send,
-    {
-        let mut rest = self.values.as_mut_slice();
-        let mut rows = Vec::with_capacity(self.starts.len() - 1);
-        for ends in self.starts.windows(2) {
-            let (row, after) = rest.split_at_mut(ends[1] - ends[0]);
-            rows.push(row);
-            rest = after;
-        }
-        for_each_part(&mut rows, ROWS, |first, rows| {
-            (first..).zip(rows).for_each(|(row, blocks)| change(row, blocks));
-        });
-    }
-
     pub(super) fn map<T>(self, change: impl Fn(E) -> T) -> Rows<T, R, C> {
         let values = self.values.iter().map(|(column, block)| (*column, block.map(|row| row.map(&change))));
         Lists { values: values.collect(), starts: self.starts }
     }
+}
+
+impl<const R: usize, const C: usize> Rows<f64, R, C> {
+    /// Adds blocks to some of the first `rows` rows; the result does not have later rows.
+    pub(super) fn add(self, rows: usize, columns: usize, parts: &Parts<R, C>) -> Self {
+        if parts.is_empty() {
+            return self.first(rows);
+        }
+        Self::make(rows, columns, |row, sum| {
+            self.row(row).for_each(|(column, block)| *sum.block(column) = *block);
+            for (column, part) in parts.get(&row).into_iter().flatten() {
+                let entries = sum.block(*column).as_flattened_mut().iter_mut();
+                entries.zip(part.as_flattened()).for_each(|(entry, part)| *entry += part);
+            }
+        })
+    }
 
     /// Computes rows in parallel, in chunks of fixed size.
-    fn make(rows: usize, columns: usize, make: impl Fn(usize, &mut Sum<E, R, C>) + Sync, zero: E) -> Self
-    where
-        E: Send + Sync,
-    {
+    pub(super) fn make(rows: usize, columns: usize, make: impl Fn(usize, &mut Sum<R, C>) + Sync) -> Self {
         let parts: Vec<Self> = (0..rows.div_ceil(ROWS))
             .into_par_iter()
             .map_init(
-                || Sum { place: vec![u32::MAX; columns], row: Vec::new(), zero },
+                || Sum { place: vec![u32::MAX; columns], row: Vec::new() },
                 |sum, part| {
                     let mut made = Self::none();
                     for row in part * ROWS..rows.min((part + 1) * ROWS) {
                         make(row, sum);
-                        sum.finish(&mut made);
+                        sum.row.iter().for_each(|&(column, _)| sum.place[column as usize] = u32::MAX);
+                        made.values.append(&mut sum.row);
+                        made.end();
                     }
                     made
                 },
@@ -112,29 +89,21 @@ impl<E: Copy, const R: usize, const C: usize> Rows<E, R, C> {
 }
 
 /// Row during its summation.
-struct Sum<E, const R: usize, const C: usize> {
+pub(super) struct Sum<const R: usize, const C: usize> {
     /// Place of each column of the matrix in the row; `u32::MAX` for a column without a block.
     place: Vec<u32>,
-    row: Vec<(u32, [[E; C]; R])>,
-    zero: E,
+    row: Vec<(u32, [[f64; C]; R])>,
 }
 
-impl<E: Copy, const R: usize, const C: usize> Sum<E, R, C> {
+impl<const R: usize, const C: usize> Sum<R, C> {
     /// Block of a column; a new block is zero.
-    fn block(&mut self, column: usize) -> &mut [[E; C]; R] {
+    pub(super) fn block(&mut self, column: usize) -> &mut [[f64; C]; R] {
         let place = &mut self.place[column];
         if *place == u32::MAX {
             *place = self.row.len() as u32;
-            self.row.push((column as u32, [[self.zero; C]; R]));
+            self.row.push((column as u32, [[0.0; C]; R]));
         }
         &mut self.row[*place as usize].1
-    }
-
-    /// Moves the row to the end of a matrix.
-    fn finish(&mut self, to: &mut Rows<E, R, C>) {
-        self.row.iter().for_each(|&(column, _)| self.place[column as usize] = u32::MAX);
-        to.values.append(&mut self.row);
-        to.end();
     }
 }
 
@@ -143,14 +112,12 @@ pub(super) struct WholeRows(Lists<(u32, u32, bool)>);
 
 impl WholeRows {
     pub(super) fn new(pattern: &Pattern) -> Result<Self, LinearError> {
-        let rows = pattern.rows();
-        let stored = || (0..rows).flat_map(|row| pattern.upper(row).map(move |stored| (row, stored)));
-        let both = |(row, (block, column)): (usize, (usize, usize))| {
+        let both = |(row, column, block): (usize, usize, usize)| {
             let here = (row, (column as u32, block as u32, false));
             let there = (column, (row as u32, block as u32, true));
             [here].into_iter().chain((column != row).then_some(there))
         };
-        Ok(Self(Lists::new(rows, || stored().flat_map(both))?))
+        Ok(Self(Lists::new(pattern.rows(), || pattern.stored().flat_map(both))?))
     }
 
     /// Product of the `included` rows of a symmetric matrix with another matrix.
@@ -161,7 +128,7 @@ impl WholeRows {
         right: &Rows<f64, N, C>,
         columns: usize,
     ) -> Rows<f64, N, C> {
-        let make = |row: usize, sum: &mut Sum<f64, N, C>| {
+        let make = |row: usize, sum: &mut Sum<N, C>| {
             if !included[row] {
                 return;
             }
@@ -184,7 +151,7 @@ impl WholeRows {
                 }
             }
         };
-        Rows::make(self.0.len(), columns, make, 0.0)
+        Rows::make(self.0.len(), columns, make)
     }
 }
 
@@ -208,7 +175,7 @@ pub(super) fn coarse_rows<const N: usize, const C: usize>(
     columns: &Columns,
     product: &Rows<f64, N, C>,
 ) -> Rows<f64, C, C> {
-    let make = |coarse: usize, sum: &mut Sum<f64, C, C>| {
+    let make = |coarse: usize, sum: &mut Sum<C, C>| {
         // The block on the diagonal is first, even if nothing is added to it.
         sum.block(coarse);
         for &(row, index) in columns.of(coarse) {
@@ -225,5 +192,5 @@ pub(super) fn coarse_rows<const N: usize, const C: usize>(
             }
         }
     };
-    Rows::make(columns.len(), columns.len(), make, 0.0)
+    Rows::make(columns.len(), columns.len(), make)
 }

@@ -5,7 +5,7 @@ use super::*;
 use crate::mesh::tetrahedral_box;
 use crate::system::Body;
 use crate::system::assemble::Elastic;
-use crate::system::linear::conjugate_gradients::{ConjugateGradients, End, Iteration, System};
+use crate::system::linear::conjugate_gradients::{ConjugateGradients, End, Iteration};
 use crate::system::nodal_stiffness::NodalStiffness;
 use crate::system::testing::{kirchhoff, shake};
 
@@ -26,51 +26,34 @@ fn cube(
     (stiffness, mesh.positions.iter().map(|x| x[0] > 1e-9).collect(), positions)
 }
 
-struct Preconditioned<'a> {
-    matrix: SymmetricBlocks<f64, 3>,
-    multigrid: Multigrid<Undivided>,
-    is_free: &'a [bool],
-}
+type Levels = Multigrid<Undivided, <Undivided as Division>::Last>;
 
-impl System for Preconditioned<'_> {
-    fn apply(&mut self, x: &[f64], product: &mut [f64]) {
+/// Solves a system with a random right side that is zero at pinned nodes.
+fn solve(stiffness: &NodalStiffness, multigrid: &Levels, is_free: &[bool], tolerance: f64) -> Iteration {
+    let mut random = Random::new(5);
+    let free = |is_free: &bool| [0; 3].map(|_| f64::from(*is_free) * random.uniform(-1.0, 1.0));
+    let mut b: Vec<[f64; 3]> = is_free.iter().map(free).collect();
+    let (mut matrix, mut multigrid) = (stiffness.matrix().clone(), multigrid.clone());
+    let apply = |x: &[f64], product: &mut [f64]| {
         let product = product.as_chunks_mut().0;
-        self.matrix.multiply(x.as_chunks().0, product);
-        for (product, is_free) in product.iter_mut().zip(self.is_free) {
+        matrix.multiply(x.as_chunks().0, product);
+        for (product, is_free) in product.iter_mut().zip(is_free) {
             if !is_free {
                 *product = [0.0; 3];
             }
         }
-    }
-
-    fn precondition(&mut self, r: &[f64], z: &mut [f64]) {
-        self.multigrid.solve(r.as_chunks().0, z.as_chunks_mut().0);
-    }
+    };
+    let precondition =
+        |r: &[f64], z: &mut [f64]| multigrid.solve(&mut Undivided, r.as_chunks().0, z.as_chunks_mut().0);
+    let mut memory = ConjugateGradients::new(3 * b.len());
+    memory.solve(apply, precondition, b.as_flattened_mut(), tolerance, 300)
 }
 
-/// Solves a system with a random right side that is zero at pinned nodes.
-fn solve(
-    stiffness: &NodalStiffness,
-    multigrid: &Multigrid<Undivided>,
-    is_free: &[bool],
-    tolerance: f64,
-) -> Iteration {
-    let mut random = Random::new(5);
-    let free = |is_free: &bool| [0; 3].map(|_| f64::from(*is_free) * random.uniform(-1.0, 1.0));
-    let mut b: Vec<[f64; 3]> = is_free.iter().map(free).collect();
-    let mut system =
-        Preconditioned { matrix: stiffness.matrix().clone(), multigrid: multigrid.clone(), is_free };
-    ConjugateGradients::new(3 * b.len()).solve(&mut system, b.as_flattened_mut(), tolerance, 300)
-}
-
-fn set_up(stiffness: &NodalStiffness, is_free: &[bool], positions: &[[f64; 3]]) -> Multigrid<Undivided> {
-    let mut multigrid = Multigrid::new(Undivided);
+fn set_up(stiffness: &NodalStiffness, is_free: &[bool], positions: &[[f64; 3]]) -> Levels {
     let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
-    let diagonals = diagonals(matrix, multigrid.division_mut());
-    multigrid
-        .set_up(matrix, &diagonals, graph, order, is_free, positions)
-        .expect("a matrix of finite entries");
-    multigrid
+    let diagonals = diagonals(matrix, &mut Undivided);
+    Multigrid::new(matrix, &diagonals, graph, order, is_free, positions, &mut Undivided)
+        .expect("a matrix of finite entries")
 }
 
 #[test]
@@ -98,7 +81,8 @@ fn old_levels_serve_another_matrix() {
     let mut multigrid = set_up(&stiffness, &is_free, &positions);
     let (bent, is_free, positions) = cube(8, Filter::Clamp, turn);
     let fresh = solve(&bent, &set_up(&bent, &is_free, &positions), &is_free, 1e-6);
-    multigrid.take(bent.matrix(), &diagonals(bent.matrix(), &mut Undivided), &is_free);
+    let diagonals = diagonals(bent.matrix(), &mut Undivided);
+    multigrid.take(&mut Undivided, bent.matrix(), &diagonals, &is_free);
     let old = solve(&bent, &multigrid, &is_free, 1e-6);
     assert_eq!((fresh.end, old.end), (End::Converged, End::Converged));
     assert!(old.iterations <= 5 * fresh.iterations, "{fresh:?}, {old:?}");
@@ -122,8 +106,8 @@ fn the_cycle_is_symmetric_and_positive_whatever_the_matrix() {
         for _ in 0..5 {
             let (x, y) = (vector(), vector());
             let (mut of_x, mut of_y) = (x.clone(), y.clone());
-            multigrid.solve(&x, &mut of_x);
-            multigrid.solve(&y, &mut of_y);
+            multigrid.solve(&mut Undivided, &x, &mut of_x);
+            multigrid.solve(&mut Undivided, &y, &mut of_y);
             let scale = (dot(&x, &of_x) * dot(&y, &of_y)).sqrt();
             assert!(scale > 0.0, "not positive");
             // Rounding error of f32 times the condition.
@@ -149,13 +133,6 @@ fn matrices_without_anything_to_aggregate_are_no_exception() {
     let all = vec![true; positions.len()];
     let mut multigrid = set_up(&stiffness, &all, &positions);
     let mut z = vec![[f64::NAN; 3]; positions.len()];
-    multigrid.solve(&vec![[1.0, -1.0, 0.5]; positions.len()], &mut z);
+    multigrid.solve(&mut Undivided, &vec![[1.0, -1.0, 0.5]; positions.len()], &mut z);
     assert!(z.as_flattened().iter().all(|z| z.is_finite()), "{z:?}");
-}
-
-#[test]
-fn before_there_are_levels_the_cycle_is_the_unit_matrix() {
-    let mut z = [[0.0; 3]];
-    Multigrid::new(Undivided).solve(&[[1.0, 2.0, 3.0]], &mut z);
-    assert_eq!(z, [[1.0, 2.0, 3.0]]);
 }

@@ -166,7 +166,7 @@ impl Division for Machine {
         }
         let cholesky = Cholesky::new(DMatrix::from_row_slice(unknowns, unknowns, &dense));
         let cholesky = cholesky.ok_or(LinearError::NotPositive { column: 0 })?;
-        assert_eq!(level.motions().len() as u64, self.own().end - self.own().start);
+        assert_eq!(level.motions.len() as u64, self.own().end - self.own().start);
         Ok(Gathered { rows: self.clone(), cholesky })
     }
 }
@@ -237,10 +237,10 @@ fn residuals(part: &Part, number: &[usize], board: &Arc<Board>, machine: usize) 
     let copies = nodes[*owned..].iter().map(|&node| number[node] as u64).collect();
     let mut rows = Machine::new(board, machine, *owned, copies);
     let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
-    let mut multigrid = Multigrid::new(rows.clone());
     let diagonals = diagonals(matrix, &mut rows);
-    multigrid.set_up(matrix, &diagonals, graph, order, &is_free, &mesh.positions).expect("a matrix");
-    assert!(multigrid.levels().expect("made").0.len() > 1);
+    let multigrid = Multigrid::new(matrix, &diagonals, graph, order, &is_free, &mesh.positions, &mut rows);
+    let mut multigrid = multigrid.expect("a matrix");
+    assert!(multigrid.levels().0.len() > 1);
     let b: Vec<[f64; 3]> = (0..*owned)
         .map(|row| {
             let mut random = Random::new(number[nodes[row]] as u64);
@@ -259,7 +259,7 @@ fn residuals(part: &Part, number: &[usize], board: &Arc<Board>, machine: usize) 
             .collect();
         norms.push(rows.total(residual.as_flattened().iter().map(|r| r * r).sum()).sqrt());
         let mut z = vec![[0.0; 3]; *owned];
-        multigrid.solve(&residual, &mut z);
+        multigrid.solve(&mut rows, &residual, &mut z);
         for (x, z) in x.iter_mut().zip(z) {
             (0..3).for_each(|c| x[c] += z[c]);
         }
