@@ -6,7 +6,7 @@ use piola::Univariate;
 use piola::interpreter::Interpreted;
 use piola::material::{Constraint, Limit, Material};
 use piola_codegen::algebra::expr::Id;
-use piola_codegen::model::{self, Model};
+use piola_codegen::model::{self, ByParameters, Model};
 use piola_codegen::read::parse::Declaration;
 
 use crate::constructor::numbers;
@@ -21,12 +21,15 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    /// The programs of a declaration; `None` if one needs more registers than there are.
+    /// The programs of a declaration; `None` if one needs more registers than there are, or the graph becomes
+    /// full.
     pub(crate) fn new(declaration: &Declaration, model: &mut Model) -> Option<Self> {
-        let by_parameters = model.by_parameters.clone().unwrap_or_default();
-        let by_parameters = by_parameters.iter().map(|triple| triple.to_vec()).collect::<Vec<_>>();
-        let gradient = Slopes::new(declaration, model, &by_parameters)?;
-        let (constraints, domain) = (model.constraints.clone(), model.domain_constraints.clone());
+        let ByParameters { gradient, constraints, domain } = model.by_parameters(declaration);
+        if model.graph.is_full() {
+            return None;
+        }
+        let gradient: Vec<_> = gradient.iter().map(|triple| triple.to_vec()).collect();
+        let gradient = Slopes::new(declaration, model, &gradient)?;
         let mut conditions = |constraints: &[model::Constraint]| {
             let conditions = constraints.iter().map(|one| Condition::new(declaration, model, one));
             conditions.collect::<Option<Vec<_>>>()
@@ -93,8 +96,12 @@ impl Condition {
             return vec![Constraint { limit: self.limit.clone(), value: value(material, 0), gradient }];
         };
         let of_entry = |entry| {
-            let (limit, slopes) = (self.limit.clone(), self.slopes.of_entry(material, entry));
-            Constraint::of_entry(limit, value(material, entry), values(material), &slopes)
+            let mut gradient: Vec<_> = values(material).iter().map(|list| vec![0.0; list.len()]).collect();
+            for (parameter, place, slope) in self.slopes.of_entry(material, entry) {
+                gradient[parameter][place] = slope;
+            }
+            let (limit, value) = (self.limit.clone(), value(material, entry));
+            Constraint { limit, value, gradient: gradient.concat() }
         };
         (0..length(material.values(), list)).map(of_entry).collect()
     }
