@@ -1,11 +1,13 @@
 //! Derivatives by the parameters, and the conditions that keep these admissible, for fits.
 
+use std::iter;
+
 use piola::__private::by_values;
 use piola::__private::interpreter::{ParameterValues, Program, Value};
 use piola::Univariate;
 use piola::interpreter::Interpreted;
 use piola::material::{Constraint, Limit, Material};
-use piola_codegen::algebra::expr::Id;
+use piola_codegen::algebra::expr::{Graph, Id, Node};
 use piola_codegen::model::{self, ByParameters, Model};
 use piola_codegen::read::parse::Declaration;
 
@@ -122,13 +124,19 @@ impl Slopes {
     /// Makes programs of the derivatives of the expressions by each parameter, or by the current entry of
     /// each list.
     fn new(declaration: &Declaration, model: &mut Model, by_parameters: &[Vec<Id>]) -> Option<Self> {
-        let model::Slopes { groups, differences } =
-            model::Slopes::new(&model.graph, declaration, by_parameters);
-        let program = |group: model::Group| {
-            let list = group.length.and(group.parameters.first().copied());
-            Some((list, group.parameters, lower(declaration, &model.program(&group.roots))?))
+        let parameters = &declaration.parameters;
+        let is_difference = |&k: &usize| {
+            parameters[k].is_function() || needs_third_derivative(&model.graph, &by_parameters[k])
         };
-        Some(Self { programs: groups.into_iter().map(program).collect::<Option<_>>()?, differences })
+        let (differences, known): (Vec<_>, Vec<_>) = (0..parameters.len()).partition(is_difference);
+        let mut programs = Vec::new();
+        for length in iter::once(None).chain((0..declaration.lengths.len()).map(Some)) {
+            let alike: Vec<_> = known.iter().copied().filter(|&k| parameters[k].length() == length).collect();
+            let Some(&first) = alike.first() else { continue };
+            let roots: Vec<_> = alike.iter().flat_map(|&k| by_parameters[k].iter().copied()).collect();
+            programs.push((length.and(Some(first)), alike, lower(declaration, &model.program(&roots))?));
+        }
+        Some(Self { programs, differences })
     }
 
     /// The derivatives of N results by each number, lists entry by entry.
@@ -161,15 +169,26 @@ impl Slopes {
         slopes.concat()
     }
 
-    /// The derivatives of one result, a condition on the entry of lists, each with its parameter and place.
+    /// The derivatives of one result, a condition on the entry of lists, each with its parameter and place. By
+    /// lists of other lengths, which may be shorter, they are zero.
     fn of_entry(&self, material: &Interpreted, entry: usize) -> Vec<(usize, usize, f64)> {
         let of_program = |(list, parameters, program): &(Option<usize>, Vec<usize>, Program)| {
             let place = if list.is_some() { entry } else { 0 };
             let slopes = parameters.iter().zip(material.compute(program, &[], entry));
             slopes.map(|(&k, slope)| (k, place, slope)).collect::<Vec<_>>()
         };
-        self.programs.iter().flat_map(of_program).collect()
+        let has_entry = |list: Option<usize>| list.is_none_or(|list| entry < length(material.values(), list));
+        self.programs.iter().filter(|(list, ..)| has_entry(*list)).flat_map(of_program).collect()
     }
+}
+
+/// True if a derivative of a function occurs that functions do not provide.
+fn needs_third_derivative(graph: &Graph, expressions: &[Id]) -> bool {
+    graph.reachable(expressions).into_iter().any(|id| match *graph.node(id) {
+        Node::Function(_, order, _) => order > 2,
+        Node::FunctionQuotient(_, order, ..) => order > 1,
+        _ => false,
+    })
 }
 
 /// Values of the parameters, one list for each, in the form that a fit changes.

@@ -118,7 +118,7 @@ impl Place {
 ///     contender("neo-Hookean", "mu/2*(I1b - 3) + kappa/2*(J - 1)^2", &[&[4e5], &[2e7]])?,
 ///     contender(
 ///         "Gent",
-///         "-mu*Jm/2*ln(1 - (I1b - 3)/Jm) + kappa/2*(J - 1)^2 where J > 0, I1b < 3 + Jm",
+///         "-mu*Jm/2*ln(1 - (I1b - 3)/Jm) + kappa/2*(J - 1)^2 where J > 0, I1b < 3 + Jm, Jm > 0",
 ///         &[&[3e5], &[80.0], &[2e7]],
 ///     )?,
 /// ];

@@ -223,12 +223,11 @@ impl MaterialSpec {
         self.resolve(|energy, given, _| {
             let mut parameters = energy.description().parameters.iter().zip(given).zip(values);
             parameters.try_fold(self.clone(), |spec, ((parameter, given), values)| {
-                let values = match parameter.form {
-                    Form::Points => {
-                        let curve = Spline::from_values(given)?.with_values(values)?;
-                        curve.points().flatten().collect()
-                    }
-                    _ => values.clone(),
+                let values = if parameter.form == Form::Points {
+                    let curve = Spline::from_values(given)?.with_values(values)?;
+                    curve.points().flatten().collect()
+                } else {
+                    values.clone()
                 };
                 Ok(spec.with_parameter(&parameter.name, values))
             })

@@ -215,7 +215,7 @@ fn ordinates_of_the_curves_of_the_catalogue_are_parameters() -> Result<(), Mater
 /// Sums in products, in logarithms, in each other's terms and in exponents; lists of two lengths; names of
 /// what is emitted.
 const NESTED: &str = "
-#[material(domain(J > 0.0), prestressed)]
+#[material(domain(J > 0.0), admissible(mu[k] > 0.0), prestressed)]
 pub fn Nested<const N: usize, const M: usize>(
     [l1, l2, l3]: [f64; 3],
     /// Shares, Pa.
@@ -287,7 +287,9 @@ fn declared(text: &str, values: &[&[f64]]) -> Candidate {
 /// Harder than any energy of the catalogue.
 #[test]
 fn derivatives_of_sums_and_powers_are_slopes() -> Result<(), MaterialError> {
-    check_slopes("Nested", &declared(NESTED, &[&[1.5, 2.0, 0.5], &[1.3, 4.0, -2.0], &[0.25, 0.5], &[3.0]]))?;
+    let nested = declared(NESTED, &[&[1.5, 2.0, 0.5], &[1.3, 4.0, -2.0], &[0.25, 0.5], &[3.0]]);
+    check_slopes("Nested", &nested)?;
+    check_constraints("Nested", &nested);
     // An exponent of zero, where λ^α is 1 and its derivative ln λ.
     let zero = declared(NESTED, &[&[1.5, 2.0], &[1.0, 0.0], &[0.5], &[3.0]]);
     let [.., to_exponent, _, _] = zero.gradient_by_parameters([2.0, 1.0, 0.5])[..] else {

@@ -26,11 +26,9 @@ use crate::schedule::count::Count;
 use crate::schedule::{Collector, Program, schedule};
 pub use by_parameters::{ByParameters, Constraint, Limit};
 use forms::{Evaluated, Prepared};
-pub use slopes::{Group, Slopes};
 
 mod by_parameters;
 mod forms;
-mod slopes;
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
