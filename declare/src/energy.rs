@@ -7,8 +7,6 @@ use piola::__private::interpreter::{ByInvariants, Programs, Value, Variant};
 use piola::__private::{Condition, record};
 use piola::contract::Notation;
 use piola::interpreter::Interpreted;
-#[cfg(doc)]
-use piola::material::Fittable;
 use piola::material::{
     Constraint, Curvature, Description, Form, MaterialError, Parameter, Text, Typical, Unit,
 };
@@ -60,7 +58,7 @@ struct Compiled {
     notation: Notation,
     programs: Arc<Programs>,
     constructor: Constructor,
-    fit: Option<Fit>,
+    fit: Fit,
 }
 
 /// Equal energies are declared by the same text.
@@ -71,7 +69,8 @@ impl PartialEq for Energy {
 }
 
 impl Energy {
-    /// The energy of a checked declaration; `None` if it needs more registers than there are.
+    /// The energy of a checked declaration; `None` if it needs more registers than there are, or its
+    /// derivatives by the parameters leave the limit on its size.
     pub(crate) fn new(
         declaration: &Declaration,
         mut model: Model,
@@ -82,6 +81,12 @@ impl Energy {
         let programs = Arc::new(programs(declaration, &mut model)?);
         let texts = Texts::of(declaration, &mut model);
         let documentation = page(declaration, &mut model, &texts);
+        let constructor = Constructor::new(declaration, &mut model)?;
+        // Last, so that all other programs are those of the compiled type.
+        let fit = Fit::new(declaration, &mut model)?;
+        if model.graph.is_full() {
+            return None;
+        }
         Some(Self(Arc::new(Compiled {
             description: description(declaration, &model.units, texts),
             documentation,
@@ -89,8 +94,8 @@ impl Energy {
             source,
             notation,
             programs,
-            constructor: Constructor::new(declaration, &mut model)?,
-            fit: if model.by_parameters.is_some() { Some(Fit::new(declaration, &mut model)?) } else { None },
+            constructor,
+            fit,
         })))
     }
 
@@ -157,24 +162,20 @@ impl Energy {
         Ok(Box::new(self.material(values, inversion)?))
     }
 
-    /// True if the derivatives by the parameters are known: formulas have them, and so do declarations with
-    /// `fit`.
-    #[must_use]
-    pub fn is_fittable(&self) -> bool {
-        self.0.fit.is_some()
-    }
-
-    /// Values of the parameters of a material of this energy, one list for each, in the form of
-    /// [`with_values`](Self::with_values): [`Fittable::values`].
+    /// Values of the parameters of a material of this energy, one list for each parameter of the description
+    /// in its order, in the form of [`with_values`](Self::with_values): numbers and lists as in
+    /// [`material`](Self::material), splines as in [`Univariate::values`].
     #[must_use]
     pub fn values(&self, material: &Interpreted) -> Vec<Vec<f64>> {
         fit::values(material)
     }
 
-    /// A material of this energy with other values, and without extension: [`Fittable::with_values`].
+    /// A material of this energy with other values, as [`values`](Self::values) lists them, and without
+    /// extension. All else of a spline stays what it is.
     ///
     /// # Errors
-    /// [`MaterialError`] of [`Energy::material`].
+    /// [`MaterialError::Shape`] if the lengths do not match; other errors are those of [`Energy::material`] and
+    /// of [`Univariate::with_values`].
     pub fn with_values(
         &self,
         material: &Interpreted,
@@ -186,28 +187,86 @@ impl Energy {
         constructor.build(description, programs, values, Inversion::Refuse)
     }
 
-    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, Pa for each unit of p:
-    /// [`Fittable::gradient_by_parameters`]. Empty unless the energy [is fittable](Self::is_fittable).
+    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of
+    /// [`values`](Self::values), lists entry by entry. Pa for each unit of p. Whole exponents do not change,
+    /// and have zeros. Derivatives by the values of a spline are central differences of sixth order, with steps
+    /// of about 1/128 of each value; NaN if the spline refuses such values.
+    ///
+    /// For stretches inside the domain: an extension is not used, and outside the domain the numbers are
+    /// meaningless and may be NaN.
+    ///
+    /// ```
+    /// use piola::Inversion;
+    /// use piola_declare::Energy;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let ogden = Energy::from_rust(
+    ///     "/// Σₚ μₚ/αₚ Σ λ^αₚ − (Σₚ μₚ) ln J + κ/2 (J − 1)².
+    ///      #[material(domain(J > 0.0))]
+    ///      fn Ogden<const N: usize>(
+    ///          [l1, l2, l3]: [f64; 3],
+    ///          /** Moduli μₚ, Pa. */ mu: [f64; N],
+    ///          /** Exponents αₚ. */ alpha: [f64; N],
+    ///          /** Volumetric modulus κ, Pa. */ kappa: f64,
+    ///      ) -> f64 {
+    ///          let shear = sum(|p| mu[p] / alpha[p] * sum(|l| l.powf(alpha[p])));
+    ///          shear - sum(|p| mu[p]) * J.ln() + kappa / 2.0 * (J - 1.0).powi(2)
+    ///      }",
+    /// )?;
+    /// let rubber = ogden.material(&[&[6.3e5, -1e4], &[1.3, -2.0], &[2e7]], Inversion::Refuse)?;
+    /// assert_eq!(ogden.values(&rubber), [&[6.3e5, -1e4][..], &[1.3, -2.0], &[2e7]]);
+    /// // ψ1 = Σₚ μₚ (λ1^αₚ − 1)/λ1 + κ (J − 1) J/λ1 changes by (λ1^α₂ − 1)/λ1 for each pascal of μ₂, the
+    /// // second of five numbers.
+    /// let derivatives = ogden.gradient_by_parameters(&rubber, [2.0, 1.0, 0.5]);
+    /// assert_eq!(derivatives.len(), 5);
+    /// assert!((derivatives[1][0] - (0.25 - 1.0) / 2.0).abs() < 1e-15);
+    /// # Ok(())
+    /// # }
+    /// ```
     #[must_use]
     pub fn gradient_by_parameters(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
         let material = self.without_extension(material);
-        self.0.fit.as_ref().map(|fit| fit.by_parameters(&material, stretches)).unwrap_or_default()
+        self.0.fit.by_parameters(&material, stretches)
     }
 
-    /// The conditions on the parameters: [`Fittable::constraints`]. Empty unless the energy [is
-    /// fittable](Self::is_fittable).
+    /// Conditions that the constructor checks, except for finite values and `!=`: the comparisons of
+    /// `admissible(…)`, one for each entry if they are on entries, and positive moduli at rest unless the
+    /// material is `prestressed`.
+    ///
+    /// ```
+    /// use piola::Inversion;
+    /// use piola::material::Limit;
+    /// use piola_declare::Energy;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let energy = Energy::from_rust(
+    ///     "/// Compressible neo-Hookean solid.
+    ///      #[material(domain(J > 0.0), admissible(lambda <= 1e7))]
+    ///      fn Rubber([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
+    ///          mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
+    ///      }",
+    /// )?;
+    /// let rubber = energy.material(&[&[6e5], &[1e6]], Inversion::Refuse)?;
+    /// let [upper, shear, bulk] = <[_; 3]>::try_from(energy.constraints(&rubber)).expect("three");
+    /// assert_eq!((upper.limit, upper.value), (Limit::Admissible("lambda <= 1e7".into()), 9e6));
+    /// assert_eq!((shear.limit, shear.value), (Limit::ShearModulus, 6e5));
+    /// // K = λ + 2/3 μ
+    /// assert_eq!((bulk.limit, bulk.gradient), (Limit::BulkModulus, vec![2.0 / 3.0, 1.0]));
+    /// # Ok(())
+    /// # }
+    /// ```
     #[must_use]
     pub fn constraints(&self, material: &Interpreted) -> Vec<Constraint> {
         let material = self.without_extension(material);
-        self.0.fit.as_ref().map(|fit| fit.constraints(&material)).unwrap_or_default()
+        self.0.fit.constraints(&material)
     }
 
-    /// The conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0: [`Fittable::domain_constraints`]. Empty
-    /// unless the energy [is fittable](Self::is_fittable).
+    /// Conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0, except for those on J alone: at stretches that
+    /// are kept, these are conditions on the parameters too.
     #[must_use]
     pub fn domain_constraints(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<Constraint> {
         let material = self.without_extension(material);
-        self.0.fit.as_ref().map(|fit| fit.domain_constraints(&material, stretches)).unwrap_or_default()
+        self.0.fit.domain_constraints(&material, stretches)
     }
 
     /// The material with each number among its parameters replaced by the value that stands for it in a

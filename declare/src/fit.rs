@@ -1,12 +1,14 @@
 //! Derivatives by the parameters, and the conditions that keep these admissible, for fits.
 
+use std::iter;
+
 use piola::__private::by_values;
 use piola::__private::interpreter::{Program, Value};
 use piola::Univariate;
 use piola::interpreter::Interpreted;
 use piola::material::{Constraint, Limit, Material};
-use piola_codegen::algebra::expr::Id;
-use piola_codegen::model::{self, Model};
+use piola_codegen::algebra::expr::{Graph, Id, Node};
+use piola_codegen::model::{self, ByParameters, Model};
 use piola_codegen::read::parse::Declaration;
 
 use crate::lower::lower;
@@ -20,12 +22,15 @@ pub(crate) struct Fit {
 }
 
 impl Fit {
-    /// The programs of a declaration; `None` if one needs more registers than there are.
+    /// The programs of a declaration; `None` if one needs more registers than there are, or the graph becomes
+    /// full.
     pub(crate) fn new(declaration: &Declaration, model: &mut Model) -> Option<Self> {
-        let by_parameters = model.by_parameters.clone().unwrap_or_default();
-        let by_parameters = by_parameters.iter().map(|triple| triple.to_vec()).collect::<Vec<_>>();
-        let gradient = Slopes::new(declaration, model, &by_parameters)?;
-        let (constraints, domain) = (model.constraints.clone(), model.domain_constraints.clone());
+        let ByParameters { gradient, constraints, domain } = model.by_parameters(declaration);
+        if model.graph.is_full() {
+            return None;
+        }
+        let gradient: Vec<_> = gradient.iter().map(|triple| triple.to_vec()).collect();
+        let gradient = Slopes::new(declaration, model, &gradient)?;
         let mut conditions = |constraints: &[model::Constraint]| {
             let conditions = constraints.iter().map(|one| Condition::new(declaration, model, one));
             conditions.collect::<Option<Vec<_>>>()
@@ -92,8 +97,12 @@ impl Condition {
             return vec![Constraint { limit: self.limit.clone(), value: value(material, 0), gradient }];
         };
         let of_entry = |entry| {
-            let (limit, slopes) = (self.limit.clone(), self.slopes.of_entry(material, entry));
-            Constraint::of_entry(limit, value(material, entry), values(material), &slopes)
+            let mut gradient: Vec<_> = values(material).iter().map(|list| vec![0.0; list.len()]).collect();
+            for (parameter, place, slope) in self.slopes.of_entry(material, entry) {
+                gradient[parameter][place] = slope;
+            }
+            let (limit, value) = (self.limit.clone(), value(material, entry));
+            Constraint { limit, value, gradient: gradient.concat() }
         };
         (0..length(material.values(), list)).map(of_entry).collect()
     }
@@ -114,13 +123,19 @@ impl Slopes {
     /// Makes programs of the derivatives of the expressions by each parameter, or by the current entry of
     /// each list.
     fn new(declaration: &Declaration, model: &mut Model, by_parameters: &[Vec<Id>]) -> Option<Self> {
-        let model::Slopes { groups, differences } =
-            model::Slopes::new(&model.graph, declaration, by_parameters);
-        let program = |group: model::Group| {
-            let list = group.length.and(group.parameters.first().copied());
-            Some((list, group.parameters, lower(declaration, &model.program(&group.roots))?))
+        let parameters = &declaration.parameters;
+        let is_difference = |&k: &usize| {
+            parameters[k].is_function() || needs_third_derivative(&model.graph, &by_parameters[k])
         };
-        Some(Self { programs: groups.into_iter().map(program).collect::<Option<_>>()?, differences })
+        let (differences, known): (Vec<_>, Vec<_>) = (0..parameters.len()).partition(is_difference);
+        let mut programs = Vec::new();
+        for length in iter::once(None).chain((0..declaration.lengths.len()).map(Some)) {
+            let alike: Vec<_> = known.iter().copied().filter(|&k| parameters[k].length() == length).collect();
+            let Some(&first) = alike.first() else { continue };
+            let roots: Vec<_> = alike.iter().flat_map(|&k| by_parameters[k].iter().copied()).collect();
+            programs.push((length.and(Some(first)), alike, lower(declaration, &model.program(&roots))?));
+        }
+        Some(Self { programs, differences })
     }
 
     /// The derivatives of N results by each number, lists entry by entry.
@@ -153,15 +168,26 @@ impl Slopes {
         slopes.concat()
     }
 
-    /// The derivatives of one result, a condition on the entry of lists, each with its parameter and place.
+    /// The derivatives of one result, a condition on the entry of lists, each with its parameter and place. By
+    /// lists of other lengths, which may be shorter, they are zero.
     fn of_entry(&self, material: &Interpreted, entry: usize) -> Vec<(usize, usize, f64)> {
         let of_program = |(list, parameters, program): &(Option<usize>, Vec<usize>, Program)| {
             let place = if list.is_some() { entry } else { 0 };
             let slopes = parameters.iter().zip(material.compute(program, &[], entry));
             slopes.map(|(&k, slope)| (k, place, slope)).collect::<Vec<_>>()
         };
-        self.programs.iter().flat_map(of_program).collect()
+        let has_entry = |list: Option<usize>| list.is_none_or(|list| entry < length(material.values(), list));
+        self.programs.iter().filter(|(list, ..)| has_entry(*list)).flat_map(of_program).collect()
     }
+}
+
+/// True if a derivative of a function occurs that functions do not provide.
+fn needs_third_derivative(graph: &Graph, expressions: &[Id]) -> bool {
+    graph.reachable(expressions).into_iter().any(|id| match *graph.node(id) {
+        Node::Function(_, order, _) => order > 2,
+        Node::FunctionQuotient(_, order, ..) => order > 1,
+        _ => false,
+    })
 }
 
 /// Values of the parameters, one list for each, in the form that a fit changes.

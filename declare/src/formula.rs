@@ -176,16 +176,12 @@ impl Parsed {
     /// Arguments of the attribute, the most general first.
     fn arguments(&self) -> Vec<TokenStream> {
         let Self { domain, admissible, .. } = self;
-        let admissible = (!admissible.is_empty()).then(|| quote!(admissible(#(#admissible),*),));
-        if !domain.is_empty() {
-            let domain = quote!(domain(#(#domain),*), #admissible);
-            return vec![quote!(#domain extend, fit), quote!(#domain fit)];
-        }
-        vec![
-            quote!(#admissible fit),
-            quote!(domain(J > 0.0), #admissible extend, fit),
-            quote!(domain(J > 0.0), #admissible fit),
-        ]
+        let admissible = (!admissible.is_empty()).then(|| quote!(admissible(#(#admissible),*)));
+        let everywhere = domain.is_empty().then(|| quote!(#admissible));
+        let domain = if domain.is_empty() { vec![quote!(J > 0.0)] } else { domain.clone() };
+        let admissible = admissible.map(|admissible| quote!(, #admissible));
+        let bounded = quote!(domain(#(#domain),*) #admissible);
+        everywhere.into_iter().chain([quote!(#bounded, extend), bounded]).collect()
     }
 
     /// The first declaration that has no mistakes, with the arguments of its attribute; else the mistakes of
@@ -227,8 +223,8 @@ fn source(arguments: &TokenStream, item: &TokenStream) -> String {
     };
     // The attribute stands between documentation and function.
     let (documentation, function) = function.split_once("pub fn ").unwrap_or(("", &function));
-    let arguments = spaced(arguments);
-    format!("use piola::material;\n\n{documentation}#[material({arguments})]\npub fn {function}")
+    let arguments = if arguments.is_empty() { String::new() } else { format!("({})", spaced(arguments)) };
+    format!("use piola::material;\n\n{documentation}#[material{arguments}]\npub fn {function}")
 }
 
 /// Advice for a name of papers for which declarations have another notation.

@@ -2,8 +2,9 @@
 //!
 //! The differences between the stresses of an energy and the measured ones, each divided by a size of its own
 //! ([`Difference`]), are minimised in the sum of their squares by the Levenberg–Marquardt method \[Mor78\].
-//! The derivatives of a stress by the parameters come from the code that `fit` in the declaration generates,
-//! including the motion of free sides ([`Response::weights`](crate::curve::Response::weights)).
+//! The derivatives of a stress by the parameters come from the declaration of the energy
+//! ([`Energy::gradient_by_parameters`](piola_declare::Energy::gradient_by_parameters)), and include the motion
+//! of free sides ([`Response::weights`](crate::curve::Response::weights)).
 //!
 //! Such fits are easily ambiguous \[OSS04\]: data may not determine a parameter, or determine only some
 //! combination of parameters, and there may be several minima; or the energy refuses the best parameters, or
@@ -66,10 +67,8 @@ pub struct FitSettings {
     /// Parameters that keep their values: names as declared, a list with all its entries or a function with
     /// all its values, or one of these as `alpha_1` or `f_1`, counted from 1.
     ///
-    /// A fit changes those values of a function that its type provides
-    /// ([`Univariate::values`](piola::Univariate::values)); a function without such values stays as it is.
-    /// Hold those that keep the rest state free of stress; a [`Spline`](piola::Spline) does so by itself
-    /// where x is 1.
+    /// A fit changes the ordinates of a [`Spline`](piola::Spline), except for one at x = 1, which keeps the
+    /// rest state free of stress.
     pub held: Vec<String>,
     /// Number of further starts from parameters at random about the given ones, default 20, at most 10 000.
     pub restarts: usize,
@@ -100,7 +99,7 @@ const MOST_RESTARTS: usize = 10_000;
 /// # Errors
 /// [`FitError`] if nothing can be fitted.
 pub fn fit_parameters(
-    start: &dyn Candidate,
+    start: &Candidate,
     data: &Measurements,
     settings: &FitSettings,
 ) -> Result<Fit, FitError> {
@@ -169,7 +168,7 @@ type Shape = (usize, Form);
 
 /// The parameters of an energy one by one, those with these names and whole exponents being held, and their
 /// shapes.
-fn numbers(candidate: &dyn Candidate, held: &[String]) -> Result<(Vec<Number>, Vec<Shape>), FitError> {
+fn numbers(candidate: &Candidate, held: &[String]) -> Result<(Vec<Number>, Vec<Shape>), FitError> {
     let (mut numbers, mut parameters) = (Vec::new(), Vec::new());
     let mut unknown: Vec<&str> = held.iter().map(String::as_str).collect();
     for (parameter, list) in candidate.description().parameters.iter().zip(candidate.values()) {

@@ -9,10 +9,10 @@
 //! * [`stability`]: the stretches at which an energy keeps the inequalities of a stable solid;
 //! * [`chart`]: all of these in pictures, with the feature `charts`, on by default.
 //!
-//! The crate uses materials only through the traits of [`piola::material`](mod@piola::material), so that your
-//! own energy works as well as one of the catalogue. There are no bodies here: each specimen is deformed
-//! homogeneously and slowly, so that neither buckling nor viscosity, softening or friction at the plates is
-//! seen.
+//! The crate uses materials only through the traits of [`piola::material`](mod@piola::material), and for fits
+//! energies that are declared at run time ([`Energy`](piola_declare::Energy)), so that your own energy works
+//! as well as one of the catalogue. There are no bodies here: each specimen is deformed homogeneously and
+//! slowly, so that neither buckling nor viscosity, softening or friction at the plates is seen.
 
 #[cfg(feature = "charts")]
 pub mod chart;

@@ -25,7 +25,7 @@ pub struct Contender {
     /// The name under which it is ranked.
     pub name: String,
     /// The energy.
-    pub candidate: Box<dyn Candidate>,
+    pub candidate: Candidate,
 }
 
 /// Energies in the order of their agreement with the same measurements.
@@ -100,14 +100,27 @@ impl Place {
 ///
 /// ```
 /// use piola_laboratory::data::{Measurements, TRELOAR_1944};
-/// use piola_laboratory::fit::{Difference, FitSettings};
+/// use piola::Inversion;
+/// use piola_declare::Energy;
+/// use piola_laboratory::fit::{Candidate, Difference, FitSettings};
 /// use piola_laboratory::ranking::{Contender, rank};
-/// use piola_materials::{Gent, NeoHookean};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let contender = |name: &str, formula: &str, values: &[&[f64]]| {
+///     let energy = Energy::from_formula(formula)?;
+///     let material = energy.material(values, Inversion::Refuse)?;
+///     Ok::<_, Box<dyn std::error::Error>>(Contender {
+///         name: name.into(),
+///         candidate: Candidate::new(energy, material),
+///     })
+/// };
 /// let contenders = [
-///     Contender { name: "neo-Hookean".into(), candidate: Box::new(NeoHookean::new(4e5, 2e7)?) },
-///     Contender { name: "Gent".into(), candidate: Box::new(Gent::new(3e5, 80.0, 2e7)?) },
+///     contender("neo-Hookean", "mu/2*(I1b - 3) + kappa/2*(J - 1)^2", &[&[4e5], &[2e7]])?,
+///     contender(
+///         "Gent",
+///         "-mu*Jm/2*ln(1 - (I1b - 3)/Jm) + kappa/2*(J - 1)^2 where J > 0, I1b < 3 + Jm, Jm > 0",
+///         &[&[3e5], &[80.0], &[2e7]],
+///     )?,
 /// ];
 /// let settings =
 ///     FitSettings { difference: Difference::Absolute, restarts: 2, ..FitSettings::default() };
@@ -137,12 +150,12 @@ pub fn rank(contenders: &[Contender], data: &Measurements, settings: &FitSetting
 }
 
 fn place(contender: &Contender, data: &Measurements, settings: &FitSettings) -> Result<Place, FitError> {
-    let fit = fit_parameters(&*contender.candidate, data, settings)?;
+    let fit = fit_parameters(&contender.candidate, data, settings)?;
     let fitted = contender.candidate.with_values(&fit.values).map_err(TrialError::Inadmissible)?;
     let mut lost: [Option<Loss>; 3] = [None; 3];
     for mode in data.modes() {
         for end in data.range(mode) {
-            let losses = constant_volume::lost(&*fitted, mode, end);
+            let losses = constant_volume::lost(&fitted, mode, end);
             for (first, control) in lost.iter_mut().zip(losses) {
                 let loss = control.map(|control| Loss { mode, control });
                 let is_nearer = |loss: &Loss| first.is_none_or(|first| loss.strain() < first.strain());

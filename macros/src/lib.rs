@@ -60,9 +60,6 @@ use proc_macro::TokenStream;
 /// * `typical("natural rubber", mu = 4e5, alpha = [1.3, 5.0])`: parameters of some real material, for
 ///   documentation and programs;
 /// * `prestressed`: stress at rest is intended;
-/// * `fit`: the type implements `piola::material::Fittable`, the derivatives of its stress and of all
-///   conditions on its parameters with respect to these; for a function, with respect to its
-///   `Univariate::values`;
 /// * `serde`: the type implements `serde::Serialize` and `serde::Deserialize` (feature `serde` of `piola`),
 ///   as its parameters, which are checked when they are read; functions among them must implement both as
 ///   well.

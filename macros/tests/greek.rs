@@ -5,7 +5,7 @@
 #![deny(warnings)]
 
 /// Numbers and lists, with everything that an expansion can have.
-#[piola::material(domain(J > 0.0), admissible(α[q] > 0.0, ν > 0.0), extend, fit)]
+#[piola::material(domain(J > 0.0), admissible(α[q] > 0.0, ν > 0.0), extend)]
 pub fn Listed<const N: usize>(
     [λ1, λ2, λ3]: [f64; 3],
     /** Pa. */

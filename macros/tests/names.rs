@@ -9,8 +9,7 @@ use piola::material::Declared;
 #[piola::material(
     domain(J > 0.0, I1 - 3.0 < Jm),
     admissible(Jm > 0.0, β[p] > 0.0),
-    extend(K >= 0.0),
-    fit
+    extend(K >= 0.0)
 )]
 pub fn Solid<const N: usize>(
     [λ1, λ2, λ3]: [f64; 3],
@@ -68,7 +67,7 @@ macro_rules! numbers {
     };
     ($Energy:ident, $name:ident) => {
         /// Rubber.
-        #[piola::material(domain(J > 0.0), admissible($name > 0.0), extend($name > 0.0), fit)]
+        #[piola::material(domain(J > 0.0), admissible($name > 0.0), extend($name > 0.0))]
         fn $Energy(
             [l1, l2, l3]: [f64; 3],
             /** Pa. */
@@ -93,7 +92,7 @@ macro_rules! lists {
     };
     ($name:ident, $N:ident) => {
         /// Sum.
-        #[piola::material(domain(J > 0.0), admissible($name[p] > 0.0), extend, fit)]
+        #[piola::material(domain(J > 0.0), admissible($name[p] > 0.0), extend)]
         fn Energy<const $N: usize>(
             [l1, l2, l3]: [f64; 3],
             /** Pa. */
@@ -113,7 +112,7 @@ macro_rules! lengths {
 macro_rules! stretches {
     ($name:ident) => {
         /// Logarithms.
-        #[piola::material(domain(J > 0.0), extend, fit)]
+        #[piola::material(domain(J > 0.0), extend)]
         fn Energy(
             [$name, l2, l3]: [f64; 3],
             /** Pa. */
@@ -128,7 +127,7 @@ macro_rules! stretches {
 mod names_of_expansions {
     with_names! {
         types: Some None Ok Err Option Result Vec Clone Copy Fn Debug PartialEq Default Real Mask Inversion Material
-            Declared Fittable Graded PerLane ParameterValue P V Value R D S T Self_ serde core_ mu l1 t1 energy;
+            Declared Graded PerLane ParameterValue P V Value R D S T Self_ serde core_ mu l1 t1 energy;
         numbers: t1 t2 p q k x a one lane material value splat ln len core std piola __p f64 u8 str R P V Value T
             epsilon strains stretch self_ args index;
         lists: t1 q k x one lane material value len iter core std __p f64 R P V T epsilon strains;

@@ -14,8 +14,7 @@ use piola::material;
     domain(J > 0.0, I1b < 3.0 * n),
     admissible(mu > 0.0, n > 1.0, kappa > 0.0),
     refuse("the chains lock at I1b = 3n, which a flattened element exceeds before it inverts"),
-    typical("natural rubber, fitted to Treloar 1944", mu = 3.3e5, n = 30.0, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", mu = 3.3e5, n = 30.0, kappa = 2e7)
 )]
 pub fn AnssariBenamBucchi(
     [l1, l2, l3]: [f64; 3],

@@ -12,8 +12,7 @@ use piola::material;
 /// stress jumps where λ2 + λ3 = 0, and the twist quotient has a pole there.
 #[material(
     admissible(mu > 0.0),
-    typical("any value: energies of maps have no unit", mu = 1.0),
-    fit
+    typical("any value: energies of maps have no unit", mu = 1.0)
 )]
 pub fn Arap(
     [l1, l2, l3]: [f64; 3],

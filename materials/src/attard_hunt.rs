@@ -15,8 +15,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944 with A2 = 0",
         a1 = 3.3e5, a2 = 0.0, a3 = 102.0, b1 = 8.69e3, lambda = 2e7
-    ),
-    fit
+    )
 )]
 pub fn AttardHunt(
     [l1, l2, l3]: [f64; 3],

@@ -12,8 +12,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(mu > 0.0),
     refuse("continued, its reciprocal stretches leave the range of f64 at the ends of what F can be"),
-    typical("the order of soft rubber, E = 1 MPa and ν = 0.45", mu = 3.4e5, lambda = 3.1e6),
-    fit
+    typical("the order of soft rubber, E = 1 MPa and ν = 0.45", mu = 3.4e5, lambda = 3.1e6)
 )]
 pub fn Bazant(
     [l1, l2, l3]: [f64; 3],

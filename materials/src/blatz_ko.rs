@@ -20,8 +20,7 @@ use piola::material;
         "the foamed polyurethane of the source, except for its β = 1/2, that is ν = 1/4, with which \
          it does not extend",
         mu = 2.2e5, f = 0.0, beta = 1.0
-    ),
-    fit
+    )
 )]
 pub fn BlatzKo(
     [l1, l2, l3]: [f64; 3],

@@ -13,8 +13,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(a >= 0.0, b >= 0.0, c >= 0.0, kappa > 0.0),
     refuse("√I2 has a kink where two stretches vanish"),
-    typical("natural rubber, fitted to Treloar 1944", a = 1.46e5, b = 0.31, c = 1.25e5, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", a = 1.46e5, b = 0.31, c = 1.25e5, kappa = 2e7)
 )]
 pub fn Carroll(
     [l1, l2, l3]: [f64; 3],

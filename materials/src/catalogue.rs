@@ -2,7 +2,7 @@
 
 #[cfg(feature = "f32")]
 use piola::material::Response;
-use piola::material::{Declared, Description, Fittable, MaterialError, Moduli};
+use piola::material::{Declared, Description, MaterialError, Moduli};
 use piola::{DynMaterial, Inversion};
 
 #[cfg(doc)]
@@ -40,19 +40,12 @@ pub trait Visitor: Sized {
 
     /// Meets the material, its type static from here on.
     fn visit<M: Declared + 'static>(self, material: M) -> Self::Output;
-
-    /// Meets a material whose derivatives with respect to its parameters are known, in the same way unless
-    /// the action needs them.
-    fn visit_fittable<M: Fittable + 'static>(self, material: M) -> Self::Output {
-        self.visit(material)
-    }
 }
 
 /// Declares the energies of the crate: for each its feature, its file, its type with the lengths that its
-/// lists may have at run time, whether it is `without fit`, the derivatives with respect to its parameters,
-/// and whether it is `for rubber`.
+/// lists may have at run time, and whether it is `for rubber`.
 macro_rules! catalogue {
-    ($($feature:literal $module:ident::$Material:ident $(<$($length:literal),+>)? $(without $fit:ident)? $(for $rubber:ident)?,)+) => {
+    ($($feature:literal $module:ident::$Material:ident $(<$($length:literal),+>)? $(for $rubber:ident)?,)+) => {
         $(
             #[cfg(feature = $feature)]
             mod $module;
@@ -111,7 +104,7 @@ macro_rules! catalogue {
                 match self.kind {$(
                     #[cfg(feature = $feature)]
                     Kind::$Material => catalogue!(
-                        @visit [$($fit)?] values, inversion, visitor, $Material $($($length)+)?
+                        @visit values, inversion, visitor, $Material $($($length)+)?
                     ),
                 )+}
             }
@@ -121,15 +114,12 @@ macro_rules! catalogue {
     (@is rubber) => { true };
     (@description $Material:ident) => { <$Material as ::piola::material::Declared>::DESCRIPTION };
     (@description $Material:ident $first:literal $($length:literal)*) => { <$Material<$first> as ::piola::material::Declared>::DESCRIPTION };
-    (@visit [fit] $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
+    (@visit $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
         <$Material as ::piola::material::Declared>::from_values($values, $inversion).map(|material| $visitor.visit(material))
     };
-    (@visit [] $values:ident, $inversion:ident, $visitor:ident, $Material:ident) => {
-        <$Material as ::piola::material::Declared>::from_values($values, $inversion).map(|material| $visitor.visit_fittable(material))
-    };
-    (@visit [] $values:ident, $inversion:ident, $visitor:ident, $Material:ident $($length:literal)+) => {
+    (@visit $values:ident, $inversion:ident, $visitor:ident, $Material:ident $($length:literal)+) => {
         match $values.first().map_or(0, |list| list.len()) {
-            $($length => <$Material<$length> as ::piola::material::Declared>::from_values($values, $inversion).map(|material| $visitor.visit_fittable(material)),)+
+            $($length => <$Material<$length> as ::piola::material::Declared>::from_values($values, $inversion).map(|material| $visitor.visit(material)),)+
             length => Err(::piola::material::MaterialError::Shape {
                 expected: format!(
                     "the lists of {} have {} entries by name, not {length}; other lengths need its type in Rust",

@@ -12,8 +12,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(c1 >= 0.0, c2 >= 0.0, a >= 0.0),
     extend,
-    typical("natural rubber, fitted to Treloar 1944", c1 = 1.8e5, c2 = 3.4e3, a = 5e6),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", c1 = 1.8e5, c2 = 3.4e3, a = 5e6)
 )]
 pub fn CiarletGeymonat(
     [l1, l2, l3]: [f64; 3],

@@ -15,8 +15,7 @@ use piola::material;
     domain(J > 0.0, I1b < 3.0 * lambda_m.powi(2)),
     admissible(gc >= 0.0, lambda_m > 1.0, ge >= 0.0, kappa > 0.0),
     refuse("the chains lock at I1b = 3λm², which a flattened element exceeds before it inverts"),
-    typical("natural rubber, fitted to Treloar 1944", gc = 2.29e5, lambda_m = 4.93, ge = 1.3e5, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", gc = 2.29e5, lambda_m = 4.93, ge = 1.3e5, kappa = 2e7)
 )]
 pub fn DavidsonGoulbourne(
     [l1, l2, l3]: [f64; 3],

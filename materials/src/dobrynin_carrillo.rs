@@ -15,8 +15,7 @@ use piola::material;
     domain(J > 0.0, beta * I1b < 3.0),
     admissible(g > 0.0, beta > 0.0, beta < 1.0, kappa > 0.0),
     refuse("the chains lock at β I1b = 3, which a flattened element exceeds before it inverts"),
-    typical("natural rubber, fitted to Treloar 1944", g = 3.23e5, beta = 0.0196, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", g = 3.23e5, beta = 0.0196, kappa = 2e7)
 )]
 pub fn DobryninCarrillo(
     [l1, l2, l3]: [f64; 3],

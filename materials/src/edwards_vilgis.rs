@@ -20,8 +20,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944",
         nc = 2.19e5, ns = 4.96e5, alpha = 0.0888, eta = 0.78, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn EdwardsVilgis(
     [l1, l2, l3]: [f64; 3],

@@ -17,8 +17,7 @@ use piola::material;
         "natural rubber fitted to Treloar 1944 up to twice the rest length, with the smallest k \
          and k̂ for which the source proves plane deformations elliptic",
         mu = 3.9e5, k = 0.25, kappa = 2e7, k_hat = 0.125
-    ),
-    fit
+    )
 )]
 pub fn ExponentiatedHencky(
     [l1, l2, l3]: [f64; 3],

@@ -17,8 +17,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944",
         gc = 2.05e5, delta = 0.094, ge = 1.8e5, beta = 0.2, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn ExtendedTube(
     [l1, l2, l3]: [f64; 3],

@@ -14,8 +14,7 @@ use piola::material;
         "snow, E = 140 kPa and ν = 0.2 of Stomakhin, Schroeder, Chai, Teran, Selle, *A material \
          point method for snow simulation*, 2013",
         mu = 5.8e4, lambda = 3.9e4
-    ),
-    fit
+    )
 )]
 pub fn FixedCorotated(
     [l1, l2, l3]: [f64; 3],

@@ -22,8 +22,7 @@ use piola::material;
     typical(
         "natural rubber fitted to Treloar 1944 up to three times the rest length",
         cp = 2.45e5, cc = 4.48e5, kappa_c = 2.59, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn FloryErman(
     [l1, l2, l3]: [f64; 3],

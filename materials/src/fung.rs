@@ -15,8 +15,7 @@ use piola::material;
         "artery; c and a1 + a2 are those of rabbit carotid in its circumferential direction by \
          Chuong, Fung, *Three-dimensional stress distribution in arteries*, 1983",
         c = 2.7e4, a1 = 0.5, a2 = 0.5
-    ),
-    fit
+    )
 )]
 pub fn Fung(
     [l1, l2, l3]: [f64; 3],

@@ -14,8 +14,7 @@ use piola::material;
     domain(J > 0.0, I1 - 3.0 < jm),
     admissible(mu > 0.0, jm > 0.0),
     extend(kappa >= 0.0),
-    typical("natural rubber, fitted to Treloar 1944", mu = 3.3e5, jm = 108.0, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", mu = 3.3e5, jm = 108.0, kappa = 2e7)
 )]
 pub fn Gent(
     [l1, l2, l3]: [f64; 3],

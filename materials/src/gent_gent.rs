@@ -14,8 +14,7 @@ use piola::material;
     domain(J > 0.0, I1b - 3.0 < jm),
     admissible(mu > 0.0, jm > 0.0, c2 >= 0.0, kappa > 0.0),
     refuse("ln I2 is singular where two stretches vanish"),
-    typical("natural rubber, fitted to Treloar 1944", mu = 2.6e5, jm = 81.0, c2 = 2.0e5, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", mu = 2.6e5, jm = 81.0, c2 = 2.0e5, kappa = 2e7)
 )]
 pub fn GentGent(
     [l1, l2, l3]: [f64; 3],

@@ -16,8 +16,7 @@ use piola::material;
     typical(
         "natural rubber fitted to Treloar 1944 up to three times the rest length",
         c1 = 1.4e5, c2 = 1.7e5, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn GentThomas(
     [l1, l2, l3]: [f64; 3],

@@ -17,8 +17,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944",
         c10 = 1.711e5, c01 = 1.482e4, c11 = -499.6, c02 = 19.76, c20 = -1427.0, c30 = 42.24, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn HainesWilson(
     [l1, l2, l3]: [f64; 3],

@@ -12,8 +12,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(alpha >= 0.0, c10 >= 0.0, c01 >= 0.0, kappa > 0.0),
     refuse("(J⁵ + J⁻⁵) of extended stretches leaves the range of f32 just below the threshold"),
-    typical("natural rubber, fitted to Treloar 1944", alpha = 16.1, c10 = 1.7e5, c01 = 57.4, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", alpha = 16.1, c10 = 1.7e5, c01 = 57.4, kappa = 2e7)
 )]
 pub fn HartmannNeff(
     [l1, l2, l3]: [f64; 3],

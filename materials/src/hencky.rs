@@ -18,8 +18,7 @@ use piola::material;
         "sand, E = 354 kPa and ν = 0.3 of Klár et al., *Drucker–Prager elastoplasticity for sand \
          animation*, 2016",
         mu = 1.36e5, lambda = 2.04e5
-    ),
-    fit
+    )
 )]
 pub fn Hencky(
     [l1, l2, l3]: [f64; 3],

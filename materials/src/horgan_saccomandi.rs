@@ -15,8 +15,7 @@ use piola::material;
     domain(J > 0.0, (l1 / J.cbrt()).powi(2) < jm),
     admissible(mu > 0.0, jm > 1.0, kappa > 0.0),
     refuse("the chains lock at a stretch which a flattened element exceeds before it inverts"),
-    typical("natural rubber, fitted to Treloar 1944", mu = 3.33e5, jm = 117.0, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", mu = 3.33e5, jm = 117.0, kappa = 2e7)
 )]
 pub fn HorganSaccomandi(
     [l1, l2, l3]: [f64; 3],

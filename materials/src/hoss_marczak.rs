@@ -18,8 +18,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944 with β = 1/2 and n = 2",
         alpha = 1.5e4, beta = 0.5, mu = 2.0e5, b = 0.0804, n = 2.0, c2 = 2.51e5, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn HossMarczak(
     [l1, l2, l3]: [f64; 3],

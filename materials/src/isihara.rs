@@ -13,8 +13,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(kappa > 0.0),
     refuse("a term of the wrong sign, as the fit to rubber has, would attract collapse"),
-    typical("natural rubber, fitted to Treloar 1944", c10 = 1.65e5, c20 = 953.0, c01 = 1.67e3, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", c10 = 1.65e5, c20 = 953.0, c01 = 1.67e3, kappa = 2e7)
 )]
 pub fn Isihara(
     [l1, l2, l3]: [f64; 3],

@@ -13,8 +13,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(mu > 0.0, kappa > 0.0),
     extend,
-    typical("natural rubber, fitted to Treloar 1944", mu = 3.8e5, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", mu = 3.8e5, kappa = 2e7)
 )]
 pub fn IsochoricNeoHookean(
     [l1, l2, l3]: [f64; 3],

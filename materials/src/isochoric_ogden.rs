@@ -20,8 +20,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944 with these exponents",
         mu = [3.5e5, 96.0], alpha = [2.0, 6.0], kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn IsochoricOgden<const N: usize>(
     [l1, l2, l3]: [f64; 3],

@@ -17,8 +17,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944",
         c10 = 1.766e5, c01 = 9.82e3, c11 = -143.7, c20 = -1821.0, c30 = 46.23, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn JamesGreenSimpson(
     [l1, l2, l3]: [f64; 3],

@@ -14,8 +14,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(a > 0.0, alpha > 0.0, kappa > 0.0),
     refuse("the continued I1b vanishes at F = 0, where ln(I1b − 2) has no value"),
-    typical("natural rubber, fitted to Treloar 1944", a = 1.99e5, alpha = 0.0165, beta = 0.158, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", a = 1.99e5, alpha = 0.0165, beta = 0.158, kappa = 2e7)
 )]
 pub fn Khajehsaeid(
     [l1, l2, l3]: [f64; 3],

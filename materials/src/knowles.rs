@@ -18,8 +18,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944 with n = 2",
         mu = 3.3e5, b = 0.024, n = 2.0, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn Knowles(
     [l1, l2, l3]: [f64; 3],

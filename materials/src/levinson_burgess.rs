@@ -13,8 +13,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(mu > 0.0, f >= 0.0, f <= 1.0, nu < 1 / 2),
     refuse("nothing but I2/J² resists collapse, and that not of all stretches at once"),
-    typical("natural rubber, fitted to Treloar 1944", mu = 3.74e5, f = 0.982, nu = 0.49),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", mu = 3.74e5, f = 0.982, nu = 0.49)
 )]
 pub fn LevinsonBurgess(
     [l1, l2, l3]: [f64; 3],

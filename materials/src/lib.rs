@@ -103,7 +103,7 @@ catalogue! {
     "st-venant-kirchhoff" st_venant_kirchhoff::StVenantKirchhoff,
     "stable-neo-hookean" stable_neo_hookean::StableNeoHookean,
     "storakers" storakers::Storakers<1, 2, 3>,
-    "stretch-spline" stretch_spline::StretchSpline without fit,
+    "stretch-spline" stretch_spline::StretchSpline,
     "swanson" swanson::Swanson<1, 2, 3> for rubber,
     "symmetric-arap" symmetric_arap::SymmetricArap,
     "symmetric-dirichlet" symmetric_dirichlet::SymmetricDirichlet,

@@ -17,8 +17,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(alpha[p] != 0.0, kappa > 0.0),
     extend(mu[p] > 0.0, alpha[p] >= 1.0),
-    typical("natural rubber, fitted to Treloar 1944", mu = [3.53e5, 15.9], alpha = [1.0, 4.45], kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", mu = [3.53e5, 15.9], alpha = [1.0, 4.45], kappa = 2e7)
 )]
 pub fn LopezPamies<const N: usize>(
     [l1, l2, l3]: [f64; 3],

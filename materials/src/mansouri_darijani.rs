@@ -17,8 +17,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944",
         a1 = 6.38e6, m1 = 0.0193, b1 = -3.92e5, n1 = -0.171, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn MansouriDarijani(
     [l1, l2, l3]: [f64; 3],

@@ -13,8 +13,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(mu > 0.0, alpha > 0.0, alpha < 1.0),
     refuse("I1 I2/J² has no value at F = 0, from any side"),
-    typical("equal shares, of the source; energies of maps have no unit", mu = 1.0, alpha = 0.5),
-    fit
+    typical("equal shares, of the source; energies of maps have no unit", mu = 1.0, alpha = 0.5)
 )]
 pub fn Mips(
     [l1, l2, l3]: [f64; 3],

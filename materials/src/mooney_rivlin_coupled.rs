@@ -13,8 +13,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(c10 >= 0.0, c01 >= 0.0),
     extend(kappa >= 0.0),
-    typical("natural rubber, fitted to Treloar 1944", c10 = 1.8e5, c01 = 3.4e3, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", c10 = 1.8e5, c01 = 3.4e3, kappa = 2e7)
 )]
 pub fn MooneyRivlinCoupled(
     [l1, l2, l3]: [f64; 3],

@@ -14,8 +14,7 @@ use piola::material;
     typical(
         "polystyrene, of Hughes, Kelly, *Second-order elastic deformation of solids*, 1953",
         lambda = 2.889e9, mu = 1.381e9, l = -1.89e10, m = -1.33e10, n = -1.0e10
-    ),
-    fit
+    )
 )]
 pub fn Murnaghan(
     [l1, l2, l3]: [f64; 3],

@@ -13,8 +13,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(mu > 0.0),
     extend(lambda >= 0.0),
-    typical("natural rubber, fitted to Treloar 1944", mu = 3.8e5, lambda = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", mu = 3.8e5, lambda = 2e7)
 )]
 pub fn NeoHookean(
     [l1, l2, l3]: [f64; 3],

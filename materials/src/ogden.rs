@@ -19,8 +19,7 @@ use piola::material;
     typical(
         "natural rubber, the three terms of the source",
         mu = [6.3e5, 1.2e3, -1e4], alpha = [1.3, 5.0, -2.0], kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn Ogden<const N: usize>(
     [l1, l2, l3]: [f64; 3],

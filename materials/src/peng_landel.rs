@@ -17,8 +17,7 @@ use piola::material;
     typical(
         "natural rubber fitted to Treloar 1944 up to three times the rest length",
         e = 1.23e6, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn PengLandel(
     [l1, l2, l3]: [f64; 3],

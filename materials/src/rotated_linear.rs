@@ -11,8 +11,7 @@ use piola::material;
 /// deformation; the stress jumps where λ2 + λ3 = 0, and the twist quotient has a pole there.
 #[material(
     admissible(mu > 0.0),
-    typical("the order of soft rubber, E = 1 MPa and ν = 0.45", mu = 3.4e5, lambda = 3.1e6),
-    fit
+    typical("the order of soft rubber, E = 1 MPa and ν = 0.45", mu = 3.4e5, lambda = 3.1e6)
 )]
 pub fn RotatedLinear(
     [l1, l2, l3]: [f64; 3],

@@ -10,8 +10,7 @@ use piola::material;
 /// so it resists inversion no more than compression: P vanishes at F = 0, and an inside-out body is at rest.
 #[material(
     admissible(mu > 0.0),
-    typical("steel, E = 210 GPa and ν = 0.3 of EN 1993-1-1, §3.2.6", mu = 8.1e10, lambda = 1.2e11),
-    fit
+    typical("steel, E = 210 GPa and ν = 0.3 of EN 1993-1-1, §3.2.6", mu = 8.1e10, lambda = 1.2e11)
 )]
 pub fn StVenantKirchhoff(
     [l1, l2, l3]: [f64; 3],

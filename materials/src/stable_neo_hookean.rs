@@ -13,8 +13,7 @@ use piola::material;
     typical(
         "flesh, with a Young's modulus of 10 kPa at the Poisson's ratio 0.488 of the source",
         mu = 4.5e3, lambda = 1.4e5
-    ),
-    fit
+    )
 )]
 pub fn StableNeoHookean(
     [l1, l2, l3]: [f64; 3],

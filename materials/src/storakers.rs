@@ -20,8 +20,7 @@ use piola::material;
         "foamed polyurethane rubber, μ = 32 psi and ν = 1/4 of Blatz, Ko, *Application of finite \
          elastic theory to the deformation of rubbery materials*, 1962, who prefer α = −2",
         mu = [2.2e5], alpha = [2.0], beta = [0.5]
-    ),
-    fit
+    )
 )]
 pub fn Storakers<const N: usize>(
     [l1, l2, l3]: [f64; 3],

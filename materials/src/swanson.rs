@@ -16,8 +16,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944",
         a = [1.3e5], alpha = [0.514], b = [2.61e5], beta = [-1.09], kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn Swanson<const N: usize>(
     [l1, l2, l3]: [f64; 3],

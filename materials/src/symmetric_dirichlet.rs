@@ -13,8 +13,7 @@ use piola::material;
     domain(J != 0.0),
     admissible(mu > 0.0),
     extend,
-    typical("any value: energies of maps have no unit", mu = 1.0),
-    fit
+    typical("any value: energies of maps have no unit", mu = 1.0)
 )]
 pub fn SymmetricDirichlet(
     [l1, l2, l3]: [f64; 3],

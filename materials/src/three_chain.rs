@@ -16,8 +16,7 @@ use piola::material;
     domain(J > 0.0, (l1 / J.cbrt()).powi(2) < n),
     admissible(mu > 0.0, n > 1.0, kappa > 0.0),
     refuse("the chains lock at λ̄1² = N, which a flattened element exceeds before it inverts"),
-    typical("natural rubber, fitted to Treloar 1944", mu = 3.35e5, n = 93.1, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", mu = 3.35e5, n = 93.1, kappa = 2e7)
 )]
 pub fn ThreeChain(
     [l1, l2, l3]: [f64; 3],

@@ -13,8 +13,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(mu > 0.0),
     extend(kappa >= 0.0),
-    typical("natural rubber fitted to Treloar 1944 up to twice the rest length", mu = 4.0e5, kappa = 2e7),
-    fit
+    typical("natural rubber fitted to Treloar 1944 up to twice the rest length", mu = 4.0e5, kappa = 2e7)
 )]
 pub fn Varga(
     [l1, l2, l3]: [f64; 3],

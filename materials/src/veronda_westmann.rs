@@ -14,8 +14,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(c1 > 0.0, alpha > 0.0, kappa > 0.0),
     refuse("the exponential of an extended I1b leaves the range of the numbers, and −I2b attracts collapse"),
-    typical("skin of a cat, C1 and α of the source", c1 = 3.94e3, alpha = 5.03, kappa = 1e6),
-    fit
+    typical("skin of a cat, C1 and α of the source", c1 = 3.94e3, alpha = 5.03, kappa = 1e6)
 )]
 pub fn VerondaWestmann(
     [l1, l2, l3]: [f64; 3],

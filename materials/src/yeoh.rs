@@ -12,8 +12,7 @@ use piola::material;
     domain(J > 0.0),
     admissible(c1 > 0.0, kappa > 0.0),
     refuse("isochoric terms with (J − 1)² alone do not push a collapsed point open"),
-    typical("natural rubber, fitted to Treloar 1944", c1 = 1.85e5, c2 = -1.46e3, c3 = 40.4, kappa = 2e7),
-    fit
+    typical("natural rubber, fitted to Treloar 1944", c1 = 1.85e5, c2 = -1.46e3, c3 = 40.4, kappa = 2e7)
 )]
 pub fn Yeoh(
     [l1, l2, l3]: [f64; 3],

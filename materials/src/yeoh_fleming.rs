@@ -17,8 +17,7 @@ use piola::material;
     typical(
         "natural rubber, fitted to Treloar 1944",
         a = 5.74e4, b = 28.2, c10 = 1.39e5, im = 88.7, kappa = 2e7
-    ),
-    fit
+    )
 )]
 pub fn YeohFleming(
     [l1, l2, l3]: [f64; 3],

@@ -16,8 +16,8 @@ pub use crate::material::constructor::*;
 pub use crate::material::differences::by_values;
 pub use crate::material::parameter::PerLane;
 pub use crate::material::{
-    Blocks, Constraint, Curvature, Declared, Description, Fittable, Form, Graded, Inversion, Limit,
-    MaterialError, Moduli, Parameter, ParameterValue, Typical, Unit,
+    Blocks, Curvature, Declared, Description, Form, Graded, Inversion, MaterialError, Moduli, Parameter,
+    ParameterValue, Typical, Unit,
 };
 pub use crate::quotient::*;
 #[cfg(feature = "serde")]

@@ -158,8 +158,8 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
         })
     }
 
-    /// Values that a fit may change, such as ordinates or coefficients; see
-    /// [`Fittable`](crate::material::Fittable).
+    /// Values that a fit may change, such as ordinates or coefficients: those of the energies that
+    /// `piola_declare` makes at run time, whose functions are all [`Spline`]s.
     ///
     /// None by default: then a fit holds the function as it is.
     fn values(&self) -> Vec<f64> {

@@ -10,10 +10,10 @@ use std::collections::BTreeMap;
 use std::sync::{LazyLock, OnceLock};
 
 use piola::__private::message::quoted;
-use piola::Inversion;
 use piola::batch;
 use piola::interpreter::Interpreted;
-use piola::material::{Description, MaterialError, Moduli, Text};
+use piola::material::{Description, Form, MaterialError, Moduli, Text};
+use piola::{Inversion, Spline, Univariate};
 use piola_declare::emit::Emission;
 use piola_declare::{Energy, nearest};
 use piola_laboratory::fit::Candidate;
@@ -21,9 +21,6 @@ use piola_materials::{DECLARATIONS, Declaration};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, list};
-use fitted::Fitted;
-
-mod fitted;
 
 /// Stretch below which a material is extended unless its specification has another.
 ///
@@ -210,14 +207,30 @@ impl MaterialSpec {
     /// The material as a candidate of the laboratory, for fits of its parameters.
     ///
     /// # Errors
-    /// Like [`MaterialSpec::build`], and [`Error::Inadmissible`] if the material has functions as parameters.
-    pub fn candidate(&self) -> Result<Box<dyn Candidate>, Error> {
+    /// Like [`MaterialSpec::build`].
+    pub fn candidate(&self) -> Result<Candidate, Error> {
         self.resolve(|energy, values, inversion| {
-            if !energy.is_fittable() {
-                return Err(MaterialError::NotFittable { material: energy.description().name.clone() });
-            }
-            let material = energy.material(values, inversion)?;
-            Ok(Box::new(Fitted { energy: energy.clone(), material }) as Box<dyn Candidate>)
+            Ok(Candidate::new(energy.clone(), energy.material(values, inversion)?))
+        })
+    }
+
+    /// The specification with the values of a fit, as [`Candidate::values`] lists them: those of a curve are
+    /// ordinates of its control points.
+    ///
+    /// # Errors
+    /// Like [`MaterialSpec::build`].
+    pub fn with_fitted(&self, values: &[Vec<f64>]) -> Result<Self, Error> {
+        self.resolve(|energy, given, _| {
+            let mut parameters = energy.description().parameters.iter().zip(given).zip(values);
+            parameters.try_fold(self.clone(), |spec, ((parameter, given), values)| {
+                let values = if parameter.form == Form::Points {
+                    let curve = Spline::from_values(given)?.with_values(values)?;
+                    curve.points().flatten().collect()
+                } else {
+                    values.clone()
+                };
+                Ok(spec.with_parameter(&parameter.name, values))
+            })
         })
     }
 
@@ -238,11 +251,7 @@ impl MaterialSpec {
         let (name, energy) = self.known()?;
         let refused = |mut source| {
             // Its declaration has a meaningless name if it is a formula.
-            if let (
-                Some(_),
-                MaterialError::NoExtension { material, .. } | MaterialError::NotFittable { material },
-            ) = (&self.energy, &mut source)
-            {
+            if let (Some(_), MaterialError::NoExtension { material, .. }) = (&self.energy, &mut source) {
                 *material = "the energy".into();
             }
             Error::Inadmissible { material: name.clone(), source }

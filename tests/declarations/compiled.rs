@@ -16,7 +16,7 @@
 //@ refuses [], [], 1: shear modulus
 //@ refuses-extension [3, -1], [2, 1], 4: mu[1] = -1, alpha[1] = 1, kappa = 4
 //@ points 64
-#[piola::material(domain(J > 0.0), admissible(mu[p] != 0.0), extend(mu[p] * alpha[p] * kappa > 0.0), fit)]
+#[piola::material(domain(J > 0.0), admissible(mu[p] != 0.0), extend(mu[p] * alpha[p] * kappa > 0.0))]
 pub fn Terms(
     [l1, l2, l3]: [f64; 3],
     /** Moduli, Pa. */
@@ -34,7 +34,7 @@ pub fn Terms(
 //@ values [6.3e5, 1.2e3, 1e4], [1.3, 5.0, 2.0], 2e6
 //@ values [6.3e5], [1.3], 2e6
 //@ epsilon 0.2
-#[piola::material(domain(J > 0.0), admissible(mu[p] != 0.0), extend(mu[p] * alpha[p] * kappa > 0.0), fit)]
+#[piola::material(domain(J > 0.0), admissible(mu[p] != 0.0), extend(mu[p] * alpha[p] * kappa > 0.0))]
 pub fn Fixed<const N: usize>(
     [l1, l2, l3]: [f64; 3],
     /** Moduli, Pa. */
@@ -52,7 +52,7 @@ pub fn Fixed<const N: usize>(
 //@ values [1e5, 1e5, 1e5], [1e6], [1e4, 2e4], [1e3]
 //@ values [1], [], [0, 0], [0]
 //@ points 64
-#[piola::material(domain(J > 0.0), fit)]
+#[piola::material(domain(J > 0.0))]
 pub fn Groups([l1, l2, l3]: [f64; 3], a: Vec<f64>, b: std::vec::Vec<f64>, c: [f64; 2], d: [f64; 1]) -> f64 {
     sum(|p| a[p]) * (I1 - 3.0 - 2.0 * J.ln())
         + (sum(|q| b[q]) + sum(|p| d[p])) * (J - 1.0).powi(2)
@@ -75,7 +75,6 @@ pub fn Groups([l1, l2, l3]: [f64; 3], a: Vec<f64>, b: std::vec::Vec<f64>, c: [f6
     domain(J > 0.0),
     admissible(c[p] >= 0.0),
     extend,
-    fit,
     typical("a soft rubber", c = [1.8e5, 2e3], i = [1, 2], j = [0, 0], K = 1e7)
 )]
 pub fn Series(
@@ -119,7 +118,7 @@ pub fn Products([l1, l2, l3]: [f64; 3], c: Vec<f64>, n: Vec<u32>, m: Vec<u32>) -
 //@ refuses 1, 1.5, 2, 1: `I1b < lm.powi(n)` must hold there too, but lm = 1.5, n = 2; change
 //@ refuses 1, 1.25, 3, 1: `I1b < lm.powi(n)` must hold there too, but lm = 1.25, n = 3; change
 //@ refuses 1, 1, 1, 1: `I1b < lm.powi(n)`
-#[piola::material(domain(J > 0.0, I1b < lm.powi(n)), fit)]
+#[piola::material(domain(J > 0.0, I1b < lm.powi(n)))]
 pub fn Locking([l1, l2, l3]: [f64; 3], mu: f64, lm: f64, n: u32, kappa: f64) -> f64 {
     -mu * (lm.powi(n) - I1b).ln() + kappa / 2.0 * (J - 1.0).powi(2)
 }

@@ -15,7 +15,7 @@ fn Kilian([l1, l2, l3]: [f64; 3], g: f64, lm: f64, a: f64, beta: f64, kappa: f64
 /// rubbers*, 1992.
 //@ values 2e5, 1e4, 1e4, 0.3, 1e7
 //@ points 64
-#[material(domain(J > 0.0), admissible(n > 0.0), fit)]
+#[material(domain(J > 0.0), admissible(n > 0.0))]
 fn YamashitaKawabata([l1, l2, l3]: [f64; 3], c1: f64, c2: f64, c3: f64, n: f64, kappa: f64) -> f64 {
     c1 * (I1b - 3) + c2 * (I2b - 3) + c3 / (n + 1) * (I1b - 3).powf(n + 1) + kappa / 2 * (J - 1).powi(2)
 }
@@ -103,7 +103,7 @@ fn Ending([l1, l2, l3]: [f64; 3], b: f64) -> f64 {
 //@ values 1e5, 0.4, 1e-2, 1e6
 //@ formula (I1 J^(−2/3) + c² − 3)^n
 //@ points 64
-#[material(domain(J > 0.0), admissible(n > 0.0), fit)]
+#[material(domain(J > 0.0), admissible(n > 0.0))]
 fn Gregory([l1, l2, l3]: [f64; 3], a: f64, n: f64, c: f64, kappa: f64) -> f64 {
     a * (I1b - 3.0 + c.powi(2)).powf(n) + kappa / 2.0 * (J - 1.0).powi(2)
 }

@@ -1,10 +1,7 @@
-//! Materials that are compiled and interpreted, compared: equal bits of all responses, and equal numbers for
-//! fits.
+//! Materials that are compiled and interpreted, compared: equal bits of all responses.
 
 use piola::__private::random::Random;
-use piola::interpreter::Interpreted;
-use piola::material::{Constraint, Fittable, Response};
-use piola_declare::Energy;
+use piola::material::Response;
 
 use crate::bits::Precision;
 
@@ -50,38 +47,5 @@ pub fn check<E: Precision>(what: &str, found: &[E], expected: &[E]) {
         let [one, other] = [found, expected].map(E::widen);
         let is_same = one.to_bits() == other.to_bits() || one.is_nan() && other.is_nan();
         assert!(is_same, "{what}, entry {k}: {found:?} interpreted, {expected:?} compiled");
-    }
-}
-
-/// Numbers that generated code computes once, with the logarithms and fused operations of the standard
-/// library: they differ by a few roundings of their largest terms.
-#[track_caller]
-fn check_close(what: &str, found: &[f64], expected: &[f64]) {
-    assert_eq!(found.len(), expected.len(), "{what}");
-    let scale = expected.iter().fold(0.0f64, |scale, value| scale.max(value.abs()));
-    for (k, (&found, &expected)) in found.iter().zip(expected).enumerate() {
-        let is_close = (found - expected).abs() <= 1e-12 * scale || found.is_nan() && expected.is_nan();
-        assert!(is_close, "{what}, entry {k}: {found:?} interpreted, {expected:?} compiled");
-    }
-}
-
-/// Fails unless both materials have the same values, slopes by the parameters, and conditions on these.
-#[track_caller]
-pub fn check_fit(energy: &Energy, interpreted: &Interpreted, compiled: &impl Fittable, at: [f64; 3]) {
-    let name = &energy.description().name;
-    assert_eq!(energy.values(interpreted), compiled.values(), "{name}");
-    let found = energy.gradient_by_parameters(interpreted, at).concat();
-    check_close(name, &found, &compiled.gradient_by_parameters(at).concat());
-    let pairs = [
-        (energy.constraints(interpreted), compiled.constraints()),
-        (energy.domain_constraints(interpreted, at), compiled.domain_constraints(at)),
-    ];
-    for (found, expected) in pairs {
-        let limits = |all: &[Constraint]| all.iter().map(|one| one.limit.clone()).collect::<Vec<_>>();
-        assert_eq!(limits(&found), limits(&expected), "{name}");
-        for (found, expected) in found.iter().zip(&expected) {
-            check_close(name, &[found.value], &[expected.value]);
-            check_close(name, &found.gradient, &expected.gradient);
-        }
     }
 }

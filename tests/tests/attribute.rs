@@ -8,11 +8,11 @@ use piola::__private::random::Random;
 use piola::batch::{Batch, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::lanes::Backend;
-use piola::material::{Argument, Declared, Fittable, MaterialError};
+use piola::material::{Argument, Declared, MaterialError};
 use piola::{Inversion, Material};
 use piola_tests::answers::{Answers, deformations};
-use piola_tests::declarations::{Sample, find, slices, values};
-use piola_tests::twins::{self, check_fit, responses};
+use piola_tests::declarations::{find, slices, values};
+use piola_tests::twins::{self, responses};
 
 #[path = "../declarations/compiled.rs"]
 mod declarations;
@@ -33,7 +33,7 @@ fn stretches() -> impl Iterator<Item = [f64; 3]> {
 
 /// Compares a compiled type with the energy of the same text, at all values of its remarks.
 #[track_caller]
-fn check<M: Declared>() -> (Sample, Vec<(M, Interpreted)>) {
+fn check<M: Declared>() -> Vec<(M, Interpreted)> {
     let sample = find("compiled", &M::DESCRIPTION.name);
     let energy = &sample.judged.energy;
     assert_eq!(*energy.description(), M::DESCRIPTION);
@@ -71,33 +71,17 @@ fn check<M: Declared>() -> (Sample, Vec<(M, Interpreted)>) {
             assert_eq!(format!("{refused:?}"), format!("{by_text:?}"), "{given}");
         }
     }
-    (sample, judged)
-}
-
-/// Compares derivatives by the parameters, and conditions on them, as well: within a few roundings of the
-/// largest terms, since generated code computes them with the logarithms of the standard library.
-#[track_caller]
-fn check_fittable<M: Fittable>() {
-    let (sample, judged) = check::<M>();
-    let energy = &sample.judged.energy;
-    for (compiled, interpreted) in judged {
-        let values = compiled.values();
-        let again = M::from_values(&slices(&values), Inversion::Refuse).expect("admissible");
-        assert_eq!(compiled.with_values(&slices(&values)).expect("admissible").values(), again.values());
-        for at in [[1.2, 1.0, 0.9], [1.3, 1.3, 0.7], [1.01, 1.0, 0.99]] {
-            check_fit(energy, &interpreted, &compiled, at);
-        }
-    }
+    judged
 }
 
 #[test]
 fn types_and_texts_give_the_same_bits() {
-    check_fittable::<Terms>();
-    check_fittable::<Fixed<1>>();
-    check_fittable::<Fixed<3>>();
-    check_fittable::<Groups>();
-    check_fittable::<Series>();
-    check_fittable::<Locking>();
+    check::<Terms>();
+    check::<Fixed<1>>();
+    check::<Fixed<3>>();
+    check::<Groups>();
+    check::<Series>();
+    check::<Locking>();
     check::<Springs>();
     check::<Products>();
     check::<LockingAtSum>();
@@ -115,7 +99,7 @@ fn types_and_texts_give_the_same_bits() {
 #[test]
 fn lists_have_the_same_bits_on_lanes() {
     let points = deformations().concat();
-    for (compiled, interpreted) in check::<Terms>().1 {
+    for (compiled, interpreted) in check::<Terms>() {
         for backend in Backend::available() {
             let materials: [&dyn TileMaterial<f64>; 2] = [&interpreted, &compiled];
             let [found, expected] =
@@ -135,10 +119,7 @@ fn lists_of_any_length_give_the_bits_of_arrays() -> Result<(), MaterialError> {
         for at in stretches() {
             let what = format!("{inversion:?} at {at:?}");
             twins::check(&what, &responses(&array, at), &responses(&vector, at));
-            let [found, expected] = [vector.gradient_by_parameters(at), array.gradient_by_parameters(at)];
-            assert_eq!(format!("{found:?}"), format!("{expected:?}"));
         }
-        assert_eq!(array.constraints(), vector.constraints());
     }
     Ok(())
 }
@@ -148,9 +129,7 @@ fn materials_lend_their_lists_and_replace_them() -> Result<(), MaterialError> {
     let terms = Terms::new(vec![3.0, 1.0], vec![2.0, 1.0], 4.0)?;
     let (mu, alpha): (&[f64], &[f64]) = (terms.mu(), terms.alpha());
     assert_eq!((mu, alpha, terms.kappa()), (&[3.0, 1.0][..], &[2.0, 1.0][..], 4.0));
-    let values = terms.values();
-    assert_eq!(values, [&[3.0, 1.0][..], &[2.0, 1.0], &[4.0]]);
-    assert_eq!(Terms::from_values(&slices(&values), Inversion::Refuse)?, terms);
+    assert_eq!(Terms::from_values(&[&[3.0, 1.0], &[2.0, 1.0], &[4.0]], Inversion::Refuse)?, terms);
     let replaced = terms.clone().with_mu(vec![3.0, 2.0])?;
     assert_eq!(replaced.mu(), [3.0, 2.0]);
     assert!(terms.with_mu(vec![3.0; 3]).is_err());

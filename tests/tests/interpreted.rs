@@ -11,16 +11,14 @@
 use piola::__private::random::Random;
 use piola::Inversion;
 use piola::batch::{Batch, Kernels, TileMaterial};
-use piola::interpreter::Interpreted;
 use piola::lanes::Backend;
-use piola::material::{Declared, Fittable, MaterialError};
+use piola::material::MaterialError;
 use piola::point::Filter;
-use piola_declare::Energy;
-use piola_materials::{CATALOGUE, Entry, Visitor};
+use piola_materials::{CATALOGUE, Entry};
 use piola_tests::answers::Answers;
 use piola_tests::bits::{Precision, draw};
 use piola_tests::energies::{ENERGIES, Judged, Subject, find};
-use piola_tests::twins::{check, check_fit, responses, stretches};
+use piola_tests::twins::{check, responses, stretches};
 
 /// Points of a batch: three tiles, the last of them not full.
 const POINTS: usize = 150;
@@ -104,30 +102,6 @@ fn single_points_have_the_bits_of_the_compiled_catalogue() {
                 check(&what, &responses::<f32>(&exact, at), &responses::<f32>(&*single, at));
             }
         }
-    }
-}
-
-/// Slopes by the parameters, conditions on them, and materials with other values.
-#[test]
-fn fits_have_the_numbers_of_the_compiled_catalogue() {
-    struct Slopes<'a>(&'a Energy, &'a Interpreted, [f64; 3]);
-    impl Visitor for Slopes<'_> {
-        /// True if the material is fittable.
-        type Output = bool;
-        fn visit<M: Declared + 'static>(self, _: M) -> bool {
-            false
-        }
-        fn visit_fittable<M: Fittable + 'static>(self, material: M) -> bool {
-            check_fit(self.0, self.1, &material, self.2);
-            true
-        }
-    }
-    for (Judged { energy, .. }, entry) in compiled() {
-        let values = entry.typical();
-        let interpreted = energy.material(&values, Inversion::Refuse).expect("typical parameters");
-        let slopes = Slopes(energy, &interpreted, [1.2, 1.0, 0.9]);
-        let is_fittable = entry.visit(&values, Inversion::Refuse, slopes).expect("typical parameters");
-        assert_eq!(is_fittable, energy.is_fittable(), "{}", entry.name);
     }
 }
 

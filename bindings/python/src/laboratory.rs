@@ -8,6 +8,7 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use piola::contract::{Notation, Settings, check};
 use piola::point::{stress, svd};
 use piola_declare::Energy;
+use piola_laboratory::Specimen;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
@@ -71,7 +72,7 @@ impl Material {
     /// restarts: number of further starts, at random about the first.
     /// seed: equal seeds give equal fits.
     ///
-    /// Returns a `Fit`. Raises FitError if nothing can be fitted, MaterialError if the material cannot be.
+    /// Returns a `Fit`. Raises FitError if nothing can be fitted.
     #[pyo3(signature = (
         data, /, *, incompressible = true, relative = true, held = Vec::new(), restarts = 20, seed = 1
     ))]
@@ -91,14 +92,14 @@ impl Material {
         let volume = volume(incompressible);
         let difference = if relative { Difference::Relative } else { Difference::Absolute };
         let settings = FitSettings { volume, difference, held, restarts, seed };
-        let fit = py.detach(|| fit_parameters(&*candidate, &data, &settings));
+        let fit = py.detach(|| fit_parameters(&candidate, &data, &settings));
         let Fit { values, numbers, agreement, difference, condition, ended, warnings, .. } =
             fit.map_err(|error| FitError::new_err(error.to_string()))?;
         let errors = numbers.iter().map(|number| (&number.name, number.error)).into_py_dict(py)?;
         let modes = agreement.modes.iter().map(|&(mode, value)| (mode.name(), value));
         let determination = modes.chain([("all", agreement.total)]).into_py_dict(py)?;
         let warnings: Vec<_> = warnings.iter().map(ToString::to_string).collect();
-        let material = Py::new(py, self.with_values(&values)?)?;
+        let material = Py::new(py, self.with_fitted(&values)?)?;
         let arguments = (material, errors, determination, difference, condition, ended.to_string(), warnings);
         py.import("piola.results")?.call_method1("Fit", arguments)
     }
@@ -159,8 +160,9 @@ impl Material {
     ///     the parameters of the material.
     ///
     /// Returns a dictionary from the names of the parameters to arrays of the shape of stresses, float32 if F
-    /// is; for a list, to an array with one more axis in front. Raises DomainError for an F outside of the
-    /// domain, MaterialError for an energy without these derivatives.
+    /// is; for a list, to an array with one more axis in front, and so for a curve: the derivatives by the
+    /// ordinates of its control points, except for one at x = 1. Raises DomainError for an F outside of the
+    /// domain.
     #[pyo3(signature = (F, /))]
     fn stress_by_parameters<'py>(
         &self,

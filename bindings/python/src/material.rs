@@ -199,13 +199,9 @@ impl Material {
         self.spec.interpreted().map_err(of_material)
     }
 
-    /// The material with other values, in the order of the declaration.
-    pub(crate) fn with_values(&self, values: &[Vec<f64>]) -> PyResult<Self> {
-        let named = self.declared()?.parameters.iter().zip(values);
-        let spec = named.fold(self.spec.clone(), |spec, (parameter, values)| {
-            spec.with_parameter(&parameter.name, values.clone())
-        });
-        Self::new(spec, self.extend())
+    /// The material with the values of a fit.
+    pub(crate) fn with_fitted(&self, values: &[Vec<f64>]) -> PyResult<Self> {
+        Self::new(self.spec.with_fitted(values).map_err(of_material)?, self.extend())
     }
 
     /// Description of the declaration.

@@ -64,14 +64,10 @@ impl Fit {
         let candidate = spec.candidate()?;
         let (held, restarts, seed) = (self.held, self.starts, self.seed);
         let settings = FitSettings { volume, held, restarts, seed, ..FitSettings::default() };
-        let fit = fit::fit_parameters(&*candidate, &data, &settings).map_err(|error| {
+        let fit = fit::fit_parameters(&candidate, &data, &settings).map_err(|error| {
             Error::usage(format!("{material} cannot be fitted: {error}{}", remedy(&error)))
         })?;
-        let parameters = candidate.description().parameters;
-        let fitted = parameters
-            .iter()
-            .zip(&fit.values)
-            .fold(spec, |spec, (parameter, values)| spec.with_parameter(&parameter.name, values.clone()));
+        let fitted = spec.with_fitted(&fit.values)?;
         let options = as_options(&fitted)?;
 
         let title = titled(&material, volume);

@@ -1,12 +1,16 @@
 //! The parameters with which Biderman's energy agrees best with Treloar's rubber.
 
-use biderman::Biderman;
+use piola::Inversion;
+use piola_declare::Energy;
 use piola_laboratory::data::{Measurements, TRELOAR_1944};
-use piola_laboratory::fit::{FitSettings, fit_parameters};
+use piola_laboratory::fit::{Candidate, FitSettings, fit_parameters};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // The same declaration as a text, of which the derivatives with respect to the parameters are made.
+    let energy = Energy::from_rust(include_str!("../src/lib.rs"))?;
     // Where the search begins: a shear modulus of 0.4 MPa, and a little of each.
-    let start = Biderman::new(1.9e5, 1e4, 1e2, 1e2, 2e7)?;
+    let rubber = energy.material(&[&[1.9e5], &[1e4], &[1e2], &[1e2], &[2e7]], Inversion::Refuse)?;
+    let start = Candidate::new(energy, rubber);
     let data = Measurements::read(TRELOAR_1944)?;
     let fitted = fit_parameters(&start, &data, &FitSettings::default())?;
 

@@ -1,7 +1,7 @@
 //! Biderman's energy of rubber.
 
 /// Rubber that stiffens [Biderman 1958], made compressible.
-#[piola::material(domain(J > 0.0), extend, fit)]
+#[piola::material(domain(J > 0.0), extend)]
 pub fn Biderman(
     [l1, l2, l3]: [f64; 3],
     /// Coefficient of I1 − 3, Pa.

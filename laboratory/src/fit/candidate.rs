@@ -1,56 +1,76 @@
-//! An energy whose parameters are sought, with its type out of sight.
+//! An energy whose parameters are sought.
 
-use piola::material::{Constraint, Description, Fittable, MaterialError};
+use piola::Material;
+use piola::interpreter::Interpreted;
+use piola::material::{Blocks, Constraint, Description, MaterialError};
+use piola_declare::Energy;
 
 use crate::specimen::Specimen;
 
-/// A [`Specimen`] that can be rebuilt with other parameters: any [`Fittable`] material.
-pub trait Candidate: Specimen {
-    /// Names, formula and domain of the declaration.
-    fn description(&self) -> Description;
+/// A material of an energy that was declared at run time, which can be rebuilt with other parameters.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    energy: Energy,
+    material: Interpreted,
+}
 
-    /// The parameters, one list for each of the description: [`Fittable::values`].
-    fn values(&self) -> Vec<Vec<f64>>;
+impl Candidate {
+    /// The material of an energy, as [`Energy::material`] makes it.
+    #[must_use]
+    pub fn new(energy: Energy, material: Interpreted) -> Self {
+        Self { energy, material }
+    }
+
+    /// Names, formula and domain of the declaration.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        self.energy.description()
+    }
+
+    /// The parameters, one list for each of the description: [`Energy::values`].
+    #[must_use]
+    pub fn values(&self) -> Vec<Vec<f64>> {
+        self.energy.values(&self.material)
+    }
 
     /// The energy with these parameters and without extension.
     ///
     /// # Errors
-    /// [`MaterialError`] if the constructor refuses.
-    fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, MaterialError>;
+    /// [`MaterialError`] of [`Energy::with_values`].
+    pub fn with_values(&self, values: &[Vec<f64>]) -> Result<Self, MaterialError> {
+        Ok(Self::new(self.energy.clone(), self.energy.with_values(&self.material, values)?))
+    }
 
-    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, at stretches λ1 ≥ λ2 ≥ λ3 > 0.
-    fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]>;
+    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, at stretches λ1 ≥ λ2 ≥ λ3 > 0:
+    /// [`Energy::gradient_by_parameters`].
+    #[must_use]
+    pub fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]> {
+        self.energy.gradient_by_parameters(&self.material, stretches)
+    }
 
-    /// The conditions on the parameters: [`Fittable::constraints`].
-    fn constraints(&self) -> Vec<Constraint>;
+    /// The conditions on the parameters: [`Energy::constraints`].
+    #[must_use]
+    pub fn constraints(&self) -> Vec<Constraint> {
+        self.energy.constraints(&self.material)
+    }
 
-    /// The conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0: [`Fittable::domain_constraints`].
-    fn domain_constraints(&self, stretches: [f64; 3]) -> Vec<Constraint>;
+    /// The conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0: [`Energy::domain_constraints`].
+    #[must_use]
+    pub fn domain_constraints(&self, stretches: [f64; 3]) -> Vec<Constraint> {
+        self.energy.domain_constraints(&self.material, stretches)
+    }
 }
 
-impl<M: Fittable + 'static> Candidate for M {
-    fn description(&self) -> Description {
-        M::DESCRIPTION
+impl Specimen for Candidate {
+    fn gradient_at_strains(&self, strains: [f64; 3]) -> [f64; 3] {
+        Material::gradient_at_strains(&self.material, strains)
     }
 
-    fn values(&self) -> Vec<Vec<f64>> {
-        Fittable::values(self)
+    fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64> {
+        Material::blocks(&self.material, stretches)
     }
 
-    fn with_values(&self, values: &[Vec<f64>]) -> Result<Box<dyn Candidate>, MaterialError> {
-        let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
-        Ok(Box::new(Fittable::with_values(self, &values)?))
-    }
-
-    fn gradient_by_parameters(&self, stretches: [f64; 3]) -> Vec<[f64; 3]> {
-        Fittable::gradient_by_parameters(self, stretches)
-    }
-
-    fn constraints(&self) -> Vec<Constraint> {
-        Fittable::constraints(self)
-    }
-
-    fn domain_constraints(&self, stretches: [f64; 3]) -> Vec<Constraint> {
-        Fittable::domain_constraints(self, stretches)
+    fn admits(&self, stretches: [f64; 3]) -> bool {
+        Specimen::admits(&self.material, stretches)
     }
 }

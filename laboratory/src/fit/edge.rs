@@ -2,9 +2,9 @@
 //!
 //! If the Gauss–Newton step d that minimises |r + J d| is worth taking and is refused at any length, the
 //! search stands at an edge. Its normal is the gradient of the constraint that refuses, which the declaration
-//! of the energy provides ([`Fittable::constraints`](piola::material::Fittable::constraints)). Then d is
-//! sought in what the edges leave free, each kept only as long as its Lagrange multiplier shows that the step
-//! would cross it: the active-set method of quadratic programming \[NW06, section 16.5\].
+//! of the energy provides ([`Energy::constraints`](piola_declare::Energy::constraints)). Then d is sought in
+//! what the edges leave free, each kept only as long as its Lagrange multiplier shows that the step would
+//! cross it: the active-set method of quadratic programming \[NW06, section 16.5\].
 //!
 //! Coordinates are parameters scaled so that each changes the residuals by the length one.
 //!

@@ -17,7 +17,7 @@ const REFUSED: f64 = 1e100;
 /// Energy to be fitted, and the points that count.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
-    pub(super) start: &'a dyn Candidate,
+    pub(super) start: &'a Candidate,
     /// The number of values of each parameter, and its form.
     pub(super) parameters: &'a [(usize, Form)],
     /// Indices of the free numbers among the values of all parameters.
@@ -29,12 +29,12 @@ pub(super) struct Task<'a> {
 
 /// Result of a trial: the energy with its parameters and its response at each point, or the reason for a
 /// refusal.
-pub(super) type Trial = Result<(Box<dyn Candidate>, Vec<Response>), TrialError>;
+pub(super) type Trial = Result<(Candidate, Vec<Response>), TrialError>;
 
 impl Task<'_> {
     pub(super) fn attempt(&self, values: &[f64]) -> Trial {
         let candidate = self.start.with_values(&self.lists(values))?;
-        let response = |(point, _): &(Measured, f64)| point.response(&*candidate, self.volume);
+        let response = |(point, _): &(Measured, f64)| point.response(&candidate, self.volume);
         let responses = self.points.iter().map(response).collect::<Result<_, _>>()?;
         Ok((candidate, responses))
     }
@@ -110,8 +110,8 @@ impl<'a> Problem<'a> {
     }
 
     /// The energy as tried last, or where it was refused, as given.
-    pub(super) fn specimen(&self) -> &dyn Candidate {
-        self.trial.as_ref().map_or(self.task.start, |(candidate, _)| &**candidate)
+    pub(super) fn specimen(&self) -> &Candidate {
+        self.trial.as_ref().map_or(self.task.start, |(candidate, _)| candidate)
     }
 
     /// ∂r/∂p of the free numbers p in their own units; `None` where the trial is refused.

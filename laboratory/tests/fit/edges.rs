@@ -5,15 +5,15 @@ use piola::material::MaterialError;
 use piola_laboratory::curve::{Mode, ResponseError, Volume, respond};
 use piola_laboratory::data::PointError;
 use piola_laboratory::fit::{Difference, Ended, Fit, FitSettings, TrialError, Warning, fit_parameters};
-use piola_materials::{MooneyRivlin, NeoHookean};
 
-use super::{Linear, Outcome, by, tension, text, told, treloar};
+use super::{Linear, Outcome, by, candidate, of_numbers, rubber, tension, text, told, treloar};
 
 /// An edge is met as nearly as a step that gains less than 1e-10 of Σ r² comes to it.
 const GAIN: f64 = 1e-10;
 
 /// Solid of third order after Murnaghan, linear in its parameters.
-#[piola::material(domain(J > 0.0), fit)]
+const MURNAGHAN: &str = "
+#[material(domain(J > 0.0))]
 fn Murnaghan([l1, l2, l3]: [f64; 3], lambda: f64, mu: f64, l: f64, m: f64, n: f64) -> f64 {
     let E1 = (l1.powi(2) - 1.0) / 2.0;
     let E2 = (l2.powi(2) - 1.0) / 2.0;
@@ -23,31 +23,35 @@ fn Murnaghan([l1, l2, l3]: [f64; 3], lambda: f64, mu: f64, l: f64, m: f64, n: f6
     let J3 = E1 * E2 * E3;
     let second = (lambda + 2.0 * mu) / 2.0 * J1.powi(2) - 2.0 * mu * J2;
     second + (l + 2.0 * m) / 3.0 * J1.powi(3) - 2.0 * m * J1 * J2 + n * J3
-}
+}";
 
 /// Rubber after Mooney between bounds of no physical meaning.
-#[piola::material(domain(J > 0.0), fit, admissible(c1 <= 1e5, c2 >= 1e4, c1 + c2 <= 1.2e5))]
+const BOUNDED: &str = "
+#[material(domain(J > 0.0), admissible(c1 <= 1e5, c2 >= 1e4, c1 + c2 <= 1.2e5))]
 fn Bounded([l1, l2, l3]: [f64; 3], c1: f64, c2: f64) -> f64 {
     c1 * (I1b - 3.0) + c2 * (I2b - 3.0) + 1e8 * (J - 1.0).powi(2)
-}
+}";
 
 /// The same inside a circle.
-#[piola::material(domain(J > 0.0), fit, admissible(c1.powi(2) + c2.powi(2) <= 1e10))]
+const ROUND: &str = "
+#[material(domain(J > 0.0), admissible(c1.powi(2) + c2.powi(2) <= 1e10))]
 fn Round([l1, l2, l3]: [f64; 3], c1: f64, c2: f64) -> f64 {
     c1 * (I1b - 3.0) + c2 * (I2b - 3.0) + 1e8 * (J - 1.0).powi(2)
-}
+}";
 
 /// Rubber that softens until I1 = a.
-#[piola::material(domain(J > 0.0, a - I1b > 0.0), fit)]
+const SOFTENING: &str = "
+#[material(domain(J > 0.0, a - I1b > 0.0))]
 fn Softening([l1, l2, l3]: [f64; 3], mu: f64, a: f64) -> f64 {
     mu * (I1b - 3.0) * (2.0 * a - I1b - 3.0) + 1e8 * (J - 1.0).powi(2)
-}
+}";
 
 /// Powers of the first invariant above a bound.
-#[piola::material(domain(J > 0.0), fit, admissible(alpha[p] >= 1.5))]
+const POWERS: &str = "
+#[material(domain(J > 0.0), admissible(alpha[p] >= 1.5))]
 fn Powers<const N: usize>([l1, l2, l3]: [f64; 3], mu: [f64; N], alpha: [f64; N]) -> f64 {
     sum(|p| mu[p] / alpha[p] * (I1b / 3.0).powf(alpha[p])) + 1e8 * (J - 1.0).powi(2)
-}
+}";
 
 /// The reason for the rejection at each edge.
 fn edges(fit: &Fit) -> Vec<&TrialError> {
@@ -95,7 +99,7 @@ fn mooney(stretches: [f64; 3]) -> [[f64; 2]; 3] {
 
 #[test]
 fn where_the_bulk_modulus_may_not_fall_below_zero_the_best_fit_has_none() -> Outcome {
-    let start = Murnaghan::new(2e7, 4e5, -1e3, -1e3, -1e3)?;
+    let start = of_numbers(MURNAGHAN, &[2e7, 4e5, -1e3, -1e3, -1e3])?;
     let data = treloar();
     // λ = −2/3 μ.
     let mut edge = DMatrix::zeros(5, 4);
@@ -122,7 +126,7 @@ fn bounds_that_end_a_fit_are_named() -> Outcome {
     let data = treloar();
     for difference in [Difference::Relative, Difference::Absolute] {
         // The second runs into the corner of two bounds, one of which it can leave.
-        for start in [Bounded::new(5e4, 2e4)?, Bounded::new(2e4, 9e4)?] {
+        for start in [of_numbers(BOUNDED, &[5e4, 2e4])?, of_numbers(BOUNDED, &[2e4, 9e4])?] {
             let found = fit_parameters(&start, &data, &by(difference))?;
             let edge = DMatrix::from_column_slice(2, 1, &[0.0, 1.0]);
             let corner = DVector::from_vec(vec![1e5, 0.0]);
@@ -144,12 +148,12 @@ fn bounds_that_end_a_fit_are_named() -> Outcome {
 fn in_a_corner_both_bounds_are_named() -> Outcome {
     // Of a rubber with more of c1. In tension c1 gives more stress than c2 does, so that both bounds are in
     // its way.
-    let (wanted, mut data) = (MooneyRivlin::new(1.5e5, 1e3, 1e8)?, treloar());
+    let (wanted, mut data) = (rubber("mooney_rivlin", &[1.5e5, 1e3, 1e8])?, treloar());
     data.points.retain(|point| point.mode == Mode::Uniaxial);
     for point in &mut data.points {
         point.stress = respond(&wanted, point.mode, Volume::Kept, point.control)?.stress;
     }
-    let found = fit_parameters(&Bounded::new(5e4, 2e4)?, &data, &FitSettings::default())?;
+    let found = fit_parameters(&of_numbers(BOUNDED, &[5e4, 2e4])?, &data, &FitSettings::default())?;
     let mut bounds = conditions(&found);
     bounds.sort_unstable();
     assert_eq!(bounds, ["c1 + c2 <= 1.2e5", "c1 <= 1e5"]);
@@ -162,7 +166,7 @@ fn in_a_corner_both_bounds_are_named() -> Outcome {
 #[test]
 fn curved_edges_are_followed() -> Outcome {
     let data = treloar();
-    for start in [Round::new(5e4, 2e4)?, Round::new(2e4, 8e4)?] {
+    for start in [of_numbers(ROUND, &[5e4, 2e4])?, of_numbers(ROUND, &[2e4, 8e4])?] {
         let found = fit_parameters(&start, &data, &FitSettings::default())?;
         let linear = Linear::new(&data, Difference::Relative, mooney);
         let on_circle = |angle: f64| {
@@ -182,7 +186,7 @@ fn curved_edges_are_followed() -> Outcome {
 fn points_that_lose_their_stress_are_an_edge_too() -> Outcome {
     // The last point would have I1 > a.
     let data = tension(&[(1.1, 2e4), (1.5, 1e5), (2.0, 1.2e5), (2.5, 1e5), (3.0, -5e4)]);
-    let found = fit_parameters(&Softening::new(1e4, 20.0)?, &data, &by(Difference::Absolute))?;
+    let found = fit_parameters(&of_numbers(SOFTENING, &[1e4, 20.0])?, &data, &by(Difference::Absolute))?;
     assert_eq!(found.ended, Ended::Edge);
     let Some(TrialError::Point(PointError { point, reason })) = edges(&found).first() else {
         panic!("{found:?}");
@@ -197,7 +201,7 @@ fn points_that_lose_their_stress_are_an_edge_too() -> Outcome {
 fn a_fit_worse_than_the_mean_says_so() -> Outcome {
     // No shear modulus pushes when it is pulled.
     let data = tension(&[(1.5, -1e5), (2.0, -2e5), (2.5, -2.2e5)]);
-    let found = fit_parameters(&NeoHookean::new(1e5, 1e7)?, &data, &FitSettings::default())?;
+    let found = fit_parameters(&rubber("neo_hookean", &[1e5, 1e7])?, &data, &FitSettings::default())?;
     assert!(found.agreement.total < Some(0.0) && text(&found).contains("below 0"), "{found:?}");
     assert_eq!(conditions(&found), ["mu > 0"]);
     assert_eq!(found.warnings.len(), 3, "nothing about λ, poor, edge: {found:?}");
@@ -206,7 +210,7 @@ fn a_fit_worse_than_the_mean_says_so() -> Outcome {
 
 #[test]
 fn entries_of_lists_at_an_edge_go_by_their_names_among_the_numbers() -> Outcome {
-    let found = fit_parameters(&Powers::new([3e5], [2.0])?, &treloar(), &FitSettings::default())?;
+    let found = fit_parameters(&candidate(POWERS, &[&[3e5], &[2.0]])?, &treloar(), &FitSettings::default())?;
     assert_eq!(conditions(&found), ["alpha[p] >= 1.5"]);
     let text = text(&found);
     assert!(

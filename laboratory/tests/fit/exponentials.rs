@@ -4,12 +4,12 @@
 use piola_laboratory::fit::{
     Candidate, Ended, Fit, FitError, FitSettings, Standing, Warning, fit_parameters,
 };
-use piola_materials::Ogden;
 
-use super::{Outcome, told, treloar};
+use super::{Outcome, candidate, catalogue, of_numbers, told, treloar};
 
 /// Rubber after Mansouri and Darijani 2014, made compressible.
-#[piola::material(domain(J > 0.0), fit)]
+const EXPONENTIALS: &str = "
+#[material(domain(J > 0.0))]
 fn Exponentials(
     [l1, l2, l3]: [f64; 3],
     A: f64,
@@ -23,10 +23,10 @@ fn Exponentials(
     let tension = A * ((m * (l1.powf(alpha) + l2.powf(alpha) + l3.powf(alpha) - 3.0)).exp() - 1.0);
     let compression = B * ((n * (l1.powf(-beta) + l2.powf(-beta) + l3.powf(-beta) - 3.0)).exp() - 1.0);
     tension + compression - (A * m * alpha - B * n * beta) * J.ln() + kappa / 2.0 * (J - 1.0).powi(2)
-}
+}";
 
 /// To Treloar's data.
-fn fitted(start: &dyn Candidate, settings: &FitSettings) -> Result<Fit, FitError> {
+fn fitted(start: &Candidate, settings: &FitSettings) -> Result<Fit, FitError> {
     fit_parameters(start, &treloar(), settings)
 }
 
@@ -51,7 +51,7 @@ fn indifferent(fit: &Fit) -> Vec<&str> {
 fn what_is_drowned_at_the_start_is_not_indifferent() -> Outcome {
     // Along two axes the exponent of the second term is 40; at small stretches the first is most of the
     // stress.
-    let start = Exponentials::new(1e7, 0.018, 2.0, 1e5, 0.1, 2.0, 2e7)?;
+    let start = of_numbers(EXPONENTIALS, &[1e7, 0.018, 2.0, 1e5, 0.1, 2.0, 2e7])?;
     // With A, m, and alpha as given R² would be 0.77 from there.
     for (settings, determination) in [(alone(), 0.9), (FitSettings::default(), 0.995)] {
         let found = fitted(&start, &settings)?;
@@ -65,7 +65,7 @@ fn what_is_drowned_at_the_start_is_not_indifferent() -> Outcome {
 
 #[test]
 fn what_a_factor_of_zero_hides_is_not_indifferent() -> Outcome {
-    let start = Ogden::new([6e5, 0.0], [1.3, 5.0], 2e7)?;
+    let start = candidate(catalogue("ogden"), &[&[6e5, 0.0], &[1.3, 5.0], &[2e7]])?;
     assert_eq!(indifferent(&fitted(&start, &FitSettings::default())?), ["kappa"]);
     let held = FitSettings { held: vec!["mu_2".into()], ..FitSettings::default() };
     assert_eq!(indifferent(&fitted(&start, &held)?), ["alpha_2", "kappa"]);
@@ -74,12 +74,12 @@ fn what_a_factor_of_zero_hides_is_not_indifferent() -> Outcome {
 
 #[test]
 fn at_an_edge_no_one_is_sent_back_to_it() -> Outcome {
-    let start = Exponentials::new(4.98e6, 0.0152, 2.15, 1e7, 0.15, 0.5, 2e7)?;
+    let start = of_numbers(EXPONENTIALS, &[4.98e6, 0.0152, 2.15, 1e7, 0.15, 0.5, 2e7])?;
     let found = fitted(&start, &alone())?;
     assert_eq!(found.ended, Ended::Edge);
     assert!(found.warnings.iter().any(|warning| matches!(warning, Warning::Edge { .. })), "{found:?}");
     assert!(!found.warnings.contains(&Warning::Unfinished), "{found:?}");
-    let again = fitted(start.with_values(&found.values)?.as_ref(), &alone())?;
+    let again = fitted(&start.with_values(&found.values)?, &alone())?;
     // What is worth no step is 1e-10 of Σ r²; half of that of its root.
     assert!(
         again.difference >= found.difference * (1.0 - 1e-10),

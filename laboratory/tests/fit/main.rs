@@ -7,11 +7,37 @@ mod known;
 mod minima;
 
 use nalgebra::{DMatrix, DVector};
+use piola::Inversion;
+use piola_declare::Energy;
 use piola_laboratory::curve::{Mode, Volume, respond};
 use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
 use piola_laboratory::fit::{Candidate, Difference, Fit, FitSettings, Warning};
+use piola_materials::DECLARATIONS;
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+
+/// The material of an energy that a text declares, with these values.
+fn candidate(text: &str, values: &[&[f64]]) -> Outcome<Candidate> {
+    let energy = Energy::from_rust(text)?;
+    let material = energy.material(values, Inversion::Refuse)?;
+    Ok(Candidate::new(energy, material))
+}
+
+/// The same of an energy whose parameters are all numbers.
+fn of_numbers(text: &str, values: &[f64]) -> Outcome<Candidate> {
+    candidate(text, &values.iter().map(std::slice::from_ref).collect::<Vec<_>>())
+}
+
+/// A rubber of the catalogue, with parameters that are all numbers.
+fn rubber(name: &str, values: &[f64]) -> Outcome<Candidate> {
+    of_numbers(catalogue(name), values)
+}
+
+/// The text of an energy of the catalogue.
+fn catalogue(name: &str) -> &'static str {
+    let known = DECLARATIONS.iter().find(|declaration| declaration.name == name);
+    known.expect("an energy of the catalogue").source
+}
 
 fn treloar() -> Measurements {
     Measurements::read(TRELOAR_1944).expect("a table")
@@ -24,7 +50,7 @@ fn tension(points: &[(f64, f64)]) -> Measurements {
 }
 
 /// What a material answers in these tests, as if measured.
-fn synthetic(material: &dyn Candidate, volume: Volume, modes: &[Mode], controls: &[f64]) -> Measurements {
+fn synthetic(material: &Candidate, volume: Volume, modes: &[Mode], controls: &[f64]) -> Measurements {
     let mut points = Vec::new();
     for &mode in modes {
         for &control in controls {

@@ -4,10 +4,11 @@ use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::data::Measurements;
 use piola_laboratory::fit::{Candidate, Fit, FitSettings, Warning, fit_parameters};
 
-use super::{Outcome, synthetic, text, told, treloar};
+use super::{Outcome, candidate, of_numbers, synthetic, text, told, treloar};
 
 /// Rubber after Swanson 1985: two sums.
-#[piola::material(domain(J > 0.0), admissible(alpha[p] > -1.0, beta[p] > -1.0), fit)]
+const SWANSON: &str = "
+#[material(domain(J > 0.0), admissible(alpha[p] > -1.0, beta[p] > -1.0))]
 fn Swanson<const N: usize>(
     [l1, l2, l3]: [f64; 3],
     a: [f64; N],
@@ -19,19 +20,20 @@ fn Swanson<const N: usize>(
     let first = sum(|p| a[p] / (1.0 + alpha[p]) * (I1b / 3.0).powf(1.0 + alpha[p]));
     let second = sum(|p| b[p] / (1.0 + beta[p]) * (I2b / 3.0).powf(1.0 + beta[p]));
     1.5 * (first + second) + kappa / 2.0 * (J - 1.0).powi(2)
-}
+}";
 
 /// Rubber after Hoss and Marczak 2010, the part for large stretches of which becomes an exponential as n
 /// grows.
-#[piola::material(domain(J > 0.0), admissible(beta > 0.0, b > 0.0, n > 0.0), fit)]
+const HOSS_MARCZAK: &str = "
+#[material(domain(J > 0.0), admissible(beta > 0.0, b > 0.0, n > 0.0))]
 fn HossMarczak([l1, l2, l3]: [f64; 3], alpha: f64, beta: f64, mu: f64, b: f64, n: f64, kappa: f64) -> f64 {
     let small = alpha / beta * (1.0 - (-beta * (I1b - 3.0)).exp());
     let large = mu / (2.0 * b) * ((1.0 + b * (I1b - 3.0) / n).powf(n) - 1.0);
     small + large + kappa / 2.0 * (J - 1.0).powi(2)
-}
+}";
 
 /// What a material answers in three tests, as if measured.
-fn measured(material: &dyn Candidate) -> Measurements {
+fn measured(material: &Candidate) -> Measurements {
     let modes = [Mode::Uniaxial, Mode::Equibiaxial, Mode::PureShear];
     synthetic(material, Volume::Kept, &modes, &[1.05, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0])
 }
@@ -48,9 +50,9 @@ fn ambiguous(fit: &Fit) -> Vec<(&str, f64, f64)> {
 
 #[test]
 fn terms_of_each_sum_change_places_unsaid_unless_one_has_vanished() -> Outcome {
-    let start = Swanson::new([2e5, 2e3], [0.3, 2.0], [1e4, 2e2], [-0.2, 1.0], 2e7)?;
+    let start = candidate(SWANSON, &[&[2e5, 2e3], &[0.3, 2.0], &[1e4, 2e2], &[-0.2, 1.0], &[2e7]])?;
     let fitted = |last: f64| -> Result<Fit, Box<dyn std::error::Error>> {
-        let truth = Swanson::new([3e5, 1e3], [0.2, 2.5], [2e4, last], [-0.3, 1.4], 2e7)?;
+        let truth = candidate(SWANSON, &[&[3e5, 1e3], &[0.2, 2.5], &[2e4, last], &[-0.3, 1.4], &[2e7]])?;
         Ok(fit_parameters(&start, &measured(&truth), &FitSettings::default())?)
     };
     let found = fitted(1e2)?;
@@ -67,8 +69,8 @@ fn terms_of_each_sum_change_places_unsaid_unless_one_has_vanished() -> Outcome {
 
 #[test]
 fn what_grows_without_end_is_said_once() -> Outcome {
-    let start = HossMarczak::new(2e5, 0.1, 2e5, 0.02, 2.0, 2e7)?;
-    let limit = HossMarczak::new(2e5, 0.1, 2e5, 0.02, 1e9, 2e7)?;
+    let start = of_numbers(HOSS_MARCZAK, &[2e5, 0.1, 2e5, 0.02, 2.0, 2e7])?;
+    let limit = of_numbers(HOSS_MARCZAK, &[2e5, 0.1, 2e5, 0.02, 1e9, 2e7])?;
     // Of Treloar's, n grows until 1 + b (I1 − 3)/n is rounding, and the stresses show it.
     for data in [measured(&limit), treloar()] {
         let found = fit_parameters(&start, &data, &FitSettings::default())?;

@@ -11,7 +11,6 @@ pub use crate::read::notation::{condition_text, spaced};
 use crate::read::parse::{Declaration, Kind, documentation};
 use constructor::constructor;
 use declared::declared;
-use fittable::fittable;
 use material::material;
 use serde::serde;
 
@@ -19,7 +18,6 @@ pub mod condition;
 mod constructor;
 mod declared;
 pub mod documentation;
-mod fittable;
 mod functions;
 mod invariants;
 mod material;
@@ -36,7 +34,6 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
     let constructor = constructor(declaration, &mut model);
     let material = material(declaration, &mut model);
     let declared = declared(declaration, &model.units, &texts);
-    let fittable = fittable(declaration, &mut model);
     let serde = serde(declaration);
     quote! {
         #structure
@@ -45,7 +42,6 @@ pub fn emit(declaration: &Declaration, mut model: Model) -> TokenStream {
             #constructor
             #material
             #declared
-            #fittable
             #serde
         };
     }

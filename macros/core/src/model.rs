@@ -5,11 +5,10 @@ use std::rc::Rc;
 use rustc_hash::FxHashMap;
 use syn::{BinOp, Expr};
 
-use crate::algebra::by_parameters::by_parameters;
 use crate::algebra::cancellation::{lossy, over_one_denominator};
 use crate::algebra::diff::derivatives;
 use crate::algebra::expand::expand_products;
-use crate::algebra::expr::{Graph, Id, Length, Node};
+use crate::algebra::expr::{Graph, Id, Node};
 use crate::algebra::extension;
 use crate::algebra::increment::{Increments, substitute_rest};
 use crate::algebra::interpret::Point;
@@ -20,17 +19,16 @@ use crate::algebra::simplify::simplify;
 use crate::judge::{self, Derived, Source};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
-use crate::read::notation::condition_text;
-use crate::read::parse::{Declaration, Parameter};
+use crate::read::parse::Declaration;
 use crate::read::resolve::{self, Resolver};
 use crate::read::unit::Unit;
 use crate::schedule::count::Count;
 use crate::schedule::{Collector, Program, schedule};
+pub use by_parameters::{ByParameters, Constraint, Limit};
 use forms::{Evaluated, Prepared};
-pub use slopes::{Group, Slopes};
 
+mod by_parameters;
 mod forms;
-mod slopes;
 
 /// Pairs of stretches, in the order of `piola::material::PAIRS`.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -60,16 +58,13 @@ pub struct Model {
     pub units: Vec<Option<Unit>>,
     /// Small-strain μ and λ.
     pub moduli: [Id; 2],
-    /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p inside the domain for each parameter p, if requested.
-    pub by_parameters: Option<Vec<[Id; 3]>>,
-    /// Conditions that keep parameters admissible, if requested; those on the entries of lists come last.
-    pub constraints: Vec<Constraint>,
-    /// Conditions on parameters that keep given stretches inside the domain, if requested.
-    pub domain_constraints: Vec<Constraint>,
     /// Sums that cancel on flat, thin or huge elements and cost digits there.
     pub lossy: Vec<Id>,
     /// Points of the domain with admissible parameters.
     pub samples: Vec<Point>,
+    /// The conditions on the parameters that the constructor checks, as expressions; `None` for those
+    /// without one.
+    constrained: Vec<Option<Id>>,
     programs: FxHashMap<Vec<Id>, Rc<Program>>,
     collector: Collector,
 }
@@ -102,32 +97,6 @@ impl Model {
         let count = |(name, roots): (_, Vec<_>)| (name, Count::of(&self.program(&roots)));
         results.into_iter().map(count).collect()
     }
-}
-
-/// A condition on parameters: an expression that is positive, or at least not negative, if it holds.
-#[derive(Clone, Debug)]
-pub struct Constraint {
-    /// Origin of the condition.
-    pub limit: Limit,
-    /// The length of the lists for whose entries it holds, one by one.
-    pub length: Option<Length>,
-    /// The expression.
-    pub value: Id,
-    /// Its derivative by each parameter, or by the entry of each list.
-    pub by_parameters: Vec<Id>,
-}
-
-/// Origin of a condition on parameters.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// A comparison of `admissible(…)`, by its text.
-    Admissible(String),
-    /// The shear modulus at rest is positive.
-    ShearModulus,
-    /// The bulk modulus at rest is not negative.
-    BulkModulus,
-    /// A comparison of `domain(…)` at given stretches, by its text.
-    Domain(String),
 }
 
 /// One energy with its derivatives, ready for scheduling.
@@ -225,7 +194,7 @@ fn read_into(
         return None;
     }
     let prepared = forms::prepare(&mut graph, &source, &samples);
-    let (mut model, derived) = derive(graph, &source, &constrained, &prepared, samples)?;
+    let (mut model, derived) = derive(graph, &source, constrained, &prepared, samples)?;
     let findings = judge::derived(&mut model.graph, &source, &derived, &model.samples);
     judge::report(findings, diagnostics);
     Some(model)
@@ -236,14 +205,14 @@ fn read_into(
 fn derive(
     mut graph: Graph,
     source: &Source<'_>,
-    constrained: &[Option<Id>],
+    constrained: Vec<Option<Id>>,
     prepared: &Prepared,
     samples: Vec<Point>,
 ) -> Option<(Model, Derived)> {
     let Source { declaration, energy, volume, .. } = *source;
     let options = &declaration.options;
     let bounds = prepared.bounds.clone();
-    let bounds_at_rest = bounds_at_rest(&mut graph, declaration, &bounds, constrained);
+    let bounds_at_rest = bounds_at_rest(&mut graph, declaration, &bounds, &constrained);
     let plain = variant(&mut graph, prepared.energy, &samples, volume == Volume::Positive);
     if graph.is_full() {
         return None;
@@ -280,25 +249,7 @@ fn derive(
             let (gradient, hessian) = derivatives(&mut graph, energy);
             ByInvariants { energy, has_energy, gradient, hessian, bounds }
         });
-    let variables: Vec<_> = declaration.parameters.iter().enumerate().map(variable).collect();
-    let by_parameters = options.fit.then(|| by_parameters(&mut graph, &variables, plain.gradient));
     let moduli = moduli.map(|modulus| expand_products(&mut graph, modulus));
-    let (mut constraints, mut domain_constraints) = (Vec::new(), Vec::new());
-    if options.fit {
-        let admissible = options.admissible.iter().zip(constrained);
-        let admissible = admissible
-            .filter_map(|(condition, &value)| Some((Limit::Admissible(condition_text(condition)), value?)));
-        let bulk = bulk(&mut graph, moduli);
-        let moduli = [(Limit::ShearModulus, moduli[0]), (Limit::BulkModulus, bulk)];
-        // Moduli of a stressed rest state determine no response.
-        let moduli = moduli.into_iter().filter(|_| !options.prestressed);
-        let domain = declaration.bounds().map(|condition| Limit::Domain(condition_text(condition)));
-        let domain = domain.zip(bounds.iter().copied());
-        let mut constraint = |(limit, value)| constraint(&mut graph, &variables, limit, value);
-        constraints.extend(admissible.chain(moduli).map(&mut constraint));
-        constraints.sort_by_key(|constraint| constraint.length.is_some());
-        domain_constraints.extend(domain.map(&mut constraint));
-    }
     let units = judge::units_of_parameters(&graph, source);
     let model = Model {
         graph,
@@ -312,30 +263,13 @@ fn derive(
         volume,
         units,
         moduli,
-        by_parameters,
-        constraints,
-        domain_constraints,
         lossy,
         samples,
+        constrained,
         programs: FxHashMap::default(),
         collector: Collector::default(),
     };
     Some((model, derived))
-}
-
-/// A parameter, or the entry of a list, as a variable of derivatives.
-fn variable((k, parameter): (usize, &Parameter)) -> Node {
-    if parameter.length().is_some() { Node::Entry(k) } else { Node::Parameter(k) }
-}
-
-fn constraint(graph: &mut Graph, variables: &[Node], limit: Limit, value: Id) -> Constraint {
-    // What holds for entries is a sum over them; see `Resolver::condition`.
-    let (length, value) = match (&limit, graph.node(value)) {
-        (Limit::Admissible(_), &Node::Sum(length, body)) => (Some(length), body),
-        _ => (None, value),
-    };
-    let by_parameters = by_parameters(graph, variables, [value]).into_iter().map(|[slope]| slope).collect();
-    Constraint { limit, length, value, by_parameters }
 }
 
 /// Values at rest of bounds that depend on parameters there, unless a condition on parameters is equivalent.
@@ -353,14 +287,6 @@ fn bounds_at_rest(
     let at_rest: Vec<_> = bounds.iter().map(|&bound| substitute_rest(graph, bound)).enumerate().collect();
     let is_decided = |value: Id| !implied.contains(&value) && graph.contains(value, is_parameter);
     at_rest.into_iter().filter(|&(_, value)| is_decided(value)).collect()
-}
-
-/// λ + 2μ/3.
-fn bulk(graph: &mut Graph, [shear, lame]: [Id; 2]) -> Id {
-    let two_thirds = Rational::new(2, 3).unwrap_or(Rational::ONE);
-    let shear = graph.scale(shear, two_thirds);
-    let bulk = graph.add(lame, shear);
-    expand_products(graph, bulk)
 }
 
 /// An energy with its first and second derivatives and quotients.

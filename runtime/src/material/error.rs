@@ -64,11 +64,6 @@ pub enum MaterialError {
         /// Reason that its declaration states.
         reason: Option<Text>,
     },
-    /// The derivatives of the stress by the parameters are not available.
-    NotFittable {
-        /// Name of the material.
-        material: Text,
-    },
     /// The extension would not restore an inverted point.
     DoesNotRestore {
         /// The condition that would make it restore.
@@ -155,10 +150,6 @@ impl fmt::Display for MaterialError {
                 reason.as_ref().map_or(Ok(()), |reason| write!(f, ": {reason}"))?;
                 write!(f, "; use `Inversion::Refuse`")
             }
-            Self::NotFittable { material } => write!(
-                f,
-                "{material} has no derivatives of its stress by its parameters; declare it with `fit`"
-            ),
             Self::DoesNotRestore { condition, given } => write!(
                 f,
                 "the extended energy would attract collapse instead of restoring: `{condition}` must hold, but {}; \

@@ -107,7 +107,7 @@ fn processor_time() -> Option<Duration> {
 /// Declarations in Rust of about `length` bytes.
 fn declarations(length: usize) -> Vec<(&'static str, String)> {
     let declared = |body: String| {
-        format!("#[material(domain(J > 0.0), fit)] fn E([l1, l2, l3]: [f64; 3], m: f64) -> f64 {{ {body} }}")
+        format!("#[material(domain(J > 0.0))] fn E([l1, l2, l3]: [f64; 3], m: f64) -> f64 {{ {body} }}")
     };
     let named = |value: fn(usize) -> String| {
         let names =

@@ -16,7 +16,7 @@ def stress(material, F, **parameters):
     """P, Pa, of F, of shapes (..., 3, 3): differentiable in F and in the parameters, tensors by their names.
 
     Parameters that are not given keep the values of the material. Those that are given are numbers: of lists,
-    all entries in a row. Derivatives by them need an energy that knows them: see `Material.stress_by_parameters`.
+    all entries in a row. Curves have no derivatives here: `Material.stress_by_parameters` has those by ordinates.
     """
     known = material.parameters
     names = tuple(name if name in known else name.removesuffix("_") for name in parameters)

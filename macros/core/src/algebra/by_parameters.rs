@@ -103,15 +103,16 @@ mod tests {
         let item = quote! {
             fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], a: [f64; N], k: f64) -> f64 { #body }
         };
-        let (_, model) = analyse(quote!(domain(J > 0.0), prestressed, fit), item, None).expect("an energy");
+        let (declaration, mut model) =
+            analyse(quote!(domain(J > 0.0), prestressed), item, None).expect("an energy");
         let point = Point {
             stretches,
             parameters: Rc::new(parameters.iter().map(|list| list.to_vec()).collect()),
             lengths: vec![parameters[0].len()],
             ..Point::default()
         };
-        let by_parameters = model.by_parameters.expect("asked for");
-        for (list, derivatives) in by_parameters.into_iter().enumerate() {
+        let gradient = model.by_parameters(&declaration).gradient;
+        for (list, derivatives) in gradient.into_iter().enumerate() {
             for (place, stress) in
                 (0..parameters[list].len()).flat_map(|place| [0, 1, 2].map(|stress| (place, stress)))
             {

@@ -3,7 +3,6 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
-use syn::{Ident, Type};
 
 use super::{Texts, condition_text, generics, naming};
 use crate::read::parse::{Declaration, Kind, Typical};
@@ -37,8 +36,7 @@ pub(super) fn declared(declaration: &Declaration, units: &[Option<Unit>], texts:
     let refusal = option(declaration.options.refusal().map(text));
     let admissible = declaration.options.admissible.iter().map(|condition| text(condition_text(condition)));
 
-    let values =
-        read(declaration, &|_, ty| quote!(<#ty as ::piola::Univariate>::from_values(values.slice())?));
+    let values = read(declaration);
     let binding = (!declaration.parameters.is_empty()).then(|| quote!(let mut values =));
     let material = quote!(Self::new(#(#values),*)?);
     let material = if extends {
@@ -74,11 +72,8 @@ pub(super) fn declared(declaration: &Declaration, units: &[Option<Unit>], texts:
     }
 }
 
-/// Each parameter as `values` has it; `function` writes those that are functions, from their names and types.
-pub(super) fn read(
-    declaration: &Declaration,
-    function: &dyn Fn(&Ident, &Type) -> TokenStream,
-) -> Vec<TokenStream> {
+/// Each parameter as `values` has it.
+fn read(declaration: &Declaration) -> Vec<TokenStream> {
     let values = declaration.parameters.iter().map(|parameter| {
         let is_vector = declaration.is_vector(parameter);
         match &parameter.kind {
@@ -88,7 +83,7 @@ pub(super) fn read(
             Kind::List(_) if parameter.is_whole => quote!(values.whole_list()?),
             Kind::List(_) if is_vector => quote!(values.slice().to_vec()),
             Kind::List(_) => quote!(values.list()?),
-            Kind::Function(ty) => function(&parameter.name, ty),
+            Kind::Function(ty) => quote!(<#ty as ::piola::Univariate>::from_values(values.slice())?),
         }
     });
     values.collect()

@@ -20,7 +20,6 @@ pub fn page(declaration: &Declaration, model: &mut Model, texts: &Texts) -> Stri
         format!("**Small strain**: μ = {shear}, λ = {lame}{}.", brackets(&[shear, lame])),
         digits(declaration, model),
         derivatives(declaration, model),
-        by_parameters(declaration),
         operations(declaration, model),
     ];
     let sections: Vec<_> = sections.into_iter().filter(|section| !section.is_empty()).collect();
@@ -130,18 +129,6 @@ fn derivatives(declaration: &Declaration, model: &mut Model) -> String {
         text += &block(&names, &by_invariants);
     }
     text
-}
-
-/// The effect of the word `fit`.
-fn by_parameters(declaration: &Declaration) -> String {
-    if !declaration.options.fit {
-        return String::new();
-    }
-    let functions = if declaration.has_functions() { ", and by each value of a function" } else { "" };
-    format!(
-        "**By the parameters**: it is [`Fittable`](piola::material::Fittable), with the derivatives of ψ₁, ψ₂, ψ₃ by \
-         each{functions}."
-    )
 }
 
 /// Formulas, their shared parts first.

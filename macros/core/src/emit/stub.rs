@@ -114,11 +114,6 @@ fn inert_type(function: &Function) -> TokenStream {
     }]);
     let declared =
         inert_functions([quote!(fn from_values(values: &[&[f64]], inversion: ::piola::Inversion) -> #made)]);
-    let fittable = inert_functions([
-        quote!(fn values(&self) -> ::std::vec::Vec<::std::vec::Vec<f64>>),
-        quote!(fn gradient_by_parameters(&self, stretches: [f64; 3]) -> ::std::vec::Vec<[f64; 3]>),
-        quote!(fn constraints(&self) -> ::std::vec::Vec<::piola::material::Constraint>),
-    ]);
     let empty = quote!(::std::borrow::Cow::Borrowed(""));
     let description = quote! {
         const DESCRIPTION: ::piola::material::Description = ::piola::material::Description {
@@ -138,7 +133,6 @@ fn inert_type(function: &Function) -> TokenStream {
         (quote!(Material), material),
         (quote!(material::Graded), quote!(type OnLanes<'lanes> = Self; #graded)),
         (quote!(material::Declared), quote!(#description #declared)),
-        (quote!(material::Fittable), fittable),
     ];
     let implementations = of_traits.map(|(interface, items)| {
         quote! {

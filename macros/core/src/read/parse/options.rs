@@ -26,8 +26,6 @@ pub struct Options {
     pub typical: Option<Typical>,
     /// The rest state may carry stress or lack stiffness.
     pub prestressed: bool,
-    /// Derivatives by the parameters are requested.
-    pub fit: bool,
     /// The material is written and read by serde.
     pub serde: bool,
     /// The names of the arguments as written.
@@ -35,14 +33,13 @@ pub struct Options {
 }
 
 /// Each argument as it is written, its name first.
-const FORMS: [&str; 8] = [
+const FORMS: [&str; 7] = [
     "domain(J > 0.0)",
     "admissible(mu > 0.0)",
     "extend",
     "refuse(\"why it does not extend\")",
     "typical(\"natural rubber\", mu = 4e5)",
     "prestressed",
-    "fit",
     "serde",
 ];
 
@@ -84,7 +81,6 @@ impl Options {
             ("refuse", Meta::List(list)) => self.refuse = reason(&list.tokens, diagnostics),
             ("typical", Meta::List(list)) => self.typical = Typical::read(name, &list.tokens, diagnostics),
             ("prestressed", Meta::Path(_)) => self.prestressed = true,
-            ("fit", Meta::Path(_)) => self.fit = true,
             ("serde", Meta::Path(_)) => self.serde = true,
             (text, _) => {
                 return diagnostics.error(name, unknown(text));

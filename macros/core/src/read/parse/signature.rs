@@ -16,7 +16,7 @@ use crate::read::spelling::taken;
 use crate::read::unit::Unit;
 
 /// Members of every material, which a method for a parameter of the same name would hide.
-const MEMBERS: [&str; 33] = [
+const MEMBERS: [&str; 28] = [
     // Of the type and of the traits of the language.
     "new",
     "with_inversion",
@@ -46,12 +46,6 @@ const MEMBERS: [&str; 33] = [
     "DESCRIPTION",
     "from_values",
     "moduli",
-    // Of `Fittable`.
-    "values",
-    "with_values",
-    "gradient_by_parameters",
-    "constraints",
-    "domain_constraints",
     // Of `Graded`.
     "on_lanes",
     "shares_lanes",
