@@ -18,6 +18,7 @@ pub mod condition;
 mod constructor;
 mod declared;
 pub mod documentation;
+mod domain;
 mod functions;
 mod invariants;
 mod material;

@@ -129,9 +129,26 @@ impl Differentiator {
                 }
                 _ => graph.integer(0),
             },
-            // Other variables and numbers. All further nodes arise after differentiation, in quotients,
-            // increments and lowered extensions.
-            _ => graph.integer(0),
+            Node::Stretch(_)
+            | Node::Parameter(_)
+            | Node::Entry(_)
+            | Node::Float(_)
+            | Node::Epsilon
+            // The nodes below only arise after differentiation, in quotients, increments and lowered
+            // extensions.
+            | Node::Strain(_)
+            | Node::Above(_)
+            | Node::Below(_)
+            | Node::ShareAbove(..)
+            | Node::ShareBelow(..)
+            | Node::WhereNegative(..)
+            | Node::LnQuotient(..)
+            | Node::ExpQuotient(..)
+            | Node::ElementaryQuotient(..)
+            | Node::FunctionQuotient(..)
+            | Node::WholePowerQuotient(..)
+            | Node::PowerQuotient(..)
+            | Node::PoleQuotient(..) => graph.integer(0),
         }
     }
 

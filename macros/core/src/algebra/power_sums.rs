@@ -14,7 +14,6 @@ use rustc_hash::FxHashMap;
 
 use crate::algebra::expr::{Graph, Id, Node, Stretch};
 use crate::algebra::rational::Rational;
-use crate::algebra::volume::rewrite;
 
 /// c0 + c1 t + c2 t² with t = λ² − 1.
 type Polynomial = [Rational; 3];
@@ -22,17 +21,22 @@ type Polynomial = [Rational; 3];
 /// An expression of I1, I2, J, which replace the stretches, and of stretches, which are represented by
 /// strains: without the latter, if they occur in such sums only.
 pub fn without_stretches(graph: &mut Graph, e: Id) -> Option<Id> {
-    let rewritten = with_invariants(graph, e);
+    let rewritten = with_invariants(graph, e, &mut FxHashMap::default());
     let has_stretch = graph.contains(rewritten, |node| matches!(node, Node::Strain(_)));
     (!has_stretch).then_some(rewritten)
 }
 
-fn with_invariants(graph: &mut Graph, e: Id) -> Id {
-    rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| {
-        let Node::Linear { constant, terms } = graph.node(id).clone() else { return None };
-        let joined = joined(graph, constant, &terms)?;
-        Some(graph.map_children(joined, &mut with_invariants))
-    })
+fn with_invariants(graph: &mut Graph, e: Id, done: &mut FxHashMap<Id, Id>) -> Id {
+    if let Some(&known) = done.get(&e) {
+        return known;
+    }
+    let joined = match graph.node(e).clone() {
+        Node::Linear { constant, terms } => joined(graph, constant, &terms).unwrap_or(e),
+        _ => e,
+    };
+    let rewritten = graph.map_children(joined, &mut |graph, child| with_invariants(graph, child, done));
+    done.insert(e, rewritten);
+    rewritten
 }
 
 /// A sum with its terms in single stretches joined, if they are the same polynomial of each.

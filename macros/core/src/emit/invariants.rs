@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
+use super::domain::domain;
 use super::functions;
-use super::material::domain;
 use super::writer::Writer;
 use crate::model::Model;
 use crate::read::parse::Declaration;
