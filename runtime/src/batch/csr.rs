@@ -32,7 +32,7 @@ impl CsrPlaces {
     ///
     /// # Errors
     /// [`CsrError`] for slices that are not a matrix, an unknown without a row, an entry that neither the
-    /// matrix nor its transpose holds, or too little memory.
+    /// matrix nor its transpose holds, too little memory, or more than four thousand million entries.
     pub fn new<I: Copy + TryInto<usize>>(
         tetrahedra: Tetrahedra<'_>,
         unknowns: impl Fn(usize) -> Option<usize>,

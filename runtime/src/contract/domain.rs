@@ -2,7 +2,7 @@
 //! exactly the sign of λ3 is computed.
 
 use super::results::{name, results};
-use super::subject::{Subject, samples};
+use super::subject::Subject;
 use super::{Judge, Settings, UNIT, Verdict, gradient_name, pair_name, stiffness};
 use crate::material::{Inversion, Moduli};
 
@@ -12,7 +12,7 @@ pub(super) fn domain(judge: &mut Judge<'_>) -> Verdict {
     let finite = |judge: &mut Judge<'_>, component: &dyn Fn() -> String, stretches, number| {
         judge.finite(component, stretches, number, || remedy(material, settings, stretches, number))
     };
-    for stretches in samples(judge) {
+    for stretches in judge.samples() {
         for (k, number) in results(material, stretches).into_iter().enumerate() {
             finite(judge, &|| name(k), stretches, number)?;
         }

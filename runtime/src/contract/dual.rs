@@ -47,7 +47,7 @@ impl Dual {
 
 /// Operators by their derivatives, from both operands and the value.
 macro_rules! operators {
-    ($($Operator:ident $method:ident |$x:ident, $y:ident, $value:tt| $slope:expr,)*) => {$(
+    ($($Operator:ident $method:ident |$x:ident, $y:ident, $value:ident| $slope:expr,)*) => {$(
         impl $Operator for Dual {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
@@ -60,9 +60,9 @@ macro_rules! operators {
 }
 
 operators! {
-    Add add |x, y, _| x.slope + y.slope,
-    Sub sub |x, y, _| x.slope - y.slope,
-    Mul mul |x, y, _| x.slope * y.value + x.value * y.slope,
+    Add add |x, y, _value| x.slope + y.slope,
+    Sub sub |x, y, _value| x.slope - y.slope,
+    Mul mul |x, y, _value| x.slope * y.value + x.value * y.slope,
     Div div |x, y, value| (x.slope - value * y.slope) / y.value,
 }
 

@@ -2,13 +2,13 @@
 //! where a formula loses digits; many points side by side against each by itself.
 
 use super::results::{ALL, COUNT, everything, everything_name, name};
-use super::subject::{OnLanes, known, samples, together};
+use super::subject::{OnLanes, known, together};
 use super::{Judge, Notation, UNIT, Verdict};
 use crate::lanes::{Backend, Real};
 
 /// [`SinglePrecision`](super::Rule::SinglePrecision).
 pub(super) fn single_precision(judge: &mut Judge<'_>) -> Verdict {
-    for stretches in samples(judge) {
+    for stretches in judge.samples() {
         compare(judge, stretches, false)?;
         for gap in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 0.0] {
             for close in together(stretches, gap) {
@@ -71,7 +71,7 @@ fn out_of_range(notation: Notation) -> String {
 pub(super) fn lanes(judge: &mut Judge<'_>, on_lanes: OnLanes<'_>) -> Verdict {
     let material = judge.material;
     let mut points = Vec::new();
-    for stretches in samples(judge) {
+    for stretches in judge.samples() {
         points.push(stretches);
         let close = [1e-9, 0.0].into_iter().flat_map(|gap| together(stretches, gap));
         points.extend(close.filter(|&close| material.admits(close)));

@@ -2,7 +2,6 @@
 
 #![expect(non_snake_case, reason = "F, P, Q, W as in the literature")]
 
-use super::subject::samples;
 use super::{Judge, UNIT, Verdict, gradient_name, hessian_name, stiffness, stress_scale};
 use crate::material::PAIRS;
 use crate::point::matrix::multiply;
@@ -10,7 +9,7 @@ use crate::point::{Matrix3, evaluate_energy, evaluate_stress};
 
 /// [`Isotropy`](super::Rule::Isotropy).
 pub(super) fn isotropy(judge: &mut Judge<'_>) -> Verdict {
-    for stretches in samples(judge) {
+    for stretches in judge.samples() {
         let (Q, W) = (judge.random.rotation(), judge.random.rotation());
         rotated(judge, stretches, &Q, &W)?;
         for equal in [[stretches[0], stretches[0], stretches[2]], [stretches[0], stretches[1], stretches[1]]]

@@ -1,7 +1,7 @@
 //! The rule on invariants: energy and derivatives by I1, I2 and J against those by stretches.
 
 use super::slopes::ENTRIES;
-use super::subject::{Subject, samples};
+use super::subject::Subject;
 use super::{Judge, UNIT, Verdict, entries, gradient_name, hessian_name, pair_name, stiffness, stress_scale};
 use crate::material::{Blocks, Curvature, PAIRS};
 
@@ -20,7 +20,7 @@ fn sensitivity(material: &dyn Subject, stretches: [f64; 3], blocks: &Blocks<f64>
 /// [`Invariants`](super::Rule::Invariants), of a material that has them.
 pub(super) fn invariants(judge: &mut Judge<'_>) -> Verdict {
     let material = judge.material;
-    for stretches in samples(judge) {
+    for stretches in judge.samples() {
         let [a, b, c] = stretches.map(|l| l * l);
         let invariants = [a + b + c, a * b + a * c + b * c, stretches.iter().product()];
         if !material.admits_invariants(invariants) {

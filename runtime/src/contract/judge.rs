@@ -1,6 +1,6 @@
 //! Compares numbers, counts, and stops at the first that is wrong.
 
-use super::subject::Subject;
+use super::subject::{Subject, samples};
 use super::violation::Violation;
 use super::{Finding, Notation, Rule, Settings};
 use crate::random::Random;
@@ -44,6 +44,11 @@ impl<'a> Judge<'a> {
     pub(super) fn new(rule: Rule, material: &'a dyn Subject, settings: &'a Settings) -> Self {
         let random = Random::new(settings.seed);
         Self { material, settings, random, rule, comparisons: 0, worst: 0.0 }
+    }
+
+    /// The points at which the rule is judged.
+    pub(super) fn samples(&mut self) -> Vec<[f64; 3]> {
+        samples(self.material, self.settings, &mut self.random)
     }
 
     /// Demands |found − expected| ≤ tolerance.

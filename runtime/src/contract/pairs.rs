@@ -14,13 +14,12 @@
 //! and the quotients agree with their definition. Stretches 1 and 3 can only be close together with stretch 2
 //! between them.
 
-use super::subject::samples;
 use super::{Judge, UNIT, Verdict, pair_name, stiffness};
 use crate::material::{Blocks, PAIRS};
 
 /// [`Quotients`](super::Rule::Quotients).
 pub(super) fn quotients(judge: &mut Judge<'_>) -> Verdict {
-    for stretches in samples(judge) {
+    for stretches in judge.samples() {
         by_definition(judge, stretches)?;
         for exponent in 1..=17 {
             let gap = if exponent == 17 { 0.0 } else { 10f64.powi(-exponent) };

@@ -45,8 +45,8 @@ pub(super) fn everything<R: Real>(material: &(impl Response<R> + ?Sized), stretc
     let energy = material.energy_by_invariants(invariants);
     let truth = |mask| R::select(mask, R::splat(1.0), R::splat(0.0));
     let admits = truth(material.admits(stretches));
-    let covers = truth(material.admits_invariants(invariants));
-    let others = [s1, s2, s3, energy, w1, w2, wj, w11, w22, wjj, w12, w1j, w2j, admits, covers];
+    let admits_invariants = truth(material.admits_invariants(invariants));
+    let others = [s1, s2, s3, energy, w1, w2, wj, w11, w22, wjj, w12, w1j, w2j, admits, admits_invariants];
     std::array::from_fn(|k| if k < COUNT { results[k] } else { others[k - COUNT] })
 }
 

@@ -9,7 +9,6 @@
 use super::dual::Dual;
 use super::frames::diagonal;
 use super::pairs::mean;
-use super::subject::samples;
 use super::{Judge, UNIT, Verdict, gradient_name, hessian_name, stiffness, stress_scale};
 use crate::material::Inversion;
 use crate::point::matrix::multiply;
@@ -22,7 +21,7 @@ pub(super) const ENTRIES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1),
 /// [`StressSlope`](super::Rule::StressSlope).
 pub(super) fn stress_slope(judge: &mut Judge<'_>) -> Verdict {
     let mut last = None;
-    for stretches in samples(judge) {
+    for stretches in judge.samples() {
         energy_along(judge, stretches, &Approach::smooth(stretches))?;
         if let Some(from) = last.replace(stretches) {
             work(judge, from, stretches)?;
@@ -73,9 +72,8 @@ fn work(judge: &mut Judge<'_>, from: [f64; 3], to: [f64; 3]) -> Verdict {
 
 /// [`TangentSlope`](super::Rule::TangentSlope).
 pub(super) fn tangent_slope(judge: &mut Judge<'_>) -> Verdict {
-    samples(judge)
-        .into_iter()
-        .try_for_each(|stretches| stress_along(judge, stretches, &Approach::smooth(stretches)))
+    let mut samples = judge.samples().into_iter();
+    samples.try_for_each(|stretches| stress_along(judge, stretches, &Approach::smooth(stretches)))
 }
 
 /// Convergence of difference quotients to a derivative.
@@ -174,7 +172,7 @@ fn slope(
 /// [`DualNumbers`](super::Rule::DualNumbers).
 pub(super) fn dual_numbers(judge: &mut Judge<'_>) -> Verdict {
     let material = judge.material;
-    for stretches in samples(judge) {
+    for stretches in judge.samples() {
         let blocks = material.blocks(stretches);
         let gradient = material.gradient(stretches);
         let first = 100.0 * UNIT * stress_scale(&blocks, stretches);
@@ -201,7 +199,7 @@ pub(super) fn dual_numbers(judge: &mut Judge<'_>) -> Verdict {
 /// [`Strains`](super::Rule::Strains).
 pub(super) fn strains(judge: &mut Judge<'_>) -> Verdict {
     let material = judge.material;
-    for stretches in samples(judge).into_iter().filter(|stretches| stretches[2] > 0.0) {
+    for stretches in judge.samples().into_iter().filter(|stretches| stretches[2] > 0.0) {
         for exponent in 0..=16 {
             let factor = if exponent == 16 { 0.0 } else { 10f64.powi(-exponent) };
             let strains = stretches.map(|l| factor * (l - 1.0));

@@ -3,9 +3,10 @@
 
 use super::dual::Dual;
 use super::results::{ALL, COUNT, results};
-use super::{Judge, stiffness, stress_scale};
+use super::{Settings, stiffness, stress_scale};
 use crate::lanes::{Backend, Mask};
 use crate::material::{Inversion, Material, Response};
+use crate::random::Random;
 
 /// Material under test: its responses in `f64`, and anything that a rule compares with them.
 pub(super) trait Subject: Response<f64> {
@@ -33,7 +34,7 @@ impl<M: Material> Subject for M {
 /// Random descending stretches within the range, plus inverted ones, if the material admits them.
 ///
 /// Around the threshold of an extension the third derivatives jump; samples keep a distance of 1/32 from it.
-pub(super) fn samples(Judge { material, settings, random, .. }: &mut Judge<'_>) -> Vec<[f64; 3]> {
+pub(super) fn samples(material: &dyn Subject, settings: &Settings, random: &mut Random) -> Vec<[f64; 3]> {
     let (low, high) = settings.range;
     let threshold = match material.inversion() {
         Inversion::Refuse => None,

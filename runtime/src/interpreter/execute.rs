@@ -89,6 +89,7 @@ impl<E: Scalar> Kernel<E> for Execution<'_, '_, E> {
         if self.tile.count <= 2 * R::LANES {
             return self.by_groups::<R, 1>();
         }
+        // A constant by itself, so that the compiler forgets the other numbers at once.
         match const { 64 / R::LANES } {
             4 => self.by_groups::<R, 4>(),
             8 => self.by_groups::<R, 8>(),
