@@ -113,6 +113,7 @@ struct Cage<'a> {
 }
 
 impl Cage<'_> {
+    /// Barycentric coordinates of a point.
     fn weights(&self, tet: usize, x: [f64; 3]) -> [f64; 4] {
         let from_origin = subtract(x, self.mesh.positions[self.mesh.tets[tet][0]]);
         let [a, b, c] = self.shapes[tet].inverse.map(|row| dot(row, from_origin));

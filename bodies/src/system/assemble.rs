@@ -116,6 +116,7 @@ impl Elastic {
         })
     }
 
+    /// Sum of the energies, J.
     pub(crate) fn energy(&self) -> f64 {
         compensated(self.energies().map(|(energy, _)| energy))
     }

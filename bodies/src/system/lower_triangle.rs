@@ -5,6 +5,7 @@
 //! feature `faer` they have the order of the nodes.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use piola::NoSuchNode;
 
@@ -22,11 +23,12 @@ use super::pins::Pins;
 /// same slices are the upper triangle.
 #[derive(Clone, Debug)]
 pub struct LowerTriangle {
-    column_starts: Vec<usize>,
-    row_indices: Vec<usize>,
+    column_starts: Arc<Vec<usize>>,
+    row_indices: Arc<Vec<usize>>,
     values: Vec<f64>,
     /// Index of each entry among the scalars of the blocks of the stiffness.
     sources: Vec<u32>,
+    /// Number of blocks of the stiffness.
     blocks: usize,
     free_nodes: Vec<usize>,
     /// Index of each node in `free_nodes`; `None` for a pinned node.
@@ -78,8 +80,8 @@ impl LowerTriangle {
         }
         Ok(Self {
             values: filled(rows.len(), 0.0)?,
-            column_starts: starts,
-            row_indices: rows,
+            column_starts: Arc::new(starts),
+            row_indices: Arc::new(rows),
             sources,
             blocks,
             free_nodes,

@@ -44,6 +44,9 @@ pub trait Machine {
     fn solver(&mut self) -> &mut dyn Solver;
 
     /// Sets up a new solver if the blocks of terms join nodes without a block in its matrix.
+    ///
+    /// # Errors
+    /// [`LinearError`].
     fn join(&mut self, body: &Body, blocks: &NodeBlocks) -> Result<(), LinearError> {
         let _ = (body, blocks);
         Ok(())

@@ -63,12 +63,18 @@ pub trait Division: Sized {
 
     /// Division of the next level, in which this machine owns `rows` rows and has copies of the rows with the
     /// global numbers `copies`.
+    ///
+    /// # Errors
+    /// [`Division::Error`].
     fn coarse(&self, rows: usize, copies: Vec<u64>) -> Result<Self, Self::Error>;
 
     /// True if a level with `rows` rows of all machines is the last one, for `nodes` nodes of all machines.
     fn is_last(&self, rows: usize, nodes: usize) -> bool;
 
     /// Solver of the last level, if this is its division.
+    ///
+    /// # Errors
+    /// [`Division::Error`].
     fn last(&self, level: &LastLevel<'_>) -> Result<Self::Last, Self::Error>;
 }
 

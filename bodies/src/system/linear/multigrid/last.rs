@@ -151,7 +151,7 @@ impl LastSolver for Last {
     }
 }
 
-/// Six numbers of an aggregate by six.
+/// 6×6 entries: the six unknowns of an aggregate by those of another, or by six motions.
 pub(super) type Block = [[f64; 6]; 6];
 
 /// Index of the first block of a row.
@@ -159,6 +159,7 @@ fn first(row: usize) -> usize {
     row * (row + 1) / 2
 }
 
+/// Subtracts aᵀ b.
 #[inline(always)]
 fn subtract_product(a: &Block, b: &Block, block: &mut Block) {
     for (a, b) in a.iter().zip(b) {

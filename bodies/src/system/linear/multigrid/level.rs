@@ -12,6 +12,7 @@ use crate::system::linear::symmetric_blocks::{Pattern, SymmetricBlocks};
 use crate::system::lists::Lists;
 use crate::system::parts::{for_each_entry, for_each_part};
 
+/// Degree of the Chebyshev polynomials.
 const DEGREE: usize = 2;
 
 /// Smallest eigenvalue that a polynomial damps, relative to the largest eigenvalue.
