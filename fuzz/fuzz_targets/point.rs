@@ -63,7 +63,7 @@ fuzz_target!(|input: &[u8]| {
         verdict.map_err(|fault| (fault, format!("{F:?}")))
     } else {
         let F: Matrix3<f64> = input.matrix();
-        let of_element = |_| match check_elements(&*subject.double, &[F]).pop() {
+        let of_element = |_| match check_elements(&*subject.double, &[F]).into_iter().next() {
             Some((_, fault)) => Err(fault),
             None => Ok(()),
         };

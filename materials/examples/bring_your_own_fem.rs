@@ -5,6 +5,7 @@
 //! For these there is [`piola::batch::Batch`], and for sums over points [`piola::batch::Quadrature`]. The
 //! program checks its forces and stiffness by finite differences, then bends and stretches a bar of rubber by
 //! a force at its tip.
+//! Slices are made anew in each call for brevity; a real code keeps them, and the `Quadrature`.
 
 #![expect(non_snake_case, reason = "F, P, dP_dF, X and J as in the literature")]
 #![expect(clippy::print_stdout, reason = "a result to show")]

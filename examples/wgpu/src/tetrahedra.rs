@@ -7,9 +7,9 @@ use std::time::Duration;
 
 use wgpu::{BindGroup, Buffer, ComputePipeline};
 
+use crate::Error;
 use crate::device::Device;
 use crate::mesh::Mesh;
-use crate::{Error, PREFIX};
 
 /// Elements of a line, and invocations of a workgroup, as in the program.
 const LINE: usize = 64;
@@ -48,7 +48,7 @@ impl<'a> Elements<'a> {
             return Err(format!("{} nodes are too many for {}", mesh.positions.len(), device.name).into());
         }
         let calls =
-            include_str!("tetrahedra.wgsl").replace("energy_tetrahedron", &format!("{PREFIX}_{function}"));
+            include_str!("tetrahedra.wgsl").replace("energy_tetrahedron", &format!("energy_{function}"));
         let program = device.programs(&[energy, &calls].join("\n"), &["elements"])?.remove(0);
         let positions = device.filled(&mesh.positions);
         let lines = largest / (4 * COMPONENTS * LINE) as u64;
