@@ -8,7 +8,7 @@ use piola::__private::random::Random;
 use piola::batch::{Batch, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::lanes::Backend;
-use piola::material::{Argument, Declared, MaterialError};
+use piola::material::{Argument, Declared, MaterialError, PerPoint};
 use piola::{Inversion, Material};
 use piola_tests::answers::{Answers, deformations};
 use piola_tests::declarations::{find, slices, values};
@@ -121,6 +121,22 @@ fn lists_of_any_length_give_the_bits_of_arrays() -> Result<(), MaterialError> {
             twins::check(&what, &responses(&array, at), &responses(&vector, at));
         }
     }
+    Ok(())
+}
+
+#[test]
+fn points_of_a_batch_have_lists_and_exponents_of_their_own() -> Result<(), MaterialError> {
+    let short = Series::new(vec![2e5], vec![1], vec![0], 1e6)?;
+    let long = Series::new(vec![1.8e5, 2.1e4, 3e3], vec![1, 0, 2], vec![0, 1, 0], 1e6)?;
+    let (series, points) = ([short, long], deformations().concat());
+    let energies = |series: &[Series], points: &[f64]| {
+        let mut energies = vec![0.0; series.len()];
+        let each = PerPoint::new(series).expect("alike");
+        Batch::<f64>::new(&each).energies(points, &mut energies).expect("lengths");
+        energies
+    };
+    let alone = [energies(&series[..1], &points[..9]), energies(&series[1..], &points[9..18])].concat();
+    assert_eq!(energies(&series, &points[..18]), alone);
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! The catalogue at deformation gradients of arbitrary finite entries: no panic, no infinite or NaN result
-//! under a clean status, no clean result flagged. What has entries that are not finite is flagged.
+//! under a clean status, no clean result flagged. What has entries that are not finite is flagged. Answers at
+//! moderate deformations turn with F and are those of its stretches, and filters are ordered.
 //!
 //! 30 000 patterns for each energy and precision, shared by its ways of inversion, 10⁵ with `PIOLA_FULL`.
 //! `PIOLA_BITS` asks for another number: `PIOLA_BITS=3125000 cargo test -p piola-tests --test bits --
@@ -13,10 +14,13 @@ use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
+use nalgebra::SMatrix;
 use piola::__private::random::Random;
 use piola::Inversion;
 use piola::point::Matrix3;
 use piola_tests::bits::{FAMILIES, draw};
+use piola_tests::cases::norm;
+use piola_tests::compiled::{evaluate, evaluate_energy, evaluate_stress};
 use piola_tests::energies::{self, ENERGIES, Format, Subject};
 use piola_tests::soundness::{Answer, Fault, check, check_elements, check_single, check_single_accuracy};
 use rayon::prelude::*;
@@ -53,6 +57,16 @@ fn f32_is_sound_at_every_pattern_of_bits() {
     every_entry(judge, |_, _| Vec::new());
 }
 
+/// Runs a check on every material of the catalogue.
+fn everywhere(check: impl Fn(&Subject, &str) + Sync) {
+    ENERGIES.par_iter().for_each(|energy| {
+        for inversion in energy.inversions(0.4) {
+            let subject = energy.subject(&energy.typical(), inversion).expect("typical parameters");
+            check(&subject, &format!("{} {inversion:?}", energy.name));
+        }
+    });
+}
+
 /// An entry that is NaN or infinite, at every place of moderate deformations.
 #[test]
 fn what_is_not_finite_is_said_to_be() {
@@ -69,12 +83,73 @@ fn what_is_not_finite_is_said_to_be() {
             }
         }
     }
-    ENERGIES.par_iter().for_each(|energy| {
-        for inversion in energy.inversions(0.4) {
-            let subject = energy.subject(&energy.typical(), inversion).expect("typical parameters");
-            let what = format!("{} {inversion:?}", energy.name);
-            judge::<f64>(&subject, &what);
-            judge::<f32>(&subject, &what);
+    everywhere(|subject, what| {
+        judge::<f64>(subject, what);
+        judge::<f32>(subject, what);
+    });
+}
+
+/// Stretches of 0.3 … 2, some equal, some inverted, some at rest.
+fn stretches(random: &mut Random) -> [f64; 3] {
+    let mut stretches: [f64; 3] = std::array::from_fn(|_| random.uniform(0.3, 2.0));
+    match random.below(7) {
+        0 => stretches[1] = stretches[0],
+        1 => stretches = [stretches[0]; 3],
+        2 => stretches = std::array::from_fn(|_| random.uniform(0.999, 1.001)),
+        _ => {}
+    }
+    stretches.sort_by(|a, b| b.total_cmp(a));
+    stretches[2] *= if random.uniform(0.0, 1.0) < 0.3 { -1.0 } else { 1.0 };
+    stretches
+}
+
+/// A diag(d) B.
+fn product(A: &Matrix3<f64>, d: [f64; 3], B: &Matrix3<f64>) -> Matrix3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| A[i][k] * d[k] * B[k][j]).sum()))
+}
+
+/// P(Q F W) = Q P(F) W; ψ and P of F = U diag(λ) V are those of λ; and each filter adds to the one before.
+///
+/// A stress has an error of at most 30 u (‖P‖ + ‖dP/dF‖ ‖F‖). Two may differ by twice that, and a few u more
+/// for products: by 64 u. Eigenvalues of 9×9 matrices err by less than 64 u of their norms.
+#[test]
+fn answers_turn_with_the_frames_and_filters_are_ordered() {
+    const BOUND: f64 = 32.0 * f64::EPSILON;
+    let mut random = Random::new(384);
+    let mut sample = || (stretches(&mut random), [(); 4].map(|()| random.rotation()));
+    let samples: Vec<_> = (0..384).map(|_| sample()).collect();
+    everywhere(|subject, what| {
+        let material = f64::of(subject);
+        for &(l, [U, V, Q, W]) in &samples {
+            let F = product(&U, l, &V);
+            let points = piola_tests::soundness::FILTERS.map(|filter| evaluate(material, &F, filter));
+            if points.iter().any(|point| point.status.refused || point.status.bounded) {
+                continue;
+            }
+            let at_most = |name: &str, value: f64, bound: f64| {
+                assert!(value <= bound, "{what}: {name} is {value:e}, more than {bound:e}, at {F:?}");
+            };
+            let P = points[0].stress;
+            let [none, clamp, absolute] = points
+                .map(|point| SMatrix::<f64, 9, 9>::from_row_slice(point.tangent.to_matrix().as_flattened()));
+            let size = |A: &Matrix3<f64>| norm(A.as_flattened().iter().copied());
+            let (noise, scale) = (BOUND * none.norm(), size(&P) + none.norm() * size(&F));
+            let check_stress = |name: &str, A: Matrix3<f64>, B: Matrix3<f64>| {
+                at_most(name, norm((0..9).map(|k| A[k / 3][k % 3] - B[k / 3][k % 3])), BOUND * scale);
+            };
+            let turned = |A: &Matrix3<f64>| product(&Q, [1.0; 3], &product(A, [1.0; 3], &W));
+            check_stress("P(Q F W) − Q P(F) W", evaluate_stress(material, &turned(&F)).stress, turned(&P));
+            check_stress("P(F) − U diag(ψi) V", P, product(&U, material.gradient(l), &V));
+            let energy = material.energy(l);
+            // At rest the terms of an energy are of the size of its stiffness and cancel.
+            let terms = energy.abs() + size(&P) * size(&F) + material.blocks([1.0; 3]).hessian[0];
+            let error = evaluate_energy(material, &F).energy - energy;
+            at_most("ψ(F) − ψ(λ)", error.abs(), BOUND * terms);
+            let negative = |matrix: SMatrix<f64, 9, 9>| -matrix.symmetric_eigenvalues().min();
+            at_most("a negative eigenvalue of clamped", negative(clamp), noise);
+            at_most("a negative eigenvalue of clamped − unfiltered", negative(clamp - none), noise);
+            // Where nothing is negative, nothing is changed; else clamped is half way to absolute.
+            at_most("unfiltered + absolute − 2 clamped", (none + absolute - 2.0 * clamp).norm(), noise);
         }
     });
 }

@@ -1,8 +1,8 @@
 //! Parameters that differ from point to point: each point gets what it would get alone, in batches and in
 //! bodies.
 //!
-//! Two compiled types stand for all: one of numbers and lists, which lanes hold side by side, and one of
-//! functions; and an interpreted one.
+//! Three compiled types stand for all: two of numbers and lists, which lanes hold side by side, and one of
+//! functions; and an interpreted one. The test `attribute` has compiled lists of different lengths.
 
 use piola::batch::{Batch, TileMaterial};
 use piola::lanes::Backend;

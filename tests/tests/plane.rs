@@ -86,18 +86,22 @@ fn nothing_infinite_comes_with_a_clean_status() {
     let mut random = Random::new(142);
     let (mut clean, mut without) = (0, 0);
     everywhere(|name, material| {
-        for round in 0..600 {
-            let F = match round % 3 {
+        for round in 0..800 {
+            let F = match round % 4 {
                 0 => drawn(&mut random, 1.5),
                 1 => {
                     let spread = 10f64.powf(random.uniform(-8.0, 8.0));
                     drawn(&mut random, spread)
                 }
+                2 => {
+                    let size = 10f64.powf(random.uniform(-12.0, 12.0));
+                    drawn(&mut random, 1.5).map(|row| row.map(|x| size * x))
+                }
                 _ => std::array::from_fn(|_| std::array::from_fn(|_| f64::from_bits(random.bits()))),
             };
             let [more_clean, more_without] = judged(name, material, &F);
             (clean, without) = (clean + more_clean, without + more_without);
-            if round % 4 == 0 {
+            if round / 4 % 2 == 0 {
                 judged(name, material, &F.map(|row| row.map(|x| x as f32)));
             }
         }

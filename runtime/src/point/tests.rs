@@ -111,6 +111,22 @@ fn difference<const N: usize>(A: &[[f64; N]; N], B: &[[f64; N]; N]) -> f64 {
     norm(A.iter().flatten().zip(B.iter().flatten()).map(|(a, b)| a - b).collect::<Vec<_>>().iter())
 }
 
+#[test]
+fn the_matrix_and_the_product_are_those_of_the_dense_sums() {
+    let mut random = Random::new(11);
+    for _ in 0..200 {
+        let (U, V, blocks) = (random.rotation(), random.rotation(), random_blocks(&mut random));
+        let expected = in_the_world(&U, &V, &dense(&blocks));
+        let (tangent, dF, size) = (Tangent { U, V, blocks }, random.matrix(), norm(expected.as_flattened()));
+        // Each entry is a sum of 81 products here and of 15 there.
+        assert!(difference(&tangent.to_matrix(), &expected) < 100.0 * f64::EPSILON * size);
+        let entry = |row: usize| (0..9).map(|k| expected[row][k] * dF[k / 3][k % 3]).sum::<f64>();
+        let product = std::array::from_fn(|i| std::array::from_fn(|j| entry(3 * i + j)));
+        let error = difference(&tangent.apply(&dF), &product);
+        assert!(error < 100.0 * f64::EPSILON * size * norm(dF.as_flattened()), "{error:e}");
+    }
+}
+
 /// The claim of `docs/emit.md` on the bounds between which roundings decide whether a point is `bounded`.
 #[test]
 fn roundings_decide_at_a_pole() {

@@ -92,8 +92,8 @@ const COMPONENTS: [usize; 8] = [1, 9, 9, 81, 12, 144, 6, 36];
 struct All<E> {
     surveys: [Survey; 5],
     outputs: [Vec<E>; 8],
-    /// The status of each point in the call for tangents.
-    statuses: Vec<Status>,
+    /// The statuses of each point in the calls for stresses and for tangents.
+    statuses: Vec<[Status; 2]>,
 }
 
 fn all<E: Kernels>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> All<E> {
@@ -101,16 +101,17 @@ fn all<E: Kernels>(batch: &Batch<'_, E>, layout: Layout, sample: &Sample<E>) -> 
     let (F, rest) = (lay(layout, &sample.F), lay(layout, &sample.rest));
     let mut outputs = COMPONENTS.map(|components| vec![E::splat(0.0); components * sample.F.len()]);
     let [energies, P, beside, full, gradients, stiffnesses, tau, tau_tangents] = &mut outputs;
-    let statuses: Vec<_> = sample.F.iter().map(|_| StatusCell::default()).collect();
+    let cells = [(); 2].map(|()| sample.F.iter().map(|_| StatusCell::default()).collect::<Vec<_>>());
     let surveys = [
         batch.energies(&F, energies),
-        batch.stresses(&F, P),
-        batch.with_statuses(&statuses).tangents(&F, beside, full),
+        batch.with_statuses(&cells[0]).stresses(&F, P),
+        batch.with_statuses(&cells[1]).tangents(&F, beside, full),
         batch.stiffnesses(&F, &rest, gradients, stiffnesses),
         batch.measured_tangents(Measure::Kirchhoff, &F, tau, tau_tangents),
     ];
     let surveys = surveys.map(|survey| survey.expect("lengths fit"));
-    All { surveys, outputs, statuses: statuses.iter().map(StatusCell::get).collect() }
+    let statuses = (0..sample.F.len()).map(|p| [0, 1].map(|call| cells[call][p].get())).collect();
+    All { surveys, outputs, statuses }
 }
 
 /// Worst of |found − expected| relative to u times a scale.
@@ -148,7 +149,8 @@ fn check_against_points<E: Kernels, M: Material>(material: &M, skip: impl Fn(usi
             for (p, F) in sample.F.iter().enumerate() {
                 let F: Matrix3<E> = std::array::from_fn(|i| std::array::from_fn(|j| F[3 * i + j]));
                 let point = evaluate(material, &F, filter);
-                assert_eq!(found.statuses[p].refused, point.status.refused, "{backend}: {F:?}");
+                let are_refused = found.statuses[p].map(|status| status.refused);
+                assert_eq!(are_refused, [point.status.refused; 2], "{backend}: {F:?}");
                 refused += usize::from(point.status.refused);
                 if skip(p) || point.status.refused {
                     continue;

@@ -151,12 +151,14 @@ mod tests {
     fn sums_that_lose_digits_are_named_once() {
         let item = quote! {
             /// Rubber.
-            fn E([l1, l2, l3]: [f64; 3], mu: f64, mu_2: f64) -> f64 {
-                mu * I1 - mu * sum(|l| ((l.powi(2) + mu_2.powi(2)).sqrt() - mu_2).ln())
+            fn E([l1, l2, l3]: [f64; 3], mu: f64, k: f64, mu_2: f64) -> f64 {
+                let logarithms = sum(|l| ((l.powi(2) + mu_2.powi(2)).sqrt() - mu_2).ln());
+                mu * logarithms + k * (J - 1.0).powi(2) + mu * I1
             }
         };
-        let arguments = quote!(domain(J > 0.0), admissible(mu_2 > 0.0), prestressed);
+        let arguments = quote!(domain(J > 0.0), admissible(mu > 0.0, k > 0.0, mu_2 > 0.0), prestressed);
         let (declaration, mut model) = crate::analyse(arguments, item, None).unwrap();
+        assert_eq!(model.lossy.len(), 3);
         let digits = super::digits(&declaration, &mut model);
         assert!(digits.starts_with("**Digits**") && digits.matches('`').count() == 2, "{digits}");
         assert!(digits.contains("− μ_2`"), "{digits}");

@@ -148,6 +148,7 @@ fn stress_and_tangent_come_as_from_their_own_entry_points() {
         let point = evaluate(&RotatedLinear, DisplacementGradient(&H), Filter::Clamp);
         let through_F = evaluate(&RotatedLinear, &plus_identity(&H), Filter::Clamp);
         assert_eq!(point.stress, evaluate_stress(&RotatedLinear, DisplacementGradient(&H)).stress);
+        assert_eq!(point.decomposition(), through_F.decomposition());
         assert_eq!((point.tangent, point.status.filtered), (through_F.tangent, through_F.status.filtered));
     }
 }

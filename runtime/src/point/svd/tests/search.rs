@@ -108,7 +108,11 @@ fn search<R: Scalar>(method: Method, quantity: usize, budget: Budget, seed: u64)
     let as_held = |F: &Exact| exact(&rounded::<R>(F));
     let mut random = Random::new(seed);
     let error = |F: &Exact| errors::<R>(method, F).0[quantity];
-    let mut elite: Vec<_> = found::<R>().map(|F| (error(&F), F)).collect();
+    let judged = |F: Exact| {
+        METHODS.iter().for_each(|&method| errors::<R>(method, &F).check("found.txt"));
+        (error(&F), F)
+    };
+    let mut elite: Vec<_> = found::<R>().map(judged).collect();
     assert!(elite.len() >= 4, "a find for each method and quantity");
     let begin = Instant::now();
     let goes_on = |steps: usize| steps < budget.steps || begin.elapsed() < budget.time;
