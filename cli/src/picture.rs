@@ -36,7 +36,7 @@ fn tiles(motion: &[f64]) -> Vec<usize> {
 }
 
 /// Indices of at most `count` of these ascending numbers, as evenly spaced as different ones can be, both
-/// ends among them.
+/// ends among them: of two as near the first.
 fn evenly_spread(progress: &[f64], count: usize) -> Vec<usize> {
     let (Some(first), Some(last)) = (progress.first(), progress.last()) else { return Vec::new() };
     let count = count.min(progress.len());

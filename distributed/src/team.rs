@@ -92,10 +92,9 @@ impl Team {
         let lengths: Vec<Count> = outgoing.iter().map(|list| list.len() as Count).collect();
         let mut incoming = vec![0 as Count; self.size];
         self.world().all_to_all_into(&lengths[..], &mut incoming[..]);
-        let sent = outgoing.concat();
         let mut received = vec![0_u64; incoming.iter().map(|&length| length as usize).sum()];
         {
-            let starts_of_sent = starts(&lengths);
+            let (sent, starts_of_sent) = (outgoing.concat(), starts(&lengths));
             let from = Partition::new(&sent[..], lengths, starts_of_sent);
             let mut to = PartitionMut::new(&mut received[..], incoming.clone(), starts(&incoming));
             self.world().all_to_all_varcount_into(&from, &mut to);
@@ -116,7 +115,9 @@ impl Team {
     ) -> Vec<Vec<[u64; N]>> {
         let mut outgoing: Vec<Vec<u64>> = vec![Vec::new(); self.size];
         rows.into_iter().for_each(|(rank, row)| outgoing[rank].extend(row));
-        self.exchange(&outgoing).iter().map(|list| list.as_chunks().0.to_vec()).collect()
+        let incoming = self.exchange(&outgoing);
+        drop(outgoing);
+        incoming.into_iter().map(|list| list.as_chunks().0.to_vec()).collect()
     }
 
     /// Bytes of a rank, sent to all ranks.

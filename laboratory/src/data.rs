@@ -13,10 +13,10 @@
 //!
 //! # Files of test machines and spreadsheets
 //!
-//! * The text is UTF-8. Columns are separated by tabs, semicolons, commas or spaces: the first of these in
-//!   the last line. Decimals have a point, or in the whole file a comma where another mark separates columns;
-//!   thousands have no mark. If every comma could be one of thousands, as in `1,234`, the file is refused.
-//!   Lines above the header are skipped; a row of units may stand below it.
+//! * Columns are separated by tabs, semicolons, commas or spaces: the first of these in the last line.
+//!   Decimals have a point, or in the whole file a comma where another mark separates columns; thousands have
+//!   no mark. If every comma could be one of thousands, as in `1,234`, the file is refused. Lines above the
+//!   header are skipped; a row of units may stand below it.
 //! * A header in plain form is one of these names, in letters of any case:
 //!
 //! | quantity | header | becomes |

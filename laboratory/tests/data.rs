@@ -10,7 +10,8 @@ const PSI: f64 = 6_894.757_293_168_361;
 
 fn file(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name);
-    String::from_utf8_lossy(&std::fs::read(path).expect("a file of this test")).into_owned()
+    let bytes = std::fs::read(path).expect("a file of this test");
+    String::from_utf8(bytes).unwrap_or_else(|error| error.into_bytes().into_iter().map(char::from).collect())
 }
 
 /// Options in words, as on the command line: test, unit, column of the strain, column of the stress; empty
@@ -123,7 +124,7 @@ fn other_columns_are_chosen_by_name_or_number() {
         &file("testxpert.csv"),
         ["uniaxial", "", "dehnung", "Spannung"],
         &[(Uniaxial, 1.0, 0.0), (Uniaxial, 1.125, 0.15e6), (Uniaxial, 2.0, 0.55e6)],
-        &["`Dehnung` as nominal strain in %", "decimal commas", "Pr\u{fffd}fzeit"],
+        &["`Dehnung` as nominal strain in %", "decimal commas", "Prüfzeit"],
     );
     check(
         &file("excel_german.csv"),
@@ -243,7 +244,7 @@ fn columns_that_are_not_clear_are_listed() {
 fn what_is_missing_or_twofold_is_named() {
     refuse("", [""; 4], 1, &["no table", "mode,stretch,nominal_stress_MPa"]);
     refuse("# nothing\n", [""; 4], 1, &["no table"]);
-    for text in ["PK\u{3}\u{4}\0\0xl/workbook.xml", "\u{fffd}\u{fffd}1\0;\0"] {
+    for text in ["PK\u{3}\u{4}\0\0xl/workbook.xml", "ÿþ1\0;\0"] {
         refuse(text, [""; 4], 1, &["UTF-16", "spreadsheet", "CSV"]);
     }
     refuse("strain,stress [MPa]\n0.1,0.1\n", [""; 4], 1, &["no column `mode`", "--mode uniaxial"]);

@@ -32,7 +32,8 @@ const NEAR: f64 = 1e-6;
 /// A scene in motion, step by step.
 #[derive(Debug)]
 pub struct Play {
-    /// The scene and its overrides, with the present material and time step.
+    /// The scene and its overrides, with the present material and time step: change that by
+    /// [`set_dt`](Self::set_dt).
     pub settings: Settings,
     /// The body at rest, and its surface.
     pub geometry: Arc<Geometry>,
@@ -46,7 +47,7 @@ pub struct Play {
     pub parameters: Parameters,
     /// Small-strain moduli of the material.
     pub moduli: Moduli,
-    /// Number of the step and its time.
+    /// Number of the step and its time: set by [`resume`](Self::resume).
     pub clock: Clock,
     /// Counts of the time steps of the last frame.
     pub steps: StepCounts,

@@ -98,7 +98,9 @@ impl Data {
             stress: column(&self.stresses),
         };
         let (files, given) = (self.files.len(), self.tests.len());
-        let text = String::from_utf8_lossy(&bytes);
+        // Older machines write Latin-1, also in units: N/mm², µm/m.
+        let text = String::from_utf8(bytes)
+            .unwrap_or_else(|error| error.into_bytes().into_iter().map(char::from).collect());
         let reading = Measurements::read_with(&text, &options).map_err(|source| match source.fault {
             Fault::NoMode if given > 0 => unpaired("--mode", given, files),
             fault => Error::usage(format!("{path}:{}: {fault}", source.line)),

@@ -211,7 +211,8 @@ impl fmt::Display for Warning {
                     "other descents end about as well, with differences of up to {:.3} %, compared with {:.3} % of this one, \
                      at {}: a term has vanished, two terms have become one, a parameter grows without bound, parameters \
                      compensate each other, or there are several minima; hold one of them (`--hold {name}`, \
-                     `FitSettings::held`), leave a term out, or add data of other tests",
+                     `FitSettings::held`), leave a term out, declare what the energy becomes in that limit, or add data of \
+                     other tests",
                     100.0 * difference,
                     100.0 * found,
                     ranges.join(", ")

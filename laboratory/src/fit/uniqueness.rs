@@ -120,22 +120,20 @@ pub(super) fn ambiguous(
             begin += length;
             // Terms of a sum that change places are the same energy, those of each sum by themselves. Values
             // of a function are compared in their order.
-            let [one, other] = [best, minimum].map(|minimum| {
-                let mut sorted = minimum.problem.values[list.clone()].to_vec();
+            let [ours, theirs] = [best, minimum].map(|minimum| {
+                let values = &minimum.problem.values;
+                let mut places: Vec<usize> = list.clone().collect();
                 if form == Form::List {
-                    sorted.sort_by(f64::total_cmp);
+                    places.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
                 }
-                sorted
+                places
             });
-            let is_same = |(number, (one, other)): (usize, (f64, f64))| {
+            for (number, other) in ours.into_iter().zip(theirs) {
+                let (here, there) = (best.problem.values[number], minimum.problem.values[other]);
                 let zero = ZERO * numbers[number].value.abs();
-                (one - other).abs() <= SAME * one.abs().max(other.abs()) + zero
-            };
-            if list.clone().zip(one.into_iter().zip(other)).all(is_same) {
-                continue;
-            }
-            for number in list {
-                let [here, there] = [best, minimum].map(|minimum| minimum.problem.values[number]);
+                if (here - there).abs() <= SAME * here.abs().max(there.abs()) + zero {
+                    continue;
+                }
                 let (least, greatest) = ranges.entry(number).or_insert((here, here));
                 (*least, *greatest) = (least.min(there), greatest.max(there));
                 squares = squares.max(minimum.squares);
@@ -144,7 +142,6 @@ pub(super) fn ambiguous(
     }
     let ranges: Vec<_> = ranges
         .into_iter()
-        .filter(|(_, (least, greatest))| least < greatest)
         .map(|(number, (least, greatest))| (numbers[number].name.clone(), least, greatest))
         .collect();
     let [difference, found] = [squares, best.squares].map(|squares| (squares / count).sqrt());

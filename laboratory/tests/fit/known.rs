@@ -125,6 +125,7 @@ fn ordinates_of_a_curve_are_recovered_from_what_they_make() -> Outcome {
     // The curve as a whole.
     let found = fit_parameters(&start, &data, &holding("f"))?;
     assert!(found.numbers[..4].iter().all(|number| number.standing == Standing::Held), "{found:?}");
+    assert_eq!(found.values[0], start.values()[0]);
     Ok(())
 }
 

@@ -116,7 +116,7 @@ fn read(text: &str, settings: &Settings, vtu: bool) -> Result<Saved, String> {
 /// The first setting in which two runs differ, apart from the numbers of frames and threads, which do not
 /// affect any frame.
 fn difference(before: &Settings, now: &Settings) -> Option<String> {
-    let (before, now) = (serde_json::to_value(before).ok()?, serde_json::to_value(now).ok()?);
+    let (before, now) = (serde_json::to_value(before).unwrap_or_default(), serde_json::to_value(now).ok()?);
     let differs =
         |name: &&String| !["frames", "threads"].contains(&name.as_str()) && before[*name] != now[*name];
     let name = now.as_object()?.keys().find(differs)?;

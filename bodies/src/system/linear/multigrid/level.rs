@@ -120,7 +120,7 @@ impl<const N: usize> Level<N> {
         let columns = columns_of(&prolongation, numbers.len())?;
         let upper = coarse_rows(&prolongation, &columns, &product);
         drop(product);
-        level.prolongation = prolongation.map(|entry| entry as f32).first(owned);
+        level.prolongation = prolongation.first(owned).map(|entry| entry as f32);
         level.columns = match division.copies() {
             0 => columns,
             _ => columns_of(&level.prolongation, numbers.len())?,
