@@ -164,7 +164,7 @@ impl Energy {
 
     /// Values of the parameters of a material of this energy, one list for each parameter of the description
     /// in its order, in the form of [`with_values`](Self::with_values): numbers and lists as in
-    /// [`material`](Self::material), splines as in [`Univariate::values`].
+    /// [`material`](Self::material), splines as in [`Spline::values`].
     #[must_use]
     pub fn values(&self, material: &Interpreted) -> Vec<Vec<f64>> {
         fit::values(material)
@@ -175,7 +175,7 @@ impl Energy {
     ///
     /// # Errors
     /// [`MaterialError::Shape`] if the lengths do not match; other errors are those of [`Energy::material`] and
-    /// of [`Univariate::with_values`].
+    /// of [`Spline::with_values`].
     pub fn with_values(
         &self,
         material: &Interpreted,

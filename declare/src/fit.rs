@@ -4,7 +4,6 @@ use std::iter;
 
 use piola::__private::by_values;
 use piola::__private::interpreter::{Program, Value};
-use piola::Univariate;
 use piola::interpreter::Interpreted;
 use piola::material::{Constraint, Limit, Material};
 use piola_codegen::algebra::expr::{Graph, Id, Node};
