@@ -7,9 +7,7 @@ use piola::__private::interpreter::{ByInvariants, Programs, Value, Variant};
 use piola::__private::{Condition, record};
 use piola::contract::Notation;
 use piola::interpreter::Interpreted;
-use piola::material::{
-    Constraint, Curvature, Description, Form, MaterialError, Parameter, Text, Typical, Unit,
-};
+use piola::material::{Curvature, Description, Form, MaterialError, Parameter, Text, Typical, Unit};
 use piola::{DynMaterial, Inversion};
 use piola::{Spline, Univariate};
 use piola_codegen::algebra::expr::Id;
@@ -22,7 +20,7 @@ use piola_codegen::read::notation::plain_name;
 use piola_codegen::read::parse::{Declaration, Kind};
 
 use crate::constructor::Constructor;
-use crate::fit::{self, Fit};
+use crate::fit::{self, Constraint, Fit};
 use crate::lower::{lower, lower_parts};
 
 /// An elastic energy, compiled from text.
@@ -235,8 +233,7 @@ impl Energy {
     ///
     /// ```
     /// use piola::Inversion;
-    /// use piola::material::Limit;
-    /// use piola_declare::Energy;
+    /// use piola_declare::{Energy, Limit};
     ///
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// let energy = Energy::from_rust(

@@ -2,15 +2,29 @@
 
 use std::iter;
 
-use piola::__private::by_values;
 use piola::__private::interpreter::{Program, Value};
 use piola::interpreter::Interpreted;
-use piola::material::{Constraint, Limit, Material};
+use piola::material::Material;
 use piola_codegen::algebra::expr::{Graph, Id, Node};
-use piola_codegen::model::{self, ByParameters, Model};
+use piola_codegen::model::{self, ByParameters, Limit, Model};
 use piola_codegen::read::parse::Declaration;
 
 use crate::lower::lower;
+
+mod differences;
+
+use differences::by_values;
+
+/// A condition on the parameters of a material, as a function of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constraint {
+    /// The condition.
+    pub limit: Limit,
+    /// A measure of the distance to the limit, positive inside: for `a > b` the difference a − b.
+    pub value: f64,
+    /// The derivative of the value with respect to each number among the parameters, lists entry by entry.
+    pub gradient: Vec<f64>,
+}
 
 /// Programs for fits of an energy.
 #[derive(Debug)]
@@ -30,11 +44,11 @@ impl Fit {
         }
         let gradient: Vec<_> = gradient.iter().map(|triple| triple.to_vec()).collect();
         let gradient = Slopes::new(declaration, model, &gradient)?;
-        let mut conditions = |constraints: &[model::Constraint]| {
-            let conditions = constraints.iter().map(|one| Condition::new(declaration, model, one));
+        let mut conditions = |constraints: Vec<model::Constraint>| {
+            let conditions = constraints.into_iter().map(|one| Condition::new(declaration, model, one));
             conditions.collect::<Option<Vec<_>>>()
         };
-        Some(Self { gradient, constraints: conditions(&constraints)?, domain: conditions(&domain)? })
+        Some(Self { gradient, constraints: conditions(constraints)?, domain: conditions(domain)? })
     }
 
     /// ∂ψi/∂p for each number p.
@@ -68,20 +82,14 @@ struct Condition {
 }
 
 impl Condition {
-    fn new(declaration: &Declaration, model: &mut Model, constraint: &model::Constraint) -> Option<Self> {
-        let limit = match constraint.limit.clone() {
-            model::Limit::Admissible(text) => Limit::Admissible(text.into()),
-            model::Limit::ShearModulus => Limit::ShearModulus,
-            model::Limit::BulkModulus => Limit::BulkModulus,
-            model::Limit::Domain(text) => Limit::Domain(text.into()),
-        };
+    fn new(declaration: &Declaration, model: &mut Model, constraint: model::Constraint) -> Option<Self> {
         let is_of_length = |length| {
             let mut parameters = declaration.parameters.iter();
             parameters.position(|parameter| parameter.length() == Some(length))
         };
         let slopes: Vec<_> = constraint.by_parameters.iter().map(|&slope| vec![slope]).collect();
         Some(Self {
-            limit,
+            limit: constraint.limit,
             list: constraint.length.and_then(is_of_length),
             value: lower(declaration, &model.program(&[constraint.value]))?,
             slopes: Slopes::new(declaration, model, &slopes)?,

@@ -13,7 +13,6 @@ pub use crate::kernels::rows::Rows;
 pub use crate::lanes::Mask;
 pub use crate::material::condition::{Condition, Term};
 pub use crate::material::constructor::*;
-pub use crate::material::differences::by_values;
 pub use crate::material::parameter::PerLane;
 pub use crate::material::{
     Blocks, Curvature, Declared, Description, Form, Graded, Inversion, MaterialError, Moduli, Parameter,

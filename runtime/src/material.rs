@@ -18,17 +18,14 @@
 use crate::lanes::{Mask, Real, Scalar};
 
 pub(crate) mod condition;
-mod constraint;
 pub(crate) mod constructor;
 mod description;
-pub(crate) mod differences;
 mod error;
 pub(crate) mod parameter;
 #[cfg(feature = "batch")]
 pub(crate) mod properties;
 mod response;
 
-pub use constraint::{Constraint, Limit};
 pub use description::{Description, Form, Parameter, Text, Typical, Unit};
 pub use error::{Argument, MaterialError};
 pub use parameter::{Graded, ParameterValue, PerPoint, PerPointError};
