@@ -8,8 +8,7 @@ use piola::__private::{Condition, record};
 use piola::contract::Notation;
 use piola::interpreter::Interpreted;
 use piola::material::{Curvature, Description, Form, MaterialError, Parameter, Text, Typical, Unit};
-use piola::{DynMaterial, Inversion};
-use piola::{Spline, Univariate};
+use piola::{DynMaterial, Inversion, Material, Spline, Univariate};
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::algebra::invariants;
 use piola_codegen::emit::documentation::page;
@@ -223,8 +222,8 @@ impl Energy {
     /// ```
     #[must_use]
     pub fn gradient_by_parameters(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
-        let material = self.without_extension(material);
-        self.0.fit.by_parameters(&material, stretches)
+        let gradient = |material: &Interpreted| material.gradient(stretches);
+        self.0.fit.gradient.each(&self.without_extension(material), &stretches, &gradient)
     }
 
     /// Conditions that the constructor checks, except for finite values and `!=`: the comparisons of
@@ -254,16 +253,14 @@ impl Energy {
     /// ```
     #[must_use]
     pub fn constraints(&self, material: &Interpreted) -> Vec<Constraint> {
-        let material = self.without_extension(material);
-        self.0.fit.constraints(&material)
+        fit::constraints(&self.0.fit.constraints, &self.without_extension(material), &[])
     }
 
     /// Conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0, except for those on J alone: at stretches that
     /// are kept, these are conditions on the parameters too.
     #[must_use]
     pub fn domain_constraints(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<Constraint> {
-        let material = self.without_extension(material);
-        self.0.fit.domain_constraints(&material, stretches)
+        fit::constraints(&self.0.fit.domain, &self.without_extension(material), &stretches)
     }
 
     /// The material with each number among its parameters replaced by the value that stands for it in a

@@ -4,7 +4,6 @@ use std::iter;
 
 use piola::__private::interpreter::{Program, Value};
 use piola::interpreter::Interpreted;
-use piola::material::Material;
 use piola_codegen::algebra::expr::{Graph, Id, Node};
 use piola_codegen::model::{self, ByParameters, Limit, Model};
 use piola_codegen::read::parse::Declaration;
@@ -29,9 +28,12 @@ pub struct Constraint {
 /// Programs for fits of an energy.
 #[derive(Debug)]
 pub(crate) struct Fit {
-    gradient: Slopes,
-    constraints: Vec<Condition>,
-    domain: Vec<Condition>,
+    /// ∂ψi/∂p for each number p.
+    pub(crate) gradient: Slopes,
+    /// The conditions on the parameters alone.
+    pub(crate) constraints: Vec<Condition>,
+    /// The conditions of the domain at given stretches.
+    pub(crate) domain: Vec<Condition>,
 }
 
 impl Fit {
@@ -50,30 +52,20 @@ impl Fit {
         };
         Some(Self { gradient, constraints: conditions(constraints)?, domain: conditions(domain)? })
     }
-
-    /// ∂ψi/∂p for each number p.
-    pub(crate) fn by_parameters(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
-        self.gradient.each(material, &stretches, &|material| material.gradient(stretches))
-    }
-
-    /// The conditions on the parameters alone.
-    pub(crate) fn constraints(&self, material: &Interpreted) -> Vec<Constraint> {
-        all(&self.constraints, material, &[])
-    }
-
-    /// The conditions of the domain at given stretches.
-    pub(crate) fn domain_constraints(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<Constraint> {
-        all(&self.domain, material, &stretches)
-    }
 }
 
-fn all(conditions: &[Condition], material: &Interpreted, arguments: &[f64]) -> Vec<Constraint> {
+/// The conditions for a material, at the stretches that are the arguments of those of the domain.
+pub(crate) fn constraints(
+    conditions: &[Condition],
+    material: &Interpreted,
+    arguments: &[f64],
+) -> Vec<Constraint> {
     conditions.iter().flat_map(|condition| condition.constraints(material, arguments)).collect()
 }
 
 /// A condition on the parameters as a program, with its derivatives.
 #[derive(Debug)]
-struct Condition {
+pub(crate) struct Condition {
     limit: Limit,
     /// A list for each of whose entries it must hold.
     list: Option<usize>,
@@ -117,7 +109,7 @@ impl Condition {
 
 /// Derivatives of expressions by each number among the parameters.
 #[derive(Debug)]
-struct Slopes {
+pub(crate) struct Slopes {
     /// Programs of the derivatives by numbers, and by the entries of the lists of one length, whose first is
     /// named.
     programs: Vec<(Option<usize>, Vec<usize>, Program)>,
@@ -146,7 +138,7 @@ impl Slopes {
     }
 
     /// The derivatives of N results by each number, lists entry by entry.
-    fn each<const N: usize>(
+    pub(crate) fn each<const N: usize>(
         &self,
         material: &Interpreted,
         arguments: &[f64],
