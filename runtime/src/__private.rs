@@ -54,7 +54,6 @@ pub mod record {
     pub use crate::kernels::tetrahedron::{DenseTetrahedron, evaluate_tetrahedron};
     pub use crate::lanes::recorded::program::{
         Binary, Format, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary,
-        UnrecordedParameter,
     };
     pub use crate::lanes::recorded::{Recorded, RecordedMask, parameter, record};
 }
