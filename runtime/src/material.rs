@@ -82,14 +82,6 @@ pub trait Material: Send + Sync {
     /// Gradient, Hessian and quotients, Pa. No gap between stretches is special, zero included.
     fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R>;
 
-    /// Energy density ψ, J/m³ of rest volume, and blocks, Pa, with their common terms computed once.
-    ///
-    /// `#[piola::material]` overrides it; as given here it is [`Material::energy`] and [`Material::blocks`].
-    #[inline(always)]
-    fn energy_and_blocks<R: Real>(&self, stretches: [R; 3]) -> (R, Blocks<R>) {
-        (self.energy(stretches), self.blocks(stretches))
-    }
-
     /// True if the energy in use is defined at these stretches.
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask;
 
