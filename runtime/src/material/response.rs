@@ -55,7 +55,8 @@ pub enum ResponseKind {
 
 impl ResponseKind {
     /// True if its arguments are I1, I2, J instead of stretches.
-    pub(crate) fn is_by_invariants(self) -> bool {
+    #[must_use]
+    pub fn is_by_invariants(self) -> bool {
         !matches!(self, Self::Energy | Self::Gradient | Self::Blocks)
     }
 }
