@@ -11,9 +11,7 @@ mod steps;
 
 use std::str::FromStr;
 
-use piola::__private::record::{
-    self, Recorded, RecordedMask, Recording, UnrecordedParameter, evaluate_tetrahedron,
-};
+use piola::__private::record::{self, Recorded, RecordedMask, Recording, evaluate_tetrahedron};
 use piola::interpreter::Interpreted;
 use piola::lanes::{Mask, Real};
 use piola::material::{Form, MaterialError, Text};
@@ -221,8 +219,8 @@ pub enum EmitError {
     #[error("no function is requested; there are: {}", PointFunction::ALL.map(PointFunction::name).join(", "))]
     Nothing,
     /// A parameter selects the program, which cannot be recorded.
-    #[error(transparent)]
-    Unrecorded(#[from] UnrecordedParameter),
+    #[error("a parameter of the energy decides on its program: write its value into the energy")]
+    Unrecorded,
 }
 
 /// Input of a printer: an energy with its programs and parameters.
@@ -284,9 +282,10 @@ impl Energy {
         wanted.dedup();
         // A material keeps what it has computed of its parameters, which belongs to one recording.
         let fresh = || material.clone_with(material.values().to_vec());
-        let recorded = |one| recorded(format, one, &fresh()).map(|recording| (one, recording));
-        let functions = wanted.into_iter().map(recorded).collect::<Result<Vec<_>, _>>()?;
-        let rest = at_rest(format, &self.without_extension(&fresh()))?;
+        let recorded = |one| Some((one, recorded(format, one, &fresh())?));
+        let functions = wanted.into_iter().map(recorded).collect::<Option<Vec<_>>>();
+        let functions = functions.ok_or(EmitError::Unrecorded)?;
+        let rest = at_rest(format, &self.without_extension(&fresh())).ok_or(EmitError::Unrecorded)?;
         let values = &values[..];
         Ok(printer::print(&File {
             energy: self,
@@ -302,11 +301,7 @@ impl Energy {
 }
 
 /// Runs a function of a point once.
-fn recorded(
-    format: record::Format,
-    function: PointFunction,
-    material: &Interpreted,
-) -> Result<Recording, UnrecordedParameter> {
+fn recorded(format: record::Format, function: PointFunction, material: &Interpreted) -> Option<Recording> {
     let count: usize = Signature::of(function).inputs.iter().map(|&(_, count)| count).sum();
     record::record(format, count, |arguments| {
         let bits = |status: Status<RecordedMask>| {
@@ -355,7 +350,7 @@ fn recorded(
 }
 
 /// Twice the shear modulus and three times the bulk modulus at rest, and true if rest is inside the domain.
-fn at_rest(format: record::Format, material: &Interpreted) -> Result<Recording, UnrecordedParameter> {
+fn at_rest(format: record::Format, material: &Interpreted) -> Option<Recording> {
     record::record(format, 0, |_| {
         let one = Recorded::splat(1.0);
         let blocks = material.blocks([one; 3]);

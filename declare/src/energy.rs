@@ -7,11 +7,8 @@ use piola::__private::interpreter::{ByInvariants, Programs, Value, Variant};
 use piola::__private::{Condition, record};
 use piola::contract::Notation;
 use piola::interpreter::Interpreted;
-use piola::material::{
-    Constraint, Curvature, Description, Form, MaterialError, Parameter, Text, Typical, Unit,
-};
-use piola::{DynMaterial, Inversion};
-use piola::{Spline, Univariate};
+use piola::material::{Curvature, Description, Form, MaterialError, Parameter, Text, Typical, Unit};
+use piola::{DynMaterial, Inversion, Material, Spline, Univariate};
 use piola_codegen::algebra::expr::Id;
 use piola_codegen::algebra::invariants;
 use piola_codegen::emit::documentation::page;
@@ -22,7 +19,7 @@ use piola_codegen::read::notation::plain_name;
 use piola_codegen::read::parse::{Declaration, Kind};
 
 use crate::constructor::Constructor;
-use crate::fit::{self, Fit};
+use crate::fit::{self, Constraint, Fit};
 use crate::lower::{lower, lower_parts};
 
 /// An elastic energy, compiled from text.
@@ -164,7 +161,7 @@ impl Energy {
 
     /// Values of the parameters of a material of this energy, one list for each parameter of the description
     /// in its order, in the form of [`with_values`](Self::with_values): numbers and lists as in
-    /// [`material`](Self::material), splines as in [`Univariate::values`].
+    /// [`material`](Self::material), splines as in [`Spline::values`].
     #[must_use]
     pub fn values(&self, material: &Interpreted) -> Vec<Vec<f64>> {
         fit::values(material)
@@ -175,7 +172,7 @@ impl Energy {
     ///
     /// # Errors
     /// [`MaterialError::Shape`] if the lengths do not match; other errors are those of [`Energy::material`] and
-    /// of [`Univariate::with_values`].
+    /// of [`Spline::with_values`].
     pub fn with_values(
         &self,
         material: &Interpreted,
@@ -225,8 +222,8 @@ impl Energy {
     /// ```
     #[must_use]
     pub fn gradient_by_parameters(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
-        let material = self.without_extension(material);
-        self.0.fit.by_parameters(&material, stretches)
+        let gradient = |material: &Interpreted| material.gradient(stretches);
+        self.0.fit.gradient.each(&self.without_extension(material), &stretches, &gradient)
     }
 
     /// Conditions that the constructor checks, except for finite values and `!=`: the comparisons of
@@ -235,8 +232,7 @@ impl Energy {
     ///
     /// ```
     /// use piola::Inversion;
-    /// use piola::material::Limit;
-    /// use piola_declare::Energy;
+    /// use piola_declare::{Energy, Limit};
     ///
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// let energy = Energy::from_rust(
@@ -257,16 +253,14 @@ impl Energy {
     /// ```
     #[must_use]
     pub fn constraints(&self, material: &Interpreted) -> Vec<Constraint> {
-        let material = self.without_extension(material);
-        self.0.fit.constraints(&material)
+        fit::constraints(&self.0.fit.constraints, &self.without_extension(material), &[])
     }
 
     /// Conditions of the domain at stretches λ1 ≥ λ2 ≥ λ3 > 0, except for those on J alone: at stretches that
     /// are kept, these are conditions on the parameters too.
     #[must_use]
     pub fn domain_constraints(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<Constraint> {
-        let material = self.without_extension(material);
-        self.0.fit.domain_constraints(&material, stretches)
+        fit::constraints(&self.0.fit.domain, &self.without_extension(material), &stretches)
     }
 
     /// The material with each number among its parameters replaced by the value that stands for it in a

@@ -2,23 +2,38 @@
 
 use std::iter;
 
-use piola::__private::by_values;
 use piola::__private::interpreter::{Program, Value};
-use piola::Univariate;
 use piola::interpreter::Interpreted;
-use piola::material::{Constraint, Limit, Material};
 use piola_codegen::algebra::expr::{Graph, Id, Node};
-use piola_codegen::model::{self, ByParameters, Model};
+use piola_codegen::model::{self, ByParameters, Limit, Model};
 use piola_codegen::read::parse::Declaration;
 
 use crate::lower::lower;
 
+mod differences;
+
+use differences::by_values;
+
+/// A condition on the parameters of a material, as a function of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constraint {
+    /// The condition.
+    pub limit: Limit,
+    /// A measure of the distance to the limit, positive inside: for `a > b` the difference a − b.
+    pub value: f64,
+    /// The derivative of the value with respect to each number among the parameters, lists entry by entry.
+    pub gradient: Vec<f64>,
+}
+
 /// Programs for fits of an energy.
 #[derive(Debug)]
 pub(crate) struct Fit {
-    gradient: Slopes,
-    constraints: Vec<Condition>,
-    domain: Vec<Condition>,
+    /// ∂ψi/∂p for each number p.
+    pub(crate) gradient: Slopes,
+    /// The conditions on the parameters alone.
+    pub(crate) constraints: Vec<Condition>,
+    /// The conditions of the domain at given stretches.
+    pub(crate) domain: Vec<Condition>,
 }
 
 impl Fit {
@@ -31,36 +46,26 @@ impl Fit {
         }
         let gradient: Vec<_> = gradient.iter().map(|triple| triple.to_vec()).collect();
         let gradient = Slopes::new(declaration, model, &gradient)?;
-        let mut conditions = |constraints: &[model::Constraint]| {
-            let conditions = constraints.iter().map(|one| Condition::new(declaration, model, one));
+        let mut conditions = |constraints: Vec<model::Constraint>| {
+            let conditions = constraints.into_iter().map(|one| Condition::new(declaration, model, one));
             conditions.collect::<Option<Vec<_>>>()
         };
-        Some(Self { gradient, constraints: conditions(&constraints)?, domain: conditions(&domain)? })
-    }
-
-    /// ∂ψi/∂p for each number p.
-    pub(crate) fn by_parameters(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<[f64; 3]> {
-        self.gradient.each(material, &stretches, &|material| material.gradient(stretches))
-    }
-
-    /// The conditions on the parameters alone.
-    pub(crate) fn constraints(&self, material: &Interpreted) -> Vec<Constraint> {
-        all(&self.constraints, material, &[])
-    }
-
-    /// The conditions of the domain at given stretches.
-    pub(crate) fn domain_constraints(&self, material: &Interpreted, stretches: [f64; 3]) -> Vec<Constraint> {
-        all(&self.domain, material, &stretches)
+        Some(Self { gradient, constraints: conditions(constraints)?, domain: conditions(domain)? })
     }
 }
 
-fn all(conditions: &[Condition], material: &Interpreted, arguments: &[f64]) -> Vec<Constraint> {
+/// The conditions for a material, at the stretches that are the arguments of those of the domain.
+pub(crate) fn constraints(
+    conditions: &[Condition],
+    material: &Interpreted,
+    arguments: &[f64],
+) -> Vec<Constraint> {
     conditions.iter().flat_map(|condition| condition.constraints(material, arguments)).collect()
 }
 
 /// A condition on the parameters as a program, with its derivatives.
 #[derive(Debug)]
-struct Condition {
+pub(crate) struct Condition {
     limit: Limit,
     /// A list for each of whose entries it must hold.
     list: Option<usize>,
@@ -69,20 +74,14 @@ struct Condition {
 }
 
 impl Condition {
-    fn new(declaration: &Declaration, model: &mut Model, constraint: &model::Constraint) -> Option<Self> {
-        let limit = match constraint.limit.clone() {
-            model::Limit::Admissible(text) => Limit::Admissible(text.into()),
-            model::Limit::ShearModulus => Limit::ShearModulus,
-            model::Limit::BulkModulus => Limit::BulkModulus,
-            model::Limit::Domain(text) => Limit::Domain(text.into()),
-        };
+    fn new(declaration: &Declaration, model: &mut Model, constraint: model::Constraint) -> Option<Self> {
         let is_of_length = |length| {
             let mut parameters = declaration.parameters.iter();
             parameters.position(|parameter| parameter.length() == Some(length))
         };
         let slopes: Vec<_> = constraint.by_parameters.iter().map(|&slope| vec![slope]).collect();
         Some(Self {
-            limit,
+            limit: constraint.limit,
             list: constraint.length.and_then(is_of_length),
             value: lower(declaration, &model.program(&[constraint.value]))?,
             slopes: Slopes::new(declaration, model, &slopes)?,
@@ -110,7 +109,7 @@ impl Condition {
 
 /// Derivatives of expressions by each number among the parameters.
 #[derive(Debug)]
-struct Slopes {
+pub(crate) struct Slopes {
     /// Programs of the derivatives by numbers, and by the entries of the lists of one length, whose first is
     /// named.
     programs: Vec<(Option<usize>, Vec<usize>, Program)>,
@@ -139,7 +138,7 @@ impl Slopes {
     }
 
     /// The derivatives of N results by each number, lists entry by entry.
-    fn each<const N: usize>(
+    pub(crate) fn each<const N: usize>(
         &self,
         material: &Interpreted,
         arguments: &[f64],

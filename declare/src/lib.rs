@@ -39,11 +39,13 @@ mod rust;
 mod text;
 
 pub use energy::Energy;
+pub use fit::Constraint;
 // For the judge of random energies, which compares each program with an oracle.
 #[doc(hidden)]
 pub use energy::programs;
 pub use formula::FormulaOptions;
 pub use mistakes::{Mistake, Mistakes, Place};
+pub use piola_codegen::model::Limit;
 // For messages of sister crates.
 #[doc(hidden)]
 pub use piola_codegen::read::spelling::nearest;

@@ -6,14 +6,9 @@
 //! so that a declaration adds only the type to its module. It re-exports serde, so that a crate that declares
 //! `#[material(serde)]` needs no dependency on it.
 
-#[cfg(feature = "batch")]
-pub use crate::batch::material::{Arguments, Properties};
-#[cfg(feature = "batch")]
-pub use crate::kernels::rows::Rows;
 pub use crate::lanes::Mask;
 pub use crate::material::condition::{Condition, Term};
 pub use crate::material::constructor::*;
-pub use crate::material::differences::by_values;
 pub use crate::material::parameter::PerLane;
 pub use crate::material::{
     Blocks, Curvature, Declared, Description, Form, Graded, Inversion, MaterialError, Moduli, Parameter,
@@ -52,10 +47,9 @@ pub mod random {
 /// Computations as programs, for back ends that print them.
 #[cfg(all(feature = "interpreter", not(test)))]
 pub mod record {
-    pub use crate::kernels::tetrahedron::{DenseTetrahedron, evaluate_tetrahedron};
+    pub use crate::kernels::tetrahedron::evaluate_tetrahedron;
     pub use crate::lanes::recorded::program::{
         Binary, Format, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary,
-        UnrecordedParameter,
     };
     pub use crate::lanes::recorded::{Recorded, RecordedMask, parameter, record};
 }

@@ -18,17 +18,14 @@
 use crate::lanes::{Mask, Real, Scalar};
 
 pub(crate) mod condition;
-mod constraint;
 pub(crate) mod constructor;
 mod description;
-pub(crate) mod differences;
 mod error;
 pub(crate) mod parameter;
 #[cfg(feature = "batch")]
 pub(crate) mod properties;
 mod response;
 
-pub use constraint::{Constraint, Limit};
 pub use description::{Description, Form, Parameter, Text, Typical, Unit};
 pub use error::{Argument, MaterialError};
 pub use parameter::{Graded, ParameterValue, PerPoint, PerPointError};
@@ -84,14 +81,6 @@ pub trait Material: Send + Sync {
 
     /// Gradient, Hessian and quotients, Pa. No gap between stretches is special, zero included.
     fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R>;
-
-    /// Energy density ψ, J/m³ of rest volume, and blocks, Pa, with their common terms computed once.
-    ///
-    /// `#[piola::material]` overrides it; as given here it is [`Material::energy`] and [`Material::blocks`].
-    #[inline(always)]
-    fn energy_and_blocks<R: Real>(&self, stretches: [R; 3]) -> (R, Blocks<R>) {
-        (self.energy(stretches), self.blocks(stretches))
-    }
 
     /// True if the energy in use is defined at these stretches.
     fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask;

@@ -3,8 +3,7 @@
 //! An energy may be given by curves instead of formulas, as in Σ f(λi) + Σ g(λiλj) + h(J) \[XSZB15\]. A
 //! parameter whose type implements [`Univariate`] is called in the declaration like a function, `f(l1)`. The
 //! type supplies φ′ and φ″, mostly φ as well, and may supply the quotients φ\[a, b\] and φ′\[a, b\], which
-//! have defaults, the domain of φ, and the values of φ that a fit may change. [`Spline`] is such a type,
-//! which approximates by control points.
+//! have defaults, and the domain of φ. [`Spline`] is such a type, which approximates by control points.
 //!
 //! \[XSZB15\] Xu, Sin, Zhu, Barbič, *Nonlinear Material Design Using Principal Stretches*, 2015.
 
@@ -155,45 +154,6 @@ pub trait Univariate: Clone + Debug + PartialEq + Send + Sync + 'static {
         let type_name = std::any::type_name::<Self>();
         Err(MaterialError::Shape {
             expected: format!("a {type_name} cannot be given by numbers, only in Rust"),
-        })
-    }
-
-    /// Values that a fit may change, such as ordinates or coefficients: those of the energies that
-    /// `piola_declare` makes at run time, whose functions are all [`Spline`]s.
-    ///
-    /// None by default: then a fit holds the function as it is.
-    fn values(&self) -> Vec<f64> {
-        Vec::new()
-    }
-
-    /// Builds the function with other [`values`](Univariate::values), all else being equal.
-    ///
-    /// φ should depend smoothly on each value, at least within 3 % of it.
-    ///
-    /// # Errors
-    /// [`MaterialError::Shape`] if there are more or fewer values; another error if they are inadmissible. By
-    /// default there must be none.
-    ///
-    /// ```
-    /// use piola::material::MaterialError;
-    /// use piola::{Spline, Univariate};
-    ///
-    /// # fn main() -> Result<(), MaterialError> {
-    /// // The ordinate at x = 1, which keeps the rest state free of stress, is not to be changed.
-    /// let force = Spline::through(&[[0.5, -2e5], [1.0, 0.0], [2.0, 1e5]])?;
-    /// assert_eq!(force.values(), [-2e5, 1e5]);
-    /// let softer = force.with_values(&[-1e5, 5e4])?;
-    /// assert!(softer.points().eq([[0.5, -1e5], [1.0, 0.0], [2.0, 5e4]]));
-    /// # Ok(())
-    /// # }
-    /// ```
-    fn with_values(&self, values: &[f64]) -> Result<Self, MaterialError> {
-        if values.is_empty() {
-            return Ok(self.clone());
-        }
-        let type_name = std::any::type_name::<Self>();
-        Err(MaterialError::Shape {
-            expected: format!("a {type_name} has no values to be changed, but {} are given", values.len()),
         })
     }
 }
@@ -399,9 +359,5 @@ mod tests {
     fn a_function_without_numbers_says_so() {
         let error = Logarithm::from_values(&[1.0]).unwrap_err().to_string();
         assert!(error.contains("only in Rust"), "{error}");
-        assert!(Logarithm.values().is_empty());
-        assert_eq!(Logarithm.with_values(&[]), Ok(Logarithm));
-        let error = Logarithm.with_values(&[1.0, 2.0]).unwrap_err().to_string();
-        assert!(error.contains("no values to be changed, but 2 are given"), "{error}");
     }
 }

@@ -1,7 +1,7 @@
 //! The derivatives of the stress by the parameters, against the stress itself.
 
-use piola::material::{Limit, MaterialError, Parameter, Unit};
-use piola_declare::Energy;
+use piola::material::{MaterialError, Parameter, Unit};
+use piola_declare::{Energy, Limit};
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
 use piola_materials::DECLARATIONS;

@@ -22,15 +22,12 @@ const MAX_TRIALS: usize = 48;
 
 /// Objective along a line, relative to its start.
 pub(super) trait Line {
-    /// Reason why the objective cannot be evaluated, other than a point outside its domain.
-    type Error;
-
     /// The objective at a step minus that at the start, with a bound for its rounding error; `None` outside
     /// the domain.
-    fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, Self::Error>;
+    fn change(&mut self, step: f64) -> Option<EnergyChange>;
 
     /// The derivative at the step tried last.
-    fn slope(&mut self) -> Result<f64, Self::Error>;
+    fn slope(&mut self) -> f64;
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,22 +54,22 @@ pub(super) enum Outcome {
 
 /// Halves the step, beginning with `first`, until it is acceptable; `slope` < 0 is the derivative at the
 /// start.
-pub(super) fn backtrack<L: Line>(line: &mut L, first: f64, slope: f64) -> Result<Outcome, L::Error> {
+pub(super) fn backtrack(line: &mut impl Line, first: f64, slope: f64) -> Outcome {
     let delta = SUFFICIENT_DECREASE;
     let (mut step, mut refused) = (first, 0);
     if first <= 0.0 {
-        return Ok(Outcome::Failed { step, refused });
+        return Outcome::Failed { step, refused };
     }
     for trials in 1..=MAX_TRIALS {
-        match line.change(step)? {
+        match line.change(step) {
             None => refused += 1,
             Some(EnergyChange { difference, noise }) => {
                 let enough = difference <= delta * step * slope;
                 let noisy = difference.abs() <= noise;
                 // φ'(step) ≤ (2δ − 1) φ'(0) is equivalent to the sufficient decrease for a quadratic, without
                 // differences.
-                if (enough && !noisy) || (noisy && line.slope()? <= (2.0 * delta - 1.0) * slope) {
-                    return Ok(Outcome::Accepted { step, difference, refused, by_slope: noisy });
+                if (enough && !noisy) || (noisy && line.slope() <= (2.0 * delta - 1.0) * slope) {
+                    return Outcome::Accepted { step, difference, refused, by_slope: noisy };
                 }
             }
         }
@@ -80,13 +77,11 @@ pub(super) fn backtrack<L: Line>(line: &mut L, first: f64, slope: f64) -> Result
             step *= SHRINK;
         }
     }
-    Ok(Outcome::Failed { step, refused })
+    Outcome::Failed { step, refused }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::convert::Infallible;
-
     use super::*;
 
     /// A function with its derivative and the step tried last.
@@ -98,15 +93,13 @@ mod tests {
     }
 
     impl<F: Fn(f64) -> Option<f64>, G: Fn(f64) -> f64> Line for Function<F, G> {
-        type Error = Infallible;
-
-        fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, Infallible> {
+        fn change(&mut self, step: f64) -> Option<EnergyChange> {
             self.at = step;
-            Ok((self.value)(step).map(|difference| EnergyChange { difference, noise: self.noise }))
+            (self.value)(step).map(|difference| EnergyChange { difference, noise: self.noise })
         }
 
-        fn slope(&mut self) -> Result<f64, Infallible> {
-            Ok((self.derivative)(self.at))
+        fn slope(&mut self) -> f64 {
+            (self.derivative)(self.at)
         }
     }
 
@@ -119,7 +112,7 @@ mod tests {
     ) {
         let slope = derivative(0.0);
         let mut line = Function { value, derivative, at: 0.0, noise };
-        assert_eq!(backtrack(&mut line, 1.0, slope), Ok(expected));
+        assert_eq!(backtrack(&mut line, 1.0, slope), expected);
     }
 
     fn accepted(step: f64, difference: f64, refused: usize, by_slope: bool) -> Outcome {

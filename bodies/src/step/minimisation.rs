@@ -92,9 +92,7 @@ impl<'a, M: Machine> Minimisation<'a, M> {
 }
 
 impl<M: Machine> Line for Minimisation<'_, M> {
-    type Error = NewtonError;
-
-    fn change(&mut self, step: f64) -> Result<Option<EnergyChange>, NewtonError> {
+    fn change(&mut self, step: f64) -> Option<EnergyChange> {
         let Self { objective, workspace: NewtonWorkspace { machine, direction, trial, .. }, x, .. } = self;
         for node in 0..x.len() {
             for c in 0..3 {
@@ -111,31 +109,31 @@ impl<M: Machine> Line for Minimisation<'_, M> {
         });
         let [refused, terms, elastic, elastic_noise, terms_noise] = machine.nodes().totals(own);
         if refused > 0.0 {
-            return Ok(None);
+            return None;
         }
         let [slope, curvature] = self.quadratic;
         let (linear, quadratic) = (step * slope, 0.5 * step * step * curvature);
         // Slope and curvature are sums of products; 4u allows for the cancellation within the slope.
         let noise = 4.0 * f64::UNIT_ROUNDOFF * (linear.abs() + quadratic) + elastic_noise + terms_noise;
-        Ok(Some(EnergyChange { difference: linear + quadratic + terms + elastic, noise }))
+        Some(EnergyChange { difference: linear + quadratic + terms + elastic, noise })
     }
 
-    fn slope(&mut self) -> Result<f64, NewtonError> {
+    fn slope(&mut self) -> f64 {
         let Self { objective, workspace, .. } = self;
         objective.elastic.evaluate_gradients(objective.body);
         objective.gradient(&workspace.trial, &mut workspace.gradient);
         workspace.sum_gradient();
-        Ok(self.descent())
+        self.descent()
     }
 }
 
 impl<M: Machine> Minimisation<'_, M> {
     /// Evaluates g after the energies; returns its norm over the free variables, N.
-    pub(super) fn gradient(&mut self) -> Result<f64, NewtonError> {
+    pub(super) fn gradient(&mut self) -> f64 {
         self.objective.elastic.evaluate_gradients(self.objective.body);
         self.objective.gradient(self.x, &mut self.workspace.gradient);
         self.workspace.sum_gradient();
-        Ok(self.workspace.free_norm())
+        self.workspace.free_norm()
     }
 
     /// Evaluates g and the filtered second derivatives K; with `pins_move`, adds K times the displacement of

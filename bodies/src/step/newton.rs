@@ -112,7 +112,7 @@ impl<M: Machine> Newton<'_, '_, M> {
 
     /// Evaluates the gradient; returns true if it is small enough.
     fn note_gradient(&mut self) -> Result<bool, NewtonError> {
-        let residual = self.minimisation.gradient()?;
+        let residual = self.minimisation.gradient();
         self.report.note_residual(residual, self.settings)
     }
 
@@ -154,7 +154,7 @@ impl<M: Machine> Newton<'_, '_, M> {
         }
         let first = self.minimisation.longest_step();
         self.minimisation.set_base();
-        match backtrack(self.minimisation, first, slope)? {
+        match backtrack(self.minimisation, first, slope) {
             Outcome::Accepted { step, difference, refused, by_slope } => {
                 self.minimisation.accept();
                 self.report.step_lengths.push(step);

@@ -2,8 +2,8 @@
 
 use piola::Material;
 use piola::interpreter::Interpreted;
-use piola::material::{Blocks, Constraint, Description, MaterialError};
-use piola_declare::Energy;
+use piola::material::{Blocks, Description, MaterialError};
+use piola_declare::{Constraint, Energy};
 
 use crate::specimen::Specimen;
 

@@ -12,7 +12,8 @@
 
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra::{DMatrix, DVector};
-use piola::material::{Constraint, Limit, MaterialError};
+use piola::material::MaterialError;
+use piola_declare::{Constraint, Limit};
 
 use super::outcome::TrialError;
 use super::problem::{Problem, Trial};

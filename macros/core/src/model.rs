@@ -174,7 +174,7 @@ fn read_into(
         options.admissible.iter().map(|condition| resolver.condition(condition)).collect();
     let restoring = options.extend.iter().flatten().filter_map(|condition| resolver.condition(condition));
     let admissible: Vec<_> = restoring.chain(constrained.iter().copied().flatten()).collect();
-    let mut nodes = resolver.into_nodes();
+    let mut nodes = resolver.nodes;
     if deepest < usize::MAX && graph.depth(&[energy]) > deepest {
         let message = format!("this is nested more than {deepest} deep, names of `let` included");
         diagnostics.error(&declaration.body, message);

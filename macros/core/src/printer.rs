@@ -26,8 +26,7 @@ pub fn rust(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
 }
 
 /// A node as a factor of a product in Rust: a sum is in parentheses.
-#[must_use]
-pub fn rust_factor(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
+pub(crate) fn rust_factor(graph: &mut Graph, declaration: &Declaration, id: Id) -> String {
     Printer::by_stretches(graph, declaration, Notation::Rust).print(id, Context::Product)
 }
 

@@ -10,7 +10,7 @@ use crate::material::{Curvature, Graded, Material, PerPoint, RawTile, ResponseKi
 use crate::point::energy_is_finite;
 use crate::status::Status;
 
-pub use crate::material::properties::Properties;
+pub(crate) use crate::material::properties::Properties;
 
 /// The material of a batch's points: the same for all, or one for each.
 trait Points: Send + Sync {

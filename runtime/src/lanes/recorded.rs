@@ -19,10 +19,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use super::elementary::{self, Logarithm};
 use super::primitive::Primitive;
 use super::real::{Mask, Real};
-use program::{
-    Binary, Format, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary, UnrecordedParameter,
-    calls,
-};
+use program::{Binary, Format, Function, Id, RecordedOperation, RecordedProgram, Recording, Unary, calls};
 use tape::Tape;
 
 #[derive(Default)]
@@ -55,22 +52,21 @@ pub fn parameter(k: u32) -> f64 {
 const PARAMETERS: u64 = 0x7ff4_9101_0000_0000;
 const QUIET: u64 = 0x7ffc_9101_0000_0000;
 
-/// Records a computation from arguments to numbers and truth values in a format.
-///
-/// # Errors
-/// [`UnrecordedParameter`] if the computation has used a [`parameter`] other than as a number of the program.
+/// Records a computation from arguments to numbers and truth values in a format; `None` if it has used a
+/// [`parameter`] as a plain number, so that the record is not a program of the parameter.
+#[must_use]
 pub fn record(
     format: Format,
     arguments: usize,
     computation: impl FnOnce(&[Recorded]) -> (Vec<Recorded>, Vec<RecordedMask>),
-) -> Result<Recording, UnrecordedParameter> {
+) -> Option<Recording> {
     let before = RECORDER.replace(Recorder { format, ..Recorder::default() });
     let program = recorded(arguments, |arguments| {
         let (numbers, masks) = computation(arguments);
         numbers.iter().map(|number| number.0).chain(masks.iter().map(|mask| mask.0)).collect()
     });
     let Recorder { functions, has_lost_parameter, .. } = RECORDER.replace(before);
-    if has_lost_parameter { Err(UnrecordedParameter) } else { Ok(Recording { program, functions }) }
+    (!has_lost_parameter).then_some(Recording { program, functions })
 }
 
 /// The program of a computation on a tape of its own.

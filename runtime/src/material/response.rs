@@ -16,7 +16,6 @@ macro_rules! with_responses {
                 gradient -> [R; 3],
                 gradient_at_strains -> [R; 3],
                 blocks -> Blocks<R>,
-                energy_and_blocks -> (R, Blocks<R>),
                 energy_by_invariants -> R,
                 gradient_by_invariants -> [R; 3],
                 derivatives_by_invariants -> [R; 9],

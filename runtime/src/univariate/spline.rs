@@ -100,6 +100,45 @@ impl Spline {
         self.knots.iter().zip(&self.forces).map(|(&x, &force)| [x, force])
     }
 
+    /// Values that a fit may change: the ordinates φ′ of the control points, Pa, except for one at x = 1, which
+    /// is kept, and with it a rest state without stress.
+    #[must_use]
+    pub fn values(&self) -> Vec<f64> {
+        self.points().filter(|&[x, _]| x != REST).map(|[_, force]| force).collect()
+    }
+
+    /// The spline with other [`values`](Self::values).
+    ///
+    /// # Errors
+    /// [`MaterialError::Shape`] if there are more or fewer values, or one is not finite.
+    ///
+    /// ```
+    /// use piola::Spline;
+    ///
+    /// # fn main() -> Result<(), piola::material::MaterialError> {
+    /// let force = Spline::through(&[[0.5, -2e5], [1.0, 0.0], [2.0, 1e5]])?;
+    /// assert_eq!(force.values(), [-2e5, 1e5]);
+    /// let softer = force.with_values(&[-1e5, 5e4])?;
+    /// assert!(softer.points().eq([[0.5, -1e5], [1.0, 0.0], [2.0, 5e4]]));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn with_values(&self, values: &[f64]) -> Result<Self, MaterialError> {
+        let mut rest = values.iter();
+        let mut next = || rest.next().copied();
+        let points = self.points().map(|[x, force]| Some([x, if x == REST { force } else { next()? }]));
+        match points.collect::<Option<Vec<_>>>() {
+            Some(points) if rest.as_slice().is_empty() => Self::through(&points),
+            _ => Err(MaterialError::Shape {
+                expected: format!(
+                    "this spline has {} ordinates to be changed, but {} are given",
+                    self.values().len(),
+                    values.len()
+                ),
+            }),
+        }
+    }
+
     /// The coefficients of the piece that x lies in, for each lane, and the distance of x from its anchor.
     #[inline(always)]
     fn piece<R: Real>(&self, x: R) -> ([R; 5], R) {
@@ -230,29 +269,6 @@ impl Univariate for Spline {
             });
         }
         Self::through(points)
-    }
-
-    /// Ordinates φ′ of the control points, Pa, except for one at x = 1: it is kept, and with it a rest state
-    /// without stress.
-    fn values(&self) -> Vec<f64> {
-        self.points().filter(|&[x, _]| x != REST).map(|[_, force]| force).collect()
-    }
-
-    /// Replaces the ordinates of the control points, except for one at x = 1.
-    fn with_values(&self, values: &[f64]) -> Result<Self, MaterialError> {
-        let mut rest = values.iter();
-        let mut next = || rest.next().copied();
-        let points = self.points().map(|[x, force]| Some([x, if x == REST { force } else { next()? }]));
-        match points.collect::<Option<Vec<_>>>() {
-            Some(points) if rest.as_slice().is_empty() => Self::through(&points),
-            _ => Err(MaterialError::Shape {
-                expected: format!(
-                    "this spline has {} ordinates to be changed, but {} are given",
-                    self.values().len(),
-                    values.len()
-                ),
-            }),
-        }
     }
 }
 

@@ -1,9 +1,9 @@
 //! What descriptions print, and the digits and domains of energies as papers print them.
 
 use piola::interpreter::Interpreted;
-use piola::material::{Blocks, Form, Limit, Unit};
+use piola::material::{Blocks, Form, Unit};
 use piola::{Inversion, Material};
-use piola_codegen::model::Model;
+use piola_codegen::model::{Limit, Model};
 use piola_tests::compiled::evaluate_stress;
 use piola_tests::declarations::{Sample, find};
 

@@ -56,8 +56,7 @@ pub fn with_squares_in_sums(graph: &mut Graph, energy: Id) -> Id {
 }
 
 /// True if an expression has such bases or arguments.
-#[must_use]
-pub fn has_squares(graph: &Graph, id: Id) -> bool {
+pub(crate) fn has_squares(graph: &Graph, id: Id) -> bool {
     let is_sum_of_squares = |id: Id| matches!(graph.node(id), Node::Excess(..) | Node::Accurate(..));
     graph.reachable(&[id]).into_iter().any(is_sum_of_squares)
 }

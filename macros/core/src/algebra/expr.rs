@@ -223,8 +223,7 @@ impl Graph {
     }
 
     /// The fraction a node is, if it is one.
-    #[must_use]
-    pub fn as_constant(&self, id: Id) -> Option<Rational> {
+    pub(crate) fn as_constant(&self, id: Id) -> Option<Rational> {
         match self.node(id) {
             Node::Linear { constant, terms } if terms.is_empty() => Some(*constant),
             _ => None,

@@ -35,8 +35,7 @@ impl Rational {
     }
 
     /// The exact value of a decimal literal such as `0.25` or `1e-3`, without suffix or underscores.
-    #[must_use]
-    pub fn from_decimal(digits: &str) -> Option<Self> {
+    pub(crate) fn from_decimal(digits: &str) -> Option<Self> {
         let (mantissa, exponent) = match digits.split_once(['e', 'E']) {
             Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
             None => (digits, 0),
@@ -49,8 +48,7 @@ impl Rational {
     }
 
     /// The whole number it is, if it is one.
-    #[must_use]
-    pub fn as_integer(self) -> Option<i64> {
+    pub(crate) fn as_integer(self) -> Option<i64> {
         (self.denominator == 1).then(|| i64::try_from(self.numerator).ok()).flatten()
     }
 
@@ -94,8 +92,7 @@ impl Rational {
     }
 
     /// Whole power; `None` for a negative power of zero.
-    #[must_use]
-    pub fn checked_powi(self, exponent: i64) -> Option<Self> {
+    pub(crate) fn checked_powi(self, exponent: i64) -> Option<Self> {
         let magnitude = u32::try_from(exponent.unsigned_abs()).ok()?;
         let numerator = self.numerator.checked_pow(magnitude)?;
         let denominator = self.denominator.checked_pow(magnitude)?;
@@ -103,8 +100,7 @@ impl Rational {
     }
 
     /// The negative of the fraction.
-    #[must_use]
-    pub fn negated(self) -> Self {
+    pub(crate) fn negated(self) -> Self {
         Self { numerator: -self.numerator, ..self }
     }
 

@@ -12,8 +12,7 @@ use crate::read::parse::{
 
 /// The mistakes of an item, and as much of a type as its tokens allow; an item that is not a function stays
 /// as it is.
-#[must_use]
-pub fn inert(mistakes: &syn::Error, item: TokenStream) -> TokenStream {
+pub(crate) fn inert(mistakes: &syn::Error, item: TokenStream) -> TokenStream {
     let errors = mistakes.to_compile_error();
     let inert = match Function::read(item.clone()) {
         // A type of such a name would make mistakes of its own.

@@ -32,8 +32,9 @@ pub struct Constraint {
     pub by_parameters: Vec<Id>,
 }
 
-/// Origin of a condition on parameters.
+/// A limit on the parameters of a material, the origin of a condition on them.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Limit {
     /// A comparison of `admissible(…)`, by its text.
     Admissible(String),

@@ -36,8 +36,7 @@ const LEFT_OUT: &str = "__";
 
 impl Notation {
     /// True if the declaration is a formula.
-    #[must_use]
-    pub fn is_formula(self) -> bool {
+    pub(crate) fn is_formula(self) -> bool {
         matches!(self, Self::Formula { .. })
     }
 

@@ -91,8 +91,7 @@ impl Parameter {
     }
 
     /// The Rust type of its numbers.
-    #[must_use]
-    pub fn number_type(&self) -> Type {
+    pub(crate) fn number_type(&self) -> Type {
         if self.is_whole { syn::parse_quote!(u32) } else { syn::parse_quote!(f64) }
     }
 
@@ -112,8 +111,7 @@ impl Parameter {
 
 impl Declaration {
     /// The Rust type of a parameter.
-    #[must_use]
-    pub fn parameter_type(&self, parameter: &Parameter) -> Type {
+    pub(crate) fn parameter_type(&self, parameter: &Parameter) -> Type {
         let number = parameter.number_type();
         match &parameter.kind {
             Kind::Number => number,
@@ -132,8 +130,7 @@ impl Declaration {
     }
 
     /// True if a parameter is a list whose length is known at run time only.
-    #[must_use]
-    pub fn is_vector(&self, parameter: &Parameter) -> bool {
+    pub(crate) fn is_vector(&self, parameter: &Parameter) -> bool {
         parameter.length().is_some_and(|length| self.lengths[length].are_known_at_run_time())
     }
 
@@ -147,8 +144,7 @@ impl Declaration {
     }
 
     /// True if some parameter is a whole exponent or a list of whole exponents.
-    #[must_use]
-    pub fn has_whole_exponents(&self) -> bool {
+    pub(crate) fn has_whole_exponents(&self) -> bool {
         self.parameters.iter().any(|parameter| parameter.is_whole)
     }
 
@@ -216,8 +212,7 @@ pub(crate) fn mentions(tokens: impl ToTokens, names: &[&str]) -> bool {
 }
 
 /// The first list of a condition with the index that stands for all entries, as in `mu[p] > 0.0`.
-#[must_use]
-pub fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
+pub(crate) fn indexed_list(condition: &Expr) -> Option<(Ident, Ident)> {
     indexed_lists(condition.to_token_stream()).into_iter().next()
 }
 

@@ -40,7 +40,8 @@ pub struct Resolver<'a> {
     used: HashSet<String>,
     /// Names whose own declaration is a mistake.
     mistaken: HashSet<String>,
-    nodes: Nodes,
+    /// The nodes of all resolved expressions.
+    pub(crate) nodes: Nodes,
 }
 
 /// Terms of a sum that is built and underlined as a whole, and not from the sum of all terms but the last.
@@ -126,12 +127,6 @@ impl<'a> Resolver<'a> {
             mistaken: declaration.mistaken.iter().map(Ident::to_string).collect(),
             nodes: Nodes::default(),
         }
-    }
-
-    /// The nodes of all resolved expressions.
-    #[must_use]
-    pub fn into_nodes(self) -> Nodes {
-        self.nodes
     }
 
     /// The energy of the body; unused names are mistakes.

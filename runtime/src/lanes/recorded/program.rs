@@ -1,7 +1,6 @@
 //! Recorded programs as data.
 
 use std::collections::{BTreeMap, HashSet};
-use std::fmt;
 
 use crate::lanes::real::Real;
 
@@ -156,19 +155,6 @@ pub struct Recording {
     /// Programs of the functions that it calls, and of those that they call.
     pub functions: BTreeMap<Function, RecordedProgram>,
 }
-
-/// Error of a computation that has used a parameter as a plain number, so that its record is not a program of
-/// the parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnrecordedParameter;
-
-impl fmt::Display for UnrecordedParameter {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a parameter of the energy decides on its program: write its value into the energy")
-    }
-}
-
-impl std::error::Error for UnrecordedParameter {}
 
 impl RecordedOperation {
     /// The operation on other operands.

@@ -29,8 +29,7 @@ impl Exponent {
     }
 
     /// The exponent as a whole number, if it is one.
-    #[must_use]
-    pub fn as_integer(self) -> Option<i64> {
+    pub(crate) fn as_integer(self) -> Option<i64> {
         if self.real.is_some() { None } else { self.rational.as_integer() }
     }
 

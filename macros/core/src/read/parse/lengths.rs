@@ -23,8 +23,7 @@ impl Entries {
     }
 
     /// The number as an expression in methods of the material.
-    #[must_use]
-    pub fn of_self(&self) -> TokenStream {
+    pub(crate) fn of_self(&self) -> TokenStream {
         self.of(&format_ident!("self"))
     }
 

@@ -16,7 +16,7 @@ use crate::read::spelling::taken;
 use crate::read::unit::Unit;
 
 /// Members of every material, which a method for a parameter of the same name would hide.
-const MEMBERS: [&str; 28] = [
+const MEMBERS: [&str; 27] = [
     // Of the type and of the traits of the language.
     "new",
     "with_inversion",
@@ -26,7 +26,6 @@ const MEMBERS: [&str; 28] = [
     "gradient",
     "gradient_at_strains",
     "blocks",
-    "energy_and_blocks",
     "admits",
     "has_invariants",
     "has_second_invariant",

@@ -1,6 +1,6 @@
 //! Derivatives by the values of a function that is a parameter, for which no declaration has a formula.
 
-use crate::lanes::Real;
+use piola::Real;
 
 /// Weights w1, w2, w3 of the central difference of sixth order.
 const WEIGHTS: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
@@ -18,8 +18,7 @@ const WEIGHTS: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
 /// values, such as a spline, has the rounding error only, at most 470 ε/|v|; and where g varies as a power
 /// vⁿ, the derivative errs by (n − 1) … (n − 6)/140 · 2⁻⁴², which is below 10⁻¹³ up to n = 7 and 10⁻¹⁰ up to
 /// n = 10.
-#[must_use]
-pub fn by_values<const N: usize>(
+pub(super) fn by_values<const N: usize>(
     values: &[f64],
     results: impl Fn(&[f64]) -> Option<[f64; N]>,
 ) -> Vec<[f64; N]> {
