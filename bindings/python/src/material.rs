@@ -71,9 +71,9 @@ impl Varying {
 impl Material {
     pub(crate) fn new(spec: MaterialSpec, extend: Option<f64>) -> PyResult<Self> {
         let inversion = extend.map_or(Inversion::Refuse, |epsilon| Inversion::Extend { epsilon });
-        let spec = spec.with_inversion(inversion).explicit().map_err(of_material)?;
+        let mut spec = spec.with_inversion(inversion).explicit().map_err(of_material)?;
         let MaterialInfo { name, elements, moduli, .. } = spec.build().map_err(of_material)?;
-        let spec = spec.with_name(name);
+        spec.material = name.into_owned();
         let (varying, shape, each) = (Vec::new(), Vec::new(), Vec::new());
         Ok(Self { spec, moduli, double: elements, single: OnceLock::new(), varying, shape, each })
     }
@@ -311,7 +311,7 @@ impl Material {
     /// The name in the catalogue, or of the declaration.
     #[getter]
     fn name(&self) -> &str {
-        self.spec.material()
+        &self.spec.material
     }
 
     /// Description of the energy.
