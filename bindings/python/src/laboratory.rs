@@ -184,10 +184,11 @@ impl Material {
             (0..points.len()).find(|&point| {
                 let Candidate { energy, material } = &candidates[candidate_of[point]];
                 let frames = svd(&points[point]);
-                let by_parameters = match frames.stretches[2] > 0.0 && Specimen::admits(material, frames.stretches) {
-                    true => energy.gradient_by_parameters(material, frames.stretches),
-                    false => return true,
-                };
+                let by_parameters =
+                    match frames.stretches[2] > 0.0 && Specimen::admits(material, frames.stretches) {
+                        true => energy.gradient_by_parameters(material, frames.stretches),
+                        false => return true,
+                    };
                 for (derivatives, gradient) in derivatives.iter_mut().zip(by_parameters) {
                     derivatives[point] = stress(&frames, gradient);
                 }
