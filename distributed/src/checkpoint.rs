@@ -93,7 +93,7 @@ pub(crate) fn write(
     let put = || -> io::Result<()> {
         let file = File::options().write(true).open(&aside)?;
         for (number, list) in lists.iter().enumerate() {
-            file.write_all_at(list, place(&homes, team.rank(), number))?;
+            file.write_all_at(list, place(&homes, team.rank, number))?;
         }
         file.sync_all()
     };
@@ -108,7 +108,7 @@ pub(crate) fn write(
         .on_first(|| begin().map_err(failed))
         .and_then(|()| team.agree(put().map_err(failed)))
         .and_then(|()| team.on_first(|| finish().map_err(failed)));
-    if written.is_err() && team.rank() == 0 {
+    if written.is_err() && team.rank == 0 {
         // An incomplete file is of no use.
         let _ = fs::remove_file(&aside);
     }
@@ -135,10 +135,10 @@ pub(crate) fn read<T: DeserializeOwned>(
             return Err(format!("it has {} nodes, and the mesh has {nodes}", header.nodes));
         }
         check(&header.about)?;
-        let range = homes.range(team.rank());
+        let range = homes.range(team.rank);
         let list = |number: usize| {
             let mut bytes = vec![0; ((range.end - range.start) * NODE) as usize];
-            file.read_exact_at(&mut bytes, place(&homes, team.rank(), number)).map(|()| bytes)
+            file.read_exact_at(&mut bytes, place(&homes, team.rank, number)).map(|()| bytes)
         };
         let lists = (0..3).map(list).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
         Ok((header, lists))

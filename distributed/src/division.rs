@@ -58,7 +58,7 @@ impl RowsOfRank {
         }
         let rows = |rows: Vec<u64>| rows.into_iter().map(|row| row as usize).collect();
         Self {
-            owned: starts[team.rank()]..starts[team.rank() + 1],
+            owned: starts[team.rank]..starts[team.rank + 1],
             numbers,
             sent: team.exchange(&asked).into_iter().map(rows).collect(),
             received,
@@ -155,7 +155,7 @@ impl Division for RowsOfRank {
     }
 
     fn first(&self, rows: usize) -> u64 {
-        self.team.all(rows)[..self.team.rank()].iter().sum::<usize>() as u64
+        self.team.all(rows)[..self.team.rank].iter().sum::<usize>() as u64
     }
 
     fn coarse(&self, rows: usize, copies: Vec<u64>) -> Result<Self, Error> {

@@ -50,7 +50,7 @@ impl Homes {
         answer: impl Fn(usize) -> [u64; N],
     ) -> Vec<[u64; N]> {
         let asked = self.send(team, nodes.iter().map(|&node| [node]));
-        let first = self.range(team.rank()).start;
+        let first = self.range(team.rank).start;
         let asked =
             asked.iter().enumerate().flat_map(|(rank, nodes)| nodes.iter().map(move |node| (rank, node)));
         // Homes ascend with the nodes.
@@ -132,7 +132,7 @@ impl Portion {
         // mirrored.
         const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
         let strides = [side * side, side, 1];
-        let tetrahedra = of_cells.range(team.rank()).flat_map(|cell| {
+        let tetrahedra = of_cells.range(team.rank).flat_map(|cell| {
             let at = [cell / (cells * cells), cell / cells % cells, cell % cells];
             let lowest: u64 = (0..3).map(|axis| at[axis] * strides[axis]).sum();
             (0..6).map(move |path| {
@@ -146,7 +146,7 @@ impl Portion {
                 element
             })
         });
-        Self { homes, places: homes.range(team.rank()).map(place).collect(), elements: tetrahedra.collect() }
+        Self { homes, places: homes.range(team.rank).map(place).collect(), elements: tetrahedra.collect() }
     }
 }
 
