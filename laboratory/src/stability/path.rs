@@ -68,8 +68,8 @@ pub struct Walk {
     /// The stretch that was reached: short of `to` if the sides cannot be free of stress beyond it, or the
     /// domain ends.
     pub reached: f64,
-    /// The first stretch at which each of [`Criterion::ALL`](super::criteria::Criterion::ALL) is lost, to eight
-    /// digits; 1 if it does not hold at rest.
+    /// The first stretch at which each of [`Criterion::ALL`](super::criteria::Criterion::ALL) is lost, to
+    /// eight digits; 1 if it does not hold at rest.
     pub lost: [Option<f64>; 3],
 }
 
