@@ -127,11 +127,11 @@ impl Division for RowsOfRank {
     }
 
     fn copy<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]) {
-        self.with_vector::<N>(|vector| vector.copy(rows.as_flattened_mut(), E::splat));
+        self.with_vector::<N>(|vector| vector.copy(rows.as_flattened_mut()));
     }
 
     fn sum<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]) {
-        self.with_vector::<N>(|vector| vector.sum(rows.as_flattened_mut(), E::splat));
+        self.with_vector::<N>(|vector| vector.sum(rows.as_flattened_mut()));
     }
 
     fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {

@@ -97,10 +97,10 @@ impl Operators for MatrixFree {
         let Self { stiffness, exchange, x: all, product: of_all, .. } = self;
         // The entries of pinned nodes follow, and are zero.
         all[..x.len()].copy_from_slice(x);
-        exchange.copy(all.as_flattened_mut(), |x| x)?;
+        exchange.copy(all.as_flattened_mut())?;
         // Both vectors have the length of the stiffness.
         let _ = stiffness.multiply(all, of_all);
-        exchange.sum(of_all.as_flattened_mut(), |x| x)?;
+        exchange.sum(of_all.as_flattened_mut())?;
         product.copy_from_slice(&of_all[..product.len()]);
         Ok(())
     }
@@ -139,7 +139,7 @@ impl LinearSystem {
         let stiffness = team.agree(stiffness.map_err(Error::from))?;
         let own = body.map_or(&[][..], Body::masses);
         let mut masses = own.to_vec();
-        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses, |x| x)?;
+        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses)?;
         for (name, value) in DEFAULTS {
             library.default_option(name, value)?;
         }
