@@ -8,7 +8,7 @@ mod embed;
 mod io;
 mod tet;
 
-pub use boxes::{BoxError, tetrahedral_box};
+pub use boxes::{BoxError, tetrahedra_of_cell, tetrahedral_box};
 pub use elements::ElementCounts;
 pub use embed::{Anchor, EmbedError, Embedding};
 pub use io::{ReadError, Surface, parse_msh, parse_surface_obj, read_msh, read_surface_obj, read_tetgen};

@@ -27,10 +27,13 @@ pub(crate) struct Declare {
 impl Declare {
     /// The declaration and what follows from it.
     pub(crate) fn run(self) -> Result<String, Error> {
-        let options = FormulaOptions::default()
-            .with_free_rest(self.free_rest)
-            .with_forms("--param NAME=VALUE", "--free-rest");
-        let options = if self.kappa { options.with_bulk("kappa") } else { options };
+        let options = FormulaOptions {
+            free_rest: self.free_rest,
+            bulk: self.kappa.then(|| "kappa".into()),
+            value: Some("--param NAME=VALUE"),
+            free_rest_option: Some("--free-rest"),
+            ..FormulaOptions::default()
+        };
         let energy = Energy::from_formula_with(&self.formula, &options).map_err(SceneError::Declaration)?;
         // The documentation is a comment, so that all of the output is Rust.
         let lines = energy.documentation().trim().lines();

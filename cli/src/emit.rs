@@ -48,12 +48,10 @@ impl Emit {
     pub(crate) fn run(self) -> Result<String, Error> {
         let inversion = self.extend.map_or(Inversion::Refuse, |epsilon| Inversion::Extend { epsilon });
         let mut emission = Emission::new(self.target);
-        if let Some(precision) = self.precision {
-            emission = emission.with_precision(precision);
-        }
+        emission.precision = self.precision.unwrap_or(emission.precision);
         emission.prefix = self.name;
         if !self.functions.is_empty() {
-            emission = emission.with_functions(self.functions);
+            emission.functions = self.functions;
         }
         let spec = self.material.spec()?.with_inversion(inversion);
         let text = spec.emit(&emission)?;

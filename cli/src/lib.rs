@@ -106,10 +106,10 @@ fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCo
 
 fn serve(arguments: View) -> Result<(), Error> {
     let viewer = arguments.start()?;
-    let rest = viewer.at_rest();
+    let rest = viewer.at_rest;
     say(format_args!("{} shows the scene; Ctrl-C ends it\n  at rest  {rest}", viewer.url()))?;
     rest.warning().iter().for_each(|warning| warn(format_args!("warning: {warning}")));
-    viewer.warnings().iter().for_each(warn_of);
+    viewer.warnings.iter().for_each(warn_of);
     viewer.wait();
     Ok(())
 }

@@ -44,12 +44,15 @@ const ORDERS: usize = 16;
 /// closed.
 #[derive(Debug)]
 pub struct Viewer {
-    address: SocketAddr,
-    at_rest: AtRest,
+    /// Address at which it listens.
+    pub address: SocketAddr,
+    /// Small-strain moduli of the material with which it begins.
+    pub at_rest: AtRest,
+    /// Properties of the body that may be unintended.
+    pub warnings: Vec<String>,
     token: Token,
     is_over: Arc<AtomicBool>,
     server: Option<JoinHandle<()>>,
-    warnings: Vec<String>,
 }
 
 impl Viewer {
@@ -84,28 +87,10 @@ impl Viewer {
         Ok(Self { address, at_rest, token, is_over, server, warnings })
     }
 
-    /// Address at which it listens.
-    #[must_use]
-    pub fn address(&self) -> SocketAddr {
-        self.address
-    }
-
-    /// Properties of the body that may be unintended.
-    #[must_use]
-    pub fn warnings(&self) -> &[String] {
-        &self.warnings
-    }
-
     /// Address of the page, with the token that opens it.
     #[must_use]
     pub fn url(&self) -> String {
         format!("http://{}/?token={}", self.address, self.token)
-    }
-
-    /// Small-strain moduli of the material with which it begins.
-    #[must_use]
-    pub fn at_rest(&self) -> AtRest {
-        self.at_rest
     }
 
     /// Serves until the process is ended from outside.

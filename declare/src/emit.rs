@@ -151,14 +151,14 @@ fn choice<T: Copy>(kind: &'static str, word: &str, all: &[(&str, T)], known: &st
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let energy = Energy::from_formula("mu/2*(I1 - 3) - mu*ln(J) + lambda/2*ln(J)^2")?;
-/// let emission = Emission::new(Target::C).with_prefix("rubber").with_functions([PointFunction::Stress]);
+/// let (prefix, functions) = (Some("rubber".into()), vec![PointFunction::Stress]);
+/// let emission = Emission { prefix, functions, ..Emission::new(Target::C) };
 /// let file = energy.emit(&[&[1e6], &[5e6]], Inversion::Refuse, &emission)?;
 /// assert!(file.contains("unsigned rubber_stress(const rubber_parameters *p, const double F[9], double P[9])"));
 /// # Ok(())
 /// # }
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
 pub struct Emission {
     /// The language.
     pub target: Target,
@@ -176,24 +176,6 @@ impl Emission {
     pub fn new(target: Target) -> Self {
         let precision = if target == Target::Wgsl { Precision::F32 } else { Precision::F64 };
         Self { target, precision, prefix: None, functions: PointFunction::ALL.to_vec() }
-    }
-
-    /// The file with another [`precision`](Self::precision).
-    #[must_use]
-    pub fn with_precision(self, precision: Precision) -> Self {
-        Self { precision, ..self }
-    }
-
-    /// The file with another [`prefix`](Self::prefix).
-    #[must_use]
-    pub fn with_prefix(self, prefix: impl Into<String>) -> Self {
-        Self { prefix: Some(prefix.into()), ..self }
-    }
-
-    /// The file with other [`functions`](Self::functions).
-    #[must_use]
-    pub fn with_functions(self, functions: impl IntoIterator<Item = PointFunction>) -> Self {
-        Self { functions: functions.into_iter().collect(), ..self }
     }
 }
 

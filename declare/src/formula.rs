@@ -37,7 +37,8 @@ use parse::{Parsed, parse};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// // Rivlin's solid as printed has a stress at rest, and lets the volume go.
-/// let options = FormulaOptions::default().with_free_rest(true).with_bulk("kappa");
+/// let bulk = Some("kappa".into());
+/// let options = FormulaOptions { free_rest: true, bulk, ..FormulaOptions::default() };
 /// let energy = Energy::from_formula_with("C10*(I1 - 3) + C01*(I2 - 3)", &options)?;
 /// let rubber = energy.material(&[&[2e5], &[1e4], &[1e7]], Inversion::Refuse)?;
 /// assert_eq!(energy.description().moduli[0], "2 C10 + 2 C01");
@@ -45,7 +46,6 @@ use parse::{Parsed, parse};
 /// # }
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
 pub struct FormulaOptions {
     /// Names that are parameters, regardless of any other meaning: those that have values. Each has its
     /// documentation, which may end with a unit, as in `Shear modulus, Pa.`. A name without a value is then a
@@ -64,37 +64,6 @@ pub struct FormulaOptions {
 }
 
 impl FormulaOptions {
-    /// Options with other [`parameters`](Self::parameters).
-    #[must_use]
-    pub fn with_parameters(self, parameters: Option<Vec<(String, String)>>) -> Self {
-        Self { parameters, ..self }
-    }
-
-    /// Options with or without [`further`](Self::further) parameters.
-    #[must_use]
-    pub fn with_further(self, further: bool) -> Self {
-        Self { further, ..self }
-    }
-
-    /// Options with the forms of the user's own options for messages: [`value`](Self::value) and
-    /// [`free_rest_option`](Self::free_rest_option).
-    #[must_use]
-    pub fn with_forms(self, value: &'static str, free_rest_option: &'static str) -> Self {
-        Self { value: Some(value), free_rest_option: Some(free_rest_option), ..self }
-    }
-
-    /// Options with or without [`free_rest`](Self::free_rest).
-    #[must_use]
-    pub fn with_free_rest(self, free_rest: bool) -> Self {
-        Self { free_rest, ..self }
-    }
-
-    /// Options with a [`bulk`](Self::bulk) modulus of that name.
-    #[must_use]
-    pub fn with_bulk(self, name: impl Into<String>) -> Self {
-        Self { bulk: Some(name.into()), ..self }
-    }
-
     /// The language of messages.
     fn language(&self) -> Language {
         Language::Formula { free_rest: self.free_rest_option }

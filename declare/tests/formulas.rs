@@ -93,7 +93,7 @@ fn the_rest_state_is_freed_of_stress_on_request() {
     let printed = "C10*(I1 - 3) + C01*(I2 - 3)";
     let mistakes = Energy::from_formula(printed).unwrap_err();
     assert!(mistakes.to_string().contains("stress"), "{mistakes}");
-    let options = FormulaOptions::default().with_free_rest(true).with_bulk("K");
+    let options = FormulaOptions { free_rest: true, bulk: Some("K".into()), ..FormulaOptions::default() };
     let energy = Energy::from_formula_with(printed, &options).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let rubber = energy.material(&[&[2e5], &[1e4], &[1e7]], Inversion::Refuse).expect("stable");
     assert_eq!(rubber.gradient([1.0; 3]), [0.0; 3]);
@@ -136,7 +136,8 @@ fn mistakes_are_told_at_their_places() {
     check_mistake("mu/2*(I1b - 3)\n  + K*(J - 1)^2\n  + l1", &any, "l1", "are exchanged");
     check_mistake("mu/2*(I1b - 3)\r\n  + K*(J - 1)^2\r\n  + l1", &any, "l1", "are exchanged");
     check_mistake("mu/2*(I1 - 3) + lambd\r\na*ln(J) + lambd\r\n[]/2", &any, "]", "expected an expression");
-    let known = any.with_parameters(Some(vec![("mu".to_owned(), "Modulus, Pa.".to_owned())]));
+    let parameters = Some(vec![("mu".to_owned(), "Modulus, Pa.".to_owned())]);
+    let known = FormulaOptions { parameters, ..any };
     check_mistake("muu/2*(I1b - 3) + mu*(J - 1)^2", &known, "muu", "did you mean `mu`?");
     check_mistake("mu/2*(I1b - 3)*mu + mu*(J - 1)^2", &known, "mu/2*(I1b - 3)*mu + mu*(J - 1)^2", "in Pa");
 }
@@ -163,7 +164,7 @@ fn each_line_of_the_table_is_true() {
 #[track_caller]
 fn check_same(formula: &str, other: &str) {
     let energies = [formula, other].map(|text| {
-        let options = FormulaOptions::default().with_free_rest(true);
+        let options = FormulaOptions { free_rest: true, ..FormulaOptions::default() };
         Energy::from_formula_with(text, &options).unwrap_or_else(|mistakes| panic!("{mistakes}"))
     });
     let [one, other] = energies.each_ref().map(|energy| energy.description());
@@ -180,8 +181,12 @@ fn check_same(formula: &str, other: &str) {
 /// Options for parameters with these names, on the command line.
 fn given(names: &[&str]) -> FormulaOptions {
     let named = names.iter().map(|&name| (name.to_owned(), String::new()));
-    let options = FormulaOptions::default().with_parameters(Some(named.collect()));
-    options.with_forms("--param NAME=VALUE", "--free-rest")
+    FormulaOptions {
+        parameters: Some(named.collect()),
+        value: Some("--param NAME=VALUE"),
+        free_rest_option: Some("--free-rest"),
+        ..FormulaOptions::default()
+    }
 }
 
 #[test]
@@ -208,7 +213,7 @@ fn a_name_with_a_value_is_a_parameter() {
         let error = energy.material(&[&[1.0], &[-2.0]], Inversion::Refuse).unwrap_err().to_string();
         assert!(error.contains(&format!("`{name} > 0`")) && !error.contains("r#"), "{error}");
     }
-    let more = given(&["C"]).with_further(true);
+    let more = FormulaOptions { further: true, ..given(&["C"]) };
     let energy = Energy::from_formula_with("mu*(I1b - 3) + C*(J - 1)^2", &more).expect("two parameters");
     assert_eq!(energy.description().parameters.len(), 2);
     assert_eq!(Energy::from_text_with("mu*(I1b - 3) + C*(J - 1)^2", &more), Ok(energy));
@@ -219,7 +224,7 @@ fn a_name_with_a_value_is_a_parameter() {
 fn units_of_parameters_are_inferred() {
     let units = |documented: &[(&str, &str)]| {
         let named = documented.iter().map(|&(name, doc)| (name.to_owned(), doc.to_owned()));
-        let options = FormulaOptions::default().with_parameters(Some(named.collect()));
+        let options = FormulaOptions { parameters: Some(named.collect()), ..FormulaOptions::default() };
         let formula = "a/b*(exp(b*(I1b - 3)) - 1) + c*d*(I2b - 3) + (J - 1)^2/D";
         let energy = Energy::from_formula_with(formula, &options).unwrap_or_else(|error| panic!("{error}"));
         energy.description().parameters.iter().map(|parameter| parameter.unit).collect::<Vec<_>>()
@@ -234,8 +239,9 @@ fn units_of_parameters_are_inferred() {
 #[test]
 fn greek_letters_are_their_names() {
     let names = |formula: &str, values: &[&str]| -> Vec<String> {
-        let energy = Energy::from_formula_with(formula, &given(values).with_bulk("kappa"))
-            .unwrap_or_else(|mistakes| panic!("{mistakes}"));
+        let options = FormulaOptions { bulk: Some("kappa".into()), ..given(values) };
+        let energy =
+            Energy::from_formula_with(formula, &options).unwrap_or_else(|mistakes| panic!("{mistakes}"));
         energy.description().parameters.iter().map(|parameter| parameter.name.to_string()).collect()
     };
     for (formula, values) in [
@@ -260,11 +266,12 @@ fn names_without_values_are_told_before_all_else() {
 
 #[test]
 fn messages_are_in_the_notation_of_formulas() {
-    let python = given(&["mu"]).with_forms("NAME=VALUE", "free_rest=True");
+    let (value, free_rest_option) = (Some("NAME=VALUE"), Some("free_rest=True"));
+    let python = FormulaOptions { value, free_rest_option, ..given(&["mu"]) };
     check_mistake("mu/2*(I1 - 3)", &python, "mu/2*(I1 - 3)", "append `- mu*ln(J)`; or write `I1b` for `I1`");
     check_mistake("mu/2*(I1 - 3)", &python, "mu/2*(I1 - 3)", "or give the option `free_rest=True`");
     let in_pascals = ["mu", "a"].map(|name| (name.to_owned(), "Modulus, Pa.".to_owned()));
-    let units = FormulaOptions::default().with_parameters(Some(in_pascals.to_vec()));
+    let units = FormulaOptions { parameters: Some(in_pascals.to_vec()), ..FormulaOptions::default() };
     let mistakes = Energy::from_formula_with("mu*(I1b - 3) + a^2*(J - 1)^2", &units).unwrap_err().to_string();
     assert!(mistakes.contains("in Pa^2, but") && !mistakes.contains(",,"), "{mistakes}");
     // No message about a formula has the Rust that it is translated into.

@@ -38,17 +38,6 @@ struct Header<T> {
     about: T,
 }
 
-/// Positions, velocities and accelerations of all nodes.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct State {
-    /// Position of each node, m.
-    pub positions: Vec<[f64; 3]>,
-    /// Velocity of each node, m/s.
-    pub velocities: Vec<[f64; 3]>,
-    /// Acceleration of each node, m/s².
-    pub accelerations: Vec<[f64; 3]>,
-}
-
 /// Writes a checkpoint with the description `about`, and replaces the previous checkpoint.
 ///
 /// # Errors
@@ -93,7 +82,7 @@ pub(crate) fn write(
     let put = || -> io::Result<()> {
         let file = File::options().write(true).open(&aside)?;
         for (number, list) in lists.iter().enumerate() {
-            file.write_all_at(list, place(&homes, team.rank(), number))?;
+            file.write_all_at(list, place(&homes, team.rank, number))?;
         }
         file.sync_all()
     };
@@ -108,7 +97,7 @@ pub(crate) fn write(
         .on_first(|| begin().map_err(failed))
         .and_then(|()| team.agree(put().map_err(failed)))
         .and_then(|()| team.on_first(|| finish().map_err(failed)));
-    if written.is_err() && team.rank() == 0 {
+    if written.is_err() && team.rank == 0 {
         // An incomplete file is of no use.
         let _ = fs::remove_file(&aside);
     }
@@ -129,16 +118,16 @@ pub(crate) fn read<T: DeserializeOwned>(
     let share = &simulation.share;
     let nodes = share.totals[0] as u64;
     let homes = Homes::new(nodes, team.size);
-    let failed = |reason: String| unusable(path, &reason);
+    let failed = |reason: String| Error::usage(format!("cannot continue from {}: {reason}", path.display()));
     let loaded = read_header::<T>(path).and_then(|(file, header)| {
         if header.nodes != nodes {
             return Err(format!("it has {} nodes, and the mesh has {nodes}", header.nodes));
         }
         check(&header.about)?;
-        let range = homes.range(team.rank());
+        let range = homes.range(team.rank);
         let list = |number: usize| {
             let mut bytes = vec![0; ((range.end - range.start) * NODE) as usize];
-            file.read_exact_at(&mut bytes, place(&homes, team.rank(), number)).map(|()| bytes)
+            file.read_exact_at(&mut bytes, place(&homes, team.rank, number)).map(|()| bytes)
         };
         let lists = (0..3).map(list).collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?;
         Ok((header, lists))
@@ -170,31 +159,7 @@ pub(crate) fn read<T: DeserializeOwned>(
     Ok(header.about)
 }
 
-/// Reads a whole checkpoint without a team; returns its description and the state of all nodes.
-///
-/// # Errors
-/// [`Error::Scene`].
-pub fn read_alone<T: DeserializeOwned>(path: &Path) -> Result<(T, State), Error> {
-    let failed = |reason: String| unusable(path, &reason);
-    let (mut file, header) = read_header::<T>(path).map_err(failed)?;
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes).map_err(|error| failed(error.to_string()))?;
-    if crc32fast::hash(&bytes) != header.checksum || bytes.len() as u64 != 3 * NODE * header.nodes {
-        return Err(failed("it is damaged".to_owned()));
-    }
-    let numbers: Vec<f64> =
-        bytes.as_chunks::<8>().0.iter().map(|&number| f64::from_le_bytes(number)).collect();
-    let mut lists = numbers.as_chunks::<3>().0.chunks(header.nodes as usize).map(<[_]>::to_vec);
-    let mut next = || lists.next().unwrap_or_default();
-    Ok((header.about, State { positions: next(), velocities: next(), accelerations: next() }))
-}
-
-/// Error of a checkpoint from which a run cannot continue.
-fn unusable(path: &Path, reason: &str) -> Error {
-    Error::usage(format!("cannot continue from {}: {reason}", path.display()))
-}
-
-/// Opens a checkpoint and reads its header; the file is then positioned after the header.
+/// Opens a checkpoint and reads its header.
 fn read_header<T: DeserializeOwned>(path: &Path) -> Result<(File, Header<T>), String> {
     let mut text = vec![0; HEADER];
     let mut file = File::open(path).map_err(|error| error.to_string())?;

@@ -58,7 +58,7 @@ impl RowsOfRank {
         }
         let rows = |rows: Vec<u64>| rows.into_iter().map(|row| row as usize).collect();
         Self {
-            owned: starts[team.rank()]..starts[team.rank() + 1],
+            owned: starts[team.rank]..starts[team.rank + 1],
             numbers,
             sent: team.exchange(&asked).into_iter().map(rows).collect(),
             received,
@@ -127,11 +127,11 @@ impl Division for RowsOfRank {
     }
 
     fn copy<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]) {
-        self.with_vector::<N>(|vector| vector.copy(rows.as_flattened_mut(), E::splat));
+        self.with_vector::<N>(|vector| vector.copy(rows.as_flattened_mut()));
     }
 
     fn sum<E: Real + Into<f64>, const N: usize>(&mut self, rows: &mut [[E; N]]) {
-        self.with_vector::<N>(|vector| vector.sum(rows.as_flattened_mut(), E::splat));
+        self.with_vector::<N>(|vector| vector.sum(rows.as_flattened_mut()));
     }
 
     fn lists_for_copies(&mut self, list: impl FnMut(usize, &mut Vec<u64>)) -> Vec<Vec<u64>> {
@@ -155,7 +155,7 @@ impl Division for RowsOfRank {
     }
 
     fn first(&self, rows: usize) -> u64 {
-        self.team.all(rows)[..self.team.rank()].iter().sum::<usize>() as u64
+        self.team.all(rows)[..self.team.rank].iter().sum::<usize>() as u64
     }
 
     fn coarse(&self, rows: usize, copies: Vec<u64>) -> Result<Self, Error> {

@@ -28,7 +28,7 @@ fn main() -> ExitCode {
         }
     };
     let team = Team::new(&library);
-    let is_first = team.rank() == 0;
+    let is_first = team.rank == 0;
     if let Some(help) = help {
         if is_first {
             print!("{help}");
@@ -81,7 +81,7 @@ fn play(team: &Team, command: &Command) -> Result<(), Error> {
     let summary = match command {
         Command::Box(options) => {
             let line = sag(team, options)?;
-            if team.rank() == 0 {
+            if team.rank == 0 {
                 println!("{TITLES}\n{line}");
             }
             return Ok(());
@@ -89,7 +89,7 @@ fn play(team: &Team, command: &Command) -> Result<(), Error> {
         Command::Statics(options) => statics(team, options)?,
         Command::Run(options) => run(team, options)?,
     };
-    if team.rank() == 0 {
+    if team.rank == 0 {
         println!("{summary}");
     }
     match summary.failures.first() {

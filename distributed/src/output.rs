@@ -115,13 +115,13 @@ pub(crate) fn write_frame(
     let tets: Vec<[usize; 4]> = share.elements.iter().map(|&(nodes, ..)| nodes).collect();
     let displacement: Vec<f64> =
         (0..x.len()).flat_map(|node| (0..3).map(move |c| x[node][c] - share.places[node].rest[c])).collect();
-    let rank = vec![team.rank() as f64; tets.len()];
+    let rank = vec![team.rank as f64; tets.len()];
     let nodal = [
         Field { name: "displacement", components: 3, values: &displacement },
         Field { name: "velocity", components: 3, values: v.as_flattened() },
     ];
     let elemental = [Field { name: "rank", components: 1, values: &rank }];
-    let path = folder.join(piece(team.rank()));
+    let path = folder.join(piece(team.rank));
     team.agree(write_file(path, |file| write_vtu(file, x, &tets, &nodal, &elemental)))?;
     let pieces = (0..team.size).map(piece);
     team.on_first(|| write_file(folder.join(frame_file(frame)), |file| write_pvtu(file, pieces)))

@@ -4,6 +4,8 @@
 
 use std::ops::Range;
 
+use piola_bodies::mesh::tetrahedra_of_cell;
+
 use crate::team::Team;
 
 /// Home rank of each node: contiguous ranges of node numbers of equal length, rank after rank.
@@ -50,7 +52,7 @@ impl Homes {
         answer: impl Fn(usize) -> [u64; N],
     ) -> Vec<[u64; N]> {
         let asked = self.send(team, nodes.iter().map(|&node| [node]));
-        let first = self.range(team.rank()).start;
+        let first = self.range(team.rank).start;
         let asked =
             asked.iter().enumerate().flat_map(|(rank, nodes)| nodes.iter().map(move |node| (rank, node)));
         // Homes ascend with the nodes.
@@ -128,25 +130,15 @@ impl Portion {
             Place { rest, start: rest, marks: u64::from(at[0] == 0) }
         };
         let of_cells = Homes::new(cells * cells * cells, team.size);
-        // Paths from a corner of the cell to the opposite corner, along the three axes; odd orders are
-        // mirrored.
-        const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
-        let strides = [side * side, side, 1];
-        let tetrahedra = of_cells.range(team.rank()).flat_map(|cell| {
-            let at = [cell / (cells * cells), cell / cells % cells, cell % cells];
-            let lowest: u64 = (0..3).map(|axis| at[axis] * strides[axis]).sum();
-            (0..6).map(move |path| {
-                let mut element = [lowest, lowest, lowest, lowest, 6 * cell + path as u64 + 1, 0];
-                for (step, &axis) in PATHS[path].iter().enumerate() {
-                    element[step + 1] = element[step] + strides[axis];
-                }
-                if path > 2 {
-                    element.swap(1, 2);
-                }
-                element
+        let strides = [side * side, side, 1].map(|stride| stride as usize);
+        let tetrahedra = of_cells.range(team.rank).flat_map(|cell| {
+            let at = [cell / (cells * cells), cell / cells % cells, cell % cells].map(|place| place as usize);
+            (1..).zip(tetrahedra_of_cell(at, strides)).map(move |(tag, nodes)| {
+                let [a, b, c, d] = nodes.map(|node| node as u64);
+                [a, b, c, d, 6 * cell + tag, 0]
             })
         });
-        Self { homes, places: homes.range(team.rank()).map(place).collect(), elements: tetrahedra.collect() }
+        Self { homes, places: homes.range(team.rank).map(place).collect(), elements: tetrahedra.collect() }
     }
 }
 

@@ -12,7 +12,7 @@ use piola_scenes::clock::Clock;
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::measure;
 use piola_scenes::output::{Ended, Newton, StepCounts};
-use piola_scenes::play::Stretch;
+use piola_scenes::play::{self, Stretch};
 use piola_scenes::settings::Settings;
 use serde::{Deserialize, Serialize};
 
@@ -256,7 +256,7 @@ impl<'a> Course<'a> {
         setting: &'a Setting,
         newton: NewtonSettings,
     ) -> Result<Self, Error> {
-        let settings = piola_scenes::play::step_settings(&task.settings).with_newton(newton);
+        let settings = play::step_settings(&task.settings).with_newton(newton);
         // The elements of groups have the materials with the numbers 1, 2, …; all others have the first one.
         let first = MaterialPart { material: task.settings.material.clone(), density: task.settings.density };
         let materials: Vec<_> =
@@ -267,7 +267,8 @@ impl<'a> Course<'a> {
 
     /// Advances from the frame at the clock to the next one.
     fn step(&mut self, clock: Clock) -> Result<(), Error> {
-        let (first, last) = self.setting.stretches(clock);
+        // Equal on all ranks.
+        let (first, last) = play::stretches(&self.setting.pulls, clock);
         for stretch in first.into_iter().chain([last]) {
             self.advance(stretch)?;
         }

@@ -3,9 +3,8 @@
 use piola_bodies::mesh::{Bounds, TetMesh};
 use piola_bodies::step::Spring;
 use piola_bodies::system::Pins;
-use piola_scenes::clock::Clock;
 use piola_scenes::geometry::{Geometry, NOTHING_PULLED};
-use piola_scenes::play::{self, DragSprings, Stretch};
+use piola_scenes::play::{self, DragSprings};
 use piola_scenes::region;
 use serde::{Deserialize, Serialize};
 
@@ -24,7 +23,7 @@ pub(crate) struct Setting {
     /// Properties of the whole body, equal on all ranks.
     pub(crate) body: BodyFacts,
     /// Springs of each pull, at the owned nodes of this rank.
-    pulls: Vec<DragSprings>,
+    pub(crate) pulls: Vec<DragSprings>,
     moves: Vec<Move>,
 }
 
@@ -85,11 +84,6 @@ impl Setting {
     /// Springs at owned nodes at the end of a time interval, s.
     pub(crate) fn springs(&self, start: f64, end: f64) -> Vec<Spring> {
         self.pulls.iter().flat_map(|pull| pull.during(start, end)).collect()
-    }
-
-    /// Time intervals of the next frame, equal on all ranks.
-    pub(crate) fn stretches(&self, clock: Clock) -> (Vec<Stretch>, Stretch) {
-        play::stretches(&self.pulls, clock)
     }
 
     /// Position of a pinned node at a time, s, if it has a prescribed motion.

@@ -63,7 +63,7 @@ impl Share {
         elements.sort_unstable_by_key(|element| element[4]);
 
         // If a rank has no element of a node, another rank that has one becomes the owner of the node.
-        let first = homes.range(team.rank()).start;
+        let first = homes.range(team.rank).start;
         let touched = nodes(&elements);
         let of_ranks = homes.send(team, touched.iter().map(|&node| [node]));
         let mut with_elements = vec![Vec::new(); places.len()];
@@ -83,7 +83,7 @@ impl Share {
         let free = owned.iter().filter(|row| row[7] & 1 == 0).count();
 
         // Send the numbers of owned nodes to their homes, for the ranks with copies.
-        let before = |number: usize| team.all(number)[..team.rank()].iter().sum::<usize>();
+        let before = |number: usize| team.all(number)[..team.rank].iter().sum::<usize>();
         let (first_owned, first_free) = (before(owned.len()), before(free));
         let free_number = |node: usize| if node < free { (first_free + node) as u64 } else { PINNED };
         let rows = owned
@@ -155,7 +155,7 @@ fn rank_of(mut owners: [u64; 4], tag: u64) -> usize {
 
 /// Owner of each node that is at home on this rank.
 fn owners(team: &Team, homes: &Homes, elements: &[Element]) -> Result<Vec<u64>, Error> {
-    let range = homes.range(team.rank());
+    let range = homes.range(team.rank);
     let here = (range.end - range.start) as usize;
     if team.size == 1 {
         return Ok(vec![0; here]);

@@ -97,10 +97,10 @@ impl Operators for MatrixFree {
         let Self { stiffness, exchange, x: all, product: of_all, .. } = self;
         // The entries of pinned nodes follow, and are zero.
         all[..x.len()].copy_from_slice(x);
-        exchange.copy(all.as_flattened_mut(), |x| x)?;
+        exchange.copy(all.as_flattened_mut())?;
         // Both vectors have the length of the stiffness.
         let _ = stiffness.multiply(all, of_all);
-        exchange.sum(of_all.as_flattened_mut(), |x| x)?;
+        exchange.sum(of_all.as_flattened_mut())?;
         product.copy_from_slice(&of_all[..product.len()]);
         Ok(())
     }
@@ -139,7 +139,7 @@ impl LinearSystem {
         let stiffness = team.agree(stiffness.map_err(Error::from))?;
         let own = body.map_or(&[][..], Body::masses);
         let mut masses = own.to_vec();
-        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses, |x| x)?;
+        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses)?;
         for (name, value) in DEFAULTS {
             library.default_option(name, value)?;
         }
@@ -184,8 +184,8 @@ impl LinearSystem {
         std::mem::take(&mut self.systems)
     }
 
-    /// Solves with multiples of the regularisation added to an indefinite matrix, unless definiteness is
-    /// required.
+    /// Solves for the displacement, m, of the owned nodes that balances a gradient, N, with multiples of the
+    /// regularisation added to an indefinite matrix, unless definiteness is required.
     fn find_direction(
         &mut self,
         objective: &Objective<'_>,
@@ -196,24 +196,45 @@ impl LinearSystem {
         definiteness: Definiteness,
     ) -> Result<Option<Solution>, Error> {
         objective.add_second_derivatives(&mut self.matrix_free.borrow_mut().stiffness);
+        self.right.with(|right| {
+            right.iter_mut().zip(gradient).for_each(|(right, gradient)| *right = gradient.map(|g| -g));
+        })?;
+        let tolerance = tolerance.min(self.tolerance);
         let mut solution = Solution::default();
         loop {
-            let solved = self.solve_once(objective, x, gradient, direction, tolerance, definiteness)?;
-            self.systems.push(solved.iterations);
-            solution.iterations += solved.iterations;
+            let Self { matrix_free, form, right, solution: displacement, shares, max_iterations, .. } = self;
+            let mut task = Task { right, solution: displacement, tolerance, max_iterations: *max_iterations };
+            let Iteration { iterations, mut end } = match form {
+                Form::MatrixFree(krylov) => {
+                    solve(matrix_free, krylov, &mut task, x, |node| shares[node] * objective.inertia(node))?
+                }
+                Form::Assembled(assembled) => {
+                    assembled.assemble(&matrix_free.borrow().stiffness, x)?;
+                    assembled.solve(&mut task, definiteness == Definiteness::Optional)?
+                }
+            };
+            direction.fill([0.0; 3]);
+            displacement.with(|found| direction[..found.len()].copy_from_slice(found))?;
+            let not_finite = direction.iter().flatten().filter(|x| !x.is_finite()).count();
+            if self.team.count(not_finite) > 0 {
+                end = End::NotFinite;
+            }
+            self.check_options()?;
+            self.systems.push(iterations);
+            solution.iterations += iterations;
             let products = gradient.iter().zip(&*direction).take(self.free.len());
             let own = products.map(|(g, d)| g[0] * d[0] + g[1] * d[1] + g[2] * d[2]).sum();
             let [slope] = self.team.sum([own]);
-            let descends = solved.end != End::NotFinite && slope < 0.0 && slope.is_finite();
-            if matches!(solved.end, End::Converged | End::Limit) && descends {
-                solution.truncated = solved.end == End::Limit;
+            let descends = end != End::NotFinite && slope < 0.0 && slope.is_finite();
+            if matches!(end, End::Converged | End::Limit) && descends {
+                solution.truncated = end == End::Limit;
                 return Ok(Some(solution));
             }
             if definiteness == Definiteness::Required {
                 return Ok(None);
             }
             // Conjugate gradients that end at negative curvature return a direction of descent.
-            if solved.end == End::NegativeCurvature && descends {
+            if end == End::NegativeCurvature && descends {
                 solution.truncated = true;
                 return Ok(Some(solution));
             }
@@ -229,41 +250,6 @@ impl LinearSystem {
             }
             solution.shift = shift;
         }
-    }
-
-    /// Solves for the displacement, m, of the owned nodes that balances a gradient, N.
-    fn solve_once(
-        &mut self,
-        objective: &Objective<'_>,
-        x: &[[f64; 3]],
-        gradient: &[[f64; 3]],
-        direction: &mut [[f64; 3]],
-        tolerance: f64,
-        definiteness: Definiteness,
-    ) -> Result<Iteration, Error> {
-        let Self { matrix_free, form, right, solution, shares, .. } = self;
-        right.with(|right| {
-            right.iter_mut().zip(gradient).for_each(|(right, gradient)| *right = gradient.map(|g| -g));
-        })?;
-        let tolerance = tolerance.min(self.tolerance);
-        let mut task = Task { right, solution, tolerance, max_iterations: self.max_iterations };
-        let mut iteration = match form {
-            Form::MatrixFree(krylov) => {
-                solve(matrix_free, krylov, &mut task, x, |node| shares[node] * objective.inertia(node))?
-            }
-            Form::Assembled(assembled) => {
-                assembled.assemble(&matrix_free.borrow().stiffness, x)?;
-                assembled.solve(&mut task, definiteness == Definiteness::Optional)?
-            }
-        };
-        direction.fill([0.0; 3]);
-        self.solution.with(|solution| direction[..solution.len()].copy_from_slice(solution))?;
-        let not_finite = direction.iter().flatten().filter(|x| !x.is_finite()).count();
-        if self.team.count(not_finite) > 0 {
-            iteration.end = End::NotFinite;
-        }
-        self.check_options()?;
-        Ok(iteration)
     }
 
     /// Checks for unused options of the user. Options of the last level are checked only if there are levels.

@@ -19,7 +19,8 @@ use crate::petsc::Library;
 pub struct Team {
     /// Library that runs on all ranks.
     pub(crate) library: Library,
-    rank: usize,
+    /// Number of this rank, from 0.
+    pub rank: usize,
     /// Number of ranks.
     pub(crate) size: usize,
     /// First error, since the last call of [`Team::take_failure`], of functions that cannot return it.
@@ -33,12 +34,6 @@ impl Team {
         let world = library.world();
         let (rank, size) = (world.rank() as usize, world.size() as usize);
         Self { library: library.clone(), rank, size, failure: Rc::default() }
-    }
-
-    /// Number of this rank, from 0.
-    #[must_use]
-    pub fn rank(&self) -> usize {
-        self.rank
     }
 
     fn world(&self) -> &SimpleCommunicator {

@@ -13,7 +13,6 @@
 //! \[Mor78\] Moré, *The Levenberg–Marquardt algorithm: implementation and theory*, 1978.
 //! \[OSS04\] Ogden, Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004.
 
-mod candidate;
 mod edge;
 mod minimum;
 mod outcome;
@@ -22,17 +21,27 @@ mod uniqueness;
 
 use piola::__private::message::quoted;
 use piola::__private::random::Random;
+use piola::interpreter::Interpreted;
 use piola::material::Form;
+use piola_declare::Energy;
 
 use crate::curve::{Mode, Volume};
 use crate::data::{Agreement, Measured, Measurements};
 use crate::specimen;
 
-pub use candidate::Candidate;
 pub use outcome::{Ended, Fit, FitError, Number, Standing, TrialError, Warning};
 
 use minimum::Minimum;
 use problem::{Problem, Task};
+
+/// An energy that was declared at run time, and the parameters from which a fit begins.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The energy.
+    pub energy: Energy,
+    /// A material of it with these parameters.
+    pub material: Interpreted,
+}
 
 /// The measure of the difference at each measured point, whose squares are summed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -168,10 +177,13 @@ type Shape = (usize, Form);
 
 /// The parameters of an energy one by one, those with these names and whole exponents being held, and their
 /// shapes.
-fn numbers(candidate: &Candidate, held: &[String]) -> Result<(Vec<Number>, Vec<Shape>), FitError> {
+fn numbers(
+    Candidate { energy, material }: &Candidate,
+    held: &[String],
+) -> Result<(Vec<Number>, Vec<Shape>), FitError> {
     let (mut numbers, mut parameters) = (Vec::new(), Vec::new());
     let mut unknown: Vec<&str> = held.iter().map(String::as_str).collect();
-    for (parameter, list) in candidate.description().parameters.iter().zip(candidate.values()) {
+    for (parameter, list) in energy.description().parameters.iter().zip(energy.values(material)) {
         parameters.push((list.len(), parameter.form));
         for (entry, value) in (1..).zip(list) {
             let name = match parameter.is_list() {

@@ -111,7 +111,7 @@ impl Place {
 ///     let material = energy.material(values, Inversion::Refuse)?;
 ///     Ok::<_, Box<dyn std::error::Error>>(Contender {
 ///         name: name.into(),
-///         candidate: Candidate::new(energy, material),
+///         candidate: Candidate { energy, material },
 ///     })
 /// };
 /// let contenders = [
@@ -151,7 +151,8 @@ pub fn rank(contenders: &[Contender], data: &Measurements, settings: &FitSetting
 
 fn place(contender: &Contender, data: &Measurements, settings: &FitSettings) -> Result<Place, FitError> {
     let fit = fit_parameters(&contender.candidate, data, settings)?;
-    let fitted = contender.candidate.with_values(&fit.values).map_err(TrialError::Inadmissible)?;
+    let Candidate { energy, material } = &contender.candidate;
+    let fitted = energy.with_values(material, &fit.values).map_err(TrialError::Inadmissible)?;
     let mut lost: [Option<Loss>; 3] = [None; 3];
     for mode in data.modes() {
         for end in data.range(mode) {

@@ -210,11 +210,11 @@ impl MaterialSpec {
     /// Like [`MaterialSpec::build`].
     pub fn candidate(&self) -> Result<Candidate, Error> {
         self.resolve(|energy, values, inversion| {
-            Ok(Candidate::new(energy.clone(), energy.material(values, inversion)?))
+            Ok(Candidate { energy: energy.clone(), material: energy.material(values, inversion)? })
         })
     }
 
-    /// The specification with the values of a fit, as [`Candidate::values`] lists them: those of a curve are
+    /// The specification with the values of a fit, as [`Energy::values`] lists them: those of a curve are
     /// ordinates of its control points.
     ///
     /// # Errors

@@ -59,7 +59,7 @@ impl Finished {
     /// # Errors
     /// If the file cannot be read.
     pub fn surface_in(&self, frame: usize) -> io::Result<Vec<[f32; 3]>> {
-        read_vertices(&fs::read(self.folder.path().join(frame_file(frame)))?)
+        read_vertices(&fs::read(self.folder.path.join(frame_file(frame)))?)
     }
 
     /// Adds a file to the run; one that cannot be written becomes a failure of the run.

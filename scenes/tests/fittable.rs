@@ -67,7 +67,7 @@ fn places(values: &[Vec<f64>]) -> Vec<(usize, usize)> {
 
 /// p ∂ψk/∂p by central differences for the number at a place.
 fn difference(
-    material: &Candidate,
+    Candidate { energy, material }: &Candidate,
     values: &[Vec<f64>],
     (list, place): (usize, usize),
     stretches: [f64; 3],
@@ -77,7 +77,7 @@ fn difference(
         for side in [1.0, -1.0] {
             let mut changed = values.to_vec();
             changed[list][place] *= 1.0 + side * f64::from(k) * STEP;
-            let gradient = material.with_values(&changed)?.blocks(stretches).gradient;
+            let gradient = Specimen::blocks(&energy.with_values(material, &changed)?, stretches).gradient;
             for (slope, gradient) in slope.iter_mut().zip(gradient) {
                 *slope += side * coefficient * gradient / STEP;
             }
@@ -88,8 +88,9 @@ fn difference(
 
 /// Σ |p ∂ψk/∂p| over all numbers and k, with the moduli for what cancels at rest: the size of what the
 /// gradient is a sum of.
-fn scale(material: &Candidate, derivatives: &[[f64; 3]]) -> f64 {
-    let (values, [h11, _, _, h12, _, _]) = (material.values(), material.blocks([1.0; 3]).hessian);
+fn scale(Candidate { energy, material }: &Candidate, derivatives: &[[f64; 3]]) -> f64 {
+    let values = energy.values(material);
+    let [h11, _, _, h12, _, _] = Specimen::blocks(material, [1.0; 3]).hessian;
     let shares = places(&values).into_iter().zip(derivatives);
     let size = |((list, place), d): ((usize, usize), &[f64; 3])| {
         let p = values[list][place];
@@ -98,19 +99,20 @@ fn scale(material: &Candidate, derivatives: &[[f64; 3]]) -> f64 {
     (h11 - h12).abs() + h12.abs() + shares.map(size).sum::<f64>()
 }
 
-fn check_slopes(name: &str, material: &Candidate) -> Result<(), MaterialError> {
-    let (values, description) = (material.values(), material.description());
+fn check_slopes(name: &str, candidate: &Candidate) -> Result<(), MaterialError> {
+    let Candidate { energy, material } = candidate;
+    let (values, description) = (energy.values(material), energy.description());
     for stretches in STRETCHES {
-        let derivatives = material.gradient_by_parameters(stretches);
+        let derivatives = energy.gradient_by_parameters(material, stretches);
         let places = places(&values);
         assert_eq!(derivatives.len(), places.len(), "{name}");
-        let tolerance = TOLERANCE * scale(material, &derivatives);
+        let tolerance = TOLERANCE * scale(candidate, &derivatives);
         for ((list, place), derivative) in places.into_iter().zip(&derivatives) {
             if description.parameters[list].is_whole() {
                 assert_eq!(*derivative, [0.0; 3], "{name}: whole exponents do not change");
                 continue;
             }
-            let differences = difference(material, &values, (list, place), stretches)?;
+            let differences = difference(candidate, &values, (list, place), stretches)?;
             for (k, (derivative, difference)) in derivative.iter().zip(differences).enumerate() {
                 let slope = values[list][place] * derivative;
                 assert!(
@@ -127,19 +129,20 @@ fn check_slopes(name: &str, material: &Candidate) -> Result<(), MaterialError> {
 
 #[test]
 fn derivatives_are_slopes() -> Result<(), MaterialError> {
-    candidates().try_for_each(|(name, material)| check_slopes(name, &material))
+    candidates().try_for_each(|(name, candidate)| check_slopes(name, &candidate))
 }
 
 /// Euler's theorem: Σ p ∂ψk/∂p = ψk over the parameters p that are stresses, because ψ is proportional to all
 /// of them together. Both sides have a few hundred roundings of terms of one size at most.
 #[test]
 fn stresses_are_proportional_to_moduli() {
-    for (name, material) in candidates() {
-        let (values, description) = (material.values(), material.description());
+    for (name, candidate) in candidates() {
+        let Candidate { energy, material } = &candidate;
+        let (values, description) = (energy.values(material), energy.description());
         for stretches in STRETCHES {
-            let derivatives = material.gradient_by_parameters(stretches);
-            let tolerance = 200.0 * f64::EPSILON * scale(&material, &derivatives);
-            for (k, expected) in material.blocks(stretches).gradient.into_iter().enumerate() {
+            let derivatives = energy.gradient_by_parameters(material, stretches);
+            let tolerance = 200.0 * f64::EPSILON * scale(&candidate, &derivatives);
+            for (k, expected) in Specimen::blocks(material, stretches).gradient.into_iter().enumerate() {
                 let shares = places(&values).into_iter().zip(&derivatives);
                 let is_stress = |list: usize| description.parameters[list].unit == Some(Unit::Pascal);
                 let stresses = shares.filter(|((list, _), _)| is_stress(*list));
@@ -152,18 +155,18 @@ fn stresses_are_proportional_to_moduli() {
 
 /// All hold, and central differences of each value have its gradient. Their truncation is h² by the third
 /// derivative, which powers of six raise to a hundred times the value.
-fn check_constraints(name: &str, material: &Candidate) {
+fn check_constraints(name: &str, Candidate { energy, material }: &Candidate) {
     const STEP: f64 = 1e-5;
     let all = |values: &[Vec<f64>]| {
-        let moved = material.with_values(values).expect("near admissible parameters");
-        let domain = moved.domain_constraints([1.3, 1.1, 0.75]);
-        moved.constraints().into_iter().chain(domain).collect::<Vec<_>>()
+        let moved = energy.with_values(material, values).expect("near admissible parameters");
+        let domain = energy.domain_constraints(&moved, [1.3, 1.1, 0.75]);
+        energy.constraints(&moved).into_iter().chain(domain).collect::<Vec<_>>()
     };
-    let values = material.values();
+    let values = energy.values(material);
     let here = all(&values);
     assert!(here.iter().all(|constraint| constraint.value >= 0.0), "{name}: {here:?}");
     for (number, (list, place)) in places(&values).into_iter().enumerate() {
-        if material.description().parameters[list].is_whole() {
+        if energy.description().parameters[list].is_whole() {
             assert!(here.iter().all(|constraint| constraint.gradient[number] == 0.0), "{name}: {here:?}");
             continue;
         }
@@ -185,13 +188,13 @@ fn check_constraints(name: &str, material: &Candidate) {
 
 #[test]
 fn constraints_have_their_gradients() {
-    candidates().for_each(|(name, material)| check_constraints(name, &material));
+    candidates().for_each(|(name, candidate)| check_constraints(name, &candidate));
 }
 
 #[test]
 fn values_are_those_of_the_constructor() {
-    for (name, material) in candidates() {
-        assert_eq!(material.values(), values(name), "{name}");
+    for (name, Candidate { energy, material }) in candidates() {
+        assert_eq!(energy.values(&material), values(name), "{name}");
     }
 }
 
@@ -203,12 +206,13 @@ fn ordinates_of_the_curves_of_the_catalogue_are_parameters() -> Result<(), Mater
     check_slopes("stretch_spline", &solid)?;
     check_constraints("stretch_spline", &solid);
     // What a fit finds goes to the control points.
-    let mut values = solid.values();
+    let mut values = solid.energy.values(&solid.material);
     values[1] = vec![-3e4, 4e4];
     let fitted = spec.with_fitted(&values).expect("as many ordinates");
     assert_eq!(fitted.values_of("g"), [0.1, -3e4, 1.0, 0.0, 4.0, 4e4]);
     assert_eq!(fitted.values_of("h"), spec.values_of("h"));
-    assert_eq!(fitted.candidate().expect("stable").values(), values);
+    let Candidate { energy, material } = fitted.candidate().expect("stable");
+    assert_eq!(energy.values(&material), values);
     Ok(())
 }
 
@@ -292,14 +296,15 @@ fn derivatives_of_sums_and_powers_are_slopes() -> Result<(), MaterialError> {
     check_constraints("Nested", &nested);
     // An exponent of zero, where λ^α is 1 and its derivative ln λ.
     let zero = declared(NESTED, &[&[1.5, 2.0], &[1.0, 0.0], &[0.5], &[3.0]]);
-    let [.., to_exponent, _, _] = zero.gradient_by_parameters([2.0, 1.0, 0.5])[..] else {
+    let [.., to_exponent, _, _] = zero.energy.gradient_by_parameters(&zero.material, [2.0, 1.0, 0.5])[..]
+    else {
         panic!("six numbers")
     };
     assert!(to_exponent[0] > 0.0 && to_exponent[1] > 0.0, "{to_exponent:?}");
     check_slopes("Shifted", &declared(SHIFTED, &[&[1.0, 2.0], &[0.5, 0.7], &[1.2]]))?;
     let solid = declared(STIFFENING, &[&[1.0], &[2.0], &[2.5]]);
     check_slopes("Stiffening", &solid)?;
-    assert_eq!(solid.gradient_by_parameters([1.0; 3]), [[0.0; 3]; 3]);
+    assert_eq!(solid.energy.gradient_by_parameters(&solid.material, [1.0; 3]), [[0.0; 3]; 3]);
     Ok(())
 }
 
@@ -307,14 +312,17 @@ fn derivatives_of_sums_and_powers_are_slopes() -> Result<(), MaterialError> {
 fn ordinates_of_a_curve_are_parameters() -> Result<(), MaterialError> {
     let points = [0.5, 1e5, 1.0, 2e5, 1.4, 3e5, 2.0, 6e5];
     let solid = declared(DRAWN, &[&[3e5], &points, &[1e5, 2e3], &[1.0, 2.0]]);
-    let values = solid.values();
+    let Candidate { energy, material } = &solid;
+    let values = energy.values(material);
     assert_eq!(values, [&[3e5][..], &[1e5, 3e5, 6e5], &[1e5, 2e3], &[1.0, 2.0]]);
     check_slopes("Drawn", &solid)?;
     check_constraints("Drawn", &solid);
-    let again = solid.with_values(&values)?;
-    assert_eq!(again.blocks([1.3, 1.1, 0.8]), solid.blocks([1.3, 1.1, 0.8]));
+    let again = energy.with_values(material, &values)?;
+    let place = [1.3, 1.1, 0.8];
+    assert_eq!(Specimen::blocks(&again, place), Specimen::blocks(material, place));
 
-    let refused = |values: &[Vec<f64>]| solid.with_values(values).expect_err("refused").to_string();
+    let refused =
+        |values: &[Vec<f64>]| energy.with_values(material, values).expect_err("refused").to_string();
     let other = |k: usize, list: &[f64]| {
         let mut values = values.clone();
         values[k] = list.to_vec();
@@ -333,8 +341,8 @@ fn ordinates_of_a_curve_are_parameters() -> Result<(), MaterialError> {
 fn conditions_beyond_the_second_derivative_of_a_curve_are_differenced() {
     // φ = c x² with c = 3/2, so that k = 2 c (a² + Σ b²) leaves no stress; μ = c (a² + Σ b²) + k/2 and λ = 0.
     let line = [0.25, 0.75, 1.0, 3.0, 2.0, 6.0, 4.0, 12.0];
-    let solid = declared(SPRUNG, &[&[2.0], &[0.5, 1.5], &[19.5], &line]);
-    let [shear, _] = <[_; 2]>::try_from(solid.constraints()).expect("two");
+    let Candidate { energy, material } = declared(SPRUNG, &[&[2.0], &[0.5, 1.5], &[19.5], &line]);
+    let [shear, _] = <[_; 2]>::try_from(energy.constraints(&material)).expect("two");
     assert_eq!(shear.limit, Limit::ShearModulus);
     // By a: 2 c a, and by each b; by k: ½.
     assert_eq!(shear.gradient.len(), 4 + 3);

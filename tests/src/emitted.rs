@@ -71,11 +71,12 @@ impl Runner {
 
     fn group(&self, energy: &Judged, cases: &[&Case]) -> Result<Vec<Answer>, String> {
         let fail = |error: &dyn std::fmt::Display| format!("{}: {error}", energy.name);
-        let functions = PointFunction::ALL[..4].iter().copied();
-        let emission = Emission::new(self.target)
-            .with_precision(self.precision)
-            .with_prefix("energy")
-            .with_functions(functions);
+        let emission = Emission {
+            target: self.target,
+            precision: self.precision,
+            prefix: Some("energy".into()),
+            functions: PointFunction::ALL[..4].to_vec(),
+        };
         let parameters = &energy.description().parameters;
         let mut points = Vec::new();
         for case in cases {

@@ -114,7 +114,8 @@ fn compile(folder: &Path, arguments: &[&str]) {
 }
 
 fn print<R: Format>(energy: &Judged, target: Target, inversion: Inversion) -> Result<String, EmitError> {
-    let emission = Emission::new(target).with_prefix("energy").with_precision(precision::<R>());
+    let (prefix, precision) = (Some("energy".into()), precision::<R>());
+    let emission = Emission { prefix, precision, ..Emission::new(target) };
     energy.energy.emit(&energy.typical(), inversion, &emission)
 }
 
@@ -190,8 +191,10 @@ fn mistakes_say_what_to_do() {
         let result = energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission);
         result.expect_err("a mistake").to_string()
     };
-    assert!(emit(Emission::new(Target::C).with_prefix("1st")).starts_with("`1st` is not a name"));
-    assert!(emit(Emission::new(Target::C).with_functions([])).contains("energy, stress, tangent"));
+    let first = Emission { prefix: Some("1st".into()), ..Emission::new(Target::C) };
+    assert!(emit(first).starts_with("`1st` is not a name"));
+    let nothing = Emission { functions: Vec::new(), ..Emission::new(Target::C) };
+    assert!(emit(nothing).contains("energy, stress, tangent"));
     let unknown = |word: &str| word.parse::<PointFunction>().expect_err("unknown").to_string();
     assert_eq!(
         unknown("forces"),
@@ -199,7 +202,7 @@ fn mistakes_say_what_to_do() {
          projected_tetrahedron, blocks, svd"
     );
     assert!("fortran".parse::<Target>().expect_err("unknown").to_string().contains("known are: c"));
-    let double = emit(Emission::new(Target::Wgsl).with_precision(Precision::F64));
+    let double = emit(Emission { precision: Precision::F64, ..Emission::new(Target::Wgsl) });
     assert!(double.contains("choose the precision f32"), "{double}");
     assert!("f16".parse::<Precision>().expect_err("unknown").to_string().contains("f32, f64"));
 }
@@ -264,7 +267,8 @@ fn a_file_checks_parameters_as_the_constructor_does() {
 fn branches_hold_what_only_they_need() {
     let energy = find("neo_hookean").expect("in the catalogue");
     for function in [PointFunction::Stress, PointFunction::Tangent] {
-        let emission = Emission::new(Target::C).with_prefix("energy").with_functions([function]);
+        let (prefix, functions) = (Some("energy".into()), vec![function]);
+        let emission = Emission { prefix, functions, ..Emission::new(Target::C) };
         let text = energy.energy.emit(&energy.typical(), Inversion::Refuse, &emission).expect("text");
         let (_, body) = text.split_once(&format!("energy_{}(const", function.name())).expect("the function");
         let inside = body.lines().filter(|line| line.starts_with("        ")).count();
@@ -294,7 +298,7 @@ fn no_text_of_a_declaration_leaves_its_comment() {
     "#;
     let energy = piola_declare::Energy::from_rust(declared).expect("an energy");
     let emit = |void: &[f64], precision| {
-        let emission = Emission::new(Target::C).with_precision(precision);
+        let emission = Emission { precision, ..Emission::new(Target::C) };
         energy.emit(&[&[1e6], &[1e6], &[0.0], &[0.0], void], Inversion::Refuse, &emission)
     };
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");

@@ -18,7 +18,7 @@ pub struct Conversation {
     answer: Sender<Answer>,
     answers: Receiver<Answer>,
     /// True if the page has requested a frame that has not come.
-    waits: bool,
+    pub waits: bool,
     seen: Seen,
 }
 
@@ -35,12 +35,6 @@ impl Conversation {
     #[must_use]
     pub fn after(drags: impl Iterator<Item = u64>) -> u64 {
         drags.map(|drag| drag / DRAGS + 1).max().unwrap_or(0)
-    }
-
-    /// True if the page has requested a frame that has not come.
-    #[must_use]
-    pub fn waits(&self) -> bool {
-        self.waits
     }
 
     /// The order that ends all drags of the page.

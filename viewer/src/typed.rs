@@ -49,7 +49,8 @@ pub(crate) fn energy(text: &str, given: &BTreeMap<String, Vec<f64>>) -> Result<E
         )));
     }
     let names = given.keys().map(|name| (name.clone(), String::new()));
-    let options = FormulaOptions::default().with_parameters(Some(names.collect())).with_further(true);
+    let parameters = Some(names.collect());
+    let options = FormulaOptions { parameters, further: true, ..FormulaOptions::default() };
     Energy::from_text_with(text, &options).map_err(Error::Declaration)
 }
 

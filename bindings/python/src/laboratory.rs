@@ -11,7 +11,7 @@ use piola_declare::Energy;
 use piola_laboratory::Specimen;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, TRELOAR_1944};
-use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
+use piola_laboratory::fit::{Candidate, Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
 use piola_laboratory::stability::{Report, SurveySettings, Walk, survey};
 use pyo3::prelude::*;
@@ -175,18 +175,20 @@ impl Material {
         let candidates = self.specs().map(|spec| spec.candidate().map_err(of_material));
         let candidates: Vec<_> = candidates.collect::<PyResult<_>>()?;
         let candidate_of = shape::entries(&self.shape, &shape);
-        let lists = candidates[0].values();
+        let Candidate { energy, material } = &candidates[0];
+        let lists = energy.values(material);
         let count = lists.iter().map(Vec::len).sum::<usize>();
         let points: &[[[f64; 3]; 3]] = F.as_slice()?.as_chunks().0.as_chunks().0;
         let mut derivatives = vec![vec![[[0.0; 3]; 3]; points.len()]; count];
         let outside = py.detach(|| {
             (0..points.len()).find(|&point| {
-                let candidate = &candidates[candidate_of[point]];
+                let Candidate { energy, material } = &candidates[candidate_of[point]];
                 let frames = svd(&points[point]);
-                let by_parameters = match frames.stretches[2] > 0.0 && candidate.admits(frames.stretches) {
-                    true => candidate.gradient_by_parameters(frames.stretches),
-                    false => return true,
-                };
+                let by_parameters =
+                    match frames.stretches[2] > 0.0 && Specimen::admits(material, frames.stretches) {
+                        true => energy.gradient_by_parameters(material, frames.stretches),
+                        false => return true,
+                    };
                 for (derivatives, gradient) in derivatives.iter_mut().zip(by_parameters) {
                     derivatives[point] = stress(&frames, gradient);
                 }
@@ -203,7 +205,7 @@ impl Material {
         }
         let result = PyDict::new(py);
         let mut derivatives = derivatives.into_iter();
-        for (parameter, list) in candidates[0].description().parameters.iter().zip(&lists) {
+        for (parameter, list) in energy.description().parameters.iter().zip(&lists) {
             let part = derivatives.by_ref().take(list.len()).flatten().flatten().flatten();
             let part = part.collect::<Vec<f64>>().into_pyarray(py);
             let entries = [list.len()];

@@ -298,12 +298,12 @@ impl Material {
         let unknown = value_error::<UnknownWord>;
         let mut emission = Emission::new(target.parse().map_err(unknown)?);
         if let Some(precision) = precision {
-            emission = emission.with_precision(precision.parse().map_err(unknown)?);
+            emission.precision = precision.parse().map_err(unknown)?;
         }
         emission.prefix = name;
         if let Some(functions) = functions {
             let functions: Result<Vec<_>, _> = functions.iter().map(|word| word.parse()).collect();
-            emission = emission.with_functions(functions.map_err(unknown)?);
+            emission.functions = functions.map_err(unknown)?;
         }
         self.uniform()?.emit(&emission).map_err(of_material)
     }
@@ -487,12 +487,14 @@ fn of_formula(
         let keyword: String = keyword.extract()?;
         known.push((parameter_name(&keyword, is_used).to_owned(), String::new()));
     }
-    let any = FormulaOptions::default().with_free_rest(free_rest).with_forms("NAME=VALUE", "free_rest=True");
+    let (value, free_rest_option) = (Some("NAME=VALUE"), Some("free_rest=True"));
+    let any = FormulaOptions { free_rest, value, free_rest_option, ..FormulaOptions::default() };
     Ok(py.detach(|| {
         if known.is_empty() {
             return Energy::from_formula_with(formula, &any);
         }
-        let energy = Energy::from_formula_with(formula, &any.clone().with_parameters(Some(known)));
+        let with_known = FormulaOptions { parameters: Some(known), ..any.clone() };
+        let energy = Energy::from_formula_with(formula, &with_known);
         // Where keywords are missing or wrong the material says which parameters there are.
         energy.or_else(|mistakes| Energy::from_formula_with(formula, &any).map_err(|_| mistakes))
     }))

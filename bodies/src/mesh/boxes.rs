@@ -67,20 +67,26 @@ pub fn tetrahedral_box(cells: [usize; 3], size: [f64; 3]) -> Result<TetMesh, Box
         places(cells.map(|n| n + 1), axes)
             .map(|at| -> [f64; 3] { std::array::from_fn(|c| size[c] * (at[c] as f64 / cells[c] as f64)) }),
     );
-    for at in places(cells, axes) {
-        let lowest = (0..3).map(|c| at[c] * strides[c]).sum();
-        mesh.tets.extend(PATHS.map(|(path, is_odd)| {
-            let mut tet = [lowest; 4];
-            for (step, axis) in path.into_iter().enumerate() {
-                tet[step + 1] = tet[step] + strides[axis];
-            }
-            if is_odd {
-                tet.swap(1, 2);
-            }
-            tet
-        }));
-    }
+    mesh.tets.extend(places(cells, axes).flat_map(|at| tetrahedra_of_cell(at, strides)));
     Ok(mesh)
+}
+
+/// The tetrahedra of a cell by the place of its lowest corner, and the distance in the numbering between two
+/// neighbours along each axis.
+#[doc(hidden)]
+#[must_use]
+pub fn tetrahedra_of_cell(at: [usize; 3], strides: [usize; 3]) -> [[usize; 4]; 6] {
+    let lowest: usize = (0..3).map(|c| at[c] * strides[c]).sum();
+    PATHS.map(|(path, is_odd)| {
+        let mut tet = [lowest; 4];
+        for (step, axis) in path.into_iter().enumerate() {
+            tet[step + 1] = tet[step] + strides[axis];
+        }
+        if is_odd {
+            tet.swap(1, 2);
+        }
+        tet
+    })
 }
 
 fn product([x, y, z]: [Option<usize>; 3]) -> Option<usize> {

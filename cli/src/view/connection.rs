@@ -89,7 +89,7 @@ impl Connection<'_> {
 
     /// Takes one message, or none in this turn.
     fn listen(&mut self) -> Result<(), End> {
-        let turn = if self.conversation.waits() { TURN } else { LONG_TURN };
+        let turn = if self.conversation.waits { TURN } else { LONG_TURN };
         self.socket.get_mut().allow(turn);
         let read = self.socket.read();
         if read.is_ok() {

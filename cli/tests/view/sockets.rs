@@ -136,7 +136,7 @@ fn silent_lines_shut_nobody_out_for_long() {
     let viewer = viewer();
     let url = viewer.url();
     let mut witness = Page::open(&url);
-    let line = |_| TcpStream::connect(viewer.address()).expect("somebody listens");
+    let line = |_| TcpStream::connect(viewer.address).expect("somebody listens");
     let lines: Vec<_> = (0..40).map(line).collect();
     let start = Instant::now();
     assert!(Page::try_open(&url).is_none(), "any number of connections is served");
@@ -165,7 +165,7 @@ fn answers_do_not_pile_up() {
 
 /// Asks the viewer of an address, and returns its answer.
 fn ask(viewer: &Viewer, request: &str) -> String {
-    let mut stream = TcpStream::connect(viewer.address()).expect("somebody listens");
+    let mut stream = TcpStream::connect(viewer.address).expect("somebody listens");
     stream.write_all(request.as_bytes()).expect("somebody reads");
     let mut answer = String::new();
     stream.read_to_string(&mut answer).expect("an answer");
@@ -177,7 +177,7 @@ fn strangers_are_not_let_in() {
     let (viewer, other) = (viewer(), viewer());
     let (url, again) = (viewer.url(), other.url());
     let ((own, query), (_, others)) = (parts(&url), parts(&again));
-    let port = viewer.address().port();
+    let port = viewer.address.port();
     let check = |status: &str, request: &str| {
         let answer = ask(&viewer, request);
         assert!(answer.starts_with(&format!("HTTP/1.1 {status} ")), "{status}: {request}{answer}");
@@ -231,7 +231,7 @@ fn strangers_are_not_let_in() {
 #[test]
 fn a_port_that_is_taken_is_named() {
     let viewer = viewer();
-    let port = viewer.address().port();
+    let port = viewer.address.port();
     let error = Viewer::start(session(), port, None).expect_err("taken");
     assert!(error.to_string().contains(&port.to_string()), "{error}");
     assert_eq!(error.exit_code(), 2);

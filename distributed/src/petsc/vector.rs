@@ -2,6 +2,8 @@
 
 use std::ptr::{null, null_mut};
 
+use piola::lanes::Real;
+
 use super::{DECIDE, Library, PetscError, PetscInt, check, ffi, int};
 
 /// Vector with some components for each row. Each rank owns some rows, and has copies of other rows.
@@ -39,31 +41,24 @@ impl GhostedVector {
         Ok(Self { _library: library.clone(), raw, local, owned })
     }
 
-    /// Replaces the copies, the last rows of `all`, by the entries of their owners. Entries are sent in f64,
-    /// and `narrow` returns their nearest values in the type of `all`.
-    pub(crate) fn copy<E: Copy + Into<f64>>(
-        &mut self,
-        all: &mut [E],
-        narrow: impl Fn(f64) -> E,
-    ) -> Result<(), PetscError> {
+    /// Replaces the copies, the last rows of `all`, by the entries of their owners, which are sent in f64.
+    pub(crate) fn copy<E: Real + Into<f64>>(&mut self, all: &mut [E]) -> Result<(), PetscError> {
         let owned = self.owned;
         self.with_local(|entries| entries.iter_mut().zip(&all[..owned]).for_each(|(e, x)| *e = (*x).into()))?;
         self.update(ffi::InsertMode_INSERT_VALUES, ffi::ScatterMode_SCATTER_FORWARD)?;
         let copies = &mut all[owned..];
-        self.with_local(|entries| copies.iter_mut().zip(&entries[owned..]).for_each(|(x, e)| *x = narrow(*e)))
+        self.with_local(|entries| {
+            copies.iter_mut().zip(&entries[owned..]).for_each(|(x, e)| *x = E::splat(*e))
+        })
     }
 
     /// Adds the copies, the last rows of `all`, to the entries of their owners, as in
     /// [`copy`](Self::copy).
-    pub(crate) fn sum<E: Copy + Into<f64>>(
-        &mut self,
-        all: &mut [E],
-        narrow: impl Fn(f64) -> E,
-    ) -> Result<(), PetscError> {
+    pub(crate) fn sum<E: Real + Into<f64>>(&mut self, all: &mut [E]) -> Result<(), PetscError> {
         self.with_local(|entries| entries.iter_mut().zip(&*all).for_each(|(e, x)| *e = (*x).into()))?;
         self.update(ffi::InsertMode_ADD_VALUES, ffi::ScatterMode_SCATTER_REVERSE)?;
         let owned = &mut all[..self.owned];
-        self.with_local(|entries| owned.iter_mut().zip(&*entries).for_each(|(x, e)| *x = narrow(*e)))
+        self.with_local(|entries| owned.iter_mut().zip(&*entries).for_each(|(x, e)| *x = E::splat(*e)))
     }
 
     fn update(&mut self, mode: ffi::InsertMode, direction: ffi::ScatterMode) -> Result<(), PetscError> {

@@ -9,8 +9,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The same declaration as a text, of which the derivatives with respect to the parameters are made.
     let energy = Energy::from_rust(include_str!("../src/lib.rs"))?;
     // Where the search begins: a shear modulus of 0.4 MPa, and a little of each.
-    let rubber = energy.material(&[&[1.9e5], &[1e4], &[1e2], &[1e2], &[2e7]], Inversion::Refuse)?;
-    let start = Candidate::new(energy, rubber);
+    let material = energy.material(&[&[1.9e5], &[1e4], &[1e2], &[1e2], &[2e7]], Inversion::Refuse)?;
+    let start = Candidate { energy, material };
     let data = Measurements::read(TRELOAR_1944)?;
     let fitted = fit_parameters(&start, &data, &FitSettings::default())?;
 

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use piola::Inversion;
 use piola_declare::Energy;
-use piola_declare::emit::{Emission, PointFunction, Precision, Target};
+use piola_declare::emit::{Emission, PointFunction, Target};
 use piola_wgpu::device::Device;
 use piola_wgpu::tetrahedra::Elements;
 use piola_wgpu::{Error, PREFIX, mesh, points};
@@ -46,8 +46,9 @@ fn bar() -> Result<(), Error> {
     println!("{}", device.name);
     let mesh = mesh::bar(CELLS);
     for function in [PointFunction::Tetrahedron, PointFunction::ProjectedTetrahedron] {
-        let emission = Emission::new(Target::Wgsl).with_precision(Precision::F32).with_prefix(PREFIX);
-        let text = energy.emit(&PARAMETERS, Inversion::Refuse, &emission.with_functions([function]))?;
+        let (prefix, functions) = (Some(PREFIX.into()), vec![function]);
+        let emission = Emission { prefix, functions, ..Emission::new(Target::Wgsl) };
+        let text = energy.emit(&PARAMETERS, Inversion::Refuse, &emission)?;
         let start = std::time::Instant::now();
         let elements = Elements::new(&device, (&text, function.name()), &mesh)?;
         // The first time the driver compiles, and fills memory with zeros.

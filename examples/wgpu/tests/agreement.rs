@@ -8,7 +8,7 @@ use piola::batch::{Batch, Kernels, Tetrahedra, TileMaterial};
 use piola::interpreter::Interpreted;
 use piola::point::Filter;
 use piola_declare::Energy;
-use piola_declare::emit::{Emission, PointFunction, Precision, Target};
+use piola_declare::emit::{Emission, PointFunction, Target};
 use piola_wgpu::PREFIX;
 use piola_wgpu::device::Device;
 use piola_wgpu::mesh::{Mesh, bar};
@@ -69,11 +69,11 @@ fn check(formula: &str, values: &[&[f64]]) {
     let device = Device::open().expect("an adapter; `check` looks for one");
     let energy = Energy::from_formula(formula).expect("a formula");
     let material = energy.material(values, Inversion::Refuse).expect("admissible parameters");
-    let emission = Emission::new(Target::Wgsl).with_precision(Precision::F32).with_prefix(PREFIX);
     // The last line of 64 elements is not full.
     let mesh = bar([11, 4, 3]);
     for (function, filter) in FUNCTIONS {
-        let emission = emission.clone().with_functions([function]);
+        let (prefix, functions) = (Some(PREFIX.into()), vec![function]);
+        let emission = Emission { prefix, functions, ..Emission::new(Target::Wgsl) };
         let text = energy.emit(values, Inversion::Refuse, &emission).expect("an energy that can be printed");
         let function = function.name();
         let elements = Elements::new(&device, (&text, function), &mesh).expect("a program");

@@ -12,12 +12,11 @@ use crate::curve::Mode;
 /// not in plain form means a nominal strain, or a nominal stress.
 ///
 /// ```
-/// use piola_laboratory::curve::Mode;
 /// use piola_laboratory::data::{Measurements, ReadOptions};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let options = ReadOptions {
-///     test: Some(Mode::Uniaxial.into()),
+///     test: Some("uniaxial".parse()?),
 ///     unit: Some("MPa".parse()?),
 ///     strain: Some("1=stretch".into()),
 ///     stress: Some("Spannung".into()),
@@ -46,7 +45,7 @@ pub struct ReadOptions {
 /// use piola_laboratory::data::Test;
 ///
 /// # fn main() -> Result<(), String> {
-/// assert_eq!("Equi-Biaxial".parse::<Test>()?, Mode::Equibiaxial.into());
+/// assert_eq!("Equi-Biaxial".parse::<Test>()?.mode, Mode::Equibiaxial);
 /// assert!("uniaxial compression".parse::<Test>()?.is_compression);
 /// # Ok(())
 /// # }
@@ -57,12 +56,6 @@ pub struct Test {
     pub mode: Mode,
     /// True if the name means compression: such data lie below rest.
     pub is_compression: bool,
-}
-
-impl From<Mode> for Test {
-    fn from(mode: Mode) -> Self {
-        Self { mode, is_compression: false }
-    }
 }
 
 impl FromStr for Test {

@@ -197,12 +197,14 @@ impl<'a, 'b> Surroundings<'a, 'b> {
             let is_inside = self.attempt(&middle).is_ok();
             *(if is_inside { &mut inside } else { &mut outside }) = middle;
         }
-        let (candidate, responses) = self.attempt(&inside).ok()?;
+        let (material, responses) = self.attempt(&inside).ok()?;
         let task = &self.problem.task;
-        let of_parameters = candidate.constraints().into_iter().map(|constraint| (constraint, None));
+        let energy = &task.start.energy;
+        let of_parameters = energy.constraints(&material).into_iter().map(|constraint| (constraint, None));
         // That free sides give way when a parameter changes is left out.
         let of_domain = responses.iter().zip(task.points).flat_map(|(response, &(point, _))| {
-            let constraints = candidate.domain_constraints(Ordered::new(response.stretches).numbers);
+            let ordered = Ordered::new(response.stretches);
+            let constraints = energy.domain_constraints(&material, ordered.numbers);
             constraints.into_iter().map(move |constraint| (constraint, Some(point)))
         });
         let refusing = of_parameters

@@ -10,7 +10,7 @@ use crate::data::{Agreement, PointError, short};
 /// Fitted parameters, and their agreement with the data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// The parameters as [`Declared::from_values`](piola::material::Declared::from_values) takes them.
+    /// The parameters as [`Energy::with_values`](piola_declare::Energy::with_values) takes them.
     pub values: Vec<Vec<f64>>,
     /// The parameters one by one, lists entry by entry.
     pub numbers: Vec<Number>,

@@ -2,9 +2,10 @@
 
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
+use piola::interpreter::Interpreted;
 use piola::material::Form;
 
-use super::candidate::Candidate;
+use super::Candidate;
 use super::outcome::TrialError;
 use crate::curve::{Response, Volume};
 use crate::data::Measured;
@@ -27,16 +28,17 @@ pub(super) struct Task<'a> {
     pub(super) volume: Volume,
 }
 
-/// Result of a trial: the energy with its parameters and its response at each point, or the reason for a
+/// Result of a trial: the material with its parameters and its response at each point, or the reason for a
 /// refusal.
-pub(super) type Trial = Result<(Candidate, Vec<Response>), TrialError>;
+pub(super) type Trial = Result<(Interpreted, Vec<Response>), TrialError>;
 
 impl Task<'_> {
     pub(super) fn attempt(&self, values: &[f64]) -> Trial {
-        let candidate = self.start.with_values(&self.lists(values))?;
-        let response = |(point, _): &(Measured, f64)| point.response(&candidate, self.volume);
+        let Candidate { energy, material } = self.start;
+        let material = energy.with_values(material, &self.lists(values))?;
+        let response = |(point, _): &(Measured, f64)| point.response(&material, self.volume);
         let responses = self.points.iter().map(response).collect::<Result<_, _>>()?;
-        Ok((candidate, responses))
+        Ok((material, responses))
     }
 
     /// The values as lists, one for each parameter.
@@ -109,18 +111,18 @@ impl<'a> Problem<'a> {
         values
     }
 
-    /// The energy as tried last, or where it was refused, as given.
-    pub(super) fn specimen(&self) -> &Candidate {
-        self.trial.as_ref().map_or(self.task.start, |(candidate, _)| candidate)
+    /// The material as tried last, or where it was refused, as given.
+    pub(super) fn specimen(&self) -> &Interpreted {
+        self.trial.as_ref().map_or(&self.task.start.material, |(material, _)| material)
     }
 
     /// ∂r/∂p of the free numbers p in their own units; `None` where the trial is refused.
     pub(super) fn slopes(&self) -> Option<DMatrix<f64>> {
-        let Ok((candidate, responses)) = &self.trial else { return None };
+        let Ok((material, responses)) = &self.trial else { return None };
         let mut slopes = DMatrix::zeros(self.task.points.len(), self.task.free.len());
         for (row, (response, (_, size))) in responses.iter().zip(self.task.points).enumerate() {
             let ordered = Ordered::new(response.stretches);
-            let by_parameters = candidate.gradient_by_parameters(ordered.numbers);
+            let by_parameters = self.task.start.energy.gradient_by_parameters(material, ordered.numbers);
             for (column, &number) in self.task.free.iter().enumerate() {
                 let gradient = ordered.back(by_parameters[number]);
                 let slope: f64 = (0..3).map(|axis| response.weights[axis] * gradient[axis]).sum();

@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use super::criteria::{Criterion, Judgement};
+use super::criteria::Judgement;
 use crate::Specimen;
 use crate::curve::{Mode, Volume, respond};
 
@@ -68,8 +68,8 @@ pub struct Walk {
     /// The stretch that was reached: short of `to` if the sides cannot be free of stress beyond it, or the
     /// domain ends.
     pub reached: f64,
-    /// The first stretch at which each of [`Criterion::ALL`] is lost, to eight digits; 1 if it does not hold
-    /// at rest.
+    /// The first stretch at which each of [`Criterion::ALL`](super::criteria::Criterion::ALL) is lost, to
+    /// eight digits; 1 if it does not hold at rest.
     pub lost: [Option<f64>; 3],
 }
 
@@ -84,12 +84,6 @@ impl Walk {
         let judged = |share| Judgement::of(specimen, path.stretches(specimen, stretch(share))?);
         let (reached, lost) = losses(judged);
         Self { path, to, reached: stretch(reached), lost: lost.map(|lost| lost.map(stretch)) }
-    }
-
-    /// The first stretch at which a criterion is lost.
-    #[must_use]
-    pub fn lost(&self, criterion: Criterion) -> Option<f64> {
-        self.lost[criterion as usize]
     }
 }
 

@@ -151,7 +151,7 @@ fn in_a_corner_both_bounds_are_named() -> Outcome {
     let (wanted, mut data) = (rubber("mooney_rivlin", &[1.5e5, 1e3, 1e8])?, treloar());
     data.points.retain(|point| point.mode == Mode::Uniaxial);
     for point in &mut data.points {
-        point.stress = respond(&wanted, point.mode, Volume::Kept, point.control)?.stress;
+        point.stress = respond(&wanted.material, point.mode, Volume::Kept, point.control)?.stress;
     }
     let found = fit_parameters(&of_numbers(BOUNDED, &[5e4, 2e4])?, &data, &FitSettings::default())?;
     let mut bounds = conditions(&found);

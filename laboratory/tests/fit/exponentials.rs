@@ -79,7 +79,9 @@ fn at_an_edge_no_one_is_sent_back_to_it() -> Outcome {
     assert_eq!(found.ended, Ended::Edge);
     assert!(found.warnings.iter().any(|warning| matches!(warning, Warning::Edge { .. })), "{found:?}");
     assert!(!found.warnings.contains(&Warning::Unfinished), "{found:?}");
-    let again = fitted(&start.with_values(&found.values)?, &alone())?;
+    let Candidate { energy, material } = &start;
+    let there = Candidate { energy: energy.clone(), material: energy.with_values(material, &found.values)? };
+    let again = fitted(&there, &alone())?;
     // What is worth no step is 1e-10 of Σ r²; half of that of its root.
     assert!(
         again.difference >= found.difference * (1.0 - 1e-10),

@@ -20,7 +20,7 @@ type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 fn candidate(text: &str, values: &[&[f64]]) -> Outcome<Candidate> {
     let energy = Energy::from_rust(text)?;
     let material = energy.material(values, Inversion::Refuse)?;
-    Ok(Candidate::new(energy, material))
+    Ok(Candidate { energy, material })
 }
 
 /// The same of an energy whose parameters are all numbers.
@@ -50,7 +50,12 @@ fn tension(points: &[(f64, f64)]) -> Measurements {
 }
 
 /// What a material answers in these tests, as if measured.
-fn synthetic(material: &Candidate, volume: Volume, modes: &[Mode], controls: &[f64]) -> Measurements {
+fn synthetic(
+    Candidate { material, .. }: &Candidate,
+    volume: Volume,
+    modes: &[Mode],
+    controls: &[f64],
+) -> Measurements {
     let mut points = Vec::new();
     for &mode in modes {
         for &control in controls {

@@ -74,11 +74,14 @@ impl Formula {
 
     fn declared(&self, formula: &str) -> Result<MaterialSpec, Error> {
         let names = self.parameters.iter().map(|given| (given.name.clone(), given.documentation()));
-        let options = FormulaOptions::default()
-            .with_parameters(Some(names.collect()))
-            .with_free_rest(self.free_rest)
-            .with_forms("--param NAME=VALUE", "--free-rest");
-        let options = if self.kappa.is_some() { options.with_bulk(BULK) } else { options };
+        let options = FormulaOptions {
+            parameters: Some(names.collect()),
+            free_rest: self.free_rest,
+            bulk: self.kappa.map(|_| BULK.into()),
+            value: Some("--param NAME=VALUE"),
+            free_rest_option: Some("--free-rest"),
+            ..FormulaOptions::default()
+        };
         let energy = Energy::from_formula_with(formula, &options).map_err(Error::Declaration)?;
         check_units(&energy, &self.parameters)?;
         let spec = MaterialSpec::declared(energy);

@@ -14,7 +14,8 @@ use super::{STATE_FILE, whole};
 /// A folder that is being filled with the files of a run.
 #[derive(Debug)]
 pub struct Folder {
-    path: PathBuf,
+    /// The folder that files are written to.
+    pub path: PathBuf,
     /// Folders that did not exist before, innermost first.
     created: Vec<PathBuf>,
     /// The folder, locked until the program ends; `None` on systems that lock no folders.
@@ -67,12 +68,6 @@ impl Folder {
             ))),
             _ => Ok(Self { path: path.into(), created, _lock: lock }),
         }
-    }
-
-    /// The folder that files are written to.
-    #[must_use]
-    pub fn path(&self) -> &Path {
-        &self.path
     }
 
     /// Writes one file, which `content` fills. It appears when it is complete, and replaces one of its name.

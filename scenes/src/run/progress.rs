@@ -76,16 +76,16 @@ pub(super) fn restore(folder: &Folder, vtu: bool, play: &mut Play) -> Result<Pro
         Error::Usage(format!(
             "the run in {} cannot continue: {reason}; give the options that it was begun with, or leave out --resume \
              to begin anew",
-            folder.path().display()
+            folder.path.display()
         ))
     };
-    let text = read_text(&folder.path().join(STATE_FILE), MAX_LENGTH)?;
+    let text = read_text(&folder.path.join(STATE_FILE), MAX_LENGTH)?;
     let Saved { mut moment, progress, .. } =
         read(text.trim_end_matches('\n'), &play.settings, vtu).map_err(refused)?;
     moment.settings = play.settings.clone();
     *play = moment.resume(play.geometry.clone())?;
     for frame in 0..=play.clock.frame {
-        if !folder.path().join(frame_file(frame)).is_file() {
+        if !folder.path.join(frame_file(frame)).is_file() {
             return Err(refused(format!("{} is missing", frame_file(frame))));
         }
     }

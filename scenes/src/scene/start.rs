@@ -1,6 +1,5 @@
 //! Positions of the nodes before the first step.
 
-use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
@@ -46,15 +45,6 @@ impl FromStr for Amplitude {
             number => {
                 number.parse().map(Self::Edges).map_err(|_| "write a number of mean edge lengths, or `box`")
             }
-        }
-    }
-}
-
-impl fmt::Display for Amplitude {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Edges(number) => write!(f, "{number}"),
-            Self::Box => f.write_str("box"),
         }
     }
 }

@@ -18,7 +18,7 @@ use piola::material::Form;
 use piola::point::{Filter, Matrix3, evaluate};
 use piola_declare::Energy;
 use piola_laboratory::chart::{self, Curve};
-use piola_laboratory::curve::{Mode, Volume, sweep};
+use piola_laboratory::curve::{Volume, sweep};
 use piola_laboratory::data::{Measurements, ReadOptions};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::seal;
@@ -70,7 +70,7 @@ pub fn obj(scratch: &Path, bytes: &[u8]) -> bool {
 
 /// Measured points, with the curves of a material in a chart.
 pub fn csv(_: &Path, bytes: &[u8]) -> bool {
-    let (test, unit) = (Some(Mode::Uniaxial.into()), Some("MPa".parse().expect("a unit")));
+    let (test, unit) = (Some("uniaxial".parse().expect("a test")), Some("MPa".parse().expect("a unit")));
     let options = ReadOptions { test, unit, ..ReadOptions::default() };
     let data = match Measurements::read_with(&String::from_utf8_lossy(bytes), &options) {
         Ok(reading) => {

@@ -91,9 +91,8 @@ fn row(
     let numbers = points.as_flattened().as_flattened();
     let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_ne_bytes()).collect();
     std::fs::write(folder.path().join("points"), bytes)?;
-    let emission = Emission::new(Target::C)
-        .with_prefix("energy")
-        .with_functions([PointFunction::Tangent, PointFunction::Projected]);
+    let functions = vec![PointFunction::Tangent, PointFunction::Projected];
+    let emission = Emission { prefix: Some("energy".into()), functions, ..Emission::new(Target::C) };
     let values: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
     let energy = &find(name).ok_or("not in the catalogue")?.energy;
     std::fs::write(folder.path().join("energy.h"), energy.emit(&values, Inversion::Refuse, &emission)?)?;

@@ -69,6 +69,10 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
                 for material in &MATERIALS[..4] {
                     let seeds = (1..=options.seeds).map(|seed| Start::Scrambled { seed, amplitude });
                     let outcomes = play(&SCRAMBLE, body, material, newton, seeds.collect())?;
+                    let amplitude = match amplitude {
+                        Amplitude::Edges(number) => number.to_string(),
+                        Amplitude::Box => "box".to_owned(),
+                    };
                     println!("| {amplitude} | {} | {material} | {} |", body.name, cells(&outcomes));
                 }
             }

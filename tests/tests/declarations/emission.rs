@@ -18,10 +18,10 @@ const STRICT: [&str; 6] = ["-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-
 pub(crate) fn judge(sample: &Sample) {
     let Some(values) = sample.values().into_iter().next() else { return };
     for inversion in sample.judged.inversions(0.3) {
-        let mut emission = Emission::new(Target::C).with_prefix("energy");
+        let mut emission = Emission { prefix: Some("energy".into()), ..Emission::new(Target::C) };
         if !is_full() {
             // By invariants and by a decomposition, and the energy as it is.
-            emission = emission.with_functions([PointFunction::Tangent, PointFunction::Blocks]);
+            emission.functions = vec![PointFunction::Tangent, PointFunction::Blocks];
         }
         let text = match sample.judged.energy.emit(&slices(&values), inversion, &emission) {
             Ok(text) => text,
