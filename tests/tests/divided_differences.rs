@@ -1,8 +1,7 @@
 //! Divided differences φ[a, b] of elementary functions on every back end, against the definition in 154
 //! digits: errors in units of u (|φ[a, b]| + |a ∂φ/∂a| + |b ∂φ/∂b|).
 //!
-//! `cargo test -p piola-tests --test divided_differences -- --nocapture` prints the worst; with
-//! `PIOLA_SAMPLES=1` of all pairs.
+//! `cargo test -p piola-tests --test divided_differences -- --nocapture` prints the worst.
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
@@ -70,12 +69,8 @@ impl Binary for DividedDifference {
     }
 }
 
-/// Every fifth of these pairs is judged, or all where `PIOLA_SAMPLES` is set.
-fn stride() -> usize {
-    if std::env::var_os("PIOLA_SAMPLES").is_some() { 1 } else { 5 }
-}
-
-/// Pairs whose numbers differ by every gap, relative or absolute, on either side of 0, in either order.
+/// Every fifth of the pairs whose numbers differ by every gap, relative or absolute, on either side of 0, in
+/// either order.
 fn pairs<E: Precision>(function: Function, sizes: &[f64]) -> Vec<(E, E)> {
     let mut pairs = Vec::new();
     for gap in gaps() {
@@ -94,7 +89,7 @@ fn pairs<E: Precision>(function: Function, sizes: &[f64]) -> Vec<(E, E)> {
         .into_iter()
         .map(|(a, b)| (E::splat(a), E::splat(b)))
         .filter(|&(a, b)| is_judged(a, b))
-        .step_by(stride())
+        .step_by(5)
         .collect()
 }
 

@@ -1,7 +1,5 @@
 //! Elementary functions of every back end against 192 bits, in units in the last place:
 //! `cargo test -p piola-tests --test elementary -- --nocapture` prints the worst errors and where they are.
-//!
-//! `PIOLA_SAMPLES` multiplies the number of arguments, for a longer search.
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
@@ -271,11 +269,6 @@ fn error<E: Precision>(found: E, exact: Exact) -> f64 {
     ((found_magnitude - exact_magnitude) / Exact::splat(unit)).abs().to_f64()
 }
 
-fn samples() -> usize {
-    let factor = std::env::var("PIOLA_SAMPLES").ok().and_then(|text| text.parse().ok()).unwrap_or(1);
-    SAMPLES * factor
-}
-
 #[track_caller]
 fn judge<E: Scalar + Precision>() {
     let mut failures = Vec::new();
@@ -284,7 +277,7 @@ fn judge<E: Scalar + Precision>() {
             let mut random = Random::new(5);
             let arguments: Vec<(E, E)> = std::iter::repeat_with(|| draw::<E>(function, region, &mut random))
                 .filter(|(x, _)| function.promises::<E>(x.widen()))
-                .take(samples())
+                .take(SAMPLES)
                 .collect();
             let exact: Vec<_> = arguments.iter().map(|(x, y)| function.exact(x.widen(), y.widen())).collect();
             for (name, values) in by_every_way(function, &arguments) {
@@ -324,7 +317,7 @@ fn floats_are_within_the_promised_units() {
 /// sin and cos of numbers beyond those for which digits are promised.
 fn judge_large_turns<E: Scalar + Precision>(largest: f64) {
     let mut random = Random::new(7);
-    let arguments: Vec<(E, E)> = (0..samples())
+    let arguments: Vec<(E, E)> = (0..SAMPLES)
         .map(|_| {
             let scale = 2f64.powf(random.uniform(0.0, largest.log2()));
             (

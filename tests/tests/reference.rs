@@ -5,13 +5,12 @@
 //! [`Inversion::Refuse`], as a single point and in batches of every back end (in `f32` those of a few
 //! energies, with the feature `full`): by C u (‖X*‖ + sens), ψ by C u (|ψ*| + sens + Σ|terms|). What has no
 //! representation in a format cannot be returned there; its status must then say so, and say so only then.
-//! The variable `PIOLA_CASES` names one other file of the same schema. With `PIOLA_EMITTED` the results are
-//! those of emitted source text ([`piola_tests::emitted`]): `PIOLA_EMITTED="wgsl f32 PROGRAM"`.
+//! With `PIOLA_EMITTED` the results are those of emitted source text ([`piola_tests::emitted`]):
+//! `PIOLA_EMITTED="wgsl f32 PROGRAM"`.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table to show")]
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::process::ExitCode;
 
 use piola::batch::{Batch, Kernels, TileMaterial};
@@ -50,12 +49,8 @@ fn main() -> ExitCode {
 /// The results that fail, one in each line, or why a case cannot be judged.
 fn judge_all() -> Result<(), String> {
     let runner = Runner::from_environment()?;
-    let cases = match std::env::var_os("PIOLA_CASES") {
-        Some(file) => Case::read(Path::new(&file))?,
-        None => own_cases()?,
-    };
     let mut by_energy: BTreeMap<String, Vec<Case>> = BTreeMap::new();
-    for case in cases {
+    for case in all_cases()? {
         by_energy.entry(case.material.clone()).or_default().push(case);
     }
     by_energy.retain(|name, _| is_asked_for(name));
@@ -69,7 +64,7 @@ fn judge_all() -> Result<(), String> {
 }
 
 /// The cases of all files, which leave no energy of the catalogue out.
-fn own_cases() -> Result<Vec<Case>, String> {
+fn all_cases() -> Result<Vec<Case>, String> {
     let cases = Case::own(&FILES)?;
     for energy in ENERGIES.iter() {
         if !WITHOUT_CASES.contains(&energy.name) && cases.iter().all(|case| case.material != energy.name) {
