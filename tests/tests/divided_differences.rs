@@ -8,7 +8,7 @@
 use piola::__private as quotients;
 use piola::Real;
 use piola::lanes::Scalar;
-use piola_tests::bits::Precision;
+use piola_tests::energies::Format;
 use piola_tests::multiprecision::Multiprecision;
 use piola_tests::quotients::gaps;
 use piola_tests::random::polynomial::Function::{
@@ -71,7 +71,7 @@ impl Binary for DividedDifference {
 
 /// Every fifth of the pairs whose numbers differ by every gap, relative or absolute, on either side of 0, in
 /// either order.
-fn pairs<E: Precision>(function: Function, sizes: &[f64]) -> Vec<(E, E)> {
+fn pairs<E: Format>(function: Function, sizes: &[f64]) -> Vec<(E, E)> {
     let mut pairs = Vec::new();
     for gap in gaps() {
         for &size in sizes {
@@ -94,7 +94,7 @@ fn pairs<E: Precision>(function: Function, sizes: &[f64]) -> Vec<(E, E)> {
 }
 
 /// φ[a, b] and its scale, or `None` where it is out of the range of E.
-fn exact<E: Precision>(function: Function, a: f64, b: f64) -> Option<(Exact, Exact)> {
+fn exact<E: Format>(function: Function, a: f64, b: f64) -> Option<(Exact, Exact)> {
     let number = Exact::splat;
     let size = number(a.abs().max(b.abs()).max(1e-30));
     // A function of two equal numbers is that of two which differ by 10⁻³⁰.
@@ -112,7 +112,7 @@ fn exact<E: Precision>(function: Function, a: f64, b: f64) -> Option<(Exact, Exa
 
 /// Prints the worst errors of each function and back end; a function that fails does not hide another.
 #[track_caller]
-fn judge<E: Scalar + Precision>() {
+fn judge<E: Scalar + Format>() {
     let mut failures = Vec::new();
     for (function, sizes) in SUBJECTS {
         let expected = |(a, b): (E, E)| Some(((a, b), exact::<E>(function, a.widen(), b.widen())?));

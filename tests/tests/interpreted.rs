@@ -16,8 +16,8 @@ use piola::material::MaterialError;
 use piola::point::Filter;
 use piola_materials::{CATALOGUE, Entry};
 use piola_tests::answers::Answers;
-use piola_tests::bits::{Precision, draw};
-use piola_tests::energies::{ENERGIES, Judged, Subject, find};
+use piola_tests::bits::draw;
+use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find};
 use piola_tests::twins::{check, responses, stretches};
 
 /// Points of a batch: three tiles, the last of them not full.
@@ -29,12 +29,12 @@ fn compiled() -> impl Iterator<Item = (&'static Judged, &'static Entry)> {
 }
 
 /// Deformation gradients of all kinds.
-fn deformations<E: Precision>(seed: u64) -> Vec<E> {
+fn deformations<E: Format>(seed: u64) -> Vec<E> {
     let mut random = Random::new(seed);
     (0..POINTS).flat_map(|turn| draw(turn, &mut random)).flatten().collect()
 }
 
-fn check_batches<E: Kernels + Precision>(
+fn check_batches<E: Kernels + Format>(
     name: &str,
     interpreted: &dyn TileMaterial<E>,
     compiled: &dyn TileMaterial<E>,
