@@ -67,7 +67,9 @@ fn batches_have_the_bits_of_the_compiled_catalogue() {
 #[test]
 fn batches_in_single_precision_have_the_bits_of_compiled_ones() {
     use piola::material::Declared;
-    use piola_materials::{ArrudaBoyce, Gent, NeoHookean, Ogden, RotatedLinear, StretchSpline};
+    use piola_materials::{
+        ArrudaBoyce, Gent, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, StretchSpline,
+    };
 
     fn of<M: Declared + 'static>(name: &str) {
         let energy = find(name).expect("an energy of the catalogue");
@@ -78,6 +80,7 @@ fn batches_in_single_precision_have_the_bits_of_compiled_ones() {
             check_batches::<f32>(&format!("{name} {inversion:?}"), &interpreted, &compiled);
         }
     }
+    of::<StVenantKirchhoff>("st_venant_kirchhoff");
     of::<NeoHookean>("neo_hookean");
     of::<Ogden<3>>("ogden");
     of::<Gent>("gent");
