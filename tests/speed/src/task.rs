@@ -28,7 +28,7 @@ impl Task {
         [Self::Energies, Self::Stresses, Self::Tangents, Self::Stiffnesses, Self::StiffnessesAt];
 
     /// Name of the method, the quantities that it reads at each point, and the number of values that it writes.
-    fn signature(self) -> (&'static str, [Input; 2], [usize; 2]) {
+    pub(super) fn signature(self) -> (&'static str, [Input; 2], [usize; 2]) {
         match self {
             Self::Energies => ("energies", [Input::Deformation, Input::Nothing], [1, 0]),
             Self::Stresses => ("stresses", [Input::Deformation, Input::Nothing], [9, 0]),
@@ -58,14 +58,6 @@ impl Task {
             Self::Energies | Self::Stresses => &[Filter::None],
             _ => &[Filter::None, Filter::Clamp],
         }
-    }
-
-    pub(super) fn inputs(self) -> [Input; 2] {
-        self.signature().1
-    }
-
-    pub(super) fn outputs(self) -> [usize; 2] {
-        self.signature().2
     }
 }
 
