@@ -66,7 +66,8 @@ fn check(linear: &Linear, fit: &Fit, least: f64) {
     assert!((squares / least - 1.0).abs() <= 10.0 * GAIN, "{squares} for {least}: {fit:?}");
 }
 
-/// ∂ψ/∂λi of Murnaghan's solid by λ, μ, l, m, n, in which it is linear: ∂J1 = λi, ∂J2 = λi (J1 − Ei), ∂J3 = λi Ej Ek.
+/// ∂ψ/∂λi of Murnaghan's solid by λ, μ, l, m, n, in which it is linear: ∂J1 = λi, ∂J2 = λi (J1 − Ei),
+/// ∂J3 = λi Ej Ek.
 fn murnaghan(stretches: [f64; 3]) -> [[f64; 5]; 3] {
     let strains = stretches.map(|stretch| (stretch * stretch - 1.0) / 2.0);
     let [one, two, three] = strains;
