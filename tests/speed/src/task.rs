@@ -44,13 +44,6 @@ impl Task {
         self.signature().0
     }
 
-    /// Its name, with a mark where a filter acts: `tangents +C`.
-    #[must_use]
-    pub fn label(self, filter: Filter) -> String {
-        let mark = if filter == Filter::Clamp { " +C" } else { "" };
-        format!("{}{mark}", self.name())
-    }
-
     /// The filters that make a difference to it.
     #[must_use]
     pub fn filters(self) -> &'static [Filter] {
