@@ -27,7 +27,7 @@ impl Task {
     pub const ALL: [Self; 5] =
         [Self::Energies, Self::Stresses, Self::Tangents, Self::Stiffnesses, Self::StiffnessesAt];
 
-    /// Name of the method, the quantities that it reads at each point, and the number of values that it writes.
+    /// Name of the method, the quantities that it reads at each point, and how many numbers it writes.
     pub(super) fn signature(self) -> (&'static str, [Input; 2], [usize; 2]) {
         match self {
             Self::Energies => ("energies", [Input::Deformation, Input::Nothing], [1, 0]),
