@@ -108,19 +108,17 @@ fn killed_at_any_moment() {
     let usual = if std::env::var_os("PIOLA_FULL").is_some() { KILLS } else { FEWER_KILLS };
     let kills = std::env::var("PIOLA_KILLS").map_or(usual, |text| text.parse().expect("a number"));
     let mut random = Random::new(17);
-    let mut counts = BTreeMap::new();
+    let mut any_came = false;
     for number in 0..kills {
         let signal = ["KILL", "INT", "TERM"][number % 3];
         let folder = with_cube();
         let after = duration.mul_f64(random.uniform(0.0, 1.1));
-        let came = whole.strike(&folder, after, signal);
-        *counts.entry((signal, came)).or_insert(0) += 1;
+        any_came |= whole.strike(&folder, after, signal);
         if number % SEQUELS == 0 {
             whole.go_on(&folder, &format!("kill {number} by {signal} after {after:?}"));
         }
     }
-    println!("{counts:?}");
-    assert!(counts.keys().any(|(_, came)| *came), "no signal came before the end: {counts:?}");
+    assert!(any_came, "no signal came before the end");
 }
 
 /// A disk that is full at some frame leaves the frames before and a summary with the reason.

@@ -1,11 +1,13 @@
 //! The derivatives of the stress by the parameters, against the stress itself.
 
-use piola::material::{MaterialError, Parameter, Unit};
+use std::sync::LazyLock;
+
+use piola::Inversion;
+use piola::material::{MaterialError, Unit};
 use piola_declare::{Energy, Limit};
 use piola_laboratory::Specimen;
 use piola_laboratory::fit::Candidate;
 use piola_materials::DECLARATIONS;
-use piola_scenes::error::Error;
 use piola_scenes::material::MaterialSpec;
 
 /// Within the domains of all: rest, equal stretches, tension, compression, a sheet.
@@ -27,37 +29,35 @@ const TOLERANCE: f64 = 100.0 * f64::EPSILON / STEP;
 /// Typical parameters, but none zero, where steps relative to it would be none and conditions often end, and
 /// none for which steps show more than the slope: Levinson and Burgess's Poisson's ratio near its pole at ½,
 /// and the exponential of skin.
-fn values(name: &str) -> Vec<Vec<f64>> {
+fn values(name: &str, energy: &Energy) -> Vec<Vec<f64>> {
     match name {
         "levinson_burgess" => return vec![vec![3.74e5], vec![0.5], vec![0.3]],
         "veronda_westmann" => return vec![vec![3.94e3], vec![1.0], vec![1e6]],
         _ => {}
     }
     let nonzero = |&value: &f64| if value == 0.0 { 0.5 } else { value };
-    let spec = MaterialSpec::new(name);
-    let typical = &spec.description().expect("in the catalogue").typical;
-    let lists = typical.iter().flat_map(|typical| typical.values.iter());
-    lists.map(|list| list.iter().map(nonzero).collect()).collect()
+    energy.typical().iter().map(|list| list.iter().map(nonzero).collect()).collect()
 }
 
 /// An energy with these values as a candidate of a fit.
-fn candidate(spec: MaterialSpec, values: &[Vec<f64>]) -> Result<Candidate, Error> {
-    let parameters = spec.description()?.parameters.iter().zip(values);
-    let named = |spec: MaterialSpec, (parameter, values): (&Parameter, &Vec<f64>)| {
-        spec.with_parameter(&parameter.name, values.clone())
-    };
-    parameters.fold(spec.clone(), named).candidate()
+fn candidate(energy: Energy, values: &[&[f64]]) -> Candidate {
+    let material = energy.material(values, Inversion::Refuse).expect("admissible values");
+    Candidate { energy, material }
 }
 
 /// All energies but the one whose parameters are functions, for which see
-/// [`ordinates_of_the_curves_of_the_catalogue_are_parameters`].
-fn candidates() -> impl Iterator<Item = (&'static str, Candidate)> {
-    let names = DECLARATIONS.iter().map(|declaration| declaration.name);
-    names.filter(|&name| name != "stretch_spline").map(|name| {
-        let declared = candidate(MaterialSpec::new(name), &values(name));
-        (name, declared.unwrap_or_else(|error| panic!("{name}: {error}")))
-    })
-}
+/// [`ordinates_of_the_curves_of_the_catalogue_are_parameters`]. Their values are those of the constructor.
+static CANDIDATES: LazyLock<Vec<(&str, Candidate)>> = LazyLock::new(|| {
+    let others = DECLARATIONS.iter().filter(|declaration| declaration.name != "stretch_spline");
+    let of = |declaration: &piola_materials::Declaration| {
+        let energy = Energy::from_rust(declaration.source).expect("a declaration");
+        let values = values(declaration.name, &energy);
+        let candidate = candidate(energy, &values.iter().map(Vec::as_slice).collect::<Vec<_>>());
+        assert_eq!(candidate.energy.values(&candidate.material), values, "{}", declaration.name);
+        (declaration.name, candidate)
+    };
+    others.map(of).collect()
+});
 
 /// The numbers among the parameters, as list and place in it.
 fn places(values: &[Vec<f64>]) -> Vec<(usize, usize)> {
@@ -129,19 +129,19 @@ fn check_slopes(name: &str, candidate: &Candidate) -> Result<(), MaterialError> 
 
 #[test]
 fn derivatives_are_slopes() -> Result<(), MaterialError> {
-    candidates().try_for_each(|(name, candidate)| check_slopes(name, &candidate))
+    CANDIDATES.iter().try_for_each(|(name, candidate)| check_slopes(name, candidate))
 }
 
 /// Euler's theorem: Σ p ∂ψk/∂p = ψk over the parameters p that are stresses, because ψ is proportional to all
 /// of them together. Both sides have a few hundred roundings of terms of one size at most.
 #[test]
 fn stresses_are_proportional_to_moduli() {
-    for (name, candidate) in candidates() {
-        let Candidate { energy, material } = &candidate;
+    for (name, candidate) in CANDIDATES.iter() {
+        let Candidate { energy, material } = candidate;
         let (values, description) = (energy.values(material), energy.description());
         for stretches in STRETCHES {
             let derivatives = energy.gradient_by_parameters(material, stretches);
-            let tolerance = 200.0 * f64::EPSILON * scale(&candidate, &derivatives);
+            let tolerance = 200.0 * f64::EPSILON * scale(candidate, &derivatives);
             for (k, expected) in Specimen::blocks(material, stretches).gradient.into_iter().enumerate() {
                 let shares = places(&values).into_iter().zip(&derivatives);
                 let is_stress = |list: usize| description.parameters[list].unit == Some(Unit::Pascal);
@@ -188,14 +188,7 @@ fn check_constraints(name: &str, Candidate { energy, material }: &Candidate) {
 
 #[test]
 fn constraints_have_their_gradients() {
-    candidates().for_each(|(name, candidate)| check_constraints(name, &candidate));
-}
-
-#[test]
-fn values_are_those_of_the_constructor() {
-    for (name, Candidate { energy, material }) in candidates() {
-        assert_eq!(energy.values(&material), values(name), "{name}");
-    }
+    CANDIDATES.iter().for_each(|(name, candidate)| check_constraints(name, candidate));
 }
 
 /// Their slopes are differences themselves, and less exact than proportionality would have to be.
@@ -283,9 +276,7 @@ pub fn Sprung<const N: usize>([l1, l2, l3]: [f64; 3], a: f64, b: [f64; N], k: f6
 
 /// The candidate of a declaration.
 fn declared(text: &str, values: &[&[f64]]) -> Candidate {
-    let energy = Energy::from_rust(text).expect("a declaration");
-    let values: Vec<_> = values.iter().map(|values| values.to_vec()).collect();
-    candidate(MaterialSpec::declared(energy), &values).expect("admissible values")
+    candidate(Energy::from_rust(text).expect("a declaration"), values)
 }
 
 /// Harder than any energy of the catalogue.

@@ -1,56 +1,16 @@
 //! Deformation gradients of arbitrary finite entries: random patterns of bits, and families of them that
 //! reach the regions which independent entries miss, such as rank 1, equal stretches, or all entries
 //! subnormal.
-//!
-//! This module is independent of materials.
 
 #![expect(non_snake_case, reason = "F, U, V as in the literature")]
 
-use piola::Real;
+use piola::__private::random::Random;
 use piola::point::Matrix3;
 
-use piola::__private::random::Random;
-
-/// A real type of one machine number, read and written by its bits.
-pub trait Precision: Real<Mask = bool> + PartialOrd + Into<f64> {
-    /// `f64` or `f32`.
-    const NAME: &'static str;
-    /// The largest finite number.
-    const LARGEST: f64;
-    /// The smallest positive number, subnormal.
-    const SMALLEST: f64;
-
-    /// The number of these bits; of the lower half of them where it has only 32.
-    fn from_bits(bits: u64) -> Self;
-
-    /// The number as a double, exactly.
-    fn widen(self) -> f64 {
-        self.into()
-    }
-}
-
-impl Precision for f64 {
-    const NAME: &'static str = "f64";
-    const LARGEST: f64 = Self::MAX;
-    const SMALLEST: f64 = 5e-324;
-
-    fn from_bits(bits: u64) -> Self {
-        Self::from_bits(bits)
-    }
-}
-
-impl Precision for f32 {
-    const NAME: &'static str = "f32";
-    const LARGEST: f64 = Self::MAX as f64;
-    const SMALLEST: f64 = 1.401_298_464_324_817e-45;
-
-    fn from_bits(bits: u64) -> Self {
-        Self::from_bits(bits as u32)
-    }
-}
+use crate::energies::Format;
 
 /// Every entry as a double.
-pub fn widen<R: Precision>(F: &Matrix3<R>) -> Matrix3<f64> {
+pub fn widen<R: Format>(F: &Matrix3<R>) -> Matrix3<f64> {
     F.map(|row| row.map(R::widen))
 }
 
@@ -58,7 +18,7 @@ pub fn widen<R: Precision>(F: &Matrix3<R>) -> Matrix3<f64> {
 pub const FAMILIES: usize = 8;
 
 /// A deformation gradient with finite entries, of each of the [`FAMILIES`] in turn.
-pub fn draw<R: Precision>(turn: usize, random: &mut Random) -> Matrix3<R> {
+pub fn draw<R: Format>(turn: usize, random: &mut Random) -> Matrix3<R> {
     loop {
         let F = candidate(turn % FAMILIES, random);
         // Products of large numbers may have overflowed.
@@ -68,7 +28,7 @@ pub fn draw<R: Precision>(turn: usize, random: &mut Random) -> Matrix3<R> {
     }
 }
 
-fn candidate<R: Precision>(family: usize, random: &mut Random) -> Matrix3<R> {
+fn candidate<R: Format>(family: usize, random: &mut Random) -> Matrix3<R> {
     match family {
         // Nine independent patterns of bits.
         0 => matrix(|_, _| finite(random)),
@@ -121,7 +81,7 @@ fn matrix<R>(mut entry: impl FnMut(usize, usize) -> R) -> Matrix3<R> {
 }
 
 /// A pattern of bits that is neither infinite nor NaN.
-fn finite<R: Precision>(random: &mut Random) -> R {
+fn finite<R: Format>(random: &mut Random) -> R {
     loop {
         let x = R::from_bits(random.bits());
         if x.is_finite() {
@@ -131,7 +91,7 @@ fn finite<R: Precision>(random: &mut Random) -> R {
 }
 
 /// The binary exponents of all finite numbers, subnormal ones included.
-fn full_range<R: Precision>() -> (i32, i32) {
+fn full_range<R: Format>() -> (i32, i32) {
     (R::SMALLEST.log2() as i32, R::LARGEST.log2() as i32 - 1)
 }
 
@@ -143,7 +103,7 @@ fn magnitude(random: &mut Random, (low, high): (i32, i32)) -> f64 {
 }
 
 /// A number at which something may happen.
-fn special<R: Precision>(random: &mut Random) -> R {
+fn special<R: Format>(random: &mut Random) -> R {
     let largest = R::splat(R::LARGEST);
     let magnitude = match random.below(12) {
         0 | 1 => R::splat(0.0),
@@ -162,7 +122,7 @@ fn special<R: Precision>(random: &mut Random) -> R {
 
 /// U diag(λ) Vᵀ, where the λ lie within a window of exponents, some of them equal, opposite, zero or
 /// reflected.
-fn frames<R: Precision>(random: &mut Random) -> Matrix3<R> {
+fn frames<R: Format>(random: &mut Random) -> Matrix3<R> {
     let (low, high) = full_range::<R>();
     let width = [2, 12, 60, high - low][random.below(4)];
     let start = if random.once_in(2) { -width / 2 } else { low + random.below((high - low) as usize) as i32 };

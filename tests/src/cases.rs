@@ -87,8 +87,7 @@ impl Case {
         cases.map(|cases| cases.into_iter().flatten().collect())
     }
 
-    /// Reads a file of cases.
-    pub fn read(path: &Path) -> Result<Vec<Self>, String> {
+    fn read(path: &Path) -> Result<Vec<Self>, String> {
         let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
         let file: File =
             serde_json::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))?;

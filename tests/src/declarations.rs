@@ -118,11 +118,6 @@ impl Sample {
         let mut parameters = self.judged.description().parameters.iter();
         parameters.any(|parameter| matches!(parameter.form, Form::Function | Form::Points))
     }
-
-    /// True if the rest state may carry a stress.
-    pub fn is_prestressed(&self) -> bool {
-        self.text.source.contains("prestressed")
-    }
 }
 
 /// The energies of the files.

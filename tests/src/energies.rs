@@ -9,11 +9,9 @@ use std::sync::LazyLock;
 
 use piola::interpreter::Interpreted;
 use piola::material::{Description, MaterialError, Moduli, Response};
-use piola::{DynMaterial, Inversion};
+use piola::{DynMaterial, Inversion, Real};
 use piola_declare::Energy;
 use piola_materials::{DECLARATIONS, Entry};
-
-use crate::bits::Precision;
 
 /// All energies of the catalogue, in the order of their names.
 pub static ENERGIES: LazyLock<Vec<Judged>> = LazyLock::new(|| {
@@ -105,19 +103,50 @@ pub struct Subject {
     pub moduli: Moduli,
 }
 
-/// A format of single points.
-pub trait Format: Precision {
+/// A real type of one machine number, read and written by its bits: a format of single points.
+pub trait Format: Real<Mask = bool> + PartialOrd + Into<f64> {
+    /// `f64` or `f32`.
+    const NAME: &'static str;
+    /// The largest finite number.
+    const LARGEST: f64;
+    /// The smallest positive number, subnormal.
+    const SMALLEST: f64;
+
+    /// The number of these bits; of the lower half of them where it has only 32.
+    fn from_bits(bits: u64) -> Self;
+
     /// The material in this format.
     fn of(subject: &Subject) -> &dyn Response<Self>;
+
+    /// The number as a double, exactly.
+    fn widen(self) -> f64 {
+        self.into()
+    }
 }
 
 impl Format for f64 {
+    const NAME: &'static str = "f64";
+    const LARGEST: f64 = Self::MAX;
+    const SMALLEST: f64 = 5e-324;
+
+    fn from_bits(bits: u64) -> Self {
+        Self::from_bits(bits)
+    }
+
     fn of(subject: &Subject) -> &dyn Response<Self> {
         &*subject.double
     }
 }
 
 impl Format for f32 {
+    const NAME: &'static str = "f32";
+    const LARGEST: f64 = Self::MAX as f64;
+    const SMALLEST: f64 = 1.401_298_464_324_817e-45;
+
+    fn from_bits(bits: u64) -> Self {
+        Self::from_bits(bits as u32)
+    }
+
     fn of(subject: &Subject) -> &dyn Response<Self> {
         &*subject.single
     }

@@ -17,9 +17,9 @@ use piola::batch::{Batch, TileMaterial};
 use piola::material::{Blocks, Response};
 use piola::point::{EnergyPoint, Filter, Matrix3, StressPoint, decompose};
 
-use crate::bits::{Precision, widen};
+use crate::bits::widen;
 use crate::compiled::{evaluate, evaluate_energy, evaluate_stress};
-use crate::energies::Subject;
+use crate::energies::{Format, Subject};
 
 /// The filters, in the order of their strength.
 pub const FILTERS: [Filter; 3] = [Filter::None, Filter::Clamp, Filter::Absolute];
@@ -44,7 +44,7 @@ pub type Fault = String;
 
 /// For any entries of F a clean status means finite numbers, and the status does not depend on the requested
 /// results.
-pub fn check<R: Precision>(material: &dyn Response<R>, F: &Matrix3<R>) -> Result<Answer, Fault> {
+pub fn check<R: Format>(material: &dyn Response<R>, F: &Matrix3<R>) -> Result<Answer, Fault> {
     let EnergyPoint { energy, status: energy_status } = evaluate_energy(material, F);
     let StressPoint { stress, status: stress_status } = evaluate_stress(material, F);
     let finite_input = F.iter().flatten().all(|x| x.is_finite());
@@ -88,7 +88,7 @@ pub fn check<R: Precision>(material: &dyn Response<R>, F: &Matrix3<R>) -> Result
     Ok(answer)
 }
 
-fn finite<'a, R: Precision>(quantity: &str, entries: impl IntoIterator<Item = &'a R>) -> Result<(), Fault> {
+fn finite<'a, R: Format>(quantity: &str, entries: impl IntoIterator<Item = &'a R>) -> Result<(), Fault> {
     if entries.into_iter().all(|x| x.is_finite()) { Ok(()) } else { Err(unflagged(quantity)) }
 }
 
@@ -98,7 +98,7 @@ fn unflagged(quantity: &str) -> Fault {
 
 /// Flips and twists are eigenvalues themselves; of the 3×3 block the eigenvalues are known to a few u of the
 /// largest, for which 64 u leaves room.
-fn is_semidefinite<R: Precision>(blocks: &Blocks<R>) -> bool {
+fn is_semidefinite<R: Format>(blocks: &Blocks<R>) -> bool {
     let zero = R::splat(0.0);
     if blocks.flip.iter().chain(&blocks.twist).any(|&x| x < zero) {
         return false;

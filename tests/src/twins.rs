@@ -3,7 +3,7 @@
 use piola::__private::random::Random;
 use piola::material::Response;
 
-use crate::bits::Precision;
+use crate::energies::Format;
 
 /// Ordered stretches of every size, some of them equal, zero or of opposite sign.
 pub fn stretches(random: &mut Random) -> [f64; 3] {
@@ -20,7 +20,7 @@ pub fn stretches(random: &mut Random) -> [f64; 3] {
 }
 
 /// All responses at one triple of stretches, as one row.
-pub fn responses<R: Precision>(material: &dyn Response<R>, at: [R; 3]) -> Vec<R> {
+pub fn responses<R: Format>(material: &dyn Response<R>, at: [R; 3]) -> Vec<R> {
     let truth = |value: bool| R::splat(f64::from(u8::from(value)));
     let blocks = material.blocks(at);
     let mut all = vec![material.energy(at), truth(material.admits(at))];
@@ -41,7 +41,7 @@ pub fn responses<R: Precision>(material: &dyn Response<R>, at: [R; 3]) -> Vec<R>
 
 /// Fails unless all numbers have equal bits, or are both NaN.
 #[track_caller]
-pub fn check<E: Precision>(what: &str, found: &[E], expected: &[E]) {
+pub fn check<E: Format>(what: &str, found: &[E], expected: &[E]) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (k, (&found, &expected)) in found.iter().zip(expected).enumerate() {
         let [one, other] = [found, expected].map(E::widen);

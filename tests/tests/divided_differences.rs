@@ -1,15 +1,14 @@
 //! Divided differences φ[a, b] of elementary functions on every back end, against the definition in 154
 //! digits: errors in units of u (|φ[a, b]| + |a ∂φ/∂a| + |b ∂φ/∂b|).
 //!
-//! `cargo test -p piola-tests --test divided_differences -- --nocapture` prints the worst; with
-//! `PIOLA_SAMPLES=1` of all pairs.
+//! `cargo test -p piola-tests --test divided_differences -- --nocapture` prints the worst.
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
 use piola::__private as quotients;
 use piola::Real;
 use piola::lanes::Scalar;
-use piola_tests::bits::Precision;
+use piola_tests::energies::Format;
 use piola_tests::multiprecision::Multiprecision;
 use piola_tests::quotients::gaps;
 use piola_tests::random::polynomial::Function::{
@@ -70,13 +69,9 @@ impl Binary for DividedDifference {
     }
 }
 
-/// Every fifth of these pairs is judged, or all where `PIOLA_SAMPLES` is set.
-fn stride() -> usize {
-    if std::env::var_os("PIOLA_SAMPLES").is_some() { 1 } else { 5 }
-}
-
-/// Pairs whose numbers differ by every gap, relative or absolute, on either side of 0, in either order.
-fn pairs<E: Precision>(function: Function, sizes: &[f64]) -> Vec<(E, E)> {
+/// Every fifth of the pairs whose numbers differ by every gap, relative or absolute, on either side of 0, in
+/// either order.
+fn pairs<E: Format>(function: Function, sizes: &[f64]) -> Vec<(E, E)> {
     let mut pairs = Vec::new();
     for gap in gaps() {
         for &size in sizes {
@@ -94,12 +89,12 @@ fn pairs<E: Precision>(function: Function, sizes: &[f64]) -> Vec<(E, E)> {
         .into_iter()
         .map(|(a, b)| (E::splat(a), E::splat(b)))
         .filter(|&(a, b)| is_judged(a, b))
-        .step_by(stride())
+        .step_by(5)
         .collect()
 }
 
 /// φ[a, b] and its scale, or `None` where it is out of the range of E.
-fn exact<E: Precision>(function: Function, a: f64, b: f64) -> Option<(Exact, Exact)> {
+fn exact<E: Format>(function: Function, a: f64, b: f64) -> Option<(Exact, Exact)> {
     let number = Exact::splat;
     let size = number(a.abs().max(b.abs()).max(1e-30));
     // A function of two equal numbers is that of two which differ by 10⁻³⁰.
@@ -117,7 +112,7 @@ fn exact<E: Precision>(function: Function, a: f64, b: f64) -> Option<(Exact, Exa
 
 /// Prints the worst errors of each function and back end; a function that fails does not hide another.
 #[track_caller]
-fn judge<E: Scalar + Precision>() {
+fn judge<E: Scalar + Format>() {
     let mut failures = Vec::new();
     for (function, sizes) in SUBJECTS {
         let expected = |(a, b): (E, E)| Some(((a, b), exact::<E>(function, a.widen(), b.widen())?));

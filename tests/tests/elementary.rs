@@ -1,7 +1,5 @@
 //! Elementary functions of every back end against 192 bits, in units in the last place:
 //! `cargo test -p piola-tests --test elementary -- --nocapture` prints the worst errors and where they are.
-//!
-//! `PIOLA_SAMPLES` multiplies the number of arguments, for a longer search.
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
@@ -10,7 +8,7 @@ use std::f64::consts::{FRAC_PI_4, LN_2, SQRT_2};
 use piola::__private::random::Random;
 use piola::Real;
 use piola::lanes::Scalar;
-use piola_tests::bits::Precision;
+use piola_tests::energies::Format;
 use piola_tests::multiprecision::Multiprecision;
 use piola_tests::ways::{Binary, by_every_way};
 
@@ -61,7 +59,7 @@ impl Function {
     }
 
     /// True if `Real` promises digits at x.
-    fn promises<E: Precision>(self, x: f64) -> bool {
+    fn promises<E: Format>(self, x: f64) -> bool {
         match self {
             ReciprocalSqrt | RoughSqrt => x >= E::MIN_POSITIVE,
             Ln1p => x > -1.0,
@@ -88,7 +86,7 @@ impl Function {
     }
 
     /// What `Real` promises, in units in the last place.
-    fn bound<E: Precision>(self) -> f64 {
+    fn bound<E: Format>(self) -> f64 {
         match self {
             Sqrt => 0.5,
             ReciprocalSqrt => 2.0,
@@ -112,13 +110,13 @@ enum Region {
 const EXPONENTS: [f64; 8] = [0.3, 4.7, -3.3, 12.6, -2.0, 0.5, 1.3, -1.0 / 3.0];
 
 /// The number nearest to `value`, or one of the next ones.
-fn near<E: Precision>(value: f64, random: &mut Random) -> E {
+fn near<E: Format>(value: f64, random: &mut Random) -> E {
     let steps = random.below(9) as f64 - 4.0;
     E::splat(value + value * steps * 2.0 * E::UNIT_ROUNDOFF)
 }
 
 /// A finite pattern of bits that is positive.
-fn positive<E: Precision>(random: &mut Random) -> E {
+fn positive<E: Format>(random: &mut Random) -> E {
     loop {
         let x = E::from_bits(random.bits()).abs();
         if x.is_finite() && E::splat(0.0).less(x) {
@@ -128,19 +126,19 @@ fn positive<E: Precision>(random: &mut Random) -> E {
 }
 
 /// A power of two that is normal, or 2ⁿ within `range`.
-fn power_of_two<E: Precision>(random: &mut Random) -> f64 {
+fn power_of_two<E: Format>(random: &mut Random) -> f64 {
     let range = -E::MIN_POSITIVE.log2() as usize;
     2f64.powi(random.below(2 * range - 1) as i32 - range as i32)
 }
 
 /// A number close to 1, by any power of two down to the last bit.
-fn close_to_one<E: Precision>(random: &mut Random) -> E {
+fn close_to_one<E: Format>(random: &mut Random) -> E {
     let gap = random.uniform(-1.0, 1.0) * 2f64.powi(-(random.below(54) as i32));
     E::splat((1.0 + gap).max(0.01))
 }
 
 /// A natural logarithm that a number of the format may have, a little beyond both ends included.
-fn logarithm_in_range<E: Precision>(random: &mut Random) -> f64 {
+fn logarithm_in_range<E: Format>(random: &mut Random) -> f64 {
     let (low, high) = (E::SMALLEST.ln() - 1.5, E::LARGEST.ln() + 0.5);
     match random.below(4) {
         0 => low + random.uniform(0.0, 3.0),
@@ -151,7 +149,7 @@ fn logarithm_in_range<E: Precision>(random: &mut Random) -> f64 {
 }
 
 /// One pair of arguments; what takes one argument ignores the second.
-fn draw<E: Precision>(function: Function, region: Region, random: &mut Random) -> (E, E) {
+fn draw<E: Format>(function: Function, region: Region, random: &mut Random) -> (E, E) {
     let ignored = E::splat(1.0);
     match (function, region) {
         (Exp, Region::Ordinary) => (E::splat(random.uniform(-20.0, 20.0)), ignored),
@@ -198,12 +196,12 @@ fn draw<E: Precision>(function: Function, region: Region, random: &mut Random) -
 }
 
 /// The largest argument for which `Real` promises the digits of sin and cos.
-fn last_exact_turn<E: Precision>() -> f64 {
+fn last_exact_turn<E: Format>() -> f64 {
     if E::UNIT_ROUNDOFF < 1e-10 { 1.6e6 } else { 1600.0 }
 }
 
 /// An argument of a function that takes either sign.
-fn draw_signed<E: Precision>(function: Function, region: Region, random: &mut Random) -> E {
+fn draw_signed<E: Format>(function: Function, region: Region, random: &mut Random) -> E {
     let sign = if random.once_in(2) { 1.0 } else { -1.0 };
     let switches = function.switches();
     match (function, region) {
@@ -246,13 +244,13 @@ fn draw_signed<E: Precision>(function: Function, region: Region, random: &mut Ra
 }
 
 /// A boundary between two reductions, times a power of two.
-fn critical<E: Precision>(random: &mut Random) -> E {
+fn critical<E: Format>(random: &mut Random) -> E {
     let boundary = [0.75, 1.0, 1.5, SQRT_2, 5.0 / 3.0][random.below(5)];
     near(boundary * power_of_two::<E>(random), random)
 }
 
 /// |found − exact| in units in the last place of the exact value; ∞ counts as the power of two after the largest number.
-fn error<E: Precision>(found: E, exact: Exact) -> f64 {
+fn error<E: Format>(found: E, exact: Exact) -> f64 {
     let found = found.widen();
     if found.is_nan() || !exact.is_finite() {
         return f64::INFINITY;
@@ -271,20 +269,15 @@ fn error<E: Precision>(found: E, exact: Exact) -> f64 {
     ((found_magnitude - exact_magnitude) / Exact::splat(unit)).abs().to_f64()
 }
 
-fn samples() -> usize {
-    let factor = std::env::var("PIOLA_SAMPLES").ok().and_then(|text| text.parse().ok()).unwrap_or(1);
-    SAMPLES * factor
-}
-
 #[track_caller]
-fn judge<E: Scalar + Precision>() {
+fn judge<E: Scalar + Format>() {
     let mut failures = Vec::new();
     for &function in ALL {
         for region in [Region::Ordinary, Region::Wide, Region::Critical] {
             let mut random = Random::new(5);
             let arguments: Vec<(E, E)> = std::iter::repeat_with(|| draw::<E>(function, region, &mut random))
                 .filter(|(x, _)| function.promises::<E>(x.widen()))
-                .take(samples())
+                .take(SAMPLES)
                 .collect();
             let exact: Vec<_> = arguments.iter().map(|(x, y)| function.exact(x.widen(), y.widen())).collect();
             for (name, values) in by_every_way(function, &arguments) {
@@ -322,9 +315,9 @@ fn floats_are_within_the_promised_units() {
 }
 
 /// sin and cos of numbers beyond those for which digits are promised.
-fn judge_large_turns<E: Scalar + Precision>(largest: f64) {
+fn judge_large_turns<E: Scalar + Format>(largest: f64) {
     let mut random = Random::new(7);
-    let arguments: Vec<(E, E)> = (0..samples())
+    let arguments: Vec<(E, E)> = (0..SAMPLES)
         .map(|_| {
             let scale = 2f64.powf(random.uniform(0.0, largest.log2()));
             (
@@ -355,7 +348,7 @@ fn sine_and_cosine_of_large_numbers_are_those_of_a_neighbour() {
 }
 
 /// Values at 0, ±∞ and NaN, with the sign of a zero.
-fn judge_special<E: Scalar + Precision>() {
+fn judge_special<E: Scalar + Format>() {
     let (infinity, nan) = (f64::INFINITY, f64::NAN);
     let half_pi = E::splat(std::f64::consts::FRAC_PI_2).widen();
     let ln_2 = E::splat(LN_2).widen();
@@ -400,7 +393,7 @@ fn values_at_zero_and_infinity_are_exact() {
     judge_special::<f32>();
 }
 
-fn judge_parity<E: Scalar + Precision>() {
+fn judge_parity<E: Scalar + Format>() {
     let mut random = Random::new(11);
     for function in [Sinh, Tanh, Asinh, Sin, Atan, Erf, Cosh, Cos] {
         let sign = if matches!(function, Cosh | Cos) { 1.0 } else { -1.0 };

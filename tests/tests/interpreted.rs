@@ -16,8 +16,8 @@ use piola::material::MaterialError;
 use piola::point::Filter;
 use piola_materials::{CATALOGUE, Entry};
 use piola_tests::answers::Answers;
-use piola_tests::bits::{Precision, draw};
-use piola_tests::energies::{ENERGIES, Judged, Subject, find};
+use piola_tests::bits::draw;
+use piola_tests::energies::{ENERGIES, Format, Judged, Subject, find};
 use piola_tests::twins::{check, responses, stretches};
 
 /// Points of a batch: three tiles, the last of them not full.
@@ -29,12 +29,12 @@ fn compiled() -> impl Iterator<Item = (&'static Judged, &'static Entry)> {
 }
 
 /// Deformation gradients of all kinds.
-fn deformations<E: Precision>(seed: u64) -> Vec<E> {
+fn deformations<E: Format>(seed: u64) -> Vec<E> {
     let mut random = Random::new(seed);
     (0..POINTS).flat_map(|turn| draw(turn, &mut random)).flatten().collect()
 }
 
-fn check_batches<E: Kernels + Precision>(
+fn check_batches<E: Kernels + Format>(
     name: &str,
     interpreted: &dyn TileMaterial<E>,
     compiled: &dyn TileMaterial<E>,
@@ -67,7 +67,9 @@ fn batches_have_the_bits_of_the_compiled_catalogue() {
 #[test]
 fn batches_in_single_precision_have_the_bits_of_compiled_ones() {
     use piola::material::Declared;
-    use piola_materials::{ArrudaBoyce, Gent, NeoHookean, Ogden, RotatedLinear, StretchSpline};
+    use piola_materials::{
+        ArrudaBoyce, Gent, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff, StretchSpline,
+    };
 
     fn of<M: Declared + 'static>(name: &str) {
         let energy = find(name).expect("an energy of the catalogue");
@@ -78,6 +80,7 @@ fn batches_in_single_precision_have_the_bits_of_compiled_ones() {
             check_batches::<f32>(&format!("{name} {inversion:?}"), &interpreted, &compiled);
         }
     }
+    of::<StVenantKirchhoff>("st_venant_kirchhoff");
     of::<NeoHookean>("neo_hookean");
     of::<Ogden<3>>("ogden");
     of::<Gent>("gent");

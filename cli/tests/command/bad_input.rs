@@ -12,7 +12,7 @@ fn check(files: &[(&str, String)], arguments: &str, guilty: &[&str]) {
 }
 
 /// Gmsh text of a unit tetrahedron between these nodes.
-fn tetrahedron(nodes: [usize; 4]) -> String {
+pub(crate) fn tetrahedron(nodes: [usize; 4]) -> String {
     let [a, b, c, d] = nodes;
     format!(
         "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n\

@@ -1,17 +1,11 @@
 //! Files in the folder of a run, which is a new one; an interrupted run keeps its results.
 
 use std::fs;
-use std::process::Output;
 
 use crate::{Folder, OGDEN, assert_contains, stderr};
 
 /// Run of a small body into the folder `out`.
 const BAR: &str = "run horse --body bar --out out";
-
-#[track_caller]
-fn assert_code(output: &Output, code: i32) {
-    assert_eq!(output.status.code(), Some(code), "{}", stderr(output));
-}
 
 #[test]
 fn a_run_begins_in_a_new_folder_and_leaves_others_alone() {
@@ -108,12 +102,12 @@ fn output_that_cannot_be_written_is_an_error() {
     let folder = Folder::new();
     for arguments in ["materials", "--help", "curve gent", "run horse --body bar --frames 1"] {
         let full = fs::File::options().write(true).open("/dev/full").expect("/dev/full");
-        let output = folder.command(arguments).stdout(full).output();
-        assert_code(&output.expect("the command starts"), 1);
+        let output = folder.command(arguments).stdout(full).output().expect("the command starts");
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     }
     // A reader who goes away has seen enough.
     let (reader, writer) = std::io::pipe().expect("a pipe");
     drop(reader);
     let output = folder.command("materials").stdout(writer).output().expect("the command starts");
-    assert_code(&output, 0);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }

@@ -4,6 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
+use crate::bad_input::tetrahedron;
 use crate::{Folder, assert_contains};
 
 /// Keys of every summary; `final_state` may be null.
@@ -170,10 +171,7 @@ fn a_mesh_in_millimetres_is_the_body_in_metres() {
 #[test]
 fn a_pull_that_finds_no_node_says_so() {
     // The head of a dinosaur is above and in front, where this corner is not.
-    let corner = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
-                  $Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n\
-                  $Elements\n1\n1 4 0 1 2 3 4\n$EndElements\n";
-    let (said, _) = run_on(&Folder::new(), corner, "dinosaur", "");
+    let (said, _) = run_on(&Folder::new(), &tetrahedron([1, 2, 3, 4]), "dinosaur", "");
     assert!(said.contains("warning: no node of the body lies where the scene pulls"), "{said}");
 }
 

@@ -53,10 +53,7 @@ fn padded<E: Kernels, const N: usize>(layout: Layout, points: &[[E; N]], padding
 }
 
 /// The outputs at positions are those at the deformation gradients that these make.
-fn check<E: Kernels>(material: &dyn TileMaterial<E>, filter: Filter)
-where
-    f64: From<E>,
-{
+fn check<E: Kernels>(material: &dyn TileMaterial<E>, filter: Filter) {
     // Two tiles, the last line of which is not full.
     let Mesh { positions, corners, rest } = mesh::<E>(64 + 13);
     let tetrahedra = Tetrahedra::new(positions.len(), &corners).expect("nodes that exist");
@@ -92,14 +89,12 @@ where
 
 /// Relative to the largest entry of all: F is made with other roundings, and derivatives of the energies are
 /// of the order of 1.
-fn close<E: Scalar>(found: &[E], expected: &[E])
-where
-    f64: From<E>,
-{
-    let largest = expected.iter().fold(0.0, |largest: f64, &x| largest.max(f64::from(x).abs()));
+fn close<E: Scalar>(found: &[E], expected: &[E]) {
+    let wide = |x: E| -> f64 { x.into() };
+    let largest = expected.iter().fold(0.0, |largest: f64, &x| largest.max(wide(x).abs()));
     assert!(largest > 0.0);
     for (&found, &expected) in found.iter().zip(expected) {
-        let error = (f64::from(found) - f64::from(expected)).abs();
+        let error = (wide(found) - wide(expected)).abs();
         assert!(error <= 200.0 * <E as Real>::UNIT_ROUNDOFF * largest, "{found:?} for {expected:?}");
     }
 }

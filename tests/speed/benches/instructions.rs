@@ -17,6 +17,7 @@ use std::{env, fs};
 
 use piola::batch::{Batch, Kernels, Layout};
 use piola::lanes::Backend;
+use piola::point::Filter;
 use piola_speed::{Arrays, Decompositions, IN_CACHE, Task, materials};
 
 /// Factor by which a kernel may grow.
@@ -119,7 +120,8 @@ fn kernels_in<E: Kernels>(backend: Backend, kernels: &mut Vec<(String, Call)>) {
                 let mut arrays = Arrays::new(task, Layout::Lines, IN_CACHE);
                 let call =
                     move || arrays.run(&Batch::new(&*energy).with_backend(backend).with_filter(filter));
-                push(&task.label(filter), name, Box::new(call));
+                let mark = if filter == Filter::Clamp { " +C" } else { "" };
+                push(&format!("{}{mark}", task.name()), name, Box::new(call));
             }
         }
     }

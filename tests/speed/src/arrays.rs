@@ -26,7 +26,8 @@ impl<E: Kernels> Arrays<E> {
     /// Arrays of random points, which are equal for every task, format and layout.
     #[must_use]
     pub fn new(task: Task, layout: Layout, points: usize) -> Self {
-        let inputs = task.inputs().map(|input| {
+        let (_, inputs, outputs) = task.signature();
+        let inputs = inputs.map(|input| {
             let (numbers, mut random) = (input.numbers(), Random::new(1));
             let mut array = Aligned::new(points * numbers);
             for point in 0..points {
@@ -36,7 +37,7 @@ impl<E: Kernels> Arrays<E> {
             }
             array
         });
-        let outputs = task.outputs().map(|numbers| Aligned::new(points * numbers));
+        let outputs = outputs.map(|numbers| Aligned::new(points * numbers));
         // Four nodes in a row are a tetrahedron, whose first corner is a node 4 n.
         let positions = (0..points + 3).map(|node| CORNERS[node % 4].map(E::splat)).collect();
         let corner = |first: usize, k: usize| first + (k + 4 - first % 4) % 4;

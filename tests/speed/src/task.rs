@@ -27,8 +27,8 @@ impl Task {
     pub const ALL: [Self; 5] =
         [Self::Energies, Self::Stresses, Self::Tangents, Self::Stiffnesses, Self::StiffnessesAt];
 
-    /// Name of the method, the quantities that it reads at each point, and the number of values that it writes.
-    fn signature(self) -> (&'static str, [Input; 2], [usize; 2]) {
+    /// Name of the method, the quantities that it reads at each point, and how many numbers it writes.
+    pub(super) fn signature(self) -> (&'static str, [Input; 2], [usize; 2]) {
         match self {
             Self::Energies => ("energies", [Input::Deformation, Input::Nothing], [1, 0]),
             Self::Stresses => ("stresses", [Input::Deformation, Input::Nothing], [9, 0]),
@@ -44,13 +44,6 @@ impl Task {
         self.signature().0
     }
 
-    /// Its name, with a mark where a filter acts: `tangents +C`.
-    #[must_use]
-    pub fn label(self, filter: Filter) -> String {
-        let mark = if filter == Filter::Clamp { " +C" } else { "" };
-        format!("{}{mark}", self.name())
-    }
-
     /// The filters that make a difference to it.
     #[must_use]
     pub fn filters(self) -> &'static [Filter] {
@@ -58,14 +51,6 @@ impl Task {
             Self::Energies | Self::Stresses => &[Filter::None],
             _ => &[Filter::None, Filter::Clamp],
         }
-    }
-
-    pub(super) fn inputs(self) -> [Input; 2] {
-        self.signature().1
-    }
-
-    pub(super) fn outputs(self) -> [usize; 2] {
-        self.signature().2
     }
 }
 

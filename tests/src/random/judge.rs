@@ -35,6 +35,9 @@ const UNDERFLOW: f64 = 1e-280;
 /// of it in second derivatives may leave the range of `f64`, and a reciprocal of what has overflowed is zero.
 const RANGE: f64 = 1e75;
 
+/// Stretches at which each declaration is judged; a quarter as many strains.
+const POINTS: usize = 24;
+
 /// What becomes of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
@@ -93,11 +96,11 @@ impl fmt::Display for Tally {
     }
 }
 
-/// Judges the declaration of a seed at this many stretches.
-pub fn judge(seed: u64, points: usize) -> Tally {
+/// Judges the declaration of a seed.
+pub fn judge(seed: u64) -> Tally {
     let declaration = Declaration::random(seed);
     let mut tally = Tally { declarations: 1, ..Tally::default() };
-    match catch_unwind(AssertUnwindSafe(|| compile_and_run(&declaration, seed, points, &mut tally))) {
+    match catch_unwind(AssertUnwindSafe(|| compile_and_run(&declaration, seed, &mut tally))) {
         Ok(Ok(())) => {}
         Ok(Err(refusal)) => tally.refusals.push(refusal),
         Err(payload) => {
@@ -113,12 +116,7 @@ pub fn judge(seed: u64, points: usize) -> Tally {
 }
 
 /// Returns the message of a refusal.
-fn compile_and_run(
-    declaration: &Declaration,
-    seed: u64,
-    points: usize,
-    tally: &mut Tally,
-) -> Result<(), String> {
+fn compile_and_run(declaration: &Declaration, seed: u64, tally: &mut Tally) -> Result<(), String> {
     let (read, mut model) = understood(&declaration.source())?;
     // The interpreter executes the programs with the bits of generated code.
     let programs = Arc::new(programs(&read, &mut model).ok_or("too many registers")?);
@@ -129,10 +127,10 @@ fn compile_and_run(
     let [plain, extended] = [Inversion::Refuse, extend]
         .map(|inversion| Interpreted::new(programs.clone(), numbers.clone(), inversion));
     let mut random = Random::new(!seed);
-    for stretches in hard::stretches(&mut random, points, !declaration.is_positive) {
+    for stretches in hard::stretches(&mut random, POINTS, !declaration.is_positive) {
         judge_stretches(declaration, &declared, [&plain, &extended], stretches, tally);
     }
-    for strains in hard::strains(&mut random, points.div_ceil(4)) {
+    for strains in hard::strains(&mut random, POINTS / 4) {
         let (gradient, expected) =
             (plain.gradient_at_strains(strains), oracle::at_strains(declaration, strains));
         for i in 0..3 {

@@ -1,10 +1,10 @@
 //! Quantities with what may be asked of their digits.
 //!
-//! In addition to the Taylor polynomial of degree 2 in 256 bits there are two estimates in `f64`: a polynomial
-//! of degree 3, for how sensitive second derivatives are; and the errors that the value and its derivatives
-//! would have if the formula as printed, and its derivatives by the rules of calculus, were evaluated with each
-//! operation rounded, in units of u. Nothing that evaluates a formula as it is printed can do better where it
-//! subtracts what it has rounded.
+//! In addition to the Taylor polynomial of degree 2 in 256 bits there are two estimates in `f64`: a
+//! polynomial of degree 3, for how sensitive second derivatives are; and the errors that the value and its
+//! derivatives would have if the formula as printed, and its derivatives by the rules of calculus, were
+//! evaluated with each operation rounded, in units of u. Nothing that evaluates a formula as it is printed
+//! can do better where it subtracts what it has rounded.
 
 use std::ops::{Add, Mul};
 

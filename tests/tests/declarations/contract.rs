@@ -52,7 +52,8 @@ fn settings(sample: &Sample) -> Settings {
     // Interpreted with dual numbers, long energies take seconds.
     let few = if sample.is_of_catalogue { default.points } else { 16 };
     let points = sample.text.numbers("points").map_or(few, |[points]| points as usize);
-    Settings { points, range, stress_free_at_rest: !sample.is_prestressed(), ..default }
+    let stress_free_at_rest = !sample.text.source.contains("prestressed");
+    Settings { points, range, stress_free_at_rest, ..default }
 }
 
 /// Says what each of the materials breaks, not only the first.

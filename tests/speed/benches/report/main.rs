@@ -45,7 +45,7 @@ struct Arguments {
     /// Only these sections; the others are left out of the report
     #[arg(long, value_enum, value_delimiter = ',')]
     only: Vec<Section>,
-    /// Prints a table of nanoseconds for points and batches of five energies instead of a report
+    /// Prints a table of nanoseconds for points and batches of three energies instead of a report
     #[arg(long, conflicts_with = "only")]
     table: bool,
     /// What `cargo bench` adds

@@ -11,7 +11,7 @@ use piola::batch::{Batch, Kernels, Layout};
 use piola::lanes::Backend;
 use piola::material::Declared;
 use piola::point::{Filter, Matrix3, evaluate, evaluate_dense, evaluate_stress};
-use piola_materials::{Arap, NeoHookean, StVenantKirchhoff, StableNeoHookean};
+use piola_materials::{NeoHookean, StVenantKirchhoff};
 use piola_speed::{
     Arrays, Decompositions, Effort, IN_CACHE, LAMBDA, MU, Task, Times, deformation_gradients, ogden,
     processor, time,
@@ -43,8 +43,6 @@ pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Outcome<()> {
     println!("## Singular value decomposition, in lines\n\n{}", decompositions(effort));
     print_energy("neo-Hooke", &NeoHookean::new(MU, LAMBDA)?, effort);
     print_energy("Saint Venant–Kirchhoff", &StVenantKirchhoff::new(MU, LAMBDA)?, effort);
-    print_energy("stable neo-Hooke", &StableNeoHookean::new(MU, LAMBDA)?, effort);
-    print_energy("ARAP", &Arap::new(MU)?, effort);
     print_energy("Ogden with three terms", &ogden(), effort);
     println!("## Energies typed at run time\n\n{}", typed::of_energies(effort)?);
     Ok(())

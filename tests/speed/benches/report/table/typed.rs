@@ -8,9 +8,9 @@ use piola::batch::{Batch, Layout};
 use piola::material::{Declared, MaterialError};
 use piola::point::{Filter, evaluate, evaluate_stress};
 use piola::{Inversion, Material};
-use piola_declare::Energy;
-use piola_materials::{CATALOGUE, DECLARATIONS, Entry, Visitor};
+use piola_materials::{Entry, Visitor};
 use piola_speed::{Arrays, Effort, IN_CACHE, Task, deformation_gradients, time_in_turns};
+use piola_tests::energies::find;
 
 use super::{cell, vectors};
 use crate::markdown::table;
@@ -20,12 +20,9 @@ const NAMES: [&str; 5] = ["st_venant_kirchhoff", "neo_hookean", "ogden", "gent",
 /// P, and P with dP/dF, f64: in cache on the back ends with vectors, and point by point.
 pub(crate) fn of_energies(effort: Effort) -> Result<String, MaterialError> {
     let mut rows = Vec::new();
-    for entry in CATALOGUE.iter().filter(|entry| NAMES.contains(&entry.name)) {
-        let values = entry.typical();
-        let declaration = DECLARATIONS.iter().find(|known| known.name == entry.name);
-        let source = declaration.map_or("", |declaration| declaration.source);
-        let energy = Energy::from_rust(source).expect("a declaration of the catalogue");
-        let typed = energy.material(&values, Inversion::Refuse)?;
+    for energy in NAMES.map(|name| find(name).expect("an energy of the catalogue")) {
+        let (values, entry) = (energy.typical(), energy.compiled.expect("an energy of this build"));
+        let typed = energy.energy.material(&values, Inversion::Refuse)?;
         let compiled = entry.material(&values, Inversion::Refuse)?;
         for backend in vectors() {
             for task in [Task::Stresses, Task::Tangents] {

@@ -1,9 +1,13 @@
-//! Stress at single points, in a batch and through a trait object.
+//! The promises of every material, stress at single points, in a batch and through a trait object, and
+//! parameters that are written and read again.
 
+use outside::Stiffening;
 use piola::batch::Batch;
 use piola::point::{Filter, evaluate};
 
 type Result = std::result::Result<(), Box<dyn std::error::Error>>;
+
+piola::contract!(stiffening: outside::stiffening()?);
 
 /// A shear with some stretch.
 const F: [[f64; 3]; 3] = [[1.2, 0.3, 0.0], [0.0, 0.9, 0.1], [0.0, 0.0, 1.1]];
@@ -40,5 +44,15 @@ fn a_batch_gives_the_stress_of_the_point() -> Result {
             assert!((one - other).abs() <= ROUNDING * scale, "{one} ≠ {other}");
         }
     }
+    Ok(())
+}
+
+#[test]
+fn a_material_is_read_as_it_was_written() -> Result {
+    let written = outside::stiffening()?;
+    let read: Stiffening = serde_json::from_str(&serde_json::to_string(&written)?)?;
+    assert_eq!(read, written);
+    let read = serde_json::from_str::<Stiffening>(r#"{"c10": 1e5, "c20": 1e4}"#);
+    assert!(read.is_err_and(|error| error.to_string().contains("kappa")));
     Ok(())
 }
