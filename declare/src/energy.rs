@@ -186,8 +186,8 @@ impl Energy {
 
     /// ∂ψ1/∂p, ∂ψ2/∂p, ∂ψ3/∂p for each number p among the parameters, in the order of
     /// [`values`](Self::values), lists entry by entry. Pa for each unit of p. Whole exponents do not change,
-    /// and have zeros. Derivatives by the values of a spline are central differences of sixth order, with steps
-    /// of about 1/128 of each value; NaN if the spline refuses such values.
+    /// and have zeros. Derivatives by the values of a spline are central differences of sixth order, with
+    /// steps of about 1/128 of each value; NaN if the spline refuses such values.
     ///
     /// For stretches inside the domain: an extension is not used, and outside the domain the numbers are
     /// meaningless and may be NaN.

@@ -167,8 +167,8 @@ impl Slopes {
         slopes.concat()
     }
 
-    /// The derivatives of one result, a condition on the entry of lists, each with its parameter and place. By
-    /// lists of other lengths, which may be shorter, they are zero.
+    /// The derivatives of one result, a condition on the entry of lists, each with its parameter and place.
+    /// By lists of other lengths, which may be shorter, they are zero.
     fn of_entry(&self, material: &Interpreted, entry: usize) -> Vec<(usize, usize, f64)> {
         let of_program = |(list, parameters, program): &(Option<usize>, Vec<usize>, Program)| {
             let place = if list.is_some() { entry } else { 0 };

@@ -3,8 +3,8 @@
 //! The differences between the stresses of an energy and the measured ones, each divided by a size of its own
 //! ([`Difference`]), are minimised in the sum of their squares by the Levenberg–Marquardt method \[Mor78\].
 //! The derivatives of a stress by the parameters come from the declaration of the energy
-//! ([`Energy::gradient_by_parameters`](piola_declare::Energy::gradient_by_parameters)), and include the motion
-//! of free sides ([`Response::weights`](crate::curve::Response::weights)).
+//! ([`Energy::gradient_by_parameters`](piola_declare::Energy::gradient_by_parameters)), and include the
+//! motion of free sides ([`Response::weights`](crate::curve::Response::weights)).
 //!
 //! Such fits are easily ambiguous \[OSS04\]: data may not determine a parameter, or determine only some
 //! combination of parameters, and there may be several minima; or the energy refuses the best parameters, or

@@ -24,18 +24,6 @@ pub fn Listed<const N: usize>(
     sum(|q| α[q]) * (I1b - 3.0) + ν * (1.0 + κ0) * (J - 1.0).powi(2)
 }
 
-/// Numbers, of which a pair of moduli determines two.
-#[piola::material(domain(J > 0.0))]
-pub fn Pair(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    μ: f64,
-    /** Pa. */
-    λ: f64,
-) -> f64 {
-    μ / 2.0 * (I1 - 3.0 - 2.0 * J.ln()) + λ / 2.0 * J.ln().powi(2)
-}
-
 /// A function, lists of a length known at run time, and whole exponents.
 #[piola::material]
 pub fn Curve([l1, l2, l3]: [f64; 3], α: piola::Spline, γ: Vec<f64>, ν: Vec<u32>) -> f64 {

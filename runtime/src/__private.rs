@@ -32,6 +32,7 @@ pub mod interpreter {
 /// Products of matrices, for other methods to be compared with.
 pub mod matrix {
     pub use crate::point::matrix::{dot, multiply, multiply_transposed, to_world, transpose};
+    pub use crate::point::svd::descending;
 }
 
 /// Quotations in the messages of all crates.

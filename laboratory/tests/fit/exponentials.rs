@@ -74,7 +74,7 @@ fn what_a_factor_of_zero_hides_is_not_indifferent() -> Outcome {
 
 #[test]
 fn at_an_edge_no_one_is_sent_back_to_it() -> Outcome {
-    let start = of_numbers(EXPONENTIALS, &[4.98e6, 0.0152, 2.15, 1e7, 0.15, 0.5, 2e7])?;
+    let start = of_numbers(EXPONENTIALS, &[4.98e6, 0.0152, 2.15, 1e7, 0.15, 1.0, 2e7])?;
     let found = fitted(&start, &alone())?;
     assert_eq!(found.ended, Ended::Edge);
     assert!(found.warnings.iter().any(|warning| matches!(warning, Warning::Edge { .. })), "{found:?}");

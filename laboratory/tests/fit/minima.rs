@@ -75,7 +75,7 @@ fn what_grows_without_end_is_said_once() -> Outcome {
     let limit = of_numbers(HOSS_MARCZAK, &[2e5, 0.1, 2e5, 0.02, 1e9, 2e7])?;
     // Of Treloar's, n grows until 1 + b (I1 − 3)/n is rounding, and other solids fit about as well.
     for (data, has_others) in [(measured(&limit), false), (treloar(), true)] {
-        let found = fit_parameters(&start, &data, &FitSettings::default())?;
+        let found = fit_parameters(&start, &data, &FitSettings { seed: 2, ..FitSettings::default() })?;
         let ranges = ambiguous(&found);
         let endless: Vec<_> = ranges.iter().filter(|(name, ..)| *name == "n").collect();
         // Random starts vary by ten at most.

@@ -39,8 +39,8 @@ impl<E: Kernels> Call<'_, E> {
         (self.streams && self.layout == Layout::Lines).then(NonTemporal::new)
     }
 
-    /// Sink for the points that are not in `served`; with the [`fence`](Self::fence) of this tile, for outputs
-    /// that may be larger than the caches.
+    /// Sink for the points that are not in `served`; with the [`fence`](Self::fence) of this tile, for
+    /// outputs that may be larger than the caches.
     pub(super) fn sink<'t>(
         &self,
         to: &'t mut [E],

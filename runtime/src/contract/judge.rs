@@ -14,7 +14,8 @@ const MISTAKE: f64 = 1e6;
 /// Demand on a value that may not be infinite or NaN.
 const FINITE: &str = "a finite number";
 
-/// Explanation of values that are infinite or NaN, for which a difference, or a remedy for a sign, is useless.
+/// Explanation of values that are infinite or NaN, for which a difference, or a remedy for a sign, is
+/// useless.
 const SEE_DOMAIN: &str = "not a finite number, here or near by, but an overflow, or a root, real power or logarithm of something \
                           negative; see the rule `domain`";
 

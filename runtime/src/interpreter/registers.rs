@@ -50,8 +50,8 @@ impl Prepared {
 const SETS: usize = 16;
 
 thread_local! {
-    /// For each type of real number, the sets of registers that a thread does not use at the moment, those used
-    /// last at the end.
+    /// For each type of real number, the sets of registers that a thread does not use at the moment, those
+    /// used last at the end.
     static SPARE: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
 }
 

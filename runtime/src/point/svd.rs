@@ -244,7 +244,7 @@ fn length<R: Real>(squared: R) -> (R, R) {
 /// alone changes U diag(λ) Vᵀ by no more than that, and the vectors of stretches so close are arbitrary
 /// anyway.
 #[inline(always)]
-fn descending<R: Real>([s1, s2, s3]: [R; 3]) -> [R; 3] {
+pub fn descending<R: Real>([s1, s2, s3]: [R; 3]) -> [R; 3] {
     let magnitude = s3.abs();
     let (s1, s2) = (s1.max(s2), s1.min(s2));
     let (s2, magnitude) = (s2.max(magnitude), s2.min(magnitude));

@@ -100,8 +100,8 @@ impl Spline {
         self.knots.iter().zip(&self.forces).map(|(&x, &force)| [x, force])
     }
 
-    /// Values that a fit may change: the ordinates φ′ of the control points, Pa, except for one at x = 1, which
-    /// is kept, and with it a rest state without stress.
+    /// Values that a fit may change: the ordinates φ′ of the control points, Pa, except for one at x = 1,
+    /// which is kept, and with it a rest state without stress.
     #[must_use]
     pub fn values(&self) -> Vec<f64> {
         self.points().filter(|&[x, _]| x != REST).map(|[_, force]| force).collect()

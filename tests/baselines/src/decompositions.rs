@@ -9,17 +9,7 @@ mod libraries;
 
 pub use jacobi::jacobi;
 pub use libraries::{faer, nalgebra};
-use piola::Real;
-
-/// λ1 ≥ λ2 ≥ |λ3| of lengths that are out of order by rounding at most.
-#[inline(always)]
-fn descending<R: Real>([s1, s2, s3]: [R; 3]) -> [R; 3] {
-    let magnitude = s3.abs();
-    let (s1, s2) = (s1.max(s2), s1.min(s2));
-    let (s2, magnitude) = (s2.max(magnitude), s2.min(magnitude));
-    let (s1, s2) = (s1.max(s2), s1.min(s2));
-    [s1, s2, magnitude.copysign(s3)]
-}
+use piola::__private::matrix::descending;
 
 #[cfg(test)]
 mod tests {

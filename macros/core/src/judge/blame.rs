@@ -26,8 +26,8 @@ impl<'a> Source<'a> {
         self.smallest(holds, operands, true)
     }
 
-    /// The smallest part that breaks a rule. Several parts of one expression may break it together, unless the
-    /// first one is meant.
+    /// The smallest part that breaks a rule. Several parts of one expression may break it together, unless
+    /// the first one is meant.
     fn smallest(
         &self,
         mut breaks: impl FnMut(Id) -> bool,
