@@ -14,7 +14,8 @@ pub(crate) const POINTS: usize = 64;
 /// `f64` or `f32`: a format of batches, and of the libraries of the baselines.
 pub(crate) trait Number: Kernels + LibraryNumber {}
 
-impl<T: Kernels + LibraryNumber> Number for T {}
+impl Number for f64 {}
+impl Number for f32 {}
 
 /// Deformation gradients, one by one and in lines.
 pub(crate) struct Points<E> {
