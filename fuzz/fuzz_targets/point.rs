@@ -17,7 +17,6 @@
 use libfuzzer_sys::fuzz_target;
 use piola::Inversion;
 use piola::point::Matrix3;
-use piola_tests::bits::Precision;
 use piola_tests::energies::{ENERGIES, Format};
 use piola_tests::soundness::{check, check_elements, check_single, check_single_accuracy};
 
@@ -85,12 +84,12 @@ impl Input<'_> {
         first
     }
 
-    fn number<R: Precision>(&mut self) -> R {
+    fn number<R: Format>(&mut self) -> R {
         let bytes = if R::NAME == "f32" { 4 } else { 8 };
         R::from_bits((0..bytes).fold(0, |bits, _| bits << 8 | u64::from(self.byte())))
     }
 
-    fn matrix<R: Precision>(&mut self) -> Matrix3<R> {
+    fn matrix<R: Format>(&mut self) -> Matrix3<R> {
         std::array::from_fn(|_| std::array::from_fn(|_| self.number()))
     }
 }

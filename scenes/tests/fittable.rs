@@ -191,6 +191,26 @@ fn constraints_have_their_gradients() {
     CANDIDATES.iter().for_each(|(name, candidate)| check_constraints(name, candidate));
 }
 
+/// Fits go without an extension, whatever they start from.
+#[test]
+fn an_extension_changes_nothing() {
+    let (at, mut judged) = ([1.3, 1.1, 0.75], 0);
+    for (name, Candidate { energy, material }) in CANDIDATES.iter() {
+        let values = energy.values(material);
+        let lists: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
+        // Its own conditions may refuse these values.
+        let Ok(extended) = energy.material(&lists, Inversion::Extend { epsilon: 0.9 }) else { continue };
+        judged += 1;
+        let [found, expected] = [&extended, material].map(|material| {
+            let domain = energy.domain_constraints(material, at);
+            (energy.gradient_by_parameters(material, at), energy.constraints(material), domain)
+        });
+        assert_eq!(found, expected, "{name}");
+        assert_eq!(energy.with_values(&extended, &values).as_ref(), Ok(material), "{name}");
+    }
+    assert!(judged > 10, "{judged}");
+}
+
 /// Their slopes are differences themselves, and less exact than proportionality would have to be.
 #[test]
 fn ordinates_of_the_curves_of_the_catalogue_are_parameters() -> Result<(), MaterialError> {

@@ -180,8 +180,8 @@ impl Judge<'_> {
         judgements.extend(self.batches::<f64>(&*subject.double, "f64 lanes"));
         if self.case.f32_exact {
             judgements.extend(self.points::<f32>(&subject));
-            // A polynomial, a logarithm, a pole and real powers. Compiled, these have the same bits, as
-            // `interpreted.rs` shows.
+            // A polynomial, a logarithm, a pole and real powers. Compiled, these have the same bits at the
+            // points of `interpreted.rs`.
             #[cfg(feature = "full")]
             if ["st_venant_kirchhoff", "neo_hookean", "rotated_linear"].contains(&energy.name)
                 || energy.name == "ogden" && values[0].len() == 3

@@ -35,6 +35,8 @@ pub struct Declaration {
     pub is_positive: bool,
     /// Words of the attribute besides the domain: `extend`, `prestressed`.
     pub words: Vec<&'static str>,
+    /// True if its derivatives by the parameters are compiled as well.
+    pub is_fitted: bool,
 }
 
 impl Declaration {
@@ -50,8 +52,7 @@ impl Declaration {
         if !is_relaxed {
             words.push("prestressed");
         }
-        // A draw without use, for each seed to have the energies that past runs had.
-        random.once_in(8);
+        let is_fitted = random.once_in(8);
         let mut maker = Maker { random, parameters: Vec::new(), is_positive };
         let count = 1 + maker.random.below(4);
         let terms: Vec<_> =
@@ -59,7 +60,7 @@ impl Declaration {
         // Some are drawn for alternatives that are not taken.
         let is_used = |parameter: &Parameter| terms.iter().any(|term| term.text.contains(&parameter.name));
         let parameters = maker.parameters.into_iter().filter(is_used).collect();
-        Self { parameters, terms, is_positive, words }
+        Self { parameters, terms, is_positive, words, is_fitted }
     }
 
     /// The declaration as it can be pasted, with the values of its parameters.

@@ -12,7 +12,7 @@ use piola::interpreter::Interpreted;
 use piola::material::PAIRS;
 use piola::{Inversion, Material, Real};
 use piola_codegen::algebra::expr::Id;
-use piola_declare::programs;
+use piola_declare::{Energy, programs};
 
 use super::generator::Declaration;
 use super::hard;
@@ -118,6 +118,9 @@ pub fn judge(seed: u64) -> Tally {
 /// Returns the message of a refusal.
 fn compile_and_run(declaration: &Declaration, seed: u64, tally: &mut Tally) -> Result<(), String> {
     let (read, mut model) = understood(&declaration.source())?;
+    if declaration.is_fitted {
+        Energy::from_rust(&declaration.source()).map_err(|mistakes| mistakes.to_string())?;
+    }
     // The interpreter executes the programs with the bits of generated code.
     let programs = Arc::new(programs(&read, &mut model).ok_or("too many registers")?);
     let values: Vec<_> = declaration.parameters.iter().map(|one| one.values.clone()).collect();
