@@ -122,7 +122,8 @@ pub(super) fn ambiguous(
             // of a function are compared in their order.
             let [ours, theirs] = [best, minimum].map(|minimum| {
                 let values = &minimum.problem.values;
-                let mut places: Vec<usize> = list.clone().collect();
+                let free = best.problem.task.free;
+                let mut places: Vec<usize> = list.clone().filter(|number| free.contains(number)).collect();
                 if form == Form::List {
                     places.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
                 }
