@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{Axes, Numbers, deformations, from_rows, numbers, rows};
-use crate::errors::{ContractError, DomainError, FitError, of_material, value_error};
+use crate::errors::{ContractError, DomainError, FitError, MaterialError, of_material, value_error};
 use crate::material::Material;
 use crate::shape;
 
@@ -72,7 +72,8 @@ impl Material {
     /// restarts: number of further starts, at random about the first.
     /// seed: equal seeds give equal fits.
     ///
-    /// Returns a `Fit`. Raises FitError if nothing can be fitted.
+    /// Returns a `Fit`. Raises FitError if nothing can be fitted, MaterialError if
+    /// parameters differ from point to point.
     #[pyo3(signature = (
         data, /, *, incompressible = true, relative = true, held = Vec::new(), restarts = 20, seed = 1
     ))]
@@ -162,7 +163,7 @@ impl Material {
     /// Returns a dictionary from the names of the parameters to arrays of the shape of stresses, float32 if F
     /// is; for a list, to an array with one more axis in front, and so for a curve: the derivatives by the
     /// ordinates of its control points, except for one at x = 1. Raises DomainError for an F outside of the
-    /// domain.
+    /// domain, MaterialError for curves of which only some have a control point at x = 1.
     #[pyo3(signature = (F, /))]
     fn stress_by_parameters<'py>(
         &self,
@@ -177,6 +178,13 @@ impl Material {
         let candidate_of = shape::entries(&self.shape, &shape);
         let Candidate { energy, material } = &candidates[0];
         let lists = energy.values(material);
+        let lengths = |lists: &[Vec<f64>]| lists.iter().map(Vec::len).collect::<Vec<_>>();
+        let is_alike = |one: &Candidate| lengths(&one.energy.values(&one.material)) == lengths(&lists);
+        if !candidates.iter().all(is_alike) {
+            let message = "curves have a control point at x = 1 for some points and none for others: their derivatives are \
+                           not one array";
+            return Err(MaterialError::new_err(message));
+        }
         let count = lists.iter().map(Vec::len).sum::<usize>();
         let points: &[[[f64; 3]; 3]] = F.as_slice()?.as_chunks().0.as_chunks().0;
         let mut derivatives = vec![vec![[[0.0; 3]; 3]; points.len()]; count];
