@@ -196,12 +196,13 @@ impl LinearSystem {
         definiteness: Definiteness,
     ) -> Result<Option<Solution>, Error> {
         objective.add_second_derivatives(&mut self.matrix_free.borrow_mut().stiffness);
-        self.right.with(|right| {
-            right.iter_mut().zip(gradient).for_each(|(right, gradient)| *right = gradient.map(|g| -g));
-        })?;
         let tolerance = tolerance.min(self.tolerance);
         let mut solution = Solution::default();
         loop {
+            // A solver may leave it changed, as `-ksp_diagonal_scale` does.
+            self.right.with(|right| {
+                right.iter_mut().zip(gradient).for_each(|(right, gradient)| *right = gradient.map(|g| -g));
+            })?;
             let Self { matrix_free, form, right, solution: displacement, shares, max_iterations, .. } = self;
             let mut task = Task { right, solution: displacement, tolerance, max_iterations: *max_iterations };
             let Iteration { iterations, mut end } = match form {
