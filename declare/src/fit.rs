@@ -21,7 +21,8 @@ pub struct Constraint {
     pub limit: Limit,
     /// A measure of the distance to the limit, positive inside: for `a > b` the difference a − b.
     pub value: f64,
-    /// The derivative of the value with respect to each number among the parameters, lists entry by entry.
+    /// The derivative of the value by each number among the parameters, in the order of
+    /// [`Energy::values`](crate::Energy::values), lists entry by entry.
     pub gradient: Vec<f64>,
 }
 

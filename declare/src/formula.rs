@@ -15,10 +15,9 @@ mod spellings;
 use piola::contract;
 use piola_codegen::algebra::increment::substitute_rest;
 use piola_codegen::emit::spaced;
-use piola_codegen::model::{MOST_PARAMETERS, Model};
+use piola_codegen::model::MOST_PARAMETERS;
 use piola_codegen::printer;
 use piola_codegen::read::notation::Notation as Language;
-use piola_codegen::read::parse::Declaration;
 use piola_codegen::{analyse_in, read};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
@@ -114,8 +113,6 @@ impl Energy {
         if options.free_rest {
             parsed.free_rest(options.language()).map_err(mistakes)?;
         }
-        let (arguments, declaration, model) = parsed.analyse(options.language()).map_err(mistakes)?;
-        let source = source(&arguments, &parsed.item());
         // The text alone is the energy, if it is read so without the options.
         let alone = parse(notation.tokens.clone(), &FormulaOptions::default());
         let all = |parsed: &Parsed| {
@@ -123,9 +120,22 @@ impl Energy {
             (item.to_string(), arguments.to_string())
         };
         let is_alone = alone.is_ok_and(|alone| all(&alone) == all(&parsed));
-        let text = if is_alone { formula.to_owned() } else { source.clone() };
-        Self::new(&declaration, model, text, source, contract::Notation::Formula)
-            .ok_or_else(|| Mistakes::of_all(formula, TOO_LARGE.to_owned()))
+        // The first of these that has no mistakes and is not too large; else the mistakes of the last.
+        let mut last = Mistakes::of_all(formula, "this is not an energy".to_owned());
+        for arguments in parsed.arguments() {
+            let found = analyse_in(options.language(), arguments.clone(), parsed.item(), LARGEST);
+            let energy = found.map_err(mistakes).and_then(|(declaration, model)| {
+                let source = source(&arguments, &parsed.item());
+                let text = if is_alone { formula.to_owned() } else { source.clone() };
+                Self::new(&declaration, model, text, source, contract::Notation::Formula)
+                    .ok_or_else(|| Mistakes::of_all(formula, TOO_LARGE.to_owned()))
+            });
+            match energy {
+                Ok(energy) => return Ok(energy),
+                Err(mistakes) => last = mistakes,
+            }
+        }
+        Err(last)
     }
 }
 
@@ -151,19 +161,6 @@ impl Parsed {
         let admissible = admissible.map(|admissible| quote!(, #admissible));
         let bounded = quote!(domain(#(#domain),*) #admissible);
         everywhere.into_iter().chain([quote!(#bounded, extend), bounded]).collect()
-    }
-
-    /// The first declaration that has no mistakes, with the arguments of its attribute; else the mistakes of
-    /// the last.
-    fn analyse(&self, language: Language) -> syn::Result<(TokenStream, Declaration, Model)> {
-        let mut mistakes = None;
-        for arguments in self.arguments() {
-            match analyse_in(language, arguments.clone(), self.item(), LARGEST) {
-                Ok((declaration, model)) => return Ok((arguments, declaration, model)),
-                Err(error) => mistakes = Some(error),
-            }
-        }
-        Err(mistakes.unwrap_or_else(|| syn::Error::new(Span::call_site(), "this is not an energy")))
     }
 
     /// Subtracts s ln J, with the stress s at rest.
