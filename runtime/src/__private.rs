@@ -29,7 +29,7 @@ pub mod interpreter {
     pub use crate::interpreter::program::*;
 }
 
-/// Products of matrices, for other methods to be compared with.
+/// Products of matrices, and stretches in their order, for other methods to be compared with.
 pub mod matrix {
     pub use crate::point::matrix::{dot, multiply, multiply_transposed, to_world, transpose};
     pub use crate::point::svd::descending;
