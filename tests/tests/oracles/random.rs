@@ -11,7 +11,8 @@ use piola_tests::random::quantity::Number;
 fn values_are_those_of_a_formula_done_by_hand() {
     // ψ = I1²: ψi = 4 I1 λi, ψij = 8 λi λj + 4 I1 δij, D∓ = 4 I1 for both.
     let terms = vec![whole(invariant(Invariant::I1), 2)];
-    let declaration = Declaration { parameters: Vec::new(), terms, is_positive: false, words: Vec::new() };
+    let (parameters, words) = (Vec::new(), Vec::new());
+    let declaration = Declaration { parameters, terms, is_positive: false, words, is_fitted: false };
     let Point { energy, gradient, hessian, flip, twist, .. } = at_stretches(&declaration, [2.0, 1.0, 1.0]);
     let check = |found: &[Expected], expected: &[f64]| {
         for (found, expected) in found.iter().zip(expected) {
