@@ -325,7 +325,7 @@ impl Material {
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let parameters = PyDict::new(py);
-        for parameter in &self.declared()?.parameters {
+        for parameter in self.declared()?.parameters.iter() {
             let (name, values) = (&*parameter.name, self.spec.values_of(&parameter.name));
             match parameter.is_list() {
                 true => parameters.set_item(name, values)?,
