@@ -71,17 +71,13 @@ pub use material::TileMaterial;
 pub use quadrature::Quadrature;
 pub use tetrahedra::Tetrahedra;
 
-use jobs::{Job, Work};
-use tile::{Call, Tile};
+use jobs::Work;
+use tile::{Call, Job, Tile};
 
 /// A material with the settings to evaluate it at many points at once.
 #[derive(Clone, Copy)]
 pub struct Batch<'a, E> {
-    material: &'a dyn TileMaterial<E>,
-    filter: Filter,
-    backend: Backend,
-    layout: Layout,
-    streams: bool,
+    call: Call<'a, E>,
     threads: bool,
     statuses: &'a [StatusCell],
 }
@@ -92,41 +88,46 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// The material is a [`Material`](crate::Material), or a [`PerPoint`](crate::material::PerPoint).
     #[must_use]
     pub fn new(material: &'a dyn TileMaterial<E>) -> Self {
-        Self {
+        let call = Call {
             material,
+            properties: material.properties(),
             filter: Filter::None,
             backend: Backend::best(),
             layout: Layout::Points,
             streams: false,
-            threads: false,
-            statuses: &[],
-        }
+            keeps_svd: false,
+        };
+        Self { call, threads: false, statuses: &[] }
     }
 
     /// Sets the treatment of negative eigenvalues of dP/dF.
     #[must_use]
-    pub fn with_filter(self, filter: Filter) -> Self {
-        Self { filter, ..self }
+    pub fn with_filter(mut self, filter: Filter) -> Self {
+        self.call.filter = filter;
+        self
     }
 
     /// Sets the vector instructions of the kernels.
     #[must_use]
-    pub fn with_backend(self, backend: Backend) -> Self {
-        Self { backend, ..self }
+    pub fn with_backend(mut self, backend: Backend) -> Self {
+        self.call.backend = backend;
+        self
     }
 
     /// Sets the order of the points' components in every slice of a call.
     #[must_use]
-    pub fn with_layout(self, layout: Layout) -> Self {
-        Self { layout, ..self }
+    pub fn with_layout(mut self, layout: Layout) -> Self {
+        self.call.layout = layout;
+        self
     }
 
     /// Sets whether tangents are written past the caches: about twice as fast if they exceed the last-level
     /// cache, and slower if they would have stayed in it. Needs [`Layout::Lines`] and slices aligned to 64
     /// bytes, else it does nothing.
     #[must_use]
-    pub fn with_streams(self, streams: bool) -> Self {
-        Self { streams, ..self }
+    pub fn with_streams(mut self, streams: bool) -> Self {
+        self.call.streams = streams;
+        self
     }
 
     /// Sets whether the points are shared among the threads of rayon's pool.
@@ -167,7 +168,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// [`LengthError`] if the lengths of the slices do not match.
     pub fn energies(&self, F: &[E], energies: &mut [E]) -> Result<Survey, LengthError> {
         let outputs = [("energies", energies, 1)];
-        self.run([("F", F, 9)], outputs, |call, job, [F], [energies]| call.points(job, F).energies(energies))
+        self.run([("F", F, 9)], outputs, |job, [F], [energies]| job.points(F).energies(energies))
     }
 
     /// First Piola stress P, Pa: nine components of each F. Computes no second derivative.
@@ -175,7 +176,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// # Errors
     /// [`LengthError`] if the lengths of the slices do not match.
     pub fn stresses(&self, F: &[E], P: &mut [E]) -> Result<Survey, LengthError> {
-        self.run([("F", F, 9)], [("P", P, 9)], |call, job, [F], [P]| call.points(job, F).stresses(P))
+        self.run([("F", F, 9)], [("P", P, 9)], |job, [F], [P]| job.points(F).stresses(P))
     }
 
     /// Stresses P and the 81 entries of the filtered dP/dF of each F, Pa: row 3i+j for entry (i, j) of P,
@@ -185,9 +186,7 @@ impl<'a, E: Kernels> Batch<'a, E> {
     /// [`LengthError`] if the lengths of the slices do not match.
     pub fn tangents(&self, F: &[E], P: &mut [E], dP_dF: &mut [E]) -> Result<Survey, LengthError> {
         let outputs = [("P", P, 9), ("dP_dF", dP_dF, 81)];
-        self.run([("F", F, 9)], outputs, |call, job, [F], [P, dP_dF]| {
-            call.points(job, F).tangents(P, dP_dF, None)
-        })
+        self.run([("F", F, 9)], outputs, |job, [F], [P, dP_dF]| job.points(F).tangents(P, dP_dF, None))
     }
 
     /// Energies ψ, stresses P and filtered dP/dF, Pa: [`Batch::energies`] and [`Batch::tangents`] with one
@@ -203,8 +202,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
         dP_dF: &mut [E],
     ) -> Result<Survey, LengthError> {
         let outputs = [("energies", energies, 1), ("P", P, 9), ("dP_dF", dP_dF, 81)];
-        self.run([("F", F, 9)], outputs, |call, job, [F], [energies, P, dP_dF]| {
-            call.points(job, F).tangents(P, dP_dF, Some(energies))
+        self.run([("F", F, 9)], outputs, |job, [F], [energies, P, dP_dF]| {
+            job.points(F).tangents(P, dP_dF, Some(energies))
         })
     }
 
@@ -229,8 +228,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
     ) -> Result<Survey, LengthError> {
         let inputs = [("F", F, 9), ("rest", rest, REST)];
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, 144)];
-        self.run(inputs, outputs, |call, job, [F, rest], [gradients, stiffnesses]| {
-            let Job { workspace, start, count } = job;
+        self.run(inputs, outputs, |job, [F, rest], [gradients, stiffnesses]| {
+            let Job { call, workspace, start, count } = job;
             let Workspace { F: lines, rest: shapes, svd, scratch } = workspace;
             let F = Source::new(call.backend, call.layout, F, lines);
             let outputs = Outputs::Elements(Source::new(call.backend, call.layout, rest, shapes));
@@ -256,13 +255,13 @@ impl<'a, E: Kernels> Batch<'a, E> {
         gradients: &mut [E],
         stiffnesses: &mut [E],
     ) -> Result<Survey, LengthError> {
-        let group = self.layout.group::<E>();
+        let group = self.call.layout.group::<E>();
         let (nodes, points) = (tetrahedra.nodes, tetrahedra.corners.len().next_multiple_of(group));
         LengthError::check("positions", 3 * positions.len(), 3, nodes, 1)?;
         LengthError::check("rest", rest.len(), REST, points, group)?;
         let outputs = [("gradients", gradients, 12), ("stiffnesses", stiffnesses, 144)];
-        self.run([("rest", rest, REST)], outputs, |call, job, [rest], [gradients, stiffnesses]| {
-            let Job { workspace, start, count } = job;
+        self.run([("rest", rest, REST)], outputs, |job, [rest], [gradients, stiffnesses]| {
+            let Job { call, workspace, start, count } = job;
             let Workspace { F: edges, rest: shapes, svd, scratch } = workspace;
             let rest = Source::new(call.backend, call.layout, rest, shapes);
             tetrahedra.set_edges(start, count, positions, edges);
@@ -278,37 +277,27 @@ impl<'a, E: Kernels> Batch<'a, E> {
         &self,
         inputs: [(&'static str, &[E], usize); I],
         outputs: [(&'static str, &mut [E], usize); O],
-        body: impl for<'t> Fn(Call<'t, E>, Job<'t, E>, [&'t [E]; I], [&'t mut [E]; O]) -> Status<u64> + Sync,
+        body: impl for<'t> Fn(Job<'t, E>, [&'t [E]; I], [&'t mut [E]; O]) -> Status<u64> + Sync,
     ) -> Result<Survey, LengthError> {
-        let properties = self.material.properties();
         let (_, first, components) = inputs[0];
-        let group = self.layout.group::<E>();
+        let group = self.call.layout.group::<E>();
         let count = first.len() / components / group * group;
         let lengths = inputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components));
         let lengths =
             lengths.chain(outputs.iter().map(|(name, slice, components)| (*name, slice.len(), *components)));
-        let materials = properties.points.map(|points| ("materials", points, 1));
+        let materials = self.call.properties.points.map(|points| ("materials", points, 1));
         let statuses = (!self.statuses.is_empty()).then_some(("statuses", self.statuses.len(), 1));
         lengths.chain(materials).chain(statuses).try_for_each(|(slice, found, components)| {
             LengthError::check(slice, found, components, count, group)
         })?;
-        let call = Call {
-            material: self.material,
-            properties,
-            filter: self.filter,
-            backend: self.backend,
-            layout: self.layout,
-            streams: self.streams,
-            keeps_svd: false,
-        };
         let work = Work {
+            call: self.call,
+            points: 0..count,
             inputs: inputs.map(|(_, slice, components)| (slice, components)),
             outputs: outputs.map(|(_, slice, components)| (slice, components)),
             statuses: self.statuses,
         };
-        Ok(jobs::for_each_tile(work, 0..count, self.threads, &|job, inputs, outputs| {
-            body(call, job, inputs, outputs)
-        }))
+        Ok(jobs::for_each_tile(work, self.threads, &body))
     }
 }
 

@@ -6,7 +6,7 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use super::tile::{Call, Tile};
+use super::tile::{Call, Job, Tile};
 use super::{Batch, LengthError};
 use crate::kernels::Kernels;
 use crate::kernels::measure::{MeasuredStress, MeasuredTangent};
@@ -30,11 +30,11 @@ impl<E: Kernels> Batch<'_, E> {
         F: &[E],
         stresses: &mut [E],
     ) -> Result<Survey, LengthError> {
-        self.run([("F", F, 9)], [("stresses", stresses, 6)], |call, job, [F], [stresses]| {
-            let mut tile = call.points(job, F);
+        self.run([("F", F, 9)], [("stresses", stresses, 6)], |job, [F], [stresses]| {
+            let mut tile = job.points(F);
             tile.decompose(0);
             let refused = tile.gradients();
-            let Tile { count, svd: points, scratch: Scratch { gradients, line, .. }, .. } = tile;
+            let Tile { call, count, svd: points, scratch: Scratch { gradients, line, .. }, .. } = tile;
             let to = call.sink(stresses, None, 0);
             let kernel = MeasuredStress { measure, points, gradients: &gradients.0, count, line, to };
             refused | E::measured_stress(call.backend, kernel)
@@ -57,10 +57,10 @@ impl<E: Kernels> Batch<'_, E> {
         tangents: &mut [E],
     ) -> Result<Survey, LengthError> {
         let outputs = [("stresses", stresses, 6), ("tangents", tangents, 36)];
-        self.run([("F", F, 9)], outputs, |call, job, [F], [stresses, tangents]| {
-            let call = Call { filter: Filter::None, ..call };
+        self.run([("F", F, 9)], outputs, |job, [F], [stresses, tangents]| {
+            let call = Call { filter: Filter::None, ..job.call };
             let fence = call.fence();
-            let mut tile = call.points(job, F);
+            let mut tile = Job { call, ..job }.points(F);
             tile.decompose(0);
             let judged = tile.blocks();
             let Tile { count, svd: points, scratch: Scratch { blocks, line, .. }, .. } = tile;

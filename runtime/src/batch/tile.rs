@@ -5,7 +5,6 @@
 
 #![expect(non_snake_case, reason = "F as in the literature")]
 
-use super::jobs::Job;
 use super::material::{Arguments, Properties, TileMaterial};
 use crate::kernels::Kernels;
 use crate::kernels::deformation::{Decompose, Invariants};
@@ -34,19 +33,7 @@ pub(super) struct Call<'a, E> {
     pub(super) keeps_svd: bool,
 }
 
-impl<'a, E: Kernels> Call<'a, E> {
-    /// A tile of points with these deformation gradients.
-    pub(super) fn points<'t>(self, job: Job<'t, E>, F: &'t [E]) -> Tile<'t, E>
-    where
-        'a: 't,
-    {
-        let Job { workspace, start, count } = job;
-        let Workspace { F: lines, svd, scratch, .. } = workspace;
-        let F = Source::new(self.backend, self.layout, F, lines);
-        let outputs = Outputs::Points;
-        Tile { call: self, start, count, F, outputs, svd, is_decomposed: false, scratch }
-    }
-
+impl<E: Kernels> Call<'_, E> {
     /// The guard of stores past the caches. A call without them has none: ordinary stores would wait for it.
     pub(super) fn fence(&self) -> Option<NonTemporal> {
         (self.streams && self.layout == Layout::Lines).then(NonTemporal::new)
@@ -61,6 +48,26 @@ impl<'a, E: Kernels> Call<'a, E> {
         served: u64,
     ) -> Sink<'t, E> {
         Sink { to, layout: self.layout, non_temporal: fence, served }
+    }
+}
+
+/// A tile of a call that a thread computes in its memory.
+pub(super) struct Job<'a, E> {
+    pub(super) call: Call<'a, E>,
+    pub(super) workspace: &'a mut Workspace<E>,
+    /// Number of the first point.
+    pub(super) start: usize,
+    /// Number of points.
+    pub(super) count: usize,
+}
+
+impl<'a, E: Kernels> Job<'a, E> {
+    /// The tile of points with these deformation gradients.
+    pub(super) fn points(self, F: &'a [E]) -> Tile<'a, E> {
+        let Self { call, workspace, start, count } = self;
+        let Workspace { F: lines, svd, scratch, .. } = workspace;
+        let F = Source::new(call.backend, call.layout, F, lines);
+        Tile { call, start, count, F, outputs: Outputs::Points, svd, is_decomposed: false, scratch }
     }
 }
 
