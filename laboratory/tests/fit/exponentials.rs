@@ -74,8 +74,8 @@ fn what_a_factor_of_zero_hides_is_not_indifferent() -> Outcome {
 
 #[test]
 fn at_an_edge_no_one_is_sent_back_to_it() -> Outcome {
-    // What is worth no step is 1e-10 of Σ r²; half of that of its root. Rounding at the edge, where moduli cancel,
-    // hides up to 1e-6 from one in seven starts.
+    // What is worth no step is 1e-10 of Σ r²; half of that of its root. Rounding at the edge, where moduli
+    // cancel, hides up to 1e-6 from one in seven starts.
     for (beta, hidden) in [(1.0, 1e-10), (0.5, 1e-6)] {
         let start = of_numbers(EXPONENTIALS, &[4.98e6, 0.0152, 2.15, 1e7, 0.15, beta, 2e7])?;
         let found = fitted(&start, &alone())?;
