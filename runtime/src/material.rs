@@ -16,6 +16,7 @@
 //! This module is independent of matrices: [`crate::point`] computes the stress from the derivatives.
 
 use crate::lanes::{Mask, Real, Scalar};
+use crate::message::number;
 
 pub(crate) mod condition;
 pub(crate) mod constructor;
@@ -311,11 +312,15 @@ impl Moduli {
     /// ```
     ///
     /// # Errors
-    /// [`MaterialError::YoungPoisson`] unless E > 0 and −1 < ν < 1/2, both finite.
+    /// [`MaterialError::Other`] unless E > 0 and −1 < ν < 1/2, both finite.
     pub fn from_young_poisson(young: f64, poisson: f64) -> Result<Self, MaterialError> {
         let is_elastic = young > 0.0 && young.is_finite() && poisson > -1.0 && poisson < 0.5;
         if !is_elastic {
-            return Err(MaterialError::YoungPoisson { young, poisson });
+            let [young, poisson] = [young, poisson].map(number);
+            return Err(MaterialError::Other(format!(
+                "Young's modulus is {young} Pa and Poisson's ratio {poisson}; give a finite E > 0 and -1 < ν < 0.5, such as \
+                 0.499 for a nearly incompressible solid"
+            )));
         }
         Ok(Self {
             mu: young / (2.0 * (1.0 + poisson)),

@@ -1,7 +1,7 @@
 //! Functions as parameters: they may end, and a material ends with them. Energies with splines are judged as
 //! text, by `tests/tests/declarations`.
 
-use piola::material::{Declared, MaterialError};
+use piola::material::Declared;
 use piola::{Inversion, Material, Real, Univariate, material};
 
 /// φ(s) = −limit/2 ln(1 − s/limit) for s < limit.
@@ -165,10 +165,9 @@ fn a_function_of_a_stretch_may_end_at_zero() {
 #[test]
 fn a_function_is_defined_at_rest() {
     let error = ByInvariants::new(2.0, 50.0, Locking { limit: 1.0 }).expect_err("1 is not below 1");
-    assert_eq!(error, MaterialError::UndefinedRest);
-    assert!(error.to_string().contains("not defined at rest"));
+    assert!(error.to_string().contains("not defined at rest"), "{error}");
     let error = InSums::new(1.0, [1.0], Locking { limit: -1.0 }).expect_err("0 is not below −1");
-    assert_eq!(error, MaterialError::UndefinedRest);
+    assert!(error.to_string().contains("not defined at rest"), "{error}");
 }
 
 /// Materials by invariants that end at different points, side by side on every back end.

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::condition::{Condition, argument, number};
 use super::{Argument, Declared, Inversion, Material, MaterialError, Moduli, Parameter, Text};
+use crate::message;
 
 /// The largest exponent that is a parameter: that of `.powi(…)` in a declaration.
 const LARGEST_WHOLE: u32 = 64;
@@ -12,8 +13,7 @@ const LARGEST_WHOLE: u32 = 64;
 /// the conditions of `admissible(…)`. There is one slice of values for each parameter, empty for a function.
 ///
 /// # Errors
-/// [`MaterialError::NotFinite`], [`MaterialError::NotWhole`], [`MaterialError::Violated`] with the first that
-/// is not.
+/// [`MaterialError::Other`], [`MaterialError::Violated`] with the first that is not.
 pub fn check_parameters(
     parameters: &[Parameter],
     values: &[&[f64]],
@@ -26,7 +26,7 @@ pub fn check_parameters(
         if parameter.is_whole() {
             whole_number(parameter, index, value)?;
         } else if !value.is_finite() {
-            return Err(MaterialError::NotFinite { given: argument(parameter, index, value) });
+            return Err(wrong(parameter, index, value, "it must be a finite number"));
         }
     }
     match violated(parameters, values, admissible) {
@@ -62,7 +62,7 @@ pub fn same_length(list: (&str, usize), first: (&str, usize)) -> Result<(), Mate
 /// Checks that a material with these parameters can be extended, if that is requested.
 ///
 /// # Errors
-/// [`MaterialError::Threshold`] unless 0 < ε < 1, [`MaterialError::DoesNotRestore`] unless the conditions of
+/// [`MaterialError::Other`] unless 0 < ε < 1, [`MaterialError::DoesNotRestore`] unless the conditions of
 /// `extend(…)` hold.
 pub fn extends(
     parameters: &[Parameter],
@@ -72,7 +72,10 @@ pub fn extends(
 ) -> Result<(), MaterialError> {
     let Inversion::Extend { epsilon } = inversion else { return Ok(()) };
     if !(epsilon > 0.0 && epsilon < 1.0) {
-        return Err(MaterialError::Threshold { epsilon });
+        let epsilon = message::number(epsilon);
+        return Err(MaterialError::Other(format!(
+            "the extension threshold epsilon is {epsilon}; it must satisfy 0 < epsilon < 1"
+        )));
     }
     match violated(parameters, values, restoring) {
         None => Ok(()),
@@ -124,14 +127,16 @@ pub fn inside_at_rest(
 /// defined, and what cancels their stress, no declaration can promise.
 ///
 /// # Errors
-/// [`MaterialError::UndefinedRest`], [`MaterialError::UnstableRest`], [`MaterialError::StressedRest`].
+/// [`MaterialError::UnstableRest`]; [`MaterialError::Other`] for functions.
 pub fn at_rest<M: Material>(
     material: M,
     is_prestressed: bool,
     has_functions: bool,
 ) -> Result<M, MaterialError> {
     if has_functions && !material.admits([1.0f64; 3]) {
-        return Err(MaterialError::UndefinedRest);
+        let undefined = "the energy is not defined at rest, where all stretches are 1: let each of its functions admit its \
+                         argument there";
+        return Err(MaterialError::Other(undefined.to_owned()));
     }
     if is_prestressed {
         return Ok(material);
@@ -145,10 +150,20 @@ pub fn at_rest<M: Material>(
         let [stress, ..] = material.gradient([1.0f64; 3]);
         let is_free = stress.abs() <= 1e-9 * (2.0 * moduli.mu + moduli.lambda.abs());
         if !is_free {
-            return Err(MaterialError::StressedRest { stress });
+            return Err(stressed_rest(stress));
         }
     }
     Ok(material)
+}
+
+/// Error of a rest state with a stress ψ1(1, 1, 1), Pa, which functions given as parameters do not cancel.
+pub(super) fn stressed_rest(stress: f64) -> MaterialError {
+    MaterialError::Other(format!(
+        "the rest state would carry a stress of {} Pa: the derivatives of the functions do not cancel there. Pass \
+         functions whose derivatives do, or change the energy: write `I1b`, `I2b` for `I1`, `I2`, or add `- p * J.ln()` \
+         with this stress as a parameter `p`",
+        message::number(stress)
+    ))
 }
 
 /// True if the sign of a tiny stretch decides about the domain, for example if a function of a stretch ends
@@ -228,7 +243,7 @@ impl<'a> Values<'a> {
     /// The next parameter, one whole exponent.
     ///
     /// # Errors
-    /// [`MaterialError::Shape`], [`MaterialError::NotWhole`].
+    /// [`MaterialError::Shape`], [`MaterialError::Other`].
     pub fn whole_number(&mut self) -> Result<u32, MaterialError> {
         let value = self.number()?;
         whole_number(self.latest(), 0, value)
@@ -237,7 +252,7 @@ impl<'a> Values<'a> {
     /// The next parameter, a list of N whole exponents.
     ///
     /// # Errors
-    /// [`MaterialError::Shape`], [`MaterialError::NotWhole`].
+    /// [`MaterialError::Shape`], [`MaterialError::Other`].
     pub fn whole_list<const N: usize>(&mut self) -> Result<[u32; N], MaterialError> {
         let values = self.list::<N>()?;
         let mut list = [0; N];
@@ -250,7 +265,7 @@ impl<'a> Values<'a> {
     /// The next parameter, a list of any number of whole exponents.
     ///
     /// # Errors
-    /// [`MaterialError::NotWhole`].
+    /// [`MaterialError::Other`].
     pub fn whole_numbers(&mut self) -> Result<Vec<u32>, MaterialError> {
         let values = self.slice().iter().enumerate();
         values.map(|(index, &value)| whole_number(self.latest(), index, value)).collect()
@@ -272,5 +287,11 @@ fn whole_number(parameter: &Parameter, index: usize, value: f64) -> Result<u32, 
     if value.fract() == 0.0 && (0.0..=f64::from(LARGEST_WHOLE)).contains(&value) {
         return Ok(value as u32);
     }
-    Err(MaterialError::NotWhole { given: argument(parameter, index, value) })
+    Err(wrong(parameter, index, value, "such an exponent must be a whole number from 0 to 64"))
+}
+
+/// Error of a number among the parameters, with the demand that it does not meet.
+fn wrong(parameter: &Parameter, index: usize, value: f64, demand: &str) -> MaterialError {
+    let name = argument(parameter, index, value).name();
+    MaterialError::Other(format!("`{name}` is {}; {demand}", message::number(value)))
 }

@@ -9,16 +9,6 @@ use crate::message::number;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MaterialError {
-    /// A parameter is infinite or NaN.
-    NotFinite {
-        /// The parameter with its value.
-        given: Argument,
-    },
-    /// An exponent that is a parameter is not a whole number from 0 to 64.
-    NotWhole {
-        /// The exponent with its value.
-        given: Argument,
-    },
     /// A condition of the declaration does not hold.
     Violated {
         /// The condition as declared.
@@ -31,31 +21,12 @@ pub enum MaterialError {
         /// The moduli that follow from the parameters.
         moduli: Moduli,
     },
-    /// Young's modulus is not positive, or Poisson's ratio outside −1 < ν < 1/2.
-    YoungPoisson {
-        /// Young's modulus, Pa.
-        young: f64,
-        /// Poisson's ratio.
-        poisson: f64,
-    },
     /// The rest state is outside the domain, whose boundary depends on parameters.
     RestOutside {
         /// The condition of the domain as declared.
         condition: Text,
         /// The numbers among the parameters that it names, as given.
         given: Vec<Argument>,
-    },
-    /// The rest state is outside the domain, which is narrowed by functions given as parameters.
-    UndefinedRest,
-    /// The rest state carries stress, which functions given as parameters do not cancel.
-    StressedRest {
-        /// ψ1(1, 1, 1), Pa.
-        stress: f64,
-    },
-    /// The threshold of the extension is outside 0 < ε < 1.
-    Threshold {
-        /// The threshold as given.
-        epsilon: f64,
     },
     /// The material has no extension.
     NoExtension {
@@ -76,18 +47,13 @@ pub enum MaterialError {
         /// The expected shape in words.
         expected: String,
     },
+    /// Another reason, in words: a number that is out of range, or functions that do not suit the rest state.
+    Other(String),
 }
 
 impl fmt::Display for MaterialError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotFinite { given } => {
-                write!(f, "`{}` is {}; it must be a finite number", given.name(), number(given.value))
-            }
-            Self::NotWhole { given } => {
-                let (name, value) = (given.name(), number(given.value));
-                write!(f, "`{name}` is {value}; such an exponent must be a whole number from 0 to 64")
-            }
             Self::Violated { condition, given } => {
                 write!(f, "`{condition}` must hold, but {}", listed(given))
             }
@@ -109,13 +75,6 @@ impl fmt::Display for MaterialError {
                 "the rest state would be unstable: the small-strain shear modulus is {} Pa and must be positive",
                 number(moduli.mu)
             ),
-            Self::YoungPoisson { young, poisson } => write!(
-                f,
-                "Young's modulus is {} Pa and Poisson's ratio {}; give a finite E > 0 and -1 < ν < 0.5, such as 0.499 for \
-                 a nearly incompressible solid",
-                number(*young),
-                number(*poisson)
-            ),
             Self::RestOutside { condition, given } => {
                 write!(
                     f,
@@ -128,23 +87,6 @@ impl fmt::Display for MaterialError {
                     write!(f, ", but {}; change these parameters", listed(given))
                 }
             }
-            Self::UndefinedRest => f.write_str(
-                "the energy is not defined at rest, where all stretches are 1: let each of its functions admit its argument there",
-            ),
-            Self::StressedRest { stress } => write!(
-                f,
-                "the rest state would carry a stress of {} Pa: the derivatives of the functions do not cancel there. Pass \
-                 functions whose derivatives do, or change the energy: write `I1b`, `I2b` for `I1`, `I2`, or add `- p * J.ln()` \
-                 with this stress as a parameter `p`",
-                number(*stress)
-            ),
-            Self::Threshold { epsilon } => {
-                write!(
-                    f,
-                    "the extension threshold epsilon is {}; it must satisfy 0 < epsilon < 1",
-                    number(*epsilon)
-                )
-            }
             Self::NoExtension { material, reason } => {
                 write!(f, "{material} has no extension beyond its domain")?;
                 reason.as_ref().map_or(Ok(()), |reason| write!(f, ": {reason}"))?;
@@ -156,7 +98,7 @@ impl fmt::Display for MaterialError {
                  use `Inversion::Refuse` or other parameters",
                 listed(given)
             ),
-            Self::Shape { expected } => write!(f, "{expected}"),
+            Self::Shape { expected: message } | Self::Other(message) => f.write_str(message),
         }
     }
 }
@@ -196,12 +138,12 @@ fn listed(given: &[Argument]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::constructor::stressed_rest;
 
     #[test]
     fn a_rest_state_is_refused_with_its_cause_and_a_remedy() {
         let outside = MaterialError::RestOutside { condition: "I1b < 2.0".into(), given: Vec::new() };
         let unstable = |mu, lambda| MaterialError::UnstableRest { moduli: Moduli { mu, lambda } };
-        let stressed = MaterialError::StressedRest { stress: 1.0 };
         for (error, expected) in [
             (outside, "change the parameters that it depends on"),
             (unstable(-1.0, 1.0), "shear modulus is -1 Pa and must be positive"),
@@ -209,7 +151,7 @@ mod tests {
             // ν = 1/2, and 0/0.
             (unstable(1.0, f64::INFINITY), "divide by zero or overflow"),
             (unstable(f64::NAN, 1.0), "divide by zero or overflow"),
-            (stressed, "`I1b`, `I2b` for `I1`, `I2`, or add `- p * J.ln()`"),
+            (stressed_rest(1.0), "`I1b`, `I2b` for `I1`, `I2`, or add `- p * J.ln()`"),
         ] {
             let text = error.to_string();
             assert!(text.contains(expected), "{text}");
