@@ -6,11 +6,3 @@
 
 mod arguments;
 mod batches;
-
-use piola::material;
-
-/// Neo-Hookean solid, moduli in Pa.
-#[material(domain(J > 0.0), extend)]
-fn Rubber([l1, l2, l3]: [f64; 3], mu: f64, lambda: f64) -> f64 {
-    mu / 2.0 * (I1 - 3.0) - mu * J.ln() + lambda / 2.0 * J.ln().powi(2)
-}
