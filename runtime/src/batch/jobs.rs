@@ -22,6 +22,7 @@ pub(super) struct Work<'a, E, const I: usize, const O: usize> {
 
 impl<E: Kernels, const I: usize, const O: usize> Work<'_, E, I, O> {
     /// Splits off the first `tiles` tiles, or all that are left if there are fewer.
+    #[inline]
     fn split_off(&mut self, tiles: usize) -> Self {
         let end = self.points.end.min(self.points.start + tiles * TILE);
         let points = self.points.start..end;

@@ -46,12 +46,14 @@ impl<E: Kernels> Arrays<E> {
     }
 
     /// Runs the task with the material, filter and back end of a batch.
+    #[inline]
     pub fn run(&mut self, batch: &Batch<'_, E>) {
         let batch = batch.with_layout(self.layout);
         black_box(self.call(&batch)).expect("slices of matching lengths");
         black_box(&self.outputs);
     }
 
+    #[inline]
     fn call(&mut self, batch: &Batch<'_, E>) -> Result<(), LengthError> {
         let ([F, second], [first, large]) = (&self.inputs, &mut self.outputs);
         match self.task {
