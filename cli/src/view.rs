@@ -1,8 +1,8 @@
 //! A scene in a browser, to be pulled with the mouse: [`Viewer::start`] serves one page on this machine.
 //!
 //! The body and its interactions are in `piola-viewer`. `driver` runs it on a thread of its own; `connection`
-//! exchanges messages between it and a page; `server`, `request` and `token` control access, `patience` the
-//! time limits of silent pages, and `page` holds the files of the page.
+//! exchanges messages between it and a page; `server`, `request` and `token` control access, and `page` holds
+//! the files of the page.
 //!
 //! Nothing is loaded from elsewhere, and only requests of this viewer's pages are answered. A random token in
 //! the [address of the page](Viewer::url) keeps out other users of this machine; whoever has that address can
@@ -11,7 +11,6 @@
 mod connection;
 mod driver;
 mod page;
-mod patience;
 mod request;
 mod server;
 mod token;

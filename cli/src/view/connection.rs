@@ -1,9 +1,11 @@
 //! The socket of a page: turns its messages into orders, and sends back the answers.
 //!
 //! One thread reads and writes in turn. While a page waits for a frame, it listens in short turns; otherwise
-//! in long ones.
+//! in long ones. A paused page may be silent for hours: on one machine the system reports each page that goes
+//! away.
 
-use std::io::Read;
+use std::io::{ErrorKind, Read};
+use std::net::TcpStream;
 use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
@@ -14,8 +16,6 @@ use tungstenite::handshake::server::{Response, write_response};
 use tungstenite::protocol::frame::coding::CloseCode;
 use tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};
 use tungstenite::{Bytes, Error as SocketError, Message as Envelope, Utf8Bytes, WebSocket};
-
-use super::patience::{ANSWER, PING, SILENCE, TimedStream, is_silence};
 
 /// The longest message that makes sense is a declaration with its parameters.
 const MAX_MESSAGE: usize = 16 * 1024;
@@ -28,16 +28,13 @@ const LAST_WORDS: Duration = Duration::from_secs(1);
 
 /// Serves a page until it is closed, goes away or breaks the protocol; none of these is an error.
 pub(super) fn serve(
-    mut stream: TimedStream,
+    mut stream: TcpStream,
     response: &Response,
     number: u64,
     topology: Bytes,
     orders: &SyncSender<Order>,
 ) {
-    stream.allow(ANSWER);
-    let greeting = stream.stream.set_nodelay(true).map_err(SocketError::from);
-    let greeting = greeting.and_then(|()| write_response(&mut stream, response));
-    if greeting.is_err() {
+    if stream.set_nodelay(true).is_err() || write_response(&mut stream, response).is_err() {
         return;
     }
     let limits = WebSocketConfig::default()
@@ -45,8 +42,7 @@ pub(super) fn serve(
         .max_frame_size(Some(MAX_MESSAGE))
         .read_buffer_size(MAX_MESSAGE);
     let socket = WebSocket::from_raw_socket(stream, Role::Server, Some(limits));
-    let conversation = Conversation::new(number);
-    let mut connection = Connection { socket, heard: Instant::now(), is_pinged: false, orders, conversation };
+    let mut connection = Connection { socket, orders, conversation: Conversation::new(number) };
     if connection.send(Envelope::Binary(topology)).is_ok() {
         let end = connection.talk();
         connection.part(end);
@@ -54,11 +50,7 @@ pub(super) fn serve(
 }
 
 struct Connection<'a> {
-    socket: WebSocket<TimedStream>,
-    /// Time of the last message or answer to a ping from the page.
-    heard: Instant,
-    /// True if a ping has been sent since then.
-    is_pinged: bool,
+    socket: WebSocket<TcpStream>,
     orders: &'a SyncSender<Order>,
     conversation: Conversation,
 }
@@ -81,7 +73,7 @@ enum End {
 impl Connection<'_> {
     fn talk(&mut self) -> End {
         loop {
-            if let Err(end) = self.listen().and_then(|()| self.reply()).and_then(|()| self.ping()) {
+            if let Err(end) = self.listen().and_then(|()| self.reply()) {
                 return end;
             }
         }
@@ -90,13 +82,8 @@ impl Connection<'_> {
     /// Takes one message, or none in this turn.
     fn listen(&mut self) -> Result<(), End> {
         let turn = if self.conversation.waits { TURN } else { LONG_TURN };
-        self.socket.get_mut().allow(turn);
-        let read = self.socket.read();
-        if read.is_ok() {
-            self.heard = Instant::now();
-            self.is_pinged = false;
-        }
-        match read {
+        let limited = self.socket.get_ref().set_read_timeout(Some(turn)).map_err(SocketError::from);
+        match limited.and_then(|()| self.socket.read()) {
             Ok(Envelope::Text(text)) => match self.conversation.order(&text) {
                 Ok(Some(order)) => self
                     .orders
@@ -107,7 +94,12 @@ impl Connection<'_> {
             },
             Ok(Envelope::Binary(_)) => Err(End::Because(CloseCode::Unsupported, "messages are text".into())),
             Ok(Envelope::Ping(_) | Envelope::Pong(_) | Envelope::Close(_) | Envelope::Frame(_)) => Ok(()),
-            Err(SocketError::Io(error)) if is_silence(&error) => Ok(()),
+            // Errors of systems when a read takes too long.
+            Err(SocketError::Io(error))
+                if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) =>
+            {
+                Ok(())
+            }
             Err(SocketError::Capacity(error)) => Err(End::Because(CloseCode::Size, error.to_string())),
             Err(SocketError::Utf8(error)) => Err(End::Because(CloseCode::Invalid, error)),
             Err(SocketError::Protocol(error)) => Err(End::Because(CloseCode::Protocol, error.to_string())),
@@ -125,21 +117,7 @@ impl Connection<'_> {
         Ok(())
     }
 
-    /// Pings a silent page, and disconnects it if there is no answer.
-    fn ping(&mut self) -> Result<(), End> {
-        let silence = self.heard.elapsed();
-        if silence > SILENCE {
-            return Err(End::Because(CloseCode::Away, "the page does not answer".into()));
-        }
-        if silence > PING && !self.is_pinged {
-            self.is_pinged = true;
-            self.send(Envelope::Ping(Bytes::new()))?;
-        }
-        Ok(())
-    }
-
     fn send(&mut self, envelope: Envelope) -> Result<(), End> {
-        self.socket.get_mut().allow(ANSWER);
         self.socket.send(envelope).map_err(|_| End::Gone)
     }
 
@@ -148,13 +126,13 @@ impl Connection<'_> {
     fn part(&mut self, end: End) {
         let End::Because(code, reason) = end else { return };
         let reason = reason.chars().take(100).collect::<String>();
-        self.socket.get_mut().allow(LAST_WORDS);
         if self.socket.close(Some(CloseFrame { code, reason: reason.into() })).is_err() {
             return;
         }
         // The bytes themselves: a socket must not be read on after an error.
-        let stream = self.socket.get_mut();
-        let mut words = [0; 4096];
-        while stream.read(&mut words).is_ok_and(|count| count > 0) {}
+        let (stream, mut words, start) = (self.socket.get_mut(), [0; 4096], Instant::now());
+        // If it fails, the limit of a turn stays.
+        let _ = stream.set_read_timeout(Some(LAST_WORDS));
+        while start.elapsed() < LAST_WORDS && stream.read(&mut words).is_ok_and(|count| count > 0) {}
     }
 }

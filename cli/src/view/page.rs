@@ -24,8 +24,11 @@ const FILES: &[(&str, &str)] = files![
     "three/LICENSE",
 ];
 
-/// The answer to a request for a file: header and content.
-pub(super) fn file(path: &str) -> (String, &'static str) {
+/// An answer to a request: header and content.
+pub(super) type Answer = (String, &'static str);
+
+/// The answer to a request for a file.
+pub(super) fn file(path: &str) -> Answer {
     let wanted = if path == "/" { "index.html" } else { path.trim_start_matches('/') };
     let Some((name, content)) = FILES.iter().find(|(name, _)| *name == wanted) else {
         return denied("404 Not Found", "there is no such file");
@@ -39,7 +42,8 @@ pub(super) fn file(path: &str) -> (String, &'static str) {
     (header("200 OK", kind, content.len()), content)
 }
 
-pub(super) fn denied(status: &str, reason: &'static str) -> (String, &'static str) {
+/// The answer to a request that is not granted, with status and reason.
+pub(super) fn denied(status: &str, reason: &'static str) -> Answer {
     (header(status, "plain", reason.len()), reason)
 }
 

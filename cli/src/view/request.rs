@@ -6,17 +6,21 @@
 //! own.
 
 use std::io::{ErrorKind, Read};
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
 
 use tungstenite::Error;
 use tungstenite::error::ProtocolError;
 use tungstenite::handshake::machine::TryParse;
-use tungstenite::handshake::server::{Request as HttpRequest, Response, create_response};
+use tungstenite::handshake::server::{Request, Response, create_response};
 
-use super::patience::{REQUEST, TimedStream, is_silence};
+use super::page::{self, Answer};
 use super::token::Token;
 
 /// Browsers send less than one kilobyte.
 const MAX_LENGTH: usize = 16 * 1024;
+/// Limit for a whole request, which holds one of a few places; a browser sends it at once.
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// The address at which requests arrive.
 #[derive(Clone, Debug)]
@@ -25,57 +29,52 @@ pub(super) struct Door {
     pub(super) token: Token,
 }
 
-/// A request, judged.
-#[derive(Debug)]
-pub(super) enum Request {
-    /// Request for a file of the page.
-    File { path: String },
-    /// Request for a socket, with the answer that opens it.
-    Socket(Response),
-    /// A request that is not answered, with status and reason.
-    Denied(&'static str, &'static str),
-}
+/// The response that opens a socket, or else the answer to any other request.
+type Judged = Result<Response, Answer>;
 
-/// Reads a request to a viewer at this address, if it comes in time.
+/// Reads a request to a viewer at this address, and judges it.
 ///
 /// `None` if the other side goes away, which browsers do with connections that they open in advance.
-pub(super) fn read(stream: &mut TimedStream, door: &Door) -> Option<Request> {
-    stream.allow(REQUEST);
+pub(super) fn read(stream: &mut TcpStream, door: &Door) -> Option<Judged> {
+    let start = Instant::now();
     let mut text = Vec::new();
     let mut part = [0; 4096];
-    loop {
+    while let Some(left) = PATIENCE.checked_sub(start.elapsed()).filter(|left| !left.is_zero()) {
+        stream.set_read_timeout(Some(left)).ok()?;
         match stream.read(&mut part) {
             Ok(0) => return None,
             Ok(count) => text.extend_from_slice(&part[..count]),
-            Err(error) if error.kind() == ErrorKind::Interrupted => continue,
-            Err(error) if is_silence(&error) => {
-                return Some(Request::Denied("408 Request Timeout", "the request took too long"));
-            }
-            Err(_) => return None,
+            // The first two are errors of systems when a read takes too long.
+            Err(error) => match error.kind() {
+                ErrorKind::WouldBlock | ErrorKind::TimedOut | ErrorKind::Interrupted => continue,
+                _ => return None,
+            },
         }
-        if let Some(request) = parse(&text, door) {
-            return Some(request);
+        if let Some(judged) = parse(&text, door) {
+            return Some(judged);
         }
         if text.len() > MAX_LENGTH {
-            return Some(Request::Denied("431 Request Header Fields Too Large", "the request is too long"));
+            return Some(Err(page::denied("431 Request Header Fields Too Large", "the request is too long")));
         }
     }
+    Some(Err(page::denied("408 Request Timeout", "the request took too long")))
 }
 
 /// Parses and judges a request; `None` if more is to come.
-fn parse(text: &[u8], door: &Door) -> Option<Request> {
-    match HttpRequest::try_parse(text) {
+fn parse(text: &[u8], door: &Door) -> Option<Judged> {
+    match Request::try_parse(text) {
         Ok(None) => None,
         // A page that sends before the socket stands breaks the protocol.
         Ok(Some((length, request))) if length == text.len() => Some(judge(&request, door)),
         Err(Error::Protocol(ProtocolError::WrongHttpMethod)) => {
-            Some(Request::Denied("405 Method Not Allowed", "files can be read and nothing else"))
+            Some(Err(page::denied("405 Method Not Allowed", "files can be read and nothing else")))
         }
-        _ => Some(Request::Denied("400 Bad Request", "the request is malformed")),
+        _ => Some(Err(page::denied("400 Bad Request", "the request is malformed"))),
     }
 }
 
-fn judge(request: &HttpRequest, Door { port, token }: &Door) -> Request {
+fn judge(request: &Request, Door { port, token }: &Door) -> Judged {
+    let forbidden = |reason| Err(page::denied("403 Forbidden", reason));
     // Of two values of a header, none is taken: which one counts is not defined.
     let header = |name: &str| {
         let mut values = request.headers().get_all(name).iter();
@@ -84,25 +83,22 @@ fn judge(request: &HttpRequest, Door { port, token }: &Door) -> Request {
     let is_own =
         |host: &str| [format!("127.0.0.1:{port}"), format!("localhost:{port}")].iter().any(|own| own == host);
     if !header("host").is_some_and(is_own) {
-        return Request::Denied("403 Forbidden", "this page is served to 127.0.0.1 and localhost only");
+        return forbidden("this page is served to 127.0.0.1 and localhost only");
     }
     let from_own = header("origin").and_then(|origin| origin.strip_prefix("http://")).is_some_and(is_own);
     if request.headers().contains_key("origin") && !from_own {
-        return Request::Denied("403 Forbidden", "the request comes from another page");
+        return forbidden("the request comes from another page");
     }
     let path = request.uri().path();
     if ["/", "/index.html", "/socket"].contains(&path) && !token.is_in(request.uri().query()) {
-        return Request::Denied(
-            "403 Forbidden",
+        return forbidden(
             "Open the address that `piola view` has printed: it ends with a token, which this one lacks.\n",
         );
     }
     match path {
-        "/socket" if !from_own => Request::Denied("403 Forbidden", "a socket needs an origin"),
-        "/socket" => create_response(request).map_or(
-            Request::Denied("400 Bad Request", "the page's socket is a WebSocket of version 13"),
-            Request::Socket,
-        ),
-        path => Request::File { path: path.into() },
+        "/socket" if !from_own => forbidden("a socket needs an origin"),
+        "/socket" => create_response(request)
+            .map_err(|_| page::denied("400 Bad Request", "the page's socket is a WebSocket of version 13")),
+        path => Err(page::file(path)),
     }
 }
