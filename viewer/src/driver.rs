@@ -11,9 +11,9 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::time::Duration;
 
-use piola_bodies::step::StepReport;
 use piola_declare::Energy;
 use piola_scenes::error::Error;
+use rayon::ThreadPool;
 
 use crate::protocol::{Act, Run, Words};
 use crate::session::Session;
@@ -26,20 +26,6 @@ const TIMED: usize = 32;
 /// Longest lag of steps behind the clock on the wall before the clock is set back: a body too slow for real
 /// time is played slowly, and does not race when it could.
 const LAG: Duration = Duration::from_millis(100);
-
-/// Environment of a driver: a clock, and the execution of steps.
-pub trait Host {
-    /// Time since a fixed moment.
-    fn now(&self) -> Duration;
-
-    /// Makes a step.
-    ///
-    /// # Errors
-    /// The error of [`Session::step`].
-    fn step(&self, session: &mut Session) -> Result<StepReport, Error> {
-        session.step()
-    }
-}
 
 /// A request of a [conversation](crate::conversation).
 #[derive(Debug)]
@@ -93,8 +79,11 @@ impl Answer {
 
 /// A session, with everything that drives it.
 #[derive(Debug)]
-pub struct Driver<H> {
-    host: H,
+pub struct Driver {
+    /// Time since a fixed moment.
+    clock: fn() -> Duration,
+    /// Threads that make the steps, or `None` for the caller.
+    threads: Option<ThreadPool>,
     session: Session,
     /// File for saved states.
     save: Option<PathBuf>,
@@ -111,12 +100,20 @@ pub struct Driver<H> {
     setup: Option<Arc<str>>,
 }
 
-impl<H: Host> Driver<H> {
-    /// A driver of a session, with a file for saved states.
-    pub fn new(host: H, session: Session, save: Option<PathBuf>) -> Self {
+impl Driver {
+    /// A driver of a session, with the time since a fixed moment, threads that make the steps instead of the
+    /// caller, and a file for saved states.
+    #[must_use]
+    pub fn new(
+        clock: fn() -> Duration,
+        threads: Option<ThreadPool>,
+        session: Session,
+        save: Option<PathBuf>,
+    ) -> Self {
         Self {
-            before: host.now(),
-            host,
+            before: clock(),
+            clock,
+            threads,
             session,
             save,
             stats: FrameStats { real_time: true, ..FrameStats::default() },
@@ -129,26 +126,23 @@ impl<H: Host> Driver<H> {
 
     /// Makes a step if one is due, and answers the pages.
     pub fn turn(&mut self) {
-        if !self.stats.paused && self.due().is_some_and(|due| due <= self.host.now()) {
+        if !self.stats.paused && self.due() <= (self.clock)() {
             self.step();
         }
         self.answer();
     }
 
-    /// Time for which there is nothing to do without an order; `None` if that is for ever.
+    /// Time for which there is nothing to do without an order; `None` if the body is paused.
     #[must_use]
     pub fn rest(&self) -> Option<Duration> {
-        let due = if self.stats.paused { None } else { self.due() };
-        due.map(|due| due.saturating_sub(self.host.now()))
+        (!self.stats.paused).then(|| self.due().saturating_sub((self.clock)()))
     }
 
-    /// Time at which the next step is due; `None` if that is beyond all clocks.
-    fn due(&self) -> Option<Duration> {
-        if !self.stats.real_time {
-            return Some(self.before);
-        }
-        let dt = Duration::try_from_secs_f64(self.session.play().settings.dt).ok()?;
-        self.before.checked_add(dt)
+    /// Time at which the next step is due.
+    fn due(&self) -> Duration {
+        // A time step of a session has a million seconds at most.
+        let dt = Duration::try_from_secs_f64(self.session.play().settings.dt).unwrap_or_default();
+        if self.stats.real_time { self.before + dt } else { self.before }
     }
 
     /// Executes an order between two steps.
@@ -163,7 +157,7 @@ impl<H: Host> Driver<H> {
             Order::Run(Run::Pause { paused }) => {
                 self.stats.paused = paused;
                 self.stats.trouble = None;
-                self.before = self.host.now();
+                self.before = (self.clock)();
             }
             Order::Run(Run::Step {}) => {
                 self.stats.paused = true;
@@ -207,9 +201,12 @@ impl<H: Host> Driver<H> {
     }
 
     fn step(&mut self) {
-        let start = self.host.now();
-        let result = self.host.step(&mut self.session);
-        let took = self.host.now().saturating_sub(start);
+        let (start, session) = ((self.clock)(), &mut self.session);
+        let result = match &self.threads {
+            Some(threads) => threads.install(|| session.step()),
+            None => session.step(),
+        };
+        let took = (self.clock)().saturating_sub(start);
         match result {
             Ok(report) => {
                 if self.times.len() == TIMED {
@@ -228,8 +225,7 @@ impl<H: Host> Driver<H> {
         }
         self.present.state += 1;
 
-        let now = self.host.now();
-        let due = self.due().unwrap_or(now);
+        let (now, due) = ((self.clock)(), self.due());
         self.before = if self.stats.real_time && due + LAG > now { due } else { now };
     }
 

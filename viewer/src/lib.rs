@@ -5,8 +5,8 @@
 //! [`driver`] makes its steps when they are due and never waits for a page; [`conversation`] turns messages
 //! of the [`protocol`] into orders for it, and its answers into messages. [`state`] is the file.
 //!
-//! The crate opens no socket and has no thread of its own. Its [`Host`](driver::Host), a server on this
-//! machine or a page without one, provides the time.
+//! The crate opens no socket and starts no thread. The program around it, a server on this machine or a page
+//! without one, provides the time, and threads if it has any.
 
 pub mod conversation;
 pub mod driver;

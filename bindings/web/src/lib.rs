@@ -14,7 +14,7 @@ use piola_scenes::error::Error;
 use piola_scenes::scene::Scene;
 use piola_scenes::settings::Settings;
 use piola_viewer::conversation::Conversation;
-use piola_viewer::driver::{Driver, Host};
+use piola_viewer::driver::Driver;
 use piola_viewer::protocol::Words;
 use piola_viewer::session::Session;
 use piola_viewer::topology;
@@ -29,7 +29,7 @@ const NUMBERS: u32 = 2;
 struct Border {
     /// Message written by the page.
     heard: Vec<u8>,
-    behind: Option<(Driver<Browser>, Conversation)>,
+    behind: Option<(Driver, Conversation)>,
     /// Queue of messages for the page.
     words: VecDeque<Words>,
     /// Message that the page reads now.
@@ -47,13 +47,9 @@ unsafe extern "C" {
     safe fn now() -> f64;
 }
 
-struct Browser;
-
-impl Host for Browser {
-    fn now(&self) -> Duration {
-        // A clock that is not a number, or runs backwards, stands still.
-        Duration::try_from_secs_f64(1e-3 * now()).unwrap_or_default()
-    }
+/// Time by the clock of the page: one that is not a number, or runs backwards, stands still.
+fn clock() -> Duration {
+    Duration::try_from_secs_f64(1e-3 * now()).unwrap_or_default()
 }
 
 /// Allocates memory for `length` bytes, and returns its address.
@@ -73,7 +69,7 @@ pub extern "C" fn begin() -> bool {
     BORDER.with_borrow_mut(|border| match session(&String::from_utf8_lossy(&border.heard)) {
         Ok(session) => {
             border.words = [Words::Binary(topology(&session.play().geometry).into())].into();
-            border.behind = Some((Driver::new(Browser, session, None), Conversation::new(0)));
+            border.behind = Some((Driver::new(clock, None, session, None), Conversation::new(0)));
             true
         }
         Err(error) => {
