@@ -15,14 +15,6 @@ pub enum Error {
     /// A scene cannot start or continue.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The page cannot be served at the port.
-    #[error("cannot serve the page at port {port}: {source}; name another one with --port, or 0 for any")]
-    Port {
-        /// The port as given.
-        port: u16,
-        /// Error of the system.
-        source: io::Error,
-    },
     /// The system refuses a thread, a signal handler, a random number or output.
     #[error("cannot {action}: {source}")]
     System {

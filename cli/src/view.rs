@@ -59,9 +59,13 @@ impl Viewer {
     /// button is pressed, the state is written to a file, or without one kept in memory.
     ///
     /// # Errors
-    /// [`Error::Port`] or [`Error::System`].
+    /// [`SceneError::Usage`] for a port at which nothing can be served, or [`Error::System`].
     pub fn start(session: Session, port: u16, save: Option<PathBuf>) -> Result<Self, Error> {
-        let no_port = |source| Error::Port { port, source };
+        let no_port = |source: std::io::Error| {
+            Error::usage(format_args!(
+                "cannot serve the page at port {port}: {source}; name another one with --port, or 0 for any"
+            ))
+        };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(no_port)?;
         let address = listener.local_addr().map_err(no_port)?;
         let token = Token::new()?;

@@ -51,7 +51,8 @@ impl Conversation {
     /// # Errors
     /// The reason why it is not a message.
     pub fn order(&mut self, text: &str) -> Result<Option<Order>, String> {
-        Ok(match Message::parse(text)? {
+        let message: Message = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        Ok(match message {
             Message::Act(act) => self.act(act)?,
             Message::Run(run) => Some(Order::Run(run)),
             Message::Look {} if self.waits => None,

@@ -6,8 +6,9 @@
 //!
 //! let text = r#"{"act": {"pull": {"drag": 1, "vertex": 7, "target": [0.0, 1.0, 0.5]}}}"#;
 //! let pull = Act::Pull { drag: 1, vertex: 7, target: [0.0, 1.0, 0.5] };
-//! assert_eq!(Message::parse(text), Ok(Message::Act(pull)));
-//! assert!(Message::parse(r#"{"act": {"jump": {}}}"#).is_err());
+//! let read = serde_json::from_str::<Message>;
+//! assert!(read(text).is_ok_and(|message| message == Message::Act(pull)));
+//! assert!(read(r#"{"act": {"jump": {}}}"#).is_err());
 //! ```
 
 use std::collections::BTreeMap;
@@ -107,14 +108,4 @@ pub enum Run {
         /// True to keep to real time.
         real_time: bool,
     },
-}
-
-impl Message {
-    /// Parses a message.
-    ///
-    /// # Errors
-    /// The reason why it is not a message.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        serde_json::from_str(text).map_err(|error| error.to_string())
-    }
 }
