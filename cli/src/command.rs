@@ -15,7 +15,6 @@ use crate::contract::Contract;
 use crate::declare::Declare;
 use crate::emit::Emit;
 use crate::error::Error;
-use crate::view::Viewer;
 
 /// Elastic bodies that collapse, invert and recover.
 ///
@@ -142,7 +141,8 @@ impl Run {
 }
 
 impl View {
-    pub(crate) fn start(self) -> Result<Viewer, Error> {
+    /// The session, the port of its page, and the file for its states.
+    pub(crate) fn session(self) -> Result<(Session, u16, Option<PathBuf>), Error> {
         let session = match &self.load {
             None => Session::new(self.choice.settings()?)?,
             Some(path) => {
@@ -150,7 +150,7 @@ impl View {
                 Session::resume(State::read(path)?.with_files(files))?
             }
         };
-        Viewer::start(session, self.port, self.save)
+        Ok((session, self.port, self.save))
     }
 }
 

@@ -10,8 +10,7 @@ use piola_scenes::error::Error as SceneError;
 
 /// Error that ends the command without success.
 #[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum Error {
+pub(crate) enum Error {
     /// A scene cannot start or continue.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -51,8 +50,7 @@ impl Error {
 
     /// The exit status of a command that ends with it: 2 if the input is to blame and nothing has begun, 1 if
     /// something failed on the way.
-    #[must_use]
-    pub fn exit_code(&self) -> u8 {
+    pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::System { .. }
             | Self::Contract { .. }

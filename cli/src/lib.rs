@@ -1,20 +1,19 @@
 //! The command `piola`: runs scenes, shows them in a browser, lists materials and puts them on the bench.
 //!
-//! Other programs can use [`render`], which draws a deforming surface in software, and [`view`], which plays
-//! a scene for a page in a browser, where it can be pulled with the mouse. Scenes themselves are in
-//! `piola-scenes`, which is independent of this crate.
+//! Other programs can use `piola-scenes`, `piola-viewer` and `piola-laboratory`, which are independent of this
+//! crate.
 
 mod bench;
 mod command;
 mod contract;
 mod declare;
 mod emit;
-pub mod error;
+mod error;
 mod materials;
 mod picture;
-pub mod render;
+mod render;
 mod signals;
-pub mod view;
+mod view;
 
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
@@ -23,6 +22,8 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use piola::__private::message::printable;
+use piola_laboratory::AtRest;
+use piola_laboratory::curve::Volume;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::{Ended, Summary};
 use piola_scenes::run::run;
@@ -105,12 +106,13 @@ fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCo
 }
 
 fn serve(arguments: View) -> Result<(), Error> {
-    let viewer = arguments.start()?;
-    let rest = viewer.at_rest;
-    say(format_args!("{} shows the scene; Ctrl-C ends it\n  at rest  {rest}", viewer.url()))?;
-    rest.warning().iter().for_each(|warning| warn(format_args!("warning: {warning}")));
-    viewer.warnings.iter().for_each(warn_of);
-    viewer.wait();
+    let (session, port, save) = arguments.session()?;
+    let at_rest = AtRest { moduli: session.play().moduli, volume: Volume::Free };
+    let warnings = session.play().warnings();
+    let server = view::open(session, port, save)?;
+    say(format_args!("{} shows the scene; Ctrl-C ends it\n  at rest  {at_rest}", server.url()))?;
+    at_rest.warning().iter().chain(&warnings).for_each(warn_of);
+    server.run();
     Ok(())
 }
 

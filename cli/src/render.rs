@@ -13,8 +13,7 @@ mod light;
 mod raster;
 mod sheet;
 
-pub use image::Image;
-pub use sheet::{Frame, contact_sheet};
+pub(crate) use sheet::{Frame, contact_sheet};
 
 type Vector = nalgebra::Vector3<f32>;
 

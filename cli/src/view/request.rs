@@ -23,7 +23,7 @@ const MAX_LENGTH: usize = 16 * 1024;
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// The address at which requests arrive.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(super) struct Door {
     pub(super) port: u16,
     pub(super) token: Token,

@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::net::{Shutdown, TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::SyncSender;
 use std::thread;
 use std::time::Duration;
@@ -20,41 +19,49 @@ const MAX_CONNECTIONS: usize = 32;
 /// Time after which a page that does not read is given up; on one machine it takes milliseconds.
 const ANSWER: Duration = Duration::from_secs(10);
 
-/// Takes connections until it is over. They are numbered from `first` on; below it, drags of a loaded state
-/// may still pull.
-pub(super) fn run(
-    listener: &TcpListener,
-    door: &Door,
-    topology: &Bytes,
-    orders: &SyncSender<Order>,
-    is_over: &AtomicBool,
-    first: u64,
-) {
-    // Each connection holds a share of it.
-    let open = Arc::new(());
-    for (stream, number) in listener.incoming().zip(first..) {
-        if is_over.load(Ordering::Relaxed) {
-            return;
-        }
-        // A connection that fails before it begins concerns no other.
-        let limited = stream.and_then(|stream| stream.set_write_timeout(Some(ANSWER)).map(|()| stream));
-        let Ok(mut stream) = limited else { continue };
-        let place = Arc::clone(&open);
-        if Arc::strong_count(&open) > 1 + MAX_CONNECTIONS {
-            answer(stream, page::denied("503 Service Unavailable", "there are too many connections"));
-            continue;
-        }
-        let (door, topology, orders) = (door.clone(), topology.clone(), orders.clone());
-        let talk = move || {
-            let _place = place;
-            match request::read(&mut stream, &door) {
-                None => {}
-                Some(Ok(response)) => connection::serve(stream, &response, number, topology, &orders),
-                Some(Err(other)) => answer(stream, other),
+/// A server of the page.
+pub(crate) struct Server {
+    pub(super) listener: TcpListener,
+    pub(super) door: Door,
+    /// The first message for each page.
+    pub(super) topology: Bytes,
+    pub(super) orders: SyncSender<Order>,
+    /// Number of the first connection; drags of a loaded state may still pull below it.
+    pub(super) first: u64,
+}
+
+impl Server {
+    /// Address of the page, with the token that opens it.
+    pub(crate) fn url(&self) -> String {
+        let Door { port, token } = &self.door;
+        format!("http://127.0.0.1:{port}/?token={token}")
+    }
+
+    /// Takes connections until the process is ended from outside.
+    pub(crate) fn run(&self) {
+        // Each connection holds a share of it.
+        let open = Arc::new(());
+        for (stream, number) in self.listener.incoming().zip(self.first..) {
+            // A connection that fails before it begins concerns no other.
+            let limited = stream.and_then(|stream| stream.set_write_timeout(Some(ANSWER)).map(|()| stream));
+            let Ok(mut stream) = limited else { continue };
+            let place = Arc::clone(&open);
+            if Arc::strong_count(&open) > 1 + MAX_CONNECTIONS {
+                answer(stream, page::denied("503 Service Unavailable", "there are too many connections"));
+                continue;
             }
-        };
-        // Where the system has no thread left, the browser sees a connection that ends.
-        let _ = thread::Builder::new().name(format!("page {number}")).spawn(talk);
+            let (door, topology, orders) = (self.door.clone(), self.topology.clone(), self.orders.clone());
+            let talk = move || {
+                let _place = place;
+                match request::read(&mut stream, &door) {
+                    None => {}
+                    Some(Ok(response)) => connection::serve(stream, &response, number, topology, &orders),
+                    Some(Err(other)) => answer(stream, other),
+                }
+            };
+            // Where the system has no thread left, the browser sees a connection that ends.
+            let _ = thread::Builder::new().name(format!("page {number}")).spawn(talk);
+        }
     }
 }
 

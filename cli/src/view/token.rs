@@ -39,9 +39,3 @@ impl fmt::Display for Token {
         f.write_str(&self.0)
     }
 }
-
-impl fmt::Debug for Token {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Token")
-    }
-}

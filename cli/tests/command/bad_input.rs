@@ -1,6 +1,8 @@
 //! Wrong input of any kind: `piola` reports the mistake and how to correct it, ends with status 2 and writes
 //! nothing.
 
+use std::net::TcpListener;
+
 use crate::{Folder, assert_contains};
 
 /// Runs `piola` in a folder with these files; `guilty` must all be in its message.
@@ -119,6 +121,9 @@ fn folders_and_files_that_are_others() {
     let state = ("state.json", String::from("{\"format\": \"piola state 0\"}"));
     check(&[state], "view --load state.json", &["state.json", "not a saved state"]);
     check(&[], "view --port 65536", &["65536"]);
+    let taken = TcpListener::bind(("127.0.0.1", 0)).and_then(|taken| Ok((taken.local_addr()?.port(), taken)));
+    let (port, _taken) = taken.expect("a port");
+    check(&[], &format!("view --port {port}"), &[&port.to_string(), "--port"]);
 }
 
 #[test]

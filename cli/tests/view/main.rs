@@ -4,13 +4,19 @@ mod files;
 mod motion;
 mod page;
 mod saving;
+#[path = "../command/shell.rs"]
+mod shell;
 mod sockets;
 
-use piola_cli::view::Viewer;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Stdio};
+
 use piola_scenes::scene::Scene;
 use piola_scenes::settings::Settings;
 use piola_viewer::protocol::Act;
 use piola_viewer::session::Session;
+
+use shell::Folder;
 
 /// Vertices on the tip of the dinosaur's tail, on its back and on a leg.
 const TAIL: usize = 5;
@@ -40,7 +46,32 @@ fn bits(session: &Session) -> String {
     serde_json::to_string(&session.state()).expect("JSON")
 }
 
-/// A viewer of the dinosaur at a port of its own.
+/// The command `piola view`, which ends with it.
+struct Viewer {
+    process: Child,
+    /// Address of the page.
+    url: String,
+}
+
+impl Viewer {
+    /// Starts it in a folder, at a port of its own.
+    fn start(folder: &Folder, arguments: &str) -> Self {
+        let mut command = folder.command(&format!("view --port 0 {arguments}"));
+        let mut process = command.stdout(Stdio::piped()).spawn().expect("the command starts");
+        let mut line = String::new();
+        let told = process.stdout.take().expect("a pipe");
+        BufReader::new(told).read_line(&mut line).expect("an address");
+        Self { process, url: line.split(' ').next().unwrap_or_default().into() }
+    }
+}
+
+impl Drop for Viewer {
+    fn drop(&mut self) {
+        let _ = self.process.kill().and_then(|()| self.process.wait());
+    }
+}
+
+/// A viewer of the dinosaur.
 fn viewer() -> Viewer {
-    Viewer::start(session(), 0, None).expect("a viewer")
+    Viewer::start(&Folder::new(), "dinosaur")
 }

@@ -5,17 +5,16 @@ use std::net::TcpStream;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use piola_cli::view::Viewer;
 use serde_json::json;
 use tungstenite::Message;
 
 use crate::page::{Page, parts};
-use crate::{BACK, TAIL, session, viewer};
+use crate::{BACK, TAIL, viewer};
 
 #[test]
 fn a_vertex_is_dragged_and_comes_back() {
     let viewer = viewer();
-    let mut page = Page::open(&viewer.url());
+    let mut page = Page::open(&viewer.url);
     page.send(json!({ "run": { "pause": { "paused": true } } }));
     page.wait("a pause", |page| page.figures["paused"] == true);
     page.send(json!({ "act": { "reset": {} } }));
@@ -48,7 +47,7 @@ fn a_vertex_is_dragged_and_comes_back() {
 #[test]
 fn what_is_refused_is_said_and_changes_nothing() {
     let viewer = viewer();
-    let mut page = Page::open(&viewer.url());
+    let mut page = Page::open(&viewer.url);
     page.send(json!({ "act": { "parameter": { "name": "kappa", "values": [-1.0] } } }));
     page.wait("a refusal", |page| !page.refusals.is_empty());
     assert_eq!(page.refusals[0]["act"]["parameter"]["name"], "kappa");
@@ -68,7 +67,7 @@ fn what_is_refused_is_said_and_changes_nothing() {
 #[test]
 fn malformed_messages_end_a_connection_and_nothing_else() {
     let viewer = viewer();
-    let mut witness = Page::open(&viewer.url());
+    let mut witness = Page::open(&viewer.url);
     let messages = [
         (Message::text("nonsense"), 1008),
         (Message::text(r#"{"act": {"pull": {"drag": 1, "vertex": 1, "target": [1e999, 0, 0]}}}"#), 1008),
@@ -82,13 +81,13 @@ fn malformed_messages_end_a_connection_and_nothing_else() {
         (Message::text("a".repeat(20_000)), 1009),
     ];
     for (message, code) in messages {
-        let mut page = Page::open(&viewer.url());
+        let mut page = Page::open(&viewer.url);
         page.socket.send(message.clone()).expect("somebody listens");
         let Ok(Message::Close(Some(close))) = page.socket.read() else { panic!("{message:?} is taken") };
         assert_eq!(u16::from(close.code), code, "{message:?}: {}", close.reason);
     }
     // A frame that the protocol does not know.
-    let mut page = Page::open(&viewer.url());
+    let mut page = Page::open(&viewer.url);
     page.socket.get_mut().write_all(&[0xff, 0x80, 0, 0, 0, 0]).expect("somebody listens");
     assert!(matches!(page.socket.read(), Ok(Message::Close(_))));
     let frame = witness.look()["frame"].as_u64();
@@ -98,8 +97,8 @@ fn malformed_messages_end_a_connection_and_nothing_else() {
 #[test]
 fn a_page_that_goes_away_lets_go() {
     let viewer = viewer();
-    let mut witness = Page::open(&viewer.url());
-    let mut page = Page::open(&viewer.url());
+    let mut witness = Page::open(&viewer.url);
+    let mut page = Page::open(&viewer.url);
     page.send(json!({ "act": { "pull": { "drag": 0, "vertex": BACK, "target": [0.0, 2.0, 0.0] } } }));
     witness.wait("a pull", |page| page.figures["pulls"] != json!([]));
     drop(page);
@@ -111,8 +110,8 @@ fn a_page_that_goes_away_lets_go() {
 #[test]
 fn nobody_waits_for_a_page_that_does_not_read() {
     let viewer = viewer();
-    let mut deaf = Page::open(&viewer.url());
-    let mut witness = Page::open(&viewer.url());
+    let mut deaf = Page::open(&viewer.url);
+    let mut witness = Page::open(&viewer.url);
     witness.send(json!({ "run": { "pace": { "real_time": false } } }));
     for _ in 0..500 {
         deaf.send(json!({ "look": {} }));
@@ -123,7 +122,7 @@ fn nobody_waits_for_a_page_that_does_not_read() {
     // 100 steps take a second at most where two cores are shared; the deaf page is given up after ten.
     assert!(start.elapsed() < Duration::from_secs(8), "{:?}", start.elapsed());
     // A page that has not asked for frames finds none, however many there were.
-    let mut quiet = Page::open(&viewer.url());
+    let mut quiet = Page::open(&viewer.url);
     let frame = witness.frame();
     witness.wait("steps", |page| page.frame() > frame + 20);
     quiet.socket.get_mut().set_read_timeout(Some(Duration::from_millis(300))).expect("a socket");
@@ -135,10 +134,9 @@ fn nobody_waits_for_a_page_that_does_not_read() {
 #[test]
 fn silent_lines_shut_nobody_out_for_long() {
     let viewer = viewer();
-    let url = viewer.url();
-    let mut witness = Page::open(&url);
+    let mut witness = Page::open(&viewer.url);
     let line = |number: usize| {
-        let mut line = TcpStream::connect(viewer.address).expect("somebody listens");
+        let mut line = TcpStream::connect(parts(&viewer.url).0).expect("somebody listens");
         line.set_read_timeout(Some(Duration::from_secs(20))).expect("a socket");
         // A line without a place is closed at once.
         let _ = line.write_all(["", "GET / HTTP/1.1\r\nHost"][number % 2].as_bytes());
@@ -146,11 +144,11 @@ fn silent_lines_shut_nobody_out_for_long() {
     };
     let mut lines: Vec<_> = (0..40).map(line).collect();
     let start = Instant::now();
-    assert!(Page::try_open(&url).is_none(), "any number of connections is served");
+    assert!(Page::try_open(&viewer.url).is_none(), "any number of connections is served");
     let frame = witness.look()["frame"].as_u64();
     witness.wait("steps", |page| Some(page.frame()) > frame);
     // The limit for a request is five seconds, which a byte now and then does not extend.
-    while lines[0].write_all(b"G").is_ok() || Page::try_open(&url).is_none() {
+    while lines[0].write_all(b"G").is_ok() || Page::try_open(&viewer.url).is_none() {
         assert!(start.elapsed() < Duration::from_secs(20), "nobody is let in");
         thread::sleep(Duration::from_millis(100));
     }
@@ -164,18 +162,18 @@ fn silent_lines_shut_nobody_out_for_long() {
 #[test]
 fn answers_do_not_pile_up() {
     let viewer = viewer();
-    let mut deaf = Page::open(&viewer.url());
+    let mut deaf = Page::open(&viewer.url);
     deaf.socket.get_mut().set_write_timeout(Some(Duration::from_millis(500))).expect("a socket");
     let act = json!({ "act": { "material": { "name": "a".repeat(15_000), "as_stiff": true } } }).to_string();
     // More than the buffers of both sides hold.
     let refused = (0..5_000).position(|_| deaf.socket.send(Message::text(act.clone())).is_err());
     assert!(refused.is_some(), "75 MB of answers are kept");
-    Page::open(&viewer.url()).look();
+    Page::open(&viewer.url).look();
 }
 
-/// Asks the viewer of an address, and returns its answer.
-fn ask(viewer: &Viewer, request: &str) -> String {
-    let mut stream = TcpStream::connect(viewer.address).expect("somebody listens");
+/// Asks the viewer at an address, and returns its answer.
+fn ask(address: &str, request: &str) -> String {
+    let mut stream = TcpStream::connect(address).expect("somebody listens");
     stream.write_all(request.as_bytes()).expect("somebody reads");
     let mut answer = String::new();
     stream.read_to_string(&mut answer).expect("an answer");
@@ -185,11 +183,10 @@ fn ask(viewer: &Viewer, request: &str) -> String {
 #[test]
 fn strangers_are_not_let_in() {
     let (viewer, other) = (viewer(), viewer());
-    let (url, again) = (viewer.url(), other.url());
-    let ((own, query), (_, others)) = (parts(&url), parts(&again));
-    let port = viewer.address.port();
+    let ((own, query), (_, others)) = (parts(&viewer.url), parts(&other.url));
+    let port = own.trim_start_matches("127.0.0.1:");
     let check = |status: &str, request: &str| {
-        let answer = ask(&viewer, request);
+        let answer = ask(own, request);
         assert!(answer.starts_with(&format!("HTTP/1.1 {status} ")), "{status}: {request}{answer}");
         answer
     };
@@ -236,13 +233,4 @@ fn strangers_are_not_let_in() {
         check("400", &socket.replace(piece, other));
     }
     check("400", &format!("{socket}early"));
-}
-
-#[test]
-fn a_port_that_is_taken_is_named() {
-    let viewer = viewer();
-    let port = viewer.address.port();
-    let error = Viewer::start(session(), port, None).expect_err("taken");
-    assert!(error.to_string().contains(&port.to_string()), "{error}");
-    assert_eq!(error.exit_code(), 2);
 }
