@@ -8,6 +8,7 @@
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::Duration;
 
 use piola_scenes::error::Error;
@@ -33,7 +34,7 @@ struct Border {
     /// Queue of messages for the page.
     words: VecDeque<Words>,
     /// Message that the page reads now.
-    said: Option<Words>,
+    said: Arc<[u8]>,
 }
 
 thread_local! {
@@ -116,31 +117,24 @@ pub extern "C" fn turn() -> f64 {
 #[unsafe(no_mangle)]
 pub extern "C" fn next() -> u32 {
     BORDER.with_borrow_mut(|border| {
-        border.said = border.words.pop_front();
-        match border.said {
-            None => NOTHING,
-            Some(Words::Text(_)) => TEXT,
-            Some(Words::Binary(_)) => NUMBERS,
-        }
+        let (kind, said): (u32, Arc<[u8]>) = match border.words.pop_front() {
+            None => (NOTHING, Arc::default()),
+            Some(Words::Text(text)) => (TEXT, text.into()),
+            Some(Words::Binary(numbers)) => (NUMBERS, numbers),
+        };
+        border.said = said;
+        kind
     })
 }
 
 /// Address of the last message taken.
 #[unsafe(no_mangle)]
 pub extern "C" fn message() -> *const u8 {
-    said(|bytes| bytes.as_ptr())
+    BORDER.with_borrow(|border| border.said.as_ptr())
 }
 
 /// Length of the message that was taken last, in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn length() -> usize {
-    said(<[u8]>::len)
-}
-
-fn said<T>(read: impl FnOnce(&[u8]) -> T) -> T {
-    BORDER.with_borrow(|border| match &border.said {
-        None => read(&[]),
-        Some(Words::Text(text)) => read(text.as_bytes()),
-        Some(Words::Binary(numbers)) => read(numbers),
-    })
+    BORDER.with_borrow(|border| border.said.len())
 }
