@@ -38,13 +38,9 @@ pub(crate) struct Fit {
     #[arg(long, conflicts_with = "incompressible")]
     compressible: bool,
 
-    /// Number of descents from random parameters, in addition to the one from those given.
+    /// Number of descents from random parameters, always the same, in addition to the one from those given.
     #[arg(long, value_name = "N", default_value_t = 20)]
     starts: usize,
-
-    /// Seed of the random parameters: the same seed gives the same fit.
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
 
     /// Draw the fitted curves with the points.
     #[arg(long, value_name = "FILE")]
@@ -62,8 +58,8 @@ impl Fit {
         let spec = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
         let material = spec.build()?.name;
         let candidate = spec.candidate()?;
-        let (held, restarts, seed) = (self.held, self.starts, self.seed);
-        let settings = FitSettings { volume, held, restarts, seed, ..FitSettings::default() };
+        let settings =
+            FitSettings { volume, held: self.held, restarts: self.starts, ..FitSettings::default() };
         let fit = fit::fit_parameters(&candidate, &data, &settings).map_err(|error| {
             Error::usage(format!("{material} cannot be fitted: {error}{}", remedy(&error)))
         })?;
