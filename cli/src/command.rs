@@ -174,15 +174,3 @@ impl Choice {
         Ok(Settings { threads: self.threads, ..self.steps.apply(settings) })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use clap::CommandFactory;
-
-    use super::*;
-
-    #[test]
-    fn the_command_line_is_consistent() {
-        Cli::command().debug_assert();
-    }
-}
