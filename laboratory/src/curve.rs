@@ -26,7 +26,7 @@ use std::str::FromStr;
 
 use piola::__private::message::{number, quoted};
 
-use crate::specimen::{self, Specimen};
+use crate::{Specimen, specimen};
 use lateral::Side;
 
 /// Test mode: the motion that the machine prescribes.
@@ -220,7 +220,7 @@ pub enum ResponseError {
 /// # }
 /// ```
 pub fn sweep(
-    specimen: &dyn Specimen,
+    specimen: &dyn Specimen<f64>,
     mode: Mode,
     volume: Volume,
     controls: &[f64],
@@ -233,7 +233,7 @@ pub fn sweep(
 /// # Errors
 /// [`ResponseError`] if the test has no point there.
 pub fn respond(
-    specimen: &dyn Specimen,
+    specimen: &dyn Specimen<f64>,
     mode: Mode,
     volume: Volume,
     control: f64,
@@ -286,7 +286,7 @@ fn kept(mode: Mode, stretch: f64) -> StrainsAndWeights {
 }
 
 /// Strains and weights from the stretch of the sides at which ψ3 = 0: dψ1 = ∂ψ1 − (∂ψ1/∂t) (∂ψ3/∂t)⁻¹ ∂ψ3.
-fn free(specimen: &dyn Specimen, mode: Mode, stretch: f64) -> Result<StrainsAndWeights, ResponseError> {
+fn free(specimen: &dyn Specimen<f64>, mode: Mode, stretch: f64) -> Result<StrainsAndWeights, ResponseError> {
     let along = stretch - 1.0;
     // ∂ψ1/∂t and ∂ψ3/∂t, where the sides of one or of two axes are free.
     let slopes = |strains: [f64; 3]| {

@@ -24,5 +24,7 @@ mod rest;
 mod specimen;
 pub mod stability;
 
+/// A piece of any material, along whose principal axes forces are read: every [`Material`](piola::Material)
+/// is a `Specimen<f64>`.
+pub use piola::material::Response as Specimen;
 pub use rest::AtRest;
-pub use specimen::Specimen;

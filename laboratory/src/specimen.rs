@@ -1,36 +1,6 @@
-//! Interface of a material to the bench, with its type erased.
+//! Derivatives of a specimen along the axes of a test, which a material orders by its stretches.
 
-use piola::Material;
-use piola::lanes::Mask;
-use piola::material::{Blocks, Moduli};
-
-/// A piece of any material, along whose principal axes forces are read.
-///
-/// Every [`Material`] is one. Stretches are λ1 ≥ λ2 ≥ λ3 > 0.
-pub trait Specimen: Send + Sync {
-    /// ψ1, ψ2, ψ3 at the stretches 1 + si, Pa: [`Material::gradient_at_strains`].
-    fn gradient_at_strains(&self, strains: [f64; 3]) -> [f64; 3];
-
-    /// Gradient, Hessian and quotients, Pa: [`Material::blocks`].
-    fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64>;
-
-    /// True if the energy is defined there: [`Material::admits`].
-    fn admits(&self, stretches: [f64; 3]) -> bool;
-}
-
-impl<M: Material> Specimen for M {
-    fn gradient_at_strains(&self, strains: [f64; 3]) -> [f64; 3] {
-        Material::gradient_at_strains(self, strains)
-    }
-
-    fn blocks(&self, stretches: [f64; 3]) -> Blocks<f64> {
-        Material::blocks(self, stretches)
-    }
-
-    fn admits(&self, stretches: [f64; 3]) -> bool {
-        Material::admits(self, stretches).any()
-    }
-}
+use piola::material::{Moduli, Response as Specimen};
 
 /// Three numbers along the axes of a test, and the order that a material requires.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +34,7 @@ pub(crate) fn stretches(strains: [f64; 3]) -> [f64; 3] {
 }
 
 /// ψ1, ψ2, ψ3 along the axes of a test, Pa; `None` outside the domain and if they are NaN.
-pub(crate) fn gradient(specimen: &dyn Specimen, strains: [f64; 3]) -> Option<[f64; 3]> {
+pub(crate) fn gradient(specimen: &dyn Specimen<f64>, strains: [f64; 3]) -> Option<[f64; 3]> {
     let ordered = Ordered::new(strains);
     if !strains.iter().all(|strain| strain.is_finite()) || !specimen.admits(stretches(ordered.numbers)) {
         return None;
@@ -74,7 +44,7 @@ pub(crate) fn gradient(specimen: &dyn Specimen, strains: [f64; 3]) -> Option<[f6
 }
 
 /// ψij along the axes of a test, 3×3, Pa.
-pub(crate) fn hessian(specimen: &dyn Specimen, strains: [f64; 3]) -> [[f64; 3]; 3] {
+pub(crate) fn hessian(specimen: &dyn Specimen<f64>, strains: [f64; 3]) -> [[f64; 3]; 3] {
     let ordered = Ordered::new(strains);
     let [h11, h22, h33, h12, h13, h23] = specimen.blocks(stretches(ordered.numbers)).hessian;
     let rows = [[h11, h12, h13], [h12, h22, h23], [h13, h23, h33]];
@@ -82,7 +52,7 @@ pub(crate) fn hessian(specimen: &dyn Specimen, strains: [f64; 3]) -> [[f64; 3]; 
 }
 
 /// μ = (ψ11 − ψ12)/2 and λ = ψ12 at F = I.
-pub(crate) fn moduli(specimen: &dyn Specimen) -> Moduli {
+pub(crate) fn moduli(specimen: &dyn Specimen<f64>) -> Moduli {
     let [h11, _, _, h12, ..] = specimen.blocks([1.0; 3]).hessian;
     Moduli { mu: 0.5 * (h11 - h12), lambda: h12 }
 }

@@ -38,7 +38,7 @@ pub mod wave;
 use piola::__private::message::number;
 use piola::material::Moduli;
 
-use crate::specimen::{self, Specimen};
+use crate::{Specimen, specimen};
 use criteria::{Criterion, Judgement};
 
 pub use path::{Path, Walk};
@@ -105,7 +105,7 @@ const LIMITS: (usize, usize) = (2, 400);
 ///
 /// # Errors
 /// [`SurveyError`] if the settings are out of range, or the material has no positive shear modulus at rest.
-pub fn survey(specimen: &dyn Specimen, settings: &SurveySettings) -> Result<Report, SurveyError> {
+pub fn survey(specimen: &dyn Specimen<f64>, settings: &SurveySettings) -> Result<Report, SurveyError> {
     settings.check()?;
     let moduli = at_rest(specimen)?;
     let (mut points, mut admitted) = (0, 0);
@@ -168,7 +168,7 @@ impl SurveySettings {
 }
 
 /// The moduli at rest, of which the shear modulus is positive.
-fn at_rest(specimen: &dyn Specimen) -> Result<Moduli, SurveyError> {
+fn at_rest(specimen: &dyn Specimen<f64>) -> Result<Moduli, SurveyError> {
     let moduli = specimen::moduli(specimen);
     let mu = if specimen.admits([1.0; 3]) { moduli.mu } else { f64::NAN };
     if mu > 0.0 && mu.is_finite() {

@@ -335,7 +335,7 @@ fn surveys_end_at_the_limits_of_the_range() -> Tested {
     let settings = SurveySettings { from: 1e-6, to: 1e6, resolution: 7 };
     let fung = Fung::new(2.7e4, 0.5, 0.5)?;
     assert!(survey(&fung, &settings)?.admitted < 84, "an exponential of 10¹³ overflows");
-    for specimen in [&Hencky::new(1e5, 1e5)? as &dyn Specimen, &fung, &Ogden::new([1e5], [40.0], 1e6)?] {
+    for specimen in [&Hencky::new(1e5, 1e5)? as &dyn Specimen<f64>, &fung, &Ogden::new([1e5], [40.0], 1e6)?] {
         let report = survey(specimen, &settings)?;
         assert_eq!(report.points, 84);
         assert!(map(specimen, &settings, "wide")?.contains("</svg>"));

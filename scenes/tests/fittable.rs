@@ -77,7 +77,8 @@ fn difference(
         for side in [1.0, -1.0] {
             let mut changed = values.to_vec();
             changed[list][place] *= 1.0 + side * f64::from(k) * STEP;
-            let gradient = Specimen::blocks(&energy.with_values(material, &changed)?, stretches).gradient;
+            let gradient =
+                Specimen::<f64>::blocks(&energy.with_values(material, &changed)?, stretches).gradient;
             for (slope, gradient) in slope.iter_mut().zip(gradient) {
                 *slope += side * coefficient * gradient / STEP;
             }
@@ -90,7 +91,7 @@ fn difference(
 /// gradient is a sum of.
 fn scale(Candidate { energy, material }: &Candidate, derivatives: &[[f64; 3]]) -> f64 {
     let values = energy.values(material);
-    let [h11, _, _, h12, _, _] = Specimen::blocks(material, [1.0; 3]).hessian;
+    let [h11, _, _, h12, _, _] = Specimen::<f64>::blocks(material, [1.0; 3]).hessian;
     let shares = places(&values).into_iter().zip(derivatives);
     let size = |((list, place), d): ((usize, usize), &[f64; 3])| {
         let p = values[list][place];
@@ -142,7 +143,8 @@ fn stresses_are_proportional_to_moduli() {
         for stretches in STRETCHES {
             let derivatives = energy.gradient_by_parameters(material, stretches);
             let tolerance = 200.0 * f64::EPSILON * scale(candidate, &derivatives);
-            for (k, expected) in Specimen::blocks(material, stretches).gradient.into_iter().enumerate() {
+            for (k, expected) in Specimen::<f64>::blocks(material, stretches).gradient.into_iter().enumerate()
+            {
                 let shares = places(&values).into_iter().zip(&derivatives);
                 let is_stress = |list: usize| description.parameters[list].unit == Some(Unit::Pascal);
                 let stresses = shares.filter(|((list, _), _)| is_stress(*list));
@@ -330,7 +332,7 @@ fn ordinates_of_a_curve_are_parameters() -> Result<(), MaterialError> {
     check_constraints("Drawn", &solid);
     let again = energy.with_values(material, &values)?;
     let place = [1.3, 1.1, 0.8];
-    assert_eq!(Specimen::blocks(&again, place), Specimen::blocks(material, place));
+    assert_eq!(Specimen::<f64>::blocks(&again, place), Specimen::<f64>::blocks(material, place));
 
     let refused =
         |values: &[Vec<f64>]| energy.with_values(material, values).expect_err("refused").to_string();

@@ -193,7 +193,7 @@ impl Material {
                 let Candidate { energy, material } = &candidates[candidate_of[point]];
                 let frames = svd(&points[point]);
                 let by_parameters =
-                    match frames.stretches[2] > 0.0 && Specimen::admits(material, frames.stretches) {
+                    match frames.stretches[2] > 0.0 && Specimen::<f64>::admits(material, frames.stretches) {
                         true => energy.gradient_by_parameters(material, frames.stretches),
                         false => return true,
                     };

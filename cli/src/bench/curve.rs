@@ -166,7 +166,7 @@ const DECIMALS: usize = 4;
 /// A test as a table, with the points measured at the same controls if there are any. Controls have a given
 /// number of decimals, or all.
 fn table(
-    specimen: &dyn Specimen,
+    specimen: &dyn Specimen<f64>,
     volume: Volume,
     mode: Mode,
     (controls, decimals): (&[f64], Option<usize>),

@@ -5,21 +5,21 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::picture::{Area, ChartError, FONT, failed, picture, write};
 use crate::curve::lateral::{Side, release};
-use crate::specimen::{self, Specimen};
 use crate::stability::criteria::Judgement;
 use crate::stability::{Path, SurveySettings};
+use crate::{Specimen, specimen};
 
 /// Plane of stretches λ1, λ2, and the condition on the third.
 struct Plane {
     title: &'static str,
     /// The three stretches; `None` if no thickness makes a sheet free of stress.
-    stretches: fn(&dyn Specimen, [f64; 2]) -> Option<[f64; 3]>,
+    stretches: fn(&dyn Specimen<f64>, [f64; 2]) -> Option<[f64; 3]>,
     /// Lines in this plane with their names.
     lines: [(&'static str, Line); 3],
 }
 
 /// λ2 by λ1 along a line of the picture; `None` where nothing makes the sides free of stress.
-type Line = fn(&dyn Specimen, f64) -> Option<f64>;
+type Line = fn(&dyn Specimen<f64>, f64) -> Option<f64>;
 
 static PLANES: [Plane; 2] = [
     Plane {
@@ -43,7 +43,7 @@ static PLANES: [Plane; 2] = [
 ];
 
 /// The stretches of a sheet without stress through its thickness.
-fn sheet(specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
+fn sheet(specimen: &dyn Specimen<f64>, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
     let thickness = |strain: f64| {
         let strains = [l1 - 1.0, l2 - 1.0, strain];
         let [.., stress] = specimen::gradient(specimen, strains)?;
@@ -54,7 +54,7 @@ fn sheet(specimen: &dyn Specimen, [l1, l2]: [f64; 2]) -> Option<[f64; 3]> {
 }
 
 /// λ2 of a test by its λ1.
-fn second(path: Path, specimen: &dyn Specimen, first: f64) -> Option<f64> {
+fn second(path: Path, specimen: &dyn Specimen<f64>, first: f64) -> Option<f64> {
     path.stretches(specimen, first).map(|[_, second, _]| second)
 }
 
@@ -93,7 +93,11 @@ const SIZE: (u32, u32) = (1100, 680);
 ///
 /// # Errors
 /// [`ChartError`] if the settings are out of range, or the library of charts fails.
-pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> Result<String, ChartError> {
+pub fn map(
+    specimen: &dyn Specimen<f64>,
+    settings: &SurveySettings,
+    title: &str,
+) -> Result<String, ChartError> {
     settings.check().map_err(|error| ChartError(error.to_string()))?;
     picture(SIZE, |root, _| {
         root.draw(&Text::new(title.to_owned(), (20, 14), (FONT, 20).into_font())).map_err(failed)?;
@@ -106,7 +110,7 @@ pub fn map(specimen: &dyn Specimen, settings: &SurveySettings, title: &str) -> R
 }
 
 fn panel(
-    specimen: &dyn Specimen,
+    specimen: &dyn Specimen<f64>,
     settings: &SurveySettings,
     plane: &Plane,
     area: &Area<'_>,
@@ -181,7 +185,7 @@ fn panel(
 }
 
 /// The kinds of all cells, column by column, from the least stretches to the greatest.
-fn cells(specimen: &dyn Specimen, settings: &SurveySettings, plane: &Plane) -> Vec<usize> {
+fn cells(specimen: &dyn Specimen<f64>, settings: &SurveySettings, plane: &Plane) -> Vec<usize> {
     // The middles of the cells are every other one of these.
     let stretches = settings.stretches(2 * CELLS + 1);
     let mut cells = vec![0; CELLS * CELLS];

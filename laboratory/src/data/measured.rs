@@ -4,8 +4,8 @@ use std::fmt;
 
 use piola::__private::message::number;
 
+use crate::Specimen;
 use crate::curve::{Mode, Response, ResponseError, Volume, respond};
-use crate::specimen::Specimen;
 
 /// A reading of a testing machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,11 @@ impl Measured {
     }
 
     /// The response of a specimen at this point, to be compared with the stress.
-    pub(crate) fn response(&self, specimen: &dyn Specimen, volume: Volume) -> Result<Response, PointError> {
+    pub(crate) fn response(
+        &self,
+        specimen: &dyn Specimen<f64>,
+        volume: Volume,
+    ) -> Result<Response, PointError> {
         let response = respond(specimen, self.mode, volume, self.control);
         response.map_err(|reason| PointError { point: *self, reason })
     }
@@ -89,7 +93,7 @@ impl Measurements {
     ///
     /// # Errors
     /// [`PointError`] of the first point at which the specimen has no stress.
-    pub fn agreement(&self, specimen: &dyn Specimen, volume: Volume) -> Result<Agreement, PointError> {
+    pub fn agreement(&self, specimen: &dyn Specimen<f64>, volume: Volume) -> Result<Agreement, PointError> {
         let pair =
             |point: &Measured| point.response(specimen, volume).map(|response| (*point, response.stress));
         let pairs = self.points.iter().map(pair).collect::<Result<Vec<_>, _>>()?;

@@ -37,7 +37,7 @@ const PENALTY: f64 = 1e6;
 /// # }
 /// ```
 #[must_use]
-pub fn lost(specimen: &dyn Specimen, mode: Mode, to: f64) -> [Option<f64>; 3] {
+pub fn lost(specimen: &dyn Specimen<f64>, mode: Mode, to: f64) -> [Option<f64>; 3] {
     let control = |share: f64| match mode {
         Mode::SimpleShear => share * to,
         _ => to.powf(share),

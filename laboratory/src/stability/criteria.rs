@@ -83,13 +83,13 @@ impl Judgement {
     ///
     /// `None` if the material does not admit them, or its derivatives are infinite or NaN.
     #[must_use]
-    pub fn of(specimen: &dyn Specimen, stretches: [f64; 3]) -> Option<Self> {
+    pub fn of(specimen: &dyn Specimen<f64>, stretches: [f64; 3]) -> Option<Self> {
         Self::with(specimen, stretches, |_, _| {})
     }
 
     /// Judges a material whose derivatives at the ordered stretches are changed before.
     pub(super) fn with(
-        specimen: &dyn Specimen,
+        specimen: &dyn Specimen<f64>,
         mut stretches: [f64; 3],
         change: impl FnOnce(&mut Blocks<f64>, [f64; 3]),
     ) -> Option<Self> {

@@ -33,7 +33,7 @@ impl Path {
 
     /// The stretches along the axes; `None` if nothing makes the sides free of stress.
     #[must_use]
-    pub fn stretches(self, specimen: &dyn Specimen, stretch: f64) -> Option<[f64; 3]> {
+    pub fn stretches(self, specimen: &dyn Specimen<f64>, stretch: f64) -> Option<[f64; 3]> {
         let free =
             |mode| respond(specimen, mode, Volume::Free, stretch).ok().map(|response| response.stretches);
         match self {
@@ -79,7 +79,7 @@ const HALVINGS: u32 = 32;
 
 impl Walk {
     /// Walks from rest to a stretch, which is positive.
-    pub fn along(path: Path, specimen: &dyn Specimen, to: f64) -> Self {
+    pub fn along(path: Path, specimen: &dyn Specimen<f64>, to: f64) -> Self {
         let stretch = |share: f64| to.powf(share);
         let judged = |share| Judgement::of(specimen, path.stretches(specimen, stretch(share))?);
         let (reached, lost) = losses(judged);

@@ -223,7 +223,7 @@ impl Course {
 }
 
 /// Measures an upright specimen between two marks, in shares of its height.
-fn read_specimen(play: &Play, marks: [f64; 2], material: &dyn Specimen) -> TensileReading {
+fn read_specimen(play: &Play, marks: [f64; 2], material: &dyn Specimen<f64>) -> TensileReading {
     let (mesh, positions) = (&play.geometry.mesh, play.simulation.positions());
     let low = mesh.bounds().min[1];
     let marks = marks.map(|share| low + share * play.height);
