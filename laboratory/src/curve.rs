@@ -118,18 +118,22 @@ impl FromStr for Mode {
     type Err = String;
 
     /// Parses a name in any case, with spaces or `-` for `_`: the [name](Mode::name), or another common one:
-    /// `UT`, `tension`, `compression`, `uniaxial tension`, `uniaxial compression`; `ET`, `EB`, `BT`,
-    /// `biaxial`, `biaxial tension`; `PS`, `planar`, `planar tension`; `SS`; `hydrostatic`. `shear` alone
-    /// could be either of two tests and is refused.
+    /// `UT`, `tension`, `uniaxial tension`; `ET`, `EB`, `BT`, `biaxial`, `biaxial tension`; `PS`, `planar`,
+    /// `planar tension`; `SS`; `hydrostatic`. `shear` alone could be either of two tests and is refused, as
+    /// is `compression`, whose numbers could have either sign.
     fn from_str(text: &str) -> Result<Self, String> {
         let words = text.to_lowercase();
         let words = words.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
         let name = words.collect::<Vec<_>>().join("_");
         let mode = NAMES.into_iter().find(|(mode, others)| mode.name() == name || others.contains(&&*name));
         mode.map(|(mode, _)| mode).ok_or_else(|| {
-            let hint = match name == "shear" {
-                true => " by itself: pure shear has a stretch λ, simple shear an angle γ",
-                false => "",
+            let hint = match &*name {
+                "shear" => " by itself: pure shear has a stretch λ, simple shear an angle γ",
+                name if name.contains("compress") => {
+                    ": a compression is `uniaxial`, with negative strain and stress or under `compressive strain` and \
+                     `compressive stress`"
+                }
+                _ => "",
             };
             let modes = Self::ALL.map(|mode| format!("`{mode}`")).join(", ");
             format!("`{}` is not a test{hint}; write one of {modes}", quoted(text.trim()))
@@ -138,7 +142,7 @@ impl FromStr for Mode {
 }
 
 const NAMES: [(Mode, &[&str]); 5] = [
-    (Mode::Uniaxial, &["ut", "tension", "compression", "uniaxial_tension", "uniaxial_compression"]),
+    (Mode::Uniaxial, &["ut", "tension", "uniaxial_tension"]),
     (Mode::Equibiaxial, &["et", "eb", "bt", "biaxial", "equi_biaxial", "biaxial_tension"]),
     (Mode::PureShear, &["ps", "planar", "planar_tension"]),
     (Mode::SimpleShear, &["ss"]),

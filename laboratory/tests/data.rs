@@ -59,6 +59,7 @@ fn headers_in_plain_form_need_no_choice() {
     let biaxial = [(Equibiaxial, 1.1, 15.0 * PSI), (Equibiaxial, 1.5, 60.0 * PSI)];
     let sheet = "Stretch ratio\tNominal stress, psi\r\n1.1\t15\r\n1.5\t60\r\n";
     check(sheet, ["biaxial", "", "", ""], &biaxial, &["in psi"]);
+    assert_eq!("Equi-Biaxial".parse::<Mode>(), Ok(Equibiaxial));
     let volumetric = [(Volumetric, 1.0, 0.0), (Volumetric, 0.999, -2e6)];
     check(&file("pressure.csv"), ["volumetric", "", "", ""], &volumetric, &["in bar"]);
     let [one, two, three] = [0.1_f64, 0.2, 0.3].map(f64::exp);
@@ -86,7 +87,7 @@ fn headers_in_plain_form_need_no_choice() {
     );
     let compression = "compressive strain [-],compressive stress [kPa]\n0.5,400\n";
     let positive = ["`compressive stress [kPa]` as nominal stress in kPa, compression positive"];
-    check(compression, ["compression", "", "", ""], &[(Uniaxial, 0.5, -400e3)], &positive);
+    check(compression, UNIAXIAL, &[(Uniaxial, 0.5, -400e3)], &positive);
 }
 
 #[test]
@@ -134,7 +135,7 @@ fn other_columns_are_chosen_by_name_or_number() {
     );
     check(
         &file("bluehill_units_row.csv"),
-        ["compression", "", "Compressive strain (Displacement)=compressive strain", ""],
+        ["uniaxial", "", "Compressive strain (Displacement)=compressive strain", ""],
         &[(Uniaxial, 1.0, 0.0), (Uniaxial, 0.9, -25e3), (Uniaxial, 0.8, -60e3)],
         &["nominal stress in kPa, compression positive"],
     );
@@ -196,8 +197,8 @@ fn numbers_that_cannot_be_stretches_are_asked_about() {
     let strain = "strain,stress [MPa]\n";
     refuse(&format!("{strain}10,0.1\n20,0.2\n"), UNIAXIAL, 2, &["`strain`", "percent", "strain [-]"]);
     refuse(&format!("{strain}-10,-0.1\n-20,-0.2\n"), UNIAXIAL, 2, &["percent"]);
-    let compression = ["compression", "", "", ""];
-    refuse(&format!("{strain}0.1,0.1\n0.2,0.2\n"), compression, 2, &["λ = 1.1", "is a compression"]);
+    let compression = "compressive strain,compressive stress [MPa]\n-0.1,-0.1\n-0.2,-0.2\n";
+    refuse(compression, UNIAXIAL, 2, &["λ = 1.1", "is a compression"]);
     // As large as that, if a unit says so; small scatter about rest; slack of a compression.
     for text in [
         "stretch [-],stress [MPa]\n10,0.1\n23,0.2\n",
@@ -272,6 +273,7 @@ fn what_is_missing_or_twofold_is_named() {
     rows("uniaxial,1,0\n", 1, &["no point but rest"]);
     rows("# twist\ntorsion,1,0\n", 3, &["`torsion`", "`pure_shear`"]);
     rows("shear,1.1,1\n", 2, &["`shear`", "pure_shear", "simple_shear"]);
+    rows("Uniaxial compression,0.9,1\n", 2, &["a compression is `uniaxial`, with negative strain"]);
     rows("uniaxial,1,0\n\nuniaxial,2\n", 4, &["2 fields", "3"]);
     rows("uniaxial,1.1,1e999\n", 2, &["1e999", "`nominal_stress_MPa`"]);
     // 1e303 MPa is infinite in Pa, 1e-320 MPa a subnormal number.

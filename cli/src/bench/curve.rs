@@ -71,7 +71,7 @@ impl Curve {
         let info = material.build()?;
         let specimen = &material.interpreted()?;
         let (data, notes) = self.data.read()?;
-        let is_asked = |mode: &Mode| self.data.tests.iter().any(|test| test.mode == *mode);
+        let is_asked = |mode: &Mode| self.data.tests.contains(mode);
         let modes = match Mode::ALL.into_iter().filter(is_asked).collect::<Vec<_>>() {
             asked if !asked.is_empty() => asked,
             _ if data.points.is_empty() => vec![Mode::Uniaxial, Mode::Equibiaxial, Mode::PureShear],

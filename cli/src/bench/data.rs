@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use piola_laboratory::data::{Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944, Test};
+use piola_laboratory::curve::Mode;
+use piola_laboratory::data::{Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944};
 
 use crate::error::Error;
 
@@ -17,7 +18,7 @@ Files of measured points:
               True stress σ becomes nominal stress P = σ/λ, as for an incompressible solid
   units       after the name or in a row below, as in `strain [%]`, `stress (MPa)`: Pa, kPa, MPa, GPa, psi,
               ksi, bar, atm, kgf/cm2, kgf/mm2, dyn/cm2, N/mm2
-  tests       uniaxial (UT, tension, compression), equibiaxial (ET, EB, BT, biaxial), pure_shear (PS, planar),
+  tests       uniaxial (UT, tension), equibiaxial (ET, EB, BT, biaxial), pure_shear (PS, planar),
               simple_shear (SS), volumetric (hydrostatic), in a column `mode` or by --mode
 The output names what was read and what was left out of each file.";
 
@@ -32,7 +33,7 @@ pub(crate) struct Data {
     /// From files that name their tests only these are used. For others it is the test: one for all files, or
     /// one for each --data in their order [default: those of the data, or else the first three].
     #[arg(long = "mode", value_name = "MODE,MODE", value_delimiter = ',')]
-    pub(super) tests: Vec<Test>,
+    pub(super) tests: Vec<Mode>,
 
     /// Unit of stresses whose header names none, such as MPa: one for all files, or one for each --data.
     #[arg(long = "unit", value_name = "UNIT")]
@@ -107,8 +108,7 @@ impl Data {
         })?;
         let (mut points, mut note) = (reading.measurements.clone(), reading.note);
         if !self.tests.is_empty() {
-            let modes: Vec<_> = self.tests.iter().map(|test| test.mode).collect();
-            points.points.retain(|point| modes.contains(&point.mode));
+            points.points.retain(|point| self.tests.contains(&point.mode));
             let (all, used) = (reading.measurements.points.len(), points.points.len());
             if points.modes().next().is_none() {
                 let known: Vec<_> = reading.measurements.modes().map(|mode| mode.name()).collect();

@@ -1,7 +1,5 @@
 //! Options for a file of measurements whose header does not describe its columns, and mistakes in files.
 
-use std::str::FromStr;
-
 use super::unit::StressUnit;
 use crate::curve::Mode;
 
@@ -29,42 +27,13 @@ use crate::curve::Mode;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// The test of lines that name none.
-    pub test: Option<Test>,
+    pub test: Option<Mode>,
     /// The unit of stresses whose header names none.
     pub unit: Option<StressUnit>,
     /// The column of the strain, the stretch, the shear or the volume.
     pub strain: Option<String>,
     /// The column of the stress or the pressure.
     pub stress: Option<String>,
-}
-
-/// A test by its name in data: a mode, with a flag for compression.
-///
-/// ```
-/// use piola_laboratory::curve::Mode;
-/// use piola_laboratory::data::Test;
-///
-/// # fn main() -> Result<(), String> {
-/// assert_eq!("Equi-Biaxial".parse::<Test>()?.mode, Mode::Equibiaxial);
-/// assert!("uniaxial compression".parse::<Test>()?.is_compression);
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Test {
-    /// The mode.
-    pub mode: Mode,
-    /// True if the name means compression: such data lie below rest.
-    pub is_compression: bool,
-}
-
-impl FromStr for Test {
-    type Err = String;
-
-    /// Every name of a [`Mode`].
-    fn from_str(text: &str) -> Result<Self, String> {
-        Ok(Self { mode: text.parse()?, is_compression: text.to_lowercase().contains("compress") })
-    }
 }
 
 /// A mistake in a file of measurements.

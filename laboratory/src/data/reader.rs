@@ -5,8 +5,8 @@ use piola::__private::message::{self, names, quoted};
 
 use super::heading::{Heading, Quantity, Unit};
 use super::measured::{Measured, Measurements};
-use super::options::{DataError, Fault, ReadOptions, Test};
-use super::table::{Row, Table, Used, number};
+use super::options::{DataError, Fault, ReadOptions};
+use super::table::{Row, Table, number};
 use crate::curve::Mode;
 use crate::rest::digits;
 
@@ -56,8 +56,8 @@ impl Measurements {
         }
         let table = Table::of(text, options)?;
         let at_header = |mistake: String| DataError::at(table.line, mistake);
-        let Used { mode, control, stress } = &table.used;
-        if mode.is_none() && options.test.is_none() {
+        let Table { control, stress, .. } = &table;
+        if table.mode.is_none() && options.test.is_none() {
             return Err(DataError { line: table.line, fault: Fault::NoMode });
         }
         if stress.unit.is_none() {
@@ -70,12 +70,11 @@ impl Measurements {
         let decimal = decimal(&table)?;
         let mut points = Vec::new();
         for row in &table.rows {
-            let point = table.used.point(row, decimal, options.test);
-            let (test, point) = point.map_err(|fault| DataError { line: row.line, fault })?;
-            points.push((row.line, test, point));
+            let point = table.point(row, decimal, options.test);
+            points.push((row.line, point.map_err(|fault| DataError { line: row.line, fault })?));
         }
         check(&points, control)?;
-        let measurements = Measurements { points: points.into_iter().map(|(.., point)| point).collect() };
+        let measurements = Measurements { points: points.into_iter().map(|(_, point)| point).collect() };
         if measurements.points.iter().all(Measured::is_rest) {
             let remedy = "write lines such as `uniaxial,1.5,0.37`";
             return Err(at_header(format!("below this header there is no point but rest; {remedy}")));
@@ -87,7 +86,7 @@ impl Measurements {
 
 /// The mark of decimals: a comma if a number has one and another mark separates columns.
 fn decimal(table: &Table<'_>) -> Result<char, DataError> {
-    let places = [table.used.control.place, table.used.stress.place];
+    let places = [table.control.place, table.stress.place];
     let numbers = table.rows.iter().flat_map(|row| places.map(|place| (row.line, row.fields[place])));
     let mut with_comma = numbers.filter(|(_, field)| table.separator != ',' && field.contains(','));
     let Some((line, found)) = with_comma.next() else { return Ok('.') };
@@ -114,13 +113,12 @@ fn may_be_thousands(field: &str) -> bool {
     has_lengths && !whole.starts_with('0') && are_digits(whole) && are_digits(part)
 }
 
-impl Used {
-    fn point(&self, row: &Row<'_>, decimal: char, given: Option<Test>) -> Result<(Test, Measured), Fault> {
-        let test = match self.mode {
-            Some(place) => row.fields[place].parse::<Test>().map_err(Fault::Other)?,
+impl Table<'_> {
+    fn point(&self, row: &Row<'_>, decimal: char, given: Option<Mode>) -> Result<Measured, Fault> {
+        let mode = match self.mode {
+            Some(place) => row.fields[place].parse::<Mode>().map_err(Fault::Other)?,
             None => given.ok_or(Fault::NoMode)?,
         };
-        let mode = test.mode;
         let value = |column: &Heading| {
             let found = row.fields[column.place];
             let marks = match decimal {
@@ -144,7 +142,7 @@ impl Used {
         // The control first: a stress may be divided by it.
         in_range(Measured { mode, control, stress: 0.0 })?;
         let stress = of_test(&self.stress, stress, control)?;
-        Ok((test, in_range(Measured { mode, control, stress })?))
+        in_range(Measured { mode, control, stress })
     }
 }
 
@@ -172,22 +170,22 @@ const FAR: (f64, f64) = (8.0, 20.0);
 /// Strains that are noise or slack: this value, or a tenth of the greatest if that is less.
 const SMALL: f64 = 0.02;
 
-/// Refuses points of a table, with line and test of each, that are unlikely to be what their header names:
-/// strains under `stretch`, percent without a word, signs of compression.
-fn check(points: &[(u64, Test, Measured)], column: &Heading) -> Result<(), DataError> {
+/// Refuses points of a table, with the line of each, that are unlikely to be what their header names: strains
+/// under `stretch`, percent without a word, signs of compression.
+fn check(points: &[(u64, Measured)], column: &Heading) -> Result<(), DataError> {
     for mode in Mode::ALL {
-        let points = || points.iter().filter(move |(_, test, _)| test.mode == mode);
+        let points = || points.iter().filter(move |(_, point)| point.mode == mode);
         let strain = |point: &Measured| point.control - mode.rest();
-        let range = points().map(|(.., point)| strain(point).abs()).fold(0.0, f64::max);
-        let peak = points().map(|(.., point)| point.stress.abs()).fold(0.0, f64::max);
-        let is_pulled = points().all(|(.., point)| point.stress > -0.01 * peak);
-        let mut strained = points().filter(|(.., point)| strain(point).abs() > SMALL);
-        let controls = || strained.clone().map(|(.., point)| point.control);
+        let range = points().map(|(_, point)| strain(point).abs()).fold(0.0, f64::max);
+        let peak = points().map(|(_, point)| point.stress.abs()).fold(0.0, f64::max);
+        let is_pulled = points().all(|(_, point)| point.stress > -0.01 * peak);
+        let mut strained = points().filter(|(_, point)| strain(point).abs() > SMALL);
+        let controls = || strained.clone().map(|(_, point)| point.control);
         let (least, most) = (controls().fold(f64::INFINITY, f64::min), controls().fold(0.0, f64::max));
         if column.unit.is_none()
             && mode != Mode::Volumetric
             && (least > FAR.0 || most > FAR.1)
-            && let Some((line, ..)) = strained.next()
+            && let Some((line, _)) = strained.next()
         {
             let is_stretch = column.quantity == Quantity::Stretch;
             let mistake = format!(
@@ -201,7 +199,7 @@ fn check(points: &[(u64, Test, Measured)], column: &Heading) -> Result<(), DataE
             );
             return Err(DataError::at(*line, mistake));
         }
-        for &(line, test, point) in points() {
+        for &(line, point) in points() {
             let Measured { control, stress, .. } = point;
             let strain = strain(&point);
             // Unloaded rubber has some stress of the other sign. Where no stress is one of compression,
@@ -210,7 +208,7 @@ fn check(points: &[(u64, Test, Measured)], column: &Heading) -> Result<(), DataE
             if strain.abs() <= SMALL.min(0.1 * range) || stress.abs() <= noise * peak {
                 continue;
             }
-            let question = if (test.is_compression || column.is_compressive) && strain > 0.0 {
+            let question = if column.is_compressive && strain > 0.0 {
                 ", but the test is a compression"
             } else if (strain > 0.0) != (stress > 0.0) {
                 ", of another sign than its strain; is the number a strain, or a compression?"
@@ -242,7 +240,7 @@ fn described(column: &Heading) -> String {
 }
 
 fn note(table: &Table<'_>, decimal: char, data: &Measurements) -> String {
-    let Used { control, stress, .. } = &table.used;
+    let Table { control, stress, .. } = table;
     let mut parts = vec![format!("{}, {}", described(control), described(stress))];
     if stress.quantity == Quantity::TrueStress {
         parts.push("nominal stress from true stress as of an incompressible solid".into());

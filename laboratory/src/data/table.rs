@@ -28,7 +28,10 @@ pub(super) struct Table<'a> {
     /// The line of the header, or of the first row where there is none.
     pub(super) line: u64,
     pub(super) separator: char,
-    pub(super) used: Used,
+    /// The place of the test, if a column has it.
+    pub(super) mode: Option<usize>,
+    pub(super) control: Heading,
+    pub(super) stress: Heading,
     /// Headers of columns that are not used.
     pub(super) unused: Vec<String>,
     /// Lines above the header that are not comments.
@@ -36,22 +39,18 @@ pub(super) struct Table<'a> {
     pub(super) rows: Vec<Row<'a>>,
 }
 
-pub(super) struct Used {
-    pub(super) mode: Option<usize>,
-    pub(super) control: Heading,
-    pub(super) stress: Heading,
-}
+/// The place of the test, the control and the stress.
+type Columns = (Option<usize>, Heading, Heading);
 
 impl<'a> Table<'a> {
     /// The table of a file: below the first line whose columns are those of the options, or else in plain
     /// form. If both columns are chosen by their numbers, it begins with the first number in one of them.
     pub(super) fn of(text: &'a str, options: &ReadOptions) -> Result<Self, DataError> {
         let (separator, mut rows) = rows(text)?;
-        let (preamble, begin, used) = find(&rows, options)?;
+        let (preamble, begin, (mode, control, stress)) = find(&rows, options)?;
         let Row { line, fields } = &rows[preamble];
         let (line, expected, has_header) = (*line, fields.len(), begin > preamble);
-        let is_used =
-            |place| [Some(used.control.place), Some(used.stress.place), used.mode].contains(&Some(place));
+        let is_used = |place| [Some(control.place), Some(stress.place), mode].contains(&Some(place));
         let names = fields.iter().enumerate();
         let unused = names.filter(|(place, name)| has_header && !name.is_empty() && !is_used(*place));
         let unused = unused.map(|(_, name)| (*name).to_owned()).collect();
@@ -72,7 +71,7 @@ impl<'a> Table<'a> {
                 return Err(DataError::at(row.line, mistake));
             }
         }
-        Ok(Self { line, separator, used, unused, preamble, rows })
+        Ok(Self { line, separator, mode, control, stress, unused, preamble, rows })
     }
 }
 
@@ -124,7 +123,7 @@ fn is_number(field: &str) -> bool {
 }
 
 /// The index of the header, or of the first row if there is none, that of the first row, and the columns.
-fn find(rows: &[Row<'_>], options: &ReadOptions) -> Result<(usize, usize, Used), DataError> {
+fn find(rows: &[Row<'_>], options: &ReadOptions) -> Result<(usize, usize, Columns), DataError> {
     let number = |choice: &Option<String>| chosen(choice.as_deref()?).0.parse::<usize>().ok();
     if let Some((strain, stress)) = number(&options.strain).zip(number(&options.stress)) {
         let field = |row: &Row<'_>, number: usize| {
@@ -133,12 +132,12 @@ fn find(rows: &[Row<'_>], options: &ReadOptions) -> Result<(usize, usize, Used),
         let first = rows.iter().position(|row| field(row, strain) || field(row, stress));
         let first = first.unwrap_or(rows.len() - 1);
         let nameless = vec![""; rows[first].fields.len()];
-        let used = Used::of(&nameless, None, options).map_err(|problem| refused(&rows[first], problem))?;
+        let used = columns(&nameless, None, options).map_err(|problem| refused(&rows[first], problem))?;
         return Ok((first, first, used));
     }
     for (index, row) in rows.iter().enumerate().filter(|(_, row)| !row.is_data()) {
         let units = rows.get(index + 1).filter(|row| row.is_units());
-        let Ok(used) = Used::of(&row.fields, units, options) else { continue };
+        let Ok(used) = columns(&row.fields, units, options) else { continue };
         let is_row = |above: &Row<'_>| above.is_data() && above.fields.len() == row.fields.len();
         if rows[..index].iter().any(is_row) {
             break;
@@ -148,7 +147,7 @@ fn find(rows: &[Row<'_>], options: &ReadOptions) -> Result<(usize, usize, Used),
     // The line above the numbers, or what else may be a header.
     let first = rows.iter().position(Row::is_data).unwrap_or(rows.len());
     let names = rows[..first].iter().rfind(|row| !row.is_units()).unwrap_or(&rows[0]);
-    let problem = Used::of(&names.fields, None, options).err().filter(|_| !names.is_data());
+    let problem = columns(&names.fields, None, options).err().filter(|_| !names.is_data());
     Err(refused(names, problem.unwrap_or_else(|| "there is no header above the numbers".into())))
 }
 
@@ -169,30 +168,28 @@ fn refused(row: &Row<'_>, problem: String) -> DataError {
     DataError::at(row.line, mistake)
 }
 
-impl Used {
-    /// The columns with these names and, where a name has no unit, those of the row below, or the reason why
-    /// there are none.
-    fn of(names: &[&str], units: Option<&Row<'_>>, options: &ReadOptions) -> Result<Self, String> {
-        let below = |place: usize| unit(units?.fields.get(place)?);
-        let headings = names.iter().enumerate().map(|(place, name)| Heading::of(place, name, below(place)));
-        let headings: Vec<_> = headings.collect();
-        let mode = headings.iter().position(|heading| heading.quantity == Quantity::Mode);
-        let control = column(&headings, options.strain.as_deref(), false)?;
-        let mut stress = column(&headings, options.stress.as_deref(), true)?;
-        stress.unit = stress.unit.or(options.unit.map(Unit::Stress));
-        let header = stress.text.to_lowercase();
-        if control.quantity == Quantity::TrueStrain
-            && stress.quantity == Quantity::Stress
-            && options.stress.is_none()
-            && !["nominal", "engineering"].iter().any(|kind| header.contains(kind))
-        {
-            return Err(format!(
-                "`{}` next to a true strain may be a `true stress` or a `nominal stress`",
-                quoted(&stress.text)
-            ));
-        }
-        Ok(Self { mode, control, stress })
+/// The columns with these names and, where a name has no unit, those of the row below, or the reason why there
+/// are none.
+fn columns(names: &[&str], units: Option<&Row<'_>>, options: &ReadOptions) -> Result<Columns, String> {
+    let below = |place: usize| unit(units?.fields.get(place)?);
+    let headings = names.iter().enumerate().map(|(place, name)| Heading::of(place, name, below(place)));
+    let headings: Vec<_> = headings.collect();
+    let mode = headings.iter().position(|heading| heading.quantity == Quantity::Mode);
+    let control = column(&headings, options.strain.as_deref(), false)?;
+    let mut stress = column(&headings, options.stress.as_deref(), true)?;
+    stress.unit = stress.unit.or(options.unit.map(Unit::Stress));
+    let header = stress.text.to_lowercase();
+    if control.quantity == Quantity::TrueStrain
+        && stress.quantity == Quantity::Stress
+        && options.stress.is_none()
+        && !["nominal", "engineering"].iter().any(|kind| header.contains(kind))
+    {
+        return Err(format!(
+            "`{}` next to a true strain may be a `true stress` or a `nominal stress`",
+            quoted(&stress.text)
+        ));
     }
+    Ok((mode, control, stress))
 }
 
 /// The column of a choice, or the only one whose header is a stress, or else a strain, in plain form.
