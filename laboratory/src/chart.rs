@@ -1,13 +1,11 @@
-//! Test curves and measured points, and the agreement of several energies, as charts in SVG.
+//! Test curves and measured points as charts in SVG.
 //!
 //! Curves over a stretch share one panel; those over a shear or a volume have their own. A curve has a gap
-//! where the material has no stress.
-//! [`rows`] draws a [ranking](mod@crate::ranking), [`map`](fn@map) the stability of a solid.
+//! where the material has no stress. [`map`](fn@map) draws the stability of a solid.
 
 mod map;
 mod panel;
 mod picture;
-mod rows;
 
 use crate::curve::{Mode, Response, ResponseError};
 use crate::data::{Agreement, Measurements};
@@ -16,7 +14,6 @@ use picture::{HEAD, head, picture};
 
 pub use map::map;
 pub use picture::ChartError;
-pub use rows::rows;
 
 /// A curve to be drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +41,8 @@ pub fn draw(
 ) -> Result<String, ChartError> {
     let panels: Vec<_> = GROUPS.iter().filter_map(|group| Panel::of(group, curves, data)).collect();
     if panels.is_empty() {
-        return Err(ChartError(picture::EMPTY.into()));
+        let empty = "there is no point to draw: the material has no stress at any of them";
+        return Err(ChartError(empty.into()));
     }
     picture((WIDTH * panels.len() as u32, HEAD + HEIGHT), |root, above| {
         let areas = head(root, title, note)?.split_evenly((1, panels.len()));

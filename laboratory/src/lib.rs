@@ -7,7 +7,7 @@
 //! * [`fit`](mod@fit): the parameters with which it agrees best, and their uniqueness;
 //! * [`ranking`]: several energies compared with the same measurements, in the order of their agreement;
 //! * [`stability`]: the stretches at which an energy keeps the inequalities of a stable solid;
-//! * [`chart`]: all of these in pictures, with the feature `charts`, on by default.
+//! * [`chart`]: curves, fits and stability in pictures, with the feature `charts`, on by default.
 //!
 //! The crate uses materials only through the traits of [`piola::material`](mod@piola::material), and for fits
 //! energies that are declared at run time ([`Energy`](piola_declare::Energy)), so that your own energy works

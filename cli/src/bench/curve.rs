@@ -137,14 +137,16 @@ impl Curve {
             (self.from.is_some(), "--from"),
             (self.to.is_some(), "--to"),
             (self.rows.is_some(), "--rows"),
+            (self.svg.is_some(), "--svg"),
         ] {
             if is_given {
                 return Err(Error::usage(format!(
-                    "`piola curve all` cannot use {option}: it fits all parameters to all points, at constant volume"
+                    "`piola curve all` cannot use {option}: it prints a table of fits of all parameters to all points, at \
+                     constant volume"
                 )));
             }
         }
-        ranking::run(&self.data, self.svg.as_deref())
+        ranking::run(&self.data)
     }
 }
 

@@ -1,16 +1,12 @@
 //! `piola curve all`: every rubber of the catalogue compared with measured curves.
 
-use std::path::Path;
-
 use piola::Inversion;
-use piola_laboratory::chart;
 use piola_laboratory::curve::Mode;
 use piola_laboratory::fit::{Difference, FitSettings};
 use piola_laboratory::ranking::{Contender, rank};
 use piola_materials::DECLARATIONS;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::material::MaterialSpec;
-use piola_scenes::output::write_whole;
 
 use super::data::Data;
 use crate::error::Error;
@@ -29,12 +25,8 @@ The ranking of `piola curve all --data FILE`:
   stability  Baker–Ericksen (BE), Hill and strong ellipticity (SE), for all changes of shape at constant
              volume from rest to the ends of the data: kept, or lost at the test and stretch nearest to rest";
 
-/// The note below the title of the chart.
-const NOTE: &str = "fitted so that R² of all points is greatest; n parameters; stability up to the ends of the data: \
-                    Baker–Ericksen (BE), Hill, strong ellipticity (SE)";
-
-/// Fits every rubber and ranks them, as a table and, if wanted, as a chart.
-pub(super) fn run(data: &Data, svg: Option<&Path>) -> Result<String, Error> {
+/// Fits every rubber and ranks them in a table.
+pub(super) fn run(data: &Data) -> Result<String, Error> {
     let (files, (data, notes)) = (data.names(), data.read()?);
     if data.points.is_empty() {
         return Err(Error::usage(
@@ -54,10 +46,5 @@ pub(super) fn run(data: &Data, svg: Option<&Path>) -> Result<String, Error> {
     let contenders = rubbers.map(|rubber| contender(rubber.name)).collect::<Result<Vec<_>, _>>()?;
     let settings = FitSettings { difference: Difference::Absolute, ..FitSettings::default() };
     let ranking = rank(&contenders, &data, &settings);
-    let title = format!("rubbers, incompressible, fitted to {files}");
-    if let Some(svg) = svg {
-        let picture = chart::rows(&title, NOTE, &ranking).map_err(Error::usage)?;
-        write_whole(svg, picture.as_bytes())?;
-    }
-    Ok(format!("{title}\n{notes}\n{ranking}"))
+    Ok(format!("rubbers, incompressible, fitted to {files}\n{notes}\n{ranking}"))
 }

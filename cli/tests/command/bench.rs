@@ -167,7 +167,7 @@ fn rubbers_are_ranked_and_those_without_a_fit_named() {
     let text = "mode,stretch,nominal_stress_MPa\nuniaxial,2,0.6\nuniaxial,4,1.2\nuniaxial,6,2.5\n\
                 equibiaxial,2,0.8\nequibiaxial,3,1.2\n";
     folder.write("few.csv", text);
-    let text = folder.answer("curve all --data few.csv --svg few.svg");
+    let text = folder.answer("curve all --data few.csv");
     let (_, table) = text.split_once("stability\n").expect("a table");
     let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split_whitespace().collect()).collect();
     let (failed, ranked): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.get(1) == Some(&"not"));
@@ -185,8 +185,7 @@ fn rubbers_are_ranked_and_those_without_a_fit_named() {
         let share = number(row, 2) / number(row, 1);
         assert!((number(row, 5) - share).abs() < 1e-5, "{row:?}");
     }
-    let words = ["gent_thomas", "equibiaxial", "R²/n", "stability", "kept"];
-    assert_contains(&folder.read("few.svg"), &words);
+    assert_contains(&text, &["gent_thomas", "equibiaxial", "R²/n", "stability", "kept"]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::picture::{Area, ChartError, FONT, failed, picture, write};
+use super::picture::{Area, ChartError, FONT, failed, picture};
 use crate::curve::lateral::{Side, release};
 use crate::stability::criteria::Judgement;
 use crate::stability::{Path, SurveySettings};
@@ -202,12 +202,13 @@ fn cells(specimen: &dyn Specimen<f64>, settings: &SurveySettings, plane: &Plane)
 
 /// Colours and what they mean, three in a row.
 fn explain(area: &Area<'_>) -> Result<(), ChartError> {
+    let style = (FONT, 14).into_font().color(&BLACK).pos(Pos::new(HPos::Left, VPos::Center));
     for (k, (name, colour)) in KINDS.into_iter().enumerate() {
         let (x, y) = (64 + 330 * (k as i32 % 3), 14 + 30 * (k as i32 / 3));
         let corners = [(x, y), (x + 24, y + 16)];
         area.draw(&Rectangle::new(corners, colour.filled())).map_err(failed)?;
         area.draw(&Rectangle::new(corners, RGBColor(120, 120, 120))).map_err(failed)?;
-        write(area, name, (x + 34, y + 9), HPos::Left, 14, &BLACK)?;
+        area.draw(&Text::new(name, (x + 34, y + 9), style.clone())).map_err(failed)?;
     }
     Ok(())
 }

@@ -14,7 +14,7 @@ use crate::data::{Agreement, Measurements, short as determined};
 const LINE: i32 = 20;
 
 /// Colours of Okabe and Ito, which stay apart for all kinds of colour vision.
-pub(super) fn colour(mode: Mode) -> RGBColor {
+fn colour(mode: Mode) -> RGBColor {
     match mode {
         Mode::Uniaxial => RGBColor(0, 114, 178),
         Mode::Equibiaxial => RGBColor(213, 94, 0),

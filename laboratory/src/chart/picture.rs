@@ -1,14 +1,13 @@
-//! What pictures have in common: their SVG, title and note, texts, and curves and dots in tenths of a pixel,
+//! What pictures have in common: their SVG, title and note, and curves and dots in tenths of a pixel,
 //! as the library of charts rounds coordinates to whole pixels.
 
 use std::fmt;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 pub(super) const FONT: &str = "sans-serif";
-pub(super) const GREY: RGBColor = RGBColor(90, 90, 90);
+const GREY: RGBColor = RGBColor(90, 90, 90);
 /// Pixels for title and note.
 pub(super) const HEAD: u32 = 62;
 
@@ -18,9 +17,6 @@ pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct ChartError(pub(super) String);
-
-/// The message of a chart without a point.
-pub(super) const EMPTY: &str = "there is no point to draw: the material has no stress at any of them";
 
 pub(super) fn failed(error: impl fmt::Display) -> ChartError {
     ChartError(format!("the chart cannot be drawn: {error}"))
@@ -50,19 +46,6 @@ pub(super) fn head<'a>(root: &Area<'a>, title: &str, note: &str) -> Result<Area<
     head.draw(&Text::new(title.to_owned(), (20, 12), (FONT, 20).into_font())).map_err(failed)?;
     head.draw(&Text::new(note.to_owned(), (20, 40), (FONT, 14).into_font().color(&GREY))).map_err(failed)?;
     Ok(below)
-}
-
-/// Writes a text at one side of a place, at its height.
-pub(super) fn write(
-    area: &Area<'_>,
-    text: &str,
-    place: (i32, i32),
-    side: HPos,
-    size: i32,
-    colour: &RGBColor,
-) -> Result<(), ChartError> {
-    let style = (FONT, size).into_font().color(colour).pos(Pos::new(side, VPos::Center));
-    area.draw(&Text::new(text.to_owned(), place, style)).map_err(failed)
 }
 
 /// A curve through points in pixels.
