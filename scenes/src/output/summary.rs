@@ -202,8 +202,6 @@ pub struct Summary {
     pub newton_iterations_mean: f64,
     /// Number of tetrahedra that are inside out before the first step: det F < 0.
     pub inverted_at_start: usize,
-    /// True if no force acts on the body at the start although it is not at rest: it stays as it is.
-    pub stationary_start: bool,
     /// The smallest determinant of a deformation gradient in any frame.
     pub min_det_f: f64,
     /// The largest distance of a node from its rest position in the final frame, in body heights; after the
@@ -260,9 +258,6 @@ impl fmt::Display for Summary {
         writeln!(f, "\n  at rest  {}", AtRest { moduli, volume: Volume::Free })?;
         if self.inverted_at_start > 0 {
             writeln!(f, "  {} of {tets} tetrahedra start inside out", self.inverted_at_start)?;
-        }
-        if self.stationary_start {
-            writeln!(f, "  stationary start: no force acts on the body where it starts, and it stays there")?;
         }
         write!(f, "  {frames} steps of {} s", short(dt))?;
         if let (Some(steps), Some(ms)) = (self.steps_per_second, self.ms_per_step_median) {

@@ -3,7 +3,6 @@
 use std::time::{Duration, Instant};
 
 use piola::batch::TileMaterial;
-use piola_bodies::step::StepReport;
 use piola_laboratory::curve::{Mode, Volume, respond};
 use piola_laboratory::{AtRest, Specimen};
 use rayon::ThreadPool;
@@ -23,10 +22,6 @@ use crate::statics::{Watch, find_equilibrium};
 const PAUSE: Duration = Duration::from_secs(1);
 /// Time between states on the disk, as a multiple of the time that it takes to write one.
 const SHARE: u32 = 20;
-/// Forces on a body that are together below this share of Young's modulus times the square of its size are
-/// rounding: those of ten thousand elements of its size, each with an error of a few roundings, are smaller
-/// still.
-const NO_FORCE: f64 = 1e-11;
 
 /// A run between its first frame and its last.
 pub(super) struct Course {
@@ -100,25 +95,15 @@ impl Course {
         let report = self.threads.install(|| self.play.step())?;
         self.times.push(clock.elapsed());
         self.write_frame(frame)?;
-        self.note(frame, &report);
+        self.progress.steps += self.play.steps;
+        self.progress.newton_iterations += report.newton.iterations;
+        self.progress.energy = report.energies.elastic;
         let now = Instant::now();
         if self.due <= now {
             self.save_state()?;
             self.due = Instant::now() + PAUSE.max(SHARE * now.elapsed());
         }
         Ok(())
-    }
-
-    fn note(&mut self, frame: usize, report: &StepReport) {
-        if frame == 1 {
-            let mesh = &self.play.geometry.mesh;
-            let size = measure::total_volume(&mesh.positions, &mesh.tets).cbrt();
-            let no_force = NO_FORCE * self.play.moduli.young() * size * size;
-            self.progress.stationary_start &= report.newton.first_residual <= no_force;
-        }
-        self.progress.steps += self.play.steps;
-        self.progress.newton_iterations += report.newton.iterations;
-        self.progress.energy = report.energies.elastic;
     }
 
     fn write_frame(&mut self, frame: usize) -> Result<(), Error> {
@@ -204,7 +189,6 @@ impl Course {
             dt: settings.dt,
             newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
             inverted_at_start: progress.inverted_at_start,
-            stationary_start: progress.stationary_start,
             min_det_f: progress.min_det_f,
             max_distance_from_rest: distance,
             energy: progress.energy,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::measure;
 use crate::moment::Moment;
-use crate::output::{Folder, STATE_FILE, StepCounts, Summary, frame_file, read_text, seal, unseal};
+use crate::output::{Folder, STATE_FILE, StepCounts, frame_file, read_text, seal, unseal};
 use crate::play::Play;
 use crate::settings::Settings;
 
@@ -18,7 +18,6 @@ const MAX_LENGTH: u64 = 1 << 32;
 #[serde(deny_unknown_fields)]
 pub(super) struct Progress {
     pub(super) inverted_at_start: usize,
-    pub(super) stationary_start: bool,
     pub(super) min_det_f: f64,
     pub(super) newton_iterations: usize,
     #[serde(default)]
@@ -33,11 +32,8 @@ impl Progress {
     /// Figures before the first frame is written.
     pub(super) fn at_start(play: &Play) -> Self {
         let (mesh, start) = (&play.geometry.mesh, play.simulation.positions());
-        let distance = measure::distance_from_rest(mesh, start, play.simulation.pinned().len());
         Self {
             inverted_at_start: measure::inverted(&mesh.positions, start, &mesh.tets),
-            // Until the forces of the first step are known.
-            stationary_start: distance > Summary::RECOVERED,
             min_det_f: f64::INFINITY,
             newton_iterations: 0,
             steps: StepCounts::default(),
