@@ -57,7 +57,7 @@ mod unit;
 
 pub(crate) use measured::short;
 pub use measured::{Agreement, Measured, Measurements, PointError};
-pub use options::{DataError, Fault, ReadOptions};
+pub use options::{DataError, NO_TEST, ReadOptions};
 pub use reader::Reading;
 pub use unit::StressUnit;
 

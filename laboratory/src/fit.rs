@@ -118,10 +118,9 @@ pub fn fit_parameters(
             "the number of random starts is {restarts}; it must be at most {MOST_RESTARTS}"
         )));
     }
-    if let Some((index, fault)) =
-        data.points.iter().map(Measured::fault).enumerate().find_map(|(index, fault)| Some((index, fault?)))
-    {
-        return Err(FitError::Other(format!("the point {index} (from 0) cannot be fitted: {fault}")));
+    for (index, point) in data.points.iter().enumerate() {
+        let refused = |fault| format!("the point {index} (from 0) cannot be fitted: {fault}");
+        point.check().map_err(|fault| FitError::Other(refused(fault)))?;
     }
     let (mut numbers, parameters) = numbers(start, &settings.held)?;
     let values: Vec<f64> = numbers.iter().map(|number| number.value).collect();

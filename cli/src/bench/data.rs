@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use piola_laboratory::curve::Mode;
-use piola_laboratory::data::{Fault, Measurements, ReadOptions, StressUnit, TRELOAR_1944};
+use piola_laboratory::data::{Measurements, NO_TEST, ReadOptions, StressUnit, TRELOAR_1944};
 
 use crate::error::Error;
 
@@ -102,9 +102,9 @@ impl Data {
         // Older machines write Latin-1, also in units: N/mm², µm/m.
         let text = String::from_utf8(bytes)
             .unwrap_or_else(|error| error.into_bytes().into_iter().map(char::from).collect());
-        let reading = Measurements::read_with(&text, &options).map_err(|source| match source.fault {
-            Fault::NoMode if given > 0 => unpaired("--mode", given, files),
-            fault => Error::usage(format!("{path}:{}: {fault}", source.line)),
+        let reading = Measurements::read_with(&text, &options).map_err(|error| match error.mistake {
+            mistake if mistake == NO_TEST && given > 0 => unpaired("--mode", given, files),
+            mistake => Error::usage(format!("{path}:{}: {mistake}", error.line)),
         })?;
         let (mut points, mut note) = (reading.measurements.clone(), reading.note);
         if !self.tests.is_empty() {

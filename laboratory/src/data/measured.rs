@@ -25,8 +25,8 @@ impl Measured {
         self.control == self.mode.rest()
     }
 
-    /// The mistake in a reading out of the range that the [module](super) states.
-    pub(crate) fn fault(&self) -> Option<String> {
+    /// Checks that a reading is in the range that the [module](super) states.
+    pub(crate) fn check(&self) -> Result<(), String> {
         let Self { mode, control, stress } = *self;
         let (controls, requirement) = match mode {
             Mode::SimpleShear => (-1e6..=1e6, "finite, and at most 1e6"),
@@ -37,11 +37,14 @@ impl Measured {
             ),
         };
         if !controls.contains(&control) {
-            return Some(format!("{} is {}; it must be {requirement}", mode.quantity(), number(control)));
+            return Err(format!("{} is {}; it must be {requirement}", mode.quantity(), number(control)));
         }
         let is_stress = stress == 0.0 || (1e-100..=1e100).contains(&stress.abs());
         let requirement = "at most 1e100 Pa, and at least 1e-100 Pa if it is not 0: is its unit right?";
-        (!is_stress).then(|| format!("the stress in Pa is {}; it must be {requirement}", number(stress)))
+        match is_stress {
+            true => Ok(()),
+            false => Err(format!("the stress in Pa is {}; it must be {requirement}", number(stress))),
+        }
     }
 
     /// The response of a specimen at this point, to be compared with the stress.

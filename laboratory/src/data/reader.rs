@@ -5,7 +5,7 @@ use piola::__private::message::{self, names, quoted};
 
 use super::heading::{Heading, Quantity, Unit};
 use super::measured::{Measured, Measurements};
-use super::options::{DataError, Fault, ReadOptions};
+use super::options::{DataError, NO_TEST, ReadOptions};
 use super::table::{Row, Table, number};
 use crate::curve::Mode;
 use crate::rest::digits;
@@ -58,7 +58,7 @@ impl Measurements {
         let at_header = |mistake: String| DataError::at(table.line, mistake);
         let Table { control, stress, .. } = &table;
         if table.mode.is_none() && options.test.is_none() {
-            return Err(DataError { line: table.line, fault: Fault::NoMode });
+            return Err(at_header(NO_TEST.into()));
         }
         if stress.unit.is_none() {
             return Err(at_header(format!(
@@ -71,7 +71,7 @@ impl Measurements {
         let mut points = Vec::new();
         for row in &table.rows {
             let point = table.point(row, decimal, options.test);
-            points.push((row.line, point.map_err(|fault| DataError { line: row.line, fault })?));
+            points.push((row.line, point.map_err(|mistake| DataError::at(row.line, mistake))?));
         }
         check(&points, control)?;
         let measurements = Measurements { points: points.into_iter().map(|(_, point)| point).collect() };
@@ -114,10 +114,10 @@ fn may_be_thousands(field: &str) -> bool {
 }
 
 impl Table<'_> {
-    fn point(&self, row: &Row<'_>, decimal: char, given: Option<Mode>) -> Result<Measured, Fault> {
+    fn point(&self, row: &Row<'_>, decimal: char, given: Option<Mode>) -> Result<Measured, String> {
         let mode = match self.mode {
-            Some(place) => row.fields[place].parse::<Mode>().map_err(Fault::Other)?,
-            None => given.ok_or(Fault::NoMode)?,
+            Some(place) => row.fields[place].parse::<Mode>()?,
+            None => given.ok_or(NO_TEST)?,
         };
         let value = |column: &Heading| {
             let found = row.fields[column.place];
@@ -127,22 +127,21 @@ impl Table<'_> {
             };
             let mistake = || {
                 let (text, header) = (quoted(found), quoted(&column.text));
-                Fault::Other(format!("`{text}` under `{header}` is not a number{marks}"))
+                format!("`{text}` under `{header}` is not a number{marks}")
             };
-            Ok::<_, Fault>(column.factor() * number(found, decimal).ok_or_else(mistake)?)
+            Ok::<_, String>(column.factor() * number(found, decimal).ok_or_else(mistake)?)
         };
         let of_test = |column: &Heading, value: f64, control: f64| {
-            converted(column.quantity, mode, value, control).ok_or_else(|| {
-                Fault::Other(format!("`{}` is not a quantity of the test {mode}", quoted(&column.text)))
-            })
+            converted(column.quantity, mode, value, control)
+                .ok_or_else(|| format!("`{}` is not a quantity of the test {mode}", quoted(&column.text)))
         };
-        let in_range = |point: Measured| point.fault().map_or(Ok(point), |fault| Err(Fault::Other(fault)));
         let (control, stress) = (value(&self.control)?, value(&self.stress)?);
         let control = of_test(&self.control, control, f64::NAN)?;
         // The control first: a stress may be divided by it.
-        in_range(Measured { mode, control, stress: 0.0 })?;
+        Measured { mode, control, stress: 0.0 }.check()?;
         let stress = of_test(&self.stress, stress, control)?;
-        in_range(Measured { mode, control, stress })
+        let point = Measured { mode, control, stress };
+        point.check().map(|()| point)
     }
 }
 
