@@ -64,7 +64,7 @@ impl Finished {
 
     /// Adds a file to the run; one that cannot be written becomes a failure of the run.
     pub fn add(&mut self, name: &str, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) {
-        if let Err(error) = self.folder.replace(name, content) {
+        if let Err(error) = self.folder.write(name, true, content) {
             self.summary.failures.push(error.to_string());
         }
     }
@@ -80,7 +80,7 @@ impl Finished {
             self.add(CAGES_FILE, |file| write_pvd(file, frames));
         }
         let Self { summary, folder, .. } = self;
-        folder.replace(SUMMARY_FILE, |file| {
+        folder.write(SUMMARY_FILE, true, |file| {
             serde_json::to_writer_pretty(&mut *file, &summary)?;
             writeln!(file)
         })?;

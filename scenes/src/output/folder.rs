@@ -70,30 +70,19 @@ impl Folder {
         }
     }
 
-    /// Writes one file, which `content` fills. It appears when it is complete, and replaces one of its name.
+    /// Writes one file, which `content` fills. It appears when it is complete, or, if it `is_durable`, when it
+    /// is on the disk, and replaces one of its name.
     ///
     /// # Errors
     /// [`Error::Write`] if the disk is full or `content` fails. The folder is then as it was.
     pub fn write(
         &self,
         name: &str,
+        is_durable: bool,
         content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> Result<(), Error> {
         let path = self.path.join(name);
-        whole::replace(&path, false, content).map_err(|source| Error::Write { path, source })
-    }
-
-    /// Writes one file, which is on the disk before it replaces one of its name.
-    ///
-    /// # Errors
-    /// Like [`Folder::write`].
-    pub fn replace(
-        &self,
-        name: &str,
-        content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-    ) -> Result<(), Error> {
-        let path = self.path.join(name);
-        whole::replace(&path, true, content).map_err(|source| Error::Write { path, source })
+        whole::replace(&path, is_durable, content).map_err(|source| Error::Write { path, source })
     }
 
     /// Removes a folder that was created here, with its files, and the folders around it that are empty.
@@ -137,9 +126,9 @@ mod tests {
         let scratch = tempfile::tempdir()?;
         let target = scratch.path().join("a/b");
         let folder = Folder::create(&target)?;
-        folder.write(&frame_file(0), |file| file.write_all(b"one"))?;
-        folder.replace("summary.json", |file| file.write_all(b"two"))?;
-        let failed = folder.write(&frame_file(1), |_| Err(io::Error::other("a full disk")));
+        folder.write(&frame_file(0), false, |file| file.write_all(b"one"))?;
+        folder.write("summary.json", true, |file| file.write_all(b"two"))?;
+        let failed = folder.write(&frame_file(1), false, |_| Err(io::Error::other("a full disk")));
         assert!(failed.is_err_and(|error| error.to_string().contains("frame_0001.ply: a full disk")));
         assert_eq!(names(&target)?, ["frame_0000.ply", "summary.json"]);
         folder.abandon();
@@ -152,7 +141,7 @@ mod tests {
         let scratch = tempfile::tempdir()?;
         let target = scratch.path().join("out");
         let folder = Folder::create(&target)?;
-        folder.write(STATE_FILE, |file| file.write_all(b"{}"))?;
+        folder.write(STATE_FILE, false, |file| file.write_all(b"{}"))?;
         if cfg!(unix) {
             let refused = Folder::reopen(&target);
             assert!(refused.is_err_and(|error| error.to_string().contains("another run is writing")));

@@ -110,10 +110,11 @@ impl Course {
         let Play { simulation, geometry, .. } = &self.play;
         let (nodes, mesh) = (simulation.positions(), &geometry.mesh);
         let surface = geometry.surface_at(nodes);
-        self.folder.write(&frame_file(frame), |file| write_ply(file, &surface, &geometry.triangles))?;
+        self.folder
+            .write(&frame_file(frame), false, |file| write_ply(file, &surface, &geometry.triangles))?;
         if let Some(material) = &self.cages_of {
             self.folder
-                .write(&cage_file(frame), |file| fields::write(file, simulation, material.as_ref()))?;
+                .write(&cage_file(frame), false, |file| fields::write(file, simulation, material.as_ref()))?;
         }
         let Progress { motion, min_det_f, .. } = &mut self.progress;
         motion.push(motion.last().unwrap_or(&0.0) + measure::mean_distance(&self.positions, nodes));

@@ -62,7 +62,7 @@ enum Format {
 /// Writes the state of a run, with tetrahedra or without, to its folder.
 pub(super) fn save(folder: &Folder, vtu: bool, play: &Play, progress: &Progress) -> Result<(), Error> {
     let saved = Saved { format: Format::One, vtu, moment: Moment::of(play), progress: progress.clone() };
-    folder.replace(STATE_FILE, |file| file.write_all(&seal(&saved)?))
+    folder.write(STATE_FILE, true, |file| file.write_all(&seal(&saved)?))
 }
 
 /// Takes a body to the last state of the run in a folder, if a run with its settings, and with tetrahedra or
