@@ -157,17 +157,15 @@ pub fn fit_parameters(
     }
 
     let task = Task { free: &free, ..task };
-    let minima: Vec<(usize, Minimum)> = starts(task, &values, &numbers, settings)
-        .enumerate()
-        .filter_map(|(start, problem)| Some((start, minimum::descend(problem)?)))
-        .collect();
+    let minima: Vec<Minimum<'_>> =
+        starts(task, &values, &numbers, settings).filter_map(minimum::descend).collect();
     let no_minimum =
         || FitError::Other("residuals become infinite on the way; start nearer to the solution".into());
-    let least = minima.iter().map(|(_, minimum)| minimum.squares).reduce(f64::min).ok_or_else(no_minimum)?;
+    let least = minima.iter().map(|minimum| minimum.squares).reduce(f64::min).ok_or_else(no_minimum)?;
     // Of those that differ by rounding alone the first.
-    let is_least = |(_, minimum): &&(usize, Minimum<'_>)| minimum.squares <= least * (1.0 + 1e-9);
+    let is_least = |minimum: &&Minimum<'_>| minimum.squares <= least * (1.0 + 1e-9);
     let best = minima.iter().find(is_least).ok_or_else(no_minimum)?;
-    let agreement = data.agreement(best.1.problem.specimen(), volume).map_err(TrialError::Point)?;
+    let agreement = data.agreement(best.problem.specimen(), volume).map_err(TrialError::Point)?;
     Ok(report(numbers, &minima, best, agreement))
 }
 
@@ -257,13 +255,8 @@ const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
 /// The bulk modulus by the shear modulus for a Poisson's ratio of 0.49, (2/3) (1 + ν)/(1 − 2 ν).
 const RUBBER: f64 = 50.0;
 
-/// The report of a fit from its descents, each with the index of its start.
-fn report(
-    mut numbers: Vec<Number>,
-    minima: &[(usize, Minimum<'_>)],
-    (start, best): &(usize, Minimum<'_>),
-    agreement: Agreement,
-) -> Fit {
+/// The report of a fit from its descents.
+fn report(mut numbers: Vec<Number>, minima: &[Minimum<'_>], best: &Minimum<'_>, agreement: Agreement) -> Fit {
     let Minimum { problem, squares, .. } = best;
     let (count, free) = (problem.task.points.len(), problem.task.free);
     let (errors, condition, hardly_determined) =
@@ -298,9 +291,7 @@ fn report(
         agreement,
         difference: (squares / count as f64).sqrt(),
         condition,
-        start: *start,
         descents: minima.len(),
-        evaluations: best.evaluations,
         ended: best.ended,
         warnings,
     }

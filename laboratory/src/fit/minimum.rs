@@ -18,7 +18,6 @@ pub(super) struct Minimum<'a> {
     pub(super) problem: Problem<'a>,
     /// Σ r².
     pub(super) squares: f64,
-    pub(super) evaluations: usize,
     pub(super) ended: Ended,
     /// The reasons of the edges that ended the search, if edges did.
     pub(super) edges: Vec<TrialError>,
@@ -29,9 +28,7 @@ pub(super) struct Minimum<'a> {
 /// Descends to the nearest minimum below the current values; `None` if numbers leave their range on the way.
 pub(super) fn descend(problem: Problem<'_>) -> Option<Minimum<'_>> {
     let approached = approach(&problem);
-    let before = approached.as_ref().map_or(0, |approached| approached.evaluations);
     let mut minimum = search(approached.map_or(problem, |approached| approached.problem.anew()))?;
-    minimum.evaluations += before;
     for slides in 0.. {
         let Some(Stop { reasons, ways, is_least }) = edge::stop(&minimum.problem) else { break };
         if slides == WAYS {
@@ -44,15 +41,14 @@ pub(super) fn descend(problem: Problem<'_>) -> Option<Minimum<'_>> {
         let nexts = ways.into_iter().filter_map(|(from, basis)| {
             let slid = search(minimum.problem.within(from, basis))?;
             // In all directions again: the edge may end, or turn away.
-            let next = search(slid.problem.anew())?;
-            Some(Minimum { evaluations: next.evaluations + slid.evaluations, ..next })
+            search(slid.problem.anew())
         });
         let next = nexts.chain(anew).min_by(|a, b| a.squares.total_cmp(&b.squares));
         let is_gain = |next: &Minimum<'_>| !edge::is_no_gain(minimum.squares - next.squares, minimum.squares);
         let Some(next) = next.filter(is_gain) else {
             return Some(Minimum { ended: Ended::Edge, edges: reasons, is_least, ..minimum });
         };
-        minimum = Minimum { evaluations: next.evaluations + minimum.evaluations, ..next };
+        minimum = next;
     }
     Some(minimum)
 }
@@ -84,7 +80,6 @@ fn search(problem: Problem<'_>) -> Option<Minimum<'_>> {
         _ => return None,
     };
     let is_sound = problem.trial.is_ok() && report.objective_function.is_finite();
-    let (squares, evaluations) = (2.0 * report.objective_function, report.number_of_evaluations);
-    let is_least = ended != Ended::Unfinished;
-    is_sound.then_some(Minimum { problem, squares, evaluations, ended, edges: Vec::new(), is_least })
+    let (squares, is_least) = (2.0 * report.objective_function, ended != Ended::Unfinished);
+    is_sound.then_some(Minimum { problem, squares, ended, edges: Vec::new(), is_least })
 }

@@ -21,12 +21,8 @@ pub struct Fit {
     /// The condition number of ∂r/∂p for the parameters that were free at the minimum, columns scaled to one:
     /// the fit determines the parameters worse by this factor than the data determine the fit.
     pub condition: f64,
-    /// Index of the start that led to the best minimum: 0 is the one given, others are random.
-    pub start: usize,
     /// Descents that ended in a minimum.
     pub descents: usize,
-    /// Number of evaluations of the curves on the way to the best minimum.
-    pub evaluations: usize,
     /// Reason why the search ended.
     pub ended: Ended,
     /// Warnings that other parameters might fit as well, or better.
@@ -34,8 +30,8 @@ pub struct Fit {
 }
 
 impl fmt::Display for Fit {
-    /// A line for each parameter with its standard error, R², the differences, the way to the minimum, and
-    /// the warnings.
+    /// A line for each parameter with its standard error, R², the differences, the end of the search, and the
+    /// warnings.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for Number { name, value, standing, error } in &self.numbers {
             // Seven digits: rounding changes no stress that is measured.
@@ -57,15 +53,7 @@ impl fmt::Display for Fit {
             "  differences  {:.3} % (root mean square, points without stress left out)",
             100.0 * self.difference
         )?;
-        let start = match self.start {
-            0 => "the parameters given".into(),
-            start => format!("random start {start}"),
-        };
-        let Self { descents, ended, evaluations, .. } = self;
-        writeln!(
-            f,
-            "  the best of {descents} descents, from {start}: {ended} after {evaluations} evaluations"
-        )?;
+        writeln!(f, "  the best of {} descents: {}", self.descents, self.ended)?;
         // The lines of the parameters have those that the data do not determine.
         let others = |warning: &&Warning| !matches!(warning, Warning::Unidentifiable { .. });
         self.warnings.iter().filter(others).try_for_each(|warning| writeln!(f, "warning: {warning}"))

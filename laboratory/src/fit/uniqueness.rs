@@ -103,17 +103,13 @@ pub(super) fn analyse(problem: &Problem<'_>, numbers: &[Number]) -> Option<(Vec<
 }
 
 /// The ranges of parameters over the minima that are about as good as the best, if they differ.
-pub(super) fn ambiguous(
-    best: &Minimum<'_>,
-    minima: &[(usize, Minimum<'_>)],
-    numbers: &[Number],
-) -> Option<Warning> {
+pub(super) fn ambiguous(best: &Minimum<'_>, minima: &[Minimum<'_>], numbers: &[Number]) -> Option<Warning> {
     let count = best.problem.task.points.len() as f64;
     // Values that are exact up to rounding are as good as exact ones.
     let limit = best.squares * ABOUT_AS_GOOD * ABOUT_AS_GOOD + count * 1e-24;
     let (mut ranges, mut squares) = (BTreeMap::new(), best.squares);
     let is_as_good = |minimum: &&Minimum<'_>| minimum.is_least && minimum.squares <= limit;
-    for minimum in minima.iter().map(|(_, minimum)| minimum).filter(is_as_good) {
+    for minimum in minima.iter().filter(is_as_good) {
         let mut begin = 0;
         for &(length, form) in best.problem.task.parameters {
             let list = begin..begin + length;
