@@ -44,18 +44,9 @@ pub struct Place {
     pub name: String,
     /// Its best parameters, with R² of each mode and of all.
     pub fit: Fit,
-    /// Test and control at which each of [`Criterion::ALL`](crate::stability::criteria::Criterion::ALL) is
-    /// lost nearest to rest, if it is lost between rest and the ends of the data.
-    pub lost: [Option<Loss>; 3],
-}
-
-/// Place at which a criterion is lost.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Loss {
-    /// The test.
-    pub mode: Mode,
-    /// The control at which it is lost: λ or γ.
-    pub control: f64,
+    /// Test and control, λ or γ, at which criteria are lost nearest to rest, between rest and the ends of the
+    /// data, such as `Hill, SE lost at uniaxial 2.13`, or `kept`.
+    pub stability: String,
 }
 
 impl Place {
@@ -70,26 +61,6 @@ impl Place {
     pub fn share(&self) -> Option<f64> {
         // A fit without a free parameter is an error.
         self.fit.agreement.total.map(|total| total / self.parameters() as f64)
-    }
-
-    /// Place at which each criterion is lost first, such as `Hill, SE lost at uniaxial 2.13`, or `kept`.
-    #[must_use]
-    pub fn stability(&self) -> String {
-        let mut groups: Vec<(String, String)> = Vec::new();
-        // `Criterion::ALL` in few letters.
-        for (name, lost) in ["BE", "Hill", "SE"].into_iter().zip(self.lost) {
-            let Some(Loss { mode, control }) = lost else { continue };
-            let at = format!("{mode} {control:.2}");
-            match groups.iter_mut().find(|(_, place)| *place == at) {
-                Some((names, _)) => *names += &format!(", {name}"),
-                None => groups.push((name.into(), at)),
-            }
-        }
-        if groups.is_empty() {
-            return "kept".into();
-        }
-        let groups: Vec<_> = groups.into_iter().map(|(names, at)| format!("{names} lost at {at}")).collect();
-        groups.join("; ")
     }
 }
 
@@ -158,24 +129,43 @@ fn place(contender: &Contender, data: &Measurements, settings: &FitSettings) -> 
         for end in data.range(mode) {
             let losses = constant_volume::lost(&fitted, mode, end);
             for (first, control) in lost.iter_mut().zip(losses) {
-                let loss = control.map(|control| Loss { mode, control });
-                let is_nearer = |loss: &Loss| first.is_none_or(|first| loss.strain() < first.strain());
+                let loss = control.map(|control| (mode, control));
+                let is_nearer = |loss: &Loss| first.is_none_or(|first| strain(*loss) < strain(first));
                 *first = loss.filter(is_nearer).or(*first);
             }
         }
     }
-    Ok(Place { name: contender.name.clone(), fit, lost })
+    Ok(Place { name: contender.name.clone(), fit, stability: stability(lost) })
 }
 
-impl Loss {
-    /// Distance of the specimen from rest: ln λ of its greatest stretch along the axes that the machine
-    /// moves.
-    fn strain(self) -> f64 {
-        match self.mode {
-            Mode::SimpleShear => (0.5 * self.control).asinh().abs(),
-            _ => self.control.ln().abs(),
+/// Test and control at which a criterion is lost.
+type Loss = (Mode, f64);
+
+/// Distance of the specimen from rest: ln λ of its greatest stretch along the axes that the machine moves.
+fn strain((mode, control): Loss) -> f64 {
+    match mode {
+        Mode::SimpleShear => (0.5 * control).asinh().abs(),
+        _ => control.ln().abs(),
+    }
+}
+
+/// The losses of the criteria in a line.
+fn stability(lost: [Option<Loss>; 3]) -> String {
+    let mut groups: Vec<(String, String)> = Vec::new();
+    // `Criterion::ALL` in few letters.
+    for (name, lost) in ["BE", "Hill", "SE"].into_iter().zip(lost) {
+        let Some((mode, control)) = lost else { continue };
+        let at = format!("{mode} {control:.2}");
+        match groups.iter_mut().find(|(_, place)| *place == at) {
+            Some((names, _)) => *names += &format!(", {name}"),
+            None => groups.push((name.into(), at)),
         }
     }
+    if groups.is_empty() {
+        return "kept".into();
+    }
+    let groups: Vec<_> = groups.into_iter().map(|(names, at)| format!("{names} lost at {at}")).collect();
+    groups.join("; ")
 }
 
 impl fmt::Display for Ranking {
@@ -193,7 +183,7 @@ impl fmt::Display for Ranking {
             for (_, determination) in &agreement.modes {
                 write!(f, " {:>12}", shown(*determination))?;
             }
-            writeln!(f, " {:>9}  {}", shown(place.share()), place.stability())?;
+            writeln!(f, " {:>9}  {}", shown(place.share()), place.stability)?;
         }
         for (name, error) in &self.failures {
             writeln!(f, "{name:24} not fitted: {error}")?;
