@@ -27,14 +27,12 @@ pub fn find_equilibrium(play: &mut Play, watch: &mut Watch<'_>) -> Result<FinalS
     let settings = *simulation.settings();
     let newton = NewtonSettings::default().with_max_iterations(ITERATIONS).with_tolerance(1e-10);
     simulation.set_settings(settings.with_newton(newton))?;
-    let mut newton_iterations = 0;
     for _ in 0..CALLS {
         if watch(clock.frame) {
             return Err(Error::Interrupted);
         }
         // If statics fails, the body stays where it is and is examined there.
         let Ok(report) = simulation.equilibrate() else { break };
-        newton_iterations += report.newton.iterations;
         if report.newton.convergence != Convergence::Limit {
             break;
         }
@@ -59,6 +57,5 @@ pub fn find_equilibrium(play: &mut Play, watch: &mut Watch<'_>) -> Result<FinalS
         stress_free: found.is_stress_free(),
         inverted: found.inverted,
         smallest_sum: found.smallest_sum,
-        newton_iterations,
     })
 }

@@ -144,8 +144,6 @@ pub struct FinalState {
     pub inverted: usize,
     /// The smallest λ2 + λ3 of an element.
     pub smallest_sum: f64,
-    /// Newton iterations of statics.
-    pub newton_iterations: usize,
 }
 
 impl fmt::Display for FinalState {
