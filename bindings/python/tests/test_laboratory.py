@@ -50,6 +50,33 @@ def test_a_fit_finds_the_parameters_of_its_data():
     assert fit == start.fit(data, held=["kappa"], restarts=2)._replace(material=fit.material)
 
 
+def test_a_fit_finds_the_ordinates_of_a_curve():
+    text = """#[material]
+    fn Drawn([l1, l2, l3]: [f64; 3], f: Spline, kappa: f64) -> f64 {
+        f(l1) + f(l2) + f(l3) + kappa / 2.0 * (J - 1.0).powi(2)
+    }"""
+    truth = piola.declare(text, f=[0.3, -9e5, 0.7, -3e5, 1.0, 0.0, 1.7, 4e5, 2.6, 1.2e6], kappa=2e6)
+    start = piola.declare(text, f=[0.3, -6e5, 0.7, -2e5, 1.0, 0.0, 1.7, 3e5, 2.6, 6e5], kappa=1e6)
+    stretch = [0.7, 0.85, 1.1, 1.3, 1.6, 2.0, 2.5]
+    data = {mode: np.c_[stretch, truth.curve(mode, stretch).stress] for mode in ("uniaxial", "equibiaxial")}
+    fit = start.fit(data, incompressible=False, restarts=4)
+    assert fit.difference <= 1e-9 and list(fit.errors) == ["f_1", "f_2", "f_3", "f_4", "kappa"]
+    found, wanted = fit.material.parameters, truth.parameters
+    # Differences of a billionth, times the condition of the problem.
+    assert found["f"] == pytest.approx(wanted["f"], rel=1e-9 * fit.condition, abs=0)
+    assert found["f"][::2] == wanted["f"][::2] and found["f"][5] == 0.0
+    assert found["kappa"] == pytest.approx(2e6, rel=1e-9 * fit.condition)
+    held = start.fit(data, incompressible=False, restarts=0, held=["f_2"])
+    assert held.material.parameters["f"][3] == -2e5 and held.errors["f_2"] is None
+    whole = start.fit(data, incompressible=False, restarts=0, held=["f"])
+    assert whole.material.parameters["f"] == start.parameters["f"]
+    with pytest.raises(piola.FitError, match="no parameter `f_5` to hold"):
+        start.fit(data, held=["f_5"])
+    other = [0.3, -6e5, 0.7, -2e5, 1.0, 0.0, 1.7, 4e5, 2.6, 8e5]
+    with pytest.raises(piola.MaterialError, match="this needs one material for all"):
+        start.changed(f=[start.parameters["f"], other]).fit(data)
+
+
 def test_treloar_is_fitted_and_warned_about():
     data = piola.treloar()
     assert data["uniaxial"].shape[1] == 2 and set(data) == {"uniaxial", "equibiaxial", "pure_shear"}

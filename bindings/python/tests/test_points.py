@@ -8,6 +8,7 @@ import numpy as np
 import piola
 import pytest
 from conftest import LAMBDA, MU, close, deformations, neo_hookean
+from scipy.interpolate import CubicSpline
 
 
 @pytest.fixture
@@ -267,6 +268,55 @@ def test_derivatives_by_parameters_stay_in_single_precision(rubber, F):
     with pytest.raises(piola.DomainError) as caught:
         rubber.stress_by_parameters([[np.eye(3), np.eye(3)], [np.eye(3), np.diag([1, 1, -1])]])
     assert caught.value.first == (1, 1)
+
+
+def by_ordinates(points, at):
+    """Derivatives of a natural cubic spline by the ordinates of its control points, except for one at x = 1."""
+    x = np.array(points[::2])
+    return np.moveaxis(CubicSpline(x, np.eye(len(x))[:, x != 1], bc_type="natural")(at), -1, 0)
+
+
+def test_derivatives_by_curves_are_those_by_their_ordinates():
+    drawn = piola.Material.typical("stretch_spline")
+    f, g, h = (drawn.parameters[name] for name in "fgh")
+    # Between the control points, as the products of two and of all three are.
+    stretches = np.array([[1.7, 1.2, 0.6], [0.9, 0.8, 0.7]])
+    areas, J = stretches[..., :, None] * stretches[..., None, :], stretches.prod(axis=-1)
+    # P_ii = f′(λi) + Σ g′(λiλj) λj + h′(J) J/λi, with j other than i.
+    expected = {
+        "f": by_ordinates(f, stretches),
+        "g": np.einsum("...ij,...j,ij->...i", by_ordinates(g, areas), stretches, 1 - np.eye(3)),
+        "h": by_ordinates(h, J)[..., None] * J[:, None] / stretches,
+    }
+    by = drawn.stress_by_parameters(np.einsum("...i,ij->...ij", stretches, np.eye(3)))
+    assert [len(by[name]) for name in "fgh"] == [5, 2, 3]
+    for name in "fgh":
+        assert by[name].shape == (*expected[name].shape, 3)
+        # Differences have 470 roundings of stresses of some MPa, for ordinates of 20 kPa: 1e-11.
+        assert close(by[name], np.einsum("...i,ij->...ij", expected[name], np.eye(3)), 1e-9)
+
+
+def test_curves_that_differ_have_as_many_ordinates_or_no_derivatives(F):
+    drawn = piola.Material.typical("stretch_spline")
+    curves = [[0.5, -1e5, 1.0, 0.0, 2.0, 1e5], [0.5, -2e5, 1.0, 0.0, 2.0, 3e5]]
+    graded = drawn.changed(f=curves)
+    assert graded.shape == (2,)
+    by = graded.stress_by_parameters(F[:2])
+    assert [by[name].shape for name in "fgh"] == [(2, 2, 3, 3), (2, 2, 3, 3), (3, 2, 3, 3)]
+    for k, curve in enumerate(curves):
+        for name, derivatives in drawn.changed(f=curve).stress_by_parameters(F[k]).items():
+            assert np.array_equal(by[name][:, k], derivatives)
+    # Straight, and zero at x = 1 without a control point there.
+    straight = [0.5, -1e5, 1.5, 1e5, 2.5, 3e5]
+    assert drawn.changed(f=straight).stress_by_parameters(F)["f"].shape == (3, *F.shape)
+    mixed = drawn.changed(f=[curves[0], straight])
+    assert mixed.stress(F[:2]).shape == (2, 3, 3)
+    with pytest.raises(piola.MaterialError, match="at x = 1 for some points and none for others"):
+        mixed.stress_by_parameters(F[:2])
+    with pytest.raises(TypeError, match="`f` is of type list; it must be real numbers"):
+        drawn.changed(f=[curves[0], curves[0][:4]])
+    with pytest.raises(piola.MaterialError, match="pairs x, φ′, but there are 3 numbers"):
+        drawn.changed(f=curves[0][:3])
 
 
 def test_parameters_may_differ_from_point_to_point(rng, F):
