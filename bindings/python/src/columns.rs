@@ -7,30 +7,23 @@
 
 use std::ops::Range;
 
-use piola::batch::{Batch, Layout, LengthError};
-use piola::interpreter::Interpreted;
-use piola::material::PerPoint;
-use piola::point::Filter;
+use piola::batch::{Kernels, Layout, LengthError};
 use piola::{StatusCell, Survey};
 use rayon::prelude::*;
 
-use crate::quantity::{Number, Quantity};
+use crate::quantity::{Materials, Quantity};
 
 /// Points of a chunk: the 81 entries of their tangents, 83 kB, stay in the second cache.
 const CHUNK: usize = 128;
 
 /// Deformation gradients in columns, and what is to be computed of them.
 pub(crate) struct Columns<'a, E> {
-    pub(crate) batch: Batch<'a, E>,
-    /// The filter of the batch.
-    pub(crate) filter: Filter,
+    pub(crate) materials: &'a Materials<'a, E>,
     pub(crate) quantity: Quantity,
     pub(crate) F: &'a [E],
     /// One for each point, or none.
     pub(crate) cells: &'a [StatusCell],
     pub(crate) count: usize,
-    /// A material for each point, if they differ.
-    pub(crate) each: &'a [&'a Interpreted],
 }
 
 /// Columns of each result for some of the points.
@@ -39,7 +32,7 @@ struct Part<'a, E> {
     results: Vec<Vec<&'a mut [E]>>,
 }
 
-impl<E: Number> Columns<'_, E> {
+impl<E: Kernels> Columns<'_, E> {
     /// Computes all points, with parts of them on each thread if wanted.
     pub(crate) fn compute(&self, results: Vec<&mut [E]>, threads: bool) -> Result<Survey, LengthError> {
         if self.count == 0 {
@@ -86,7 +79,10 @@ impl<E: Number> Columns<'_, E> {
                 .zip(&mut rooms)
                 .map(|(n, room_of)| &mut room_of[..n * room])
                 .collect();
-            let survey = self.on_lines(points.clone(), &cells, &F[..9 * room], &mut lines)?;
+            let survey = self.materials.with_batch(start, room, |batch| {
+                let batch = batch.with_layout(Layout::Lines).with_statuses(&cells);
+                self.quantity.compute(&batch, &F[..9 * room], &mut lines)
+            })?;
             sum = sum + Survey { first: survey.first.map(|first| start + first), ..survey };
             for (cell, computed) in self.cells.iter().skip(start).zip(cells.iter().take(points.len())) {
                 cell.set(computed.get());
@@ -109,34 +105,10 @@ impl<E: Number> Columns<'_, E> {
             }
         }
     }
-
-    /// Computes points that are in lines.
-    fn on_lines(
-        &self,
-        points: Range<usize>,
-        cells: &[StatusCell],
-        F: &[E],
-        results: &mut [&mut [E]],
-    ) -> Result<Survey, LengthError> {
-        if self.each.is_empty() {
-            let batch = self.batch.with_layout(Layout::Lines).with_statuses(cells);
-            return self.quantity.compute(&batch, F, results);
-        }
-        // The last point's material serves for what fills the line up.
-        let last = points.end - 1;
-        let materials: Vec<_> = (0..F.len() / 9).map(|k| self.each[last.min(points.start + k)]).collect();
-        match PerPoint::new(&materials) {
-            Ok(material) => {
-                let batch = Batch::new(&material).with_filter(self.filter).with_layout(Layout::Lines);
-                self.quantity.compute(&batch.with_statuses(cells), F, results)
-            }
-            Err(_) => unreachable!("all materials do the same outside of their domain"),
-        }
-    }
 }
 
 /// Copies points from lines to a part of each column.
-fn from_lines<E: Number>(lines: &[E], columns: &mut [&mut [E]], points: Range<usize>) {
+fn from_lines<E: Kernels>(lines: &[E], columns: &mut [&mut [E]], points: Range<usize>) {
     let n = columns.len();
     for (k, column) in columns.iter_mut().enumerate() {
         for (line, to) in column[points.clone()].chunks_mut(E::LINE).enumerate() {

@@ -2,9 +2,8 @@
 
 #![expect(non_snake_case, reason = "F and P as in the literature")]
 
-use numpy::{PyArrayDyn, PyReadonlyArrayDyn, PyReadwriteArrayDyn, dtype};
-use piola::batch::{Batch, TileMaterial};
-use piola::material::PerPoint;
+use numpy::{Element, PyArrayDyn, PyReadonlyArrayDyn, PyReadwriteArrayDyn, dtype};
+use piola::batch::{Kernels, TileMaterial};
 use piola::point::Filter;
 use piola::point::measures::Measure;
 use piola::{StatusCell, Survey};
@@ -15,7 +14,7 @@ use crate::arrays::{Axes, Numbers, deformations, kind, output};
 use crate::columns::Columns;
 use crate::errors::{DomainError, type_error, value_error};
 use crate::material::Material;
-use crate::quantity::{Number, Order, Quantity};
+use crate::quantity::{Materials, Order, Quantity};
 use crate::shape;
 use crate::threads::on_threads;
 
@@ -46,8 +45,8 @@ impl<'py> Call<'_, 'py> {
             (None, _) => Vec::new(),
         };
         let mut results = match Numbers::new("F", F)? {
-            Numbers::Double(F) => self.run_in(material, &F, quantity, out)?,
-            Numbers::Single(F) => self.run_in(material, &F, quantity, out)?,
+            Numbers::Double(F) => self.run_in(material, &*material.double, &F, quantity, out)?,
+            Numbers::Single(F) => self.run_in(material, &material.each[0], &F, quantity, out)?,
         };
         match results.len() {
             1 => Ok(results.remove(0)),
@@ -55,9 +54,11 @@ impl<'py> Call<'_, 'py> {
         }
     }
 
-    fn run_in<E: Number>(
+    /// Computes in the precision of F, with `uniform` if the material is the same at all points.
+    fn run_in<E: Kernels + Element>(
         &self,
         material: &Material,
+        uniform: &dyn TileMaterial<E>,
         F: &Bound<'py, PyArrayDyn<E>>,
         quantity: Quantity,
         mut out: Vec<Option<Bound<'py, PyAny>>>,
@@ -83,7 +84,8 @@ impl<'py> Call<'_, 'py> {
         let cells: Vec<_> = status.iter().flat_map(|_| (0..count).map(|_| StatusCell::default())).collect();
         let results = outputs.iter_mut().map(PyReadwriteArrayDyn::as_slice_mut);
         let results = results.collect::<Result<Vec<_>, _>>()?;
-        let survey = self.compute(material, &F, &points, quantity, results, &cells)?;
+        let materials = Materials { uniform, each: material.at(&points), filter: self.filter };
+        let survey = self.compute(&materials, &F, count, quantity, results, &cells)?;
         for (output, components) in outputs.iter_mut().zip(quantity.numbers()) {
             let at = |point: usize, component: usize| match self.axes {
                 Axes::Leading => components * point + component,
@@ -115,36 +117,23 @@ impl<'py> Call<'_, 'py> {
     }
 
     /// Computes a quantity in the order of a batch, and the status of each point, if there are cells for it.
-    fn compute<E: Number>(
+    fn compute<E: Kernels + Element>(
         &self,
-        material: &Material,
+        materials: &Materials<'_, E>,
         F: &PyReadonlyArrayDyn<'py, E>,
-        points: &[usize],
+        count: usize,
         quantity: Quantity,
         mut results: Vec<&mut [E]>,
         cells: &[StatusCell],
     ) -> PyResult<Survey> {
-        let (py, count) = (F.py(), points.iter().product::<usize>());
-        let threads = self.threads.unwrap_or(count >= MANY);
+        let (py, axes, threads) = (F.py(), self.axes, self.threads.unwrap_or(count >= MANY));
         let F = F.as_slice()?;
-        let each = material.at(points);
-        let single;
-        let tiles: &dyn TileMaterial<E> = match &each[..] {
-            [] => E::material(material)?,
-            each => {
-                single = PerPoint::new(each).map_err(value_error)?;
-                &single
-            }
-        };
-        let (axes, filter) = (self.axes, self.filter);
-        let batch = Batch::new(tiles).with_filter(filter);
         let compute = || match axes {
-            Axes::Leading => {
-                quantity.compute(&batch.with_threads(threads).with_statuses(cells), F, &mut results)
-            }
-            Axes::Trailing => {
-                Columns { batch, filter, quantity, F, cells, count, each: &each }.compute(results, threads)
-            }
+            Axes::Leading => materials.with_batch(0, count, |batch| {
+                let batch = batch.with_threads(threads).with_statuses(cells);
+                quantity.compute(&batch, F, &mut results)
+            }),
+            Axes::Trailing => Columns { materials, quantity, F, cells, count }.compute(results, threads),
         };
         let survey = match (threads, count) {
             (true, _) => py.detach(|| on_threads(compute))?,

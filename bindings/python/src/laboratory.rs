@@ -11,7 +11,7 @@ use piola_declare::Energy;
 use piola_laboratory::Specimen;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, TRELOAR_1944};
-use piola_laboratory::fit::{Candidate, Difference, Fit, FitSettings, fit_parameters};
+use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
 use piola_laboratory::stability::{Report, SurveySettings, Walk, survey};
 use pyo3::prelude::*;
@@ -43,8 +43,8 @@ impl Material {
         incompressible: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (mode, controls) = (self::mode(mode)?, numbers("controls", controls)?);
-        let specimen = self.uniform()?.interpreted().map_err(of_material)?;
-        let points = py.detach(|| sweep(&specimen, mode, volume(incompressible), &controls));
+        let specimen = self.program()?;
+        let points = py.detach(|| sweep(specimen, mode, volume(incompressible), &controls));
         let (mut stress, mut stretches, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
         for point in points {
             let (at, of, reason) = match point {
@@ -121,9 +121,9 @@ impl Material {
         largest: f64,
         resolution: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let specimen = self.uniform()?.interpreted().map_err(of_material)?;
+        let specimen = self.program()?;
         let settings = SurveySettings { from: smallest, to: largest, resolution };
-        let report = py.detach(|| survey(&specimen, &settings)).map_err(value_error)?;
+        let report = py.detach(|| survey(specimen, &settings)).map_err(value_error)?;
         let text = report.to_string();
         let Report { points, admitted, findings, walks, .. } = report;
         let kept = findings.iter().map(|finding| (key(finding.criterion), finding.kept)).into_py_dict(py)?;
@@ -144,8 +144,8 @@ impl Material {
     fn contract(&self, py: Python<'_>) -> PyResult<Vec<(String, usize, f64)>> {
         let notation = self.uniform()?.energy.as_ref().map_or_else(Notation::default, Energy::notation);
         let settings = Settings { notation, ..Settings::default() };
-        let material = self.interpreted()?;
-        let report = py.detach(|| check(&material, &settings));
+        let material = self.program()?;
+        let report = py.detach(|| check(material, &settings));
         let report = report.map_err(|violations| ContractError::new_err(violations.to_string()))?;
         let finding = |finding: &piola::contract::Finding| {
             (finding.rule.to_string(), finding.comparisons, finding.worst)
@@ -173,14 +173,10 @@ impl Material {
         let F = Numbers::new("F", F)?;
         let dtype = if let Numbers::Single(_) = F { "float32" } else { "float64" };
         let (F, shape) = deformations(&F.doubles()?, Axes::Leading, &self.shape)?;
-        let candidates = self.specs().map(|spec| spec.candidate().map_err(of_material));
-        let candidates: Vec<_> = candidates.collect::<PyResult<_>>()?;
-        let candidate_of = shape::entries(&self.shape, &shape);
-        let Candidate { energy, material } = &candidates[0];
-        let lists = energy.values(material);
+        let (energy, material_of) = (self.declaration()?, shape::entries(&self.shape, &shape));
+        let lists = energy.values(&self.each[0]);
         let lengths = |lists: &[Vec<f64>]| lists.iter().map(Vec::len).collect::<Vec<_>>();
-        let is_alike = |one: &Candidate| lengths(&one.energy.values(&one.material)) == lengths(&lists);
-        if !candidates.iter().all(is_alike) {
+        if self.each.iter().any(|material| lengths(&energy.values(material)) != lengths(&lists)) {
             let message = "curves have a control point at x = 1 for some points and none for others: their derivatives are \
                            not one array";
             return Err(MaterialError::new_err(message));
@@ -190,7 +186,7 @@ impl Material {
         let mut derivatives = vec![vec![[[0.0; 3]; 3]; points.len()]; count];
         let outside = py.detach(|| {
             (0..points.len()).find(|&point| {
-                let Candidate { energy, material } = &candidates[candidate_of[point]];
+                let material = &self.each[material_of[point]];
                 let frames = svd(&points[point]);
                 let by_parameters =
                     match frames.stretches[2] > 0.0 && Specimen::<f64>::admits(material, frames.stretches) {

@@ -8,7 +8,7 @@
 //! | `material` | materials, by name or declared |
 //! | `description` | declarations in words |
 //! | `evaluate` | energy, stress and tangent of many points |
-//! | `quantity` | which of these, in which precision |
+//! | `quantity` | which of these, and of which materials |
 //! | `columns` | points along trailing axes |
 //! | `arrays` | arrays that are taken, and those that results go to |
 //! | `shape` | shapes, and how they are broadcast |

@@ -1,7 +1,5 @@
 //! Materials: an energy with its parameters, by its name in the catalogue or declared by a text.
 
-use std::sync::OnceLock;
-
 use numpy::{IntoPyArray, PyArrayMethods, PyUntypedArrayMethods};
 use piola::__private::message::printable;
 use piola::Inversion;
@@ -37,16 +35,14 @@ use crate::shape;
 pub(crate) struct Material {
     /// The energy by its name in the catalogue, or declared, with a value for each parameter.
     spec: MaterialSpec,
-    moduli: Moduli,
+    /// With the first values of parameters that differ from point to point.
     pub(crate) double: Box<dyn TileMaterial<f64>>,
-    /// Its program for single precision, made when it is wanted first.
-    single: OnceLock<Interpreted>,
     /// Parameters that differ from point to point.
     varying: Vec<Varying>,
     /// The shape that these have together, that of a number if there are none.
     pub(crate) shape: Vec<usize>,
-    /// A material for each point of this shape, in the order of C, if they differ.
-    each: Vec<Interpreted>,
+    /// The program of each point of this shape, in the order of C.
+    pub(crate) each: Vec<Interpreted>,
 }
 
 /// A parameter that has a value of its own, or a list of them, at each point.
@@ -69,17 +65,46 @@ impl Varying {
 }
 
 impl Material {
-    pub(crate) fn new(spec: MaterialSpec, extend: Option<f64>) -> PyResult<Self> {
+    /// The material of a specification, which has the first value of parameters that differ from point to
+    /// point.
+    fn new(spec: MaterialSpec, extend: Option<f64>, varying: Vec<Varying>) -> PyResult<Self> {
         let inversion = extend.map_or(Inversion::Refuse, |epsilon| Inversion::Extend { epsilon });
         let mut spec = spec.with_inversion(inversion).explicit().map_err(of_material)?;
-        let MaterialInfo { name, elements, moduli, .. } = spec.build().map_err(of_material)?;
+        let MaterialInfo { name, elements: double, .. } = spec.build().map_err(of_material)?;
         spec.material = name.into_owned();
-        let (varying, shape, each) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { spec, moduli, double: elements, single: OnceLock::new(), varying, shape, each })
+        let mut shape = Vec::new();
+        for Varying { name, points, .. } in &varying {
+            shape = shape::common(&shape, points).ok_or_else(|| {
+                let (points, others) = (shape::text(points), shape::text(&shape));
+                MaterialError::new_err(format!(
+                    "`{name}` has values for points of the shape {points}, and the parameters before it for {others}: \
+                     they cannot be broadcast together"
+                ))
+            })?;
+        }
+        let mut each = Vec::new();
+        let count = shape.iter().try_fold(1, |count: usize, &length| count.checked_mul(length));
+        let Some(count) = count.filter(|&count| each.try_reserve_exact(count).is_ok()) else {
+            let shape = shape::text(&shape);
+            return Err(MaterialError::new_err(format!(
+                "there is no memory for parameters of the shape {shape}"
+            )));
+        };
+        let entries: Vec<_> = varying.iter().map(|varying| shape::entries(&varying.points, &shape)).collect();
+        for point in 0..count {
+            let of_point = varying.iter().zip(&entries).fold(spec.clone(), |spec, (varying, entries)| {
+                spec.with_parameter(&varying.name, varying.at(entries[point]))
+            });
+            let refused = |error| {
+                let index = shape::text(&shape::index(point, &shape));
+                of_material(format!("at index {index}: {error}"))
+            };
+            each.push(of_point.interpreted().map_err(refused)?);
+        }
+        Ok(Self { spec, double, varying, shape, each })
     }
 
-    /// The material with parameters by keywords; of those that differ from point to point, the specification
-    /// has the first value.
+    /// The material with parameters by keywords.
     fn from_keywords(
         mut spec: MaterialSpec,
         extend: Option<f64>,
@@ -110,43 +135,7 @@ impl Material {
             spec = spec.with_parameter(name, varying.at(0));
             all_varying.push(varying);
         }
-        let material = Self::new(spec, extend)?;
-        if all_varying.is_empty() { Ok(material) } else { material.varied(all_varying) }
-    }
-
-    /// A material for each point.
-    fn varied(self, varying: Vec<Varying>) -> PyResult<Self> {
-        let mut shape = Vec::new();
-        for Varying { name, points, .. } in &varying {
-            shape = shape::common(&shape, points).ok_or_else(|| {
-                let (points, others) = (shape::text(points), shape::text(&shape));
-                MaterialError::new_err(format!(
-                    "`{name}` has values for points of the shape {points}, and the parameters before it for {others}: \
-                     they cannot be broadcast together"
-                ))
-            })?;
-        }
-        let refused = |point, error| {
-            let index = shape::text(&shape::index(point, &shape));
-            of_material(format!("at index {index}: {error}"))
-        };
-        let mut each = Vec::new();
-        let count = shape.iter().try_fold(1, |count: usize, &length| count.checked_mul(length));
-        if count.is_none_or(|count| each.try_reserve_exact(count).is_err()) {
-            let shape = shape::text(&shape);
-            return Err(MaterialError::new_err(format!(
-                "there is no memory for parameters of the shape {shape}"
-            )));
-        }
-        for (point, spec) in specs(&self.spec, &varying, &shape).enumerate() {
-            each.push(spec.interpreted().map_err(|error| refused(point, error))?);
-        }
-        Ok(Self { varying, shape, each, ..self })
-    }
-
-    /// A specification for each point of the [shape](Self::shape).
-    pub(crate) fn specs(&self) -> impl Iterator<Item = MaterialSpec> {
-        specs(&self.spec, &self.varying, &self.shape)
+        Self::new(spec, extend, all_varying)
     }
 
     /// The specification, if it is the same at all points.
@@ -186,39 +175,25 @@ impl Material {
         }
     }
 
-    pub(crate) fn single(&self) -> PyResult<&dyn TileMaterial<f32>> {
-        if let Some(single) = self.single.get() {
-            return Ok(single);
-        }
-        let single = self.interpreted()?;
-        Ok(self.single.get_or_init(|| single))
+    /// The material as a program, if it is the same at all points.
+    pub(crate) fn program(&self) -> PyResult<&Interpreted> {
+        self.uniform().map(|_| &self.each[0])
     }
 
-    /// The material as a program.
-    pub(crate) fn interpreted(&self) -> PyResult<Interpreted> {
-        self.spec.interpreted().map_err(of_material)
+    /// The declared energy, without values for its parameters.
+    pub(crate) fn declaration(&self) -> PyResult<Energy> {
+        Ok(self.spec.candidate().map_err(of_material)?.energy)
     }
 
     /// The material with the values of a fit.
     pub(crate) fn with_fitted(&self, values: &[Vec<f64>]) -> PyResult<Self> {
-        Self::new(self.spec.with_fitted(values).map_err(of_material)?, self.extend())
+        Self::new(self.spec.with_fitted(values).map_err(of_material)?, self.extend(), Vec::new())
     }
 
     /// Description of the declaration.
     fn declared(&self) -> PyResult<&material::Description> {
         self.spec.description().map_err(of_material)
     }
-}
-
-/// A specification for each point of a shape.
-fn specs(spec: &MaterialSpec, varying: &[Varying], points: &[usize]) -> impl Iterator<Item = MaterialSpec> {
-    let entries: Vec<_> = varying.iter().map(|varying| shape::entries(&varying.points, points)).collect();
-    (0..points.iter().product()).map(move |point| {
-        let at_point = |spec: MaterialSpec, (varying, entries): (&Varying, &Vec<usize>)| {
-            spec.with_parameter(&varying.name, varying.at(entries[point]))
-        };
-        varying.iter().zip(&entries).fold(spec.clone(), at_point)
-    })
 }
 
 /// The parameter that a keyword names: `lambda_` is `lambda`, unless there is a `lambda_`.
@@ -253,7 +228,7 @@ impl Material {
     #[staticmethod]
     #[pyo3(signature = (name, /, *, extend = None))]
     fn typical(name: &str, extend: Option<f64>) -> PyResult<Self> {
-        Self::new(MaterialSpec::typical(name).map_err(of_material)?, extend)
+        Self::new(MaterialSpec::typical(name).map_err(of_material)?, extend, Vec::new())
     }
 
     /// The material of a name with Young's modulus, Pa, and Poisson's ratio at small strain.
@@ -263,7 +238,7 @@ impl Material {
     #[pyo3(signature = (name, /, *, young, poisson, extend = None))]
     fn matching(name: &str, young: f64, poisson: f64, extend: Option<f64>) -> PyResult<Self> {
         let moduli = Moduli::from_young_poisson(young, poisson).map_err(of_material)?;
-        Self::new(MaterialSpec::matching(name, moduli), extend)
+        Self::new(MaterialSpec::matching(name, moduli), extend, Vec::new())
     }
 
     /// The material with other values of the parameters that are named.
@@ -357,8 +332,9 @@ impl Material {
     /// Moduli at small strain, Pa, and Poisson's ratio: those of the first point, if parameters differ.
     #[getter]
     fn moduli<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let Moduli { mu, lambda } = self.moduli;
-        let (bulk, young, poisson) = (self.moduli.bulk(), self.moduli.young(), self.moduli.poisson());
+        let moduli = Moduli::of(&self.each[0]);
+        let (bulk, young, poisson) = (moduli.bulk(), moduli.young(), moduli.poisson());
+        let Moduli { mu, lambda } = moduli;
         py.import("piola.results")?.call_method1("Moduli", (mu, lambda, bulk, young, poisson))
     }
 
@@ -387,7 +363,7 @@ impl Material {
     #[staticmethod]
     fn _from_text(text: &str, extend: Option<f64>) -> PyResult<Self> {
         let spec = serde_json::from_str(text).map_err(of_material)?;
-        Self::new(spec, extend)
+        Self::new(spec, extend, Vec::new())
     }
 }
 

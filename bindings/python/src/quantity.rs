@@ -1,31 +1,13 @@
-//! Quantities that are computed of points, in f64 or f32.
+//! Quantities that are computed of points, and the materials of these.
 
 #![expect(non_snake_case, reason = "F and P as in the literature")]
 
-use numpy::Element;
 use piola::Survey;
 use piola::batch::{Batch, Kernels, LengthError, TileMaterial};
+use piola::interpreter::Interpreted;
+use piola::material::PerPoint;
+use piola::point::Filter;
 use piola::point::measures::Measure;
-use pyo3::PyResult;
-
-use crate::material::Material;
-
-/// A number of an array.
-pub(crate) trait Number: Kernels + Element {
-    fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>>;
-}
-
-impl Number for f64 {
-    fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>> {
-        Ok(&*material.double)
-    }
-}
-
-impl Number for f32 {
-    fn material(material: &Material) -> PyResult<&dyn TileMaterial<Self>> {
-        material.single()
-    }
-}
 
 /// The order of the components of symmetric tensors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,6 +86,35 @@ impl Quantity {
                 batch.measured_tangents(measure, F, stresses, tangents)
             }
             _ => unreachable!("a result for each of the components"),
+        }
+    }
+}
+
+/// The materials of many points, and the filter of their tangents.
+pub(crate) struct Materials<'a, E> {
+    /// The material of all points, unless they differ.
+    pub(crate) uniform: &'a dyn TileMaterial<E>,
+    /// A material for each point, if they differ.
+    pub(crate) each: Vec<&'a Interpreted>,
+    pub(crate) filter: Filter,
+}
+
+impl<E: Kernels> Materials<'_, E> {
+    /// Calls a function with a batch of `count` points from `start` on. Those beyond the last point, which
+    /// fill up a line, have its material.
+    pub(crate) fn with_batch<T>(
+        &self,
+        start: usize,
+        count: usize,
+        compute: impl FnOnce(Batch<'_, E>) -> T,
+    ) -> T {
+        let Some(last) = self.each.len().checked_sub(1) else {
+            return compute(Batch::new(self.uniform).with_filter(self.filter));
+        };
+        let each: Vec<_> = (start..start + count).map(|point| self.each[last.min(point)]).collect();
+        match PerPoint::new(each) {
+            Ok(materials) => compute(Batch::new(&materials).with_filter(self.filter)),
+            Err(_) => unreachable!("all materials do the same outside of their domain"),
         }
     }
 }
