@@ -4,10 +4,11 @@ use numpy::{IntoPyArray, PyArrayMethods, PyUntypedArrayMethods};
 use piola::__private::message::printable;
 use piola::Inversion;
 use piola::batch::TileMaterial;
+use piola::contract::Notation;
 use piola::interpreter::Interpreted;
 use piola::material::{self, Moduli, Parameter, PerPoint};
 use piola_declare::emit::{Emission, UnknownWord};
-use piola_declare::{Energy, FormulaOptions, Mistakes};
+use piola_declare::{Energy, FormulaOptions};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyTuple};
@@ -422,7 +423,8 @@ pub(crate) fn describe(py: Python<'_>, energy: &Bound<'_, PyAny>, free_rest: boo
     Ok(Description::new(&spec.material, spec.description().map_err(of_material)?))
 }
 
-/// The specification of an energy that a text declares; keywords only tell which names are parameters.
+/// The specification of an energy that a text declares; keywords only tell which names of a formula are
+/// parameters.
 fn declared(
     py: Python<'_>,
     text: &str,
@@ -430,34 +432,9 @@ fn declared(
     free_rest: bool,
     keywords: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<MaterialSpec> {
-    let is_rust = text.contains("#[");
-    let energy = match is_rust {
-        true => py.detach(|| Energy::from_rust(text)),
-        false => of_formula(py, text, free_rest, keywords)?,
-    };
-    // Ctrl-C during the compilation ends here.
-    py.check_signals()?;
-    let mistaken = |mistakes: Mistakes| match name {
-        Some(name) => of_text(mistakes.with_name(label(name))),
-        None => of_text(mistakes),
-    };
-    let mut spec = MaterialSpec::declared(energy.map_err(mistaken)?);
-    if let Some(name) = name.or((!is_rust).then_some(text)) {
-        spec.material = label(name);
-    }
-    Ok(spec)
-}
-
-/// The energy of a formula, in which the names of keywords are parameters.
-fn of_formula(
-    py: Python<'_>,
-    formula: &str,
-    free_rest: bool,
-    keywords: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Result<Energy, Mistakes>> {
-    let formula = &as_identifiers(py, formula)?;
+    let letters = &as_identifiers(py, text)?;
     let is_used =
-        |name: &str| formula.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
+        |name: &str| letters.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
     let mut known = Vec::new();
     for (keyword, _) in keywords.into_iter().flatten() {
         let keyword: String = keyword.extract()?;
@@ -465,21 +442,30 @@ fn of_formula(
     }
     let (value, free_rest_option) = (Some("NAME=VALUE"), Some("free_rest=True"));
     let any = FormulaOptions { free_rest, value, free_rest_option, ..FormulaOptions::default() };
-    Ok(py.detach(|| {
-        if known.is_empty() {
-            return Energy::from_formula_with(formula, &any);
-        }
-        let with_known = FormulaOptions { parameters: Some(known), ..any.clone() };
-        let energy = Energy::from_formula_with(formula, &with_known);
+    let with_known = FormulaOptions { parameters: (!known.is_empty()).then_some(known), ..any.clone() };
+    let energy = py.detach(|| match Energy::from_text_with(letters, &with_known) {
         // Where keywords are missing or wrong the material says which parameters there are.
-        energy.or_else(|mistakes| Energy::from_formula_with(formula, &any).map_err(|_| mistakes))
-    }))
+        Err(mistakes) if with_known != any => Energy::from_text_with(letters, &any).map_err(|_| mistakes),
+        energy => energy,
+    });
+    // Ctrl-C during the compilation ends here.
+    py.check_signals()?;
+    let energy = energy.map_err(|mistakes| match name {
+        Some(name) => of_text(mistakes.with_name(label(name))),
+        None => of_text(mistakes),
+    })?;
+    let formula = (energy.notation() == Notation::Formula).then_some(text);
+    let mut spec = MaterialSpec::declared(energy);
+    if let Some(name) = name.or(formula) {
+        spec.material = label(name);
+    }
+    Ok(spec)
 }
 
-/// A formula with the letters that Python substitutes in keywords: μ for the micro sign, φ for ϕ.
-fn as_identifiers(py: Python<'_>, formula: &str) -> PyResult<String> {
+/// A text with the letters that Python substitutes in keywords: μ for the micro sign, φ for ϕ.
+fn as_identifiers(py: Python<'_>, text: &str) -> PyResult<String> {
     let mut letters = String::new();
-    for c in formula.chars() {
+    for c in text.chars() {
         match c.is_alphabetic() && !c.is_ascii() {
             true => {
                 let normal = py.import("unicodedata")?.call_method1("normalize", ("NFKC", c))?;
