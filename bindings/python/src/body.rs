@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::sync::Mutex;
 
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyUntypedArrayMethods};
 use piola::Survey;
 use piola::point::Filter;
 use piola_bodies::mesh::{Group, TetMesh, tetrahedral_box};
@@ -34,37 +34,6 @@ pub(crate) struct Body {
     pub(crate) body: system::Body,
     /// Memory that evaluations reuse.
     memory: Mutex<Memory>,
-    /// The index in `tets` of each element, which are sorted by part.
-    order: Vec<usize>,
-}
-
-/// A sparse matrix in blocks, row by row.
-struct Blocks {
-    /// The first block of each row, and their number.
-    starts: Vec<i64>,
-    columns: Vec<i64>,
-    blocks: Vec<[[f64; 3]; 3]>,
-}
-
-impl Blocks {
-    /// Both blocks of each pair of nodes, of which the matrix has one.
-    fn new(matrix: &NodalStiffness, nodes: usize) -> Self {
-        let mut rows = vec![Vec::new(); nodes];
-        for (row, column, block) in matrix.blocks() {
-            rows[row].push((column, *block));
-            if row != column {
-                rows[column].push((row, std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]))));
-            }
-        }
-        let mut both = Self { starts: vec![0], columns: Vec::new(), blocks: Vec::new() };
-        for mut row in rows {
-            row.sort_unstable_by_key(|&(column, _)| column);
-            both.columns.extend(row.iter().map(|&(column, _)| column as i64));
-            both.blocks.extend(row.iter().map(|&(_, block)| block));
-            both.starts.push(both.columns.len() as i64);
-        }
-        both
-    }
 }
 
 /// Row, column and entries of each block.
@@ -90,27 +59,12 @@ impl Body {
         let (value, survey) = evaluated.map_err(of_body)?;
         let Some(first) = survey.first else { return Ok(value) };
         let Survey { refused, nonfinite, .. } = survey;
-        let tet = self.order[first];
+        let tet = self.body.elements()[first].tag;
         let message = format!(
             "{refused} tetrahedra are outside the domain of their material, and {nonfinite} not finite; the first \
              of them is {tet} (from 0)"
         );
         Err(DomainError::new_err((message, (tet,), refused, nonfinite)))
-    }
-
-    fn blocks(&self, py: Python<'_>, positions: &Bound<'_, PyAny>, filter: Option<&str>) -> PyResult<Blocks> {
-        let x = rows("positions", positions)?;
-        let filter: Filter = self::filter(filter)?;
-        let mut gradient = vec![[0.0; 3]; self.body.rest().len()];
-        self.evaluate(py, |body, Memory { response, stiffness }| {
-            let matrix = match stiffness {
-                Some(matrix) => matrix,
-                None => stiffness.insert(NodalStiffness::of_body(body)?),
-            };
-            response.energy(body, &x)?;
-            let survey = response.stiffness_here(body, filter, &mut gradient, matrix)?;
-            Ok((Blocks::new(matrix, body.rest().len()), survey))
-        })
     }
 }
 
@@ -155,7 +109,6 @@ impl Body {
             Group { name: part.to_string(), dimension: 3, tets, ..Group::default() }
         };
         mesh.groups = (0..materials.len()).map(group).collect();
-        let order = mesh.groups.iter().flat_map(|group| group.tets.iter().copied()).collect();
         let part = |(part, (material, density)): (usize, (&Py<Material>, f64))| {
             let material = material.get().elements(mesh.groups[part].tets.len())?;
             Ok(Part { group: Some(part.to_string()), material, density })
@@ -163,7 +116,7 @@ impl Body {
         let parts: Vec<_> = materials.iter().zip(densities).enumerate().map(part).collect::<PyResult<_>>()?;
         let body = system::Body::from_parts(&mesh, parts).map_err(of_body)?;
         let memory = Mutex::new(Memory { response: ElasticResponse::new(&body), stiffness: None });
-        Ok(Self { body, memory, order })
+        Ok(Self { body, memory })
     }
 
     /// Rest positions of the nodes, m, of shape (n, 3), to be read.
@@ -221,13 +174,15 @@ impl Body {
             error.set_cause(py, Some(cause));
             error
         })?;
-        let Blocks { starts, columns, blocks } = self.blocks(py, positions, filter)?;
-        let unknowns = 3 * self.body.rest().len();
+        let (rows, columns, blocks) = self.stiffness_blocks(py, positions, filter)?;
         // Solvers take indices of 32 bits, unless there are too many entries.
-        let dtype = if i32::try_from(9 * blocks.len()).is_ok() { "int32" } else { "int64" };
-        let index = |array: Vec<i64>| array.into_pyarray(py).call_method1("astype", (dtype,));
-        let arrays = (from_blocks(py, blocks)?, index(columns)?, index(starts)?);
-        sparse.call_method1("bsr_array", (arrays, (unknowns, unknowns)))?.call_method0("tocsr")
+        let dtype = if i32::try_from(9 * rows.len()).is_ok() { "int32" } else { "int64" };
+        let (numpy, nodes) = (py.import("numpy")?, self.body.rest().len());
+        let starts =
+            numpy.call_method1("searchsorted", (rows, numpy.call_method1("arange", (nodes + 1,))?))?;
+        let index = |array: Bound<'py, PyAny>| array.call_method1("astype", (dtype,));
+        let arrays = (blocks, index(columns.into_any())?, index(starts)?);
+        sparse.call_method1("bsr_array", (arrays, (3 * nodes, 3 * nodes)))?.call_method0("tocsr")
     }
 
     /// Stiffness, N/m, in blocks of 3x3: (rows, columns, blocks), of shapes (b,), (b,) and (b, 3, 3).
@@ -245,10 +200,35 @@ impl Body {
         positions: &Bound<'py, PyAny>,
         filter: Option<&str>,
     ) -> PyResult<Triplets<'py>> {
-        let Blocks { starts, columns, blocks } = self.blocks(py, positions, filter)?;
-        let of_row = |row: usize| (starts[row]..starts[row + 1]).map(move |_| row as i64);
-        let rows: Vec<_> = (0..self.body.rest().len()).flat_map(of_row).collect();
-        Ok((rows.into_pyarray(py), columns.into_pyarray(py), from_blocks(py, blocks)?))
+        let x = rows("positions", positions)?;
+        let filter: Filter = self::filter(filter)?;
+        let mut gradient = vec![[0.0; 3]; self.body.rest().len()];
+        let ((rows, columns), blocks): ((Vec<i64>, Vec<i64>), Vec<[[f64; 3]; 3]>) =
+            self.evaluate(py, |body, Memory { response, stiffness }| {
+                let matrix = match stiffness {
+                    Some(matrix) => matrix,
+                    None => stiffness.insert(NodalStiffness::of_body(body)?),
+                };
+                response.energy(body, &x)?;
+                let survey = response.stiffness_here(body, filter, &mut gradient, matrix)?;
+                // Both blocks of each pair of nodes, of which the matrix has one.
+                let mut of_rows = vec![Vec::new(); gradient.len()];
+                for (row, column, block) in matrix.blocks() {
+                    of_rows[row].push((column, *block));
+                    if row != column {
+                        let transposed = std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]));
+                        of_rows[column].push((row, transposed));
+                    }
+                }
+                let sorted = of_rows.into_iter().enumerate().flat_map(|(row, mut of_row)| {
+                    of_row.sort_unstable_by_key(|&(column, _)| column);
+                    of_row.into_iter().map(move |(column, block)| ((row as i64, column as i64), block))
+                });
+                Ok((sorted.unzip(), survey))
+            })?;
+        let flat = blocks.as_flattened().as_flattened().to_vec().into_pyarray(py);
+        let blocks = flat.reshape([blocks.len(), 3, 3])?.into_any();
+        Ok((rows.into_pyarray(py), columns.into_pyarray(py), blocks))
     }
 
     fn __repr__(&self) -> String {
@@ -258,12 +238,6 @@ impl Body {
             self.body.elements().len()
         )
     }
-}
-
-/// Blocks as an array of shape (b, 3, 3).
-fn from_blocks(py: Python<'_>, blocks: Vec<[[f64; 3]; 3]>) -> PyResult<Bound<'_, PyAny>> {
-    let flat = blocks.as_flattened().as_flattened().to_vec().into_pyarray(py);
-    Ok(flat.reshape([blocks.len(), 3, 3])?.into_any())
 }
 
 /// One material, or a sequence of them.
