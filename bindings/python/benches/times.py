@@ -9,8 +9,6 @@ one thread, unless a line says otherwise; what the others use is their own choic
 import argparse
 import importlib.util
 import pathlib
-import shutil
-import subprocess
 import sys
 import time
 
@@ -56,7 +54,7 @@ def overhead():
 
 
 def many(points):
-    """Times for a point of large arrays, of the neo-Hookean solid, compared with those of the batch in Rust."""
+    """Times for a point of large arrays."""
     F = np.eye(3) + 0.2 * np.random.default_rng(1).uniform(-1, 1, (points, 3, 3))
     columns = np.ascontiguousarray(F.transpose(1, 2, 0))
     P, A = np.empty_like(F), np.empty((*F.shape, 3, 3))
@@ -71,25 +69,8 @@ def many(points):
                 lambda: rubber.stress(columns, trailing=True, out=P_t, threads=threads),
                 lambda: rubber.tangent(columns, trailing=True, out=(P_t, A_t), threads=threads),
             )
-            # In turns, so that what else the machine does meanwhile slows both.
-            rounds = [
-                ([1e9 * best(call) / points for call in calls], in_rust(points, count) if name == "neo-Hookean" else None)
-                for _ in range(3)
-            ]
-            each = np.min([here for here, _ in rounds], axis=0)
+            each = [1e9 * best(call) / points for call in calls]
             print(f"{name:26} {count:9} {each[0]:6.1f} {each[1]:10.1f} {each[2]:14.1f} {each[3]:10.1f}")
-            if rounds[0][1]:
-                rust = np.min([there for _, there in rounds], axis=0)
-                print(f"{'  the batch in Rust':26} {count:9} {rust[0]:6.1f} {rust[1]:10.1f}")
-
-
-def in_rust(points, threads):
-    """Times of the batch in Rust for P, and for P and dP/dF, ns a point; None where there is no cargo."""
-    if not shutil.which("cargo"):
-        return None
-    command = ["cargo", "bench", "-q", "-p", "piola-python", "--bench", "batch", "--", str(points), str(threads)]
-    folder = pathlib.Path(__file__).parents[1]
-    return [float(time) for time in subprocess.run(command, cwd=folder, check=True, capture_output=True).stdout.split()]
 
 
 def compare(client, what, other, own, points):
