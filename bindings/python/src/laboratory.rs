@@ -8,7 +8,6 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use piola::contract::{Notation, Settings, check};
 use piola::point::{stress, svd};
 use piola_declare::Energy;
-use piola_laboratory::Specimen;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, TRELOAR_1944};
 use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
@@ -189,7 +188,7 @@ impl Material {
                 let material = &self.each[material_of[point]];
                 let frames = svd(&points[point]);
                 let by_parameters =
-                    match frames.stretches[2] > 0.0 && Specimen::<f64>::admits(material, frames.stretches) {
+                    match frames.stretches[2] > 0.0 && piola::Material::admits(material, frames.stretches) {
                         true => energy.gradient_by_parameters(material, frames.stretches),
                         false => return true,
                     };
