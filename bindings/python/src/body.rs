@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PySequence;
 
 use crate::arrays::{from_rows, indices, kind, numbers, read_only, rows};
-use crate::errors::{BodyError, DomainError, of_body, type_error};
+use crate::errors::{DomainError, of_body, type_error};
 use crate::evaluate::filter;
 use crate::material::Material;
 use crate::threads::with_locked;
@@ -85,24 +85,16 @@ impl Body {
         let (materials, densities) = (materials(material)?, numbers("density", density)?);
         if materials.len() != densities.len() {
             let (materials, densities) = (materials.len(), densities.len());
-            return Err(BodyError::new_err(format!(
-                "there are {materials} materials and {densities} densities"
-            )));
+            return Err(of_body(format!("there are {materials} materials and {densities} densities")));
         }
         let part_of: Vec<[usize; 1]> = match parts {
             Some(parts) => indices("parts", parts)?,
             None if materials.len() == 1 => vec![[0]; mesh.tets.len()],
-            None => {
-                return Err(BodyError::new_err(
-                    "several materials need `parts`, the material of each tetrahedron",
-                ));
-            }
+            None => return Err(of_body("several materials need `parts`, the material of each tetrahedron")),
         };
         if part_of.len() != mesh.tets.len() {
             let (parts, tets) = (part_of.len(), mesh.tets.len());
-            return Err(BodyError::new_err(format!(
-                "parts has {parts} entries; it must have one for each of {tets}"
-            )));
+            return Err(of_body(format!("parts has {parts} entries; it must have one for each of {tets}")));
         }
         let group = |part: usize| {
             let tets = (0..part_of.len()).filter(|&tet| part_of[tet] == [part]).collect();

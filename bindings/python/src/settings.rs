@@ -5,7 +5,7 @@ use pyo3::types::PyDict;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::errors::{BodyError, value_error};
+use crate::errors::{of_body, value_error};
 
 /// Settings from keywords: strings, numbers, sequences, arrays and dictionaries of these.
 pub(crate) fn from_keywords<T: DeserializeOwned>(
@@ -17,7 +17,7 @@ pub(crate) fn from_keywords<T: DeserializeOwned>(
     serde_json::from_str(&text).map_err(|error| {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or(&message);
-        BodyError::new_err(format!("the settings are wrong: {message}"))
+        of_body(format!("the settings are wrong: {message}"))
     })
 }
 

@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{from_rows, indices, read_only, rows};
 use crate::body::Body;
-use crate::errors::{BodyError, of_body, of_step};
+use crate::errors::{of_body, of_step};
 use crate::settings::{from_keywords, to_dict};
 use crate::threads::{on_threads, with_locked};
 
@@ -131,7 +131,7 @@ impl Simulation {
         let positions: Vec<[f64; 3]> = rows("positions", positions)?;
         if nodes.len() != positions.len() {
             let (nodes, positions) = (nodes.len(), positions.len());
-            return Err(BodyError::new_err(format!("there are {nodes} nodes and {positions} positions")));
+            return Err(of_body(format!("there are {nodes} nodes and {positions} positions")));
         }
         let prescribe = |simulation: &mut step::Simulation| {
             nodes
