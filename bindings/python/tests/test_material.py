@@ -224,6 +224,8 @@ def test_mistakes_of_a_text_are_told_at_their_places():
     freed = piola.declare("C10*(I1 - 3) + kappa/2*(J-1)^2", C10=1.0, kappa=10.0, free_rest=True)
     assert np.abs(freed.stress(np.eye(3))).max() < 1e-12
     assert "needs a value for `mu`" in message(piola.MaterialError, lambda: piola.declare(FORMULA, lambda_=1.0))
+    springs = "fn Springs([l1, l2, l3]: [f64; 3], mu: f64) -> f64 { mu * sum(|l| (l - 1.0).powi(2)) }"
+    assert "with `#[material]` before it" in message(piola.DeclarationError, lambda: piola.declare(springs, mu=1.0))
     for text in ("", "(" * 100_000, "mu" * 50_000, "\0", "∫", "fn", "#[material] fn", "1/0", "J^J^J^J"):
         with pytest.raises((piola.DeclarationError, piola.MaterialError)):
             piola.declare(text, mu=1.0)
