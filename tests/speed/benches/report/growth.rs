@@ -43,15 +43,17 @@ type Way = (&'static str, NewtonSettings, usize);
 
 const EQUILIBRIUM: &str = "equilibrium, conjugate gradients";
 
-fn ways() -> [Way; 5] {
+fn ways() -> [Way; 6] {
     let iterative = |tolerance| LinearSolver::ConjugateGradients { tolerance, max_iterations: 20_000 };
     let step = |linear| NewtonSettings::single().with_linear(linear);
+    let equilibrium = NewtonSettings::default().with_linear(iterative(1e-2));
     [
         ("step, Cholesky", step(LinearSolver::Cholesky), 1),
         ("step, conjugate gradients 1e-3", step(iterative(1e-3)), 1),
         ("step, Cholesky", step(LinearSolver::Cholesky), 2),
         ("step, conjugate gradients 1e-3", step(iterative(1e-3)), 2),
-        (EQUILIBRIUM, NewtonSettings::default().with_linear(iterative(1e-2)), 2),
+        (EQUILIBRIUM, equilibrium, 1),
+        (EQUILIBRIUM, equilibrium, 2),
     ]
 }
 
