@@ -319,19 +319,16 @@ impl<'a> Course<'a> {
     }
 
     fn resume(&mut self, file: &Path) -> Result<Clock, Error> {
-        let (settings, body) = (self.settings()?, self.setting.body.checksum);
-        let check = |about: &About| {
-            if about.body != body {
-                return Err("it belongs to another mesh".to_owned());
-            }
-            if about.settings != settings || about.clock.is_none() {
-                return Err(format!("its run began with other options: {}", about.settings));
-            }
-            Ok(())
-        };
-        let about: About = checkpoint::read(self.team, file, &mut self.simulation, check)?;
+        let settings = self.settings()?;
+        let about: About = checkpoint::read(self.team, file, &mut self.simulation)?;
+        if about.body != self.setting.body.checksum {
+            return Err(checkpoint::refused(file, "it belongs to another mesh"));
+        }
+        let clock = about.clock.filter(|_| about.settings == settings).ok_or_else(|| {
+            checkpoint::refused(file, format!("its run began with other options: {}", about.settings))
+        })?;
         (self.frame, self.progress) = (about.frame, about.progress);
-        Ok(about.clock.unwrap_or_else(|| Clock::new(self.task.settings.dt)))
+        Ok(clock)
     }
 
     fn summary(&mut self, times: &[Duration]) -> Summary {
