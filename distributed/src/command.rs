@@ -155,8 +155,8 @@ pub(crate) struct Move {
 pub(crate) struct Task {
     /// The scene with its overrides.
     pub(crate) settings: Settings,
-    /// Groups with another material, by name.
-    pub(crate) parts: Vec<(String, MaterialPart)>,
+    /// Materials of the body, and of groups.
+    pub(crate) parts: Vec<MaterialPart>,
     /// Motions of nodes.
     pub(crate) moves: Vec<Move>,
 }
@@ -201,13 +201,17 @@ impl BodyOptions {
     pub(crate) fn task(&self) -> Result<Task, Error> {
         let settings = self.scene.clone().settings(None)?;
         settings.check()?;
-        let parts = self.parts.iter().map(|text| part(text, &settings)).collect::<Result<_, _>>()?;
+        let (material, density) = (settings.material.clone(), settings.density);
+        let mut parts = vec![MaterialPart { group: None, material, density }];
+        for text in &self.parts {
+            parts.push(part(text, &settings)?);
+        }
         Ok(Task { settings, parts, moves: self.moves.clone() })
     }
 }
 
 /// Reads `GROUP=NAME;PARAM=V;…;density=RHO`.
-fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error> {
+fn part(text: &str, settings: &Settings) -> Result<MaterialPart, Error> {
     let wrong = |reason: &str| Error::usage(format!("--part {text}: {reason}"));
     let mut words = text.split(';');
     let (group, name) = words
@@ -231,7 +235,7 @@ fn part(text: &str, settings: &Settings) -> Result<(String, MaterialPart), Error
     };
     let material = with_values(material, parameters)?;
     material.build()?;
-    Ok((group.to_owned(), MaterialPart { material, density }))
+    Ok(MaterialPart { group: Some(group.to_owned()), material, density })
 }
 
 /// Reads `BOX|GROUP=X,Y,Z@T`.
@@ -320,8 +324,8 @@ mod tests {
             assert!(motion(wrong).is_err(), "{wrong}");
         }
         let settings = Settings::new(piola_scenes::scene::Scene::find("horse")?);
-        let (group, material) = part("legs=neo-Hookean;mu=1e5;lambda=1e6;density=2000", &settings)?;
-        assert_eq!((group.as_str(), material.density), ("legs", 2000.0));
+        let legs = part("legs=neo-Hookean;mu=1e5;lambda=1e6;density=2000", &settings)?;
+        assert_eq!((legs.group.as_deref(), legs.density), (Some("legs"), 2000.0));
         assert!(part("legs=nothing", &settings).is_err() && part("legs", &settings).is_err());
         Ok(())
     }

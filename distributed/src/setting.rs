@@ -1,7 +1,6 @@
-//! Setting of a run: the body of a scene, read and divided, with pins, prescribed motions and springs.
+//! The body of a scene, read and divided, with pins, prescribed motions and springs.
 
 use piola_bodies::mesh::{Bounds, TetMesh};
-use piola_bodies::step::Spring;
 use piola_bodies::system::Pins;
 use piola_scenes::geometry::{Geometry, NOTHING_PULLED};
 use piola_scenes::play::{self, DragSprings};
@@ -14,18 +13,6 @@ use crate::part::MaterialPart;
 use crate::portion::{Element, Place, Portion};
 use crate::share::Share;
 use crate::team::Team;
-
-/// Setting of a run on one rank.
-#[derive(Debug)]
-pub(crate) struct Setting {
-    /// Nodes and elements of this rank.
-    pub(crate) share: Share,
-    /// Properties of the whole body, equal on all ranks.
-    pub(crate) body: BodyFacts,
-    /// Springs of each pull, at the owned nodes of this rank.
-    pub(crate) pulls: Vec<DragSprings>,
-    moves: Vec<Move>,
-}
 
 /// Properties of the whole body, equal on all ranks.
 #[derive(Debug, Serialize, Deserialize)]
@@ -56,54 +43,41 @@ fn move_mark(number: usize) -> u64 {
     1 << (32 + number)
 }
 
-impl Setting {
-    /// Reads the body on rank 0 and divides it. The elements of the parts have the materials with the numbers
-    /// 1, 2, …; all other elements have the material with the number 0.
-    pub(crate) fn new(team: &Team, task: &Task) -> Result<Self, Error> {
-        let Task { settings, moves, .. } = task;
-        if moves.len() > MOST || settings.scene.pulls.len() > MOST {
-            return Err(Error::usage(format!("at most {MOST} motions can be prescribed")));
+/// Reads the body on rank 0 and divides it: the share of this rank, properties of the whole body, and the
+/// springs of each pull at owned nodes. The material of an element is the number of its part.
+pub(crate) fn divided(team: &Team, task: &Task) -> Result<(Share, BodyFacts, Vec<DragSprings>), Error> {
+    let Task { settings, moves, .. } = task;
+    if moves.len() > MOST || settings.scene.pulls.len() > MOST {
+        return Err(Error::usage(format!("at most {MOST} motions can be prescribed")));
+    }
+    let (places, elements, facts) = team.on_first(|| read(task))?;
+    let body: BodyFacts = serde_json::from_slice(&team.broadcast(0, facts))
+        .map_err(|error| Error::usage(format!("the ranks run different programs: {error}")))?;
+    let share = Share::of(team, Portion::spread(team, places, elements))?;
+    let pulls = settings.scene.pulls.iter().enumerate().map(|(number, &pull)| DragSprings {
+        pull,
+        nodes: (0..share.owned)
+            .filter(|&node| share.places[node].marks & pull_mark(number) != 0)
+            .map(|node| (node, share.places[node].rest))
+            .collect(),
+        bounds: body.bounds,
+        stiffness: body.stiffnesses[number],
+    });
+    let pulls = pulls.collect();
+    Ok((share, body, pulls))
+}
+
+/// Position of a pinned node at a time, s, if it has a prescribed motion.
+pub(crate) fn moved(moves: &[Move], &Place { rest, marks, .. }: &Place, time: f64) -> Option<[f64; 3]> {
+    let mut moved = None;
+    for (number, motion) in moves.iter().enumerate() {
+        if marks & move_mark(number) != 0 {
+            let done = (time / motion.reached).clamp(0.0, 1.0);
+            let at = moved.get_or_insert(rest);
+            (0..3).for_each(|c| at[c] += done * motion.displacement[c]);
         }
-        let (places, elements, facts) = team.on_first(|| read(task))?;
-        let facts = team.broadcast(0, facts);
-        let body: BodyFacts = serde_json::from_slice(&facts)
-            .map_err(|error| Error::usage(format!("the ranks run different programs: {error}")))?;
-        let share = Share::of(team, Portion::spread(team, places, elements))?;
-        let pulls = settings.scene.pulls.iter().enumerate().map(|(number, &pull)| DragSprings {
-            pull,
-            nodes: (0..share.owned)
-                .filter(|&node| share.places[node].marks & pull_mark(number) != 0)
-                .map(|node| (node, share.places[node].rest))
-                .collect(),
-            bounds: body.bounds,
-            stiffness: body.stiffnesses[number],
-        });
-        Ok(Self { pulls: pulls.collect(), moves: moves.clone(), share, body })
     }
-
-    /// Springs at owned nodes at the end of a time interval, s.
-    pub(crate) fn springs(&self, start: f64, end: f64) -> Vec<Spring> {
-        self.pulls.iter().flat_map(|pull| pull.during(start, end)).collect()
-    }
-
-    /// Position of a pinned node at a time, s, if it has a prescribed motion.
-    pub(crate) fn place(&self, node: usize, time: f64) -> Option<[f64; 3]> {
-        let Place { rest, marks, .. } = self.share.places[node];
-        let mut moved = None;
-        for (number, motion) in self.moves.iter().enumerate() {
-            if marks & move_mark(number) != 0 {
-                let done = (time / motion.reached).clamp(0.0, 1.0);
-                let at = moved.get_or_insert(rest);
-                (0..3).for_each(|c| at[c] += done * motion.displacement[c]);
-            }
-        }
-        moved
-    }
-
-    /// Height of the body, m.
-    pub(crate) fn height(&self) -> f64 {
-        self.body.bounds.size()[1]
-    }
+    moved
 }
 
 /// Places, elements and properties of the whole body; the properties are in JSON.
@@ -149,15 +123,16 @@ fn read(Task { settings, parts, moves }: &Task) -> Result<WholeBody, Error> {
     Ok((places, elements.collect(), facts))
 }
 
-/// Number of the material of each element: 1, 2, … for the members of the groups of these parts, otherwise 0.
-fn materials(parts: &[(String, MaterialPart)], mesh: &TetMesh) -> Result<Vec<usize>, Error> {
+/// Number of the part of each element: that of its group, otherwise 0.
+fn materials(parts: &[MaterialPart], mesh: &TetMesh) -> Result<Vec<usize>, Error> {
     let mut materials = vec![0; mesh.tets.len()];
-    for (number, (name, _)) in parts.iter().enumerate() {
+    for (number, part) in parts.iter().enumerate() {
+        let Some(name) = &part.group else { continue };
         let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
         let group =
             group.ok_or_else(|| Error::usage(format!("the mesh has no group `{name}` of tetrahedra")))?;
         for &element in &group.tets {
-            if std::mem::replace(&mut materials[element], number + 1) != 0 {
+            if std::mem::replace(&mut materials[element], number) != 0 {
                 let tag = mesh.tag(element);
                 return Err(Error::usage(format!("element {tag} has two materials")));
             }

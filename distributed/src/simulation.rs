@@ -52,13 +52,6 @@ impl Simulation {
         self.team.agree(change(&mut self.part).map_err(|error| SceneError::from(error).into()))
     }
 
-    /// Prescribes the positions of pinned nodes of this rank and its copies after the next step, m; `None`
-    /// leaves a node as it is.
-    pub(crate) fn prescribe(&mut self, place: impl Fn(usize) -> Option<[f64; 3]>) -> Result<(), Error> {
-        let mut places = self.share.pinned().into_iter().filter_map(|node| Some((node, place(node)?)));
-        self.set(|part| places.try_for_each(|(node, place)| part.prescribe(node, place)))
-    }
-
     /// Advances the part by steps, or moves it to equilibrium.
     pub(crate) fn advance<T>(
         &mut self,

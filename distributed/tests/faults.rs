@@ -200,7 +200,7 @@ fn elements_are_judged_on_their_rank() -> TestResult {
     let library = Library::start(&[])?;
     let team = Team::new(&library);
     let material = MaterialSpec::matching("neo-Hookean", soft_moduli());
-    let parts = [MaterialPart { material, density: 1000.0 }];
+    let parts = [MaterialPart { group: None, material, density: 1000.0 }];
     let share = Share::of(&team, Portion::of_cube(&team, 4, 1.0))?;
     let first = share.elements.first().map_or(0, |&(_, tag, _)| tag as usize);
     let tag = team.all(first)[3] as u64;
