@@ -8,8 +8,7 @@
 /// | `a: &T` | `T *a` | the value behind the pointer, such as that of a handle |
 /// | `a: &str`, `a: Option<&str>` | `char *a` | a text; `None` for null |
 /// | `a: Options` | `piola_options *a` | options, read and checked |
-/// | `a: Out<T>` | `T *a` | [place](crate::lent::Out) of a result |
-/// | `a: New<T>` | `T **a` | [place](crate::handle::New) of a new handle |
+/// | `a: Out<T>`, `a: New<T>` | `T *a`, `T **a` | [place](crate::lent::Out) of a result, or of a new handle |
 /// | any other | itself | itself |
 ///
 /// A body returns `Result<(), Failure>`, also by `?`.
@@ -64,7 +63,7 @@ macro_rules! functions {
     };
     (@ $f:tt $arrays:ident [$($c:tt)*] [$($read:tt)*] $arg:ident: New<$Type:ty> $(, $($rest:tt)*)?) => {
         $crate::functions::functions!(@ $f $arrays [$($c)* to: *mut *mut $Type,]
-            [$($read)* $arg = $crate::handle::New::at(stringify!($arg), to);] $($($rest)*)?);
+            [$($read)* $arg = $crate::lent::Out::new(stringify!($arg), to);] $($($rest)*)?);
     };
     (@ $f:tt $arrays:ident [$($c:tt)*] $read:tt $arg:ident: $Type:ty $(, $($rest:tt)*)?) => {
         $crate::functions::functions!(@ $f $arrays [$($c)* $arg: $Type,] $read $($($rest)*)?);

@@ -3,28 +3,18 @@
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
 use crate::error::{Code, Failure};
-use crate::lent;
+use crate::lent::Out;
 
-/// Place of a new handle.
-pub(crate) struct New<T>(lent::Out<*mut T>);
-
-impl<T> New<T> {
-    /// # Safety
-    /// As for [`Out::new`](lent::Out::new).
-    pub(crate) unsafe fn at(name: &'static str, to: *mut *mut T) -> Self {
-        // SAFETY: that of this function.
-        Self(unsafe { lent::Out::new(name, to) })
-    }
-
+impl<T> Out<*mut T> {
     /// Hands a value to the caller. A call that fails leaves null behind, which may be freed.
     pub(crate) fn give(self, make: impl FnOnce() -> Result<T, Failure>) -> Result<(), Failure> {
-        self.0.demand()?;
-        self.0.write(std::ptr::null_mut())?;
-        self.0.write(Box::into_raw(Box::new(make()?)))
+        self.demand()?;
+        self.write(std::ptr::null_mut())?;
+        self.write(Box::into_raw(Box::new(make()?)))
     }
 }
 
-/// Drops a value that the caller gives back, which comes from [`New::give`].
+/// Drops a value that the caller gives back, which comes from [`Out::give`].
 pub(crate) fn free<T>(value: Option<Box<T>>) {
     crate::error::guard(|| {
         drop(value);

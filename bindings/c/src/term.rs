@@ -87,15 +87,9 @@ pub unsafe extern "C" fn piola_blocks_add(
     })
 }
 
-/// Functions with four arguments, the last of which is the place of the result.
-type Function<T> = unsafe extern "C" fn(*mut c_void, *const f64, usize, *mut T) -> i32;
-
 /// A term with functions of the caller.
 pub(crate) struct Callbacks {
     term: Term,
-    energy: Function<f64>,
-    add_gradient: Function<f64>,
-    add_second_derivatives: unsafe extern "C" fn(*mut c_void, *const f64, usize, *mut Blocks<'_>) -> i32,
     /// Nonzero value that a function has returned, or 0; after a nonzero value no function is called.
     returned: AtomicI32,
 }
@@ -109,16 +103,16 @@ impl Callbacks {
     /// # Safety
     /// The functions do what the documentation of [`Term`] requires, as long as this value lives.
     pub(crate) unsafe fn new(term: Term) -> Result<Self, Failure> {
-        let missing = |name: &str| Failure::new(Code::Pointer, format_args!("`terms[].{name}` is null"));
-        Ok(Self {
-            energy: term.energy.ok_or_else(|| missing("energy"))?,
-            add_gradient: term.add_gradient.ok_or_else(|| missing("add_gradient"))?,
-            add_second_derivatives: term
-                .add_second_derivatives
-                .ok_or_else(|| missing("add_second_derivatives"))?,
-            term,
-            returned: AtomicI32::new(0),
-        })
+        for (name, is_given) in [
+            ("energy", term.energy.is_some()),
+            ("add_gradient", term.add_gradient.is_some()),
+            ("add_second_derivatives", term.add_second_derivatives.is_some()),
+        ] {
+            if !is_given {
+                return Err(Failure::new(Code::Pointer, format_args!("`terms[].{name}` is null")));
+            }
+        }
+        Ok(Self { term, returned: AtomicI32::new(0) })
     }
 
     /// Nonzero value that a function of the term has returned since the last call, if any.
@@ -129,12 +123,11 @@ impl Callbacks {
         }
     }
 
-    /// True if a function returns 0 and no earlier call has returned anything else.
-    fn succeeds(&self, call: impl FnOnce(*mut c_void) -> i32) -> bool {
-        if self.returned.load(Ordering::Relaxed) != 0 {
-            return false;
-        }
-        let returned = call(self.term.context);
+    /// True if a function is given and returns 0, and no earlier call has returned anything else.
+    fn succeeds<F>(&self, function: Option<F>, call: impl FnOnce(F, *mut c_void) -> i32) -> bool {
+        let may_call = self.returned.load(Ordering::Relaxed) == 0;
+        let Some(function) = function.filter(|_| may_call) else { return false };
+        let returned = call(function, self.term.context);
         self.returned.store(returned, Ordering::Relaxed);
         returned == 0
     }
@@ -145,7 +138,8 @@ impl piola_bodies::step::Term for Callbacks {
         let mut energy = f64::NAN;
         let (x, nodes) = (positions.as_flattened().as_ptr(), positions.len());
         // SAFETY: three numbers for each node, and room for one.
-        let succeeds = self.succeeds(|context| unsafe { (self.energy)(context, x, nodes, &mut energy) });
+        let succeeds =
+            self.succeeds(self.term.energy, |find, context| unsafe { find(context, x, nodes, &mut energy) });
         Some(energy).filter(|energy| succeeds && energy.is_finite())
     }
 
@@ -154,7 +148,7 @@ impl piola_bodies::step::Term for Callbacks {
         let (x, nodes) = (positions.as_flattened().as_ptr(), positions.len());
         let to = gradient.as_flattened_mut().as_mut_ptr();
         // SAFETY: three numbers for each node, twice.
-        if !self.succeeds(|context| unsafe { (self.add_gradient)(context, x, nodes, to) }) {
+        if !self.succeeds(self.term.add_gradient, |add, context| unsafe { add(context, x, nodes, to) }) {
             gradient.fill([f64::NAN; 3]);
         }
     }
@@ -164,15 +158,18 @@ impl piola_bodies::step::Term for Callbacks {
         let (x, nodes) = (positions.as_flattened().as_ptr(), positions.len());
         let mut blocks = Blocks(blocks);
         // SAFETY: three numbers for each node, and blocks that live during the call.
-        self.succeeds(|context| unsafe { (self.add_second_derivatives)(context, x, nodes, &mut blocks) });
+        self.succeeds(self.term.add_second_derivatives, |add, context| unsafe {
+            add(context, x, nodes, &mut blocks)
+        });
     }
 
     fn longest_step(&self, positions: &[[f64; 3]], displacement: &[[f64; 3]]) -> f64 {
-        let Some(longest_step) = self.term.longest_step else { return 1.0 };
         let [x, d] = [positions, displacement].map(|vectors| vectors.as_flattened().as_ptr());
         let (mut share, nodes) = (1.0, positions.len());
         // SAFETY: three numbers for each node, twice, and room for one.
-        self.succeeds(|context| unsafe { longest_step(context, x, d, nodes, &mut share) });
+        self.succeeds(self.term.longest_step, |find, context| unsafe {
+            find(context, x, d, nodes, &mut share)
+        });
         if share > 0.0 && share <= 1.0 { share } else { 1.0 }
     }
 }
