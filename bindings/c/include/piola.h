@@ -363,9 +363,6 @@ extern "C" {
 // before the first. Valid until the next such call of this thread. Never null.
 const char *piola_error_message(void);
 
-// The version of the library, such as "0.1.0".
-const char *piola_version(void);
-
 // The names of the energies of the catalogue, one after the other.
 //
 // Writes the name number `index`, from 0, and returns PIOLA_CODE_OK; beyond the last one it writes null and

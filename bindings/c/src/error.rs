@@ -2,7 +2,7 @@
 
 use std::any::Any;
 use std::cell::RefCell;
-use std::ffi::{CStr, CString, c_char};
+use std::ffi::{CString, c_char};
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -98,17 +98,6 @@ pub extern "C" fn piola_error_message() -> *const c_char {
     MESSAGE.try_with(|message| message.borrow().as_ptr()).unwrap_or(c"".as_ptr())
 }
 
-/// The version of the library, such as "0.1.0".
-#[unsafe(no_mangle)]
-pub extern "C" fn piola_version() -> *const c_char {
-    const VERSION: &CStr =
-        match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
-            Ok(version) => version,
-            Err(_) => c"",
-        };
-    VERSION.as_ptr()
-}
-
 /// Runs the body of a call: returns its code, and keeps its message for the thread; panics end here.
 ///
 /// State that a panic leaves half changed is behind a lock, which is poisoned by it.
@@ -144,6 +133,8 @@ pub(crate) fn c_string(text: &str) -> CString {
 
 #[cfg(test)]
 mod tests {
+    use std::ffi::CStr;
+
     use super::*;
 
     fn message() -> String {
