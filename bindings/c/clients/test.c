@@ -179,28 +179,18 @@ static void parameters_may_vary(void) {
 static void batches_are_derivatives(void) {
     enum { POINTS = 16 };
     piola_material *material = rubber();
-    double F[9 * POINTS], energies[POINTS], P[9 * POINTS], T[81 * POINTS], T2[81 * POINTS];
+    double F[9 * POINTS], energies[POINTS], P[9 * POINTS], P2[9 * POINTS], T[81 * POINTS];
     for (int k = 0; k < 9 * POINTS; k++) F[k] = SHEAR[k % 9] + 0.05 * sin(3.0 * k);
     piola_survey survey;
+    CHECK(piola_energies(material, NULL, F, LENGTH(F), energies, POINTS, NULL) == PIOLA_CODE_OK);
     CHECK(
-        piola_energies_and_tangents(
-            material, NULL, F, LENGTH(F), energies, POINTS, P, LENGTH(P), T, LENGTH(T), &survey) ==
-        PIOLA_CODE_OK);
+        piola_tangents(material, NULL, F, LENGTH(F), P, LENGTH(P), T, LENGTH(T), &survey) == PIOLA_CODE_OK);
     CHECK(survey.refused == 0 && survey.nonfinite == 0 && survey.first == SIZE_MAX);
-    double alone[POINTS], P2[9 * POINTS];
-    CHECK(piola_energies(material, NULL, F, LENGTH(F), alone, POINTS, NULL) == PIOLA_CODE_OK);
-    for (int p = 0; p < POINTS; p++) CHECK(close_to(energies[p], alone[p], 1e-13));
     CHECK(piola_stresses(material, NULL, F, LENGTH(F), P2, LENGTH(P2), NULL) == PIOLA_CODE_OK);
     for (int k = 0; k < 9 * POINTS; k++) CHECK(close_to(P[k], P2[k], 1e-12 * MU));
-
-    CHECK(
-        piola_tangents(
-            material, NULL, F, LENGTH(F), P2, LENGTH(P2), T2, LENGTH(T2), NULL) ==
-        PIOLA_CODE_OK);
     for (int p = 0; p < POINTS; p++) {
         for (int r = 0; r < 9; r++) {
             for (int c = 0; c < 9; c++) {
-                CHECK(T[81 * p + 9 * r + c] == T2[81 * p + 9 * r + c]);
                 CHECK(T[81 * p + 9 * r + c] == T[81 * p + 9 * c + r]);
             }
         }
@@ -228,7 +218,7 @@ static void batches_are_derivatives(void) {
     }
 
     /* Lines, and single precision. */
-    piola_options options = {sizeof options, 0, 0, 0, 0, 0, NULL, 0};
+    piola_options options = {sizeof options, 0, 0, 0, 0, NULL, 0};
     double lines[9 * POINTS], in_lines[9 * POINTS];
     float single[9 * POINTS], P_single[9 * POINTS], T_single[81 * POINTS], e_single[POINTS];
     for (int p = 0; p < POINTS; p++) {
@@ -300,7 +290,7 @@ static void points_have_statuses(void) {
     memcpy(F + 18, SHEAR, sizeof SHEAR);
     F[18] = NAN;
     piola_options options = {
-        sizeof options, PIOLA_FILTER_CLAMP, 0, PIOLA_INSTRUCTIONS_PORTABLE, 0, 0, statuses, 3};
+        sizeof options, PIOLA_FILTER_CLAMP, 0, PIOLA_INSTRUCTIONS_PORTABLE, 0, statuses, 3};
     piola_survey survey;
     CHECK(piola_stresses(material, &options, F, 27, P, 27, &survey) == PIOLA_CODE_OK);
     CHECK(statuses[0] == 0 && (statuses[1] & PIOLA_STATUS_REFUSED) && (statuses[2] & PIOLA_STATUS_NONFINITE));
@@ -333,7 +323,7 @@ static void calls_are_checked(void) {
         "not aligned");
     FAILS(piola_tangents(material, NULL, F, 9, P, 9, P + 9, 9, NULL), PIOLA_CODE_LENGTH, "`dP_dF` has 9 entries");
     CHECK(piola_stresses(material, NULL, NULL, 0, NULL, 0, NULL) == PIOLA_CODE_OK);
-    piola_options options = {sizeof options, 3, 0, 0, 0, 0, NULL, 0};
+    piola_options options = {sizeof options, 3, 0, 0, 0, NULL, 0};
     FAILS(piola_stresses(material, &options, F, 9, P, 9, NULL), PIOLA_CODE_VALUE, "`options->filter` is 3");
     options.filter = 0;
     options.layout = -1;

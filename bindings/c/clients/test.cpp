@@ -75,11 +75,12 @@ void batches(T tolerance) {
     for (std::size_t p = 0; p < points; p++) {
         F[p] << T(1.1), T(0.2), 0, T(-0.1), T(0.9), T(0.05), 0, T(0.3), T(1.0) + T(0.01) * T(p);
     }
-    std::vector<T> energies(points), P(9 * points), full(81 * points), plain(81 * points);
+    std::vector<T> energies(points), P(9 * points), full(81 * points);
     std::vector<std::uint8_t> statuses(points, 255);
     piola::batch<T> batch(rubber());
     batch.filter(PIOLA_FILTER_NONE).threads(true).statuses(statuses);
-    CHECK(batch.energies_and_tangents(piola::numbers(F), energies, P, full).is_clean());
+    CHECK(batch.energies(piola::numbers(F), energies).is_clean());
+    CHECK(batch.tangents(piola::numbers(F), P, full).is_clean());
     CHECK(statuses == std::vector<std::uint8_t>(points, 0));
     for (std::size_t p = 0; p < points; p++) {
         const T J = F[p].determinant();
@@ -90,12 +91,6 @@ void batches(T tolerance) {
     }
     std::vector<T> alone(9 * points);
     CHECK(batch.stresses(piola::numbers(F), alone).is_clean());
-    CHECK(batch.tangents(piola::numbers(F), P, plain).is_clean());
-    for (std::size_t p = 0; p < points; p++) {
-        CHECK(
-            plain[81 * p + 80] == full[81 * p + 80] ||
-            std::fabs(plain[81 * p + 80] - full[81 * p + 80]) < tolerance * T(1e7));
-    }
     std::vector<T> sigma(6 * points), rate(36 * points);
     CHECK(batch.stresses_in(PIOLA_MEASURE_CAUCHY, piola::numbers(F), sigma, rate).is_clean());
     CHECK(batch.stresses_in(PIOLA_MEASURE_KIRCHHOFF, piola::numbers(F), sigma).is_clean());

@@ -4,7 +4,7 @@
 #define SIZE(type, size)                                                                                     \
     _Static_assert(sizeof(void *) != 8 || sizeof(type) == (size), #type " has another size")
 
-SIZE(piola_options, 48);
+SIZE(piola_options, 40);
 SIZE(piola_survey, 40);
 SIZE(piola_parameter, 32);
 SIZE(piola_parameter_description, 40);

@@ -246,9 +246,6 @@ typedef struct piola_options {
     // 1 to share the points among as many threads as there are processors, or as the environment variable
     // RAYON_NUM_THREADS gives; 0 for the thread of the caller alone. Results have the same bits.
     int32_t threads;
-    // 1 to write tangents past the caches, which is faster if they are larger than the caches, and needs
-    // lines and arrays aligned to 64 bytes; else 0.
-    int32_t streams;
     // Array for the status of each point, flags of `piola_status`; or null.
     uint8_t *statuses;
     // Number of statuses: that of the points, or 0.
@@ -485,33 +482,6 @@ enum piola_code piola_tangents_f32(const struct piola_material *material,
                                    float *dP_dF,
                                    size_t dP_dF_length,
                                    struct piola_survey *survey);
-
-// Energy densities, stresses and tangents: `piola_energies` and `piola_tangents` with one decomposition of
-// each F.
-enum piola_code piola_energies_and_tangents(const struct piola_material *material,
-                                            const struct piola_options *options,
-                                            const double *F,
-                                            size_t F_length,
-                                            double *energies,
-                                            size_t energies_length,
-                                            double *P,
-                                            size_t P_length,
-                                            double *dP_dF,
-                                            size_t dP_dF_length,
-                                            struct piola_survey *survey);
-
-// `piola_energies_and_tangents` in single precision.
-enum piola_code piola_energies_and_tangents_f32(const struct piola_material *material,
-                                                const struct piola_options *options,
-                                                const float *F,
-                                                size_t F_length,
-                                                float *energies,
-                                                size_t energies_length,
-                                                float *P,
-                                                size_t P_length,
-                                                float *dP_dF,
-                                                size_t dP_dF_length,
-                                                struct piola_survey *survey);
 
 // Stresses in one of the measures of `piola_measure`, Pa, six numbers for each F. Their tangents, Pa, 36
 // numbers for each F and without a filter, are computed if there is an array for them: `tangents` may be

@@ -207,7 +207,6 @@ struct functions<double> {
     static constexpr auto energies = piola_energies;
     static constexpr auto stresses = piola_stresses;
     static constexpr auto tangents = piola_tangents;
-    static constexpr auto energies_and_tangents = piola_energies_and_tangents;
     static constexpr auto stresses_in = piola_stresses_in;
     static constexpr auto stiffnesses = piola_stiffnesses;
     static constexpr auto stiffnesses_at = piola_stiffnesses_at;
@@ -219,7 +218,6 @@ struct functions<float> {
     static constexpr auto energies = piola_energies_f32;
     static constexpr auto stresses = piola_stresses_f32;
     static constexpr auto tangents = piola_tangents_f32;
-    static constexpr auto energies_and_tangents = piola_energies_and_tangents_f32;
     static constexpr auto stresses_in = piola_stresses_in_f32;
     static constexpr auto stiffnesses = piola_stiffnesses_f32;
     static constexpr auto stiffnesses_at = piola_stiffnesses_at_f32;
@@ -250,10 +248,6 @@ public:
         options_.threads = threads;
         return *this;
     }
-    batch &streams(bool streams) {
-        options_.streams = streams;
-        return *this;
-    }
     /// Room for the status of each point, which must live as long as the batch is called.
     batch &statuses(span<std::uint8_t> statuses) {
         options_.statuses = statuses.data();
@@ -267,9 +261,6 @@ public:
     survey stresses(span<const T> F, span<T> P) const { return call(functions::stresses, F, P); }
     survey tangents(span<const T> F, span<T> P, span<T> dP_dF) const {
         return call(functions::tangents, F, P, dP_dF);
-    }
-    survey energies_and_tangents(span<const T> F, span<T> energies, span<T> P, span<T> dP_dF) const {
-        return call(functions::energies_and_tangents, F, energies, P, dP_dF);
     }
     survey
     stresses_in(piola_measure measure, span<const T> F, span<T> stresses, span<T> tangents = {}) const {

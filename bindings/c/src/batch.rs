@@ -66,20 +66,6 @@ fn piola_tangents, piola_tangents_f32(
     survey.write(options.batch(material)?.tangents(F, P, dP_dF)?.into())
 }
 
-/// Energy densities, stresses and tangents: `piola_energies` and `piola_tangents` with one decomposition of
-/// each F.
-fn piola_energies_and_tangents, piola_energies_and_tangents_f32(
-    material: &Material,
-    options: Options,
-    F: &[E],
-    energies: &mut [E],
-    P: &mut [E],
-    dP_dF: &mut [E],
-    survey: Out<Survey>,
-) {
-    survey.write(options.batch(material)?.energies_and_tangents(F, energies, P, dP_dF)?.into())
-}
-
 /// Stresses in one of the measures of `piola_measure`, Pa, six numbers for each F. Their tangents, Pa, 36
 /// numbers for each F and without a filter, are computed if there is an array for them: `tangents` may be
 /// null, with a length of 0.

@@ -59,9 +59,6 @@ pub struct Options {
     /// 1 to share the points among as many threads as there are processors, or as the environment variable
     /// RAYON_NUM_THREADS gives; 0 for the thread of the caller alone. Results have the same bits.
     pub threads: i32,
-    /// 1 to write tangents past the caches, which is faster if they are larger than the caches, and needs
-    /// lines and arrays aligned to 64 bytes; else 0.
-    pub streams: i32,
     /// Array for the status of each point, flags of `piola_status`; or null.
     pub statuses: *mut u8,
     /// Number of statuses: that of the points, or 0.
@@ -113,7 +110,6 @@ pub(crate) struct Chosen<'call> {
     layout: Layout,
     backend: Option<Backend>,
     threads: bool,
-    streams: bool,
     statuses: &'call [StatusCell],
 }
 
@@ -125,7 +121,6 @@ impl<'call> Chosen<'call> {
             .with_filter(self.filter)
             .with_layout(self.layout)
             .with_threads(self.threads)
-            .with_streams(self.streams)
             .with_statuses(self.statuses);
         Ok(self.backend.map_or(batch, |backend| batch.with_backend(backend)))
     }
@@ -161,7 +156,6 @@ pub(crate) unsafe fn read<'call>(
         layout: lent::choice("options->layout", options.layout, [Layout::Points, Layout::Lines])?,
         backend: is_portable.then(Backend::portable),
         threads: lent::choice("options->threads", options.threads, [false, true])?,
-        streams: lent::choice("options->streams", options.streams, [false, true])?,
         // SAFETY: a cell is one byte, and nobody else uses these during the call.
         statuses: unsafe { &*(statuses as *const [StatusCell]) },
     })
