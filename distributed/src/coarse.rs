@@ -2,7 +2,6 @@
 //!
 //! The solver has all options of PETSc, with the prefix `coarse_`. This module does not depend on bodies.
 
-use std::cell::RefCell;
 use std::rc::Rc;
 
 use piola_bodies::step::divided::{LastLevel, LastSolver};
@@ -30,8 +29,8 @@ const DEPENDENT: f64 = 1e-9;
 pub(crate) struct Coarse {
     /// Solver of PETSc, for `-ksp_view`.
     pub(crate) krylov: Krylov,
-    b: Vector<6>,
-    x: Vector<6>,
+    b: Vector,
+    x: Vector,
     team: Team,
 }
 
@@ -66,13 +65,13 @@ impl Coarse {
                 }
             }
         }
-        let mut matrix = Matrix::new(library, 6 * owned, 6, places.iter().copied())?;
+        let matrix = Matrix::new(library, 6 * owned, 6, places.iter().copied())?;
         matrix.set_values(&values)?;
         let kind = if team.count(owned) <= FACTORED { "redundant" } else { "gamg" };
         matrix.set_motions(&orthonormal(team, level.motions)?)?;
-        let vector = || Vector::new(library, owned);
+        let vector = || Vector::new(library, 6, owned, &[]);
         Ok(Self {
-            krylov: Krylov::new(library, Rc::new(RefCell::new(matrix)), "coarse_", Some(kind))?,
+            krylov: Krylov::new(library, Rc::new(matrix), "coarse_", Some(kind))?,
             b: vector()?,
             x: vector()?,
             team: team.clone(),
@@ -80,11 +79,11 @@ impl Coarse {
     }
 
     fn replace(&mut self, b: &mut [[f32; 6]]) -> Result<(), PetscError> {
-        self.b.with(|entries| {
+        self.b.with::<6>(|entries| {
             entries.iter_mut().zip(&*b).for_each(|(entry, b)| *entry = b.map(f64::from));
         })?;
         self.krylov.apply(&self.b, &mut self.x)?;
-        self.x.with(|x| b.iter_mut().zip(x).for_each(|(b, x)| *b = x.map(|x| x as f32)))
+        self.x.with::<6>(|x| b.iter_mut().zip(x).for_each(|(b, x)| *b = x.map(|x| x as f32)))
     }
 }
 
@@ -96,7 +95,7 @@ impl LastSolver for Coarse {
 }
 
 /// Orthonormal basis of the columns of these blocks; dependent columns are left out.
-fn orthonormal(team: &Team, motions: &[[[f64; 6]; 6]]) -> Result<Vec<Vector<6>>, PetscError> {
+fn orthonormal(team: &Team, motions: &[[[f64; 6]; 6]]) -> Result<Vec<Vector>, PetscError> {
     let mut found: Vec<Vec<[f64; 6]>> = Vec::new();
     let dot = |a: &[[f64; 6]], b: &[[f64; 6]]| {
         team.sum([a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| a * b).sum()])[0]
@@ -118,8 +117,8 @@ fn orthonormal(team: &Team, motions: &[[[f64; 6]; 6]]) -> Result<Vec<Vector<6>>,
         }
     }
     let vector = |motion: &Vec<[f64; 6]>| {
-        let mut vector = Vector::new(&team.library, motion.len())?;
-        vector.with(|entries| entries.copy_from_slice(motion))?;
+        let mut vector = Vector::new(&team.library, 6, motion.len(), &[])?;
+        vector.with::<6>(|entries| entries.copy_from_slice(motion))?;
         Ok(vector)
     };
     found.iter().map(vector).collect()

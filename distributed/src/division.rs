@@ -11,7 +11,7 @@ use piola_bodies::step::divided::{Division, LastLevel};
 
 use crate::coarse::Coarse;
 use crate::error::Error;
-use crate::petsc::{GhostedVector, PetscError};
+use crate::petsc::{PetscError, Vector};
 use crate::team::Team;
 
 /// Largest number of rows of a level that is always the last. Large bodies have a larger last level, with
@@ -38,7 +38,7 @@ pub(crate) struct RowsOfRank {
     /// Copies, for each rank, of rows of that rank.
     received: Vec<Vec<usize>>,
     /// Vectors of three and of six components, created when they are first used.
-    vectors: [Option<GhostedVector>; 2],
+    vectors: [Option<Vector>; 2],
 }
 
 impl RowsOfRank {
@@ -68,10 +68,7 @@ impl RowsOfRank {
     }
 
     /// Exchanges a vector of N components, if there are several ranks.
-    fn with_vector<const N: usize>(
-        &mut self,
-        exchange: impl FnOnce(&mut GhostedVector) -> Result<(), PetscError>,
-    ) {
+    fn with_vector<const N: usize>(&mut self, exchange: impl FnOnce(&mut Vector) -> Result<(), PetscError>) {
         if self.team.size == 1 {
             return;
         }
@@ -79,7 +76,7 @@ impl RowsOfRank {
         let vector = &mut self.vectors[usize::from(N > 3)];
         let exchanged = match vector {
             Some(vector) => exchange(vector),
-            None => GhostedVector::new(&self.team.library, N, owned, &self.numbers)
+            None => Vector::new(&self.team.library, N, owned, &self.numbers)
                 .and_then(|made| exchange(vector.insert(made))),
         };
         self.team.note(exchanged);

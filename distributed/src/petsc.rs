@@ -20,8 +20,8 @@ use ffi::PetscInt;
 
 /// Destroys the object of PETSc of a type when its owner is dropped.
 macro_rules! destroyed {
-    ([$($generics:tt)*] $Type:ty, $destroy:path) => {
-        impl<$($generics)*> Drop for $Type {
+    ($Type:ty, $destroy:path) => {
+        impl Drop for $Type {
             fn drop(&mut self) {
                 // SAFETY: the object exists, this is its only owner, and PETSc still runs, because the owner
                 // has a handle of the library.
@@ -39,7 +39,7 @@ mod vector;
 pub(crate) use krylov::Krylov;
 pub(crate) use matrix::Matrix;
 pub(crate) use operators::Operators;
-pub(crate) use vector::{GhostedVector, Vector};
+pub(crate) use vector::Vector;
 
 #[allow(
     clippy::all,
@@ -115,8 +115,6 @@ struct Running {
     world: SimpleCommunicator,
     /// Ends MPI, after PETSc has ended.
     _universe: Universe,
-    /// Default options that were set because the user had not set them.
-    defaults: RefCell<Vec<String>>,
 }
 
 impl Drop for Running {
@@ -150,7 +148,7 @@ impl Library {
         // SAFETY: the handler has the signature that PETSc requires, exists as long as the program, and does
         // not need a context.
         check(unsafe { ffi::PetscPushErrorHandler(Some(keep_message), null_mut()) })?;
-        Ok(Self(Rc::new(Running { world, _universe: universe, defaults: RefCell::default() })))
+        Ok(Self(Rc::new(Running { world, _universe: universe })))
     }
 
     /// Communicator of all ranks.
@@ -176,7 +174,8 @@ impl Library {
     pub(crate) fn default_option(&self, name: &str, value: &str) -> Result<(), PetscError> {
         if self.option(name)?.is_none() {
             set_option(name, Some(value))?;
-            self.0.defaults.borrow_mut().push(name.to_owned());
+            // PETSc counts an option that has been read as used.
+            self.option(name)?;
         }
         Ok(())
     }
@@ -190,10 +189,7 @@ impl Library {
         let mut unused = Vec::new();
         for index in 0..usize::try_from(count).unwrap_or(0) {
             // SAFETY: `names` holds `count` C strings until they are released below.
-            let name = unsafe { CStr::from_ptr(*names.add(index)) }.to_string_lossy().into_owned();
-            if !self.0.defaults.borrow().contains(&name) {
-                unused.push(name);
-            }
+            unused.push(unsafe { CStr::from_ptr(*names.add(index)) }.to_string_lossy().into_owned());
         }
         // SAFETY: these are the results of the call above, and none of the strings is used from here on.
         check(unsafe { ffi::PetscOptionsLeftRestore(null_mut(), &mut count, &mut names, &mut values) })?;

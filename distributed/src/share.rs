@@ -171,7 +171,7 @@ fn owners(team: &Team, homes: &Homes, elements: &[Element]) -> Result<Vec<u64>, 
     pairs.sort_unstable();
     pairs.dedup();
     let places = pairs.iter().map(|pair| pair.map(|node| node as usize));
-    let mut graph = Matrix::new(&team.library, here, 1, places)?;
+    let graph = Matrix::new(&team.library, here, 1, places)?;
     graph.set_values(&vec![1.0; pairs.len()])?;
     Ok(graph.partition()?.into_iter().map(|rank| rank as u64).collect())
 }

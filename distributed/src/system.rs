@@ -17,7 +17,7 @@ use piola_bodies::system::{Body, LinearError, NodalStiffness};
 
 use crate::division::RowsOfRank;
 use crate::error::Error;
-use crate::petsc::{GhostedVector, Krylov, Matrix, Operators, PetscError, Vector};
+use crate::petsc::{Krylov, Matrix, Operators, PetscError, Vector};
 use crate::share::Share;
 use crate::team::Team;
 
@@ -58,18 +58,10 @@ pub(crate) struct LinearSystem {
     systems: Vec<usize>,
     matrix_free: Rc<RefCell<MatrixFree>>,
     form: Form,
-    right: Vector<3>,
-    solution: Vector<3>,
+    right: Vector,
+    solution: Vector,
     /// True if the options have been checked for unused ones: at first, and with levels of multigrid.
     is_checked: [bool; 2],
-}
-
-/// Right side, memory for the solution, and limits of the solver.
-struct Task<'a> {
-    right: &'a Vector<3>,
-    solution: &'a mut Vector<3>,
-    tolerance: f64,
-    max_iterations: usize,
 }
 
 /// Form of the matrix in PETSc.
@@ -84,7 +76,7 @@ enum Form {
 struct MatrixFree {
     stiffness: NodalStiffness,
     preconditioner: Preconditioner<RowsOfRank>,
-    exchange: GhostedVector,
+    exchange: Vector,
     team: Team,
     is_free: Vec<bool>,
     /// Vector with an entry for each node of the rank, and its product with the stiffness.
@@ -139,7 +131,7 @@ impl LinearSystem {
         let stiffness = team.agree(stiffness.map_err(Error::from))?;
         let own = body.map_or(&[][..], Body::masses);
         let mut masses = own.to_vec();
-        GhostedVector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses)?;
+        Vector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses)?;
         for (name, value) in DEFAULTS {
             library.default_option(name, value)?;
         }
@@ -148,7 +140,7 @@ impl LinearSystem {
         let matrix_free = Rc::new(RefCell::new(MatrixFree {
             stiffness,
             preconditioner: Preconditioner::new(share.owned, rows()),
-            exchange: GhostedVector::new(library, 3, share.owned, &share.copies)?,
+            exchange: Vector::new(library, 3, share.owned, &share.copies)?,
             team: team.clone(),
             is_free: share.free_numbers.iter().map(Option::is_some).collect(),
             x: vec![[0.0; 3]; nodes],
@@ -156,13 +148,11 @@ impl LinearSystem {
         }));
         let form = if library.option("pc_type")?.as_deref() == Some(SHELL) {
             let matrix = Matrix::of_function(library, share.free, matrix_free.clone())?;
-            let mut krylov = Krylov::new(library, Rc::new(RefCell::new(matrix)), "", None)?;
-            krylov.precondition_by(matrix_free.clone())?;
-            Form::MatrixFree(krylov)
+            Form::MatrixFree(Krylov::new(library, Rc::new(matrix), "", None)?)
         } else {
             Form::Assembled(Assembled::new(team, share, &matrix_free.borrow().stiffness)?)
         };
-        let vector = || Vector::new(library, share.free);
+        let vector = || Vector::new(library, 3, share.free, &[]);
         Ok(Self {
             team: team.clone(),
             nodes: rows(),
@@ -200,22 +190,26 @@ impl LinearSystem {
         let mut solution = Solution::default();
         loop {
             // A solver may leave it changed, as `-ksp_diagonal_scale` does.
-            self.right.with(|right| {
+            self.right.with::<3>(|right| {
                 right.iter_mut().zip(gradient).for_each(|(right, gradient)| *right = gradient.map(|g| -g));
             })?;
             let Self { matrix_free, form, right, solution: displacement, shares, max_iterations, .. } = self;
-            let mut task = Task { right, solution: displacement, tolerance, max_iterations: *max_iterations };
+            let most = *max_iterations;
+            let mut solve =
+                |krylov: &mut Krylov, limit: usize| krylov.solve(right, displacement, tolerance, limit);
             let Iteration { iterations, mut end } = match form {
                 Form::MatrixFree(krylov) => {
-                    solve(matrix_free, krylov, &mut task, x, |node| shares[node] * objective.inertia(node))?
+                    let inertia = |node: usize| shares[node] * objective.inertia(node);
+                    matrix_free_solve(matrix_free, x, inertia, tolerance, most, |limit| solve(krylov, limit))?
                 }
                 Form::Assembled(assembled) => {
                     assembled.assemble(&matrix_free.borrow().stiffness, x)?;
-                    assembled.solve(&mut task, definiteness == Definiteness::Optional)?
+                    let may_fall_back = definiteness == Definiteness::Optional;
+                    assembled.solve(tolerance, most, may_fall_back, solve)?
                 }
             };
             direction.fill([0.0; 3]);
-            displacement.with(|found| direction[..found.len()].copy_from_slice(found))?;
+            displacement.with::<3>(|found| direction[..found.len()].copy_from_slice(found))?;
             let not_finite = direction.iter().flatten().filter(|x| !x.is_finite()).count();
             if self.team.count(not_finite) > 0 {
                 end = End::NotFinite;
@@ -327,15 +321,16 @@ impl Solver for LinearSystem {
     }
 }
 
-/// Solves with piola's preconditioner, and again with a new one if the first needs too many iterations.
-fn solve(
+/// Solves with piola's preconditioner, and again with a new one if the first needs too many iterations. The
+/// argument of `solve` is a limit of iterations.
+fn matrix_free_solve(
     matrix_free: &RefCell<MatrixFree>,
-    krylov: &mut Krylov,
-    task: &mut Task<'_>,
     x: &[[f64; 3]],
     inertia: impl Fn(usize) -> f64,
+    tolerance: f64,
+    max_iterations: usize,
+    mut solve: impl FnMut(usize) -> Result<Iteration, PetscError>,
 ) -> Result<Iteration, Error> {
-    let Task { right, solution, tolerance, max_iterations } = task;
     let mut given_up = 0;
     loop {
         let limit = {
@@ -343,12 +338,12 @@ fn solve(
             let taken = preconditioner.take(stiffness, is_free, x, &inertia);
             team.take_failure()?;
             taken?;
-            preconditioner.patience(*tolerance).min(*max_iterations - given_up)
+            preconditioner.patience(tolerance).min(max_iterations - given_up)
         };
-        let mut iteration = krylov.solve(right, solution, *tolerance, limit)?;
-        let again = matrix_free.borrow_mut().preconditioner.judge(iteration, *tolerance);
+        let mut iteration = solve(limit)?;
+        let again = matrix_free.borrow_mut().preconditioner.judge(iteration, tolerance);
         iteration.iterations += given_up;
-        if !again || iteration.iterations >= *max_iterations {
+        if !again || iteration.iterations >= max_iterations {
             return Ok(iteration);
         }
         given_up = iteration.iterations;
@@ -359,10 +354,10 @@ fn solve(
 struct Assembled {
     /// Global number of each node among the free nodes; `None` for a pinned node.
     numbers: Vec<Option<usize>>,
-    matrix: Rc<RefCell<Matrix>>,
+    matrix: Rc<Matrix>,
     krylov: Krylov,
     fallback: Krylov,
-    places: Vector<3>,
+    places: Vector,
     values: Vec<f64>,
     /// Number of iterations per digit directly after the set-up of the preconditioner; `None` before.
     pace: Option<f64>,
@@ -388,13 +383,13 @@ impl Assembled {
         let matrix = Matrix::new(library, 3 * share.free, 3, blocks.iter().copied().flat_map(entries))?;
         let values = vec![0.0; 9 * blocks.len()];
         drop(blocks);
-        let matrix = Rc::new(RefCell::new(matrix));
+        let matrix = Rc::new(matrix);
         Ok(Self {
             numbers: share.free_numbers.clone(),
             krylov: Krylov::new(library, matrix.clone(), "", None)?,
             fallback: Krylov::new(library, matrix.clone(), "fallback_", None)?,
             matrix,
-            places: Vector::new(library, share.free)?,
+            places: Vector::new(library, 3, share.free, &[])?,
             values,
             pace: None,
         })
@@ -417,43 +412,44 @@ impl Assembled {
                 }
             }
         }
-        let mut matrix = self.matrix.borrow_mut();
-        matrix.set_values(&self.values)?;
-        self.places.with(|places| places.copy_from_slice(&positions[..places.len()]))?;
-        matrix.set_rigid_motions(&self.places)
+        self.matrix.set_values(&self.values)?;
+        self.places.with::<3>(|places| places.copy_from_slice(&positions[..places.len()]))?;
+        self.matrix.set_rigid_motions(&self.places)
     }
 
-    /// Solves, and uses the fallback if the matrix or its preconditioner is found to be indefinite.
-    fn solve(&mut self, task: &mut Task<'_>, may_fall_back: bool) -> Result<Iteration, PetscError> {
-        let first = self.solve_at_pace(task)?;
-        if !(may_fall_back && matches!(first.end, End::NegativeCurvature | End::NotFinite)) {
-            return Ok(first);
-        }
-        let Task { right, solution, tolerance, max_iterations } = task;
-        let Iteration { iterations, end } =
-            self.fallback.solve(right, solution, *tolerance, *max_iterations)?;
-        Ok(Iteration { iterations: first.iterations + iterations, end })
-    }
-
-    /// Solves with the preconditioner of an earlier matrix while it converges fast enough, because the set-up
-    /// of a new preconditioner takes as long as many iterations.
-    fn solve_at_pace(&mut self, task: &mut Task<'_>) -> Result<Iteration, PetscError> {
-        let Self { krylov, pace, .. } = self;
-        let Task { right, solution, tolerance, max_iterations } = task;
+    /// Solves, and uses the fallback if the matrix or its preconditioner is found to be indefinite. The
+    /// arguments of `solve` are a solver and a limit of iterations.
+    ///
+    /// The preconditioner of an earlier matrix is used while it converges fast enough, because the set-up of
+    /// a new one takes as long as many iterations.
+    fn solve(
+        &mut self,
+        tolerance: f64,
+        max_iterations: usize,
+        may_fall_back: bool,
+        mut solve: impl FnMut(&mut Krylov, usize) -> Result<Iteration, PetscError>,
+    ) -> Result<Iteration, PetscError> {
+        let Self { krylov, fallback, pace, .. } = self;
         let digits = -tolerance.log10();
         let mut given_up = 0;
         if let Some(pace) = *pace {
             krylov.keep_preconditioner(true)?;
-            let patience = ((PATIENCE * pace * digits).ceil() as usize).clamp(1, *max_iterations);
-            let iteration = krylov.solve(right, solution, *tolerance, patience)?;
+            let patience = ((PATIENCE * pace * digits).ceil() as usize).clamp(1, max_iterations);
+            let iteration = solve(krylov, patience)?;
             if iteration.end == End::Converged {
                 return Ok(iteration);
             }
             given_up = iteration.iterations;
         }
         krylov.keep_preconditioner(false)?;
-        let Iteration { iterations, end } = krylov.solve(right, solution, *tolerance, *max_iterations)?;
-        *pace = (end == End::Converged).then(|| iterations.max(1) as f64 / digits.max(1e-3));
-        Ok(Iteration { iterations: given_up + iterations, end })
+        let mut iteration = solve(krylov, max_iterations)?;
+        let is_solved = iteration.end == End::Converged;
+        *pace = is_solved.then(|| iteration.iterations.max(1) as f64 / digits.max(1e-3));
+        if may_fall_back && matches!(iteration.end, End::NegativeCurvature | End::NotFinite) {
+            given_up += iteration.iterations;
+            iteration = solve(fallback, max_iterations)?;
+        }
+        iteration.iterations += given_up;
+        Ok(iteration)
     }
 }

@@ -1,6 +1,5 @@
 //! Krylov solvers of PETSc, and their preconditioners.
 
-use std::cell::RefCell;
 use std::ptr::null_mut;
 use std::rc::Rc;
 
@@ -12,29 +11,28 @@ use super::{Library, Matrix, PetscError, Vector, check, ffi, int, string};
 /// Solver of linear systems, configured by the options of PETSc.
 pub(crate) struct Krylov {
     pub(super) raw: ffi::KSP,
-    /// Matrix to which the solver refers.
-    matrix: Rc<RefCell<Matrix>>,
-    /// Operators to which the preconditioner refers.
-    operators: Option<Box<Shared>>,
+    /// Matrix to which the solver refers, and its operators, to which the preconditioner refers.
+    matrix: Rc<Matrix>,
 }
 
 impl Krylov {
     /// Solver for a matrix by conjugate gradients or, with `once`, by a preconditioner of this kind that is
-    /// applied once, unless options with the prefix `prefix` select another one.
+    /// applied once, unless options with the prefix `prefix` select another one. Operators of the matrix are
+    /// the preconditioner that has the type `shell` in options.
     ///
     /// # Errors
     /// [`PetscError`], also for an option with a value that PETSc does not support.
     pub(crate) fn new(
         library: &Library,
-        matrix: Rc<RefCell<Matrix>>,
+        matrix: Rc<Matrix>,
         prefix: &str,
         once: Option<&str>,
     ) -> Result<Self, PetscError> {
         let mut raw = null_mut();
         // SAFETY: the result goes to a variable that outlives the call.
         check(unsafe { ffi::KSPCreate(library.comm(), &mut raw) })?;
-        let mat = matrix.borrow().raw;
-        let solver = Self { raw, matrix, operators: None };
+        let mat = matrix.raw;
+        let solver = Self { raw, matrix };
         let kind = string(if once.is_some() { "preonly" } else { "cg" })?;
         let (prefix, once) = (string(prefix)?, once.map(string).transpose()?);
         // SAFETY: solver, preconditioner and matrix exist, and all texts are C strings, which PETSc copies.
@@ -48,6 +46,19 @@ impl Krylov {
             }
             check(ffi::KSPSetFromOptions(raw))?;
         }
+        if let Some(operators) = &solver.matrix.operators {
+            let preconditioner = solver.preconditioner()?;
+            let context: *const Shared = &raw const **operators;
+            // SAFETY: the preconditioner exists, the name is a C string, which PETSc copies, the context
+            // exists as long as the matrix, which the solver holds, and the functions have the signatures
+            // that PETSc requires.
+            unsafe {
+                check(ffi::PCShellSetContext(preconditioner, context.cast_mut().cast()))?;
+                check(ffi::PCShellSetApply(preconditioner, Some(precondition)))?;
+                check(ffi::PCShellSetView(preconditioner, Some(view)))?;
+                check(ffi::PCShellSetName(preconditioner, c"piola".as_ptr()))?;
+            }
+        }
         Ok(solver)
     }
 
@@ -56,21 +67,6 @@ impl Krylov {
         // SAFETY: the solver exists, and the result goes to a variable that outlives the call.
         check(unsafe { ffi::KSPGetPC(self.raw, &mut preconditioner) })?;
         Ok(preconditioner)
-    }
-
-    /// Preconditions by operators; the type of the preconditioner in options is `shell`.
-    pub(crate) fn precondition_by(&mut self, operators: Shared) -> Result<(), PetscError> {
-        let preconditioner = self.preconditioner()?;
-        let operators = self.operators.insert(Box::new(operators));
-        let context: *const Shared = &raw const **operators;
-        // SAFETY: the preconditioner exists, the name is a C string, which PETSc copies, the context exists
-        // as long as the solver, and the functions have the signatures that PETSc requires.
-        unsafe {
-            check(ffi::PCShellSetContext(preconditioner, context.cast_mut().cast()))?;
-            check(ffi::PCShellSetApply(preconditioner, Some(precondition)))?;
-            check(ffi::PCShellSetView(preconditioner, Some(view)))?;
-            check(ffi::PCShellSetName(preconditioner, c"piola".as_ptr()))
-        }
     }
 
     /// Keeps the preconditioner for the next system, or sets up a new one.
@@ -83,12 +79,12 @@ impl Krylov {
     /// Solves A x = b from x = 0 to a residual of `tolerance` times |b|.
     pub(crate) fn solve(
         &mut self,
-        b: &Vector<3>,
-        x: &mut Vector<3>,
+        b: &Vector,
+        x: &mut Vector,
         tolerance: f64,
         max_iterations: usize,
     ) -> Result<Iteration, PetscError> {
-        let matrix = self.matrix.borrow().raw;
+        let matrix = self.matrix.raw;
         let (mut reason, mut iterations) = (0, 0);
         // SAFETY: solver, matrix and vectors exist, and the results outlive the calls.
         unsafe {
@@ -110,10 +106,10 @@ impl Krylov {
     }
 
     /// Solves A x = b to the tolerance of the options.
-    pub(crate) fn apply(&mut self, b: &Vector<6>, x: &mut Vector<6>) -> Result<(), PetscError> {
+    pub(crate) fn apply(&mut self, b: &Vector, x: &mut Vector) -> Result<(), PetscError> {
         // SAFETY: solver and vectors exist.
         check(unsafe { ffi::KSPSolve(self.raw, b.raw, x.raw) })
     }
 }
 
-destroyed!([] Krylov, ffi::KSPDestroy);
+destroyed!(Krylov, ffi::KSPDestroy);

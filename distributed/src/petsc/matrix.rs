@@ -11,7 +11,7 @@ pub(crate) struct Matrix {
     pub(super) raw: ffi::Mat,
     places: usize,
     /// Operators to which the matrix refers.
-    _operators: Option<Box<Shared>>,
+    pub(super) operators: Option<Box<Shared>>,
 }
 
 impl Matrix {
@@ -31,7 +31,7 @@ impl Matrix {
         let mut raw = null_mut();
         // SAFETY: the result goes to a variable that outlives the call.
         check(unsafe { ffi::MatCreate(library.comm(), &mut raw) })?;
-        let matrix = Self { library: library.clone(), raw, places: row_numbers.len(), _operators: None };
+        let matrix = Self { library: library.clone(), raw, places: row_numbers.len(), operators: None };
         let kind = string("aij")?;
         // SAFETY: the matrix exists and has neither type nor sizes; `kind` is a C string; the two slices have
         // the given length, and PETSc may overwrite them, because they are not read again; both options are
@@ -69,7 +69,7 @@ impl Matrix {
             let context = context.cast_mut().cast();
             ffi::MatCreateShell(library.comm(), rows, rows, DECIDE, DECIDE, context, &mut raw)
         })?;
-        let matrix = Self { library: library.clone(), raw, places: 0, _operators: Some(operators) };
+        let matrix = Self { library: library.clone(), raw, places: 0, operators: Some(operators) };
         // SAFETY: the matrix exists, and PETSc calls the function of this operation with the arguments of
         // `multiply`.
         check(unsafe {
@@ -83,7 +83,7 @@ impl Matrix {
     ///
     /// # Errors
     /// [`PetscError`], also unless there is one value for each place.
-    pub(crate) fn set_values(&mut self, values: &[f64]) -> Result<(), PetscError> {
+    pub(crate) fn set_values(&self, values: &[f64]) -> Result<(), PetscError> {
         if values.len() != self.places {
             let message = format!("{} values for {} places of a matrix", values.len(), self.places);
             return Err(PetscError { message });
@@ -93,7 +93,7 @@ impl Matrix {
     }
 
     /// Sets the near null space for preconditioners to the rigid motions of nodes at these places, m.
-    pub(crate) fn set_rigid_motions(&mut self, places: &Vector<3>) -> Result<(), PetscError> {
+    pub(crate) fn set_rigid_motions(&self, places: &Vector) -> Result<(), PetscError> {
         let mut space = null_mut();
         // SAFETY: the vector exists, and the result goes to a variable that outlives the call.
         check(unsafe { ffi::MatNullSpaceCreateRigidBody(places.raw, &mut space) })?;
@@ -101,7 +101,7 @@ impl Matrix {
     }
 
     /// Sets the near null space for preconditioners to these vectors, which must be orthonormal.
-    pub(crate) fn set_motions(&mut self, motions: &[Vector<6>]) -> Result<(), PetscError> {
+    pub(crate) fn set_motions(&self, motions: &[Vector]) -> Result<(), PetscError> {
         let vectors: Vec<ffi::Vec> = motions.iter().map(|vector| vector.raw).collect();
         let (is_constant, count) = (ffi::PetscBool_PETSC_FALSE, int(vectors.len())?);
         let mut space = null_mut();
@@ -114,7 +114,7 @@ impl Matrix {
         self.set_near_null_space(space)
     }
 
-    fn set_near_null_space(&mut self, mut space: ffi::MatNullSpace) -> Result<(), PetscError> {
+    fn set_near_null_space(&self, mut space: ffi::MatNullSpace) -> Result<(), PetscError> {
         // SAFETY: both objects exist, the matrix keeps a reference to the space, and the space is destroyed
         // once.
         unsafe {
@@ -157,4 +157,4 @@ impl Matrix {
     }
 }
 
-destroyed!([] Matrix, ffi::MatDestroy);
+destroyed!(Matrix, ffi::MatDestroy);

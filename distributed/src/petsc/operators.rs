@@ -71,7 +71,7 @@ pub(super) unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::
 /// Applies a preconditioner that is a function.
 ///
 /// # Safety
-/// `preconditioner` must have been set by [`Krylov::precondition_by`](super::Krylov::precondition_by).
+/// `preconditioner` must be that of a [`Krylov`] for a matrix with operators.
 pub(super) unsafe extern "C" fn precondition(
     preconditioner: ffi::PC,
     r: ffi::Vec,
@@ -85,7 +85,7 @@ pub(super) unsafe extern "C" fn precondition(
 /// Shows a preconditioner that is a function, and the solver within it.
 ///
 /// # Safety
-/// `preconditioner` must have been set by [`Krylov::precondition_by`](super::Krylov::precondition_by).
+/// `preconditioner` must be that of a [`Krylov`] for a matrix with operators.
 pub(super) unsafe extern "C" fn view(
     preconditioner: ffi::PC,
     viewer: ffi::PetscViewer,

@@ -1,4 +1,4 @@
-//! Vectors of PETSc: with copies of rows of other ranks, and of unknowns.
+//! Vectors of PETSc, with or without copies of rows of other ranks.
 
 use std::ptr::{null, null_mut};
 
@@ -6,17 +6,17 @@ use piola::lanes::Real;
 
 use super::{DECIDE, Library, PetscError, PetscInt, check, ffi, int};
 
-/// Vector with some components for each row. Each rank owns some rows, and has copies of other rows.
-pub(crate) struct GhostedVector {
+/// Vector with some components for each row. Each rank owns some rows, and may have copies of other rows.
+pub(crate) struct Vector {
     _library: Library,
-    raw: ffi::Vec,
+    pub(super) raw: ffi::Vec,
     local: usize,
     owned: usize,
 }
 
-impl GhostedVector {
-    /// Vector with a number of owned rows on this rank and copies of the rows with the numbers `ghosts`. Rows
-    /// are numbered rank after rank, and have this number of `components`.
+impl Vector {
+    /// Vector of zeros with a number of owned rows on this rank and copies of the rows with the numbers
+    /// `ghosts`. Rows are numbered rank after rank, and have this number of `components`.
     pub(crate) fn new(
         library: &Library,
         components: usize,
@@ -39,6 +39,14 @@ impl GhostedVector {
         })?;
         let [local, owned] = [owned + ghosts.len(), owned].map(|rows| components * rows);
         Ok(Self { _library: library.clone(), raw, local, owned })
+    }
+
+    /// Calls `work` with the owned rows, of N components each.
+    pub(crate) fn with<const N: usize>(
+        &mut self,
+        work: impl FnOnce(&mut [[f64; N]]),
+    ) -> Result<(), PetscError> {
+        with_entries(self.raw, self.owned, |entries| work(entries.as_chunks_mut().0))
     }
 
     /// Replaces the copies, the last rows of `all`, by the entries of their owners, which are sent in f64.
@@ -122,31 +130,4 @@ pub(super) fn with_given<T>(raw: ffi::Vec, work: impl FnOnce(&[f64]) -> T) -> Re
     Ok(done)
 }
 
-destroyed!([] GhostedVector, ffi::VecDestroy);
-
-/// Vector of unknowns, N for each row.
-pub(crate) struct Vector<const N: usize> {
-    _library: Library,
-    pub(super) raw: ffi::Vec,
-    rows: usize,
-}
-
-impl<const N: usize> Vector<N> {
-    /// Vector of zeros, with a number of rows on this rank.
-    pub(crate) fn new(library: &Library, rows: usize) -> Result<Self, PetscError> {
-        let mut raw = null_mut();
-        // SAFETY: the result goes to a variable that outlives the call.
-        check(unsafe { ffi::VecCreateMPI(library.comm(), int(N * rows)?, DECIDE, &mut raw) })?;
-        let vector = Self { _library: library.clone(), raw, rows };
-        // SAFETY: the vector exists, and N divides the number of its entries on each rank.
-        check(unsafe { ffi::VecSetBlockSize(raw, int(N)?) })?;
-        Ok(vector)
-    }
-
-    /// Calls `work` with the entries of this rank.
-    pub(crate) fn with(&mut self, work: impl FnOnce(&mut [[f64; N]])) -> Result<(), PetscError> {
-        with_entries(self.raw, N * self.rows, |entries| work(entries.as_chunks_mut().0))
-    }
-}
-
-destroyed!([const N: usize] Vector<N>, ffi::VecDestroy);
+destroyed!(Vector, ffi::VecDestroy);
