@@ -68,18 +68,6 @@ typedef enum piola_notation {
     PIOLA_NOTATION_FORMULA = 1,
 } piola_notation;
 
-// The unit of a parameter's values.
-typedef enum piola_parameter_unit {
-    // Not stated.
-    PIOLA_PARAMETER_UNIT_UNKNOWN = 0,
-    // A number without unit.
-    PIOLA_PARAMETER_UNIT_DIMENSIONLESS = 1,
-    // Pa.
-    PIOLA_PARAMETER_UNIT_PASCAL = 2,
-    // 1/Pa.
-    PIOLA_PARAMETER_UNIT_PER_PASCAL = 3,
-} piola_parameter_unit;
-
 // Treatment of the negative eigenvalues of dP/dF.
 typedef enum piola_filter {
     // Leaves negative eigenvalues as they are: the exact derivative of the stress.
@@ -192,8 +180,6 @@ typedef struct piola_parameter_description {
     const char *name;
     // Its documentation, units included.
     const char *documentation;
-    // The unit of its values, one of `piola_parameter_unit`.
-    int32_t unit;
     // 1 if it takes a list of values, such as one for each term of a sum; 0 if it takes one.
     int32_t is_list;
     // Values of some real material; null if none are known.
@@ -359,13 +345,6 @@ extern "C" {
 // The message of the last call of this thread that did not return 0: UTF-8, one or several lines; empty
 // before the first. Valid until the next such call of this thread. Never null.
 const char *piola_error_message(void);
-
-// The names of the energies of the catalogue, one after the other.
-//
-// Writes the name number `index`, from 0, and returns PIOLA_CODE_OK; beyond the last one it writes null and
-// returns PIOLA_CODE_VALUE. Names are valid for ever.
-enum piola_code piola_catalogue_name(size_t index,
-                                     const char **name);
 
 // An energy of the catalogue by its name, such as "neo_hookean"; ignores case, spaces, `_` and `-`.
 //

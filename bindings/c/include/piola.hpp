@@ -138,15 +138,6 @@ private:
     std::shared_ptr<piola_energy> handle_;
 };
 
-/// The names of the energies of the catalogue.
-inline std::vector<std::string> catalogue() {
-    std::vector<std::string> names;
-    for (const char *name = nullptr; piola_catalogue_name(names.size(), &name) == PIOLA_CODE_OK;) {
-        names.emplace_back(name);
-    }
-    return names;
-}
-
 /// Values of a parameter.
 struct parameter {
     std::string name;

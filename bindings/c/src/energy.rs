@@ -1,13 +1,12 @@
 //! Energies: of the catalogue, or declared in a text.
 
 use std::ffi::{CString, c_char};
-use std::sync::OnceLock;
 
-use piola::material::{Description, Unit};
+use piola::material::Description;
 use piola_materials::DECLARATIONS;
 use piola_scenes::material::MaterialSpec;
 
-use crate::error::{Code, Failure, c_string};
+use crate::error::c_string;
 use crate::functions::functions;
 use crate::{handle, lent};
 
@@ -29,20 +28,6 @@ pub enum Notation {
     Formula = 1,
 }
 
-/// The unit of a parameter's values.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub enum ParameterUnit {
-    /// Not stated.
-    Unknown = 0,
-    /// A number without unit.
-    Dimensionless = 1,
-    /// Pa.
-    Pascal = 2,
-    /// 1/Pa.
-    PerPascal = 3,
-}
-
 /// Description of a parameter.
 #[repr(C)]
 pub struct ParameterDescription {
@@ -50,8 +35,6 @@ pub struct ParameterDescription {
     pub name: *const c_char,
     /// Its documentation, units included.
     pub documentation: *const c_char,
-    /// The unit of its values, one of `piola_parameter_unit`.
-    pub unit: i32,
     /// 1 if it takes a list of values, such as one for each term of a sum; 0 if it takes one.
     pub is_list: i32,
     /// Values of some real material; null if none are known.
@@ -113,12 +96,6 @@ impl Texts {
             .map(|(parameter, typical)| ParameterDescription {
                 name: keep(&parameter.name),
                 documentation: keep(&parameter.doc),
-                unit: match parameter.unit {
-                    Some(Unit::Dimensionless) => ParameterUnit::Dimensionless,
-                    Some(Unit::Pascal) => ParameterUnit::Pascal,
-                    Some(Unit::PerPascal) => ParameterUnit::PerPascal,
-                    _ => ParameterUnit::Unknown,
-                } as i32,
                 is_list: parameter.is_list().into(),
                 typical: if typical.is_empty() { std::ptr::null() } else { typical.as_ptr() },
                 typical_length: typical.len(),
@@ -138,24 +115,6 @@ impl Texts {
 }
 
 functions! {
-/// The names of the energies of the catalogue, one after the other.
-///
-/// Writes the name number `index`, from 0, and returns PIOLA_CODE_OK; beyond the last one it writes null and
-/// returns PIOLA_CODE_VALUE. Names are valid for ever.
-fn piola_catalogue_name(index: usize, name: Out<*const c_char>) {
-    static NAMES: OnceLock<Vec<CString>> = OnceLock::new();
-    let names =
-        NAMES.get_or_init(|| DECLARATIONS.iter().map(|declaration| c_string(declaration.name)).collect());
-    let found = names.get(index);
-    name.write(found.map_or(std::ptr::null(), |name| name.as_ptr()))?;
-    if found.is_none() {
-        let count = names.len();
-        let message = format_args!("there is no energy {index} (from 0) in a catalogue of {count}");
-        return Err(Failure::new(Code::Value, message));
-    }
-    Ok(())
-}
-
 /// An energy of the catalogue by its name, such as "neo_hookean"; ignores case, spaces, `_` and `-`.
 ///
 /// Errors: PIOLA_CODE_MATERIAL for a name that is not in the catalogue; the message lists those that are.
