@@ -317,11 +317,8 @@ impl<'a> Course<'a> {
         let team = self.team;
         let energy = self.simulation.part.energies().elastic;
         let (share, state) = (&self.simulation.share, &self.simulation.part);
-        let distance = |node: usize| {
-            let (x, rest) = (state.positions()[node], share.places[node].rest);
-            (0..3).map(|c| (x[c] - rest[c]).powi(2)).sum::<f64>().sqrt()
-        };
-        let farthest = team.max((0..share.owned).map(distance).fold(0.0, f64::max)) / self.height();
+        let rest: Vec<_> = share.places[..share.owned].iter().map(|place| place.rest).collect();
+        let farthest = team.max(measure::max_distance(&rest, state.positions())) / self.height();
         let pins = team.count(share.owned - share.free);
         let settings = &self.task.settings;
         let info = settings.material.build().ok();

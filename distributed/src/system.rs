@@ -381,8 +381,6 @@ impl Assembled {
             (0..9).map(move |entry| [3 * row + entry / 3, 3 * column + entry % 3])
         };
         let matrix = Matrix::new(library, 3 * share.free, 3, blocks.iter().copied().flat_map(entries))?;
-        let values = vec![0.0; 9 * blocks.len()];
-        drop(blocks);
         let matrix = Rc::new(matrix);
         Ok(Self {
             numbers: share.free_numbers.clone(),
@@ -390,25 +388,20 @@ impl Assembled {
             fallback: Krylov::new(library, matrix.clone(), "fallback_", None)?,
             matrix,
             places: Vector::new(library, 3, share.free, &[])?,
-            values,
+            values: Vec::with_capacity(9 * blocks.len()),
             pace: None,
         })
     }
 
     /// Assembles the stiffness; the nodes are at `positions`, m.
     fn assemble(&mut self, stiffness: &NodalStiffness, positions: &[[f64; 3]]) -> Result<(), PetscError> {
-        let mut rest = self.values.as_mut_slice();
-        let mut put = |entries: [[f64; 3]; 3]| {
-            let (here, after) = std::mem::take(&mut rest).split_at_mut(9);
-            here.copy_from_slice(entries.as_flattened());
-            rest = after;
-        };
         let is_free = |node: usize| self.numbers[node].is_some();
+        self.values.clear();
         for (row, column, entries) in stiffness.blocks() {
             if is_free(row) && is_free(column) {
-                put(*entries);
+                self.values.extend(entries.as_flattened());
                 if row != column {
-                    put(std::array::from_fn(|r| std::array::from_fn(|c| entries[c][r])));
+                    self.values.extend((0..9).map(|at| entries[at % 3][at / 3]));
                 }
             }
         }

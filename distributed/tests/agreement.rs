@@ -64,11 +64,10 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
         let run = |options: String| {
             state_after(count, &format!("run {} --material '{material}' {options}", scene.name), &folder)
         };
-        run(format!("--frames {before} --newton single"))?;
-        let (about, state) = checkpoint_in(&folder)?;
+        let state = run(format!("--frames {before} --newton single"))?;
         let mut play = Play::new(settings.clone(), geometry.clone())?;
         play.simulation.set_settings(step_settings(&settings).with_newton(newton()))?;
-        play.resume(about.clock.expect("of a run"), &state.positions, &state.velocities)?;
+        play.resume(state.about.clock.expect("of a run"), &state.positions, &state.velocities)?;
         for _ in 0..frames {
             let report = play.step()?.newton;
             // If 10⁻¹² is below the rounding error of the forces, the iterations end at this error.
@@ -231,7 +230,7 @@ fn preconditioners_are_shown_and_replaced() -> TestResult {
         for shown in shown {
             assert!(text.contains(shown), "no `{shown}` by {options}: {text}");
         }
-        let (_, found) = checkpoint_in(&folder)?;
+        let found = checkpoint_in(&folder)?;
         let first = first.get_or_insert_with(|| found.positions.clone());
         let error = distance(&found.positions, first);
         // Newton's tolerance, for a body that sags by a tenth of its length.

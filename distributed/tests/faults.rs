@@ -4,6 +4,7 @@
 mod common;
 
 use std::fs;
+use std::os::unix::fs::MetadataExt;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
@@ -113,10 +114,9 @@ fn a_killed_rank_ends_all_and_leaves_a_checkpoint() -> TestResult {
     let output = child.wait_with_output()?;
     assert!(!output.status.success());
     assert!(String::from_utf8_lossy(&output.stderr).contains("signal 9"), "{output:?}");
-    let (about, _) = checkpoint_in(&folder)?;
-    let more = about.frame + 1;
-    state_after(2, &format!("run dinosaur --frames {more} --resume"), &folder)?;
-    assert_eq!(checkpoint_in(&folder)?.0.frame, more);
+    let more = checkpoint_in(&folder)?.about.frame + 1;
+    let state = state_after(2, &format!("run dinosaur --frames {more} --resume"), &folder)?;
+    assert_eq!(state.about.frame, more);
     Ok(())
 }
 
@@ -126,7 +126,7 @@ fn a_full_disk_ends_the_run_and_leaves_the_checkpoint() -> TestResult {
     let scratch = tempfile::tempdir()?;
     let disk = scratch.path().join("disk");
     fs::create_dir(&disk)?;
-    let user = if fs::metadata(scratch.path()).map(|folder| is_root(&folder))? { "-m" } else { "-rm" };
+    let user = if fs::metadata(scratch.path())?.uid() == 0 { "-m" } else { "-rm" };
     let run = |frames: usize, how: &str| {
         let options = format!("run dinosaur --frames {frames} {how} --out {}", disk.display());
         let run = command(2, &options);
@@ -157,11 +157,6 @@ fn a_full_disk_ends_the_run_and_leaves_the_checkpoint() -> TestResult {
     check_failure(&output, "checkpoint.piola: No space left on device");
     assert_eq!(fs::read(scratch.path().join("before"))?, fs::read(scratch.path().join("after"))?);
     Ok(())
-}
-
-/// True if files of this process belong to root.
-fn is_root(made: &fs::Metadata) -> bool {
-    std::os::unix::fs::MetadataExt::uid(made) == 0
 }
 
 /// A mesh file contains an inverted element.

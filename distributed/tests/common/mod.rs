@@ -54,18 +54,19 @@ pub(crate) fn state_after(ranks: usize, arguments: &str, folder: &Path) -> Resul
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into());
     }
-    Ok(checkpoint_in(folder)?.1)
+    checkpoint_in(folder)
 }
 
-/// Positions, m, and velocities, m/s, of all nodes.
+/// Checkpoint of a run: its description, and positions, m, and velocities, m/s, of all nodes.
 pub(crate) struct State {
+    pub(crate) about: About,
     pub(crate) positions: Vec<[f64; 3]>,
     pub(crate) velocities: Vec<[f64; 3]>,
 }
 
 /// The checkpoint in the folder of a run: a line of JSON, then position, velocity and acceleration of each
 /// node.
-pub(crate) fn checkpoint_in(folder: &Path) -> Result<(About, State), Box<dyn Error>> {
+pub(crate) fn checkpoint_in(folder: &Path) -> Result<State, Box<dyn Error>> {
     let bytes = std::fs::read(checkpoint::file_in(folder))?;
     let end = bytes.iter().position(|&byte| byte == b'\n').ok_or("no header")?;
     let mut header: serde_json::Value = serde_json::from_slice(&bytes[..end])?;
@@ -76,5 +77,5 @@ pub(crate) fn checkpoint_in(folder: &Path) -> Result<(About, State), Box<dyn Err
     let nodes = numbers.as_chunks::<3>().0.as_chunks::<3>().0;
     assert_eq!(header["nodes"], nodes.len());
     let [positions, velocities] = [0, 1].map(|at: usize| nodes.iter().map(|node| node[at]).collect());
-    Ok((serde_json::from_value(header["about"].take())?, State { positions, velocities }))
+    Ok(State { about: serde_json::from_value(header["about"].take())?, positions, velocities })
 }
