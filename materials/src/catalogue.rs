@@ -1,8 +1,6 @@
 //! The energies by name, for programs that choose a material at run time.
 
-#[cfg(feature = "f32")]
-use piola::material::Response;
-use piola::material::{Declared, Description, MaterialError, Moduli};
+use piola::material::{Declared, Description, MaterialError};
 use piola::{DynMaterial, Inversion};
 
 #[cfg(doc)]
@@ -138,8 +136,8 @@ pub(crate) use catalogue;
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let entry = piola_materials::find("st_venant_kirchhoff").ok_or("not in the catalogue")?;
-/// let moduli = entry.moduli(&[&[3.0], &[5.0]], piola::Inversion::Refuse)?;
-/// assert_eq!((moduli.mu, moduli.lambda), (3.0, 5.0));
+/// let material = entry.material(&[&[3.0], &[5.0]], piola::Inversion::Refuse)?;
+/// assert!(material.admits([1.2, 1.0, -0.5])); // inverted, and defined
 /// # Ok(())
 /// # }
 /// ```
@@ -149,19 +147,6 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 impl Entry {
-    /// Typical parameters as declared: one slice for each parameter of the description, in its order, in SI
-    /// units.
-    ///
-    /// They satisfy the conditions of the constructor, and of the extension if there is one.
-    #[must_use]
-    pub fn typical(&self) -> Vec<&[f64]> {
-        self.description
-            .typical
-            .iter()
-            .flat_map(|typical| typical.values.iter().map(|list| &**list))
-            .collect()
-    }
-
     /// The material behind a pointer, for single points, batches and bodies in `f64`.
     ///
     /// # Errors
@@ -179,40 +164,5 @@ impl Entry {
             }
         }
         self.visit(values, inversion, Boxed)
-    }
-
-    /// The material behind a pointer, for single points in `f32`. With the feature `f32`.
-    ///
-    /// # Errors
-    /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`].
-    #[cfg(feature = "f32")]
-    pub fn material_f32(
-        &self,
-        values: &[&[f64]],
-        inversion: Inversion,
-    ) -> Result<Box<dyn Response<f32>>, MaterialError> {
-        struct Boxed;
-        impl Visitor for Boxed {
-            type Output = Box<dyn Response<f32>>;
-            fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
-                Box::new(material)
-            }
-        }
-        self.visit(values, inversion, Boxed)
-    }
-
-    /// Small-strain moduli, Pa.
-    ///
-    /// # Errors
-    /// [`MaterialError`](piola::material::MaterialError), see [`Entry::visit`].
-    pub fn moduli(&self, values: &[&[f64]], inversion: Inversion) -> Result<Moduli, MaterialError> {
-        struct Small;
-        impl Visitor for Small {
-            type Output = Moduli;
-            fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
-                material.moduli()
-            }
-        }
-        self.visit(values, inversion, Small)
     }
 }

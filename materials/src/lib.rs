@@ -39,7 +39,7 @@
 //!
 //! # Typical parameters
 //!
-//! Each energy is declared with parameters of some real material and their source; [`Entry::typical`] has
+//! Each energy is declared with parameters of some real material and their source; [`Entry::description`] has
 //! them for programs. Those *fitted to Treloar 1944* are least squares of the relative difference between the
 //! nominal stresses of the incompressible solid and those that Treloar, *Stress-strain data for vulcanised
 //! rubber under various types of deformation*, Trans. Faraday Soc. 40, 1944, measured in uniaxial tension,

@@ -8,10 +8,10 @@
 use std::sync::LazyLock;
 
 use piola::interpreter::Interpreted;
-use piola::material::{Description, MaterialError, Moduli, Response};
+use piola::material::{Declared, Description, MaterialError, Moduli, Response};
 use piola::{DynMaterial, Inversion, Real};
 use piola_declare::Energy;
-use piola_materials::{DECLARATIONS, Entry};
+use piola_materials::{DECLARATIONS, Entry, Visitor};
 
 /// All energies of the catalogue, in the order of their names.
 pub static ENERGIES: LazyLock<Vec<Judged>> = LazyLock::new(|| {
@@ -63,24 +63,16 @@ impl Judged {
     /// # Errors
     /// [`MaterialError`], those of the compiled constructor where the build has it.
     pub fn subject(&self, values: &[&[f64]], inversion: Inversion) -> Result<Subject, MaterialError> {
-        let exact = self.energy.material(values, inversion);
-        let compiled = self.compiled.map(|entry| {
-            let (double, single) =
-                (entry.material(values, inversion)?, entry.material_f32(values, inversion)?);
-            Ok((double, single, entry.moduli(values, inversion)?))
-        });
-        match compiled {
+        let compiled = Compiled { energy: &self.energy, values, inversion };
+        match self.compiled.map(|entry| entry.visit(values, inversion, compiled)?) {
             // The catalogue compiles lists of a few lengths only.
             None | Some(Err(MaterialError::Shape { .. })) => {
-                let exact = exact?;
+                let exact = self.energy.material(values, inversion)?;
                 let moduli = Moduli::of(&exact);
                 let double = self.energy.boxed(values, inversion)?;
                 Ok(Subject { double, single: Box::new(exact.clone()), exact, moduli })
             }
-            Some(compiled) => {
-                let (double, single, moduli) = compiled?;
-                Ok(Subject { double, single, exact: exact?, moduli })
-            }
+            Some(subject) => subject,
         }
     }
 
@@ -88,6 +80,24 @@ impl Judged {
     pub fn inversions(&self, epsilon: f64) -> impl Iterator<Item = Inversion> + use<> {
         let extended = self.description().extends.then_some(Inversion::Extend { epsilon });
         std::iter::once(Inversion::Refuse).chain(extended)
+    }
+}
+
+/// Makes the subject of a compiled energy.
+struct Compiled<'a> {
+    energy: &'a Energy,
+    values: &'a [&'a [f64]],
+    inversion: Inversion,
+}
+
+impl Visitor for Compiled<'_> {
+    type Output = Result<Subject, MaterialError>;
+
+    fn visit<M: Declared + 'static>(self, material: M) -> Self::Output {
+        let Self { energy, values, inversion } = self;
+        let (moduli, single) = (material.moduli(), M::from_values(values, inversion)?);
+        let exact = energy.material(values, inversion)?;
+        Ok(Subject { double: Box::new(material), single: Box::new(single), exact, moduli })
     }
 }
 

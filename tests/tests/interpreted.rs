@@ -141,7 +141,7 @@ fn materials_of_one_energy_do_not_mix_their_constants() {
 fn values_are_refused_as_by_the_compiled_catalogue() {
     let mut refused = 0;
     for (Judged { energy, .. }, entry) in compiled() {
-        let typical: Vec<Vec<f64>> = entry.typical().iter().map(|list| list.to_vec()).collect();
+        let typical: Vec<Vec<f64>> = energy.typical().iter().map(|list| list.to_vec()).collect();
         let mut all = vec![Vec::new(), typical[..typical.len() - 1].to_vec()];
         for (k, list) in typical.iter().enumerate() {
             for place in 0..list.len() {
@@ -166,7 +166,7 @@ fn values_are_refused_as_by_the_compiled_catalogue() {
                     error => error.to_string(),
                 };
                 let found = energy.material(&values, inversion).map(|_| ()).map_err(told);
-                let expected = entry.moduli(&values, inversion).map(|_| ()).map_err(told);
+                let expected = entry.material(&values, inversion).map(|_| ()).map_err(told);
                 // By name, lists have the lengths that the catalogue provides for.
                 if expected.as_ref().is_err_and(|error| error.contains("by name, not")) {
                     continue;

@@ -30,7 +30,7 @@ pub(crate) fn compiled_ones_refuse_what_is_inadmissible() {
     let message = |name: &str, values: &[&[f64]], inversion| {
         // Of the compiled constructor: the lists of the catalogue have a few lengths only.
         let entry = piola_materials::find(name).expect("compiled by default");
-        entry.moduli(values, inversion).err().map(|error| error.to_string()).unwrap_or_default()
+        entry.material(values, inversion).err().map(|error| error.to_string()).unwrap_or_default()
     };
     let check =
         |found: String, expected: &str| assert!(found.contains(expected), "{found}\nlacks {expected}");
