@@ -86,7 +86,7 @@ Recomputed by `cargo test -p piola-baselines --test stability`, which writes it 
 
 The tables have the errors ‖X − X*‖ of P, of K = dP/dF and of S, its projection to semidefinite matrices, against reference values
 of 25 digits (`tests/reference`), in units of u (‖X*‖ + sens). u is 2⁻⁵³ in f64 and 2⁻²⁴ in f32, norms are Frobenius norms, and sens is
-the sensitivity of X to a relative change of F. The errors of a backward-stable method stay below a few tens in all cases; 10⁶ means
+the sensitivity of X to a relative change of F. The errors of a backward-stable method stay below a few tens in all cases; 1e6 means
 that six digits are lost in addition to those that rounding of F costs. Errors up to 30 are rounded up to integers, larger ones to
 powers of ten; ∞ is a result with an infinity or NaN.
 
@@ -146,16 +146,11 @@ fn line(name: &str, rows: &[Row], cell: impl Fn(&[Row], usize) -> String) -> Str
 
 /// The worst error: an integer up to the bound, beyond it a power of ten; – where no case could be judged.
 fn worst(rows: &[Row], column: usize) -> String {
-    const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     match rows.iter().filter_map(|row| row[column]).reduce(f64::max) {
         None => "–".to_owned(),
         Some(f64::INFINITY) => "∞".to_owned(),
         Some(error) if error <= BOUND => error.ceil().to_string(),
-        Some(error) => {
-            let exponent = (error.log10().ceil() as i32).to_string();
-            let digits = exponent.chars().filter_map(|digit| digit.to_digit(10));
-            "10".chars().chain(digits.map(|digit| SUPERSCRIPTS[digit as usize])).collect()
-        }
+        Some(error) => format!("1e{}", error.log10().ceil()),
     }
 }
 

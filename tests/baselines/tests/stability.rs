@@ -23,16 +23,10 @@ fn rows(text: &str) -> Vec<Vec<&str>> {
 
 /// An error as it is written: units of u (‖X‖ + sens) up to the bound, a power of ten, ∞; `None` for –.
 fn error(cell: &str) -> Option<f64> {
-    let digit = |c: char| char::from_digit("⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c)? as u32, 10);
-    let written = cell.split(' ').next().unwrap_or_default();
-    let exponent = || written.strip_prefix("10")?.chars().map(digit).collect::<Option<String>>();
-    match (written, exponent()) {
-        ("–", _) => None,
-        ("∞", _) => Some(f64::INFINITY),
-        (_, Some(exponent)) if !exponent.is_empty() => {
-            Some(format!("1e{exponent}").parse().expect("a power"))
-        }
-        (units, _) => Some(units.parse().unwrap_or_else(|_| panic!("`{cell}` is not an error"))),
+    match cell.split(' ').next().unwrap_or_default() {
+        "–" => None,
+        "∞" => Some(f64::INFINITY),
+        number => Some(number.parse().unwrap_or_else(|_| panic!("`{cell}` is not an error"))),
     }
 }
 
