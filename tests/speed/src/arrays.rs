@@ -5,10 +5,10 @@
 use std::hint::black_box;
 use std::ops::{Deref, DerefMut};
 
-use piola::batch::{Batch, Kernels, Layout, LengthError, Tetrahedra};
+use piola::batch::{Batch, Kernels, Layout, LengthError, REST, Tetrahedra};
 use piola::lanes::Scalar;
 
-use super::task::{CORNERS, Task};
+use super::task::{CORNERS, Task, deformation};
 use piola::__private::random::Random;
 
 /// Inputs and outputs of a task, for a multiple of 64 points.
@@ -16,7 +16,8 @@ use piola::__private::random::Random;
 pub struct Arrays<E> {
     task: Task,
     layout: Layout,
-    inputs: [Aligned<E>; 2],
+    F: Aligned<E>,
+    rest_shapes: Aligned<E>,
     outputs: [Aligned<E>; 2],
     positions: Vec<[E; 3]>,
     tetrahedra: Vec<[usize; 4]>,
@@ -26,23 +27,23 @@ impl<E: Kernels> Arrays<E> {
     /// Arrays of random points, which are equal for every task, format and layout.
     #[must_use]
     pub fn new(task: Task, layout: Layout, points: usize) -> Self {
-        let (_, inputs, outputs) = task.signature();
-        let inputs = inputs.map(|input| {
-            let (numbers, mut random) = (input.numbers(), Random::new(1));
-            let mut array = Aligned::new(points * numbers);
+        let input = |numbers: usize, draw: &dyn Fn(&mut Random) -> Vec<f64>| {
+            let (mut array, mut random) = (Aligned::new(points * numbers), Random::new(1));
             for point in 0..points {
-                for (k, number) in input.draw(&mut random).into_iter().enumerate() {
+                for (k, number) in draw(&mut random).into_iter().enumerate() {
                     array[layout.index::<E>(point, numbers, k)] = E::splat(number);
                 }
             }
             array
-        });
-        let outputs = outputs.map(|numbers| Aligned::new(points * numbers));
+        };
+        let F = input(9, &|random| deformation(random).concat());
+        let rest_shapes = input(REST, &|random| task.rest_shape(random));
+        let outputs = task.signature().1.map(|numbers| Aligned::new(points * numbers));
         // Four nodes in a row are a tetrahedron, whose first corner is a node 4 n.
         let positions = (0..points + 3).map(|node| CORNERS[node % 4].map(E::splat)).collect();
         let corner = |first: usize, k: usize| first + (k + 4 - first % 4) % 4;
         let tetrahedra = (0..points).map(|first| [0, 1, 2, 3].map(|k| corner(first, k))).collect();
-        Self { task, layout, inputs, outputs, positions, tetrahedra }
+        Self { task, layout, F, rest_shapes, outputs, positions, tetrahedra }
     }
 
     /// Runs the task with the material, filter and back end of a batch.
@@ -55,16 +56,16 @@ impl<E: Kernels> Arrays<E> {
 
     #[inline]
     fn call(&mut self, batch: &Batch<'_, E>) -> Result<(), LengthError> {
-        let ([F, second], [first, large]) = (&self.inputs, &mut self.outputs);
+        let (F, rest_shapes, [first, large]) = (&self.F, &self.rest_shapes, &mut self.outputs);
         match self.task {
             Task::Energies => batch.energies(F, first).map(drop),
             Task::Stresses => batch.stresses(F, first).map(drop),
             Task::Tangents => batch.tangents(F, first, large).map(drop),
-            Task::Stiffnesses => batch.stiffnesses(F, second, first, large).map(drop),
+            Task::Stiffnesses => batch.stiffnesses(F, rest_shapes, first, large).map(drop),
             Task::StiffnessesAt => {
                 let tetrahedra = Tetrahedra::new(self.positions.len(), &self.tetrahedra);
                 let tetrahedra = tetrahedra.expect("nodes that exist");
-                batch.stiffnesses_at(tetrahedra, &self.positions, second, first, large).map(drop)
+                batch.stiffnesses_at(tetrahedra, &self.positions, rest_shapes, first, large).map(drop)
             }
         }
     }

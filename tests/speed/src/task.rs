@@ -1,8 +1,7 @@
-//! The kernels of a batch, and which numbers of a point each reads and writes.
+//! The kernels of a batch, and the numbers that they read and write.
 
 #![expect(non_snake_case, reason = "F, X as below")]
 
-use piola::batch::REST;
 use piola::point::{Filter, Matrix3};
 
 use piola::__private::random::Random;
@@ -27,14 +26,14 @@ impl Task {
     pub const ALL: [Self; 5] =
         [Self::Energies, Self::Stresses, Self::Tangents, Self::Stiffnesses, Self::StiffnessesAt];
 
-    /// Name of the method, the quantities that it reads at each point, and how many numbers it writes.
-    pub(super) fn signature(self) -> (&'static str, [Input; 2], [usize; 2]) {
+    /// Name of the method, and the numbers that it writes at each point.
+    pub(super) fn signature(self) -> (&'static str, [usize; 2]) {
         match self {
-            Self::Energies => ("energies", [Input::Deformation, Input::Nothing], [1, 0]),
-            Self::Stresses => ("stresses", [Input::Deformation, Input::Nothing], [9, 0]),
-            Self::Tangents => ("tangents", [Input::Deformation, Input::Nothing], [9, 81]),
-            Self::Stiffnesses => ("stiffnesses", [Input::Deformation, Input::RestShape], [12, 144]),
-            Self::StiffnessesAt => ("stiffnesses_at", [Input::Nothing, Input::RestShapeAtNodes], [12, 144]),
+            Self::Energies => ("energies", [1, 0]),
+            Self::Stresses => ("stresses", [9, 0]),
+            Self::Tangents => ("tangents", [9, 81]),
+            Self::Stiffnesses => ("stiffnesses", [12, 144]),
+            Self::StiffnessesAt => ("stiffnesses_at", [12, 144]),
         }
     }
 
@@ -52,49 +51,24 @@ impl Task {
             _ => &[Filter::None, Filter::Clamp],
         }
     }
+
+    /// Dm⁻¹ and a volume: Dm⁻¹ drawn like F or, where nodes are given, that with which [`CORNERS`] have a
+    /// deformation gradient like the others.
+    pub(super) fn rest_shape(self, random: &mut Random) -> Vec<f64> {
+        let F = deformation(random);
+        // Ds⁻¹ of the edges between `CORNERS`.
+        let inverse = |i: usize, j: usize| if i == j { 0.25 } else { -0.25 };
+        let entry = |k: usize| match self {
+            Self::StiffnessesAt => (0..3).map(|m| inverse(k / 3, m) * F[m][k % 3]).sum::<f64>(),
+            _ => F[k / 3][k % 3],
+        };
+        (0..9).map(entry).chain([random.uniform(0.5, 1.5)]).collect()
+    }
 }
 
 /// The corners of every tetrahedron whose nodes are given.
 pub(super) const CORNERS: [[f64; 3]; 4] =
     [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
-
-/// A quantity that is given at each point.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Input {
-    Nothing,
-    /// F = I + 0.3 X with entries of X uniform in [−1, 1) and det F > 0, so that every energy is defined.
-    Deformation,
-    /// Dm⁻¹, drawn like F, and a volume.
-    RestShape,
-    /// Dm⁻¹ with which [`CORNERS`] have a deformation gradient as above, and a volume.
-    RestShapeAtNodes,
-}
-
-impl Input {
-    pub(super) fn numbers(self) -> usize {
-        match self {
-            Self::Nothing => 0,
-            Self::Deformation => 9,
-            Self::RestShape | Self::RestShapeAtNodes => REST,
-        }
-    }
-
-    pub(super) fn draw(self, random: &mut Random) -> Vec<f64> {
-        match self {
-            Self::Nothing => Vec::new(),
-            Self::Deformation => deformation(random).as_flattened().to_vec(),
-            Self::RestShape => [deformation(random).as_flattened(), &[random.uniform(0.5, 1.5)]].concat(),
-            Self::RestShapeAtNodes => {
-                let F = deformation(random);
-                // Ds⁻¹ of the edges between `CORNERS`.
-                let inverse = |i: usize, j: usize| if i == j { 0.25 } else { -0.25 };
-                let entry = |k: usize| (0..3).map(|m| inverse(k / 3, m) * F[m][k % 3]).sum();
-                let shape = (0..9).map(entry);
-                shape.chain([random.uniform(0.5, 1.5)]).collect()
-            }
-        }
-    }
-}
 
 /// The deformation gradients of [`Arrays`](crate::Arrays), without end.
 pub fn deformation_gradients() -> impl Iterator<Item = Matrix3<f64>> {
@@ -102,7 +76,8 @@ pub fn deformation_gradients() -> impl Iterator<Item = Matrix3<f64>> {
     std::iter::repeat_with(move || deformation(&mut random))
 }
 
-fn deformation(random: &mut Random) -> Matrix3<f64> {
+/// F = I + 0.3 X with entries of X uniform in [−1, 1) and det F > 0, so that every energy is defined.
+pub(super) fn deformation(random: &mut Random) -> Matrix3<f64> {
     loop {
         let X = random.matrix();
         let F: Matrix3<f64> = [0, 1, 2].map(|i| [0, 1, 2].map(|j| f64::from(i == j) + 0.3 * X[i][j]));
