@@ -95,17 +95,23 @@ fn links_of_documents_lead_to_files() {
     assert!(judged > 5, "{judged} links");
 }
 
-/// Programs of a README are files that are compiled: the first is the test target `readme` of `piola-tests`.
+/// Programs of documents are files that are compiled: the first is the test target `readme` of `piola-tests`.
 #[test]
-fn readmes_show_programs_that_are_compiled() {
-    for (readme, language, program) in [
-        ("README.md", "rust", "materials/examples/own_energy.rs"),
-        ("bindings/c/README.md", "c", "bindings/c/clients/example.c"),
-        ("bindings/c/README.md", "cpp", "bindings/c/clients/example.cpp"),
-    ] {
-        let block = format!("```{language}\n{}```", read(Path::new(program)));
-        assert!(read(Path::new(readme)).contains(&block), "{readme} has another program than {program}");
+fn documents_show_programs_that_are_compiled() {
+    let shows = |document: &str, before: &str, language: &str, program: &str| {
+        let block = format!("{before}```{language}\n{}```\n", read(Path::new(program)));
+        assert!(read(Path::new(document)).contains(&block), "{document} has another program than {program}");
+    };
+    shows("README.md", "", "rust", "materials/examples/own_energy.rs");
+    shows("bindings/c/README.md", "", "c", "bindings/c/clients/example.c");
+    shows("bindings/c/README.md", "", "cpp", "bindings/c/clients/example.cpp");
+    let tutorial = "docs/your-first-material.md";
+    let files =
+        ["src/lib.rs", "tests/contract.rs", "examples/fit.rs", "examples/horse.rs", "examples/curve.rs"];
+    for file in files {
+        shows(tutorial, &format!("\n`{file}`:\n\n"), "rust", &format!("docs/biderman/{file}"));
     }
+    assert_eq!(read(Path::new(tutorial)).matches("`:\n\n```rust\n").count(), files.len());
 }
 
 /// The first table of `docs/embedding.md` quotes lines of files that it links to, and that are tested.
