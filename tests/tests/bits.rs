@@ -156,29 +156,29 @@ fn seed(index: usize, name: &str) -> u64 {
 
 fn every_entry<R: Format>(judge: Judge<R>, judge_elements: JudgeElements<R>) {
     let count = if piola_tests::is_full() { 100_000 } else { 30_000 };
-    let mut total = Tally::default();
-    let mut report = String::new();
     let of_energy = |(index, energy): (usize, &energies::Judged)| {
         let inversions: Vec<_> = energy.inversions(0.1).collect();
         let of_inversion = |&inversion: &Inversion| {
             let subject = energy.subject(&energy.typical(), inversion).expect("typical parameters");
             let patterns = count / inversions.len();
-            (inversion, trial(&subject, seed(index, energy.name), patterns, judge, judge_elements))
+            let tally = trial(&subject, seed(index, energy.name), patterns, judge, judge_elements);
+            (format!("{} {} {inversion:?}", energy.name, R::NAME), tally)
         };
-        (energy.name, inversions.iter().map(of_inversion).collect::<Vec<_>>())
+        inversions.iter().map(of_inversion).collect::<Vec<_>>()
     };
-    let tallies: Vec<_> = ENERGIES.par_iter().enumerate().map(of_energy).collect();
-    for (name, tallies) in tallies {
-        for (inversion, tally) in tallies {
-            for (fault, (count, F)) in &tally.faults {
-                let _ = writeln!(report, "{count:7} × {name} {} {inversion:?}: {fault}: {F}", R::NAME);
+    let tallies: Vec<_> = ENERGIES.par_iter().enumerate().flat_map_iter(of_energy).collect();
+    let (mut answers, mut report) = (BTreeMap::<Answer, usize>::new(), String::new());
+    for (what, tally) in tallies {
+        for (verdict, (count, F)) in tally {
+            match verdict {
+                Ok(answer) => *answers.entry(answer).or_default() += count,
+                Err(fault) => _ = writeln!(report, "{count:7} × {what}: {fault}: {F}"),
             }
-            total.add(tally);
         }
     }
-    let Tally { patterns, answers, faults } = total;
+    let patterns: usize = answers.values().sum();
     println!("{}: {patterns} patterns: {answers:?}", R::NAME);
-    assert!(faults.is_empty(), "{report}");
+    assert!(report.is_empty(), "{report}");
     let flagged_early = answers.get(&Answer::FlaggedEarly).copied().unwrap_or(0);
     assert!(100 * flagged_early <= patterns, "one in a hundred may be flagged early");
     // A judge that never meets one of the answers judges nothing.
@@ -186,23 +186,8 @@ fn every_entry<R: Format>(judge: Judge<R>, judge_elements: JudgeElements<R>) {
     assert!(all.iter().all(|answer| answers.contains_key(answer)), "{answers:?}");
 }
 
-#[derive(Default)]
-struct Tally {
-    patterns: usize,
-    answers: BTreeMap<Answer, usize>,
-    /// How often, and where first.
-    faults: BTreeMap<Fault, (usize, String)>,
-}
-
-impl Tally {
-    fn add(&mut self, other: Self) {
-        self.patterns += other.patterns;
-        for (answer, count) in other.answers {
-            *self.answers.entry(answer).or_default() += count;
-        }
-        self.faults.extend(other.faults);
-    }
-}
+/// How often there was each answer and each fault, and where first.
+type Tally = BTreeMap<Result<Answer, Fault>, (usize, String)>;
 
 /// Patterns that are judged as elements together.
 const TOGETHER: usize = 64;
@@ -215,28 +200,23 @@ fn trial<R: Format>(
     judge: Judge<R>,
     judge_elements: JudgeElements<R>,
 ) -> Tally {
-    let judge_elements = |F: &[Matrix3<R>]| faults(subject, F, judge_elements);
     let mut random = Random::new(seed);
-    let mut tally = Tally::default();
+    let mut tally = Tally::new();
     let all: Vec<usize> = (0..patterns).collect();
     for patterns in all.chunks(TOGETHER) {
         let together: Vec<Matrix3<R>> = patterns.iter().map(|&pattern| draw(pattern, &mut random)).collect();
-        let mut faults = judge_elements(&together);
         // A batch of few points has kernels of its own; another place in turn, so that it meets all families.
         let place = patterns[0] / TOGETHER % together.len();
-        let alone = judge_elements(&together[place..=place]);
-        faults.extend(alone.into_iter().map(|(_, fault)| (place, fault)));
-        for (at, (pattern, F)) in patterns.iter().zip(&together).enumerate() {
+        let alone = faults(subject, &together[place..=place], judge_elements);
+        let alone = alone.into_iter().map(|(_, fault)| (place, fault));
+        let of_elements = faults(subject, &together, judge_elements).into_iter().chain(alone);
+        let of_points = patterns.iter().zip(&together).enumerate().map(|(at, (pattern, F))| {
             let closely = (pattern / FAMILIES).is_multiple_of(8);
-            match catch_unwind(AssertUnwindSafe(|| judge(subject, F, closely))) {
-                Ok(Ok(answer)) => *tally.answers.entry(answer).or_default() += 1,
-                Ok(Err(fault)) => faults.push((at, fault)),
-                Err(_) => faults.push((at, PANIC.to_owned())),
-            }
-        }
-        tally.patterns += together.len();
-        for (at, fault) in faults {
-            tally.faults.entry(fault).or_insert_with(|| (0, format!("{:?}", together[at]))).0 += 1;
+            let verdict = catch_unwind(AssertUnwindSafe(|| judge(subject, F, closely)));
+            (at, verdict.unwrap_or_else(|_| Err(PANIC.to_owned())))
+        });
+        for (at, verdict) in of_elements.map(|(at, fault)| (at, Err(fault))).chain(of_points) {
+            tally.entry(verdict).or_insert_with(|| (0, format!("{:?}", together[at]))).0 += 1;
         }
     }
     tally
