@@ -17,7 +17,8 @@ use piola::material::Blocks;
 use piola::point::{Matrix3, Svd};
 use piola_materials::{Hencky, NeoHookean, Ogden, RotatedLinear, StVenantKirchhoff};
 
-use crate::{LibraryNumber, quotients};
+use crate::LibraryNumber;
+use crate::quotients::{Change, Plain};
 
 /// An energy density that can be evaluated on dual numbers.
 pub trait Potential {
@@ -98,7 +99,8 @@ pub fn through_stretches<T: LibraryNumber>(potential: &impl Potential, svd: &Svd
     let energy = |l: SVector<Dual2SVec<T, T, 3>, 3>| potential.energy([l[0], l[1], l[2]]);
     let (_, gradient, h) = hessian(energy, &SVector::from(svd.stretches));
     let hessian = [h[(0, 0)], h[(1, 1)], h[(2, 2)], h[(0, 1)], h[(0, 2)], h[(1, 2)]];
-    quotients::plain(svd.stretches, gradient.into(), hessian)
+    let none = [<T as piola::Real>::splat(0.0); 3];
+    Plain.blocks(svd.stretches, Blocks { gradient: gradient.into(), hessian, flip: none, twist: none })
 }
 
 /// P and dP/dF, Pa, as derivatives of ψ by the nine entries of F; wrong where two stretches are equal.

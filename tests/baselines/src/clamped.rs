@@ -11,36 +11,24 @@
 //! \[ITF04\] Irving, Teran, Fedkiw, *Invertible finite elements for robust simulation of large deformation*,
 //! 2004.
 
-use piola::material::Blocks;
-use piola::{Material, Real};
+use piola::Real;
 
-use crate::quotients::delegate;
+use crate::quotients::Change;
 
-/// A material whose stretches are limited from below.
+/// Stretches that are limited from below.
 #[derive(Clone, Copy, Debug)]
-pub struct Clamped<M> {
-    /// The material where no stretch is below the limit.
-    pub material: M,
-    /// The smallest stretch that it is shown.
+pub struct Clamp {
+    /// The smallest stretch that the material is shown.
     pub limit: f64,
 }
 
-impl<M> Clamped<M> {
-    /// The stretches that the material is shown; NaN where one is.
+impl Change for Clamp {
+    /// NaN where a stretch is.
     #[inline(always)]
-    fn clamp<R: Real>(&self, [l1, l2, l3]: [R; 3]) -> [R; 3] {
+    fn shown<R: Real>(&self, [l1, l2, l3]: [R; 3]) -> [R; 3] {
         // In this order `max` gives a stretch that is NaN, not the limit.
         let limit = R::splat(self.limit);
         [limit.max(l1), limit.max(l2), limit.max(l3)]
-    }
-}
-
-impl<M: Material> Material for Clamped<M> {
-    delegate!(material, clamp);
-
-    #[inline(always)]
-    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
-        self.material.blocks(self.clamp(stretches))
     }
 }
 
@@ -51,16 +39,17 @@ mod tests {
     use piola_materials::NeoHookean;
 
     use super::*;
+    use crate::quotients::Changed;
     use crate::testing::{SHEARED, exact};
 
-    fn clamped() -> Clamped<NeoHookean> {
+    fn clamped() -> Changed<NeoHookean, Clamp> {
         let material = NeoHookean::new(1.0, 2.0).expect("admissible parameters");
-        Clamped { material, limit: 0.3 }
+        Changed(material, Clamp { limit: 0.3 })
     }
 
     #[test]
     fn above_the_limit_it_is_the_energy_itself() {
-        assert_eq!(exact(&clamped(), &SHEARED), exact(&clamped().material, &SHEARED));
+        assert_eq!(exact(&clamped(), &SHEARED), exact(&clamped().0, &SHEARED));
     }
 
     #[test]

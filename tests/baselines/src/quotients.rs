@@ -1,110 +1,95 @@
-//! Quotients as they are usually written: plain, and with a switch to their limits.
+//! Quotients as they are usually written: plain, and with a switch to their limits; and materials that a
+//! method changes.
 
-use piola::material::{Blocks, PAIRS, Response};
+use piola::material::{Blocks, PAIRS};
 use piola::{Material, Real};
 
-/// All of a material but its blocks, at the stretches that it is shown.
-macro_rules! delegate {
-    ($material:tt $(, $shown:ident)?) => {
-        #[inline(always)]
-        fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
-            $(let stretches = self.$shown(stretches);)?
-            self.$material.energy(stretches)
-        }
-
-        #[inline(always)]
-        fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
-            $(let stretches = self.$shown(stretches);)?
-            self.$material.gradient(stretches)
-        }
-
-        #[inline(always)]
-        fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
-            $(let stretches = self.$shown(stretches);)?
-            self.$material.admits(stretches)
-        }
-
-        fn has_pole(&self) -> bool {
-            self.$material.has_pole()
-        }
-
-        fn ends_at_zero_volume(&self) -> bool {
-            self.$material.ends_at_zero_volume()
-        }
-    };
-}
-
-pub(crate) use delegate;
-
-/// A material with the quotients of [`naive`].
+/// A material that a method changes.
 #[derive(Clone, Copy, Debug)]
-pub struct Naive<M>(pub M);
+pub struct Changed<M, C>(pub M, pub C);
 
-/// A material with the quotients of [`lhopital`].
-#[derive(Clone, Copy, Debug)]
-pub struct Switched<M> {
-    /// The material.
-    pub material: M,
-    /// Relative to the stretches.
-    pub threshold: f64,
-}
-
-impl<M: Material> Material for Naive<M> {
-    delegate!(0);
-
+/// Change of a material.
+pub trait Change: Send + Sync {
+    /// The stretches that the material is shown.
     #[inline(always)]
-    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
-        naive(&self.0, stretches)
+    fn shown<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        stretches
+    }
+
+    /// The blocks of a material at these stretches, with the quotients of the method.
+    #[inline(always)]
+    fn blocks<R: Real>(&self, _stretches: [R; 3], blocks: Blocks<R>) -> Blocks<R> {
+        blocks
     }
 }
 
-impl<M: Material> Material for Switched<M> {
-    delegate!(material);
+impl<M: Material, C: Change> Material for Changed<M, C> {
+    #[inline(always)]
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
+        self.0.energy(self.1.shown(stretches))
+    }
+
+    #[inline(always)]
+    fn gradient<R: Real>(&self, stretches: [R; 3]) -> [R; 3] {
+        self.0.gradient(self.1.shown(stretches))
+    }
 
     #[inline(always)]
     fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
-        lhopital(&self.material, stretches, self.threshold)
+        let shown = self.1.shown(stretches);
+        self.1.blocks(shown, self.0.blocks(shown))
+    }
+
+    #[inline(always)]
+    fn admits<R: Real>(&self, stretches: [R; 3]) -> R::Mask {
+        self.0.admits(self.1.shown(stretches))
+    }
+
+    fn has_pole(&self) -> bool {
+        self.0.has_pole()
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        self.0.ends_at_zero_volume()
     }
 }
 
 /// Flips and twists as (ψi ∓ ψj)/(λi ∓ λj), for any gap; NaN if it is zero.
-#[inline(always)]
-#[must_use]
-pub fn naive<R: Real>(material: &(impl Response<R> + ?Sized), stretches: [R; 3]) -> Blocks<R> {
-    // The compiler drops the quotients of `blocks`, which nobody reads.
-    let Blocks { gradient, hessian, .. } = material.blocks(stretches);
-    plain(stretches, gradient, hessian)
-}
+#[derive(Clone, Copy, Debug)]
+pub struct Plain;
 
-/// Flips and twists as (ψi ∓ ψj)/(λi ∓ λj), for any gap, from given derivatives.
-#[inline(always)]
-pub(crate) fn plain<R: Real>(stretches: [R; 3], gradient: [R; 3], hessian: [R; 6]) -> Blocks<R> {
-    with_quotients(stretches, gradient, hessian, |numerator, gap, _, _| numerator / gap)
+impl Change for Plain {
+    #[inline(always)]
+    fn blocks<R: Real>(&self, stretches: [R; 3], blocks: Blocks<R>) -> Blocks<R> {
+        with_quotients(stretches, blocks, |numerator, gap, _, _| numerator / gap)
+    }
 }
 
 /// Flips and twists as quotients, or l'Hôpital's limits ψii ∓ ψij at gaps below `threshold`·max(|λi|, |λj|).
 ///
 /// The limit of the twist is that of an energy which is even in the two stretches; at a pole there is none.
-#[inline(always)]
-#[must_use]
-pub fn lhopital<R: Real>(
-    material: &(impl Response<R> + ?Sized),
-    stretches: [R; 3],
-    threshold: f64,
-) -> Blocks<R> {
-    let Blocks { gradient, hessian, .. } = material.blocks(stretches);
-    with_quotients(stretches, gradient, hessian, |numerator, gap, scale, limit| {
-        let is_close = gap.abs().less(R::splat(threshold) * scale) | !R::splat(0.0).less(gap.abs());
-        R::select(is_close, limit, numerator / gap)
-    })
+#[derive(Clone, Copy, Debug)]
+pub struct Switch {
+    /// Relative to the stretches.
+    pub threshold: f64,
 }
 
-/// Quotients from numerator, gap, size of the two stretches, and limit.
+impl Change for Switch {
+    #[inline(always)]
+    fn blocks<R: Real>(&self, stretches: [R; 3], blocks: Blocks<R>) -> Blocks<R> {
+        with_quotients(stretches, blocks, |numerator, gap, scale, limit| {
+            let is_close = gap.abs().less(R::splat(self.threshold) * scale) | !R::splat(0.0).less(gap.abs());
+            R::select(is_close, limit, numerator / gap)
+        })
+    }
+}
+
+/// Quotients from numerator, gap, size of the two stretches, and limit. The compiler drops those of `blocks`,
+/// which nobody reads.
 #[inline(always)]
 fn with_quotients<R: Real>(
     stretches: [R; 3],
-    gradient: [R; 3],
-    hessian: [R; 6],
+    Blocks { gradient, hessian, .. }: Blocks<R>,
     quotient: impl Fn(R, R, R, R) -> R,
 ) -> Blocks<R> {
     let (mut flip, mut twist) = ([R::splat(0.0); 3], [R::splat(0.0); 3]);

@@ -12,8 +12,9 @@ use piola_tests::cases::{Case, Quantity};
 use piola_tests::compiled;
 use piola_tests::energies::{self, Format, Subject};
 
+use crate::quotients::{Change, Plain, Switch};
 use crate::svd_gradients::{self, THRESHOLD};
-use crate::{LibraryNumber, eigen, quotients};
+use crate::{LibraryNumber, eigen};
 
 /// The bound that every result of ours keeps, in units of u (‖X‖ + sens).
 pub const BOUND: f64 = 30.0;
@@ -189,8 +190,10 @@ impl Method {
                 let tangent = svd_gradients::tangent(material, &svd, THRESHOLD * THRESHOLD);
                 return if filter == Filter::None { Some(tangent) } else { eigen::clamp(&tangent) };
             }
-            Self::Naive => quotients::naive(material, svd.stretches),
-            Self::Lhopital => quotients::lhopital(material, svd.stretches, SWITCH),
+            Self::Naive => Plain.blocks(svd.stretches, material.blocks(svd.stretches)),
+            Self::Lhopital => {
+                Switch { threshold: SWITCH }.blocks(svd.stretches, material.blocks(svd.stretches))
+            }
         };
         let (blocks, _) = project(&blocks, filter);
         Some(Tangent { U: svd.U, V: svd.V, blocks }.to_matrix())

@@ -6,10 +6,10 @@ use piola::material::Blocks;
 use piola::point::{Filter, Matrix3, Svd, Tangent, decompose, evaluate_dense, project, stress, svd};
 use piola::{Material, Real};
 use piola_baselines::automatic::{self, Potential};
-use piola_baselines::clamped::Clamped;
+use piola_baselines::clamped::Clamp;
 use piola_baselines::direct::{self, DirectEnergy};
 use piola_baselines::invariants::{self, InvariantEnergy};
-use piola_baselines::quotients::{Naive, Switched};
+use piola_baselines::quotients::{Changed, Plain, Switch};
 use piola_baselines::{coincidences, decompositions, differences, eigen, polar, svd_gradients};
 use piola_materials::RotatedLinear;
 
@@ -29,15 +29,15 @@ pub(crate) fn all<E: Number>(
     let mut all = vec![
         Contestant::batch(Label::new(OURS), material, filter),
         Contestant::one_by_one(Label::new(OURS_AS_A_SCALAR), Ours { material, filter }),
-        Contestant::batch(Label::new("plain quotients"), Naive(material), filter),
+        Contestant::batch(Label::new("plain quotients"), Changed(material, Plain), filter),
     ];
     for threshold in [1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
         let label = Label::set("l'Hôpital switch", format_args!("{threshold:e}"));
-        all.push(Contestant::batch(label, Switched { material, threshold }, filter));
+        all.push(Contestant::batch(label, Changed(material, Switch { threshold }), filter));
     }
     for limit in [0.01, 0.1, 0.5] {
         let label = Label::set("[ITF04]", limit);
-        all.push(Contestant::batch(label, Clamped { material, limit }, filter));
+        all.push(Contestant::batch(label, Changed(material, Clamp { limit }), filter));
     }
     for epsilon in [1e-6, 1e-8, 1e-10, 1e-12, 1e-14] {
         let label = Label::set("[SZLSB11]", format_args!("{epsilon:e}"));
