@@ -8,10 +8,9 @@
 //! With `PIOLA_EMITTED` the results are those of emitted source text ([`piola_tests::emitted`]):
 //! `PIOLA_EMITTED="wgsl f32 PROGRAM"`.
 
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a table to show")]
+#![expect(clippy::print_stdout, reason = "a table to show")]
 
 use std::collections::BTreeMap;
-use std::process::ExitCode;
 
 use piola::batch::{Batch, Kernels, TileMaterial};
 use piola::lanes::Backend;
@@ -33,14 +32,8 @@ const C: f64 = 30.0;
 /// Energies whose parameters are functions, which no file of cases can hold.
 const WITHOUT_CASES: [&str; 1] = ["stretch_spline"];
 
-fn main() -> ExitCode {
-    match judge_all() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
+fn main() {
+    judge_all().unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// Judges the cases of each energy and prints the table.
