@@ -12,7 +12,7 @@ use piola::Inversion;
 use piola::batch::{Batch, Kernels, Layout};
 use piola::lanes::Backend;
 use piola::material::Declared;
-use piola::point::{Filter, Matrix3, evaluate, evaluate_dense, evaluate_stress};
+use piola::point::{Filter, Matrix3, evaluate_dense, evaluate_stress};
 use piola_materials::{NeoHookean, Ogden, StVenantKirchhoff};
 use piola_speed::{
     Arrays, Decompositions, Effort, IN_CACHE, LAMBDA, MU, Task, Times, deformation_gradients, ogden,
@@ -77,14 +77,9 @@ fn print_energy<M: Declared + 'static>(
     }
     // One point a call, with the 81 entries written out.
     let stress = each_point(effort, |F| _ = black_box(evaluate_stress(material, F)));
-    let filters = [Filter::None, Filter::Clamp];
-    let tangents = filters.map(|filter| {
-        each_point(effort, |F| _ = black_box(evaluate(material, F, filter).tangent.to_matrix()))
-    });
-    let dense =
-        filters.map(|filter| each_point(effort, |F| _ = black_box(evaluate_dense(material, F, filter))));
-    rows.push(one_a_call("`evaluate_stress`, `evaluate`", Some(stress), tangents));
-    rows.push(one_a_call("`evaluate_dense`", None, dense));
+    let tangents = [Filter::None, Filter::Clamp]
+        .map(|filter| each_point(effort, |F| _ = black_box(evaluate_dense(material, F, filter))));
+    rows.push(one_a_call("`evaluate_stress`, `evaluate_dense`", Some(stress), tangents));
     match printed::times(name, values, effort.repeats) {
         Ok((compiler, times)) => rows.push(one_a_call(&compiler, None, times)),
         Err(error) => eprintln!("printed C is not measured: {error}"),
