@@ -8,7 +8,6 @@
 
 #![expect(clippy::print_stdout, reason = "a table to show")]
 
-use std::cell::LazyCell;
 use std::collections::HashSet;
 use std::fmt;
 
@@ -133,14 +132,11 @@ fn judge((energy, word, values, inversion): Trial) -> Result<Vec<Line>, String> 
     let mut scales = vec![1.1, 1.5 - 1e-5, 4.0, 30.0, 0.05, 1e-6];
     scales.extend(upper_end(material));
     let samples = samples(&scales, material.admits([1.0, 0.9, -0.8]), threshold);
-    let declared: Lazy = LazyCell::new(Box::new(|| Declared::read(energy.energy.text(), &values, inversion)));
+    let declared = Declared::read(energy.energy.text(), &values, inversion)?;
     let judge = Judge { subject: &subject, moved: moved.as_ref(), declared: &declared };
-    let (double, single) = (judge.tally::<f64>(&samples)?, judge.tally::<f32>(&samples)?);
+    let (double, single) = (judge.tally::<f64>(&samples), judge.tally::<f32>(&samples));
     Ok(vec![(energy.name, word, "f64", double), (energy.name, word, "f32", single)])
 }
-
-/// Expressions of an energy, understood when they are first asked for.
-type Lazy<'a> = LazyCell<Result<Declared, String>, Box<dyn FnOnce() -> Result<Declared, String> + 'a>>;
 
 /// Nearly the size at which a ball leaves the domain, if it ever does.
 fn upper_end(material: &dyn Response<f64>) -> Option<f64> {
@@ -160,15 +156,15 @@ fn upper_end(material: &dyn Response<f64>) -> Option<f64> {
 const FRACTION: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// A subject, and its material with a threshold that is larger by [`FRACTION`].
-struct Judge<'a, 'l> {
+struct Judge<'a> {
     subject: &'a Subject,
     moved: Option<&'a Interpreted>,
-    declared: &'a Lazy<'l>,
+    declared: &'a Declared,
 }
 
-impl Judge<'_, '_> {
+impl Judge<'_> {
     /// All quotients at all samples, rounded to the format.
-    fn tally<R: Format>(&self, samples: &[[f64; 3]]) -> Result<Tally, String> {
+    fn tally<R: Format>(&self, samples: &[[f64; 3]]) -> Tally {
         let &Self { subject, moved, declared } = self;
         let material = R::of(subject);
         let mut tally = Tally::default();
@@ -206,7 +202,7 @@ impl Judge<'_, '_> {
                     tally.judged += 1;
                     tally.flat += usize::from(error.flat <= C);
                     if error.conditioned > C {
-                        let terms = declared.as_ref().map_err(String::clone)?.terms(exact);
+                        let terms = declared.terms(exact);
                         error = quotient.with_terms(terms[kind][pair]).error(found, R::UNIT_ROUNDOFF);
                         tally.terms += 1;
                     }
@@ -221,7 +217,7 @@ impl Judge<'_, '_> {
                 }
             }
         }
-        Ok(tally)
+        tally
     }
 }
 
