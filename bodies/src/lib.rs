@@ -21,8 +21,8 @@
 //!     let mesh = tetrahedral_box([4, 1, 1], [0.4, 0.1, 0.1])?;
 //!     let pins = Pins::at((0..mesh.positions.len()).filter(|&node| mesh.positions[node][0] == 0.0));
 //!     let body = Body::new(&mesh, Rubber::new(1e5, 4e5)?, 1000.0)?;
-//!     let gravity = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
-//!     let mut bar = Simulation::new(body, &pins, gravity)?;
+//!     let settings = SimulationSettings { gravity: [0.0, -9.81, 0.0], ..Default::default() };
+//!     let mut bar = Simulation::new(body, &pins, settings)?;
 //!     for _ in 0..150 {
 //!         bar.step(1.0 / 30.0)?;
 //!     }
@@ -57,7 +57,6 @@
 //! Friction, fracture, plasticity and higher-order elements are not included. Contact is a user-defined
 //! [`Term`](step::Term) of the energy, as in the example `ground` of `piola-materials`.
 
-mod chained;
 #[cfg(test)]
 #[allow(dead_code, reason = "each crate that includes this file needs some of it")]
 #[path = "../../runtime/src/hand_written.rs"]

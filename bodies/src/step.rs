@@ -6,15 +6,7 @@
 //! contact; `minimisation` passes it to `newton`. `staged` keeps the state between steps. `equilibrium`
 //! classifies a body that has come to rest. Reports are values; nothing prints.
 //!
-//! All of it is in f64. Structs of settings begin with their `Default` and change by chained calls:
-//!
-//! ```
-//! use piola_bodies::step::{LinearSolver, NewtonSettings, SimulationSettings};
-//!
-//! let newton = NewtonSettings::default().with_tolerance(1e-9).with_linear(LinearSolver::Cholesky);
-//! let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
-//! assert_eq!(settings.newton.tolerance, 1e-9);
-//! ```
+//! All of it is in f64.
 
 #[cfg(feature = "faer")]
 mod equilibrium;

@@ -39,10 +39,9 @@ fn settings_come_back() {
         LinearSolver::Cholesky,
         LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 },
     ] {
-        let newton = NewtonSettings::default().with_linear(linear).with_tolerance(third);
         for filtering in [Filtering::Always(Filter::Absolute), Filtering::OnDemand] {
-            let newton = newton.with_filtering(filtering);
-            check(&SimulationSettings::default().with_newton(newton).with_damping(third));
+            let newton = NewtonSettings { linear, tolerance: third, filtering, ..Default::default() };
+            check(&SimulationSettings { newton, damping: third, ..Default::default() });
         }
     }
     assert_eq!(check(&Filtering::Always(Filter::Clamp)), r#"{"always":"clamp"}"#);
@@ -54,8 +53,8 @@ fn what_is_left_out_of_settings_is_the_default_and_what_is_unknown_an_error() {
     let read = |text: &str| serde_json::from_str::<SimulationSettings>(text);
     let settings =
         read(r#"{"newton": {"tolerance": 1e-9}, "gravity": [0, 0, -1.62]}"#).expect("good settings");
-    let newton = NewtonSettings::default().with_tolerance(1e-9);
-    assert_eq!(settings, SimulationSettings::default().with_newton(newton).with_gravity([0.0, 0.0, -1.62]));
+    let newton = NewtonSettings { tolerance: 1e-9, ..Default::default() };
+    assert_eq!(settings, SimulationSettings { newton, gravity: [0.0, 0.0, -1.62], ..Default::default() });
     let error = read(r#"{"newton": {"tolerence": 1e-9}}"#).expect_err("a slip of the pen");
     assert!(error.to_string().contains("unknown field `tolerence`"), "{error}");
 }
@@ -65,7 +64,7 @@ fn reports_come_back() -> Result<(), Box<dyn std::error::Error>> {
     let mesh = tetrahedral_box([3, 1, 1], [0.3, 0.1, 0.1])?;
     let pins = Pins::at([0, 1, 2, 3]);
     let body = Body::new(&mesh, Rubber::new(1e5, 4e5)?, 1000.0)?;
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
+    let settings = SimulationSettings { gravity: [0.0, -9.81, 0.0], ..Default::default() };
     let mut simulation = Simulation::new(body, &pins, settings)?;
     let report = simulation.step(1.0 / 30.0)?;
     assert!(report.energies.kinetic > 0.0 && !report.newton.step_lengths.is_empty());

@@ -188,11 +188,13 @@ impl SolverOptions {
             return Err(Error::usage(reason));
         }
         let usual = if is_single { Filtering::Always(Filter::Clamp) } else { Filtering::OnDemand };
-        Ok(NewtonSettings::default()
-            .with_filtering(self.filter.unwrap_or(usual))
-            .with_max_iterations(if is_single { 1 } else { self.newton_iterations })
-            .with_tolerance(self.newton_tolerance)
-            .with_linear(LinearSolver::ConjugateGradients { tolerance: linear, max_iterations: 20_000 }))
+        Ok(NewtonSettings {
+            filtering: self.filter.unwrap_or(usual),
+            max_iterations: if is_single { 1 } else { self.newton_iterations },
+            tolerance: self.newton_tolerance,
+            linear: LinearSolver::ConjugateGradients { tolerance: linear, max_iterations: 20_000 },
+            ..Default::default()
+        })
     }
 }
 

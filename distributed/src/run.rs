@@ -62,7 +62,7 @@ pub fn sag(team: &Team, options: &BoxOptions) -> Result<String, Error> {
     let parts = [MaterialPart { group: None, material, density: 1000.0 }];
     let clock = Instant::now();
     let share = Share::of(team, Portion::of_cube(team, cells, 1.0))?;
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
+    let settings = SimulationSettings { gravity: [0.0, -9.81, 0.0], newton, ..Default::default() };
     let mut simulation = Simulation::new(team, share, &parts, settings)?;
     team.wait();
     let (set_up, clock) = (clock.elapsed(), Instant::now());
@@ -210,7 +210,7 @@ impl<'a> Course<'a> {
         let newton = options.solver.settings(is_single)?;
         let Task { settings, parts, moves } = task;
         let (share, body, pulls) = setting::divided(team, task)?;
-        let steps = play::step_settings(settings).with_newton(newton);
+        let steps = SimulationSettings { newton, ..play::step_settings(settings) };
         let lasting = Settings { frames: 1, threads: 1, newton: Newton::Single, ..settings.clone() };
         let lasting = serde_json::to_string(&(lasting, parts, moves)).map_err(Error::usage)?;
         Ok(Self {

@@ -29,11 +29,18 @@ fn ranks() -> Vec<usize> {
 }
 
 fn newton() -> NewtonSettings {
-    NewtonSettings::default()
-        .with_filtering(Filtering::Always(Filter::Clamp))
-        .with_linear(LinearSolver::Cholesky)
-        .with_max_iterations(200)
-        .with_tolerance(1e-12)
+    NewtonSettings {
+        filtering: Filtering::Always(Filter::Clamp),
+        linear: LinearSolver::Cholesky,
+        max_iterations: 200,
+        tolerance: 1e-12,
+        ..Default::default()
+    }
+}
+
+/// Settings of a body under its own weight.
+fn falling() -> SimulationSettings {
+    SimulationSettings { gravity: [0.0, -9.81, 0.0], newton: newton(), ..Default::default() }
 }
 
 /// Options that solve to the tolerance of [`newton`].
@@ -66,7 +73,7 @@ fn check_scene(scene: &'static Scene, material: &str, before: usize, frames: usi
         };
         let state = run(format!("--frames {before} --newton single"))?;
         let mut play = Play::new(settings.clone(), geometry.clone())?;
-        play.simulation.set_settings(step_settings(&settings).with_newton(newton()))?;
+        play.simulation.set_settings(SimulationSettings { newton: newton(), ..step_settings(&settings) })?;
         play.resume(state.about.clock.expect("of a run"), &state.positions, &state.velocities)?;
         for _ in 0..frames {
             let report = play.step()?.newton;
@@ -120,7 +127,7 @@ fn check(ranks: &[usize], arguments: &str, expected: &[[f64; 3]], most: f64) -> 
 fn check_dinosaur(settings: &Settings, frames: usize, options: &str) -> TestResult {
     let geometry = Geometry::load(settings)?;
     let mut play = Play::new(settings.clone(), geometry)?;
-    play.simulation.set_settings(step_settings(settings).with_newton(newton()))?;
+    play.simulation.set_settings(SimulationSettings { newton: newton(), ..step_settings(settings) })?;
     for _ in 0..frames {
         play.step()?;
     }
@@ -199,8 +206,7 @@ fn a_box_sags_as_on_one_machine() -> TestResult {
     let part = Part { group: None, material: material.elements, density: 1000.0 };
     let body = Body::from_parts(&mesh, vec![part])?;
     let pins = Pins::in_box(&mesh, Bounds { min: [-1.0; 3], max: [1e-9, 2.0, 2.0] })?;
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
-    let mut simulation = Simulation::new(body, &pins, settings)?;
+    let mut simulation = Simulation::new(body, &pins, falling())?;
     simulation.equilibrate()?;
     let options = format!("box --elements {} --newton-tolerance 1e-12", mesh.tets.len());
     check(&ranks(), &options, simulation.positions(), 1e-8)
@@ -247,8 +253,7 @@ fn statics_end_as_on_one_machine() -> TestResult {
     let body = Body::from_parts(&mesh, vec![Part { group: None, material, density: TWIST.density }])?;
     let at = |height: f64| Bounds { min: [-1.0, height, -1.0], max: [1.0, height, 1.0] };
     let (foot, top) = (Pins::in_box(&mesh, at(0.0))?, Pins::in_box(&mesh, at(1.0))?);
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
-    let mut simulation = Simulation::new(body, &foot.and(&top), settings)?;
+    let mut simulation = Simulation::new(body, &foot.and(&top), falling())?;
     for &node in top.nodes() {
         let [x, y, z] = mesh.positions[node];
         simulation.prescribe(node, [x + 0.1, y, z])?;
@@ -303,8 +308,7 @@ fn groups_and_prescribed_motions_are_those_of_one_machine() -> TestResult {
     let at = |height: f64| Bounds { min: [-1.0, height - 1e-9, -1.0], max: [1.0, height + 1e-9, 1.0] };
     let (foot, top) = (Pins::in_box(&mesh, at(0.0))?, Pins::in_box(&mesh, at(1.0))?);
     // The scene's damping.
-    let settings =
-        SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_damping(2.0).with_newton(newton());
+    let settings = SimulationSettings { damping: 2.0, ..falling() };
     let (dt, frames) = (1.0 / 30.0, 6);
     let mut simulation = Simulation::new(body, &foot.and(&top), settings)?;
     for frame in 1..=frames {
@@ -328,8 +332,7 @@ fn a_bar_in_files_of_tetgen_is_that_of_one_machine() -> TestResult {
     let scratch = tempfile::tempdir()?;
     let file = scratch.path().join("bar.node");
     let (mesh, body) = bar_of_tetgen(&file)?;
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton());
-    let mut simulation = Simulation::new(body, &Pins::of_group(&mesh, "5")?, settings)?;
+    let mut simulation = Simulation::new(body, &Pins::of_group(&mesh, "5")?, falling())?;
     simulation.equilibrate()?;
 
     let options = format!(

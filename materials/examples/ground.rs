@@ -52,14 +52,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A cube of 20 cm falls from 10 cm above the ground: moduli in Pa, density in kg/m³.
     let mesh = tetrahedral_box([6, 6, 6], [0.2; 3])?;
     let body = Body::new(&mesh, NeoHookean::new(3e4, 1.2e5)?, 1000.0)?;
-    let newton = NewtonSettings::default().with_tolerance(1e-10);
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
-    let mut cube = Simulation::new(body, &Pins::none(), settings.with_integrator(Integrator::Sdirk2))?;
+    let newton = NewtonSettings { tolerance: 1e-10, ..Default::default() };
+    let (gravity, integrator) = ([0.0, -9.81, 0.0], Integrator::Sdirk2);
+    let settings = SimulationSettings { gravity, integrator, newton, ..Default::default() };
+    let mut cube = Simulation::new(body, &Pins::none(), settings)?;
     cube.set_positions(&mesh.positions.iter().map(|&[x, y, z]| [x, y + 0.1, z]).collect::<Vec<_>>())?;
     cube.set_terms(vec![Arc::new(Ground(2e4))]);
     let mut cubes = [cube.clone(), cube.clone(), cube];
     let linear = LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 1000 };
-    cubes[1].set_settings(cubes[1].settings().with_newton(newton.with_linear(linear)))?;
+    let newton = NewtonSettings { linear, ..newton };
+    cubes[1].set_settings(SimulationSettings { newton, ..settings })?;
     cubes[2].set_linear_solver(conjugate)?;
     for cube in &mut cubes {
         (0..160).try_for_each(|_| cube.step(1.0 / 400.0).map(|_| ()))?;

@@ -287,16 +287,12 @@ pub fn step_settings(settings: &Settings) -> step::SimulationSettings {
         Newton::Single => NewtonSettings::single(),
         // Steps of higher order would else be solved to more digits than implicit Euler's, stage by stage.
         Newton::Full if settings.integrator != Integrator::ImplicitEuler => {
-            NewtonSettings::default().with_error_share(0.03)
+            NewtonSettings { error_share: 0.03, ..Default::default() }
         }
         Newton::Full => NewtonSettings::default(),
     };
-    let gravity = [0.0, -settings.gravity, 0.0];
-    step::SimulationSettings::default()
-        .with_gravity(gravity)
-        .with_damping(settings.scene.damping)
-        .with_integrator(settings.integrator)
-        .with_newton(newton)
+    let (gravity, damping) = ([0.0, -settings.gravity, 0.0], settings.scene.damping);
+    step::SimulationSettings { gravity, damping, integrator: settings.integrator, newton }
 }
 
 /// The nodes that the settings pin, or else those that the scene pins.

@@ -1,6 +1,6 @@
 //! The equilibrium in which a body that has not recovered comes to rest.
 
-use piola_bodies::step::{Convergence, Equilibrium, NewtonSettings, Stability};
+use piola_bodies::step::{Convergence, Equilibrium, NewtonSettings, SimulationSettings, Stability};
 
 use crate::error::Error;
 use crate::measure;
@@ -25,8 +25,8 @@ pub type Watch<'a> = dyn FnMut(usize) -> bool + Send + 'a;
 pub fn find_equilibrium(play: &mut Play, watch: &mut Watch<'_>) -> Result<FinalState, Error> {
     let Play { simulation, geometry, clock, .. } = play;
     let settings = *simulation.settings();
-    let newton = NewtonSettings::default().with_max_iterations(ITERATIONS).with_tolerance(1e-10);
-    simulation.set_settings(settings.with_newton(newton))?;
+    let newton = NewtonSettings { max_iterations: ITERATIONS, tolerance: 1e-10, ..Default::default() };
+    simulation.set_settings(SimulationSettings { newton, ..settings })?;
     for _ in 0..CALLS {
         if watch(clock.frame) {
             return Err(Error::Interrupted);

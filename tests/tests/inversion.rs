@@ -22,7 +22,7 @@ const REST: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.2, 0.9, 0.0], 
 fn relax(material: Box<dyn TileMaterial<f64>>, start: &[[f64; 3]; 3]) -> Result<[f64; 3], StepError> {
     let mesh = TetMesh::new(REST.to_vec(), vec![[0, 1, 2, 3]]);
     let body = Body::from_parts(&mesh, vec![Part { group: None, material, density: 1.0 }]).expect("a body");
-    let settings = SimulationSettings::default().with_damping(1.0);
+    let settings = SimulationSettings { damping: 1.0, ..Default::default() };
     let mut simulation = Simulation::new(body, &Pins::none(), settings).expect("a simulation");
     let positions = REST.map(|x| start.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2]));
     simulation.set_positions(&positions).expect("finite positions");

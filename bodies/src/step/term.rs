@@ -56,7 +56,7 @@ use super::spring::Spring;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
-/// let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]);
+/// let settings = SimulationSettings { gravity: [0.0, -9.81, 0.0], ..Default::default() };
 /// let mut cube = Simulation::new(body, &Pins::none(), settings)?;
 /// cube.set_terms(vec![Arc::new(Ground { stiffness: 1e4 })]);
 /// let report = cube.step(0.01)?;

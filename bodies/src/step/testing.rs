@@ -32,18 +32,18 @@ pub(super) fn held(
 }
 
 pub(super) fn settings(newton: NewtonSettings) -> SimulationSettings {
-    SimulationSettings::default().with_newton(newton)
+    SimulationSettings { newton, ..Default::default() }
 }
 
 /// Settings with the gravity of the earth.
 pub(super) fn falling(newton: NewtonSettings) -> SimulationSettings {
-    settings(newton).with_gravity([0.0, -9.81, 0.0])
+    SimulationSettings { gravity: [0.0, -9.81, 0.0], ..settings(newton) }
 }
 
 /// Default settings of Newton's method with another linear solver.
 #[cfg(feature = "faer")]
 pub(super) fn solved_by(linear: LinearSolver) -> NewtonSettings {
-    NewtonSettings::default().with_linear(linear)
+    NewtonSettings { linear, ..Default::default() }
 }
 
 /// The factorisation, and conjugate gradients to this tolerance.

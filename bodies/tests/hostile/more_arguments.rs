@@ -65,17 +65,15 @@ impl Hostile {
             0 => Filtering::OnDemand,
             _ => Filtering::Always(self.one_of(&[Filter::None, Filter::Clamp, Filter::Absolute])),
         };
-        let newton = NewtonSettings::default()
-            .with_linear(linear)
-            .with_filtering(filtering)
-            .with_tolerance(self.about(1e-6))
-            .with_error_share(self.about(0.01))
-            .with_max_iterations(self.one_of(&[1, 5, 50]));
+        let newton = NewtonSettings {
+            linear,
+            filtering,
+            tolerance: self.about(1e-6),
+            error_share: self.about(0.01),
+            max_iterations: self.one_of(&[1, 5, 50]),
+        };
         let integrator = self.one_of(&[Integrator::ImplicitEuler, Integrator::Sdirk2, Integrator::Sdirk3]);
-        SimulationSettings::default()
-            .with_integrator(integrator)
-            .with_gravity([self.about(0.0), self.about(-9.81), self.about(0.0)])
-            .with_damping(self.about(1.0))
-            .with_newton(newton)
+        let gravity = [self.about(0.0), self.about(-9.81), self.about(0.0)];
+        SimulationSettings { integrator, gravity, damping: self.about(1.0), newton }
     }
 }

@@ -22,7 +22,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hooves = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY, GROUND, f64::INFINITY] };
     let hooves = Pins::in_box(&horse.mesh, hooves)?;
     let body = Body::new(&horse.mesh, rubber, 1000.0)?;
-    let settings = SimulationSettings::default().with_damping(2.0).with_newton(NewtonSettings::single());
+    let newton = NewtonSettings::single();
+    let settings = SimulationSettings { damping: 2.0, newton, ..Default::default() };
     let mut simulation = Simulation::new(body, &hooves, settings)?;
 
     // Flat on the ground: nearly every tetrahedron is a sheet without volume.

@@ -38,7 +38,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let body = Body::new(&mesh, rubber()?, 1000.0)?;
     let hooves = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY, GROUND, f64::INFINITY] };
     // Implicit Euler with one Newton iteration a step.
-    let settings = SimulationSettings::default().with_damping(2.0).with_newton(NewtonSettings::single());
+    let newton = NewtonSettings::single();
+    let settings = SimulationSettings { damping: 2.0, newton, ..Default::default() };
     let mut horse = Simulation::new(body, &Pins::in_box(&mesh, hooves)?, settings)?;
 
     // All other nodes onto a plane: nearly every tetrahedron is a sheet without volume.

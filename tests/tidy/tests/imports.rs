@@ -24,7 +24,7 @@ const RUNTIME: &[&[&str]] = &[
 ];
 
 /// Modules of bodies from the bottom up.
-const BODIES: &[&[&str]] = &[&["chained"], &["mesh"], &["system"], &["step"]];
+const BODIES: &[&[&str]] = &[&["mesh"], &["system"], &["step"]];
 
 #[test]
 fn modules_know_only_those_on_the_floors_below_them() {

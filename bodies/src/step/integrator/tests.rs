@@ -1,6 +1,6 @@
 use super::*;
-use crate::step::testing::{distance, left_end, settings, simulation};
-use crate::step::{NewtonSettings, Simulation, Spring};
+use crate::step::testing::{distance, left_end, simulation};
+use crate::step::{NewtonSettings, Simulation, SimulationSettings, Spring};
 use crate::system::Pins;
 use crate::system::testing::{beam, neo_hookean};
 
@@ -41,9 +41,10 @@ impl Motion {
     /// Positions after [`DURATION`]. The velocities at the start stretch and shear the bar.
     fn end(&self, integrator: Integrator, steps: usize) -> Vec<[f64; 3]> {
         let mesh = beam(3);
-        let settings = settings(NewtonSettings::default().with_tolerance(1e-12)).with_integrator(integrator);
+        let newton = NewtonSettings { tolerance: 1e-12, ..Default::default() };
+        let settings = SimulationSettings { integrator, damping: self.damping, newton, ..Default::default() };
         let pins = if self.is_held { left_end(&mesh) } else { Pins::none() };
-        let mut simulation = simulation(&mesh, neo_hookean(), &pins, settings.with_damping(self.damping));
+        let mut simulation = simulation(&mesh, neo_hookean(), &pins, settings);
         let velocity = |&[x, y, _]: &[f64; 3]| {
             [2.0 * x, 1.0 * x * x - 0.3 * y * x, 0.5 * x].map(|velocity| self.speed * velocity)
         };

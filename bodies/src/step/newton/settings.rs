@@ -5,13 +5,20 @@ use piola::point::Filter;
 use crate::step::solver::LinearSolver;
 
 /// Settings of Newton's method.
+///
+/// ```
+/// use piola_bodies::step::{LinearSolver, NewtonSettings, SimulationSettings};
+///
+/// let newton = NewtonSettings { linear: LinearSolver::Cholesky, tolerance: 1e-9, ..Default::default() };
+/// let settings = SimulationSettings { gravity: [0.0, -9.81, 0.0], newton, ..Default::default() };
+/// assert_eq!(settings.newton.max_iterations, NewtonSettings::default().max_iterations);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
-#[non_exhaustive]
 pub struct NewtonSettings {
     /// Treatment of negative eigenvalues of dP/dF.
     pub filtering: Filtering,
@@ -75,11 +82,3 @@ impl NewtonSettings {
         Self { filtering: Filtering::Always(Filter::Clamp), max_iterations: 1, ..Self::default() }
     }
 }
-
-crate::chained::chained!(NewtonSettings {
-    with_filtering(filtering: Filtering),
-    with_max_iterations(max_iterations: usize),
-    with_tolerance(tolerance: f64),
-    with_error_share(error_share: f64),
-    with_linear(linear: LinearSolver),
-});

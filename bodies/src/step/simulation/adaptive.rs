@@ -66,7 +66,7 @@ impl Simulation {
     ///
     /// ```
     /// use piola_bodies::mesh::tetrahedral_box;
-    /// use piola_bodies::step::{Integrator, NewtonSettings, Simulation, SimulationSettings};
+    /// use piola_bodies::step::{Integrator, Simulation, SimulationSettings};
     /// use piola_bodies::system::{Body, Pins};
     ///
     /// /// Rubber.
@@ -78,8 +78,9 @@ impl Simulation {
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// let mesh = tetrahedral_box([4, 1, 1], [0.4, 0.1, 0.1])?;
     /// let body = Body::new(&mesh, Rubber::new(1e5, 4e5)?, 1000.0)?;
-    /// let settings = SimulationSettings::default().with_integrator(Integrator::Sdirk2);
-    /// let mut bar = Simulation::new(body, &Pins::at([0, 1, 2, 3]), settings.with_gravity([0.0, -9.81, 0.0]))?;
+    /// let (gravity, integrator) = ([0.0, -9.81, 0.0], Integrator::Sdirk2);
+    /// let settings = SimulationSettings { gravity, integrator, ..Default::default() };
+    /// let mut bar = Simulation::new(body, &Pins::at([0, 1, 2, 3]), settings)?;
     /// // A thirtieth of a second, to 0.1 mm in each second.
     /// let report = bar.advance_within(1.0 / 30.0, 1e-4)?;
     /// assert!(report.error <= 1e-4 / 30.0 && report.unresolved == 0);

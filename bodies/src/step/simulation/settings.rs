@@ -11,7 +11,6 @@ use crate::step::newton::NewtonSettings;
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
-#[non_exhaustive]
 pub struct SimulationSettings {
     /// Gravity, m/s².
     pub gravity: [f64; 3],
@@ -23,13 +22,6 @@ pub struct SimulationSettings {
     /// Settings of the minimisation in each stage of a step.
     pub newton: NewtonSettings,
 }
-
-crate::chained::chained!(SimulationSettings {
-    with_gravity(gravity: [f64; 3]),
-    with_damping(damping: f64),
-    with_integrator(integrator: Integrator),
-    with_newton(newton: NewtonSettings),
-});
 
 pub(super) fn check_settings(settings: &SimulationSettings) -> Result<(), SetupError> {
     let SimulationSettings { gravity, damping, newton, .. } = settings;

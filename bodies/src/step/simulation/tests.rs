@@ -24,7 +24,7 @@ fn a_free_body_falls_without_deforming() {
     let gravity = [1.0, -9.81, 0.5];
     let rate = 0.7;
     let dt = 0.02;
-    let settings = settings(NewtonSettings::default()).with_gravity(gravity).with_damping(rate);
+    let settings = SimulationSettings { gravity, damping: rate, ..Default::default() };
     let mut free = simulation(&mesh, rotated(), &Pins::none(), settings);
     let (mut v, mut fall) = ([0.0; 3], [0.0; 3]);
     for _ in 0..10 {
@@ -47,7 +47,7 @@ fn a_free_body_falls_without_deforming() {
 #[test]
 fn a_free_body_keeps_its_momentum() {
     let mesh = beam(4);
-    let settings = settings(NewtonSettings::default().with_tolerance(1e-10));
+    let settings = settings(NewtonSettings { tolerance: 1e-10, ..Default::default() });
     let mut free = simulation(&mesh, kirchhoff(), &Pins::none(), settings);
     let mut random = Random::new(3);
     free.set_positions(&shake(&mut random, &mesh.positions, 0.02)).expect("finite");

@@ -7,14 +7,16 @@ use crate::mesh::Anchor;
 use crate::mesh::{TetMesh, tetrahedral_box};
 use crate::step::testing::{distance, falling, held, settings, simulation, solved_by, solvers};
 use crate::step::{
-    Filtering, NewtonError, NewtonReport, NewtonSettings, Simulation, Spring, StepError, StepReport,
+    Filtering, NewtonError, NewtonReport, NewtonSettings, Simulation, SimulationSettings, Spring, StepError,
+    StepReport,
 };
 use crate::system::testing::{beam, kirchhoff, rotated, scaled, shake};
 use crate::system::{Cholesky, LowerTriangle};
 
 /// A beam whose held end is moved and turned while a spring pulls at the other, under gravity: its reports.
 fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec<NewtonReport>) {
-    let mut body = held(mesh, rotated(), falling(solved_by(linear).with_tolerance(1e-9)).with_damping(0.5));
+    let falling = falling(NewtonSettings { tolerance: 1e-9, ..solved_by(linear) });
+    let mut body = held(mesh, rotated(), SimulationSettings { damping: 0.5, ..falling });
     let last = body.body().elements().len() - 1;
     let anchor = Anchor { nodes: body.body().elements()[last].nodes, weights: [0.1, 0.2, 0.3, 0.4] };
     body.set_springs(&[Spring { anchor, target: [1.0, 0.5, 0.2], stiffness: 200.0 }]).expect("one element");
@@ -100,8 +102,9 @@ fn whoever_continues_a_motion_gives_the_same_bits() {
 #[test]
 fn negative_curvature_is_left_aside_and_reported() {
     let mesh = beam(6);
-    let newton = solved_by(solvers(1e-10)[1]).with_filtering(Filtering::Always(Filter::None));
-    let mut body = held(&mesh, kirchhoff(), settings(newton.with_max_iterations(200)));
+    let filtering = Filtering::Always(Filter::None);
+    let newton = NewtonSettings { filtering, max_iterations: 200, ..solved_by(solvers(1e-10)[1]) };
+    let mut body = held(&mesh, kirchhoff(), settings(newton));
     let squeezed = |x: &[f64; 3]| [0.4 * x[0], x[1], x[2]];
     let start: Vec<_> = mesh.positions.iter().map(squeezed).collect();
     body.set_positions(&shake(&mut Random::new(6), &start, 1e-3)).expect("finite");
@@ -115,7 +118,7 @@ fn negative_curvature_is_left_aside_and_reported() {
 fn a_limit_of_iterations_leaves_a_direction_of_descent() {
     let mesh = beam(10);
     let linear = LinearSolver::ConjugateGradients { tolerance: 1e-10, max_iterations: 3 };
-    let mut body = held(&mesh, rotated(), falling(NewtonSettings::single().with_linear(linear)));
+    let mut body = held(&mesh, rotated(), falling(NewtonSettings { linear, ..NewtonSettings::single() }));
     for _ in 0..5 {
         let report = body.step(0.02).expect("a step").newton;
         assert_eq!((report.linear_iterations, report.truncated), (3, 1));
@@ -128,7 +131,8 @@ fn a_limit_of_iterations_leaves_a_direction_of_descent() {
 fn stiffness_of_any_unit_is_as_good() {
     let mesh = beam(8);
     let run = |linear: LinearSolver, factor: f64| {
-        let settings = settings(solved_by(linear)).with_gravity([0.0, -factor / 3e3, 0.0]);
+        let gravity = [0.0, -factor / 3e3, 0.0];
+        let settings = SimulationSettings { gravity, ..settings(solved_by(linear)) };
         let mut body = held(&mesh, scaled(factor, RotatedLinear), settings);
         let reports: Vec<_> =
             (0..3).map(|_| body.step(3.0 / factor.sqrt()).expect("a step").newton).collect();
@@ -150,7 +154,8 @@ fn stiffness_of_any_unit_is_as_good() {
 fn moving_pins_enter_the_right_side() {
     let mesh = beam(3);
     for linear in solvers(1e-10) {
-        let mut body = held(&mesh, rotated(), settings(NewtonSettings::single().with_linear(linear)));
+        let mut body =
+            held(&mesh, rotated(), settings(NewtonSettings { linear, ..NewtonSettings::single() }));
         for node in body.pinned().to_vec() {
             let [x, y, z] = mesh.positions[node];
             body.prescribe(node, [x + 1.0, y, z]).expect("pinned");
@@ -167,7 +172,7 @@ fn moving_pins_enter_the_right_side() {
 #[test]
 fn solvers_are_exchanged_between_steps_and_know_the_same_springs() {
     let mesh = beam(4);
-    let settings = |linear| falling(solved_by(linear).with_tolerance(1e-9));
+    let settings = |linear| falling(NewtonSettings { tolerance: 1e-9, ..solved_by(linear) });
     let mut exchanged = held(&mesh, rotated(), settings(LinearSolver::Cholesky));
     let mut exact = exchanged.clone();
     // Nodes 8 and 19 share no element; of nodes 0 and 19 the first is pinned.

@@ -8,7 +8,7 @@ use piola::NoSuchNode;
 use super::*;
 use crate::mesh::{Anchor, TetMesh};
 use crate::step::testing::{distance, falling, simulation, solved_by, solvers};
-use crate::step::{LinearSolver, NewtonError, Simulation, StepError};
+use crate::step::{LinearSolver, NewtonError, NewtonSettings, Simulation, StepError};
 use crate::system::Pins;
 use crate::system::testing::{beam, neo_hookean};
 
@@ -117,7 +117,7 @@ fn blocks_of_missing_nodes_are_noted_and_left_out() {
 }
 
 fn bar(mesh: &TetMesh, pins: &Pins, linear: LinearSolver) -> Simulation {
-    simulation(mesh, neo_hookean(), pins, falling(solved_by(linear).with_tolerance(1e-10)))
+    simulation(mesh, neo_hookean(), pins, falling(NewtonSettings { tolerance: 1e-10, ..solved_by(linear) }))
 }
 
 /// Both ends of a bar are driven at each other; all solvers take the blocks of nodes that share no element.

@@ -45,8 +45,8 @@ const EQUILIBRIUM: &str = "equilibrium, conjugate gradients";
 
 fn ways() -> [Way; 6] {
     let iterative = |tolerance| LinearSolver::ConjugateGradients { tolerance, max_iterations: 20_000 };
-    let step = |linear| NewtonSettings::single().with_linear(linear);
-    let equilibrium = NewtonSettings::default().with_linear(iterative(1e-2));
+    let step = |linear| NewtonSettings { linear, ..NewtonSettings::single() };
+    let equilibrium = NewtonSettings { linear: iterative(1e-2), ..Default::default() };
     [
         ("step, Cholesky", step(LinearSolver::Cholesky), 1),
         ("step, conjugate gradients 1e-3", step(iterative(1e-3)), 1),
@@ -82,7 +82,7 @@ fn measure((way, newton, threads): Way, cells: usize, memory: &PeakAlloc) -> Out
     let moduli = Moduli::from_young_poisson(1e6, 0.45)?;
     let body = Body::new(&mesh, StableNeoHookean::new(moduli.mu, moduli.lambda)?, 1000.0)?;
     let face = Bounds { min: [-1.0; 3], max: [1e-9, 2.0, 2.0] };
-    let settings = SimulationSettings::default().with_gravity([0.0, -9.81, 0.0]).with_newton(newton);
+    let settings = SimulationSettings { gravity: [0.0, -9.81, 0.0], newton, ..Default::default() };
     let mut simulation = Simulation::new(body, &Pins::in_box(&mesh, face)?, settings)?;
     let is_static = way == EQUILIBRIUM;
     let mut row = GrowthRow { way, threads, elements: mesh.tets.len(), ..GrowthRow::default() };

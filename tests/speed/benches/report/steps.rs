@@ -80,7 +80,7 @@ fn measure(is_quick: bool) -> Outcome<Vec<StepRow>> {
     let (drawn, height) = drawn()?;
     let frames = if is_quick { 4 } else { 30 };
     let repeats = if is_quick { 1 } else { REPEATS };
-    let newton = NewtonSettings::default().with_tolerance(1e-10);
+    let newton = NewtonSettings { tolerance: 1e-10, ..Default::default() };
     let reference = |division| Way { setting: "reference", division, newton, integrator: Integrator::Sdirk3 };
     let ways = ways(is_quick);
     let (_, finer) = follow(&drawn, &reference(2.0 * FINE), frames)?;
@@ -101,7 +101,7 @@ fn measure(is_quick: bool) -> Outcome<Vec<StepRow>> {
 
 fn ways(is_quick: bool) -> Vec<Way> {
     // As scenes solve steps of higher order; those of first order lose nothing by it.
-    let full = NewtonSettings::default().with_error_share(0.03);
+    let full = NewtonSettings { error_share: 0.03, ..Default::default() };
     let divisions =
         [0.5, 1.0, 2.0, 4.0, 8.0, 16.0].into_iter().filter(|division| !is_quick || *division <= 4.0);
     let mut ways = Vec::new();
@@ -116,9 +116,10 @@ fn ways(is_quick: bool) -> Vec<Way> {
         ways.push(Way { setting: SINGLE, division, newton, integrator });
     }
     let iterative = LinearSolver::ConjugateGradients { tolerance: 1e-3, max_iterations: 10_000 };
+    let filtering = Filtering::Always(Filter::Clamp);
     for (setting, newton) in [
-        ("implicit Euler, always clamped", full.with_filtering(Filtering::Always(Filter::Clamp))),
-        ("implicit Euler, conjugate gradients 1e-3", full.with_linear(iterative)),
+        ("implicit Euler, always clamped", NewtonSettings { filtering, ..full }),
+        ("implicit Euler, conjugate gradients 1e-3", NewtonSettings { linear: iterative, ..full }),
     ] {
         ways.push(Way { setting, division: 1.0, newton, integrator: Integrator::ImplicitEuler });
     }
@@ -155,8 +156,8 @@ fn drawn() -> Outcome<(Simulation, f64)> {
 /// Releases the body and follows it for `frames` frames. Leaves the errors of the row to [`StepRow::judged`].
 fn follow(drawn: &Simulation, way: &Way, frames: usize) -> Outcome<(StepRow, Track)> {
     let mut simulation = drawn.clone();
-    let settings = SimulationSettings::default().with_newton(way.newton);
-    simulation.set_settings(settings.with_integrator(way.integrator))?;
+    let Way { newton, integrator, .. } = *way;
+    simulation.set_settings(SimulationSettings { newton, integrator, ..Default::default() })?;
     let (h, steps) = (1.0 / RATE / way.division, (frames as f64 * way.division).round() as usize);
     let unknown = StepRow { error: f64::NAN, final_error: f64::NAN, ..StepRow::default() };
     let mut row = StepRow { setting: way.setting, h, steps, ..unknown };

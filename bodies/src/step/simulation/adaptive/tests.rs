@@ -2,13 +2,13 @@
 
 use crate::mesh::TetMesh;
 use crate::step::testing::{distance, falling, held};
-use crate::step::{Integrator, NewtonSettings, Simulation, Spring, StepError};
+use crate::step::{Integrator, NewtonSettings, Simulation, SimulationSettings, Spring, StepError};
 use crate::system::testing::{beam, neo_hookean};
 
 /// A bar that swings from one end, stretched by its velocities.
 fn bar(mesh: &TetMesh, integrator: Integrator) -> Simulation {
-    let settings = falling(NewtonSettings::default().with_tolerance(1e-10)).with_integrator(integrator);
-    let mut bar = held(mesh, neo_hookean(), settings);
+    let newton = NewtonSettings { tolerance: 1e-10, ..Default::default() };
+    let mut bar = held(mesh, neo_hookean(), SimulationSettings { integrator, ..falling(newton) });
     bar.set_velocities(&mesh.positions.iter().map(|&[x, y, _]| [2.0 * x, x * y, x]).collect::<Vec<_>>())
         .expect("finite");
     bar

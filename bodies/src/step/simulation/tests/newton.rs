@@ -5,10 +5,10 @@ use super::*;
 #[test]
 fn full_newton_converges_quadratically() {
     let mesh = beam(6);
-    let newton =
-        NewtonSettings::default().with_filtering(Filtering::Always(Filter::None)).with_tolerance(1e-15);
-    let residual_after = |iterations: usize| {
-        let mut body = held(&mesh, kirchhoff(), falling(newton.with_max_iterations(iterations)));
+    let filtering = Filtering::Always(Filter::None);
+    let residual_after = |max_iterations: usize| {
+        let newton = NewtonSettings { filtering, max_iterations, tolerance: 1e-15, ..Default::default() };
+        let mut body = held(&mesh, kirchhoff(), falling(newton));
         body.step(0.05).expect("a step").newton.residual
     };
     // The residual of a report is the one before its last iteration.
@@ -30,7 +30,7 @@ fn a_report_says_why_newton_ended() {
     assert_eq!(run(NewtonSettings::default()).convergence, Convergence::Tolerance);
     let single = run(NewtonSettings::single());
     assert_eq!((single.convergence, single.iterations), (Convergence::Limit, 1));
-    let endless = run(NewtonSettings::default().with_tolerance(0.0));
+    let endless = run(NewtonSettings { tolerance: 0.0, ..Default::default() });
     assert_eq!(endless.convergence, Convergence::Rounding, "{endless:?}");
     assert!(endless.residual <= 1e-9 * endless.first_residual, "{endless:?}");
 }
@@ -39,7 +39,7 @@ fn a_report_says_why_newton_ended() {
 fn a_refusal_is_a_step_too_long_and_an_error_leaves_the_state() {
     let mesh = beam(3);
     let pins = left_end(&mesh);
-    let settings = settings(NewtonSettings::single()).with_gravity([-400.0, 0.0, 0.0]);
+    let settings = SimulationSettings { gravity: [-400.0, 0.0, 0.0], ..settings(NewtonSettings::single()) };
     let mut body = simulation(&mesh, neo_hookean(), &pins, settings);
     let mut refused = 0;
     for _ in 0..20 {
@@ -85,9 +85,9 @@ fn a_start_outside_the_domain_is_told_with_its_stretches() {
 #[test]
 fn a_share_of_the_error_of_a_step_is_enough() {
     let mesh = beam(4);
-    let end = |integrator: Integrator, share: f64| {
-        let newton = NewtonSettings::default().with_tolerance(1e-10).with_error_share(share);
-        let mut body = held(&mesh, neo_hookean(), settings(newton).with_integrator(integrator));
+    let end = |integrator: Integrator, error_share: f64| {
+        let newton = NewtonSettings { tolerance: 1e-10, error_share, ..Default::default() };
+        let mut body = held(&mesh, neo_hookean(), SimulationSettings { integrator, ..settings(newton) });
         let velocities: Vec<[f64; 3]> =
             mesh.positions.iter().map(|x| [3.0 * x[0], 2.0 * x[0], 0.0]).collect();
         body.set_velocities(&velocities).expect("finite");

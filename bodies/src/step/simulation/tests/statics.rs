@@ -7,7 +7,8 @@ use super::*;
 fn statics_finds_an_equilibrium() {
     let mesh = beam(6);
     for linear in solvers(1e-3) {
-        let mut body = held(&mesh, kirchhoff(), falling(solved_by(linear).with_tolerance(1e-12)));
+        let newton = NewtonSettings { tolerance: 1e-12, ..solved_by(linear) };
+        let mut body = held(&mesh, kirchhoff(), falling(newton));
         body.set_velocities(&vec![[1.0, 0.0, 0.0]; mesh.positions.len()]).expect("finite");
         let report = body.equilibrate().expect("an equilibrium").newton;
         assert_eq!(report.convergence, Convergence::Tolerance, "{report:?}");
@@ -24,7 +25,7 @@ fn statics_finds_an_equilibrium() {
 #[test]
 fn statics_of_a_free_body_leaves_it_where_it_is() {
     let mesh = beam(4);
-    let newton = NewtonSettings::default().with_tolerance(1e-10);
+    let newton = NewtonSettings { tolerance: 1e-10, ..Default::default() };
     let mut body = simulation(&mesh, rotated(), &Pins::none(), settings(newton));
     let start = shake(&mut Random::new(8), &mesh.positions, 0.02);
     body.set_positions(&start).expect("finite");
