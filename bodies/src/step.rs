@@ -37,15 +37,14 @@ pub use term::{EnergyChange, NodeBlocks, Term};
 /// Interfaces for codes that divide a body among machines: a [`Simulation`] of the part of each
 /// [`Machine`](divided::Machine).
 ///
-/// A [`Division`](divided::Division) exchanges the vectors of nodes that several machines share, and a
-/// [`Solver`](divided::Solver) solves the linear systems.
-/// [`Simulation::divided`] takes both, and its methods are those of one machine, or have
-/// names that end in `_here`. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a
-/// divided stiffness. The crate in `distributed/` uses all of it.
+/// A machine solves the linear systems, and its [`Division`](divided::Division) exchanges the vectors of nodes
+/// that several machines share. The methods of [`Simulation::divided`] are those of one machine, or have names
+/// that end in `_here`. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a divided
+/// stiffness. The crate in `distributed/` uses all of it.
 #[doc(hidden)]
 pub mod divided {
     pub use super::objective::Objective;
-    pub use super::solver::{Definiteness, Machine, OneMachine, Preconditioner, Solution, Solver};
+    pub use super::solver::{Definiteness, Machine, OneMachine, Preconditioner, Solution, System};
     pub use crate::system::linear::conjugate_gradients::{End, Iteration};
     pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Undivided};
 }

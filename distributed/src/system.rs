@@ -9,9 +9,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use piola_bodies::step::divided::{
-    Definiteness, End, Iteration, Machine, Objective, Preconditioner, Solution, Solver,
-};
+use piola_bodies::step::divided::{Definiteness, End, Iteration, Machine, Preconditioner, Solution, System};
 use piola_bodies::step::{NewtonError, StepError};
 use piola_bodies::system::{Body, LinearError, NodalStiffness};
 
@@ -178,15 +176,12 @@ impl LinearSystem {
     /// regularisation added to an indefinite matrix, unless definiteness is required.
     fn find_direction(
         &mut self,
-        objective: &Objective<'_>,
-        x: &[[f64; 3]],
-        gradient: &[[f64; 3]],
+        system: System<'_>,
         direction: &mut [[f64; 3]],
-        tolerance: f64,
-        definiteness: Definiteness,
     ) -> Result<Option<Solution>, Error> {
+        let System { objective, x, gradient, definiteness, .. } = system;
         objective.add_second_derivatives(&mut self.matrix_free.borrow_mut().stiffness);
-        let tolerance = tolerance.min(self.tolerance);
+        let tolerance = system.tolerance.min(self.tolerance);
         let mut solution = Solution::default();
         loop {
             // A solver may leave it changed, as `-ksp_diagonal_scale` does.
@@ -279,12 +274,6 @@ impl Machine for LinearSystem {
         &mut self.nodes
     }
 
-    fn solver(&mut self) -> &mut dyn Solver {
-        self
-    }
-}
-
-impl Solver for LinearSystem {
     fn free_nodes(&self) -> &[usize] {
         &self.free
     }
@@ -296,21 +285,18 @@ impl Solver for LinearSystem {
         }
     }
 
-    fn with_stiffness(&mut self, work: &mut dyn FnMut(&mut NodalStiffness)) {
-        work(&mut self.matrix_free.borrow_mut().stiffness);
+    fn with_stiffness<T>(&mut self, work: impl FnOnce(&mut NodalStiffness) -> T) -> T {
+        work(&mut self.matrix_free.borrow_mut().stiffness)
     }
 
     fn solve(
         &mut self,
-        objective: &Objective<'_>,
-        x: &[[f64; 3]],
-        gradient: &[[f64; 3]],
+        system: System<'_>,
         direction: &mut [[f64; 3]],
-        tolerance: f64,
-        definiteness: Definiteness,
     ) -> Result<Option<Solution>, NewtonError> {
-        let (gradient, owned) = (&gradient[..self.shares.len()], &mut direction[..self.shares.len()]);
-        match self.find_direction(objective, x, gradient, owned, tolerance, definiteness) {
+        let owned = self.shares.len();
+        let system = System { gradient: &system.gradient[..owned], ..system };
+        match self.find_direction(system, &mut direction[..owned]) {
             Err(Error::Step(StepError::Newton(error @ NewtonError::NotPositive { .. }))) => Err(error),
             // An earlier exchange may have failed, too.
             found => match self.team.note(found) {

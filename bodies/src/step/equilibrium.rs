@@ -101,7 +101,7 @@ impl Equilibrium {
         let terms = simulation.all_terms();
         terms.linearise(positions, &mut blocks)?;
         let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
-        let mut stiffness = NodalStiffness::new(body, &pairs)?;
+        let mut stiffness = NodalStiffness::new(body, &pairs, false)?;
         let tangents = stiffness.linearise(body, &mut elastic, Filter::None);
         demand_admissible(&Undivided, &tangents, body, &elastic)?;
         let objective = Objective {

@@ -18,7 +18,7 @@ use super::error::NewtonError;
 use super::line_search::Line;
 use super::newton::NewtonReport;
 use super::objective::{Objective, product};
-use super::solver::{Definiteness, Machine};
+use super::solver::{Definiteness, Machine, System};
 use super::term::EnergyChange;
 
 #[derive(Clone)]
@@ -49,10 +49,9 @@ impl<M: Machine> NewtonWorkspace<M> {
     }
 
     /// Norm of the gradient over the free nodes.
-    fn free_norm(&mut self) -> f64 {
+    fn free_norm(&self) -> f64 {
         let square = |g: [f64; 3]| g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-        let free = self.machine.solver().free_nodes();
-        let own = free.iter().map(|&node| square(self.gradient[node])).sum::<f64>();
+        let own = self.machine.free_nodes().iter().map(|&node| square(self.gradient[node])).sum::<f64>();
         self.machine.nodes().total(own).sqrt()
     }
 }
@@ -86,7 +85,7 @@ impl<'a, M: Machine> Minimisation<'a, M> {
         if let Some(term) = objective.terms.refusing(x) {
             return Err(NewtonError::TermRefuses { term });
         }
-        workspace.machine.solver().begin();
+        workspace.machine.begin();
         Ok(Self { objective, workspace, x, pins_move, survey, quadratic: [0.0; 2] })
     }
 }
@@ -147,16 +146,16 @@ impl<M: Machine> Minimisation<'_, M> {
         let Self { objective, workspace, x, .. } = self;
         objective.terms.linearise(x, objective.blocks)?;
         workspace.machine.join(objective.body, objective.blocks)?;
-        let mut tangents = Evaluated::NONE;
-        let solver = workspace.machine.solver();
-        solver.with_stiffness(&mut |stiffness| {
-            tangents = stiffness.linearise(objective.body, objective.elastic, filter);
-        });
+        let tangents = workspace
+            .machine
+            .with_stiffness(|stiffness| stiffness.linearise(objective.body, objective.elastic, filter));
         demand_admissible(workspace.machine.nodes(), &tangents, objective.body, objective.elastic)?;
         let NewtonWorkspace { machine, gradient, .. } = &mut **workspace;
         objective.gradient(x, gradient);
         if pins_move {
-            machine.solver().add_product(objective.body, self.pins_move, gradient);
+            machine.with_stiffness(|stiffness| {
+                stiffness.add_product(objective.body, self.pins_move, gradient);
+            });
             objective.add_product(self.pins_move, gradient);
         }
         workspace.sum_gradient();
@@ -177,8 +176,8 @@ impl<M: Machine> Minimisation<'_, M> {
         report: &mut NewtonReport,
     ) -> Result<bool, NewtonError> {
         let NewtonWorkspace { machine, gradient, direction, .. } = &mut *self.workspace;
-        let solver = machine.solver();
-        let solved = solver.solve(&self.objective, self.x, gradient, direction, tolerance, definiteness)?;
+        let system = System { objective: &self.objective, x: self.x, gradient, tolerance, definiteness };
+        let solved = machine.solve(system, direction)?;
         machine.nodes_mut().copy(direction);
         let Some(solution) = solved else { return Ok(false) };
         report.shift = report.shift.max(solution.shift);

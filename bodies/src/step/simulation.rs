@@ -85,7 +85,7 @@ impl Simulation {
     /// [`SetupError`] for a pin that is no node, a setting out of range, or a failure of the linear solver.
     pub fn new(body: Body, pins: &Pins, settings: SimulationSettings) -> Result<Self, SetupError> {
         let choice = Choice::Setting(settings.newton.linear);
-        Self::on(|body| OneMachine::new(body, pins, choice), body, pins, settings)
+        Self::on(|body| OneMachine::new(body, pins, &[], choice), body, pins, settings)
     }
 
     /// The given force on each node, N; empty without any.

@@ -1,7 +1,7 @@
 //! Solvers of the linear systems of Newton's method.
 //!
-//! A solver holds the form of the second derivatives that it works on, so that memory is taken for the chosen
-//! one alone. All see the same objective and find the same direction, up to their tolerance.
+//! Memory is taken for the form of the second derivatives that the chosen solver works on. All see the same
+//! objective and find the same direction, up to their tolerance.
 
 mod assembled;
 mod conjugate;
@@ -10,18 +10,11 @@ mod one_machine;
 mod preconditioner;
 mod user_defined;
 
-use crate::system::linear::LinearError;
-use crate::system::{Body, Pins};
-
-use conjugate::Conjugate;
-use interface::OwnSolver;
-
-pub use preconditioner::Preconditioner;
-pub use user_defined::SparseSolver;
-
-pub use interface::{Definiteness, Machine, Solution, Solver};
+pub use interface::{Definiteness, Machine, Solution, System};
 pub(super) use one_machine::Choice;
 pub use one_machine::OneMachine;
+pub use preconditioner::Preconditioner;
+pub use user_defined::SparseSolver;
 
 /// Solver of the linear systems A p = b of Newton's method, b being minus the gradient.
 ///
@@ -94,27 +87,6 @@ impl LinearSolver {
         } else {
             None
         }
-    }
-
-    /// Allocates all memory of the solver, for matrices with blocks for all pairs of nodes that share an
-    /// element, and for these pairs.
-    pub(super) fn set_up(
-        self,
-        body: &Body,
-        pins: &Pins,
-        pairs: &[[usize; 2]],
-    ) -> Result<Box<dyn OwnSolver>, LinearError> {
-        Ok(match self {
-            Self::Automatic => return Self::for_elements(body.elements().len()).set_up(body, pins, pairs),
-            #[cfg(feature = "faer")]
-            Self::Cholesky => {
-                let of_nothing = crate::system::Cholesky::new(&[0], &[])?;
-                Box::new(assembled::Assembled::new(body, pins, pairs, of_nothing)?)
-            }
-            Self::ConjugateGradients { tolerance, max_iterations } => {
-                Box::new(Conjugate::new(body, pins, pairs, tolerance, max_iterations)?)
-            }
-        })
     }
 }
 

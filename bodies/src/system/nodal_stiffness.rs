@@ -40,6 +40,8 @@ pub struct NodalStiffness {
     matrix: SymmetricBlocks<f64, 3>,
     /// Filtered stiffnesses, 720 bytes each, of the elements of a wave or of the whole body.
     tiles: Vec<[StiffnessBlocks; TILE]>,
+    /// True if the tiles are those of the whole body.
+    keeps_elements: bool,
 }
 
 /// Graph, order and places, which depend on the mesh alone.
@@ -79,7 +81,7 @@ impl NodalStiffness {
     /// # Errors
     /// [`LinearError::OutOfMemory`].
     pub fn of_body(body: &Body) -> Result<Self, LinearError> {
-        Self::new(body, &[])
+        Self::new(body, &[], false)
     }
 
     /// A matrix without nodes, of a machine that has no elements of a body.
@@ -131,17 +133,8 @@ impl NodalStiffness {
     }
 
     /// Finds the places of all blocks, also of pairs of nodes that share no element, and allocates all memory
-    /// that is needed.
-    pub(crate) fn new(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
-        Self::of_tiles(body, pairs, WAVE)
-    }
-
-    /// Like [`NodalStiffness::new`], but keeps the stiffness of each element.
-    pub(crate) fn with_elements(body: &Body, pairs: &[[usize; 2]]) -> Result<Self, LinearError> {
-        Self::of_tiles(body, pairs, usize::MAX)
-    }
-
-    fn of_tiles(body: &Body, pairs: &[[usize; 2]], most: usize) -> Result<Self, LinearError> {
+    /// that is needed; with `keeps_elements`, also for the stiffness of each element.
+    pub(crate) fn new(body: &Body, pairs: &[[usize; 2]], keeps_elements: bool) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
         let graph = Graph::of_tets(nodes, body.elements().iter().map(|element| element.nodes), pairs)?;
         let order = along_a_curve(body.rest());
@@ -150,15 +143,16 @@ impl NodalStiffness {
         let gather = gather(body, &pattern)?;
         let shape =
             Shape { elements: body.elements().len(), tiles: body.groups().count(), graph, order, gather };
-        let tiles = filled(shape.tiles.min(most), [[[[0.0; 3]; 3]; 10]; TILE])?;
-        Ok(Self { shape: Arc::new(shape), matrix, tiles })
+        let tiles = if keeps_elements { shape.tiles } else { shape.tiles.min(WAVE) };
+        let tiles = filled(tiles, [[[[0.0; 3]; 3]; 10]; TILE])?;
+        Ok(Self { shape: Arc::new(shape), matrix, tiles, keeps_elements })
     }
 
     pub(super) fn counts(&self) -> [usize; 3] {
         [self.matrix.pattern().rows(), self.shape.elements, self.shape.tiles]
     }
 
-    /// Each element of the body with its stiffness, if this was made by [`NodalStiffness::with_elements`].
+    /// Each element of the body with its stiffness, if these are kept.
     pub(super) fn of_elements<'a>(
         &'a self,
         body: &'a Body,
@@ -167,14 +161,15 @@ impl NodalStiffness {
         tiles.flat_map(|((_, elements), tile)| body.elements()[elements].iter().zip(tile))
     }
 
-    /// Adds K d to `total` for the displacement d of each node, if this was made by
-    /// [`NodalStiffness::with_elements`]. Nodes with d = 0 cost little.
-    pub(crate) fn add_product_of_elements(
-        &self,
-        body: &Body,
-        displacement: &[[f64; 3]],
-        total: &mut [[f64; 3]],
-    ) {
+    /// Adds K d to `total` for the displacement d of each node. Nodes with d = 0 cost little if the stiffness
+    /// of each element is kept.
+    pub(crate) fn add_product(&mut self, body: &Body, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
+        if !self.keeps_elements {
+            let mut product = vec![[0.0; 3]; total.len()];
+            self.matrix.multiply(displacement, &mut product);
+            let entries = total.as_flattened_mut().iter_mut().zip(product.as_flattened());
+            return entries.for_each(|(total, product)| *total += product);
+        }
         for (element, stiffness) in self.of_elements(body) {
             for (j, &from) in element.nodes.iter().enumerate() {
                 let d = displacement[from];
@@ -215,12 +210,11 @@ impl NodalStiffness {
 
     /// Computes gradients and the filtered stiffness at the last point of evaluation.
     pub(crate) fn linearise(&mut self, body: &Body, elastic: &mut Elastic, filter: Filter) -> Evaluated {
-        let Self { shape, matrix, tiles: all } = self;
+        let Self { shape, matrix, tiles: all, keeps_elements } = self;
         matrix.for_each_chunk(|_, _, blocks| blocks.fill([[0.0; 3]; 3]));
-        let keeps_all = all.len() == shape.tiles;
         for (number, first) in (0..shape.tiles).step_by(WAVE).enumerate() {
             let range = first..shape.tiles.min(first + WAVE);
-            let start = if keeps_all { first } else { 0 };
+            let start = if *keeps_elements { first } else { 0 };
             let tiles = &mut all[start..start + range.len()];
             elastic.linearise(body, filter, first, tiles);
             let elements = tiles.as_flattened();

@@ -166,11 +166,11 @@ impl Simulation {
     /// # Errors
     /// [`SetupError`] with the error of the solver for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
-        Ok(self.set_choice(Choice::user_defined(solver))?)
+        Ok(self.set_choice(Choice::UserDefined(Box::new(solver)))?)
     }
 
     fn set_choice(&mut self, choice: Choice) -> Result<(), LinearError> {
-        self.workspace.machine = OneMachine::new(&self.body, &self.steps.pins, choice)?;
+        self.workspace.machine = OneMachine::new(&self.body, &self.steps.pins, &[], choice)?;
         self.workspace.forget_direction();
         Ok(())
     }

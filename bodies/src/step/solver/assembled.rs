@@ -1,12 +1,11 @@
 //! Second derivatives as a sparse matrix, for a factorisation or a user-defined solver.
 
 use crate::step::error::NewtonError;
-use crate::step::objective::Objective;
 use crate::system::linear::LinearError;
-use crate::system::{Body, LowerTriangle, NodalStiffness, Pins};
+use crate::system::{LowerTriangle, NodalStiffness, Pins};
 
-use super::interface::{Definiteness, OwnSolver, Solution, Solver};
-use super::user_defined::SparseSolver;
+use super::interface::{Definiteness, Solution, System};
+use super::user_defined::AnySolver;
 
 /// The largest tolerance that a solver receives.
 const TOLERANCE: f64 = 1e-3;
@@ -17,84 +16,51 @@ const TOLERANCE: f64 = 1e-3;
 /// lost in the stiffness, it may not be. Mass is then added tenfold more each time, as if the time step were
 /// shorter.
 #[derive(Clone)]
-pub(super) struct Assembled<S> {
-    stiffness: NodalStiffness,
-    matrix: LowerTriangle,
-    /// Free nodes: nodes of the matrix without those in `held`.
-    free: Vec<usize>,
+pub(super) struct Assembled {
+    pub(super) matrix: LowerTriangle,
     /// For each free node of the matrix, true if it has been pinned since the matrix was made; empty if no
     /// node has.
     held: Vec<bool>,
     /// The right side, then the solution.
     unknowns: Vec<f64>,
-    solver: S,
+    solver: Box<dyn AnySolver>,
 }
 
-impl<S: SparseSolver> Assembled<S> {
+impl Assembled {
     pub(super) fn new(
-        body: &Body,
+        stiffness: &NodalStiffness,
         pins: &Pins,
-        pairs: &[[usize; 2]],
-        mut solver: S,
+        mut solver: Box<dyn AnySolver>,
     ) -> Result<Self, LinearError> {
-        let stiffness = NodalStiffness::with_elements(body, pairs)?;
-        let matrix = LowerTriangle::new(&stiffness, pins)?;
-        solver.analyse(matrix.column_starts(), matrix.row_indices())?;
-        Ok(Self {
-            solver,
-            stiffness,
-            free: matrix.free_nodes().to_vec(),
-            held: Vec::new(),
-            unknowns: vec![0.0; 3 * matrix.free_nodes().len()],
-            matrix,
-        })
+        let matrix = LowerTriangle::new(stiffness, pins)?;
+        solver.analyse_any(&matrix)?;
+        Ok(Self { solver, held: Vec::new(), unknowns: vec![0.0; 3 * matrix.free_nodes().len()], matrix })
     }
-}
 
-impl<S: SparseSolver> OwnSolver for Assembled<S> {
-    fn set_pins(&mut self, pins: &Pins) -> bool {
-        let nodes = self.matrix.free_nodes();
+    /// Replaces the pins of a body of `nodes` nodes. Returns the free nodes in the order of the unknowns, or
+    /// `None` if they need a new matrix.
+    pub(super) fn set_pins(&mut self, pins: &Pins, nodes: usize) -> Option<Vec<usize>> {
+        let of_matrix = self.matrix.free_nodes();
         let is_pinned = |node: &usize| pins.nodes().binary_search(node).is_ok();
-        let held: Vec<bool> = nodes.iter().map(is_pinned).collect();
-        let count = held.iter().filter(|is_held| **is_held).count();
+        let free: Vec<usize> = of_matrix.iter().copied().filter(|node| !is_pinned(node)).collect();
         // The matrix leaves out nodes that were pinned when it was made: a new one is needed to let them go.
-        if nodes.len() - count != self.stiffness.matrix().pattern().rows() - pins.nodes().len() {
-            return false;
+        if free.len() != nodes - pins.nodes().len() {
+            return None;
         }
-        self.free =
-            nodes.iter().zip(&held).filter(|(_, is_held)| !**is_held).map(|(&node, _)| node).collect();
-        self.held = if count == 0 { Vec::new() } else { held };
-        true
+        let has_held = free.len() < of_matrix.len();
+        self.held = if has_held { of_matrix.iter().map(is_pinned).collect() } else { Vec::new() };
+        Some(free)
     }
 
-    fn boxed_clone(&self) -> Box<dyn OwnSolver> {
-        Box::new(self.clone())
-    }
-}
-
-impl<S: SparseSolver> Solver for Assembled<S> {
-    fn free_nodes(&self) -> &[usize] {
-        &self.free
-    }
-
-    fn with_stiffness(&mut self, work: &mut dyn FnMut(&mut NodalStiffness)) {
-        work(&mut self.stiffness);
-    }
-
-    fn add_product(&mut self, body: &Body, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        self.stiffness.add_product_of_elements(body, displacement, total);
-    }
-
-    fn solve(
+    /// Solves as [`Machine::solve`](super::Machine::solve), with the stiffness of the elements.
+    pub(super) fn solve(
         &mut self,
-        objective: &Objective<'_>,
-        _: &[[f64; 3]],
-        gradient: &[[f64; 3]],
+        stiffness: &NodalStiffness,
+        system: System<'_>,
         direction: &mut [[f64; 3]],
-        tolerance: f64,
-        definiteness: Definiteness,
     ) -> Result<Option<Solution>, NewtonError> {
-        let Self { stiffness, matrix, held, unknowns, solver, .. } = self;
+        let Self { matrix, held, unknowns, solver } = self;
+        let System { objective, gradient, tolerance, definiteness, .. } = system;
         for (free, &node) in matrix.free_nodes().iter().enumerate() {
             let is_held = held.get(free) == Some(&true);
             let right = if is_held { [0.0; 3] } else { gradient[node].map(|g| -g) };
@@ -106,7 +72,7 @@ impl<S: SparseSolver> Solver for Assembled<S> {
             matrix.fill(stiffness, diagonal)?;
             objective.blocks.add_to_triangle(matrix);
             matrix.hold(held);
-            match solver.solve(matrix, unknowns, tolerance.min(TOLERANCE)) {
+            match solver.solve_any(matrix, unknowns, tolerance.min(TOLERANCE)) {
                 Ok(iterations) => break iterations,
                 Err(LinearError::NotPositive { .. }) if definiteness == Definiteness::Required => {
                     return Ok(None);

@@ -1,14 +1,11 @@
 //! Conjugate gradients on the assembled matrix.
 
 use crate::step::error::NewtonError;
-use crate::step::objective::Objective;
-use crate::system::linear::LinearError;
 use crate::system::linear::conjugate_gradients::{ConjugateGradients, End};
 use crate::system::linear::multigrid::Undivided;
-use crate::system::nodal_stiffness::NodalStiffness;
-use crate::system::{Body, Pins};
+use crate::system::{NodalStiffness, Pins};
 
-use super::interface::{Definiteness, OwnSolver, Solution, Solver};
+use super::interface::{Definiteness, Solution, System};
 use super::preconditioner::Preconditioner;
 
 /// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).
@@ -17,9 +14,7 @@ use super::preconditioner::Preconditioner;
 /// there.
 #[derive(Clone)]
 pub(super) struct Conjugate {
-    stiffness: NodalStiffness,
     pinned: Vec<usize>,
-    free: Vec<usize>,
     is_free: Vec<bool>,
     preconditioner: Preconditioner<Undivided>,
     conjugate_gradients: ConjugateGradients,
@@ -28,68 +23,42 @@ pub(super) struct Conjugate {
 }
 
 impl Conjugate {
-    pub(super) fn new(
-        body: &Body,
-        pins: &Pins,
-        pairs: &[[usize; 2]],
-        tolerance: f64,
-        max_iterations: usize,
-    ) -> Result<Self, LinearError> {
-        let nodes = body.rest().len();
-        let mut solver = Self {
-            stiffness: NodalStiffness::new(body, pairs)?,
+    /// Memory for a body of `nodes` nodes, none of them pinned.
+    pub(super) fn new(nodes: usize, tolerance: f64, max_iterations: usize) -> Self {
+        Self {
             pinned: Vec::new(),
-            free: Vec::new(),
             is_free: vec![true; nodes],
             preconditioner: Preconditioner::new(nodes, Undivided),
             conjugate_gradients: ConjugateGradients::new(3 * nodes),
             tolerance,
             max_iterations,
-        };
-        solver.set_pins(pins);
-        Ok(solver)
+        }
     }
-}
 
-impl OwnSolver for Conjugate {
-    fn set_pins(&mut self, pins: &Pins) -> bool {
+    /// Replaces the pins; returns the free nodes.
+    pub(super) fn set_pins(&mut self, pins: &Pins) -> Vec<usize> {
         self.pinned = pins.nodes().to_vec();
         self.is_free.fill(true);
         pins.nodes().iter().for_each(|&node| self.is_free[node] = false);
-        self.free = (0..self.is_free.len()).filter(|&node| self.is_free[node]).collect();
-        true
+        (0..self.is_free.len()).filter(|&node| self.is_free[node]).collect()
     }
 
-    fn boxed_clone(&self) -> Box<dyn OwnSolver> {
-        Box::new(self.clone())
-    }
-}
-
-impl Solver for Conjugate {
-    fn free_nodes(&self) -> &[usize] {
-        &self.free
-    }
-
-    fn begin(&mut self) {
+    /// Discards information from earlier systems.
+    pub(super) fn begin(&mut self) {
         self.preconditioner.forget();
     }
 
-    fn with_stiffness(&mut self, work: &mut dyn FnMut(&mut NodalStiffness)) {
-        work(&mut self.stiffness);
-    }
-
-    fn solve(
+    /// Solves as [`Machine::solve`](super::Machine::solve), with the stiffness of the elements.
+    pub(super) fn solve(
         &mut self,
-        objective: &Objective<'_>,
-        x: &[[f64; 3]],
-        gradient: &[[f64; 3]],
+        stiffness: &mut NodalStiffness,
+        system: System<'_>,
         direction: &mut [[f64; 3]],
-        tolerance: f64,
-        definiteness: Definiteness,
     ) -> Result<Option<Solution>, NewtonError> {
-        let Self { stiffness, pinned, is_free, preconditioner, conjugate_gradients, .. } = self;
+        let Self { pinned, is_free, preconditioner, conjugate_gradients, .. } = self;
+        let System { objective, x, gradient, definiteness, .. } = system;
         objective.add_second_derivatives(stiffness);
-        let tolerance = tolerance.min(self.tolerance);
+        let tolerance = system.tolerance.min(self.tolerance);
         let mut given_up = 0;
         loop {
             preconditioner.take(stiffness, is_free, x, |node| objective.inertia(node))?;

@@ -1,11 +1,11 @@
-//! Interface of the linear solvers to Newton's method.
+//! Interface of Newton's method to the machine that simulates a body or its part, and to its linear solver.
 
 use crate::step::error::NewtonError;
 use crate::step::objective::Objective;
 use crate::step::term::NodeBlocks;
 use crate::system::linear::LinearError;
 use crate::system::linear::multigrid::Division;
-use crate::system::{Body, NodalStiffness, Pins};
+use crate::system::{Body, NodalStiffness};
 
 /// Requirement on the matrix of a linear system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +14,21 @@ pub enum Definiteness {
     Required,
     /// An indefinite matrix is made definite, or used until the indefiniteness shows.
     Optional,
+}
+
+/// Linear system K d = −g of a Newton iteration, for a direction d that is zero at pinned nodes.
+#[derive(Clone, Copy)]
+pub struct System<'a> {
+    /// Objective with the second derivatives K, except for those of the elements, which the machine has.
+    pub objective: &'a Objective<'a>,
+    /// Position of each node, m.
+    pub x: &'a [[f64; 3]],
+    /// Gradient g, N.
+    pub gradient: &'a [[f64; 3]],
+    /// Relative tolerance, which takes effect if it is tighter than the solver's own.
+    pub tolerance: f64,
+    /// Requirement on K.
+    pub definiteness: Definiteness,
 }
 
 /// Outcome of a linear solve.
@@ -27,7 +42,8 @@ pub struct Solution {
     pub truncated: bool,
 }
 
-/// Machine that simulates a body or, of a body that is divided among machines, its part.
+/// Machine that simulates a body or, of a body that is divided among machines, its part, with the solver of
+/// the linear systems and all its memory.
 ///
 /// All machines must call all functions of their simulations, in the same order.
 pub trait Machine {
@@ -40,8 +56,12 @@ pub trait Machine {
     /// Division of the nodes, for exchanges.
     fn nodes_mut(&mut self) -> &mut Self::Nodes;
 
-    /// Solver of the linear systems.
-    fn solver(&mut self) -> &mut dyn Solver;
+    /// Nodes that are not pinned, in the order of the unknowns.
+    fn free_nodes(&self) -> &[usize];
+
+    /// Discards information from earlier systems, before the first one of a step: a step depends only on the
+    /// state before it.
+    fn begin(&mut self);
 
     /// Sets up a new solver if the blocks of terms join nodes without a block in its matrix.
     ///
@@ -51,60 +71,18 @@ pub trait Machine {
         let _ = (body, blocks);
         Ok(())
     }
-}
-
-/// Solver of the linear systems of a simulation, with all its memory.
-pub trait Solver {
-    /// Nodes that are not pinned, in the order of the unknowns.
-    fn free_nodes(&self) -> &[usize];
-
-    /// Discards information from earlier systems, before the first one of a step: a step depends only on the
-    /// state before it.
-    fn begin(&mut self) {}
 
     /// Calls `work` with the stiffness of the elements, which it replaces once before each system.
-    fn with_stiffness(&mut self, work: &mut dyn FnMut(&mut NodalStiffness));
+    fn with_stiffness<T>(&mut self, work: impl FnOnce(&mut NodalStiffness) -> T) -> T;
 
-    /// Adds the product of the stiffness of a body with a displacement of few nodes to `total`.
-    fn add_product(&mut self, _: &Body, displacement: &[[f64; 3]], total: &mut [[f64; 3]]) {
-        let mut product = vec![[0.0; 3]; total.len()];
-        self.with_stiffness(&mut |stiffness| stiffness.matrix_mut().multiply(displacement, &mut product));
-        for (total, product) in total.iter_mut().zip(product) {
-            for c in 0..3 {
-                total[c] += product[c];
-            }
-        }
-    }
-
-    /// Solves for the direction at `x`, zero at pinned nodes, once after each linearisation; a machine finds
-    /// the direction of the nodes that it owns. Returns `None` if the matrix is indefinite and definiteness
-    /// is required.
-    ///
-    /// `tolerance` takes effect if it is tighter than the solver's own.
+    /// Solves for the direction, once after each linearisation; a machine finds the direction of the nodes
+    /// that it owns. Returns `None` if the matrix is indefinite and definiteness is required.
     ///
     /// # Errors
     /// [`NewtonError::NotPositive`], [`NewtonError::NotFinite`] or [`NewtonError::Linear`], on all machines.
     fn solve(
         &mut self,
-        objective: &Objective<'_>,
-        x: &[[f64; 3]],
-        gradient: &[[f64; 3]],
+        system: System<'_>,
         direction: &mut [[f64; 3]],
-        tolerance: f64,
-        definiteness: Definiteness,
     ) -> Result<Option<Solution>, NewtonError>;
-}
-
-/// Solver of a body on one machine.
-pub(crate) trait OwnSolver: Solver + Send + Sync {
-    /// Replaces the pins; returns false if a new solver has to be set up for them.
-    fn set_pins(&mut self, pins: &Pins) -> bool;
-
-    fn boxed_clone(&self) -> Box<dyn OwnSolver>;
-}
-
-impl Clone for Box<dyn OwnSolver> {
-    fn clone(&self) -> Self {
-        self.as_ref().boxed_clone()
-    }
 }

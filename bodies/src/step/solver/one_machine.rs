@@ -1,37 +1,87 @@
-//! Solver of a body on one machine, with all that sets it up anew.
+//! Whole body on one machine: its linear solver, with all that sets it up anew.
 
-use std::sync::Arc;
-
+use crate::step::error::NewtonError;
 use crate::step::term::NodeBlocks;
 use crate::system::linear::LinearError;
 use crate::system::linear::multigrid::Undivided;
-use crate::system::{Body, Pins};
+use crate::system::{Body, NodalStiffness, Pins};
 
+use super::LinearSolver;
 use super::assembled::Assembled;
-use super::interface::{Machine, OwnSolver, Solver};
-use super::{LinearSolver, SparseSolver};
+use super::conjugate::Conjugate;
+use super::interface::{Machine, Solution, System};
+use super::user_defined::AnySolver;
 
 /// Machine that simulates a whole body.
 #[derive(Clone)]
 pub struct OneMachine {
-    solver: Box<dyn OwnSolver>,
     pub(in crate::step) choice: Choice,
     pins: Pins,
     nodes: Undivided,
+    stiffness: NodalStiffness,
+    /// Nodes that are not pinned, in the order of the unknowns.
+    free: Vec<usize>,
+    method: Method,
+}
+
+/// Solver of a simulation: one of the settings, or a user-defined one.
+#[derive(Clone)]
+pub(in crate::step) enum Choice {
+    Setting(LinearSolver),
+    UserDefined(Box<dyn AnySolver>),
+}
+
+/// Method of a solver, with its memory.
+#[derive(Clone)]
+enum Method {
+    Assembled(Assembled),
+    Conjugate(Box<Conjugate>),
 }
 
 impl OneMachine {
-    /// Sets up the solver for a body with these pins.
-    pub(in crate::step) fn new(body: &Body, pins: &Pins, choice: Choice) -> Result<Self, LinearError> {
-        Ok(Self { solver: choice.set_up(body, pins, &[])?, choice, pins: pins.clone(), nodes: Undivided })
+    /// Sets up the solver for a body with these pins, with blocks for all pairs of nodes that share an
+    /// element, and for these pairs.
+    pub(in crate::step) fn new(
+        body: &Body,
+        pins: &Pins,
+        pairs: &[[usize; 2]],
+        choice: Choice,
+    ) -> Result<Self, LinearError> {
+        let assembled = |solver: Box<dyn AnySolver>| -> Result<_, LinearError> {
+            let stiffness = NodalStiffness::new(body, pairs, true)?;
+            let assembled = Assembled::new(&stiffness, pins, solver)?;
+            Ok((stiffness, assembled.matrix.free_nodes().to_vec(), Method::Assembled(assembled)))
+        };
+        let (stiffness, free, method) = match &choice {
+            Choice::Setting(LinearSolver::Automatic) => {
+                let chosen = LinearSolver::for_elements(body.elements().len());
+                return Self::new(body, pins, pairs, Choice::Setting(chosen));
+            }
+            #[cfg(feature = "faer")]
+            Choice::Setting(LinearSolver::Cholesky) => {
+                let of_nothing: Box<dyn AnySolver> = Box::new(crate::system::Cholesky::new(&[0], &[])?);
+                assembled(of_nothing)?
+            }
+            Choice::UserDefined(solver) => assembled(solver.clone())?,
+            Choice::Setting(LinearSolver::ConjugateGradients { tolerance, max_iterations }) => {
+                let mut conjugate = Box::new(Conjugate::new(body.rest().len(), *tolerance, *max_iterations));
+                let free = conjugate.set_pins(pins);
+                (NodalStiffness::new(body, pairs, false)?, free, Method::Conjugate(conjugate))
+            }
+        };
+        Ok(Self { choice, pins: pins.clone(), nodes: Undivided, stiffness, free, method })
     }
 
     /// Replaces the pins; sets up a new solver if the present one cannot handle them.
     pub(in crate::step) fn set_pins(&mut self, body: &Body, pins: &Pins) -> Result<(), LinearError> {
-        if !self.solver.set_pins(pins) {
-            self.solver = self.choice.set_up(body, pins, &[])?;
+        let free = match &mut self.method {
+            Method::Assembled(assembled) => assembled.set_pins(pins, body.rest().len()),
+            Method::Conjugate(conjugate) => Some(conjugate.set_pins(pins)),
+        };
+        match free {
+            Some(free) => (self.free, self.pins) = (free, pins.clone()),
+            None => *self = Self::new(body, pins, &[], self.choice.clone())?,
         }
-        self.pins = pins.clone();
         Ok(())
     }
 }
@@ -47,53 +97,39 @@ impl Machine for OneMachine {
         &mut self.nodes
     }
 
-    fn solver(&mut self) -> &mut dyn Solver {
-        &mut *self.solver
+    fn free_nodes(&self) -> &[usize] {
+        &self.free
+    }
+
+    fn begin(&mut self) {
+        if let Method::Conjugate(conjugate) = &mut self.method {
+            conjugate.begin();
+        }
     }
 
     fn join(&mut self, body: &Body, blocks: &NodeBlocks) -> Result<(), LinearError> {
         let is_free = |node: usize| self.pins.nodes().binary_search(&node).is_err();
-        let mut is_missing = false;
-        self.solver.with_stiffness(&mut |stiffness| {
-            let pattern = stiffness.matrix().pattern();
-            let is_apart = |[a, b]: [usize; 2]| is_free(a) && is_free(b) && pattern.block(a, b).is_none();
-            is_missing = blocks.pairs().any(is_apart);
-        });
-        if is_missing {
+        let pattern = self.stiffness.matrix().pattern();
+        let is_apart = |[a, b]: [usize; 2]| is_free(a) && is_free(b) && pattern.block(a, b).is_none();
+        if blocks.pairs().any(is_apart) {
             let pairs: Vec<[usize; 2]> = blocks.pairs().collect();
-            self.solver = self.choice.set_up(body, &self.pins, &pairs)?;
+            *self = Self::new(body, &self.pins, &pairs, self.choice.clone())?;
         }
         Ok(())
     }
-}
 
-/// Solver of a simulation: one of the settings, or a user-defined one.
-#[derive(Clone)]
-pub(in crate::step) enum Choice {
-    Setting(LinearSolver),
-    UserDefined(Arc<SetUp>),
-}
-
-/// Sets a solver up for the pairs of nodes of a body's elements, and for more pairs.
-type SetUp = dyn Fn(&Body, &Pins, &[[usize; 2]]) -> Result<Box<dyn OwnSolver>, LinearError> + Send + Sync;
-
-impl Choice {
-    pub(in crate::step) fn user_defined(solver: impl SparseSolver) -> Self {
-        Self::UserDefined(Arc::new(move |body: &Body, pins: &Pins, pairs: &[[usize; 2]]| {
-            let set_up: Box<dyn OwnSolver> = Box::new(Assembled::new(body, pins, pairs, solver.clone())?);
-            Ok(set_up)
-        }))
+    fn with_stiffness<T>(&mut self, work: impl FnOnce(&mut NodalStiffness) -> T) -> T {
+        work(&mut self.stiffness)
     }
 
-    fn set_up(
-        &self,
-        body: &Body,
-        pins: &Pins,
-        pairs: &[[usize; 2]],
-    ) -> Result<Box<dyn OwnSolver>, LinearError> {
-        match self {
-            Self::Setting(solver) => solver.set_up(body, pins, pairs),
-            Self::UserDefined(set_up) => set_up(body, pins, pairs),
+    fn solve(
+        &mut self,
+        system: System<'_>,
+        direction: &mut [[f64; 3]],
+    ) -> Result<Option<Solution>, NewtonError> {
+        match &mut self.method {
+            Method::Assembled(assembled) => assembled.solve(&self.stiffness, system, direction),
+            Method::Conjugate(conjugate) => conjugate.solve(&mut self.stiffness, system, direction),
         }
     }
 }

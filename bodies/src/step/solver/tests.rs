@@ -11,7 +11,7 @@ use crate::step::{
     StepReport,
 };
 use crate::system::testing::{beam, kirchhoff, rotated, scaled, shake};
-use crate::system::{Cholesky, LowerTriangle};
+use crate::system::{Cholesky, LinearError, LowerTriangle, Pins};
 
 /// A beam whose held end is moved and turned while a spring pulls at the other, under gravity: its reports.
 fn waved(linear: LinearSolver, mesh: &TetMesh, steps: usize) -> (Simulation, Vec<NewtonReport>) {

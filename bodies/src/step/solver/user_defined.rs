@@ -38,6 +38,45 @@ where
     }
 }
 
+/// [`SparseSolver`] of any type.
+pub(in crate::step) trait AnySolver: Send + Sync {
+    fn analyse_any(&mut self, matrix: &LowerTriangle) -> Result<(), LinearError>;
+
+    fn solve_any(
+        &mut self,
+        matrix: &LowerTriangle,
+        b: &mut [f64],
+        tolerance: f64,
+    ) -> Result<usize, LinearError>;
+
+    fn boxed_clone(&self) -> Box<dyn AnySolver>;
+}
+
+impl<S: SparseSolver> AnySolver for S {
+    fn analyse_any(&mut self, matrix: &LowerTriangle) -> Result<(), LinearError> {
+        self.analyse(matrix.column_starts(), matrix.row_indices())
+    }
+
+    fn solve_any(
+        &mut self,
+        matrix: &LowerTriangle,
+        b: &mut [f64],
+        tolerance: f64,
+    ) -> Result<usize, LinearError> {
+        self.solve(matrix, b, tolerance)
+    }
+
+    fn boxed_clone(&self) -> Box<dyn AnySolver> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for Box<dyn AnySolver> {
+    fn clone(&self) -> Self {
+        self.as_ref().boxed_clone()
+    }
+}
+
 #[cfg(feature = "faer")]
 impl SparseSolver for crate::system::Cholesky {
     fn analyse(&mut self, column_starts: &[usize], row_indices: &[usize]) -> Result<(), LinearError> {

@@ -43,7 +43,7 @@ fn gathering_gives_what_scattering_gives() {
 
     let mut elastic = Elastic::new(&body);
     elastic.evaluate(&body, &shake(&mut Random::new(1), body.rest(), 0.01));
-    let mut kept = NodalStiffness::with_elements(&body, &[]).expect("small");
+    let mut kept = NodalStiffness::new(&body, &[], true).expect("small");
     kept.linearise(&body, &mut elastic, Filter::None);
     let unknowns = 3 * (body.rest().len() - 2);
     assert_eq!(matrix.free_nodes().len(), body.rest().len() - 2);

@@ -15,12 +15,12 @@ fn the_product_is_the_sum_of_those_of_the_elements() {
     let nodes = body.rest().len();
     let mut random = Random::new(4);
     let x: Vec<[f64; 3]> = (0..nodes).map(|_| [0; 3].map(|_| random.uniform(-1.0, 1.0))).collect();
-    let mut kept = NodalStiffness::with_elements(&body, &[]).expect("small");
+    let mut kept = NodalStiffness::new(&body, &[], true).expect("small");
     kept.linearise(&body, &mut elastic, Filter::Clamp);
     let mut expected = vec![[0.0; 3]; nodes];
-    kept.add_product_of_elements(&body, &x, &mut expected);
+    kept.add_product(&body, &x, &mut expected);
 
-    let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
+    let mut stiffness = NodalStiffness::of_body(&body).expect("small");
     let mut found = vec![[f64::NAN; 3]; nodes];
     // Twice, since nothing may be left from the first time.
     for _ in 0..2 {

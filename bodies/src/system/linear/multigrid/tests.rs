@@ -21,7 +21,7 @@ fn cube(
     let positions: Vec<_> = mesh.positions.iter().map(|&x| deform(x)).collect();
     let mut elastic = Elastic::new(&body);
     elastic.evaluate(&body, &positions);
-    let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
+    let mut stiffness = NodalStiffness::of_body(&body).expect("small");
     stiffness.linearise(&body, &mut elastic, filter);
     (stiffness, mesh.positions.iter().map(|x| x[0] > 1e-9).collect(), positions)
 }

@@ -231,7 +231,7 @@ fn residuals(part: &Part, number: &[usize], board: &Arc<Board>, machine: usize) 
     let body = Body::new(mesh, kirchhoff(), 1000.0).expect("a body");
     let mut elastic = Elastic::new(&body);
     elastic.evaluate(&body, &mesh.positions);
-    let mut stiffness = NodalStiffness::new(&body, &[]).expect("small");
+    let mut stiffness = NodalStiffness::of_body(&body).expect("small");
     stiffness.linearise(&body, &mut elastic, Filter::Clamp);
     let is_free: Vec<bool> = mesh.positions.iter().map(|x| x[1] > 1e-9).collect();
     let copies = nodes[*owned..].iter().map(|&node| number[node] as u64).collect();
