@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use piola_bodies::mesh::{
-    Embedding, ReadError, Surface, TetMesh, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
+    Anchor, ReadError, Surface, TetMesh, embed, parse_msh, parse_surface_obj, read_msh, read_surface_obj,
     read_tetgen, tetrahedral_box,
 };
 
@@ -31,8 +31,8 @@ pub struct Geometry {
     pub mesh: TetMesh,
     /// Triangles of the surface.
     pub triangles: Vec<[u32; 3]>,
-    /// The points of the tetrahedra to which the vertices of the surface are attached.
-    pub embedding: Embedding,
+    /// The point of the tetrahedra to which each vertex of the surface is attached.
+    pub embedding: Vec<Anchor>,
 }
 
 impl Geometry {
@@ -118,7 +118,7 @@ impl Geometry {
 
     fn new(mesh: TetMesh, mesh_name: &str, surface: &Surface, surface_name: &str) -> Result<Self, Error> {
         let diagonal = check_body(&mesh, mesh_name)?;
-        let embedding = usable(surface_name, Embedding::new(&mesh, surface, REACH * diagonal))?;
+        let embedding = usable(surface_name, embed(&mesh, surface, REACH * diagonal))?;
         let triangles =
             surface.triangles.iter().map(|triangle| triangle.map(|vertex| vertex as u32)).collect();
         Ok(Self { mesh, triangles, embedding })
@@ -147,9 +147,8 @@ impl Geometry {
             whole(&mut group.nodes.iter().map(index));
         }
         whole(&mut self.triangles.as_flattened().iter().map(|&vertex| u64::from(vertex)));
-        let anchors = self.embedding.anchors();
-        whole(&mut anchors.iter().flat_map(|anchor| &anchor.nodes).map(index));
-        whole(&mut anchors.iter().flat_map(|anchor| &anchor.weights).map(bits));
+        whole(&mut self.embedding.iter().flat_map(|anchor| &anchor.nodes).map(index));
+        whole(&mut self.embedding.iter().flat_map(|anchor| &anchor.weights).map(bits));
         sum.finalize()
     }
 
@@ -157,8 +156,7 @@ impl Geometry {
     /// and pictures.
     #[must_use]
     pub fn surface_at(&self, positions: &[[f64; 3]]) -> Vec<[f32; 3]> {
-        let anchors = self.embedding.anchors().iter();
-        anchors.map(|anchor| anchor.position(positions).map(|x| x as f32)).collect()
+        self.embedding.iter().map(|anchor| anchor.position(positions).map(|x| x as f32)).collect()
     }
 }
 

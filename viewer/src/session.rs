@@ -114,7 +114,7 @@ impl Session {
         }
         // As stiff as a cube of the body's material and height.
         let stiffness = self.play.moduli.young() * self.play.height;
-        let anchors = self.play.geometry.embedding.anchors();
+        let anchors = &self.play.geometry.embedding;
         let springs = pulls.values().filter_map(|drag| {
             let anchor = *anchors.get(drag.vertex)?;
             Some(Spring { anchor, target: drag.place, stiffness })
@@ -212,7 +212,7 @@ impl Session {
 
 /// The point of the body that a pull holds, if the vertex exists and the target is within reach.
 fn anchor_for(play: &Play, vertex: usize, target: [f64; 3]) -> Result<Anchor, Error> {
-    let anchor = *play.geometry.embedding.anchors().get(vertex).ok_or(Error::OutOfRange {
+    let anchor = *play.geometry.embedding.get(vertex).ok_or(Error::OutOfRange {
         quantity: "the vertex of a pull",
         value: vertex as f64,
         requirement: "one of the surface",

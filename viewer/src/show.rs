@@ -101,7 +101,7 @@ pub(crate) fn setup(session: &Session, save: Option<&Path>) -> Arc<str> {
         "bounds": [bounds.min, bounds.max], // of the tetrahedra at rest, m
         "tets": mesh.tets.len(),
         "nodes": mesh.positions.len(),
-        "vertices": geometry.embedding.anchors().len(),
+        "vertices": geometry.embedding.len(),
         "dt": settings.dt,
         "dt_of_scene": settings.scene.dt,
         "material": material.ok(),

@@ -5,7 +5,7 @@ mod picture;
 use std::time::Instant;
 
 use piola::material;
-use piola_bodies::mesh::{Bounds, Embedding, read_msh, read_surface_obj};
+use piola_bodies::mesh::{Bounds, embed, read_msh, read_surface_obj};
 use piola_bodies::step::{NewtonSettings, Simulation, SimulationSettings};
 use piola_bodies::system::{Body, Pins};
 
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let assets = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/assets");
     let mesh = read_msh(format!("{assets}/horse.msh"))?;
     let surface = read_surface_obj(format!("{assets}/horse.obj"))?;
-    let embedding = Embedding::new(&mesh, &surface, 0.1)?;
+    let anchors = embed(&mesh, &surface, 0.1)?;
 
     let body = Body::new(&mesh, rubber()?, 1000.0)?;
     let hooves = Bounds { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY, GROUND, f64::INFINITY] };
@@ -54,8 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             seconds += start.elapsed().as_secs_f64();
         }
         if [0, 1, 2, 3, 6, 150].contains(&frame) {
-            let mut vertices = vec![[0.0; 3]; surface.positions.len()];
-            embedding.deform(horse.positions(), &mut vertices);
+            let vertices: Vec<_> = anchors.iter().map(|anchor| anchor.position(horse.positions())).collect();
             frames.push((f64::from(frame) * dt, vertices));
         }
     }

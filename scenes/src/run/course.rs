@@ -181,7 +181,7 @@ impl Course {
             poisson: Some(moduli.poisson()).filter(|poisson| poisson.is_finite()),
             tets: geometry.mesh.tets.len(),
             nodes: geometry.mesh.positions.len(),
-            surface_vertices: geometry.embedding.anchors().len(),
+            surface_vertices: geometry.embedding.len(),
             frames,
             frames_wanted: settings.frames,
             ended,

@@ -8,12 +8,6 @@ use super::tet::{Bounds, RestShape, TetMesh, cross, dot, norm, subtract};
 
 mod tree;
 
-/// Surface bound to a mesh: each vertex is an affine combination of the nodes of one tetrahedron.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Embedding {
-    anchors: Vec<Anchor>,
-}
-
 /// Point that moves with a tetrahedron.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
@@ -41,65 +35,47 @@ impl Anchor {
     }
 }
 
-impl Embedding {
-    /// Binds each vertex to the tetrahedron that contains it at rest, or else to the nearest one.
-    ///
-    /// A vertex outside the mesh moves by extrapolation; `tolerance`, m, is its largest distance from the
-    /// nearest tetrahedron, possibly infinite. Among several tetrahedra that contain a vertex, or are equally
-    /// near, the first in the mesh is used.
-    ///
-    /// # Errors
-    /// [`EmbedError`] for a vertex farther outside, for a position that is not finite, if the tolerance is
-    /// negative or NaN, or if the mesh is not a body ([`TetMesh::rest_shapes`]).
-    pub fn new(mesh: &TetMesh, surface: &Surface, tolerance: f64) -> Result<Self, EmbedError> {
-        if tolerance.is_nan() || tolerance < 0.0 {
-            let tolerance = number(tolerance);
-            return Err(EmbedError(format!(
-                "the largest distance of a surface vertex from the mesh is {tolerance} m; it must not be negative"
-            )));
+/// Binds each vertex of a surface to the tetrahedron that contains it at rest, or else to the nearest one; the
+/// anchors have the order of the vertices.
+///
+/// A vertex outside the mesh moves by extrapolation; `tolerance`, m, is its largest distance from the nearest
+/// tetrahedron, possibly infinite. Among several tetrahedra that contain a vertex, or are equally near, the
+/// first in the mesh is used.
+///
+/// # Errors
+/// [`EmbedError`] for a vertex farther outside, for a position that is not finite, if the tolerance is
+/// negative or NaN, or if the mesh is not a body ([`TetMesh::rest_shapes`]).
+pub fn embed(mesh: &TetMesh, surface: &Surface, tolerance: f64) -> Result<Vec<Anchor>, EmbedError> {
+    if tolerance.is_nan() || tolerance < 0.0 {
+        let tolerance = number(tolerance);
+        return Err(EmbedError(format!(
+            "the largest distance of a surface vertex from the mesh is {tolerance} m; it must not be negative"
+        )));
+    }
+    let shapes = mesh.rest_shapes().map_err(|error| EmbedError(error.to_string()))?;
+    let cage = Cage { mesh, shapes: &shapes };
+    let boxes = (0..mesh.tets.len()).map(|tet| Bounds::around(&cage.corners(tet)));
+    let tree = tree::Tree::new(boxes.collect());
+    let anchors = surface.positions.iter().enumerate().map(|(index, &x)| {
+        let vertex = index + 1;
+        if !x.iter().all(|c| c.is_finite()) {
+            let problem = format!("surface vertex {vertex} has a coordinate that is not finite");
+            return Err(EmbedError(problem));
         }
-        let shapes = mesh.rest_shapes().map_err(|error| EmbedError(error.to_string()))?;
-        let cage = Cage { mesh, shapes: &shapes };
-        let boxes = (0..mesh.tets.len()).map(|tet| Bounds::around(&cage.corners(tet)));
-        let tree = tree::Tree::new(boxes.collect());
-        let anchors = surface.positions.iter().enumerate().map(|(index, &x)| {
-            let vertex = index + 1;
-            if !x.iter().all(|c| c.is_finite()) {
-                let problem = format!("surface vertex {vertex} has a coordinate that is not finite");
-                return Err(EmbedError(problem));
+        match tree.nearest(x, |tet| cage.distance(tet, x)) {
+            Some((distance, tet)) if distance.unwrap_or(0.0) <= tolerance => {
+                Ok(Anchor { nodes: mesh.tets[tet], weights: cage.weights(tet, x) })
             }
-            match tree.nearest(x, |tet| cage.distance(tet, x)) {
-                Some((distance, tet)) if distance.unwrap_or(0.0) <= tolerance => {
-                    Ok(Anchor { nodes: mesh.tets[tet], weights: cage.weights(tet, x) })
-                }
-                nearest => {
-                    let distance = nearest.map_or(f64::INFINITY, |(distance, _)| distance.unwrap_or(0.0));
-                    Err(EmbedError(format!(
-                        "surface vertex {vertex} lies {distance:.3e} m outside the tetrahedral mesh; at most \
-                         {tolerance:.3e} m is allowed"
-                    )))
-                }
+            nearest => {
+                let distance = nearest.map_or(f64::INFINITY, |(distance, _)| distance.unwrap_or(0.0));
+                Err(EmbedError(format!(
+                    "surface vertex {vertex} lies {distance:.3e} m outside the tetrahedral mesh; at most \
+                     {tolerance:.3e} m is allowed"
+                )))
             }
-        });
-        Ok(Self { anchors: anchors.collect::<Result<_, _>>()? })
-    }
-
-    /// Anchors of the vertices, in their order.
-    #[must_use]
-    pub fn anchors(&self) -> &[Anchor] {
-        &self.anchors
-    }
-
-    /// Writes the positions of the vertices when the nodes are at `positions`.
-    ///
-    /// # Panics
-    /// If there are fewer positions than nodes, or `out` does not hold one entry for each vertex.
-    pub fn deform(&self, positions: &[[f64; 3]], out: &mut [[f64; 3]]) {
-        assert_eq!(out.len(), self.anchors.len(), "one position for each vertex of the embedded surface");
-        for (anchor, x) in self.anchors.iter().zip(out) {
-            *x = anchor.position(positions);
         }
-    }
+    });
+    anchors.collect()
 }
 
 /// Reason why a surface cannot be embedded, in words. Vertices are counted from 1, as in an OBJ file.
@@ -175,30 +151,28 @@ mod tests {
     fn a_vertex_follows_an_affine_map() {
         let mesh = corner();
         let surface = points(&[[0.25, 0.25, 0.25], [0.0, 0.0, 0.0], [0.5, 0.5, 0.01], [-0.05, 0.2, 0.2]]);
-        let embedding = Embedding::new(&mesh, &surface, 0.1).expect("all within the tolerance");
+        let anchors = embed(&mesh, &surface, 0.1).expect("all within the tolerance");
         let map = |x: [f64; 3]| [2.0 * x[0] + 1.0, x[1] - x[0], 3.0 * x[2] + 0.5 * x[1]];
         let moved: Vec<_> = mesh.positions.iter().map(|&x| map(x)).collect();
-        let mut out = vec![[0.0; 3]; 4];
-        embedding.deform(&moved, &mut out);
-        for (x, y) in surface.positions.iter().zip(&out) {
+        assert_eq!(anchors.len(), 4);
+        for (x, anchor) in surface.positions.iter().zip(anchors) {
             // Eight roundings of numbers below 4.
-            assert!(norm(subtract(map(*x), *y)) <= 32.0 * f64::EPSILON);
+            assert!(norm(subtract(map(*x), anchor.position(&moved))) <= 32.0 * f64::EPSILON);
         }
     }
 
     #[test]
     fn a_vertex_too_far_outside_is_named_with_its_distance() {
         let surface = points(&[[0.1, 0.1, 0.1], [0.2, 0.2, -0.5]]);
-        let error = Embedding::new(&corner(), &surface, 0.1).expect_err("half a metre outside");
+        let error = embed(&corner(), &surface, 0.1).expect_err("half a metre outside");
         assert_eq!(
             error.to_string(),
             "surface vertex 2 lies 5.000e-1 m outside the tetrahedral mesh; at most 1.000e-1 m is allowed"
         );
-        let error =
-            Embedding::new(&corner(), &points(&[[3.0, 0.0, 0.0]]), 0.1).expect_err("two metres outside");
+        let error = embed(&corner(), &points(&[[3.0, 0.0, 0.0]]), 0.1).expect_err("two metres outside");
         assert!(error.to_string().starts_with("surface vertex 1 lies 2.000e0 m outside"), "{error}");
         for nowhere in [f64::NAN, f64::INFINITY] {
-            let error = Embedding::new(&corner(), &points(&[[nowhere; 3]]), 0.1).expect_err("nowhere");
+            let error = embed(&corner(), &points(&[[nowhere; 3]]), 0.1).expect_err("nowhere");
             assert_eq!(error.to_string(), "surface vertex 1 has a coordinate that is not finite");
         }
     }
@@ -207,11 +181,11 @@ mod tests {
     fn a_tolerance_is_any_distance_and_nothing_else() {
         let far = points(&[[3.0, 0.0, 0.0], [-1e100, 0.0, 0.0]]);
         for wide in [1e100, f64::MAX, f64::INFINITY] {
-            assert!(Embedding::new(&corner(), &far, wide).is_ok(), "{wide:e}");
+            assert!(embed(&corner(), &far, wide).is_ok(), "{wide:e}");
         }
-        assert!(Embedding::new(&corner(), &points(&[[0.0, 0.5, 0.5]]), 0.0).is_ok());
+        assert!(embed(&corner(), &points(&[[0.0, 0.5, 0.5]]), 0.0).is_ok());
         for wrong in [-1e-300, f64::NEG_INFINITY, f64::NAN] {
-            let error = Embedding::new(&corner(), &far, wrong).expect_err("no distance");
+            let error = embed(&corner(), &far, wrong).expect_err("no distance");
             assert!(error.to_string().ends_with("it must not be negative"), "{error}");
         }
     }
@@ -247,14 +221,14 @@ mod tests {
     fn check_embedding(mesh: &TetMesh, surface: &Surface, tolerance: f64) {
         let shapes = mesh.rest_shapes().expect("a body");
         let cage = Cage { mesh, shapes: &shapes };
-        let embedding = Embedding::new(mesh, surface, tolerance).expect("within the tolerance");
-        let mut out = vec![[0.0; 3]; surface.positions.len()];
-        embedding.deform(&mesh.positions, &mut out);
+        let anchors = embed(mesh, surface, tolerance).expect("within the tolerance");
+        assert_eq!(anchors.len(), surface.positions.len());
         let mut outside = 0;
-        for (vertex, (x, y)) in surface.positions.iter().zip(&out).enumerate() {
-            assert!(norm(subtract(*x, *y)) <= 100.0 * f64::EPSILON, "vertex {vertex}");
+        for (vertex, (x, anchor)) in surface.positions.iter().zip(anchors).enumerate() {
+            let y = anchor.position(&mesh.positions);
+            assert!(norm(subtract(*x, y)) <= 100.0 * f64::EPSILON, "vertex {vertex}");
             let (tet, distance) = nearest(&cage, *x);
-            assert_eq!(embedding.anchors()[vertex].nodes, mesh.tets[tet], "vertex {vertex}");
+            assert_eq!(anchor.nodes, mesh.tets[tet], "vertex {vertex}");
             outside += usize::from(distance > 0.0);
         }
         assert!((100..900).contains(&outside), "both kinds are tried: {outside} are outside");
