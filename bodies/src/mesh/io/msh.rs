@@ -124,22 +124,22 @@ enum Version {
     Four,
 }
 
-/// Contents of the sections of a file.
+/// Contents of the sections of a file, or of TetGen's two files.
 #[derive(Default)]
-struct File {
+pub(super) struct File {
     /// Names of physical groups by dimension and tag.
     names: HashMap<(usize, i64), String>,
     /// Tags of the physical groups of each entity, by its dimension and tag.
     physical: HashMap<(usize, i64), Vec<i64>>,
-    positions: Vec<[f64; 3]>,
+    pub(super) positions: Vec<[f64; 3]>,
     /// Index of each node by its tag.
-    node_of_tag: HashMap<usize, usize>,
-    tets: Vec<[usize; 4]>,
-    tags: Vec<usize>,
+    pub(super) node_of_tag: HashMap<usize, usize>,
+    pub(super) tets: Vec<[usize; 4]>,
+    pub(super) tags: Vec<usize>,
     /// Volume elements other than linear tetrahedra.
     others: ElementCounts,
     /// Nodes and tetrahedra of physical groups by dimension and tag.
-    groups: BTreeMap<(usize, i64), Group>,
+    pub(super) groups: BTreeMap<(usize, i64), Group>,
 }
 
 /// `version is-binary size-of-a-number`
@@ -180,6 +180,16 @@ impl File {
         Ok(())
     }
 
+    /// Parses the next words of a line as the tag of a node, which errors call `what`, and its position.
+    pub(super) fn add_node(&mut self, line: &mut Line<'_>, what: &str) -> Result<(), Problem> {
+        let tag = line.number(what)?;
+        if self.node_of_tag.insert(tag, self.positions.len()).is_some() {
+            return Err(line.problem(format!("node {tag} is given twice")));
+        }
+        self.positions.push(line.point()?);
+        Ok(())
+    }
+
     /// Parses the next word of an element as the index of a node.
     fn node(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
         let tag = line.number("the tag of a node")?;
@@ -207,14 +217,15 @@ impl File {
         Ok(nodes)
     }
 
-    fn put_into_group(&mut self, tag: i64, tet: usize) {
+    /// Adds a tetrahedron to a group of volumes.
+    pub(super) fn put_into_group(&mut self, tag: i64, tet: usize) {
         let group = self.groups.entry((3, tag)).or_default();
         group.nodes.extend(self.tets[tet]);
         group.tets.push(tet);
     }
 
     /// Drops the nodes of no tetrahedron and names the groups.
-    fn into_mesh(self, end: usize) -> Result<TetMesh, Problem> {
+    pub(super) fn into_mesh(self, end: usize) -> Result<TetMesh, Problem> {
         if self.tets.is_empty() {
             let text = match self.others.is_empty() {
                 true => "the file ends without volume elements; in Gmsh, mesh with `-3`, and if there are \

@@ -3,13 +3,13 @@
 //! \[Si15\] Si, *TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator*, 2015; formats in the manual,
 //! "File formats".
 
-use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
+use super::msh::File;
 use super::text::{Cursor, Line, Problem, ReadError, read};
+use crate::mesh::TetMesh;
 use crate::mesh::elements::{ElementCounts, TETRAHEDRON_10};
 use crate::mesh::tet::{cross, dot, subtract};
-use crate::mesh::{Group, TetMesh};
 
 /// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file next to it; `path` may be
 /// either.
@@ -27,18 +27,8 @@ pub fn read_tetgen(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
     read(&path.as_ref().with_extension("ele"), |text| parse_tets(text, nodes))
 }
 
-/// Contents of a `.node` file.
-#[derive(Debug, Default, PartialEq)]
-struct Nodes {
-    positions: Vec<[f64; 3]>,
-    /// Index of each node by its number.
-    index: HashMap<usize, usize>,
-    /// Nodes by boundary marker.
-    marked: BTreeMap<i64, Vec<usize>>,
-}
-
 /// `count 3 attributes markers`, then for each node `number x y z attribute … marker`.
-fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
+fn parse_nodes(text: &str) -> Result<File, Problem> {
     let mut cursor = Cursor::new(text, Some('#'));
     let mut line = cursor.next("the number of nodes")?;
     let count = line.number("the number of nodes")?;
@@ -48,28 +38,23 @@ fn parse_nodes(text: &str) -> Result<Nodes, Problem> {
     }
     let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
     let markers: usize = line.number_if_any("the number of boundary markers")?.unwrap_or(0);
-    let mut nodes = Nodes::default();
+    let mut file = File::default();
     for node in 0..count {
         let mut line = cursor.next("a node")?;
-        let number = line.number("the number of the node")?;
-        nodes.positions.push(line.point()?);
+        file.add_node(&mut line, "the number of the node")?;
         for _ in 0..attributes {
             line.number::<f64>("an attribute of the node")?;
         }
-        if markers > 0 {
-            let marker = line.number("the boundary marker of the node")?;
-            nodes.marked.entry(marker).or_default().push(node);
-        }
-        if nodes.index.insert(number, node).is_some() {
-            return Err(line.problem(format!("node {number} is given twice")));
+        let marker: i64 = if markers > 0 { line.number("the boundary marker of the node")? } else { 0 };
+        if marker != 0 {
+            file.groups.entry((2, marker)).or_default().nodes.push(node);
         }
     }
-    nodes.marked.remove(&0);
-    Ok(nodes)
+    Ok(file)
 }
 
 /// `count corners attributes`, then for each tetrahedron `number node … attribute …`.
-fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
+fn parse_tets(text: &str, mut file: File) -> Result<TetMesh, Problem> {
     let mut cursor = Cursor::new(text, Some('#'));
     let mut line = cursor.next("the number of tetrahedra")?;
     let count = line.number("the number of tetrahedra")?;
@@ -85,44 +70,26 @@ fn parse_tets(text: &str, nodes: Nodes) -> Result<TetMesh, Problem> {
         return Err(line.problem(format!("tetrahedra have {corners} nodes; they must have 4")));
     }
     let attributes: usize = line.number_if_any("the number of attributes")?.unwrap_or(0);
-    let (mut tets, mut tags) = (Vec::new(), Vec::new());
-    let mut regions: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
     for tet in 0..count {
         let mut line = cursor.next("a tetrahedron")?;
-        tags.push(line.number("the number of the tetrahedron")?);
-        let mut node = || nodes.named(&mut line);
+        file.tags.push(line.number("the number of the tetrahedron")?);
+        let mut node = || named(&file, &mut line);
         let corners = [node()?, node()?, node()?, node()?];
-        tets.push(turned(corners, &nodes.positions));
+        file.tets.push(turned(corners, &file.positions));
         if attributes > 0 {
             // A whole number, written as a real one.
             let region: f64 = line.number("the region of the tetrahedron")?;
-            regions.entry(region as i64).or_default().push(tet);
+            file.put_into_group(region as i64, tet);
         }
     }
-    let marked = nodes.marked.into_iter().map(|(marker, nodes)| Group {
-        name: marker.to_string(),
-        dimension: 2,
-        nodes,
-        tets: Vec::new(),
-    });
-    let regions = regions.into_iter().map(|(region, members)| Group {
-        name: region.to_string(),
-        dimension: 3,
-        nodes: members.iter().flat_map(|&tet| tets[tet]).collect(),
-        tets: members,
-    });
-    let groups = marked.chain(regions).collect();
-    let mesh = TetMesh { tags, groups, ..TetMesh::new(nodes.positions, tets) };
-    Ok(mesh.without_unused_nodes())
+    file.into_mesh(cursor.number + 1)
 }
 
-impl Nodes {
-    /// Parses the next word of a line as the index of a node.
-    fn named(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
-        let number: usize = line.number("the number of a node")?;
-        let index = self.index.get(&number).copied();
-        index.ok_or_else(|| line.problem(format!("the .node file has no node {number}")))
-    }
+/// Parses the next word of a line as the index of a node.
+fn named(file: &File, line: &mut Line<'_>) -> Result<usize, Problem> {
+    let number: usize = line.number("the number of a node")?;
+    let index = file.node_of_tag.get(&number).copied();
+    index.ok_or_else(|| line.problem(format!("the .node file has no node {number}")))
 }
 
 /// The corners of a tetrahedron of these nodes, m, in the order of positive volume, unless it is zero: TetGen
@@ -136,6 +103,7 @@ fn turned([a, b, c, d]: [usize; 4], nodes: &[[f64; 3]]) -> [usize; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Group;
 
     /// A stray node, attributes and boundary markers.
     const NODES: &str = "# made by hand\n\

@@ -11,12 +11,7 @@ impl File {
     pub(super) fn nodes_2(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let count: usize = cursor.next("the number of nodes")?.number("the number of nodes")?;
         for _ in 0..count {
-            let mut line = cursor.next("a node")?;
-            let tag = line.number("the tag of a node")?;
-            if self.node_of_tag.insert(tag, self.positions.len()).is_some() {
-                return Err(line.problem(format!("node {tag} is given twice")));
-            }
-            self.positions.push(line.point()?);
+            self.add_node(&mut cursor.next("a node")?, "the tag of a node")?;
         }
         Ok(())
     }
