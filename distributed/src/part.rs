@@ -20,14 +20,14 @@ pub struct MaterialPart {
     pub density: f64,
 }
 
-/// Body of the elements of a share, which have the numbers of their parts; `None` without elements.
+/// Body of the elements of a share, which have the numbers of their parts.
 ///
 /// # Errors
 /// [`Error::Scene`] for an invalid element, such as an inverted one, or for a material.
-pub fn body(share: &Share, parts: &[MaterialPart]) -> Result<Option<Body>, Error> {
+pub fn body(share: &Share, parts: &[MaterialPart]) -> Result<Body, Error> {
     let Share { elements, places, .. } = share;
     if elements.is_empty() {
-        return Ok(None);
+        return Ok(Body::empty());
     }
     let mut mesh = TetMesh::new(
         places.iter().map(|place| place.rest).collect(),
@@ -43,5 +43,5 @@ pub fn body(share: &Share, parts: &[MaterialPart]) -> Result<Option<Body>, Error
             in_body.push(Part { group: Some(name), material, density: part.density });
         }
     }
-    Ok(Some(Body::from_parts(&mesh, in_body).map_err(SceneError::from)?))
+    Ok(Body::from_parts(&mesh, in_body).map_err(SceneError::from)?)
 }

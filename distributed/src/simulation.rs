@@ -36,7 +36,7 @@ impl Simulation {
             return Err(Error::usage(reason));
         };
         let body = team.agree(part::body(&share, parts))?;
-        let system = LinearSystem::new(team, &share, body.as_ref(), tolerance, max_iterations)?;
+        let system = LinearSystem::new(team, &share, &body, tolerance, max_iterations)?;
         let start: Vec<[f64; 3]> = share.places.iter().map(|place| place.start).collect();
         let made = step::Simulation::divided(system, body, &Pins::at(share.pinned()), settings)
             .and_then(|mut part| part.set_positions(&start).map(|()| part));

@@ -113,21 +113,20 @@ impl Operators for MatrixFree {
 }
 
 impl LinearSystem {
-    /// Sets up PETSc's solver for the body of a share; `None` if the share has no elements.
+    /// Sets up PETSc's solver for the body of a share.
     ///
     /// # Errors
     /// [`Error::Petsc`], also for an option with a value that PETSc does not support; [`Error::OnRank`].
     pub(crate) fn new(
         team: &Team,
         share: &Share,
-        body: Option<&Body>,
+        body: &Body,
         tolerance: f64,
         max_iterations: usize,
     ) -> Result<Self, Error> {
         let library = &team.library;
-        let stiffness = body.map_or_else(NodalStiffness::empty, NodalStiffness::of_body);
-        let stiffness = team.agree(stiffness.map_err(Error::from))?;
-        let own = body.map_or(&[][..], Body::masses);
+        let stiffness = team.agree(NodalStiffness::of_body(body).map_err(Error::from))?;
+        let own = body.masses();
         let mut masses = own.to_vec();
         Vector::new(library, 1, share.owned, &share.copies)?.sum(&mut masses)?;
         for (name, value) in DEFAULTS {

@@ -96,19 +96,19 @@ impl Simulation {
 }
 
 impl<M: Machine> Simulation<M> {
-    /// Simulation of a divided body, on a machine that has this part; `None` if it has no elements. Pins
-    /// include copies of nodes of other machines.
+    /// Simulation of a divided body, on a machine that has this part. Pins include copies of nodes of other
+    /// machines.
     ///
     /// # Errors
     /// [`SetupError`] for a pin that is no node, or a setting out of range: on this machine alone.
     #[doc(hidden)]
     pub fn divided(
         machine: M,
-        body: Option<Body>,
+        body: Body,
         pins: &Pins,
         settings: SimulationSettings,
     ) -> Result<Self, SetupError> {
-        Self::on(|_| Ok(machine), body.unwrap_or_else(Body::empty), pins, settings)
+        Self::on(|_| Ok(machine), body, pins, settings)
     }
 
     fn on(

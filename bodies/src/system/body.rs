@@ -113,7 +113,9 @@ impl Body {
     }
 
     /// Body without nodes: the part of a machine that has no elements of a divided body.
-    pub(crate) fn empty() -> Self {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn empty() -> Self {
         Self { rest: Vec::new(), masses: Vec::new(), elements: Vec::new(), runs: Vec::new() }
     }
 

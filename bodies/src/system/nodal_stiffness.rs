@@ -84,15 +84,6 @@ impl NodalStiffness {
         Self::new(body, &[], false)
     }
 
-    /// A matrix without nodes, of a machine that has no elements of a body.
-    ///
-    /// # Errors
-    /// [`LinearError::OutOfMemory`].
-    #[doc(hidden)]
-    pub fn empty() -> Result<Self, LinearError> {
-        Self::of_body(&Body::empty())
-    }
-
     /// Adds to the three entries on the diagonal of a node, N/m; nothing if there is no such node.
     #[doc(hidden)]
     pub fn add_to_diagonal(&mut self, node: usize, stiffness: f64) {

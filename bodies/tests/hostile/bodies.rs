@@ -27,7 +27,7 @@ fn preconditioner(hostile: &mut Hostile, stiffness: &NodalStiffness, positions: 
     let mut preconditioner = Preconditioner::new(nodes, Undivided);
     let is_free: Vec<bool> = (0..hostile.length(nodes)).map(|_| !hostile.0.once_in(4)).collect();
     let inertia = if hostile.0.once_in(2) { 0.0 } else { hostile.about(1e3) };
-    let empty = NodalStiffness::empty().expect("nothing");
+    let empty = NodalStiffness::of_body(&Body::empty()).expect("nothing");
     let taken = if hostile.0.once_in(8) { &empty } else { stiffness };
     let _ = preconditioner.take(taken, &is_free, positions, |_| inertia);
     let (r, mut z) = (hostile.points(positions), hostile.points(positions));
