@@ -24,9 +24,7 @@ use crate::system::linear::multigrid::Undivided;
 use crate::system::{Body, Cholesky, LinearError, LowerTriangle, NodalStiffness, Pins, Tetrahedron};
 
 use super::error::NewtonError;
-use super::integrator::Stage;
 use super::minimisation::demand_admissible;
-use super::objective::Objective;
 use super::simulation::Simulation;
 use super::term::NodeBlocks;
 
@@ -96,7 +94,6 @@ impl Equilibrium {
         let mut elastic = Elastic::new(body);
         let survey = elastic.evaluate(body, positions);
         demand_admissible(&Undivided, &survey, body, &elastic)?;
-        let stage = Stage::at_rest(positions.len());
         let mut blocks = NodeBlocks::default();
         let terms = simulation.all_terms();
         terms.linearise(positions, &mut blocks)?;
@@ -104,20 +101,14 @@ impl Equilibrium {
         let mut stiffness = NodalStiffness::new(body, &pairs, false)?;
         let tangents = stiffness.linearise(body, &mut elastic, Filter::None);
         demand_admissible(&Undivided, &tangents, body, &elastic)?;
-        let objective = Objective {
-            body,
-            elastic: &mut elastic,
-            stage: &stage,
-            damping: 0.0,
-            regularisation: 0.0,
-            guard: 0.0,
-            gravity: simulation.settings().gravity,
-            forces: simulation.forces(),
-            terms,
-            blocks: &mut blocks,
-        };
-        let mut gradient = vec![[0.0; 3]; positions.len()];
-        objective.gradient(positions, &mut gradient);
+        let gravity = simulation.settings().gravity;
+        let weight = |mass: &f64| gravity.map(|g| 0.0 - mass * g);
+        let mut gradient: Vec<[f64; 3]> = body.masses().iter().map(weight).collect();
+        for (total, force) in gradient.iter_mut().zip(simulation.forces()) {
+            (0..3).for_each(|c| total[c] -= force[c]);
+        }
+        terms.add_gradient(positions, &mut gradient);
+        elastic.add_gradient(body, &mut gradient);
 
         let pins = Pins::at(simulation.pinned().iter().copied());
         let mut matrix = LowerTriangle::new(&stiffness, &pins)?;
