@@ -42,8 +42,6 @@ pub struct AdaptiveReport {
     pub refused: usize,
     /// Number of steps taken at the shortest length although their error was too large.
     pub unresolved: usize,
-    /// Length of the shortest step that was taken, s.
-    pub shortest: f64,
     /// Estimated errors of all steps together, m.
     pub error: f64,
 }
@@ -140,7 +138,6 @@ impl<M: Machine> Course<'_, M> {
         let weight = f64::from((1_u32 << self.body.settings.integrator.order().min(2)) - 1);
         let parts = 1_u32 << MAX_HALVINGS;
         let (mut taken, mut refused, mut unresolved, mut error) = (0, 0, 0, 0.0);
-        let mut shortest = parts;
         let (mut at, mut length) = (0, parts);
         // The state after a whole step from here, where an earlier attempt has found it.
         let mut whole: Option<State> = None;
@@ -157,12 +154,10 @@ impl<M: Machine> Course<'_, M> {
                         taken += 1;
                         unresolved += usize::from(estimate > allowed * share);
                         error += estimate;
-                        shortest = shortest.min(length);
                         if at == parts {
-                            let shortest = self.duration * (f64::from(shortest) / f64::from(parts));
                             let step = self.report.take();
                             let step = step.ok_or(StepError::TimeStep { dt: self.duration })?;
-                            return Ok(AdaptiveReport { step, taken, refused, unresolved, shortest, error });
+                            return Ok(AdaptiveReport { step, taken, refused, unresolved, error });
                         }
                         // A longer step ends where one of its length would, counted from the start.
                         if estimate <= GROWS_BELOW * allowed * share && at % (2 * length) == 0 {

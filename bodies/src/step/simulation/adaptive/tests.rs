@@ -35,7 +35,7 @@ fn tolerances_are_met_by_every_integrator() {
         let allowed = tolerance * DURATION;
         assert!(error <= 3.0 * allowed, "{integrator:?} to {allowed:e}: {error:e}");
         assert!(report.error <= allowed && report.unresolved == 0, "{integrator:?}: {report:?}");
-        assert!(report.taken > 1 && report.shortest < DURATION, "{integrator:?}: {report:?}");
+        assert!(report.taken > 1, "{integrator:?}: {report:?}");
     }
 }
 
