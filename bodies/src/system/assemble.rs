@@ -26,9 +26,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use piola::Status;
 use piola::batch::TileMaterial;
-use piola::batch::element::{TILE, survey};
+use piola::batch::element::TILE;
 use piola::point::{Filter, svd};
 
 use super::body::Body;
@@ -38,51 +37,37 @@ use super::parts::for_each_entry;
 /// Energies and gradients of all elements at the positions evaluated last.
 #[derive(Clone)]
 pub(crate) struct Elastic {
-    groups: Vec<State>,
-    /// Energies at the positions before, group by group.
-    base: Vec<[f64; TILE]>,
-}
-
-/// A group of elements, and the survey of its last evaluation.
-#[derive(Clone)]
-struct State {
-    group: ElementGroup,
-    elements: Range<usize>,
-    evaluated: Evaluated,
+    groups: Vec<ElementGroup>,
 }
 
 impl Elastic {
     pub(crate) fn new(body: &Body) -> Self {
-        let state = |elements: Range<usize>| State {
-            group: ElementGroup::new(body.number_in_part(elements.start), &body.elements()[elements.clone()]),
-            elements,
-            evaluated: Evaluated::NONE,
+        let group = |range: Range<usize>| {
+            ElementGroup::new(body.number_in_part(range.start), range.start, &body.elements()[range])
         };
-        let groups: Vec<State> = body.groups().map(|(_, elements)| state(elements)).collect();
-        let base = vec![[0.0; TILE]; groups.len()];
-        Self { groups, base }
+        Self { groups: body.groups().map(|(_, range)| group(range)).collect() }
     }
 
     pub(crate) fn evaluate(&mut self, body: &Body, positions: &[[f64; 3]]) -> Evaluated {
-        self.for_each_group(|state| {
-            let mut min_det = f64::INFINITY;
-            state.evaluate(body, |group, material, elements| {
-                let (status, det) = group.evaluate(material, elements, positions);
-                min_det = det;
-                status
-            });
-            state.evaluated.min_det = min_det;
-        });
+        self.for_each_group(body, |group, material, elements| group.evaluate(material, elements, positions));
         self.survey()
     }
 
     /// Evaluates the gradients where the energies were evaluated last.
     pub(crate) fn evaluate_gradients(&mut self, body: &Body) {
-        self.for_each_group(|state| state.evaluate(body, ElementGroup::evaluate_gradients));
+        self.for_each_group(body, ElementGroup::evaluate_gradients);
     }
 
-    fn for_each_group(&mut self, evaluate: impl Fn(&mut State) + Sync) {
-        for_each_entry(&mut self.groups, 1, |_, state| evaluate(state));
+    /// Evaluates each group with its material and elements.
+    fn for_each_group(
+        &mut self,
+        body: &Body,
+        evaluate: impl Fn(&mut ElementGroup, &dyn TileMaterial<f64>, &[Tetrahedron]) + Sync,
+    ) {
+        for_each_entry(&mut self.groups, 1, |_, group| {
+            let range = group.range.clone();
+            evaluate(group, body.material(range.start), &body.elements()[range]);
+        });
     }
 
     /// Evaluates gradients and filtered stiffnesses of the groups from `first` on, one for each tile, where
@@ -94,15 +79,14 @@ impl Elastic {
         first: usize,
         tiles: &mut [[StiffnessBlocks; TILE]],
     ) {
-        self.groups[first..].par_iter_mut().zip(tiles).for_each(|(state, tile)| {
-            state.evaluate(body, |group, material, elements| {
-                group.evaluate_stiffnesses(material, elements, filter, tile)
-            });
+        self.groups[first..].par_iter_mut().zip(tiles).for_each(|(group, tile)| {
+            let range = group.range.clone();
+            group.evaluate_stiffnesses(body.material(range.start), &body.elements()[range], filter, tile);
         });
     }
 
     pub(crate) fn survey(&self) -> Evaluated {
-        self.groups.iter().fold(Evaluated::NONE, |sum, State { evaluated, .. }| Evaluated {
+        self.groups.iter().fold(Evaluated::NONE, |sum, ElementGroup { evaluated, .. }| Evaluated {
             survey: sum.survey + evaluated.survey,
             min_det: sum.min_det.min(evaluated.min_det),
         })
@@ -110,8 +94,8 @@ impl Elastic {
 
     /// The energies of a group's elements, and those of the base.
     fn energies(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.groups.iter().zip(&self.base).flat_map(|(state, base)| {
-            let energies = state.group.energies.iter().zip(base).take(state.elements.len());
+        self.groups.iter().flat_map(|group| {
+            let energies = group.energies.iter().zip(&group.base).take(group.range.len());
             energies.map(|(&energy, &base)| (energy, base))
         })
     }
@@ -123,9 +107,7 @@ impl Elastic {
 
     /// Makes the positions evaluated last the base of differences.
     pub(crate) fn set_base(&mut self) {
-        for (base, state) in self.base.iter_mut().zip(&self.groups) {
-            *base = state.group.energies;
-        }
+        self.groups.iter_mut().for_each(|group| group.base = group.energies);
     }
 
     /// Energy minus the energy of the base, J.
@@ -139,13 +121,13 @@ impl Elastic {
     /// Each has an assumed error of 4u, which leaves room for the ten or so operations of an energy.
     pub(crate) fn difference_noise(&self, body: &Body) -> f64 {
         let mut noise = 0.0;
-        for ((material, elements), (state, base)) in body.groups().zip(self.groups.iter().zip(&self.base)) {
+        for ((material, elements), group) in body.groups().zip(&self.groups) {
             let stiffness = material.rest_stiffness().abs();
             for (lane, element) in body.elements()[elements].iter().enumerate() {
-                let gradient = state.group.deformation_gradient(lane);
+                let gradient = group.deformation_gradient(lane);
                 let square: f64 = gradient.as_flattened().iter().map(|entry| entry * entry).sum();
                 let scale = element.shape.volume * stiffness * square.max(1.0);
-                noise += scale + state.group.energies[lane].abs() + base[lane].abs();
+                noise += scale + group.energies[lane].abs() + group.base[lane].abs();
             }
         }
         2.0 * f64::EPSILON * noise
@@ -154,20 +136,20 @@ impl Elastic {
     /// The principal stretches of each element where the energies were evaluated last.
     pub(crate) fn stretches(&self) -> impl Iterator<Item = [f64; 3]> {
         let lanes =
-            self.groups.iter().flat_map(|state| (0..state.elements.len()).map(move |lane| (state, lane)));
-        lanes.map(|(state, lane)| svd(&state.group.deformation_gradient(lane)).stretches)
+            self.groups.iter().flat_map(|group| (0..group.range.len()).map(move |lane| (group, lane)));
+        lanes.map(|(group, lane)| svd(&group.deformation_gradient(lane)).stretches)
     }
 
     /// The gradients of each element in the positions of its nodes, N, where they were evaluated last.
     #[cfg(feature = "faer")]
     pub(crate) fn gradients(&self) -> impl Iterator<Item = &[[f64; 3]; 4]> {
-        self.groups.iter().flat_map(|state| &state.group.gradients[..state.elements.len()])
+        self.groups.iter().flat_map(|group| &group.gradients[..group.range.len()])
     }
 
     /// Adds the gradient of the energy to `total`, one entry per node.
     pub(crate) fn add_gradient(&self, body: &Body, total: &mut [[f64; 3]]) {
-        for State { group, elements, .. } in &self.groups {
-            for (element, gradient) in body.elements()[elements.clone()].iter().zip(&group.gradients) {
+        for group in &self.groups {
+            for (element, gradient) in body.elements()[group.range.clone()].iter().zip(&group.gradients) {
                 for (&node, g) in element.nodes.iter().zip(gradient) {
                     for c in 0..3 {
                         total[node][c] += g[c];
@@ -175,19 +157,6 @@ impl Elastic {
                 }
             }
         }
-    }
-}
-
-impl State {
-    /// Evaluates the group and keeps its survey; the smallest det F stays that of the last energies.
-    fn evaluate(
-        &mut self,
-        body: &Body,
-        evaluate: impl FnOnce(&mut ElementGroup, &dyn TileMaterial<f64>, &[Tetrahedron]) -> Status<u64>,
-    ) {
-        let elements = &body.elements()[self.elements.clone()];
-        let status = evaluate(&mut self.group, body.material(self.elements.start), elements);
-        self.evaluated.survey = survey(status, self.elements.start);
     }
 }
 

@@ -21,8 +21,10 @@
 
 #![expect(non_snake_case, reason = "the letters of the paper: Ds, B")]
 
+use std::ops::Range;
+
 use piola::batch::TileMaterial;
-use piola::batch::element::{Elements, TILE};
+use piola::batch::element::{Elements, TILE, survey};
 use piola::point::{Filter, Matrix3};
 use piola::{Status, Survey};
 
@@ -87,17 +89,26 @@ impl Evaluated {
 #[derive(Clone, Debug)]
 pub(crate) struct ElementGroup {
     elements: Elements,
+    /// Indices among the elements of the body.
+    pub(crate) range: Range<usize>,
     pub(crate) energies: [f64; TILE],
+    /// Energies at the positions before.
+    pub(crate) base: [f64; TILE],
     pub(crate) gradients: [[[f64; 3]; 4]; TILE],
+    /// Survey of the last evaluation; the smallest det F is that of the last energies.
+    pub(crate) evaluated: Evaluated,
 }
 
 impl ElementGroup {
-    /// Elements of which the first is number `start` of the material's.
-    pub(crate) fn new(start: usize, elements: &[Tetrahedron]) -> Self {
+    /// Elements of which the first is number `start` of the material's, and number `first` of the body's.
+    pub(crate) fn new(start: usize, first: usize, elements: &[Tetrahedron]) -> Self {
         Self {
             elements: Elements::new(start, elements.iter().map(|element| element.shape.components())),
+            range: first..first + elements.len(),
             energies: [0.0; TILE],
+            base: [0.0; TILE],
             gradients: [[[0.0; 3]; 4]; TILE],
+            evaluated: Evaluated::NONE,
         }
     }
 
@@ -106,14 +117,13 @@ impl ElementGroup {
         self.elements.deformation_gradient(lane)
     }
 
-    /// Evaluates the energies, J, which are meaningless for refused elements; returns the smallest det F as
-    /// well.
+    /// Evaluates the energies, J, which are meaningless for refused elements.
     pub(crate) fn evaluate(
         &mut self,
         material: &dyn TileMaterial<f64>,
         elements: &[Tetrahedron],
         positions: &[[f64; 3]],
-    ) -> (Status<u64>, f64) {
+    ) {
         let corners = elements.iter().map(|element| element.nodes.map(|node| positions[node]));
         let mut status = self.elements.evaluate(material, corners, &mut self.energies);
         let mut min_det = f64::INFINITY;
@@ -126,17 +136,15 @@ impl ElementGroup {
                 status.nonfinite &= !(1 << lane);
             }
         }
-        (Status { refused: status.refused & !status.nonfinite, ..status }, min_det)
+        status.refused &= !status.nonfinite;
+        self.evaluated = Evaluated { survey: survey(status, self.range.start), min_det };
     }
 
     /// Gradients of the energies evaluated last in the nodal positions, N: minus the forces.
-    pub(crate) fn evaluate_gradients(
-        &mut self,
-        material: &dyn TileMaterial<f64>,
-        elements: &[Tetrahedron],
-    ) -> Status<u64> {
+    pub(crate) fn evaluate_gradients(&mut self, material: &dyn TileMaterial<f64>, elements: &[Tetrahedron]) {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
-        of_derivatives(self.elements.gradients(material, gradients))
+        let status = self.elements.gradients(material, gradients);
+        self.evaluated.survey = survey(of_derivatives(status), self.range.start);
     }
 
     /// Gradients, and second derivatives after the filter.
@@ -146,11 +154,12 @@ impl ElementGroup {
         elements: &[Tetrahedron],
         filter: Filter,
         stiffnesses: &mut [StiffnessBlocks],
-    ) -> Status<u64> {
+    ) {
         let gradients = self.gradients[..elements.len()].as_flattened_mut().as_flattened_mut();
         let stiffnesses = stiffnesses[..elements.len()].as_flattened_mut();
         let stiffnesses = stiffnesses.as_flattened_mut().as_flattened_mut();
-        of_derivatives(self.elements.stiffnesses(material, filter, gradients, stiffnesses))
+        let status = self.elements.stiffnesses(material, filter, gradients, stiffnesses);
+        self.evaluated.survey = survey(of_derivatives(status), self.range.start);
     }
 }
 

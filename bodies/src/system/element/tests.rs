@@ -1,6 +1,6 @@
 use piola::__private::random::Random;
 use piola::batch::Batch;
-use piola::batch::element::{MAX_STIFFNESS_RATIO, survey};
+use piola::batch::element::MAX_STIFFNESS_RATIO;
 
 use super::*;
 use crate::system::Body;
@@ -36,13 +36,23 @@ fn declared(
     positions: &[[f64; 3]],
     filter: Filter,
 ) -> ([Gradient; 2], [[f64; 12]; 12], Survey) {
-    let mut group = ElementGroup::new(0, &[*element]);
-    group.evaluate(material, &[*element], positions);
+    let mut group = evaluated(material, &[*element], positions);
     let mut stiffness = [[[[0.0; 3]; 3]; 10]];
-    let status = group.evaluate_stiffnesses(material, &[*element], filter, &mut stiffness);
-    let with_stiffness = group.gradients[0];
+    group.evaluate_stiffnesses(material, &[*element], filter, &mut stiffness);
+    let (with_stiffness, survey) = (group.gradients[0], group.evaluated.survey);
     group.evaluate_gradients(material, &[*element]);
-    ([group.gradients[0], with_stiffness], to_matrix(&stiffness[0]), survey(status, 0))
+    ([group.gradients[0], with_stiffness], to_matrix(&stiffness[0]), survey)
+}
+
+/// A group after the evaluation of its energies.
+fn evaluated(
+    material: &dyn TileMaterial<f64>,
+    elements: &[Tetrahedron],
+    positions: &[[f64; 3]],
+) -> ElementGroup {
+    let mut group = ElementGroup::new(0, 0, elements);
+    group.evaluate(material, elements, positions);
+    group
 }
 
 /// The whole matrix; unknown 3i+a is coordinate a of node i.
@@ -68,16 +78,15 @@ fn elements_have_the_results_of_a_batch() {
         let mut refused = 0;
         for seed in 0..40 {
             let (element, positions) = sample(seed, if seed % 2 == 0 { 0.02 } else { large });
-            let mut group = ElementGroup::new(0, &[element]);
-            let (status, min_det) = group.evaluate(material, &[element], &positions);
+            let group = evaluated(material, &[element], &positions);
             let F = group.deformation_gradient(0);
-            assert_eq!(min_det, determinant(&F));
+            assert_eq!(group.evaluated.min_det, determinant(&F));
             // Sums of three products of up to 5.
             check_close(F.as_flattened(), element.deformation_gradient(&positions).as_flattened(), 0.3);
             let (batch, rest) = (Batch::new(exact), element.shape.components());
             let mut energy = [0.0];
             let expected = batch.energies(F.as_flattened(), &mut energy).expect("one point");
-            assert_eq!(survey(status, 0).refused, expected.refused);
+            assert_eq!(group.evaluated.survey.refused, expected.refused);
             if expected.refused == 1 {
                 refused += 1;
                 continue;
@@ -114,12 +123,9 @@ fn an_element_out_of_range_is_decomposed() {
     let mut elements = [element; 3];
     // Stretches of 1e60 have no invariants in range.
     elements[1].shape.inverse = element.shape.inverse.map(|row| row.map(|x| x * 1e60));
-    let mut group = ElementGroup::new(0, &elements);
-    let (status, _) = group.evaluate(&by_invariants(), &elements, &positions);
-    let mut single = ElementGroup::new(0, &[element]);
-    single.evaluate(&by_invariants(), &[element], &positions);
-    let alone = single.energies[0];
-    assert!(survey(status, 0).is_clean(), "{status:?}");
+    let group = evaluated(&by_invariants(), &elements, &positions);
+    let alone = evaluated(&by_invariants(), &[element], &positions).energies[0];
+    assert!(group.evaluated.survey.is_clean(), "{:?}", group.evaluated);
     assert!(
         (group.energies[0] - alone).abs() <= 1e-12 * alone.abs() && group.energies[0] == group.energies[2]
     );
@@ -202,8 +208,9 @@ fn an_affine_map_is_the_deformation_gradient_of_every_element() {
 fn an_element_with_nan_positions_is_not_finite() {
     let (element, mut positions) = sample(3, 0.0);
     positions[element.nodes[1]][2] = f64::NAN;
-    let (status, _) = ElementGroup::new(0, &[element]).evaluate(&kirchhoff(), &[element], &positions);
-    assert_eq!(survey(status, 7), Survey { nonfinite: 1, first: Some(7), ..Survey::default() });
+    let mut group = ElementGroup::new(0, 7, &[element]);
+    group.evaluate(&kirchhoff(), &[element], &positions);
+    assert_eq!(group.evaluated.survey, Survey { nonfinite: 1, first: Some(7), ..Survey::default() });
 }
 
 #[test]
@@ -215,12 +222,10 @@ fn forces_and_stiffnesses_that_overflow_are_not_finite() {
         let mut element = element;
         element.shape.inverse = element.shape.inverse.map(|row| row.map(|x| x * size));
         let positions: Vec<_> = positions.iter().map(|x| x.map(|x| x / size)).collect();
-        let mut group = ElementGroup::new(0, &[element]);
-        let (status, _) = group.evaluate(&kirchhoff(), &[element], &positions);
-        assert!(survey(status, 0).is_clean(), "{status:?}");
-        let status =
-            group.evaluate_stiffnesses(&kirchhoff(), &[element], Filter::None, &mut [[[[0.0; 3]; 3]; 10]]);
-        let found = survey(status, 0);
+        let mut group = evaluated(&kirchhoff(), &[element], &positions);
+        assert!(group.evaluated.survey.is_clean(), "{:?}", group.evaluated);
+        group.evaluate_stiffnesses(&kirchhoff(), &[element], Filter::None, &mut [[[[0.0; 3]; 3]; 10]]);
+        let found = group.evaluated.survey;
         assert_eq!((found.nonfinite, found.is_clean()), (expected, expected == 0));
     };
     check(1.0, 0);
