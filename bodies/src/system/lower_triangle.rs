@@ -41,7 +41,8 @@ impl LowerTriangle {
     /// # Errors
     /// [`LinearError::NoSuchNode`] for a pin, [`LinearError::OutOfMemory`].
     pub fn new(stiffness: &NodalStiffness, pins: &Pins) -> Result<Self, LinearError> {
-        let (graph, pattern) = (stiffness.graph(), stiffness.matrix().pattern());
+        let pattern = stiffness.matrix().pattern();
+        let graph = &pattern.graph;
         let nodes = graph.rows();
         if let Some(&node) = pins.nodes().iter().find(|&&node| node >= nodes) {
             return Err(LinearError::NoSuchNode(NoSuchNode { element: None, node, nodes }));

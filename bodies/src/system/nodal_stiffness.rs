@@ -44,13 +44,11 @@ pub struct NodalStiffness {
     keeps_elements: bool,
 }
 
-/// Graph, order and places, which depend on the mesh alone.
+/// Properties of the mesh.
 struct Shape {
     elements: usize,
     /// Number of tiles of these elements.
     tiles: usize,
-    graph: Graph,
-    order: Vec<u32>,
     /// The element blocks that each chunk of the matrix gathers.
     gather: Vec<Gather>,
 }
@@ -128,12 +126,10 @@ impl NodalStiffness {
     pub(crate) fn new(body: &Body, pairs: &[[usize; 2]], keeps_elements: bool) -> Result<Self, LinearError> {
         let nodes = body.rest().len();
         let graph = Graph::of_tets(nodes, body.elements().iter().map(|element| element.nodes), pairs)?;
-        let order = along_a_curve(body.rest());
-        let pattern = Arc::new(Pattern::new(&graph, &order)?);
+        let pattern = Arc::new(Pattern::new(graph, along_a_curve(body.rest()))?);
         let matrix = SymmetricBlocks::new(pattern.clone())?;
         let gather = gather(body, &pattern)?;
-        let shape =
-            Shape { elements: body.elements().len(), tiles: body.groups().count(), graph, order, gather };
+        let shape = Shape { elements: body.elements().len(), tiles: body.groups().count(), gather };
         let tiles = if keeps_elements { shape.tiles } else { shape.tiles.min(WAVE) };
         let tiles = filled(tiles, [[[[0.0; 3]; 3]; 10]; TILE])?;
         Ok(Self { shape: Arc::new(shape), matrix, tiles, keeps_elements })
@@ -188,15 +184,6 @@ impl NodalStiffness {
 
     pub(crate) fn matrix_mut(&mut self) -> &mut SymmetricBlocks<f64, 3> {
         &mut self.matrix
-    }
-
-    pub(crate) fn graph(&self) -> &Graph {
-        &self.shape.graph
-    }
-
-    /// The nodes in an order that keeps neighbours together.
-    pub(crate) fn order(&self) -> &[u32] {
-        &self.shape.order
     }
 
     /// Computes gradients and the filtered stiffness at the last point of evaluation.

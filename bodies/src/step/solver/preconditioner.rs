@@ -94,7 +94,7 @@ impl<D: Division> Preconditioner<D> {
         x: &[[f64; 3]],
         inertia: impl Fn(usize) -> f64,
     ) -> Result<(), D::Error> {
-        let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
+        let matrix = stiffness.matrix();
         let division = &mut self.division;
         let rows = matrix.pattern().rows();
         fits("is_free", is_free.len(), rows)?;
@@ -111,7 +111,7 @@ impl<D: Division> Preconditioner<D> {
             (InUse::Old { .. }, Some(multigrid)) => multigrid.take(division, matrix, &diagonals, is_free),
             _ => {
                 self.multigrid = None;
-                let made = Multigrid::new(matrix, &diagonals, graph, order, is_free, x, division)?;
+                let made = Multigrid::new(matrix, &diagonals, is_free, x, division)?;
                 (self.multigrid, self.in_use) = (Some(made), InUse::Fresh);
             }
         }

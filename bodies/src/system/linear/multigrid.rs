@@ -42,7 +42,6 @@ mod rows;
 use rayon::prelude::*;
 
 use super::symmetric_blocks::SymmetricBlocks;
-use crate::system::graph::Graph;
 use crate::system::parts::for_each_entry;
 
 use division::ROWS;
@@ -78,13 +77,10 @@ impl<D: Division> Multigrid<D, D::Last> {
     /// Sets up all levels for a matrix of 3×3 blocks, with one row for each node and the division of the
     /// nodes. `diagonals` are the blocks on the diagonal of the sum of all machines' parts.
     ///
-    /// `order` is the order of the aggregation, in which neighbours should be close to each other. Rows that
-    /// are not `included` have zeros in right sides and solutions.
+    /// Rows that are not `included` have zeros in right sides and solutions.
     pub(crate) fn new(
         matrix: &SymmetricBlocks<f64, 3>,
         diagonals: &[[[f64; 3]; 3]],
-        graph: &Graph,
-        order: &[u32],
         included: &[bool],
         positions: &[[f64; 3]],
         division: &mut D,
@@ -93,13 +89,13 @@ impl<D: Division> Multigrid<D, D::Last> {
         let nodes = division.total(owned as f64) as usize;
         let scale = scale_of(diagonals, division);
         let motions = rigid(&positions[..owned], division);
-        let (finest, mut next) =
-            Level::new(matrix, diagonals, scale, graph, order, included, &motions, division)?;
+        let (finest, mut next) = Level::new(matrix, diagonals, scale, included, &motions, division)?;
         let (mut coarse, mut coarse_b) = (Vec::new(), Vec::new());
         let mut counts = vec![nodes];
         loop {
-            let Coarse { matrix, diagonals, graph, motions, division } = &mut next;
-            coarse_b.push(vec![[0.0; 6]; graph.rows()]);
+            let Coarse { matrix, diagonals, motions, division } = &mut next;
+            let all = vec![true; matrix.pattern().rows()];
+            coarse_b.push(vec![[0.0; 6]; all.len()]);
             let rows = division.total(diagonals.len() as f64) as usize;
             // An aggregate has at least two rows, unless all neighbours belong to other machines.
             let has_stalled = counts.last().is_some_and(|&before| 2 * rows > before);
@@ -107,10 +103,7 @@ impl<D: Division> Multigrid<D, D::Last> {
             if has_stalled || division.is_last(rows, nodes) {
                 break;
             }
-            let all = vec![true; graph.rows()];
-            let order: Vec<u32> = (0..graph.rows() as u32).collect();
-            let (level, after) =
-                Level::new(matrix, diagonals, scale, graph, &order, &all, motions, division)?;
+            let (level, after) = Level::new(matrix, diagonals, scale, &all, motions, division)?;
             coarse.push((level, std::mem::replace(&mut next, after).division));
         }
         let Coarse { matrix, motions, division: last_division, .. } = next;

@@ -34,7 +34,11 @@ pub(crate) struct SymmetricBlocks<E, const N: usize> {
     memory: Vec<Memory<E, N>>,
 }
 
+/// Places of the blocks of a matrix, which depend on its graph alone.
 pub(crate) struct Pattern {
+    pub(crate) graph: Graph,
+    /// Rows in an order that keeps neighbours together.
+    pub(crate) order: Vec<u32>,
     chunks: Vec<Chunk>,
     /// Chunk of each row, and place of the row in the chunk.
     place_of_row: Vec<Place>,
@@ -80,7 +84,7 @@ impl Chunk {
 
 impl Pattern {
     /// Pattern of a graph, with rows divided into chunks in this order.
-    pub(crate) fn new(graph: &Graph, order: &[u32]) -> Result<Self, LinearError> {
+    pub(crate) fn new(graph: Graph, order: Vec<u32>) -> Result<Self, LinearError> {
         let rows = graph.rows();
         let mut rank = filled(rows, 0_u32)?;
         for (at, &row) in order.iter().enumerate() {
@@ -124,7 +128,7 @@ impl Pattern {
             chunks[chunk].rows.iter().enumerate().map(move |(at, &row)| (row as usize, place(at)))
         };
         let sums = Lists::new(rows, || (0..chunks.len()).flat_map(of_chunk))?;
-        Ok(Self { chunks, place_of_row, sums })
+        Ok(Self { graph, order, chunks, place_of_row, sums })
     }
 
     pub(crate) fn rows(&self) -> usize {
@@ -287,7 +291,7 @@ mod tests {
     #[test]
     fn blocks_that_do_not_exist_are_not_found() {
         let graph = Graph::of_upper(3, || [(0, 2)].into_iter()).expect("small");
-        let pattern = Pattern::new(&graph, &[0, 1, 2]).expect("small");
+        let pattern = Pattern::new(graph, vec![0, 1, 2]).expect("small");
         assert_eq!((pattern.rows(), pattern.len(), pattern.chunks()), (3, 4, 1));
         assert_eq!(pattern.block(0, 1), None);
         let (block, transposed) = pattern.block(2, 0).expect("neighbours");

@@ -1,20 +1,16 @@
 //! Groups of neighbouring rows, each of which becomes one row of the next level [VMB96 §5].
 
-use crate::system::graph::Graph;
+use crate::system::linear::symmetric_blocks::Pattern;
 
 /// Aggregate of each row, `None` for rows that only the smoother corrects, and number of aggregates.
 ///
-/// Groups rows in this order: a row without neighbours in an aggregate forms one with all its neighbours.
-/// Each remaining row then joins the aggregate to which most of its neighbours belong.
+/// Groups rows in the order of the pattern: a row without neighbours in an aggregate forms one with all its
+/// neighbours. Each remaining row then joins the aggregate to which most of its neighbours belong.
 ///
 /// Rows that are not `included`, and rows without an included neighbour, do not belong to an aggregate. Only
 /// the first `owned` rows can belong to one; a row with no neighbour among them is an aggregate by itself.
-pub(super) fn aggregate(
-    graph: &Graph,
-    order: &[u32],
-    included: &[bool],
-    owned: usize,
-) -> (Vec<Option<usize>>, usize) {
+pub(super) fn aggregate(pattern: &Pattern, included: &[bool], owned: usize) -> (Vec<Option<usize>>, usize) {
+    let Pattern { graph, order, .. } = pattern;
     let mut of_row = vec![None; graph.rows()];
     let mut count = 0;
     let included_around = |row: usize| {

@@ -54,7 +54,6 @@ pub(super) struct Level<const N: usize> {
 pub(super) struct Coarse<D> {
     pub(super) matrix: SymmetricBlocks<f64, 6>,
     pub(super) diagonals: Vec<Block>,
-    pub(super) graph: Graph,
     pub(super) division: D,
     /// Rigid motions of the body as motions of the aggregates.
     pub(super) motions: Vec<Block>,
@@ -62,13 +61,10 @@ pub(super) struct Coarse<D> {
 
 impl<const N: usize> Level<N> {
     /// Level of `scale` times a matrix, and the data of the next level.
-    #[expect(clippy::too_many_arguments, reason = "a matrix, its graph and properties of its rows")]
     pub(super) fn new<D: Division>(
         matrix: &SymmetricBlocks<f64, N>,
         diagonals: &[[[f64; N]; N]],
         scale: f64,
-        graph: &Graph,
-        order: &[u32],
         included: &[bool],
         motions: &[[[f64; 6]; N]],
         division: &mut D,
@@ -89,7 +85,7 @@ impl<const N: usize> Level<N> {
         };
         level.take(matrix, diagonals, scale, included, FIRST_POWERS, division);
 
-        let (aggregates, count) = aggregate(graph, order, included, owned);
+        let (aggregates, count) = aggregate(matrix.pattern(), included, owned);
         let mut numbers = Numbers::new(division.first(count), count);
         let (mut tentative, motions) = orthonormal(&aggregates, count, motions)?;
         extend(&mut tentative, &mut numbers, division);
@@ -131,8 +127,8 @@ impl<const N: usize> Level<N> {
             columns.filter(|&(row, column)| column as usize != row)
         };
         let graph = Graph::of_upper(upper.len(), || (0..upper.len()).flat_map(above))?;
-        let order: Vec<u32> = (0..graph.rows() as u32).collect();
-        let pattern = Arc::new(Pattern::new(&graph, &order)?);
+        let order = (0..graph.rows() as u32).collect();
+        let pattern = Arc::new(Pattern::new(graph, order)?);
         let mut coarse = SymmetricBlocks::new(pattern.clone())?;
         for (row, column, block) in pattern.stored() {
             if let Some((_, entries)) = upper.row(row).find(|&(other, _)| other == column) {
@@ -141,7 +137,7 @@ impl<const N: usize> Level<N> {
         }
         let mut division = division.coarse(count, numbers.others())?;
         let diagonals = regular_diagonals(&mut coarse, &mut division);
-        Ok((level, Coarse { matrix: coarse, diagonals, graph, division, motions }))
+        Ok((level, Coarse { matrix: coarse, diagonals, division, motions }))
     }
 
     /// Replaces the matrix by `scale` times a matrix of the same pattern, and computes an upper bound of the

@@ -50,9 +50,8 @@ fn solve(stiffness: &NodalStiffness, multigrid: &Levels, is_free: &[bool], toler
 }
 
 fn set_up(stiffness: &NodalStiffness, is_free: &[bool], positions: &[[f64; 3]]) -> Levels {
-    let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
-    let diagonals = diagonals(matrix, &mut Undivided);
-    Multigrid::new(matrix, &diagonals, graph, order, is_free, positions, &mut Undivided)
+    let diagonals = diagonals(stiffness.matrix(), &mut Undivided);
+    Multigrid::new(stiffness.matrix(), &diagonals, is_free, positions, &mut Undivided)
         .expect("a matrix of finite entries")
 }
 

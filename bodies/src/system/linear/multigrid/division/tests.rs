@@ -236,9 +236,9 @@ fn residuals(part: &Part, number: &[usize], board: &Arc<Board>, machine: usize) 
     let is_free: Vec<bool> = mesh.positions.iter().map(|x| x[1] > 1e-9).collect();
     let copies = nodes[*owned..].iter().map(|&node| number[node] as u64).collect();
     let mut rows = Machine::new(board, machine, *owned, copies);
-    let (matrix, graph, order) = (stiffness.matrix(), stiffness.graph(), stiffness.order());
+    let matrix = stiffness.matrix();
     let diagonals = diagonals(matrix, &mut rows);
-    let multigrid = Multigrid::new(matrix, &diagonals, graph, order, &is_free, &mesh.positions, &mut rows);
+    let multigrid = Multigrid::new(matrix, &diagonals, &is_free, &mesh.positions, &mut rows);
     let mut multigrid = multigrid.expect("a matrix");
     assert!(multigrid.levels().0.len() > 1);
     let b: Vec<[f64; 3]> = (0..*owned)
