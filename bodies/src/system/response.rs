@@ -130,28 +130,6 @@ impl ElasticResponse {
         Ok(self.sum(energies, body, gradient))
     }
 
-    /// Makes the energies evaluated last the base of [`ElasticResponse::difference`].
-    pub fn set_base(&mut self) {
-        self.elastic.set_base();
-    }
-
-    /// Energy evaluated last minus the energy of the base, J: a sum of differences of elements, which keeps
-    /// digits that a difference of sums loses.
-    #[must_use]
-    pub fn difference(&self) -> f64 {
-        self.elastic.difference()
-    }
-
-    /// Bound for the rounding error of [`ElasticResponse::difference`], J, of the body for which this memory
-    /// was made.
-    ///
-    /// # Errors
-    /// [`LengthError`] for another body.
-    pub fn difference_noise(&self, body: &Body) -> Result<f64, LengthError> {
-        self.check(body, "nodes", self.nodes)?;
-        Ok(self.elastic.difference_noise(body))
-    }
-
     /// Sums the gradients of all elements. Returns the survey of the energies or, if these are clean, of the
     /// derivatives.
     fn sum(&self, energies: Evaluated, body: &Body, gradient: &mut [[f64; 3]]) -> Survey {

@@ -51,7 +51,6 @@ fn bodies() {
         let mut response = ElasticResponse::new(&body);
         let _ = response.energy(&body, &positions);
         let _ = response.gradient_here(&body, &mut product);
-        let _ = response.difference_noise(&body);
         if let Ok(mut stiffness) = NodalStiffness::of_body(&body) {
             let _ = response.stiffness_here(&body, Filter::Clamp, &mut product, &mut stiffness);
             let _ = stiffness.multiply(&positions, &mut product);
