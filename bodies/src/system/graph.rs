@@ -5,8 +5,7 @@ use super::lists::Lists;
 use super::memory::reserved;
 
 /// The neighbours of each row, without itself.
-#[derive(Clone, Debug)]
-pub(crate) struct Graph(Lists<u32>);
+pub(crate) type Graph = Lists<u32>;
 
 impl Graph {
     /// Nodes that share a tetrahedron or are one of the pairs, each list ascending.
@@ -34,7 +33,7 @@ impl Graph {
             neighbours.extend_from_slice(&list);
             starts.push(neighbours.len());
         }
-        Ok(Self(Lists { starts, values: neighbours }))
+        Ok(Self { starts, values: neighbours })
     }
 
     /// The graph of a matrix of which the rows and columns above the diagonal are given.
@@ -43,15 +42,7 @@ impl Graph {
         above: impl Fn() -> I,
     ) -> Result<Self, LinearError> {
         let both = |(row, column): (usize, u32)| [(row, column), (column as usize, row as u32)];
-        Ok(Self(Lists::new(rows, || above().flat_map(both))?))
-    }
-
-    pub(crate) fn rows(&self) -> usize {
-        self.0.len()
-    }
-
-    pub(crate) fn neighbours(&self, row: usize) -> &[u32] {
-        self.0.of(row)
+        Self::new(rows, || above().flat_map(both))
     }
 }
 
@@ -63,16 +54,16 @@ mod tests {
     fn nodes_of_an_element_are_neighbours() {
         let tets = [[0, 1, 2, 3], [3, 2, 1, 5]];
         let graph = Graph::of_tets(6, tets.into_iter(), &[[5, 0]]).expect("small");
-        assert_eq!(graph.rows(), 6);
-        assert_eq!(graph.neighbours(0), [1, 2, 3, 5]);
-        assert_eq!(graph.neighbours(2), [0, 1, 3, 5]);
-        assert!(graph.neighbours(4).is_empty());
+        assert_eq!(graph.len(), 6);
+        assert_eq!(graph.of(0), [1, 2, 3, 5]);
+        assert_eq!(graph.of(2), [0, 1, 3, 5]);
+        assert!(graph.of(4).is_empty());
     }
 
     #[test]
     fn the_upper_half_says_all() {
         let graph = Graph::of_upper(3, || [(0, 2), (0, 1)].into_iter()).expect("small");
-        assert_eq!(graph.neighbours(0), [2, 1]);
-        assert_eq!((graph.neighbours(1), graph.neighbours(2)), (&[0][..], &[0][..]));
+        assert_eq!(graph.of(0), [2, 1]);
+        assert_eq!((graph.of(1), graph.of(2)), (&[0][..], &[0][..]));
     }
 }

@@ -43,7 +43,7 @@ impl LowerTriangle {
     pub fn new(stiffness: &NodalStiffness, pins: &Pins) -> Result<Self, LinearError> {
         let pattern = stiffness.matrix().pattern();
         let graph = &pattern.graph;
-        let nodes = graph.rows();
+        let nodes = graph.len();
         if let Some(&node) = pins.nodes().iter().find(|&&node| node >= nodes) {
             return Err(LinearError::NoSuchNode(NoSuchNode { element: None, node, nodes }));
         }
@@ -62,7 +62,7 @@ impl LowerTriangle {
         for (column, &node) in free_nodes.iter().enumerate() {
             of_column.clear();
             of_column.push((column, pattern.diagonal(node), false));
-            for &other in graph.neighbours(node) {
+            for &other in graph.of(node) {
                 let row = free_of_node[other as usize].filter(|&row| row > column);
                 let block = row.and_then(|row| Some((row, pattern.block(other as usize, node)?)));
                 of_column.extend(block.map(|(row, (block, is_transposed))| (row, block, is_transposed)));

@@ -85,7 +85,7 @@ impl Chunk {
 impl Pattern {
     /// Pattern of a graph, with rows divided into chunks in this order.
     pub(crate) fn new(graph: Graph, order: Vec<u32>) -> Result<Self, LinearError> {
-        let rows = graph.rows();
+        let rows = graph.len();
         let mut rank = filled(rows, 0_u32)?;
         for (at, &row) in order.iter().enumerate() {
             rank[row as usize] = at as u32;
@@ -105,7 +105,7 @@ impl Pattern {
                 chunk.columns.push(place as u32);
                 later.clear();
                 let is_later = |&other: &u32| rank[other as usize] > rank[row as usize];
-                later.extend(graph.neighbours(row as usize).iter().copied().filter(is_later));
+                later.extend(graph.of(row as usize).iter().copied().filter(is_later));
                 later.sort_unstable_by_key(|&other| rank[other as usize]);
                 for &other in &later {
                     let place = &mut place_here[other as usize];

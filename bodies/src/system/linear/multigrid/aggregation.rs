@@ -11,10 +11,10 @@ use crate::system::linear::symmetric_blocks::Pattern;
 /// the first `owned` rows can belong to one; a row with no neighbour among them is an aggregate by itself.
 pub(super) fn aggregate(pattern: &Pattern, included: &[bool], owned: usize) -> (Vec<Option<usize>>, usize) {
     let Pattern { graph, order, .. } = pattern;
-    let mut of_row = vec![None; graph.rows()];
+    let mut of_row = vec![None; graph.len()];
     let mut count = 0;
     let included_around = |row: usize| {
-        let all = graph.neighbours(row).iter().map(|&other| other as usize);
+        let all = graph.of(row).iter().map(|&other| other as usize);
         all.filter(|&other| included[other])
     };
     let neighbours = |row: usize| included_around(row).filter(|&other| other < owned);

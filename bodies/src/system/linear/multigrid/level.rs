@@ -127,7 +127,7 @@ impl<const N: usize> Level<N> {
             columns.filter(|&(row, column)| column as usize != row)
         };
         let graph = Graph::of_upper(upper.len(), || (0..upper.len()).flat_map(above))?;
-        let order = (0..graph.rows() as u32).collect();
+        let order = (0..graph.len() as u32).collect();
         let pattern = Arc::new(Pattern::new(graph, order)?);
         let mut coarse = SymmetricBlocks::new(pattern.clone())?;
         for (row, column, block) in pattern.stored() {
