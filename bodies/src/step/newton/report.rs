@@ -4,7 +4,7 @@ use super::NewtonSettings;
 use crate::step::error::NewtonError;
 
 /// Reason why Newton's method stopped, in order from the best.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Convergence {
     /// The gradient, or the remaining distance, fell below the tolerance.
@@ -12,11 +12,12 @@ pub enum Convergence {
     /// All further gain is below the rounding error of the objective.
     Rounding,
     /// The limit of iterations was reached, as always in the mode of one iteration.
+    #[default]
     Limit,
 }
 
 /// Report of a minimisation, or of all minimisations in a step of several stages.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct NewtonReport {
@@ -53,20 +54,8 @@ pub struct NewtonReport {
 
 impl NewtonReport {
     pub(crate) fn before(settings: &NewtonSettings) -> Self {
-        Self {
-            convergence: Convergence::Limit,
-            iterations: 0,
-            first_residual: f64::NAN,
-            residual: f64::NAN,
-            change: 0.0,
-            step_lengths: Vec::with_capacity(settings.max_iterations.min(8)),
-            refused_trials: 0,
-            filtered: 0,
-            bounded: 0,
-            shift: 0.0,
-            linear_iterations: 0,
-            truncated: 0,
-        }
+        let step_lengths = Vec::with_capacity(settings.max_iterations.min(8));
+        Self { first_residual: f64::NAN, residual: f64::NAN, step_lengths, ..Self::default() }
     }
 
     /// Merges this report with those of earlier minimisations of the step.
