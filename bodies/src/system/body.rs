@@ -10,7 +10,7 @@ use piola::batch::element::TILE;
 use thiserror::Error;
 
 use super::element::Tetrahedron;
-use crate::mesh::{MeshError, TetMesh, no_such_group};
+use crate::mesh::{TetMesh, no_such_group};
 
 /// Material and density of a part of a mesh.
 pub struct Part {
@@ -69,7 +69,7 @@ impl Body {
     /// Any [`BodyError`]: of the mesh, a density, a material with parameters for each point, or a group; or
     /// an error for a tetrahedron that belongs to no part or to two.
     pub fn from_parts(mesh: &TetMesh, parts: Vec<Part>) -> Result<Self, BodyError> {
-        let shapes = mesh.rest_shapes()?;
+        let shapes = mesh.rest_shapes().map_err(|error| BodyError(error.to_string()))?;
         let part_of_tet = assign(mesh, &parts)?;
 
         let mut densities = vec![0.0; shapes.len()];
@@ -190,9 +190,3 @@ fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{0}")]
 pub struct BodyError(String);
-
-impl From<MeshError> for BodyError {
-    fn from(error: MeshError) -> Self {
-        Self(error.to_string())
-    }
-}
