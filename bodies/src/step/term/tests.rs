@@ -10,7 +10,7 @@ use crate::mesh::{Anchor, TetMesh};
 use crate::step::testing::{distance, falling, simulation, solved_by, solvers};
 use crate::step::{LinearSolver, NewtonError, NewtonSettings, Simulation, StepError};
 use crate::system::Pins;
-use crate::system::testing::{beam, neo_hookean};
+use crate::system::testing::{beam, neo_hookean, shake};
 
 /// A repulsion −k log(|xa − xb| − d) of two nodes, which must not come nearer than d.
 struct Barrier {
@@ -61,10 +61,6 @@ impl Term for Barrier {
     }
 }
 
-fn random_positions(random: &mut Random, nodes: usize) -> Vec<[f64; 3]> {
-    (0..nodes).map(|_| [0; 3].map(|_| random.uniform(-1.0, 1.0))).collect()
-}
-
 /// Springs of random anchors, one of which names a node twice.
 fn springs(random: &mut Random) -> Vec<Spring> {
     let mut spring = |nodes: [usize; 4]| Spring {
@@ -81,7 +77,7 @@ fn springs(random: &mut Random) -> Vec<Spring> {
 fn derivatives_of_springs_are_those_of_their_energy() {
     let mut random = Random::new(7);
     let springs = springs(&mut random);
-    let (x, y) = (random_positions(&mut random, 5), random_positions(&mut random, 5));
+    let [x, y] = [(); 2].map(|()| shake(&mut random, &[[0.0; 3]; 5], 1.0));
     let d: Vec<[f64; 3]> = (0..5).map(|n| std::array::from_fn(|c| y[n][c] - x[n][c])).collect();
     let mut slopes = [vec![[0.0; 3]; 5], vec![[0.0; 3]; 5]];
     springs.add_gradient(&x, &mut slopes[0]);
