@@ -44,7 +44,7 @@ pub use term::{EnergyChange, NodeBlocks, Term};
 #[doc(hidden)]
 pub mod divided {
     pub use super::objective::Objective;
-    pub use super::solver::{Definiteness, Machine, OneMachine, Preconditioner, Solution, System};
+    pub use super::solver::{Machine, OneMachine, Preconditioner, Solution, System};
     pub use crate::system::linear::conjugate_gradients::{End, Iteration};
     pub use crate::system::linear::multigrid::{Division, LastLevel, LastSolver, Undivided};
 }

@@ -9,7 +9,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use piola_bodies::step::divided::{Definiteness, End, Iteration, Machine, Preconditioner, Solution, System};
+use piola_bodies::step::divided::{End, Iteration, Machine, Preconditioner, Solution, System};
 use piola_bodies::step::{NewtonError, StepError};
 use piola_bodies::system::{Body, LinearError, NodalStiffness};
 
@@ -172,13 +172,13 @@ impl LinearSystem {
     }
 
     /// Solves for the displacement, m, of the owned nodes that balances a gradient, N, with multiples of the
-    /// regularisation added to an indefinite matrix, unless definiteness is required.
+    /// regularisation added to an indefinite matrix, unless it must be definite.
     fn find_direction(
         &mut self,
         system: System<'_>,
         direction: &mut [[f64; 3]],
     ) -> Result<Option<Solution>, Error> {
-        let System { objective, x, gradient, definiteness, .. } = system;
+        let System { objective, x, gradient, must_be_definite, .. } = system;
         objective.add_second_derivatives(&mut self.matrix_free.borrow_mut().stiffness);
         let tolerance = system.tolerance.min(self.tolerance);
         let mut solution = Solution::default();
@@ -198,8 +198,7 @@ impl LinearSystem {
                 }
                 Form::Assembled(assembled) => {
                     assembled.assemble(&matrix_free.borrow().stiffness, x)?;
-                    let may_fall_back = definiteness == Definiteness::Optional;
-                    assembled.solve(tolerance, most, may_fall_back, solve)?
+                    assembled.solve(tolerance, most, !must_be_definite, solve)?
                 }
             };
             direction.fill([0.0; 3]);
@@ -219,7 +218,7 @@ impl LinearSystem {
                 solution.truncated = end == End::Limit;
                 return Ok(Some(solution));
             }
-            if definiteness == Definiteness::Required {
+            if must_be_definite {
                 return Ok(None);
             }
             // Conjugate gradients that end at negative curvature return a direction of descent.

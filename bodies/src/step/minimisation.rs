@@ -18,7 +18,7 @@ use super::error::NewtonError;
 use super::line_search::Line;
 use super::newton::NewtonReport;
 use super::objective::{Objective, product};
-use super::solver::{Definiteness, Machine, System};
+use super::solver::{Machine, System};
 use super::term::EnergyChange;
 
 #[derive(Clone)]
@@ -99,7 +99,7 @@ impl<M: Machine> Line for Minimisation<'_, M> {
             }
         }
         let terms = objective.terms.change(x, trial);
-        let terms = terms.filter(|_| objective.evaluate(trial).survey.is_clean());
+        let terms = terms.filter(|_| objective.elastic.evaluate(objective.body, trial).survey.is_clean());
         let elastic = &objective.elastic;
         // One message of all numbers.
         let own = terms.map_or([1.0, 0.0, 0.0, 0.0, 0.0], |terms| {
@@ -168,15 +168,15 @@ impl<M: Machine> Minimisation<'_, M> {
     }
 
     /// Solves K d = −g. The relative tolerance takes effect if it is tighter than the solver's own.
-    /// Returns false if K is indefinite and [`Definiteness::Required`].
+    /// Returns false if K must be definite and is not.
     pub(super) fn solve(
         &mut self,
         tolerance: f64,
-        definiteness: Definiteness,
+        must_be_definite: bool,
         report: &mut NewtonReport,
     ) -> Result<bool, NewtonError> {
         let NewtonWorkspace { machine, gradient, direction, .. } = &mut *self.workspace;
-        let system = System { objective: &self.objective, x: self.x, gradient, tolerance, definiteness };
+        let system = System { objective: &self.objective, x: self.x, gradient, tolerance, must_be_definite };
         let solved = machine.solve(system, direction)?;
         machine.nodes_mut().copy(direction);
         let Some(solution) = solved else { return Ok(false) };
@@ -191,7 +191,7 @@ impl<M: Machine> Minimisation<'_, M> {
         for (x, d) in self.x.as_flattened_mut().iter_mut().zip(self.pins_move.as_flattened()) {
             *x += d;
         }
-        self.survey = self.objective.evaluate(self.x);
+        self.survey = self.objective.elastic.evaluate(self.objective.body, self.x);
         let nodes = self.workspace.machine.nodes();
         if let Some((element, _)) = inadmissible(nodes, &self.survey, self.objective.body) {
             return Err(NewtonError::PinsMoveTooFar { element });
@@ -230,7 +230,7 @@ impl<M: Machine> Minimisation<'_, M> {
 
     /// Evaluates the energies at x again; returns the rounding error of their differences there, J.
     pub(super) fn reject(&mut self) -> f64 {
-        self.survey = self.objective.evaluate(self.x);
+        self.survey = self.objective.elastic.evaluate(self.objective.body, self.x);
         self.workspace.machine.nodes().total(self.objective.noise(self.x))
     }
 

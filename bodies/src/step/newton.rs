@@ -7,7 +7,7 @@ use piola::point::Filter;
 use super::error::NewtonError;
 use super::line_search::{Outcome, backtrack};
 use super::minimisation::Minimisation;
-use super::solver::{Definiteness, Machine};
+use super::solver::Machine;
 
 mod report;
 mod settings;
@@ -129,18 +129,18 @@ impl<M: Machine> Newton<'_, '_, M> {
     /// that of the state before they move, when elements next to them are not yet distorted; the line search
     /// starts after the move.
     fn find_direction(&mut self, pins_move: bool, tolerance: f64) -> Result<bool, NewtonError> {
-        let (filter, definiteness) = match self.settings.filtering {
-            Filtering::Always(filter) => (filter, Definiteness::Optional),
-            Filtering::OnDemand => (Filter::None, Definiteness::Required),
+        let (filter, must_be_definite) = match self.settings.filtering {
+            Filtering::Always(filter) => (filter, false),
+            Filtering::OnDemand => (Filter::None, true),
         };
         let Self { minimisation, settings, report, .. } = self;
         let residual = minimisation.linearise(filter, pins_move, report)?;
         if !pins_move && report.iterations == 0 && report.note_residual(residual, settings)? {
             return Ok(false);
         }
-        if !minimisation.solve(tolerance, definiteness, report)? {
+        if !minimisation.solve(tolerance, must_be_definite, report)? {
             minimisation.linearise(Filter::Clamp, pins_move, report)?;
-            minimisation.solve(tolerance, Definiteness::Optional, report)?;
+            minimisation.solve(tolerance, false, report)?;
         }
         report.iterations += 1;
         Ok(true)

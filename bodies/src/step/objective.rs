@@ -20,7 +20,6 @@ use std::sync::Arc;
 use piola::NoSuchNode;
 
 use crate::system::assemble::Elastic;
-use crate::system::element::Evaluated;
 use crate::system::{Body, NodalStiffness};
 
 use super::integrator::Stage;
@@ -91,11 +90,6 @@ pub struct Objective<'a> {
 }
 
 impl Objective<'_> {
-    /// Evaluates the energies at `x`; gradients and second derivatives then refer to `x`.
-    pub(crate) fn evaluate(&mut self, x: &[[f64; 3]]) -> Evaluated {
-        self.elastic.evaluate(self.body, x)
-    }
-
     /// The gradient at `x`, after the elastic gradients or stiffnesses have been evaluated there.
     pub(crate) fn gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         self.quadratic_gradient(x, gradient);

@@ -10,7 +10,7 @@ mod one_machine;
 mod preconditioner;
 mod user_defined;
 
-pub use interface::{Definiteness, Machine, Solution, System};
+pub use interface::{Machine, Solution, System};
 pub(super) use one_machine::Choice;
 pub use one_machine::OneMachine;
 pub use preconditioner::Preconditioner;

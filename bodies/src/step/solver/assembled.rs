@@ -5,7 +5,7 @@ use crate::system::linear::LinearError;
 use crate::system::{LowerTriangle, NodalStiffness, Pins};
 
 use super::SparseSolver;
-use super::interface::{Definiteness, Solution, System};
+use super::interface::{Solution, System};
 
 /// The largest tolerance that a solver receives.
 const TOLERANCE: f64 = 1e-3;
@@ -54,7 +54,7 @@ impl Assembled {
         direction: &mut [[f64; 3]],
     ) -> Result<Option<Solution>, NewtonError> {
         let Self { matrix, held, unknowns, solver } = self;
-        let System { objective, gradient, tolerance, definiteness, .. } = system;
+        let System { objective, gradient, tolerance, must_be_definite, .. } = system;
         for (free, &node) in matrix.free_nodes().iter().enumerate() {
             let is_held = held.get(free) == Some(&true);
             let right = if is_held { [0.0; 3] } else { gradient[node].map(|g| -g) };
@@ -68,7 +68,7 @@ impl Assembled {
             matrix.hold(held);
             match solver.solve(matrix, unknowns, tolerance.min(TOLERANCE)) {
                 Ok(iterations) => break iterations,
-                Err(LinearError::NotPositive { .. }) if definiteness == Definiteness::Required => {
+                Err(LinearError::NotPositive { .. }) if must_be_definite => {
                     return Ok(None);
                 }
                 Err(LinearError::NotPositive { .. }) if shift < 1e12 => {

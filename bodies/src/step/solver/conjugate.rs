@@ -5,7 +5,7 @@ use crate::system::linear::conjugate_gradients::{ConjugateGradients, End};
 use crate::system::linear::multigrid::Undivided;
 use crate::system::{NodalStiffness, Pins};
 
-use super::interface::{Definiteness, Solution, System};
+use super::interface::{Solution, System};
 use super::preconditioner::Preconditioner;
 
 /// [`LinearSolver::ConjugateGradients`](super::LinearSolver::ConjugateGradients).
@@ -56,7 +56,7 @@ impl Conjugate {
         direction: &mut [[f64; 3]],
     ) -> Result<Option<Solution>, NewtonError> {
         let Self { pinned, is_free, preconditioner, conjugate_gradients, .. } = self;
-        let System { objective, x, gradient, definiteness, .. } = system;
+        let System { objective, x, gradient, must_be_definite, .. } = system;
         objective.add_second_derivatives(stiffness);
         let tolerance = system.tolerance.min(self.tolerance);
         let mut given_up = 0;
@@ -84,7 +84,7 @@ impl Conjugate {
                 continue;
             }
             let truncated = match iteration.end {
-                End::NegativeCurvature if definiteness == Definiteness::Required => return Ok(None),
+                End::NegativeCurvature if must_be_definite => return Ok(None),
                 End::Converged => false,
                 End::Limit | End::NegativeCurvature => true,
                 End::NotFinite => return Err(NewtonError::NotFinite),

@@ -7,15 +7,6 @@ use crate::system::linear::LinearError;
 use crate::system::linear::multigrid::Division;
 use crate::system::{Body, NodalStiffness};
 
-/// Requirement on the matrix of a linear system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Definiteness {
-    /// An indefinite matrix is left unsolved.
-    Required,
-    /// An indefinite matrix is made definite, or used until the indefiniteness shows.
-    Optional,
-}
-
 /// Linear system K d = −g of a Newton iteration, for a direction d that is zero at pinned nodes.
 #[derive(Clone, Copy)]
 pub struct System<'a> {
@@ -27,8 +18,9 @@ pub struct System<'a> {
     pub gradient: &'a [[f64; 3]],
     /// Relative tolerance, which takes effect if it is tighter than the solver's own.
     pub tolerance: f64,
-    /// Requirement on K.
-    pub definiteness: Definiteness,
+    /// True if an indefinite K is left unsolved; otherwise it is made definite, or used until the
+    /// indefiniteness shows.
+    pub must_be_definite: bool,
 }
 
 /// Outcome of a linear solve.
@@ -76,7 +68,7 @@ pub trait Machine {
     fn with_stiffness<T>(&mut self, work: impl FnOnce(&mut NodalStiffness) -> T) -> T;
 
     /// Solves for the direction, once after each linearisation; a machine finds the direction of the nodes
-    /// that it owns. Returns `None` if the matrix is indefinite and definiteness is required.
+    /// that it owns. Returns `None` if the matrix must be definite and is not.
     ///
     /// # Errors
     /// [`NewtonError::NotPositive`], [`NewtonError::NotFinite`] or [`NewtonError::Linear`], on all machines.
