@@ -4,7 +4,7 @@ use std::iter;
 
 use piola::__private::interpreter::{Program, Value};
 use piola::interpreter::Interpreted;
-use piola_codegen::algebra::expr::{Graph, Id, Node};
+use piola_codegen::algebra::expr::{Function, Graph, Id, Node};
 use piola_codegen::model::{self, ByParameters, Limit, Model};
 use piola_codegen::read::parse::Declaration;
 
@@ -184,8 +184,8 @@ impl Slopes {
 /// True if a derivative of a function occurs that functions do not provide.
 fn needs_third_derivative(graph: &Graph, expressions: &[Id]) -> bool {
     graph.reachable(expressions).into_iter().any(|id| match *graph.node(id) {
-        Node::Function(_, order, _) => order > 2,
-        Node::FunctionQuotient(_, order, ..) => order > 1,
+        Node::Apply(Function::Given(_, order), _) => order > 2,
+        Node::Quotient(Function::Given(_, order), ..) => order > 1,
         _ => false,
     })
 }

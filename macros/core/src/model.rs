@@ -283,7 +283,7 @@ fn bounds_at_rest(
     let conditions = declaration.options.admissible.iter().zip(constrained);
     let implied: Vec<_> =
         conditions.filter_map(|(condition, &id)| id.filter(|_| is_strict(condition))).collect();
-    let is_parameter = |node: &Node| matches!(node, Node::Parameter(_) | Node::Entry(_) | Node::Function(..));
+    let is_parameter = |node: &Node| matches!(node, Node::Parameter(_) | Node::Entry(_)) || node.is_call();
     let at_rest: Vec<_> = bounds.iter().map(|&bound| substitute_rest(graph, bound)).enumerate().collect();
     let is_decided = |value: Id| !implied.contains(&value) && graph.contains(value, is_parameter);
     at_rest.into_iter().filter(|&(_, value)| is_decided(value)).collect()

@@ -3,7 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::notation::plain_name;
 use crate::read::parse::Declaration;
@@ -202,28 +202,23 @@ impl<'a> Printer<'a> {
             Node::Linear { constant, terms } => self.linear(*constant, terms, context),
             Node::Product(factors) => self.product(factors, context),
             Node::Excess(_, written) | Node::Accurate(_, written) => self.print(*written, context),
-            Node::Ln(a) => self.function("ln", *a, context),
-            Node::Exp(a) => self.function("exp", *a, context),
-            Node::Elementary(function, a) => self.function(function.name(), *a, context),
-            Node::Function(k, order, a) if is_formula || *order == 0 => {
-                format!("{}({})", self.derivative(*k, *order), self.print(*a, Context::Sum))
+            Node::Apply(function @ Function::Given(_, order), a) if is_formula || *order == 0 => {
+                format!("{}({})", self.name(*function), self.print(*a, Context::Sum))
             }
-            Node::WholePower(base, n, order) if is_formula || *order == 0 => {
+            Node::Apply(Function::WholePower(n, order), base) if is_formula || *order == 0 => {
                 self.whole_power(*base, *n, *order, context)
+            }
+            Node::Apply(function @ (Function::Ln | Function::Exp | Function::Elementary(_)), a) => {
+                self.function(&self.name(*function), *a, context)
             }
             Node::Sum(_, body) if is_formula => {
                 parenthesise(format!("Σₚ {}", self.print(*body, Context::Product)), context == Context::Power)
             }
             Node::Sum(_, body) => format!("sum(|p| {})", self.print(*body, Context::Sum)),
             _ if !is_formula => "…".to_owned(),
-            Node::ElementaryQuotient(function, a, b) => self.quotient(function.name(), *a, *b),
-            Node::FunctionQuotient(k, order, a, b) => self.quotient(&self.derivative(*k, *order), *a, *b),
-            Node::LnQuotient(a, b) => self.quotient("ln", *a, *b),
-            Node::ExpQuotient(a, b) => self.quotient("exp", *a, *b),
-            Node::PowerQuotient(a, b, e) => self.quotient(&format!("pow{}", self.superscript(*e)), *a, *b),
-            Node::WholePowerQuotient(a, b, n, order) => {
-                let n = self.print(*n, Context::Sum);
-                self.quotient(&format!("pow^{n}{}", "′".repeat(usize::from(*order))), *a, *b)
+            Node::Quotient(function, a, b) => {
+                let (name, a) = (self.name(*function), self.print(*a, Context::Sum));
+                format!("{name}[{a}, {}]", self.print(*b, Context::Sum))
             }
             Node::PoleQuotient(a, b) => {
                 format!("{}/{}", self.print(*a, Context::Power), self.print(*b, Context::Power))
@@ -255,12 +250,16 @@ impl<'a> Printer<'a> {
         if self.notation == Notation::Formula { symbol(&plain_name(&name)) } else { name }
     }
 
-    fn derivative(&self, k: usize, order: u8) -> String {
-        format!("{}{}", self.parameter(k), "′".repeat(usize::from(order)))
-    }
-
-    fn quotient(&self, name: &str, a: Id, b: Id) -> String {
-        format!("{name}[{}, {}]", self.print(a, Context::Sum), self.print(b, Context::Sum))
+    fn name(&self, function: Function) -> String {
+        let primes = |order: u8| "′".repeat(usize::from(order));
+        match function {
+            Function::Ln => "ln".to_owned(),
+            Function::Exp => "exp".to_owned(),
+            Function::Elementary(function) => function.name().to_owned(),
+            Function::Power(exponent) => format!("pow{}", self.superscript(exponent)),
+            Function::WholePower(n, order) => format!("pow^{}{}", self.print(n, Context::Sum), primes(order)),
+            Function::Given(k, order) => self.parameter(k) + &primes(order),
+        }
     }
 
     fn function(&self, name: &str, argument: Id, context: Context) -> String {

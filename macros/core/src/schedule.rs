@@ -9,7 +9,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::algebra::expr::{Exponent, Graph, Id, Length, Node};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Length, Node};
 use crate::algebra::rational::Rational;
 pub use collect::Collector;
 use order::Order;
@@ -173,7 +173,7 @@ impl Scheduler<'_> {
             }
             Node::Excess(squares, _) => Op::AboveZero(self.value(squares)),
             Node::Accurate(value, _) => return self.value(value),
-            Node::Ln(a) => {
+            Node::Apply(Function::Ln, a) => {
                 // ln J, which is defined where J itself is out of range.
                 if let Node::Product(factors) = self.graph.node(a)
                     && let &[(a, Exponent::ONE), (b, Exponent::ONE), (c, Exponent::ONE)] = &factors[..]
@@ -184,17 +184,20 @@ impl Scheduler<'_> {
                     Op::Ln(self.value(a))
                 }
             }
-            Node::Exp(a) => Op::Exp(self.value(a)),
-            Node::Elementary(function, a) => Op::Elementary(function, self.value(a)),
-            Node::ElementaryQuotient(function, a, b) => {
+            Node::Apply(Function::Exp, a) => Op::Exp(self.value(a)),
+            Node::Apply(Function::Elementary(function), a) => Op::Elementary(function, self.value(a)),
+            Node::Apply(Function::Power(exponent), a) => return self.power(a, exponent),
+            Node::Apply(Function::WholePower(n, order), base) => {
+                Op::WholePower(self.value(base), self.value(n), order)
+            }
+            Node::Apply(Function::Given(k, order), a) => Op::Function(k, order, self.value(a)),
+            Node::Quotient(Function::Elementary(function), a, b) => {
                 Op::ElementaryQuotient(function, self.value(a), self.value(b))
             }
-            Node::Function(k, order, a) => Op::Function(k, order, self.value(a)),
-            Node::FunctionQuotient(k, order, a, b) => {
+            Node::Quotient(Function::Given(k, order), a, b) => {
                 Op::FunctionQuotient(k, order, self.value(a), self.value(b))
             }
-            Node::WholePower(base, n, order) => Op::WholePower(self.value(base), self.value(n), order),
-            Node::WholePowerQuotient(a, b, n, order) => {
+            Node::Quotient(Function::WholePower(n, order), a, b) => {
                 Op::WholePowerQuotient([a, b].map(|id| self.value(id)), self.value(n), order)
             }
             Node::Above(i) => Op::Max(self.push(Op::Stretch(i)), self.push(Op::Epsilon)),
@@ -210,13 +213,13 @@ impl Scheduler<'_> {
             Node::WhereNegative(condition, a, b) => {
                 Op::WhereNegative(self.value(condition), self.value(a), self.value(b))
             }
-            Node::LnQuotient(a, b) => Op::LnQuotient(self.pair(a, b)),
-            Node::ExpQuotient(a, b) => {
+            Node::Quotient(Function::Ln, a, b) => Op::LnQuotient(self.pair(a, b)),
+            Node::Quotient(Function::Exp, a, b) => {
                 let values = [a, b].map(|id| self.value(id));
                 let exponentials = values.map(|value| self.push(Op::Exp(value)));
                 Op::ExpQuotient { values, exponentials }
             }
-            Node::PowerQuotient(a, b, exponent) => {
+            Node::Quotient(Function::Power(exponent), a, b) => {
                 let pair = self.pair(a, b);
                 let powers = [a, b].map(|base| self.power(base, exponent));
                 Op::PowerQuotient { pair, powers, exponent: self.exponent(exponent) }

@@ -1,6 +1,6 @@
 //! Calls f(x) of functions that are parameters: an energy is defined where each f is at its x.
 
-use crate::algebra::expr::{Graph, Id, Node, ParameterIndex};
+use crate::algebra::expr::{Function, Graph, Id, Node, ParameterIndex};
 
 /// A call of a function that is a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +18,9 @@ pub fn calls(graph: &Graph, e: Id) -> Vec<Call> {
     let order = graph.reachable(&[e]);
     let lists = graph.lists(&order);
     let call = |id: Id| match *graph.node(id) {
-        Node::Function(function, 0, argument) => Some(Call { function, argument, list: lists[&id] }),
+        Node::Apply(Function::Given(function, 0), argument) => {
+            Some(Call { function, argument, list: lists[&id] })
+        }
         _ => None,
     };
     order.into_iter().filter_map(call).collect()

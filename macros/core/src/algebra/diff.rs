@@ -6,7 +6,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
+use crate::algebra::expr::{Exponent, Extended, Function, Graph, Id, Node, Stretch};
 use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
 
@@ -85,7 +85,7 @@ impl Differentiator {
                 graph.sum_of(&terms)
             }
             // (ln Π bᵢ^eᵢ)′ = Σ (ln bᵢ^eᵢ)′: a product may leave the range of numbers where its parts do not.
-            Node::Ln(a) => match graph.node(a).clone() {
+            Node::Apply(Function::Ln, a) => match graph.node(a).clone() {
                 Node::Product(factors) if factors.len() > 1 => {
                     let terms = factors.into_iter().map(|(base, exponent)| {
                         let factor = graph.power(base, exponent);
@@ -100,19 +100,19 @@ impl Differentiator {
                     graph.div(inner, a)
                 }
             },
-            Node::Exp(a) => self.chain_rule(graph, a, v, |_| e),
+            Node::Apply(Function::Exp, a) => self.chain_rule(graph, a, v, |_| e),
             Node::Excess(squares, _) => self.derivative(graph, squares, v),
             Node::Accurate(_, written) => self.derivative(graph, written, v),
-            Node::Elementary(function, a) => {
+            Node::Apply(Function::Elementary(function), a) => {
                 self.chain_rule(graph, a, v, |graph| function.derivative(graph, a))
             }
-            Node::Function(f, order, a) => {
+            Node::Apply(Function::Given(f, order), a) => {
                 let inner = self.derivative(graph, a, v);
-                let outer = graph.leaf(Node::Function(f, order + 1, a));
+                let outer = graph.apply(Function::Given(f, order + 1), a);
                 graph.mul(outer, inner)
             }
-            Node::WholePower(base, n, order) => {
-                self.chain_rule(graph, base, v, |graph| graph.whole_power(base, n, order + 1))
+            Node::Apply(Function::WholePower(n, order), base) => {
+                self.chain_rule(graph, base, v, |graph| graph.apply(Function::WholePower(n, order + 1), base))
             }
             // An entry in the body differs from one outside.
             Node::Sum(..) if matches!(graph.node(v), Node::Entry(_)) => graph.integer(0),
@@ -134,20 +134,16 @@ impl Differentiator {
             | Node::Entry(_)
             | Node::Float(_)
             | Node::Epsilon
-            // The nodes below only arise after differentiation, in quotients, increments and lowered
-            // extensions.
+            // Powers are factors of products. The nodes below only arise after differentiation, in quotients,
+            // increments and lowered extensions.
+            | Node::Apply(Function::Power(_), _)
             | Node::Strain(_)
             | Node::Above(_)
             | Node::Below(_)
             | Node::ShareAbove(..)
             | Node::ShareBelow(..)
             | Node::WhereNegative(..)
-            | Node::LnQuotient(..)
-            | Node::ExpQuotient(..)
-            | Node::ElementaryQuotient(..)
-            | Node::FunctionQuotient(..)
-            | Node::WholePowerQuotient(..)
-            | Node::PowerQuotient(..)
+            | Node::Quotient(..)
             | Node::PoleQuotient(..) => graph.integer(0),
         }
     }
@@ -190,8 +186,8 @@ fn may_vanish(graph: &Graph, base: Id) -> bool {
     match graph.node(base) {
         Node::Product(factors) => factors.iter().any(|&(factor, _)| may_vanish(graph, factor)),
         Node::Linear { terms, .. } => !terms.is_empty(),
-        Node::Stretch(_) | Node::Parameter(_) | Node::Entry(_) | Node::Float(_) | Node::Exp(_) => false,
-        Node::Excess(..) => false,
+        Node::Stretch(_) | Node::Parameter(_) | Node::Entry(_) | Node::Float(_) => false,
+        Node::Apply(Function::Exp, _) | Node::Excess(..) => false,
         _ => true,
     }
 }

@@ -6,7 +6,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::expr::{Graph, Id, Node};
+use crate::algebra::expr::{Function, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
 /// The exponent of Pa; `None` if it depends on a parameter without a unit.
@@ -52,17 +52,14 @@ impl<'a> Dimensions<'a> {
     fn rule(&mut self, graph: &Graph, id: Id) -> Result<Dimension, Clash> {
         match graph.node(id) {
             Node::Parameter(k) | Node::Entry(k) => Ok(self.units[*k].map(Rational::integer)),
-            Node::Function(k, _, argument) => {
-                self.without(graph, *argument)?;
-                Ok(self.units[*k].map(Rational::integer))
-            }
             Node::Excess(_, body) | Node::Accurate(_, body) | Node::Sum(_, body) => self.of(graph, *body),
-            Node::Ln(argument) | Node::Exp(argument) | Node::Elementary(_, argument) => {
-                self.without(graph, *argument)
-            }
-            Node::WholePower(base, exponent, _) => {
-                self.without(graph, *exponent)?;
-                self.without(graph, *base)
+            Node::Apply(function, argument) => {
+                if let Function::WholePower(exponent, _) = function {
+                    self.without(graph, *exponent)?;
+                }
+                let number = self.without(graph, *argument)?;
+                let Function::Given(k, _) = function else { return Ok(number) };
+                Ok(self.units[*k].map(Rational::integer))
             }
             // Zero, of any dimension.
             Node::Linear { constant, terms } if terms.is_empty() && constant.is_zero() => Ok(None),

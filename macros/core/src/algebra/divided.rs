@@ -1,20 +1,30 @@
-//! Divided differences φ[a, b] = (φ(a) − φ(b))/(a − b) of powers, without cancellation.
+//! Divided differences φ[a, b] = (φ(a) − φ(b))/(a − b) without cancellation.
 //!
 //! Divided differences of whole powers and of simple fractions are sums and products of powers; that of a
-//! real power is a node of its own, as are those of ln and exp, for which the runtime has kernels.
+//! real power is a node of its own, as are those of other functions, for which the runtime has kernels.
 
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Elementary, Exponent, Function, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
 /// The largest q for which x^(p/q) is computed as the p-th power of a q-th root. The rounding error of the
 /// root enters the power p-fold, so that for larger p a real power is more accurate.
 pub const LARGEST_ROOT: i128 = 6;
 
+/// The divided difference φ\[a, b\].
+pub fn quotient(graph: &mut Graph, function: Function, a: Id, b: Id) -> Id {
+    let function = match function {
+        Function::Power(exponent) => return power_quotient(graph, a, b, exponent),
+        Function::Elementary(Elementary::ExpM1) => Function::Exp,
+        function => function,
+    };
+    graph.leaf(Node::Quotient(function, a, b))
+}
+
 /// The divided difference (a^r − b^r)/(a − b).
-pub fn power_quotient(graph: &mut Graph, a: Id, b: Id, exponent: Exponent) -> Id {
+fn power_quotient(graph: &mut Graph, a: Id, b: Id, exponent: Exponent) -> Id {
     let Exponent { real, rational } = exponent;
     if real.is_some() || rational.denominator() > LARGEST_ROOT {
-        return graph.leaf(Node::PowerQuotient(a, b, exponent));
+        return graph.leaf(Node::Quotient(Function::Power(exponent), a, b));
     }
     match rational.as_integer() {
         Some(0) => graph.integer(0),
@@ -40,7 +50,7 @@ pub fn power_quotient(graph: &mut Graph, a: Id, b: Id, exponent: Exponent) -> Id
             let (Some(p), Some(q), Some(root)) =
                 (part(rational.numerator()), part(rational.denominator()), root)
             else {
-                return graph.leaf(Node::PowerQuotient(a, b, exponent));
+                return graph.leaf(Node::Quotient(Function::Power(exponent), a, b));
             };
             let (s, t) = (graph.power(a, root), graph.power(b, root));
             let (numerator, denominator) = (power_quotient(graph, s, t, p), power_quotient(graph, s, t, q));

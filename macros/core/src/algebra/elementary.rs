@@ -1,4 +1,4 @@
-//! Derivatives and divided differences of elementary functions besides ln, exp and powers.
+//! Derivatives of elementary functions besides ln, exp and powers.
 //!
 //! | φ | φ′ |
 //! |---|---|
@@ -60,14 +60,6 @@ impl Elementary {
                 graph.powi(sum, -1)
             }
         }
-    }
-
-    /// The divided difference φ\[a, b\].
-    pub fn quotient(self, graph: &mut Graph, a: Id, b: Id) -> Id {
-        graph.leaf(match self {
-            Self::ExpM1 => Node::ExpQuotient(a, b),
-            _ => Node::ElementaryQuotient(self, a, b),
-        })
     }
 }
 

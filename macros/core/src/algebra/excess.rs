@@ -38,7 +38,7 @@
 use rustc_hash::FxHashMap;
 
 use crate::algebra::expand::expand_products;
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node};
 use crate::algebra::increment::substitute_rest;
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::rewrite;
@@ -103,46 +103,42 @@ impl Invariants {
 
     /// An expression with the bases of its real powers replaced.
     fn rewritten(&self, graph: &mut Graph, e: Id) -> Id {
-        rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| self.powers(graph, id))
+        rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| {
+            self.powers(graph, id, Self::squares, Self::rewritten)
+        })
     }
 
-    /// A product with the bases of its real powers replaced.
-    fn powers(&self, graph: &mut Graph, id: Id) -> Option<Id> {
-        let Node::Product(factors) = graph.node(id).clone() else { return None };
+    /// A product with the bases of its real powers replaced, and other bases rewritten.
+    fn powers(
+        &self,
+        graph: &mut Graph,
+        id: Id,
+        replaced: fn(&Self, &mut Graph, Id) -> Option<Id>,
+        rewritten: fn(&Self, &mut Graph, Id) -> Id,
+    ) -> Option<Id> {
+        let Node::Product(mut factors) = graph.node(id).clone() else { return None };
         let is_real = |exponent: Exponent| exponent.as_integer().is_none();
         if !factors.iter().any(|&(_, exponent)| is_real(exponent)) {
             return None;
         }
-        let mut replaced = Vec::with_capacity(factors.len());
-        for (base, exponent) in factors {
-            let squares = if is_real(exponent) { self.squares(graph, base) } else { None };
-            replaced.push((squares.unwrap_or_else(|| self.rewritten(graph, base)), exponent));
+        for (base, exponent) in &mut factors {
+            let new = if is_real(*exponent) { replaced(self, graph, *base) } else { None };
+            *base = new.unwrap_or_else(|| rewritten(self, graph, *base));
         }
-        Some(graph.product(&replaced))
+        Some(graph.product(&factors))
     }
 
     /// An expression with the sums in its arguments replaced.
     fn rewritten_sums(&self, graph: &mut Graph, e: Id) -> Id {
         rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| match graph.node(id).clone() {
-            Node::Product(factors) => {
-                let is_real = |exponent: Exponent| exponent.as_integer().is_none();
-                if !factors.iter().any(|&(_, exponent)| is_real(exponent)) {
-                    return None;
-                }
-                let mut replaced = Vec::with_capacity(factors.len());
-                for (base, exponent) in factors {
-                    let sum = if is_real(exponent) { self.sum(graph, base) } else { None };
-                    replaced.push((sum.unwrap_or_else(|| self.rewritten_sums(graph, base)), exponent));
-                }
-                Some(graph.product(&replaced))
-            }
-            Node::Ln(a) => self.sum(graph, a).map(|a| graph.ln(a)),
-            Node::Exp(a) => self.sum(graph, a).map(|a| graph.exp(a)),
-            Node::Elementary(function, a) => self.sum(graph, a).map(|a| graph.elementary(function, a)),
-            Node::Function(k, order, a) => {
+            Node::Product(_) => self.powers(graph, id, Self::sum, Self::rewritten_sums),
+            Node::Apply(function @ Function::Given(..), a) => {
                 let (others, squares) = self.split(graph, a)?;
                 let sum = if graph.is_zero(others) { squares } else { accurate(graph, a, others, squares) };
-                Some(graph.leaf(Node::Function(k, order, sum)))
+                Some(graph.apply(function, sum))
+            }
+            Node::Apply(function @ (Function::Ln | Function::Exp | Function::Elementary(_)), a) => {
+                self.sum(graph, a).map(|a| graph.apply(function, a))
             }
             // What is a sum of squares already.
             Node::Excess(..) => Some(id),
@@ -347,10 +343,10 @@ mod tests {
         near.stretches = [1.0 + 1e-9, 1.0, 1.0 - 1e-9];
         for sum in [plain, mixed, over] {
             let (power, ln, exp) = (real(&mut g, sum), g.ln(sum), g.exp(sum));
-            for written in [power, ln, exp, g.leaf(Node::Function(0, 0, sum))] {
+            for written in [power, ln, exp, g.apply(Function::Given(0, 0), sum)] {
                 let rewritten = with_squares_in_sums(&mut g, written);
                 assert!(has_squares(&g, rewritten) && !matches!(g.node(rewritten), Node::Accurate(..)));
-                if matches!(g.node(written), Node::Function(..)) {
+                if g.node(written).is_call() {
                     continue;
                 }
                 let [found, expected] = [rewritten, written].map(|id| evaluate(&g, id, &point).value);
@@ -384,7 +380,7 @@ mod tests {
         let exp = g.exp(plain);
         assert_eq!(with_squares_in_sums(&mut g, exp), exp);
         for sum in [limited, left, with_stretch] {
-            for written in [real(&mut g, sum), g.ln(sum), g.leaf(Node::Function(0, 0, sum))] {
+            for written in [real(&mut g, sum), g.ln(sum), g.apply(Function::Given(0, 0), sum)] {
                 assert_eq!(with_squares_in_sums(&mut g, written), written);
             }
         }

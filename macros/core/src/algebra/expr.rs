@@ -60,17 +60,8 @@ pub enum Node {
     /// An expression in a form that keeps its digits, for its value, and as it is written, for its
     /// derivatives and for readers.
     Accurate(Id, Id),
-    /// Natural logarithm.
-    Ln(Id),
-    /// Exponential function.
-    Exp(Id),
-    /// An elementary function of its own kernel.
-    Elementary(Elementary, Id),
-    /// Derivative of the given order, 0 … 2, of a function that is a parameter.
-    Function(ParameterIndex, u8, Id),
-    /// Derivative by x of the given order k of xⁿ, n (n − 1) … (n − k + 1) xⁿ⁻ᵏ, zero for k > n. The base x,
-    /// and the exponent n, a parameter or an entry that is a whole number and not negative.
-    WholePower(Id, Id, u8),
+    /// The value φ(a) of a function; powers are factors of a `Product`.
+    Apply(Function, Id),
     /// Σ over the entries of lists of the given length.
     Sum(Length, Id),
     /// Derivative of the given order of a function of one stretch, continued below ε by its quadratic Taylor
@@ -88,24 +79,39 @@ pub enum Node {
     ShareBelow(Stretch, Stretch),
     /// The second operand if the first is negative, else the third.
     WhereNegative(Id, Id, Id),
-    /// (ln a − ln b) / (a − b).
-    LnQuotient(Id, Id),
-    /// (eᵃ − eᵇ) / (a − b).
-    ExpQuotient(Id, Id),
-    /// Divided difference of an elementary function.
-    ElementaryQuotient(Elementary, Id, Id),
-    /// Divided difference of the derivative of the given order of a function that is a parameter.
-    FunctionQuotient(ParameterIndex, u8, Id, Id),
-    /// Divided difference of a [`Node::WholePower`] between two bases; exponent and order.
-    WholePowerQuotient(Id, Id, Id, u8),
-    /// (a^r − b^r) / (a − b) for a real exponent.
-    PowerQuotient(Id, Id, Exponent),
+    /// The divided difference (φ(a) − φ(b)) / (a − b) of a function.
+    Quotient(Function, Id, Id),
     /// a / max(b, floor), for b that may vanish, which gives the quotient a pole.
     PoleQuotient(Id, Id),
 }
 
+impl Node {
+    /// True if it is the value of a function that is a parameter, or of its derivative.
+    pub(crate) fn is_call(&self) -> bool {
+        matches!(self, Self::Apply(Function::Given(..), _))
+    }
+}
+
 /// The length of the lists that a sum runs over: an index into the lengths of the declaration.
 pub type Length = usize;
+
+/// A function of one argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Function {
+    /// Natural logarithm.
+    Ln,
+    /// Exponential function.
+    Exp,
+    /// An elementary function of its own kernel.
+    Elementary(Elementary),
+    /// x^r.
+    Power(Exponent),
+    /// Derivative of the given order k of xⁿ, n (n − 1) … (n − k + 1) xⁿ⁻ᵏ, zero for k > n. The exponent n is
+    /// a parameter or an entry that is a whole number and not negative.
+    WholePower(Id, u8),
+    /// Derivative of the given order, 0 … 2, of a function that is a parameter.
+    Given(ParameterIndex, u8),
+}
 
 /// A function that can be extended below ε.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -179,12 +185,7 @@ impl Graph {
     /// The id of a node other than a sum or a product, which need a normal form. The two arguments of a
     /// quotient are put in order.
     pub fn leaf(&mut self, mut node: Node) -> Id {
-        if let Node::LnQuotient(a, b)
-        | Node::ExpQuotient(a, b)
-        | Node::ElementaryQuotient(_, a, b)
-        | Node::FunctionQuotient(.., a, b)
-        | Node::WholePowerQuotient(a, b, ..)
-        | Node::PowerQuotient(a, b, _) = &mut node
+        if let Node::Quotient(_, a, b) = &mut node
             && b < a
         {
             std::mem::swap(a, b);
@@ -236,6 +237,18 @@ impl Graph {
         self.as_constant(id).is_some_and(Rational::is_zero)
     }
 
+    /// The value φ(a) of a function.
+    pub fn apply(&mut self, function: Function, a: Id) -> Id {
+        match function {
+            Function::Ln => self.ln(a),
+            Function::Exp => self.exp(a),
+            Function::Elementary(function) => self.elementary(function, a),
+            Function::Power(exponent) => self.power(a, exponent),
+            Function::WholePower(_, 0) if self.as_constant(a) == Some(Rational::ONE) => a,
+            Function::WholePower(..) | Function::Given(..) => self.leaf(Node::Apply(function, a)),
+        }
+    }
+
     /// The logarithm ln a.
     ///
     /// ln(1 + eˣ) is the softplus function of x, which is finite where eˣ overflows.
@@ -245,16 +258,16 @@ impl Graph {
         }
         if let Node::Linear { constant: Rational::ONE, terms } = self.node(a)
             && let [(term, Rational::ONE)] = terms[..]
-            && let Node::Exp(x) = *self.node(term)
+            && let Node::Apply(Function::Exp, x) = *self.node(term)
         {
             return self.elementary(Elementary::Softplus, x);
         }
-        self.leaf(Node::Ln(a))
+        self.leaf(Node::Apply(Function::Ln, a))
     }
 
     /// The exponential eᵃ.
     pub fn exp(&mut self, a: Id) -> Id {
-        if self.is_zero(a) { self.integer(1) } else { self.leaf(Node::Exp(a)) }
+        if self.is_zero(a) { self.integer(1) } else { self.leaf(Node::Apply(Function::Exp, a)) }
     }
 
     /// An expression that is zero at rest and positive elsewhere, as a sum of squares, and as it is written.
@@ -271,16 +284,8 @@ impl Graph {
     pub fn elementary(&mut self, function: Elementary, a: Id) -> Id {
         match function.at_zero().filter(|_| self.is_zero(a)) {
             Some(value) => self.integer(value),
-            None => self.leaf(Node::Elementary(function, a)),
+            None => self.leaf(Node::Apply(Function::Elementary(function), a)),
         }
-    }
-
-    /// The derivative of the given order of x^n for a whole n that is a parameter or an entry.
-    pub fn whole_power(&mut self, base: Id, exponent: Id, order: u8) -> Id {
-        if order == 0 && self.as_constant(base) == Some(Rational::ONE) {
-            return base;
-        }
-        self.leaf(Node::WholePower(base, exponent, order))
     }
 
     /// A sum over lists of the given length.

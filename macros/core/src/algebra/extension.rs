@@ -15,8 +15,8 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::divided::power_quotient;
-use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
+use crate::algebra::divided::quotient;
+use crate::algebra::expr::{Exponent, Extended, Function, Graph, Id, Node, Stretch};
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::{Purpose, rewrite, separate};
 
@@ -36,7 +36,7 @@ pub fn lower(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
 
 fn extend_node(graph: &mut Graph, id: Id) -> Option<Id> {
     match graph.node(id).clone() {
-        Node::Ln(a) => match *graph.node(a) {
+        Node::Apply(Function::Ln, a) => match *graph.node(a) {
             Node::Stretch(i) => Some(graph.leaf(Node::Extended(Extended::Ln, 0, i))),
             _ => None,
         },
@@ -72,32 +72,25 @@ fn polynomial(graph: &mut Graph, function: Extended, order: u8, i: Stretch) -> I
 
 /// The value of φ, φ′, φ″ … at any argument.
 pub fn derivative(graph: &mut Graph, function: Extended, order: u8, at: Id) -> Id {
-    rule(graph, function, order, |graph| graph.ln(at), |graph, exponent| graph.power(at, exponent))
+    rule(graph, function, order, |graph, function| graph.apply(function, at))
 }
 
 /// Divided difference of φ, φ′ or φ″ between a and b.
 pub fn derivative_quotient(graph: &mut Graph, function: Extended, order: u8, a: Id, b: Id) -> Id {
-    let ln = |graph: &mut Graph| graph.leaf(Node::LnQuotient(a, b));
-    rule(graph, function, order, ln, |graph, exponent| power_quotient(graph, a, b, exponent))
+    rule(graph, function, order, |graph, function| quotient(graph, function, a, b))
 }
 
-/// A derivative of φ, or its divided difference, from those of ln x and x^r.
-fn rule(
-    graph: &mut Graph,
-    function: Extended,
-    order: u8,
-    ln: impl FnOnce(&mut Graph) -> Id,
-    power: impl FnOnce(&mut Graph, Exponent) -> Id,
-) -> Id {
+/// A derivative of φ, or its divided difference, from the value or the divided difference of ln x and x^r.
+fn rule(graph: &mut Graph, function: Extended, order: u8, of: impl FnOnce(&mut Graph, Function) -> Id) -> Id {
     let (exponent, order) = match function {
-        Extended::Ln if order == 0 => return ln(graph),
+        Extended::Ln if order == 0 => return of(graph, Function::Ln),
         // ln′ x = x⁻¹
         Extended::Ln => (Exponent::integer(-1), order - 1),
         Extended::Power(exponent) => (exponent, order),
     };
     let coefficient = falling(graph, exponent, order);
     let lowered = graph.add_exponents(exponent, Exponent::integer(-i64::from(order)));
-    let power = power(graph, lowered);
+    let power = of(graph, Function::Power(lowered));
     graph.mul(coefficient, power)
 }
 

@@ -20,8 +20,8 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::divided::power_quotient;
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::divided;
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
 /// Differences from rest, each computed once.
@@ -61,19 +61,10 @@ impl Increments {
             }
             Node::Accurate(value, _) => self.increment(graph, value),
             Node::Product(factors) => self.product_rule(graph, &factors),
-            Node::Ln(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::LnQuotient(a, b))),
-            Node::Exp(a) => self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::ExpQuotient(a, b))),
-            Node::Elementary(function, a) => {
-                self.chain_rule(graph, a, |graph, a, b| function.quotient(graph, a, b))
-            }
-            Node::Function(f, order, a) => {
-                self.chain_rule(graph, a, |graph, a, b| graph.leaf(Node::FunctionQuotient(f, order, a, b)))
-            }
-            Node::WholePower(base, n, order) => {
-                let accurate = self.accurate(graph, base);
-                self.chain_rule(graph, base, |graph, _, b| {
-                    graph.leaf(Node::WholePowerQuotient(accurate, b, n, order))
-                })
+            Node::Apply(function, a) => {
+                let is_whole_power = matches!(function, Function::WholePower(..));
+                let accurate = if is_whole_power { self.accurate(graph, a) } else { a };
+                self.chain_rule(graph, function, a, accurate)
             }
             Node::Parameter(_) | Node::Entry(_) | Node::Float(_) => graph.integer(0),
             // No other nodes arise from differentiation inside the domain; NaN would be noticed.
@@ -93,15 +84,14 @@ impl Increments {
         }
         match *factors {
             [] => graph.integer(0),
-            [(base, exponent)] => {
-                self.chain_rule(graph, base, |graph, a, b| power_quotient(graph, a, b, exponent))
-            }
+            [(base, exponent)] => self.chain_rule(graph, Function::Power(exponent), base, base),
             [(base, exponent), ref others @ ..] => {
                 let (f, g) = (graph.power(base, exponent), graph.product(others));
                 let (df, dg) = (self.increment(graph, f), self.increment(graph, g));
                 let f_at_rest = substitute_rest(graph, f);
                 // Only its exponent decides whether a whole power vanishes at rest.
-                let has_whole_powers = graph.contains(g, |node| matches!(node, Node::WholePower(..)));
+                let is_whole_power = |node: &Node| matches!(node, Node::Apply(Function::WholePower(..), _));
+                let has_whole_powers = graph.contains(g, is_whole_power);
                 let g = if has_whole_powers { self.accurate(graph, g) } else { g };
                 let (left, right) = (graph.mul(df, g), graph.mul(f_at_rest, dg));
                 graph.add(left, right)
@@ -122,13 +112,14 @@ impl Increments {
         result
     }
 
-    fn chain_rule(&mut self, graph: &mut Graph, a: Id, outer: impl FnOnce(&mut Graph, Id, Id) -> Id) -> Id {
+    /// φ\[a, a₁\] Δa, with an accurate form of a in the divided difference.
+    fn chain_rule(&mut self, graph: &mut Graph, function: Function, a: Id, accurate: Id) -> Id {
         let inner = self.increment(graph, a);
         if graph.is_zero(inner) {
             return inner;
         }
         let b = substitute_rest(graph, a);
-        let outer = outer(graph, a, b);
+        let outer = divided::quotient(graph, function, accurate, b);
         graph.mul(outer, inner)
     }
 }

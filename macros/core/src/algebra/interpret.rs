@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node};
+use crate::algebra::expr::{Exponent, Extended, Function, Graph, Id, Node};
 
 /// A point: values of everything that an expression may name.
 #[derive(Clone, Debug, Default)]
@@ -107,47 +107,8 @@ impl Interpreter<'_> {
             }
             Node::Excess(squares, _) => exact(self.value(*squares).value.max(0.0)),
             Node::Accurate(value, _) => self.value(*value),
-            Node::Ln(a) => {
-                let Estimate { value, magnitude } = self.value(*a);
-                Estimate { value: value.ln(), magnitude: value.ln().abs() + (magnitude / value).abs() }
-            }
-            Node::Exp(a) => {
-                let Estimate { value, magnitude } = self.value(*a);
-                Estimate { value: value.exp(), magnitude: value.exp() * (1.0 + magnitude) }
-            }
-            Node::Elementary(function, a) => {
-                let Estimate { value, magnitude } = self.value(*a);
-                let (found, slope) = (function.value(value), function.slope(value));
-                Estimate { value: found, magnitude: found.abs() + (slope * magnitude).abs() }
-            }
-            Node::ElementaryQuotient(function, a, b) => {
-                self.quotient(*a, *b, |a, b| function.quotient_value(a, b))
-            }
-            Node::Function(k, order, a) => {
-                let Estimate { value, magnitude } = self.value(*a);
-                Estimate { value: stand_in(*k, *order, value), magnitude: 4.0 * (1.0 + magnitude) }
-            }
-            Node::FunctionQuotient(k, order, a, b) => {
-                self.quotient(*a, *b, |a, b| stand_in_quotient(*k, *order, a, b))
-            }
-            Node::WholePower(base, n, order) => {
-                let Estimate { value, magnitude } = self.value(*base);
-                let n = self.value(*n).value;
-                let factor = falling(n, *order);
-                let power = (n - f64::from(*order)).max(0.0) as i32;
-                Estimate { value: factor * value.powi(power), magnitude: factor * magnitude.powi(power) }
-            }
-            Node::WholePowerQuotient(a, b, n, order) => {
-                let (a, b, n) = (self.value(*a), self.value(*b), self.value(*n).value);
-                let terms = (n - f64::from(*order)).max(0.0) as i32;
-                let sum =
-                    |a: f64, b: f64| -> f64 { (0..terms).map(|k| a.powi(terms - 1 - k) * b.powi(k)).sum() };
-                let factor = falling(n, *order);
-                Estimate {
-                    value: factor * sum(a.value, b.value),
-                    magnitude: factor * sum(a.magnitude, b.magnitude),
-                }
-            }
+            Node::Apply(function, a) => self.apply(*function, *a),
+            Node::Quotient(function, a, b) => self.quotient(*function, *a, *b),
             Node::Sum(length, body) => {
                 let mut sum = exact(0.0);
                 let (graph, point, entries) = (self.graph, self.point, &mut self.memo.entries);
@@ -185,12 +146,6 @@ impl Interpreter<'_> {
                 let is_negative = self.value(*condition).value < 0.0;
                 self.value(if is_negative { *a } else { *b })
             }
-            Node::LnQuotient(a, b) => self.quotient(*a, *b, ln_quotient),
-            Node::ExpQuotient(a, b) => self.quotient(*a, *b, exp_quotient),
-            Node::PowerQuotient(a, b, exponent) => {
-                let r = self.exponent(*exponent);
-                self.quotient(*a, *b, |a, b| power_quotient(a, b, r))
-            }
             Node::PoleQuotient(a, b) => {
                 let Estimate { value, magnitude } = self.value(*a);
                 let denominator = self.value(*b).value;
@@ -199,9 +154,51 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A divided difference without rounding errors of its arguments.
-    fn quotient(&mut self, a: Id, b: Id, of: impl FnOnce(f64, f64) -> f64) -> Estimate {
-        let value = of(self.value(a).value, self.value(b).value);
+    fn apply(&mut self, function: Function, a: Id) -> Estimate {
+        let Estimate { value, magnitude } = self.value(a);
+        match function {
+            Function::Ln => {
+                Estimate { value: value.ln(), magnitude: value.ln().abs() + (magnitude / value).abs() }
+            }
+            Function::Exp => Estimate { value: value.exp(), magnitude: value.exp() * (1.0 + magnitude) },
+            Function::Elementary(function) => {
+                let (found, slope) = (function.value(value), function.slope(value));
+                Estimate { value: found, magnitude: found.abs() + (slope * magnitude).abs() }
+            }
+            Function::Power(exponent) => self.power(a, exponent),
+            Function::WholePower(n, order) => {
+                let n = self.value(n).value;
+                let factor = falling(n, order);
+                let power = (n - f64::from(order)).max(0.0) as i32;
+                Estimate { value: factor * value.powi(power), magnitude: factor * magnitude.powi(power) }
+            }
+            Function::Given(k, order) => {
+                Estimate { value: stand_in(k, order, value), magnitude: 4.0 * (1.0 + magnitude) }
+            }
+        }
+    }
+
+    /// A divided difference, except for those of whole powers without rounding errors of its arguments.
+    fn quotient(&mut self, function: Function, a: Id, b: Id) -> Estimate {
+        let (a, b) = (self.value(a), self.value(b));
+        let value = match function {
+            Function::Ln => ln_quotient(a.value, b.value),
+            Function::Exp => exp_quotient(a.value, b.value),
+            Function::Elementary(function) => function.quotient_value(a.value, b.value),
+            Function::Power(exponent) => power_quotient(a.value, b.value, self.exponent(exponent)),
+            Function::WholePower(n, order) => {
+                let n = self.value(n).value;
+                let terms = (n - f64::from(order)).max(0.0) as i32;
+                let sum =
+                    |a: f64, b: f64| -> f64 { (0..terms).map(|k| a.powi(terms - 1 - k) * b.powi(k)).sum() };
+                let factor = falling(n, order);
+                return Estimate {
+                    value: factor * sum(a.value, b.value),
+                    magnitude: factor * sum(a.magnitude, b.magnitude),
+                };
+            }
+            Function::Given(k, order) => stand_in_quotient(k, order, a.value, b.value),
+        };
         Estimate { value, magnitude: value.abs() }
     }
 

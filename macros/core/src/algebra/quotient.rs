@@ -23,8 +23,8 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::divided::power_quotient;
-use crate::algebra::expr::{Exponent, Extended, Graph, Id, Node, Stretch};
+use crate::algebra::divided;
+use crate::algebra::expr::{Exponent, Extended, Function, Graph, Id, Node, Stretch};
 use crate::algebra::extension;
 use crate::algebra::interpret::{Estimate, Memo, Point, evaluate_with};
 use crate::algebra::rational::Rational;
@@ -144,21 +144,7 @@ impl<'a> Quotients<'a> {
             Node::Excess(squares, _) => self.quotient(graph, squares, reflection),
             Node::Accurate(_, written) => self.quotient(graph, written, reflection),
             Node::Product(factors) => self.product_rule(graph, &factors, reflection),
-            Node::Ln(a) => {
-                self.chain_rule(graph, a, reflection, |graph, a, b| graph.leaf(Node::LnQuotient(a, b)))
-            }
-            Node::Exp(a) => {
-                self.chain_rule(graph, a, reflection, |graph, a, b| graph.leaf(Node::ExpQuotient(a, b)))
-            }
-            Node::Elementary(function, a) => {
-                self.chain_rule(graph, a, reflection, |graph, a, b| function.quotient(graph, a, b))
-            }
-            Node::Function(f, order, a) => self.chain_rule(graph, a, reflection, |graph, a, b| {
-                graph.leaf(Node::FunctionQuotient(f, order, a, b))
-            }),
-            Node::WholePower(base, n, order) => self.chain_rule(graph, base, reflection, |graph, a, b| {
-                graph.leaf(Node::WholePowerQuotient(a, b, n, order))
-            }),
+            Node::Apply(function, a) => self.chain_rule(graph, function, a, reflection),
             Node::Extended(function, order, k) => {
                 let Reflection::Flip(i, j) = reflection else { return undefined(graph) };
                 let quotient = extended_quotient(graph, function, order, i, j);
@@ -168,16 +154,10 @@ impl<'a> Quotients<'a> {
         }
     }
 
-    fn chain_rule(
-        &mut self,
-        graph: &mut Graph,
-        a: Id,
-        reflection: Reflection,
-        outer: impl FnOnce(&mut Graph, Id, Id) -> Id,
-    ) -> Id {
+    fn chain_rule(&mut self, graph: &mut Graph, function: Function, a: Id, reflection: Reflection) -> Id {
         let inner = self.quotient(graph, a, reflection);
         let b = reflect(graph, a, reflection);
-        let outer = outer(graph, a, b);
+        let outer = divided::quotient(graph, function, a, b);
         graph.mul(outer, inner)
     }
 
@@ -185,7 +165,7 @@ impl<'a> Quotients<'a> {
         let (symmetric, rest) = take_out_symmetric(graph, factors, reflection);
         let quotient = match rest[..] {
             [] => graph.integer(0),
-            [(base, exponent)] => self.power_rule(graph, base, exponent, reflection),
+            [(base, exponent)] => self.chain_rule(graph, Function::Power(exponent), base, reflection),
             [(base, exponent), ref others @ ..] => match take_out_slope_pair(graph, &rest, reflection) {
                 Some(SlopePair { pair, quotient, others }) => {
                     let g = graph.product(&others);
@@ -235,10 +215,6 @@ impl<'a> Quotients<'a> {
         factors.retain(|factor| factor.is_finite());
         factors.sort_by(f64::total_cmp);
         factors.get(factors.len() / 2).copied().unwrap_or(1.0)
-    }
-
-    fn power_rule(&mut self, graph: &mut Graph, base: Id, exponent: Exponent, reflection: Reflection) -> Id {
-        self.chain_rule(graph, base, reflection, |graph, a, b| power_quotient(graph, a, b, exponent))
     }
 
     /// Splits into a part that is odd under (λi, λj) → (−λi, −λj) and a rest that is not. With `positive`,

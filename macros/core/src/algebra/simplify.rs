@@ -20,7 +20,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::expr::{Elementary, Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Elementary, Exponent, Function, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
 /// The expression with the rules applied everywhere.
@@ -155,7 +155,7 @@ fn cancel_parameter(graph: &mut Graph, e: Id) -> Option<Id> {
 fn join_hyperbolic(graph: &mut Graph, e: Id) -> Option<Id> {
     let Node::Product(factors) = graph.node(e).clone() else { return None };
     for &(cosh, exponent) in &factors {
-        let Node::Elementary(Elementary::Cosh, a) = *graph.node(cosh) else { continue };
+        let Node::Apply(Function::Elementary(Elementary::Cosh), a) = *graph.node(cosh) else { continue };
         let sinh = graph.elementary(Elementary::Sinh, a);
         let Some(n) = exponent.as_integer() else { continue };
         if !factors.contains(&(sinh, Exponent::integer(-n))) {

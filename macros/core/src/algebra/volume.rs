@@ -27,7 +27,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::expr::{Exponent, Graph, Id, Node, Stretch};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node, Stretch};
 use crate::algebra::rational::Rational;
 
 /// The use of a separated expression.
@@ -43,7 +43,7 @@ pub enum Purpose {
 /// The expression with real powers and logarithms of products of stretches separated.
 pub fn separate(graph: &mut Graph, e: Id, purpose: Purpose) -> Id {
     rewrite(graph, e, &mut FxHashMap::default(), &|graph, id| match graph.node(id).clone() {
-        Node::Ln(a) => match monomial(graph, a) {
+        Node::Apply(Function::Ln, a) => match monomial(graph, a) {
             Some(factors) => logarithm(graph, &factors, purpose),
             // Such as that of an isochoric stretch, whose continued powers may be negative.
             None if purpose == Purpose::Extension => {

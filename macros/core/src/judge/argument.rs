@@ -1,6 +1,6 @@
 //! Arguments that must not vanish: denominators, and those of logarithms, roots and real powers.
 
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node};
 
 /// An expression that must not be zero for another one to have a value.
 #[derive(Clone, Copy)]
@@ -16,7 +16,7 @@ impl Argument {
         let mut found = Vec::new();
         for id in graph.reachable(&[id]) {
             match graph.node(id) {
-                Node::Ln(of) => found.push(Self { of: *of, exponent: None }),
+                Node::Apply(Function::Ln, of) => found.push(Self { of: *of, exponent: None }),
                 Node::Product(factors) => found.extend(
                     factors
                         .iter()

@@ -9,7 +9,7 @@ use super::finding::Findings;
 use super::samples::{CANDIDATES, POSITIVE, candidates, is_negative, is_zero};
 use super::source::{Source, at_rest};
 use super::volume::has_value;
-use crate::algebra::expr::{Elementary, Graph, Id, Node};
+use crate::algebra::expr::{Elementary, Function, Graph, Id, Node};
 use crate::algebra::interpret::{Estimate, Memo, Point, evaluate, evaluate_with};
 use crate::printer::rust;
 use crate::read::resolve::isochoric;
@@ -132,8 +132,8 @@ pub(crate) fn conditions(graph: &mut Graph, source: &Source<'_>, arguments: &[Va
         let zero = format!("{side} 0.0");
         // Beyond their first zero, these are positive again.
         let (of, limit) = match *graph.node(of) {
-            Node::Elementary(Elementary::Sin, a) if side == '>' => (a, "< PI"),
-            Node::Elementary(Elementary::Cos, a) if side == '>' => (a, "< PI / 2.0"),
+            Node::Apply(Function::Elementary(Elementary::Sin), a) if side == '>' => (a, "< PI"),
+            Node::Apply(Function::Elementary(Elementary::Cos), a) if side == '>' => (a, "< PI / 2.0"),
             _ => (of, &*zero),
         };
         Some(format!("{} {limit}", rust(graph, source.declaration, of)))
@@ -172,14 +172,14 @@ pub(crate) fn vanishing(graph: &mut Graph, source: &Source<'_>) -> Vec<Vanishing
 /// An argument of an energy that vanishes inside a domain.
 fn vanishing_in(graph: &Graph, bounds: &[Id], energy: Id, draws: &[Point]) -> Option<Id> {
     // The values of functions are not known here.
-    if bounds.iter().any(|&bound| graph.contains(bound, |node| matches!(node, Node::Function(..)))) {
+    if bounds.iter().any(|&bound| graph.contains(bound, Node::is_call)) {
         return None;
     }
     let arguments = Argument::all(graph, energy);
     let found = arguments.into_iter().find(|argument| {
         // No condition of a domain is on each entry of a list.
         !is_positive(graph, argument.of)
-            && !graph.contains(argument.of, |node| matches!(node, Node::Entry(_) | Node::Function(..)))
+            && !graph.contains(argument.of, |node| matches!(node, Node::Entry(_)) || node.is_call())
             && draws.iter().any(|point| changes_sign(graph, bounds, argument.of, point))
     });
     found.map(|argument| argument.of)
@@ -195,8 +195,8 @@ fn draws(graph: &Graph, source: &Source<'_>) -> Vec<Point> {
 /// True if the form of an expression shows that it is positive for positive stretches.
 fn is_positive(graph: &Graph, id: Id) -> bool {
     match graph.node(id) {
-        Node::Stretch(_) | Node::Exp(_) => true,
-        Node::Elementary(function, _) => function.is_positive(),
+        Node::Stretch(_) | Node::Apply(Function::Exp, _) => true,
+        Node::Apply(Function::Elementary(function), _) => function.is_positive(),
         Node::Linear { constant, terms } => {
             !constant.is_negative()
                 && terms.iter().all(|&(term, c)| !c.is_negative() && is_positive(graph, term))

@@ -106,7 +106,7 @@ fn known(graph: &mut Graph, source: &Source<'_>, part: Id) -> Vec<Id> {
     let mut has_function = FxHashSet::default();
     for &id in &order {
         let of_operands = graph.children(id).iter().any(|child| has_function.contains(child));
-        if of_operands || matches!(graph.node(id), Node::Function(..)) {
+        if of_operands || graph.node(id).is_call() {
             has_function.insert(id);
         }
     }

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node};
 
 /// The degree for t → 0 and for t → ∞.
 pub(super) type Degree = [f64; 2];
@@ -39,18 +39,18 @@ impl Degrees {
                 .map(|&(base, exponent)| power(self.of(graph, base), exponent))
                 .fold([0.0; 2], sum),
             Node::Sum(_, body) => self.of(graph, *body),
-            Node::LnQuotient(a, _) => power(self.of(graph, *a), Exponent::integer(-1)),
-            Node::PowerQuotient(a, _, exponent) => {
+            Node::Quotient(Function::Ln, a, _) => power(self.of(graph, *a), Exponent::integer(-1)),
+            Node::Quotient(Function::Power(exponent), a, _) => {
                 let degree = self.of(graph, *a);
                 sum(power(degree, *exponent), power(degree, Exponent::integer(-1)))
             }
             Node::PoleQuotient(a, b) => {
                 sum(self.of(graph, *a), power(self.of(graph, *b), Exponent::integer(-1)))
             }
-            Node::WholePower(base, _, order) => {
+            Node::Apply(Function::WholePower(_, order), base) => {
                 power(self.of(graph, *base), Exponent::integer(-i64::from(*order)))
             }
-            Node::WholePowerQuotient(base, _, _, order) => {
+            Node::Quotient(Function::WholePower(_, order), base, _) => {
                 power(self.of(graph, *base), Exponent::integer(-1 - i64::from(*order)))
             }
             // max(λ, ε) and powers of it.

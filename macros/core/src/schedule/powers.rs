@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use crate::algebra::divided::LARGEST_ROOT;
-use crate::algebra::expr::{Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node};
 use crate::algebra::rational::{Rational, gcd};
 
 /// The powers of each base that are needed, from which the computed one is chosen.
@@ -52,7 +52,7 @@ impl Powers {
                         }
                     }
                 }
-                Node::PowerQuotient(a, b, exponent) => {
+                Node::Quotient(Function::Power(exponent), a, b) => {
                     [*a, *b].into_iter().for_each(|base| read(base, *exponent, true));
                 }
                 _ => {}

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Extended, Graph, Id, Node, ParameterIndex};
+use super::{Extended, Function, Graph, Id, Node, ParameterIndex};
 
 impl Node {
     /// The ids of the direct subexpressions, those of exponents included.
@@ -12,21 +12,24 @@ impl Node {
             Self::Product(factors) => {
                 factors.iter_mut().flat_map(|(base, e)| [Some(base), e.real.as_mut()]).flatten().collect()
             }
-            Self::Ln(a) | Self::Exp(a) | Self::Elementary(_, a) | Self::Function(.., a) | Self::Sum(_, a) => {
-                vec![a]
-            }
-            Self::Excess(a, b)
-            | Self::Accurate(a, b)
-            | Self::LnQuotient(a, b)
-            | Self::ExpQuotient(a, b)
-            | Self::ElementaryQuotient(_, a, b)
-            | Self::FunctionQuotient(.., a, b)
-            | Self::WholePower(a, b, _)
-            | Self::PoleQuotient(a, b) => vec![a, b],
-            Self::WhereNegative(a, b, c) | Self::WholePowerQuotient(a, b, c, _) => vec![a, b, c],
-            Self::PowerQuotient(a, b, e) => [a, b].into_iter().chain(&mut e.real).collect(),
+            Self::Sum(_, a) => vec![a],
+            Self::Excess(a, b) | Self::Accurate(a, b) | Self::PoleQuotient(a, b) => vec![a, b],
+            Self::WhereNegative(a, b, c) => vec![a, b, c],
+            Self::Apply(function, a) => [a].into_iter().chain(function.exponent_mut()).collect(),
+            Self::Quotient(function, a, b) => [a, b].into_iter().chain(function.exponent_mut()).collect(),
             Self::Extended(Extended::Power(e), ..) => e.real.as_mut().into_iter().collect(),
             _ => Vec::new(),
+        }
+    }
+}
+
+impl Function {
+    /// The expression that is its exponent, or that of its real part.
+    fn exponent_mut(&mut self) -> Option<&mut Id> {
+        match self {
+            Self::Power(exponent) => exponent.real.as_mut(),
+            Self::WholePower(n, _) => Some(n),
+            _ => None,
         }
     }
 }
@@ -67,17 +70,14 @@ impl Graph {
                 factors.iter_mut().for_each(|(_, exponent)| *exponent = self.normal_exponent(*exponent));
                 self.product(&factors)
             }
-            Node::PowerQuotient(a, b, exponent) => {
+            Node::Quotient(Function::Power(exponent), a, b) => {
                 let exponent = self.normal_exponent(exponent);
-                self.leaf(Node::PowerQuotient(a, b, exponent))
+                self.leaf(Node::Quotient(Function::Power(exponent), a, b))
             }
-            Node::Ln(a) => self.ln(a),
-            Node::Exp(a) => self.exp(a),
+            Node::Apply(function, a) => self.apply(function, a),
             Node::Excess(a, b) => self.excess(a, b),
             Node::Accurate(a, b) => self.accurate(a, b),
-            Node::Elementary(function, a) => self.elementary(function, a),
             Node::Sum(length, body) => self.sum(length, body),
-            Node::WholePower(base, n, order) => self.whole_power(base, n, order),
             node => self.leaf(node),
         }
     }

@@ -5,7 +5,7 @@ use syn::{Expr, ExprCall, ExprMethodCall, Ident, UnOp};
 
 use super::tensors::{self, Tensor};
 use super::{Resolver, Scope, paper_notation};
-use crate::algebra::expr::{Elementary, Exponent, Id, Node};
+use crate::algebra::expr::{Elementary, Exponent, Function, Id, Node};
 use crate::algebra::rational::Rational;
 use crate::read::parse::{Kind, identifiers};
 use crate::read::spelling::{list, nearest};
@@ -163,7 +163,8 @@ impl Resolver<'_> {
 
     fn whole_power(&mut self, base: Id, argument: &Expr) -> Id {
         if let Some(exponent) = self.whole_exponent(argument) {
-            return if self.is_unknown(base) { base } else { self.graph.whole_power(base, exponent, 0) };
+            let function = Function::WholePower(exponent, 0);
+            return if self.is_unknown(base) { base } else { self.graph.apply(function, base) };
         }
         if let Some(message) = self.no_whole_exponent(argument) {
             self.excuse();
@@ -306,7 +307,7 @@ impl Resolver<'_> {
             return self.mistake(call, &format!("a function has one argument: write `{name}(l1)`"));
         };
         let argument = self.expression(argument);
-        self.graph.leaf(Node::Function(k, 0, argument))
+        self.graph.apply(Function::Given(k, 0), argument)
     }
 }
 
