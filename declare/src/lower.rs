@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use piola::__private::interpreter::{Loop, Operation, Program, Register, Sizes};
 use piola_codegen::read::parse::Declaration;
-use piola_codegen::schedule::{Op, Program as Ordered, Statement, Value};
+use piola_codegen::schedule::{Block, Op, Program as Ordered, Value};
 
 /// Maximum number of registers of one kind: a tile of them takes two mebibytes.
 const MOST_REGISTERS: usize = 4096;
@@ -42,9 +42,7 @@ pub(crate) fn lower_parts(declaration: &Declaration, parts: &[&Ordered]) -> Opti
     };
     lowering.inputs(&ordered);
     let mut time = 0;
-    for statement in &ordered.statements {
-        lowering.statement(statement, &mut time);
-    }
+    ordered.blocks.iter().for_each(|block| lowering.block(block, &mut time));
     let mut results: Vec<_> = ordered.outputs.iter().map(|&output| lowering.register(output)).collect();
     let bounds = results.split_off(parts[0].outputs.len());
     let stretches = STRETCHES.map(|stretch| lowering.register(stretch));
@@ -64,7 +62,7 @@ const STRETCHES: [Value; 3] = [Value(0), Value(1), Value(2)];
 
 /// The parts as one program, in which a stretch is one value.
 fn joined(parts: &[&Ordered]) -> Ordered {
-    let mut all = Ordered { statements: Vec::new(), outputs: Vec::new() };
+    let mut all = Ordered { blocks: Vec::new(), outputs: Vec::new() };
     for (part, &ordered) in parts.iter().enumerate() {
         let stretch = |(value, op): (Value, Op)| match op {
             Op::Stretch(i) => Some((value, STRETCHES[i])),
@@ -76,7 +74,7 @@ fn joined(parts: &[&Ordered]) -> Ordered {
             let other = Value(STRETCHES.len() + parts.len() * value.0 + part);
             stretches.get(&value).copied().unwrap_or(other)
         });
-        all.statements.append(&mut ordered.statements);
+        all.blocks.append(&mut ordered.blocks);
         all.outputs.append(&mut ordered.outputs);
     }
     all
@@ -87,24 +85,17 @@ fn joined(parts: &[&Ordered]) -> Ordered {
 fn lives(ordered: &Ordered) -> BTreeMap<Value, usize> {
     let mut last = BTreeMap::new();
     let mut time = 0;
-    for statement in &ordered.statements {
-        match statement {
-            Statement::Let(_, op) => {
-                time += 1;
-                last.extend(reads(op).map(|value| (value, time)));
-            }
-            Statement::Loop { body, totals, .. } => {
-                let inside: BTreeSet<_> = body.iter().map(|&(value, _)| value).collect();
-                let end = time + body.len() + 1;
-                for (_, op) in body {
-                    time += 1;
-                    let until = |value: Value| if inside.contains(&value) { time } else { end };
-                    last.extend(reads(op).map(|value| (value, until(value))));
-                }
-                time = end;
-                last.extend(totals.iter().flat_map(|&(total, term)| [(total, end), (term, end)]));
-            }
+    for Block { length, body, totals } in &ordered.blocks {
+        let is_loop = length.is_some();
+        let inside: BTreeSet<_> = body.iter().map(|&(value, _)| value).filter(|_| is_loop).collect();
+        let end = time + body.len() + usize::from(is_loop);
+        for (_, op) in body {
+            time += 1;
+            let until = |value: Value| if is_loop && !inside.contains(&value) { end } else { time };
+            last.extend(reads(op).map(|value| (value, until(value))));
         }
+        time = end;
+        last.extend(totals.iter().flat_map(|&(total, term)| [(total, end), (term, end)]));
     }
     last.extend(ordered.outputs.iter().map(|&output| (output, usize::MAX)));
     last
@@ -199,11 +190,8 @@ impl Lowering<'_> {
             };
             self.places.insert(value, place);
         };
-        for statement in &ordered.statements {
-            match statement {
-                Statement::Let(value, op) => input(*value, *op, false),
-                Statement::Loop { body, .. } => body.iter().for_each(|&(value, op)| input(value, op, true)),
-            }
+        for Block { length, body, .. } in &ordered.blocks {
+            body.iter().for_each(|&(value, op)| input(value, op, length.is_some()));
         }
     }
 
@@ -231,44 +219,45 @@ impl Lowering<'_> {
         }
     }
 
-    fn statement(&mut self, statement: &Statement, time: &mut usize) {
-        match statement {
-            Statement::Let(value, op) if self.constants.contains(value) => {
-                *time += 1;
-                let operation = self.operation(*value, op, *time);
-                self.preparations.extend(operation);
-            }
-            Statement::Let(value, op) => self.step(*value, op, time),
-            Statement::Loop { length, body, totals } => {
-                let parameters = &self.declaration.parameters;
-                let list = parameters.iter().position(|parameter| parameter.length() == Some(*length));
-                let sums: Vec<_> = totals.iter().map(|&(total, _)| self.make(Kind::Number, total)).collect();
-                let mut entries = Vec::new();
-                for &(value, op) in body {
-                    if let Op::Entry(k) = op
-                        && !parameters[k].is_whole
-                    {
-                        entries.push((self.make(Kind::Constant, value), k));
-                    }
-                }
-                let place = self.program.loops.len();
-                self.program.operations.push(Operation::Begin(place));
-                let begin = self.program.operations.len();
-                for (value, op) in body {
+    fn block(&mut self, Block { length, body, totals }: &Block, time: &mut usize) {
+        if length.is_none() {
+            for (value, op) in body {
+                if self.constants.contains(value) {
+                    *time += 1;
+                    let operation = self.operation(*value, op, *time);
+                    self.preparations.extend(operation);
+                } else {
                     self.step(*value, op, time);
                 }
-                let length = self.program.operations.len() - begin;
-                self.program.operations.push(Operation::End(place));
-                *time += 1;
-                let totals =
-                    sums.into_iter().zip(totals.iter().map(|&(_, term)| self.register(term))).collect();
-                let list = list.unwrap_or_default();
-                self.program.loops.push(Loop { list, entries, totals, length });
-                let is_over = |value: &&Value| self.lives.get(*value) == Some(time);
-                let over = self.places.keys().filter(is_over).copied().collect();
-                self.free(over);
+            }
+            return;
+        }
+        let parameters = &self.declaration.parameters;
+        let list = parameters.iter().position(|parameter| parameter.length() == *length);
+        let sums: Vec<_> = totals.iter().map(|&(total, _)| self.make(Kind::Number, total)).collect();
+        let mut entries = Vec::new();
+        for &(value, op) in body {
+            if let Op::Entry(k) = op
+                && !parameters[k].is_whole
+            {
+                entries.push((self.make(Kind::Constant, value), k));
             }
         }
+        let place = self.program.loops.len();
+        self.program.operations.push(Operation::Begin(place));
+        let begin = self.program.operations.len();
+        for (value, op) in body {
+            self.step(*value, op, time);
+        }
+        let length = self.program.operations.len() - begin;
+        self.program.operations.push(Operation::End(place));
+        *time += 1;
+        let totals = sums.into_iter().zip(totals.iter().map(|&(_, term)| self.register(term))).collect();
+        let list = list.unwrap_or_default();
+        self.program.loops.push(Loop { list, entries, totals, length });
+        let is_over = |value: &&Value| self.lives.get(*value) == Some(time);
+        let over = self.places.keys().filter(is_over).copied().collect();
+        self.free(over);
     }
 
     /// The next operation, which may become one with that before.

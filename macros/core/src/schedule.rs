@@ -16,7 +16,7 @@ use order::Order;
 use parts::Parts;
 use passes::{fuse_multiply_add, renumber};
 use powers::{Evaluation, Powers};
-pub use program::{Op, Program, Statement, Value};
+pub use program::{Block, Op, Program, Value};
 
 mod collect;
 pub mod count;
@@ -50,7 +50,7 @@ pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> P
         order,
         parts,
         count: 0,
-        statements: Vec::new(),
+        blocks: Vec::new(),
         numbers: FxHashMap::default(),
         values: FxHashMap::default(),
         body: None,
@@ -60,8 +60,8 @@ pub fn schedule(graph: &mut Graph, collector: &mut Collector, roots: &[Id]) -> P
         scheduler.loops(&reachable);
     }
     let outputs = roots.into_iter().map(|root| scheduler.value(root)).collect();
-    let Scheduler { statements, count, .. } = scheduler;
-    renumber(fuse_multiply_add(Program { statements, outputs }, count), count)
+    let Scheduler { blocks, count, .. } = scheduler;
+    renumber(fuse_multiply_add(Program { blocks, outputs }, count), count)
 }
 
 struct Scheduler<'g> {
@@ -70,7 +70,7 @@ struct Scheduler<'g> {
     order: Order<'g>,
     parts: Parts,
     count: usize,
-    statements: Vec<Statement>,
+    blocks: Vec<Block>,
     numbers: FxHashMap<Op, Value>,
     values: FxHashMap<Id, Value>,
     /// The operations of the open loop, which depend on the current entry.
@@ -108,7 +108,7 @@ impl Scheduler<'_> {
                 totals.push((total, term));
                 self.values.insert(sum, total);
             }
-            self.statements.push(Statement::Loop { length, body, totals });
+            self.blocks.push(Block { length: Some(length), body, totals });
         }
     }
 
@@ -135,7 +135,10 @@ impl Scheduler<'_> {
                 body.push((value, op));
                 self.varying.insert(value);
             }
-            _ => self.statements.push(Statement::Let(value, op)),
+            _ => match self.blocks.last_mut().filter(|block| block.length.is_none()) {
+                Some(block) => block.body.push((value, op)),
+                None => self.blocks.push(Block { body: vec![(value, op)], ..Block::default() }),
+            },
         }
         self.numbers.insert(op, value);
         value

@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use syn::Ident;
 
 use crate::read::parse::{Declaration, Parameter};
-use crate::schedule::{Op, Program, Statement, Value};
+use crate::schedule::{Op, Program, Value};
 
 /// Writes programs with the names of one declaration.
 #[derive(Clone)]
@@ -78,33 +78,29 @@ impl<'a> Writer<'a> {
     /// The statements of a program and its outputs as expressions.
     pub(super) fn program(&self, program: &Program) -> (TokenStream, Vec<TokenStream>) {
         let mut lines = Lines::new(self, program);
-        for statement in &program.statements {
-            match statement {
-                Statement::Let(value, op) => lines.push(*value, op),
-                Statement::Loop { length, body, totals } => {
-                    let length = self.declaration.lengths[*length].of(&self.material);
-                    let index = &self.index;
-                    let before = lines.take();
-                    body.iter().for_each(|(value, op)| lines.push(*value, op));
-                    let body = lines.take();
-                    let (mut starts, mut additions) = (Vec::new(), Vec::new());
-                    for &(total, term) in totals {
-                        let name = self.name(total);
-                        let term = lines.names.argument(term);
-                        starts.push(quote!(let mut #name = R::splat(0.0);));
-                        additions.push(quote!(#name = #name + #term;));
-                        lines.names.set(total, name);
-                    }
-                    lines.statements = quote! {
-                        #before
-                        #(#starts)*
-                        for #index in 0..#length {
-                            #body
-                            #(#additions)*
-                        }
-                    };
-                }
+        for block in &program.blocks {
+            let before = block.length.map(|length| (length, lines.take()));
+            block.body.iter().for_each(|(value, op)| lines.push(*value, op));
+            let Some((length, before)) = before else { continue };
+            let length = self.declaration.lengths[length].of(&self.material);
+            let index = &self.index;
+            let body = lines.take();
+            let (mut starts, mut additions) = (Vec::new(), Vec::new());
+            for &(total, term) in &block.totals {
+                let name = self.name(total);
+                let term = lines.names.argument(term);
+                starts.push(quote!(let mut #name = R::splat(0.0);));
+                additions.push(quote!(#name = #name + #term;));
+                lines.names.set(total, name);
             }
+            lines.statements = quote! {
+                #before
+                #(#starts)*
+                for #index in 0..#length {
+                    #body
+                    #(#additions)*
+                }
+            };
         }
         lines.take_in(&program.outputs);
         let statements = lines.take();

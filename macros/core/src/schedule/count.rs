@@ -9,7 +9,7 @@ use syn::Expr;
 
 use crate::algebra::expr::Length;
 use crate::read::parse::{Declaration, Entries};
-use crate::schedule::program::{Op, Program, Statement};
+use crate::schedule::program::{Op, Program};
 use crate::schedule::{Sorted, entry};
 
 /// The counts of a declaration as a table in Markdown.
@@ -38,14 +38,9 @@ impl Count {
     #[must_use]
     pub fn of(program: &Program) -> Self {
         let mut count = Self::default();
-        for statement in &program.statements {
-            match statement {
-                Statement::Let(_, op) => count.add(signs(op), None),
-                Statement::Loop { length, body, totals } => {
-                    body.iter().for_each(|(_, op)| count.add(signs(op), Some(*length)));
-                    totals.iter().for_each(|_| count.add(&[""], Some(*length)));
-                }
-            }
+        for block in &program.blocks {
+            block.body.iter().for_each(|(_, op)| count.add(signs(op), block.length));
+            block.totals.iter().for_each(|_| count.add(&[""], block.length));
         }
         count
     }

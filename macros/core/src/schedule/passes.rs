@@ -1,6 +1,6 @@
 //! Passes over a program whose operations are in order: fusion and renumbering.
 
-use super::program::{Op, Program, Statement, Value};
+use super::program::{Op, Program, Value};
 
 /// Fuses a b + c, c − a b and a b − c into one operation if the product is used nowhere else, given the
 /// number of values.
@@ -31,19 +31,8 @@ pub(super) fn fuse_multiply_add(mut program: Program, values: usize) -> Program 
             }
         }
     };
-    for statement in &mut program.statements {
-        match statement {
-            Statement::Let(_, op) => fuse(op),
-            Statement::Loop { body, .. } => body.iter_mut().for_each(|(_, op)| fuse(op)),
-        }
-    }
-    program.statements.retain_mut(|statement| match statement {
-        Statement::Let(value, _) => !is_fused[value.0],
-        Statement::Loop { body, .. } => {
-            body.retain(|(value, _)| !is_fused[value.0]);
-            true
-        }
-    });
+    program.blocks.iter_mut().flat_map(|block| &mut block.body).for_each(|(_, op)| fuse(op));
+    program.blocks.iter_mut().for_each(|block| block.body.retain(|(value, _)| !is_fused[value.0]));
     program
 }
 
@@ -54,14 +43,9 @@ pub(super) fn renumber(mut program: Program, values: usize) -> Program {
     let mut name = |value: Value, op: Option<Op>| {
         if op.is_some_and(is_inlined) { inlined.push(value) } else { named.push(value) }
     };
-    for statement in &program.statements {
-        match statement {
-            Statement::Let(value, op) => name(*value, Some(*op)),
-            Statement::Loop { body, totals, .. } => {
-                totals.iter().for_each(|&(total, _)| name(total, None));
-                body.iter().for_each(|&(value, op)| name(value, Some(op)));
-            }
-        }
+    for block in &program.blocks {
+        block.totals.iter().for_each(|&(total, _)| name(total, None));
+        block.body.iter().for_each(|&(value, op)| name(value, Some(op)));
     }
     let mut names = vec![Value(0); values];
     for (k, value) in named.into_iter().chain(inlined).enumerate() {

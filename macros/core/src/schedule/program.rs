@@ -170,27 +170,22 @@ impl<V> Op<V> {
     }
 }
 
-/// A step of a program.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Statement {
-    /// The name of the result of an operation.
-    Let(Value, Op),
-    /// A loop over the entries of the lists of one length.
-    Loop {
-        /// The length of the lists.
-        length: Length,
-        /// Operations for each entry.
-        body: Vec<(Value, Op)>,
-        /// Totals with the value that is added for each entry.
-        totals: Vec<(Value, Value)>,
-    },
+/// Operations that are done once, or for each entry of the lists of one length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Block {
+    /// The length of the lists; `None` for operations that are done once.
+    pub length: Option<Length>,
+    /// Operations, with the names of their results.
+    pub body: Vec<(Value, Op)>,
+    /// Totals with the value that is added for each entry.
+    pub totals: Vec<(Value, Value)>,
 }
 
 /// Operations in order, with the values of the roots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    /// Statements in the order of execution.
-    pub statements: Vec<Statement>,
+    /// Blocks in the order of execution.
+    pub blocks: Vec<Block>,
     /// One value for each root.
     pub outputs: Vec<Value>,
 }
@@ -198,28 +193,17 @@ pub struct Program {
 impl Program {
     /// All operations in order, those of loops among them.
     pub fn operations(&self) -> impl Iterator<Item = (Value, Op)> {
-        self.statements.iter().flat_map(|statement| {
-            let (one, body) = match statement {
-                Statement::Let(value, op) => (Some((*value, *op)), &[][..]),
-                Statement::Loop { body, .. } => (None, &body[..]),
-            };
-            one.into_iter().chain(body.iter().copied())
-        })
+        self.blocks.iter().flat_map(|block| block.body.iter().copied())
     }
 
     /// Replaces each value by what a function returns for it.
     pub fn rename(&mut self, new: impl Fn(Value) -> Value) {
-        for statement in &mut self.statements {
-            match statement {
-                Statement::Let(value, op) => (*value, *op) = (new(*value), op.map(&new)),
-                Statement::Loop { body, totals, .. } => {
-                    for (value, op) in body {
-                        (*value, *op) = (new(*value), op.map(&new));
-                    }
-                    for (total, term) in totals {
-                        (*total, *term) = (new(*total), new(*term));
-                    }
-                }
+        for Block { body, totals, .. } in &mut self.blocks {
+            for (value, op) in body {
+                (*value, *op) = (new(*value), op.map(&new));
+            }
+            for (total, term) in totals {
+                (*total, *term) = (new(*total), new(*term));
             }
         }
         self.outputs.iter_mut().for_each(|output| *output = new(*output));
@@ -230,11 +214,7 @@ impl Program {
         for (_, op) in self.operations() {
             op.map(&mut show);
         }
-        for statement in &self.statements {
-            if let Statement::Loop { totals, .. } = statement {
-                totals.iter().for_each(|&(_, term)| show(term));
-            }
-        }
+        self.blocks.iter().flat_map(|block| &block.totals).for_each(|&(_, term)| show(term));
         self.outputs.iter().copied().for_each(show);
     }
 }
