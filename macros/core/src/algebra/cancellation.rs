@@ -20,6 +20,7 @@ use crate::algebra::expand::expand_products;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::interpret::{Memo, Point, evaluate_with};
 use crate::algebra::rational::Rational;
+use crate::algebra::volume::rebuild;
 
 /// Factors of a stretch, from near to far.
 const FAR: [f64; 2] = [1e-3, 1e-6];
@@ -109,17 +110,9 @@ fn ratio(graph: &Graph, sum: Id, point: &Point, memo: &mut Memo) -> f64 {
 /// The energy with sums of fractions over one denominator, if the sum cancels and the numerator, multiplied
 /// out, does not.
 pub fn over_one_denominator(graph: &mut Graph, energy: Id, ways: &Ways) -> Id {
-    rewrite(graph, energy, ways, &mut FxHashMap::default())
-}
-
-fn rewrite(graph: &mut Graph, id: Id, ways: &Ways, memo: &mut FxHashMap<Id, Id>) -> Id {
-    if let Some(&done) = memo.get(&id) {
-        return done;
-    }
-    let mapped = graph.map_children(id, &mut |graph, child| rewrite(graph, child, ways, memo));
-    let result = joined(graph, mapped, ways).unwrap_or(mapped);
-    memo.insert(id, result);
-    result
+    rebuild(graph, energy, &mut FxHashMap::default(), &mut |graph, mapped| {
+        joined(graph, mapped, ways).unwrap_or(mapped)
+    })
 }
 
 /// A sum of fractions as one fraction, if that avoids a cancellation.

@@ -57,8 +57,7 @@ pub fn with_squares_in_sums(graph: &mut Graph, energy: Id) -> Id {
 
 /// True if an expression has such bases or arguments.
 pub(crate) fn has_squares(graph: &Graph, id: Id) -> bool {
-    let is_sum_of_squares = |id: Id| matches!(graph.node(id), Node::Excess(..) | Node::Accurate(..));
-    graph.reachable(&[id]).into_iter().any(is_sum_of_squares)
+    graph.contains(id, |node| matches!(node, Node::Excess(..) | Node::Accurate(..)))
 }
 
 /// The expression with its sums of squares only, without the forms in which they were written, before it is
@@ -167,8 +166,8 @@ impl Invariants {
         };
         let (terms, others): (Vec<_>, Vec<_>) =
             terms.into_iter().partition(|&(term, _)| has_squares(graph, term));
-        let is_stretch = |id: Id| matches!(graph.node(id), Node::Stretch(_));
-        if others.iter().any(|&(term, _)| graph.reachable(&[term]).into_iter().any(is_stretch)) {
+        let is_stretch = |node: &Node| matches!(node, Node::Stretch(_));
+        if others.iter().any(|&(term, _)| graph.contains(term, is_stretch)) {
             return None;
         }
         let squares = self.collected(graph, &terms)?;

@@ -22,28 +22,22 @@ use rustc_hash::FxHashMap;
 
 use crate::algebra::expr::{Elementary, Exponent, Function, Graph, Id, Node};
 use crate::algebra::rational::Rational;
+use crate::algebra::volume::rebuild;
 
 /// The expression with the rules applied everywhere.
 pub fn simplify(graph: &mut Graph, e: Id) -> Id {
-    rewrite(graph, e, &mut FxHashMap::default())
-}
-
-fn rewrite(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
-    if let Some(&done) = memo.get(&e) {
-        return done;
-    }
-    let mut result = graph.map_children(e, &mut |graph, child| rewrite(graph, child, memo));
-    while !graph.is_full()
-        && let Some(simpler) = cancel_against_denominator(graph, result)
-            .or_else(|| collect_into_factor(graph, result))
-            .or_else(|| join_two_sums(graph, result))
-            .or_else(|| cancel_parameter(graph, result))
-            .or_else(|| join_hyperbolic(graph, result))
-    {
-        result = simpler;
-    }
-    memo.insert(e, result);
-    result
+    rebuild(graph, e, &mut FxHashMap::default(), &mut |graph, mut result| {
+        while !graph.is_full()
+            && let Some(simpler) = cancel_against_denominator(graph, result)
+                .or_else(|| collect_into_factor(graph, result))
+                .or_else(|| join_two_sums(graph, result))
+                .or_else(|| cancel_parameter(graph, result))
+                .or_else(|| join_hyperbolic(graph, result))
+        {
+            result = simpler;
+        }
+        result
+    })
 }
 
 fn cancel_against_denominator(graph: &mut Graph, e: Id) -> Option<Id> {

@@ -168,6 +168,22 @@ fn multiply(graph: &mut Graph, a: Exponent, b: Exponent) -> Exponent {
     graph.exponent(product)
 }
 
+/// The expression with a rule applied from the bottom up, to each node after its operands.
+pub fn rebuild(
+    graph: &mut Graph,
+    id: Id,
+    memo: &mut FxHashMap<Id, Id>,
+    rule: &mut impl FnMut(&mut Graph, Id) -> Id,
+) -> Id {
+    if let Some(&done) = memo.get(&id) {
+        return done;
+    }
+    let mapped = graph.map_children(id, &mut |graph, child| rebuild(graph, child, memo, rule));
+    let result = rule(graph, mapped);
+    memo.insert(id, result);
+    result
+}
+
 /// The expression with a rule applied from the top down. The results of the rule are not rewritten again.
 pub fn rewrite(
     graph: &mut Graph,

@@ -12,6 +12,7 @@ use rustc_hash::FxHashMap;
 use super::degrees::Degrees;
 use crate::algebra::expr::{Exponent, Graph, Id, Node};
 use crate::algebra::rational::Rational;
+use crate::algebra::volume::rebuild;
 
 /// Expressions with common factors taken out, each found once for all programs of a graph.
 #[derive(Debug, Default)]
@@ -23,19 +24,12 @@ pub struct Collector {
 impl Collector {
     /// The roots with common factors taken out.
     pub(super) fn collect(&mut self, graph: &mut Graph, roots: &[Id]) -> Vec<Id> {
-        roots.iter().map(|&root| self.rewrite(graph, root)).collect()
-    }
-
-    fn rewrite(&mut self, graph: &mut Graph, id: Id) -> Id {
-        if let Some(&done) = self.memo.get(&id) {
-            return done;
-        }
-        let mut result = graph.map_children(id, &mut |graph, child| self.rewrite(graph, child));
-        if let Node::Linear { constant, terms } = graph.node(result).clone() {
-            result = collected(graph, &mut self.degrees, constant, &terms);
-        }
-        self.memo.insert(id, result);
-        result
+        let Self { degrees, memo } = self;
+        let mut rule = |graph: &mut Graph, id: Id| match graph.node(id).clone() {
+            Node::Linear { constant, terms } => collected(graph, degrees, constant, &terms),
+            _ => id,
+        };
+        roots.iter().map(|&root| rebuild(graph, root, memo, &mut rule)).collect()
     }
 }
 
