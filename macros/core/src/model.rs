@@ -13,7 +13,7 @@ use crate::algebra::extension;
 use crate::algebra::increment::{Increments, substitute_rest};
 use crate::algebra::interpret::Point;
 use crate::algebra::invariants::ByInvariants;
-use crate::algebra::quotient::Quotients;
+use crate::algebra::quotient::{Quotients, Reflection};
 use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
 use crate::judge::{self, Derived, Source};
@@ -293,7 +293,7 @@ fn bounds_at_rest(
 fn variant(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> Variant {
     let (gradient, hessian) = derivatives(graph, energy);
     let mut quotients = Quotients::new(samples);
-    let flip = PAIRS.map(|(i, j)| quotients.flip(graph, gradient[i], i, j));
+    let flip = PAIRS.map(|(i, j)| quotients.quotient(graph, gradient[i], Reflection::Flip(i, j)));
     let twist = PAIRS.map(|(i, j)| quotients.twist(graph, gradient[i], i, j, positive));
     let mut evaluated = Evaluated::default();
     let mut evaluated = |id| evaluated.of(graph, id);
@@ -302,8 +302,8 @@ fn variant(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> 
         gradient: gradient.map(&mut evaluated),
         hessian: hessian.map(&mut evaluated),
         flip: flip.map(&mut evaluated),
-        twist: twist.map(|twist| evaluated(twist.value)),
-        has_pole: twist.iter().any(|twist| twist.has_pole),
+        twist: twist.map(|(twist, _)| evaluated(twist)),
+        has_pole: twist.iter().any(|&(_, has_pole)| has_pole),
     }
 }
 

@@ -6,7 +6,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::algebra::expr::{Exponent, Extended, Function, Graph, Id, Node, Stretch};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node, Stretch};
 use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
 
@@ -124,7 +124,7 @@ impl Differentiator {
                 Node::Stretch(j) if i == j => graph.leaf(Node::Extended(function, order + 1, i)),
                 Node::Stretch(_) => graph.integer(0),
                 // Extended powers are never differentiated by their exponents; NaN would be noticed.
-                _ if matches!(function, Extended::Power(Exponent { real: Some(_), .. })) => {
+                _ if matches!(function, Function::Power(Exponent { real: Some(_), .. })) => {
                     graph.leaf(Node::Float(f64::NAN.to_bits()))
                 }
                 _ => graph.integer(0),

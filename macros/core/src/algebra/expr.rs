@@ -64,9 +64,9 @@ pub enum Node {
     Apply(Function, Id),
     /// Σ over the entries of lists of the given length.
     Sum(Length, Id),
-    /// Derivative of the given order of a function of one stretch, continued below ε by its quadratic Taylor
-    /// polynomial at ε.
-    Extended(Extended, u8, Stretch),
+    /// Derivative of the given order of a function of one stretch, ln λ or λ^r, continued below ε by its
+    /// quadratic Taylor polynomial at ε.
+    Extended(Function, u8, Stretch),
     /// The threshold ε of the extension.
     Epsilon,
     /// max(λ, ε).
@@ -111,15 +111,6 @@ pub enum Function {
     WholePower(Id, u8),
     /// Derivative of the given order, 0 … 2, of a function that is a parameter.
     Given(ParameterIndex, u8),
-}
-
-/// A function that can be extended below ε.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Extended {
-    /// ln λ.
-    Ln,
-    /// λ^r.
-    Power(Exponent),
 }
 
 /// An expression graph: all nodes, each once.

@@ -16,7 +16,7 @@
 use rustc_hash::FxHashMap;
 
 use crate::algebra::divided::quotient;
-use crate::algebra::expr::{Exponent, Extended, Function, Graph, Id, Node, Stretch};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node, Stretch};
 use crate::algebra::rational::Rational;
 use crate::algebra::volume::{Purpose, rewrite, separate};
 
@@ -37,7 +37,7 @@ pub fn lower(graph: &mut Graph, e: Id, memo: &mut FxHashMap<Id, Id>) -> Id {
 fn extend_node(graph: &mut Graph, id: Id) -> Option<Id> {
     match graph.node(id).clone() {
         Node::Apply(Function::Ln, a) => match *graph.node(a) {
-            Node::Stretch(i) => Some(graph.leaf(Node::Extended(Extended::Ln, 0, i))),
+            Node::Stretch(i) => Some(graph.leaf(Node::Extended(Function::Ln, 0, i))),
             _ => None,
         },
         Node::Product(factors) => {
@@ -45,7 +45,7 @@ fn extend_node(graph: &mut Graph, id: Id) -> Option<Id> {
             for (base, exponent) in factors {
                 product.push(match *graph.node(base) {
                     Node::Stretch(i) if exponent.as_integer().is_none_or(|n| n < 0) => {
-                        (graph.leaf(Node::Extended(Extended::Power(exponent), 0, i)), Exponent::ONE)
+                        (graph.leaf(Node::Extended(Function::Power(exponent), 0, i)), Exponent::ONE)
                     }
                     _ => (rewrite(graph, base, &mut FxHashMap::default(), &extend_node), exponent),
                 });
@@ -56,7 +56,7 @@ fn extend_node(graph: &mut Graph, id: Id) -> Option<Id> {
     }
 }
 
-fn polynomial(graph: &mut Graph, function: Extended, order: u8, i: Stretch) -> Id {
+fn polynomial(graph: &mut Graph, function: Function, order: u8, i: Stretch) -> Id {
     let (w, d) = (graph.leaf(Node::Above(i)), graph.leaf(Node::Below(i)));
     let mut sum = derivative(graph, function, order, w);
     let mut factor = Rational::ONE;
@@ -71,22 +71,22 @@ fn polynomial(graph: &mut Graph, function: Extended, order: u8, i: Stretch) -> I
 }
 
 /// The value of φ, φ′, φ″ … at any argument.
-pub fn derivative(graph: &mut Graph, function: Extended, order: u8, at: Id) -> Id {
+pub fn derivative(graph: &mut Graph, function: Function, order: u8, at: Id) -> Id {
     rule(graph, function, order, |graph, function| graph.apply(function, at))
 }
 
 /// Divided difference of φ, φ′ or φ″ between a and b.
-pub fn derivative_quotient(graph: &mut Graph, function: Extended, order: u8, a: Id, b: Id) -> Id {
+pub fn derivative_quotient(graph: &mut Graph, function: Function, order: u8, a: Id, b: Id) -> Id {
     rule(graph, function, order, |graph, function| quotient(graph, function, a, b))
 }
 
 /// A derivative of φ, or its divided difference, from the value or the divided difference of ln x and x^r.
-fn rule(graph: &mut Graph, function: Extended, order: u8, of: impl FnOnce(&mut Graph, Function) -> Id) -> Id {
+fn rule(graph: &mut Graph, function: Function, order: u8, of: impl FnOnce(&mut Graph, Function) -> Id) -> Id {
     let (exponent, order) = match function {
-        Extended::Ln if order == 0 => return of(graph, Function::Ln),
+        Function::Power(exponent) => (exponent, order),
+        _ if order == 0 => return of(graph, Function::Ln),
         // ln′ x = x⁻¹
-        Extended::Ln => (Exponent::integer(-1), order - 1),
-        Extended::Power(exponent) => (exponent, order),
+        _ => (Exponent::integer(-1), order - 1),
     };
     let coefficient = falling(graph, exponent, order);
     let lowered = graph.add_exponents(exponent, Exponent::integer(-i64::from(order)));

@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
-use crate::algebra::expr::{Exponent, Extended, Function, Graph, Id, Node};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node};
 
 /// A point: values of everything that an expression may name.
 #[derive(Clone, Debug, Default)]
@@ -125,7 +125,7 @@ impl Interpreter<'_> {
             Node::Extended(function, order, i) => {
                 let above = self.point.stretches[*i].max(epsilon);
                 let below = self.point.stretches[*i] - above;
-                let mut derivative = |k| self.plain_derivative(function, k, above);
+                let mut derivative = |k| self.plain_derivative(*function, k, above);
                 let value = match order {
                     0 => derivative(0) + derivative(1) * below + derivative(2) * below * below / 2.0,
                     1 => derivative(1) + derivative(2) * below,
@@ -230,17 +230,17 @@ impl Interpreter<'_> {
         }
     }
 
-    fn plain_derivative(&mut self, function: &Extended, order: u8, x: f64) -> f64 {
+    fn plain_derivative(&mut self, function: Function, order: u8, x: f64) -> f64 {
         match function {
-            Extended::Ln => match order {
+            Function::Power(exponent) => {
+                let r = self.exponent(exponent);
+                falling(r, order) * x.powf(r - f64::from(order))
+            }
+            _ => match order {
                 0 => x.ln(),
                 1 => 1.0 / x,
                 _ => -1.0 / (x * x),
             },
-            Extended::Power(exponent) => {
-                let r = self.exponent(*exponent);
-                falling(r, order) * x.powf(r - f64::from(order))
-            }
         }
     }
 }

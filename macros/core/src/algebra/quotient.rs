@@ -24,7 +24,7 @@
 use rustc_hash::FxHashMap;
 
 use crate::algebra::divided;
-use crate::algebra::expr::{Exponent, Extended, Function, Graph, Id, Node, Stretch};
+use crate::algebra::expr::{Exponent, Function, Graph, Id, Node, Stretch};
 use crate::algebra::extension;
 use crate::algebra::interpret::{Estimate, Memo, Point, evaluate_with};
 use crate::algebra::rational::Rational;
@@ -36,15 +36,6 @@ pub enum Reflection {
     Flip(Stretch, Stretch),
     /// τ: λi → −λj, λj → −λi.
     Twist(Stretch, Stretch),
-}
-
-/// A twist quotient.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Twist {
-    /// The quotient.
-    pub value: Id,
-    /// True if it has a pole at λi + λj = 0.
-    pub has_pole: bool,
 }
 
 /// Quotients, each computed once.
@@ -87,12 +78,8 @@ impl<'a> Quotients<'a> {
         }
     }
 
-    /// The flip quotient D⁻ij from ψi.
-    pub fn flip(&mut self, graph: &mut Graph, gradient: Id, i: Stretch, j: Stretch) -> Id {
-        self.quotient(graph, gradient, Reflection::Flip(i, j))
-    }
-
-    /// The twist quotient D⁺ij from ψi. With `positive`, all stretches are positive and there is no pole.
+    /// The twist quotient D⁺ij from ψi, and true if it has a pole at λi + λj = 0. With `positive`, all
+    /// stretches are positive and there is none.
     pub fn twist(
         &mut self,
         graph: &mut Graph,
@@ -100,11 +87,11 @@ impl<'a> Quotients<'a> {
         i: Stretch,
         j: Stretch,
         positive: bool,
-    ) -> Twist {
+    ) -> (Id, bool) {
         let (odd, rest) = self.split(graph, gradient, i, j, positive);
         let removable = self.quotient(graph, odd, Reflection::Twist(i, j));
         if graph.is_zero(rest) {
-            return Twist { value: removable, has_pole: false };
+            return (removable, false);
         }
         let mirrored = reflect(graph, rest, Reflection::Flip(i, j));
         let numerator = graph.add(rest, mirrored);
@@ -112,10 +99,10 @@ impl<'a> Quotients<'a> {
         let sum = graph.add(x, y);
         let plain =
             if positive { graph.div(numerator, sum) } else { graph.leaf(Node::PoleQuotient(numerator, sum)) };
-        Twist { value: graph.add(removable, plain), has_pole: !positive }
+        (graph.add(removable, plain), !positive)
     }
 
-    /// The quotient De.
+    /// The quotient De; that of ψi for a flip is D⁻ij.
     pub fn quotient(&mut self, graph: &mut Graph, e: Id, reflection: Reflection) -> Id {
         if let Some(&done) = self.memo.get(&(e, reflection)) {
             return done;
@@ -403,7 +390,7 @@ fn take_out_symmetric(
 
 /// Divided difference of an extended function between λi and λj: exact, as the mean of its pieces' divided
 /// differences over the fractions of the interval above and below ε.
-fn extended_quotient(graph: &mut Graph, function: Extended, order: u8, i: Stretch, j: Stretch) -> Id {
+fn extended_quotient(graph: &mut Graph, function: Function, order: u8, i: Stretch, j: Stretch) -> Id {
     let [wi, wj] = [i, j].map(|k| graph.leaf(Node::Above(k)));
     let above = extension::derivative_quotient(graph, function, order, wi, wj);
     let epsilon = graph.leaf(Node::Epsilon);
@@ -466,12 +453,12 @@ fn take_out_slope_pair(
 ) -> Option<SlopePair> {
     let Reflection::Flip(i, j) = reflection else { return None };
     for &(slope, exponent) in factors.iter().filter(|factor| factor.1 == Exponent::ONE) {
-        let Node::Extended(Extended::Power(r), 1, k) = *graph.node(slope) else { continue };
+        let Node::Extended(Function::Power(r), 1, k) = *graph.node(slope) else { continue };
         if k != i && k != j {
             continue;
         }
         let other = if k == i { j } else { i };
-        let value = graph.leaf(Node::Extended(Extended::Power(r), 0, other));
+        let value = graph.leaf(Node::Extended(Function::Power(r), 0, other));
         if !factors.contains(&(value, exponent)) {
             continue;
         }
@@ -490,8 +477,8 @@ fn take_out_slope_pair(
 /// accurate: stretches are ordered, x ≥ |y|, so it is the one at y for r > 0 and at x for r < 0.
 fn slope_pair_quotient(graph: &mut Graph, exponent: Exponent, i: Stretch, j: Stretch) -> Id {
     let extended =
-        |graph: &mut Graph, order, k| graph.leaf(Node::Extended(Extended::Power(exponent), order, k));
-    let [value, slope] = [0, 1].map(|order| extended_quotient(graph, Extended::Power(exponent), order, i, j));
+        |graph: &mut Graph, order, k| graph.leaf(Node::Extended(Function::Power(exponent), order, k));
+    let [value, slope] = [0, 1].map(|order| extended_quotient(graph, Function::Power(exponent), order, i, j));
     let by = |graph: &mut Graph, k| {
         let (at, slope_at) = (extended(graph, 0, k), extended(graph, 1, k));
         let (left, right) = (graph.mul(slope, at), graph.mul(value, slope_at));

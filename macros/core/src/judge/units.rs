@@ -17,7 +17,7 @@ pub(crate) fn units(graph: &mut Graph, source: &Source<'_>) -> Option<Finding> {
         return None;
     }
     let parameters = source.declaration.parameters.iter();
-    let pascals: Vec<_> = parameters.map(|parameter| parameter.unit().map(Unit::pascals)).collect();
+    let pascals: Vec<_> = parameters.map(|parameter| parameter.unit().map(|unit| unit as i64)).collect();
     let mut dimensions = Dimensions::new(&pascals);
     match dimensions.of(graph, source.energy) {
         Ok(None | Some(Rational::ONE)) => None,
@@ -94,7 +94,7 @@ pub(crate) fn units_of_parameters(graph: &Graph, source: &Source<'_>) -> Vec<Opt
         if units[k].is_none() {
             let mut fitting = Unit::ALL.into_iter().filter(|&unit| {
                 let pascals: Vec<_> = (0..units.len())
-                    .map(|other| if other == k { Some(unit) } else { units[other] }.map(Unit::pascals))
+                    .map(|other| if other == k { Some(unit) } else { units[other] }.map(|unit| unit as i64))
                     .collect();
                 matches!(Dimensions::new(&pascals).of(graph, source.energy), Ok(None | Some(Rational::ONE)))
             });

@@ -1,14 +1,14 @@
 //! Units of parameters, which their documentation states: `Shear modulus μ, Pa.`
 
-/// The unit of a parameter, a whole power of Pa.
+/// The unit of a parameter, a whole power of Pa, with its exponent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Pa, which is J/m³.
-    Pascal,
+    Pascal = 1,
     /// 1/Pa.
-    PerPascal,
+    PerPascal = -1,
     /// 1: an exponent, a stretch, a fraction.
-    Dimensionless,
+    Dimensionless = 0,
 }
 
 /// Other units of stress. Values of parameters are not converted from them.
@@ -61,16 +61,6 @@ impl Unit {
                 Some(Err(word.to_owned()))
             }
             _ => None,
-        }
-    }
-
-    /// The exponent of Pa.
-    #[must_use]
-    pub fn pascals(self) -> i64 {
-        match self {
-            Self::Pascal => 1,
-            Self::PerPascal => -1,
-            Self::Dimensionless => 0,
         }
     }
 }

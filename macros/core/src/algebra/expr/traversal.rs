@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Extended, Function, Graph, Id, Node, ParameterIndex};
+use super::{Function, Graph, Id, Node, ParameterIndex};
 
 impl Node {
     /// The ids of the direct subexpressions, those of exponents included.
@@ -17,7 +17,7 @@ impl Node {
             Self::WhereNegative(a, b, c) => vec![a, b, c],
             Self::Apply(function, a) => [a].into_iter().chain(function.exponent_mut()).collect(),
             Self::Quotient(function, a, b) => [a, b].into_iter().chain(function.exponent_mut()).collect(),
-            Self::Extended(Extended::Power(e), ..) => e.real.as_mut().into_iter().collect(),
+            Self::Extended(function, ..) => function.exponent_mut().into_iter().collect(),
             _ => Vec::new(),
         }
     }
