@@ -128,17 +128,13 @@ impl FromStr for PointFunction {
 
 /// Error of an unknown word for a choice.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("unknown {kind} `{word}`; known are: {known}")]
-pub struct UnknownWord {
-    kind: &'static str,
-    word: String,
-    known: String,
-}
+#[error("{0}")]
+pub struct UnknownWord(String);
 
 /// The meaning of a word, one of these.
-fn choice<T: Copy>(kind: &'static str, word: &str, all: &[(&str, T)], known: &str) -> Result<T, UnknownWord> {
+fn choice<T: Copy>(kind: &str, word: &str, all: &[(&str, T)], known: &str) -> Result<T, UnknownWord> {
     let found = all.iter().find(|(name, _)| *name == word);
-    let unknown = || UnknownWord { kind, word: word.to_owned(), known: known.to_owned() };
+    let unknown = || UnknownWord(format!("unknown {kind} `{word}`; known are: {known}"));
     found.map(|&(_, meaning)| meaning).ok_or_else(unknown)
 }
 

@@ -57,14 +57,6 @@ pub(super) enum Argument<'a> {
     Output(&'a str, usize),
 }
 
-/// A field of the structure of the parameters, with its comment.
-pub(super) enum Field {
-    /// A parameter without a place.
-    Absent(String),
-    Number(String, String),
-    List(String, usize, String),
-}
-
 /// A language, with the number format and the prefix of a file.
 pub(super) struct Language {
     target: Target,
@@ -244,13 +236,12 @@ impl Language {
         let written = |argument: &Argument<'_>| match (argument, self.is_c()) {
             (Argument::Parameters, true) => format!("const {}_parameters *p", self.prefix),
             (Argument::Parameters, false) => format!("p: {}_parameters", self.prefix),
-            (Argument::Number(name), true) => format!("{number} {name}"),
-            (Argument::Number(name), false) => format!("{name}: {number}"),
-            (Argument::Input(name, count), true) => format!("const {number} {name}[{count}]"),
-            (Argument::Input(name, count), false) => format!("{name}: array<{number}, {count}>"),
+            (Argument::Number(name), _) => self.declared(name, None),
+            (Argument::Input(name, count), true) => format!("const {}", self.declared(name, Some(*count))),
+            (Argument::Input(name, count), false) => self.declared(name, Some(*count)),
             (Argument::Output(name, 1), true) => format!("{number} *{name}"),
             (Argument::Output(name, 1), false) => format!("{name}: ptr<function, {number}>"),
-            (Argument::Output(name, count), true) => format!("{number} {name}[{count}]"),
+            (Argument::Output(name, count), true) => self.declared(name, Some(*count)),
             (Argument::Output(name, count), false) => {
                 format!("{name}: ptr<function, array<{number}, {count}>>")
             }
@@ -314,23 +305,26 @@ impl Language {
         }
     }
 
-    /// The structure of the parameters, and the values that the file was made with.
-    pub(super) fn structure(&self, fields: &[Field], example: &[String]) -> String {
-        let Self { prefix, upper, .. } = self;
+    /// A name with the type of a number, or of an array of numbers.
+    fn declared(&self, name: &str, count: Option<usize>) -> String {
         let number = self.type_of(Kind::Number);
-        let comment = |doc: &str| if doc.is_empty() { String::new() } else { format!(" /* {doc} */") };
-        let line = |field: &Field| match (field, self.is_c()) {
-            (Field::Absent(comment), _) => format!("    /* {comment} */\n"),
-            (Field::Number(name, doc), true) => format!("    {number} {name};{}\n", comment(doc)),
-            (Field::Number(name, doc), false) => format!("    {name}: {number},{}\n", comment(doc)),
-            (Field::List(name, count, doc), true) => {
-                format!("    {number} {name}[{count}];{}\n", comment(doc))
-            }
-            (Field::List(name, count, doc), false) => {
-                format!("    {name}: array<{number}, {count}>,{}\n", comment(doc))
-            }
-        };
-        let (fields, example) = (fields.iter().map(line).collect::<String>(), example.join(", "));
+        match (count, self.is_c()) {
+            (None, true) => format!("{number} {name}"),
+            (None, false) => format!("{name}: {number}"),
+            (Some(count), true) => format!("{number} {name}[{count}]"),
+            (Some(count), false) => format!("{name}: array<{number}, {count}>"),
+        }
+    }
+
+    /// A field of the structure of the parameters, a number or an array, with its comment.
+    pub(super) fn field(&self, name: &str, count: Option<usize>, doc: &str) -> String {
+        let comment = if doc.is_empty() { String::new() } else { format!(" /* {doc} */") };
+        format!("    {}{}{comment}\n", self.declared(name, count), if self.is_c() { ';' } else { ',' })
+    }
+
+    /// The structure of the parameters with these fields, and the values that the file was made with.
+    pub(super) fn structure(&self, fields: &str, example: &[String]) -> String {
+        let (Self { prefix, upper, .. }, example) = (self, example.join(", "));
         match self.is_c() {
             true => format!(
                 "typedef struct {{\n{fields}}} {prefix}_parameters;\n\n#define {upper}_EXAMPLE {{{example}}}\n\n"

@@ -10,7 +10,7 @@ use piola::__private::record::{Function, RecordedOperation, RecordedProgram, Rec
 use piola::Inversion;
 use piola::material::{Form, Parameter};
 
-use super::language::{Argument, Field, Kind, Language};
+use super::language::{Argument, Kind, Language};
 use super::{File, PointFunction};
 use body::Body;
 
@@ -106,27 +106,27 @@ impl<'a> Printer<'a> {
     fn parameters(&self) -> String {
         let Self { file, language, .. } = self;
         let description = file.energy.description();
-        let (mut fields, mut example) = (Vec::new(), Vec::new());
+        let (mut fields, mut example) = (String::new(), Vec::new());
         for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&self.fields) {
             let doc = safe(&parameter.doc);
             let mut numbers: Vec<_> = values.iter().map(|&value| language.literal(value)).collect();
-            fields.push(match parameter.form {
+            fields += &match parameter.form {
                 Form::Exponent | Form::Exponents => {
-                    Field::Absent(format!("{name} is {}, a whole exponent.", numbers.join(", ")))
+                    format!("    /* {name} is {}, a whole exponent. */\n", numbers.join(", "))
                 }
-                Form::List if values.is_empty() => Field::Absent(format!("{name} has no entries.")),
+                Form::List if values.is_empty() => format!("    /* {name} has no entries. */\n"),
                 Form::List => {
                     example.push(language.list(&numbers));
-                    Field::List(name.clone(), values.len(), doc)
+                    language.field(name, Some(values.len()), &doc)
                 }
                 _ => {
                     example.append(&mut numbers);
-                    Field::Number(name.clone(), doc)
+                    language.field(name, None, &doc)
                 }
-            });
+            };
         }
         if example.is_empty() {
-            fields.push(Field::Number("unused".to_owned(), "The energy has no parameters.".to_owned()));
+            fields += &language.field("unused", None, "The energy has no parameters.");
             example.push(language.literal(0.0));
         }
         language.structure(&fields, &example)
