@@ -18,6 +18,21 @@
 //! An ordinary library, so that tests and tools can call each step. It handles scalars only: no matrices,
 //! lanes or meshes.
 
+/// The value of a key in a map, computed when it is first requested.
+macro_rules! once {
+    ($memo:expr, $key:expr, $value:expr) => {{
+        let key = $key;
+        match $memo.get(&key) {
+            Some(&done) => done,
+            None => {
+                let value = $value;
+                $memo.insert(key, value);
+                value
+            }
+        }
+    }};
+}
+
 pub mod algebra;
 pub mod emit;
 mod judge;

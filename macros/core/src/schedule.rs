@@ -145,12 +145,7 @@ impl Scheduler<'_> {
     }
 
     fn value(&mut self, id: Id) -> Value {
-        if let Some(&done) = self.values.get(&id) {
-            return done;
-        }
-        let value = self.compute(id);
-        self.values.insert(id, value);
-        value
+        once!(self.values, id, self.compute(id))
     }
 
     fn literal(&mut self, value: Rational) -> Value {

@@ -34,12 +34,7 @@ impl Differentiator {
         if !self.may_depend(e) || graph.is_full() {
             return graph.integer(0);
         }
-        if let Some(&done) = self.memo.get(&(e, v)) {
-            return done;
-        }
-        let result = if e == v { graph.integer(1) } else { self.rule(graph, e, v) };
-        self.memo.insert((e, v), result);
-        result
+        once!(self.memo, (e, v), if e == v { graph.integer(1) } else { self.rule(graph, e, v) })
     }
 
     /// The derivative ∂e/∂λi.

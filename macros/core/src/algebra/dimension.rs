@@ -41,12 +41,7 @@ impl<'a> Dimensions<'a> {
     /// # Errors
     /// The first clash inside it, operands before what they are operands of.
     pub fn of(&mut self, graph: &Graph, id: Id) -> Result<Dimension, Clash> {
-        if let Some(&done) = self.memo.get(&id) {
-            return done;
-        }
-        let dimension = self.rule(graph, id);
-        self.memo.insert(id, dimension);
-        dimension
+        once!(self.memo, id, self.rule(graph, id))
     }
 
     fn rule(&mut self, graph: &Graph, id: Id) -> Result<Dimension, Clash> {

@@ -35,12 +35,7 @@ pub struct Increments {
 impl Increments {
     /// The difference Δe of an expression before its extensions are written out.
     pub fn increment(&mut self, graph: &mut Graph, e: Id) -> Id {
-        if let Some(&done) = self.memo.get(&e) {
-            return done;
-        }
-        let result = self.rule(graph, e);
-        self.memo.insert(e, result);
-        result
+        once!(self.memo, e, self.rule(graph, e))
     }
 
     fn rule(&mut self, graph: &mut Graph, e: Id) -> Id {
@@ -104,12 +99,7 @@ impl Increments {
         if is_zero_at_rest(graph, e) {
             return self.increment(graph, e);
         }
-        if let Some(&done) = self.accurate.get(&e) {
-            return done;
-        }
-        let result = graph.map_children(e, &mut |graph, child| self.accurate(graph, child));
-        self.accurate.insert(e, result);
-        result
+        once!(self.accurate, e, graph.map_children(e, &mut |graph, child| self.accurate(graph, child)))
     }
 
     /// φ\[a, a₁\] Δa, with an accurate form of a in the divided difference.

@@ -69,12 +69,7 @@ struct Interpreter<'a> {
 
 impl Interpreter<'_> {
     fn value(&mut self, id: Id) -> Estimate {
-        if let Some(&done) = self.memo.values.get(&id) {
-            return done;
-        }
-        let result = self.rule(id);
-        self.memo.values.insert(id, result);
-        result
+        once!(self.memo.values, id, self.rule(id))
     }
 
     fn rule(&mut self, id: Id) -> Estimate {

@@ -27,16 +27,13 @@ pub fn without_stretches(graph: &mut Graph, e: Id) -> Option<Id> {
 }
 
 fn with_invariants(graph: &mut Graph, e: Id, done: &mut FxHashMap<Id, Id>) -> Id {
-    if let Some(&known) = done.get(&e) {
-        return known;
-    }
-    let joined = match graph.node(e).clone() {
-        Node::Linear { constant, terms } => joined(graph, constant, &terms).unwrap_or(e),
-        _ => e,
-    };
-    let rewritten = graph.map_children(joined, &mut |graph, child| with_invariants(graph, child, done));
-    done.insert(e, rewritten);
-    rewritten
+    once!(done, e, {
+        let joined = match graph.node(e).clone() {
+            Node::Linear { constant, terms } => joined(graph, constant, &terms).unwrap_or(e),
+            _ => e,
+        };
+        graph.map_children(joined, &mut |graph, child| with_invariants(graph, child, done))
+    })
 }
 
 /// A sum with its terms in single stretches joined, if they are the same polynomial of each.

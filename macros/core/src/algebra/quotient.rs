@@ -104,16 +104,15 @@ impl<'a> Quotients<'a> {
 
     /// The quotient De; that of ψi for a flip is D⁻ij.
     pub fn quotient(&mut self, graph: &mut Graph, e: Id, reflection: Reflection) -> Id {
-        if let Some(&done) = self.memo.get(&(e, reflection)) {
-            return done;
-        }
-        let result = if graph.is_full() || reflect(graph, e, reflection) == e {
-            graph.integer(0)
-        } else {
-            self.rule(graph, e, reflection)
-        };
-        self.memo.insert((e, reflection), result);
-        result
+        once!(
+            self.memo,
+            (e, reflection),
+            if graph.is_full() || reflect(graph, e, reflection) == e {
+                graph.integer(0)
+            } else {
+                self.rule(graph, e, reflection)
+            }
+        )
     }
 
     fn rule(&mut self, graph: &mut Graph, e: Id, reflection: Reflection) -> Id {

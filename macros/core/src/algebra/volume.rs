@@ -175,13 +175,10 @@ pub fn rebuild(
     memo: &mut FxHashMap<Id, Id>,
     rule: &mut impl FnMut(&mut Graph, Id) -> Id,
 ) -> Id {
-    if let Some(&done) = memo.get(&id) {
-        return done;
-    }
-    let mapped = graph.map_children(id, &mut |graph, child| rebuild(graph, child, memo, rule));
-    let result = rule(graph, mapped);
-    memo.insert(id, result);
-    result
+    once!(memo, id, {
+        let mapped = graph.map_children(id, &mut |graph, child| rebuild(graph, child, memo, rule));
+        rule(graph, mapped)
+    })
 }
 
 /// The expression with a rule applied from the top down. The results of the rule are not rewritten again.
@@ -191,13 +188,12 @@ pub fn rewrite(
     memo: &mut FxHashMap<Id, Id>,
     rule: &impl Fn(&mut Graph, Id) -> Option<Id>,
 ) -> Id {
-    if let Some(&done) = memo.get(&id) {
-        return done;
-    }
-    let result = match rule(graph, id) {
-        Some(replaced) => replaced,
-        None => graph.map_children(id, &mut |graph, child| rewrite(graph, child, memo, rule)),
-    };
-    memo.insert(id, result);
-    result
+    once!(
+        memo,
+        id,
+        match rule(graph, id) {
+            Some(replaced) => replaced,
+            None => graph.map_children(id, &mut |graph, child| rewrite(graph, child, memo, rule)),
+        }
+    )
 }

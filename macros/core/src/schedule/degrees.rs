@@ -15,12 +15,7 @@ pub(super) struct Degrees {
 
 impl Degrees {
     pub(super) fn of(&mut self, graph: &Graph, id: Id) -> Degree {
-        if let Some(&done) = self.memo.get(&id) {
-            return done;
-        }
-        let result = self.rule(graph, id);
-        self.memo.insert(id, result);
-        result
+        once!(self.memo, id, self.rule(graph, id))
     }
 
     fn rule(&mut self, graph: &Graph, id: Id) -> Degree {

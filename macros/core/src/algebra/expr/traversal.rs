@@ -84,20 +84,19 @@ impl Graph {
 
     /// The expression with every stretch replaced.
     pub fn substitute(&mut self, id: Id, stretches: [Id; 3]) -> Id {
-        if let Some(&done) = self.substitutions.get(&(id, stretches)) {
-            return done;
-        }
-        let result = match *self.node(id) {
-            Node::Stretch(i) => stretches[i],
-            Node::Extended(function, order, i) => match *self.node(stretches[i]) {
-                Node::Stretch(j) => self.leaf(Node::Extended(function, order, j)),
-                // Extended functions are functions of a stretch and of nothing else; NaN would be noticed.
-                _ => self.leaf(Node::Float(f64::NAN.to_bits())),
-            },
-            _ => self.map_children(id, &mut |graph, child| graph.substitute(child, stretches)),
-        };
-        self.substitutions.insert((id, stretches), result);
-        result
+        once!(
+            self.substitutions,
+            (id, stretches),
+            match *self.node(id) {
+                Node::Stretch(i) => stretches[i],
+                Node::Extended(function, order, i) => match *self.node(stretches[i]) {
+                    Node::Stretch(j) => self.leaf(Node::Extended(function, order, j)),
+                    // Extended functions are functions of a stretch alone; NaN would be noticed.
+                    _ => self.leaf(Node::Float(f64::NAN.to_bits())),
+                },
+                _ => self.map_children(id, &mut |graph, child| graph.substitute(child, stretches)),
+            }
+        )
     }
 
     /// The largest number of nodes one inside the other below the roots, roots included.
