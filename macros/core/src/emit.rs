@@ -86,6 +86,11 @@ fn doc(text: &str) -> TokenStream {
     quote!(#(#[doc = #lines])*)
 }
 
+/// A method that is compiled for the instructions of the function which calls it.
+fn inlined(signature: TokenStream, body: TokenStream) -> TokenStream {
+    quote!(#[inline(always)] #signature { #body })
+}
+
 /// The generics after `impl`, and those after the name.
 fn generics(declaration: &Declaration) -> (TokenStream, TokenStream) {
     let names = &declaration.generics;

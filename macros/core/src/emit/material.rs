@@ -7,7 +7,7 @@ use syn::Ident;
 use super::domain::domain;
 use super::writer::Writer;
 use super::{functions, invariants};
-use super::{generics, naming, value_parameter};
+use super::{generics, inlined, naming, value_parameter};
 use crate::algebra::expr::Id;
 use crate::model::{Model, Variant};
 use crate::read::domain::Volume;
@@ -170,35 +170,15 @@ fn computed(declaration: &Declaration, model: &mut Model) -> TokenStream {
     let at_strains = at_strains(model, writer, &declaration.stretches);
     let admits = admits(declaration, model, writer);
     let by_invariants = invariants::methods(declaration, model, writer);
-    let strains = &writer.strains;
-    quote! {
-        #[inline(always)]
-        fn energy<R: __p::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R {
-            #energy
-        }
-
-        #[inline(always)]
-        fn gradient<R: __p::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> [R; 3] {
-            #gradient
-        }
-
-        #[inline(always)]
-        fn gradient_at_strains<R: __p::Real>(&self, #strains: [R; 3]) -> [R; 3] {
-            #at_strains
-        }
-
-        #[inline(always)]
-        fn blocks<R: __p::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> __p::Blocks<R> {
-            #blocks
-        }
-
-        #[inline(always)]
-        fn admits<R: __p::Real>(&self, [#l1, #l2, #l3]: [R; 3]) -> R::Mask {
-            #admits
-        }
-
-        #by_invariants
-    }
+    let (strains, stretches) = (&writer.strains, quote!([#l1, #l2, #l3]: [R; 3]));
+    let methods = [
+        inlined(quote!(fn energy<R: __p::Real>(&self, #stretches) -> R), energy),
+        inlined(quote!(fn gradient<R: __p::Real>(&self, #stretches) -> [R; 3]), gradient),
+        inlined(quote!(fn gradient_at_strains<R: __p::Real>(&self, #strains: [R; 3]) -> [R; 3]), at_strains),
+        inlined(quote!(fn blocks<R: __p::Real>(&self, #stretches) -> __p::Blocks<R>), blocks),
+        inlined(quote!(fn admits<R: __p::Real>(&self, #stretches) -> R::Mask), admits),
+    ];
+    quote!(#(#methods)* #by_invariants)
 }
 
 /// The gradient at strains. Below the threshold of an extension strains are not small, and the gradient by
