@@ -85,7 +85,8 @@ fn inside_at_rest(declaration: &Declaration, model: &mut Model, material: &Ident
         return None;
     }
     let program = model.program(&values);
-    let (statements, outputs) = Writer::new(declaration).with_material(material.clone()).program(&program);
+    let writer = Writer { material: material.clone(), ..Writer::new(declaration) };
+    let (statements, outputs) = writer.program(&program);
     let conditions: Vec<_> = declaration.bounds().collect();
     let (parameters, numbers) = (parameters(), numbers(declaration, Some(material)));
     let checks = places.into_iter().zip(outputs).filter_map(|(k, value)| {

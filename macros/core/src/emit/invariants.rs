@@ -15,7 +15,7 @@ pub(super) fn methods(declaration: &Declaration, model: &mut Model, writer: &Wri
     let variables = ["I1", "I2", "J"].map(|name| format_ident!("{name}"));
     let [i1, i2, j] = &variables;
     let arguments = quote!([#i1, #i2, #j]: [R; 3]);
-    let named = writer.with_variables(variables.clone());
+    let named = Writer { variables: variables.clone(), ..writer.clone() };
     let mut program = |roots: &[_]| named.program(&model.program(roots));
     let of_invariants = |name: &str, result: TokenStream, body: TokenStream| {
         let name = format_ident!("{name}");

@@ -11,13 +11,13 @@ use crate::schedule::{Op, Program, Value};
 /// Writes programs with the names of one declaration.
 #[derive(Clone)]
 pub(super) struct Writer<'a> {
-    declaration: &'a Declaration,
-    /// Names of the three stretches of the graph.
-    variables: [Ident; 3],
+    pub(super) declaration: &'a Declaration,
+    /// Names of the three stretches of the graph, or of other variables that they stand for.
+    pub(super) variables: [Ident; 3],
     /// The material whose parameters are read.
-    material: Ident,
+    pub(super) material: Ident,
     /// Prefix of the number of a value; such that no declared name looks like a value.
-    prefix: &'static str,
+    pub(super) prefix: &'static str,
     /// The index of sums.
     pub(super) index: Ident,
     /// The threshold of the extension.
@@ -48,16 +48,6 @@ impl<'a> Writer<'a> {
         let variables = declaration.stretches.clone();
         let material = format_ident!("self");
         Self { declaration, variables, material, prefix, index, threshold, strains }
-    }
-
-    /// A writer for programs that read the parameters of another material than `self`.
-    pub(super) fn with_material(&self, material: Ident) -> Self {
-        Self { material, ..self.clone() }
-    }
-
-    /// A writer for programs in which stretches stand for other variables.
-    pub(super) fn with_variables(&self, variables: [Ident; 3]) -> Self {
-        Self { variables, ..self.clone() }
     }
 
     /// The text for the material inside its domain, or else for the one that is continued beyond it.
