@@ -8,6 +8,8 @@
 
 mod primitives;
 
+use piola::__private::record::{Binary, Id, RecordedOperation, Unary};
+
 use super::{Precision, Target};
 
 /// Keywords of C99, C++20 and OpenCL C, and macros of headers and compilers.
@@ -167,32 +169,8 @@ impl Language {
         }
     }
 
-    pub(super) fn absolute(&self, a: &str) -> String {
-        if self.is_c() { format!("fabs{}({a})", self.suffix()) } else { format!("abs({a})") }
-    }
-
-    pub(super) fn square_root(&self, a: &str) -> String {
-        format!("sqrt{}({a})", self.suffix())
-    }
-
-    pub(super) fn copy_sign(&self, a: &str, b: &str) -> String {
-        match self.target {
-            // Warp's compiler has none.
-            Target::Cuda | Target::Wgsl => format!("{}_copysign({a}, {b})", self.prefix),
-            Target::C | Target::OpenCl => format!("copysign{}({a}, {b})", self.suffix()),
-        }
-    }
-
-    pub(super) fn mul_add(&self, a: &str, b: &str, c: &str) -> String {
-        if self.is_c() {
-            format!("{}_MUL_ADD({a}, {b}, {c})", self.upper)
-        } else {
-            format!("fma({a}, {b}, {c})")
-        }
-    }
-
     /// The result of an operation of arithmetic, rounded before it is used.
-    pub(super) fn rounded(&self, result: String) -> String {
+    fn rounded(&self, result: String) -> String {
         if self.is_c() { result } else { format!("{}_rounded({result})", self.prefix) }
     }
 
@@ -204,21 +182,67 @@ impl Language {
         }
     }
 
-    pub(super) fn less(&self, a: &str, b: &str) -> String {
-        let is_test = !self.is_c() && b == self.literal(f64::INFINITY);
-        if is_test { self.is_finite(a) } else { format!("{a} < {b}") }
-    }
-
-    pub(super) fn is_zero(&self, a: &str) -> String {
-        if self.is_c() { format!("{a} == 0") } else { format!("{a} == 0.0f") }
-    }
-
     pub(super) fn is_finite(&self, a: &str) -> String {
         if self.is_c() { format!("{a} - {a} == 0") } else { format!("{}_is_finite({a})", self.prefix) }
     }
 
-    pub(super) fn select(&self, mask: &str, yes: &str, no: &str) -> String {
-        if self.is_c() { format!("{mask} ? {yes} : {no}") } else { format!("select({no}, {yes}, {mask})") }
+    /// The value of an operation, with its operands where they are used.
+    pub(super) fn expression(
+        &self,
+        id: Id,
+        operation: &RecordedOperation,
+        o: &dyn Fn(Id) -> String,
+    ) -> String {
+        let Self { prefix, upper, .. } = self;
+        let (is_c, suffix) = (self.is_c(), self.suffix());
+        match *operation {
+            RecordedOperation::Unary(operator, a) => match (operator, o(a)) {
+                (Unary::Negate, a) => format!("-{a}"),
+                (Unary::Absolute, a) if is_c => format!("fabs{suffix}({a})"),
+                (Unary::Absolute, a) => format!("abs({a})"),
+                (Unary::SquareRoot, a) => self.rounded(format!("sqrt{suffix}({a})")),
+                (Unary::LeadingPower, a) => format!("{prefix}_leading_power({a})"),
+                (Unary::ReciprocalOfPower, a) => format!("{prefix}_reciprocal_of_power({a})"),
+            },
+            RecordedOperation::Binary(operator, a, b) => match (operator, o(a), o(b)) {
+                (Binary::Add, a, b) => self.rounded(format!("{a} + {b}")),
+                (Binary::Subtract, a, b) => self.rounded(format!("{a} - {b}")),
+                (Binary::Multiply, a, b) => self.rounded(format!("{a} * {b}")),
+                (Binary::Divide, a, b) => self.rounded(format!("{a} / {b}")),
+                // Warp's compiler has none.
+                (Binary::CopySign, a, b) if matches!(self.target, Target::Cuda | Target::Wgsl) => {
+                    format!("{prefix}_copysign({a}, {b})")
+                }
+                (Binary::CopySign, a, b) => format!("copysign{suffix}({a}, {b})"),
+                (Binary::Scale, a, b) => format!("{prefix}_scale({a}, {b})"),
+            },
+            RecordedOperation::MulAdd(a, b, c) => {
+                let function = if is_c { format!("{upper}_MUL_ADD") } else { "fma".to_owned() };
+                self.rounded(format!("{function}({}, {}, {})", o(a), o(b), o(c)))
+            }
+            RecordedOperation::Less(a, b) if !is_c && o(b) == self.literal(f64::INFINITY) => {
+                self.is_finite(&o(a))
+            }
+            RecordedOperation::Less(a, b) => format!("{} < {}", o(a), o(b)),
+            RecordedOperation::IsZero(a) => format!("{} == 0{}", o(a), if is_c { "" } else { ".0f" }),
+            RecordedOperation::Not(a) => format!("!{}", o(a)),
+            RecordedOperation::And(a, b) => format!("{} & {}", o(a), o(b)),
+            RecordedOperation::Or(a, b) => format!("{} | {}", o(a), o(b)),
+            RecordedOperation::Select(mask, yes, no) if is_c => {
+                format!("{} ? {} : {}", o(mask), o(yes), o(no))
+            }
+            RecordedOperation::Select(mask, yes, no) => {
+                format!("select({}, {}, {})", o(no), o(yes), o(mask))
+            }
+            RecordedOperation::Call(function, arguments) => {
+                let mut list: Vec<_> = arguments.iter().flatten().map(|&argument| o(argument)).collect();
+                if function.is_pair() {
+                    list.push(format!("&s{id}"));
+                }
+                format!("{prefix}_{}({})", function.name(), list.join(", "))
+            }
+            _ => o(id),
+        }
     }
 
     /// Bit k of a status.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use piola::__private::record::{Binary, Id, RecordedOperation, RecordedProgram, Unary};
+use piola::__private::record::{Id, RecordedOperation, RecordedProgram};
 
 use super::Printer;
 use crate::emit::language::{Kind, Language};
@@ -109,41 +109,7 @@ impl<'a> Body<'a> {
     }
 
     fn expression(&self, id: Id) -> String {
-        let prefix = &self.printer.file.prefix;
-        let language = self.language();
-        let o = |id: Id| self.operand(id);
-        let rounded = |result| language.rounded(result);
-        match self.program.operations[id as usize] {
-            RecordedOperation::Unary(operator, a) => match operator {
-                Unary::Negate => format!("-{}", o(a)),
-                Unary::Absolute => language.absolute(&o(a)),
-                Unary::SquareRoot => rounded(language.square_root(&o(a))),
-                Unary::LeadingPower => format!("{prefix}_leading_power({})", o(a)),
-                Unary::ReciprocalOfPower => format!("{prefix}_reciprocal_of_power({})", o(a)),
-            },
-            RecordedOperation::Binary(operator, a, b) => match operator {
-                Binary::Add => rounded(format!("{} + {}", o(a), o(b))),
-                Binary::Subtract => rounded(format!("{} - {}", o(a), o(b))),
-                Binary::Multiply => rounded(format!("{} * {}", o(a), o(b))),
-                Binary::Divide => rounded(format!("{} / {}", o(a), o(b))),
-                Binary::CopySign => language.copy_sign(&o(a), &o(b)),
-                Binary::Scale => format!("{prefix}_scale({}, {})", o(a), o(b)),
-            },
-            RecordedOperation::MulAdd(a, b, c) => rounded(language.mul_add(&o(a), &o(b), &o(c))),
-            RecordedOperation::Less(a, b) => language.less(&o(a), &o(b)),
-            RecordedOperation::IsZero(a) => language.is_zero(&o(a)),
-            RecordedOperation::Not(a) => format!("!{}", o(a)),
-            RecordedOperation::And(a, b) => format!("{} & {}", o(a), o(b)),
-            RecordedOperation::Or(a, b) => format!("{} | {}", o(a), o(b)),
-            RecordedOperation::Select(mask, yes, no) => language.select(&o(mask), &o(yes), &o(no)),
-            RecordedOperation::Call(function, arguments) => {
-                let mut list: Vec<_> = arguments.iter().flatten().map(|&argument| o(argument)).collect();
-                if function.is_pair() {
-                    list.push(format!("&s{id}"));
-                }
-                format!("{prefix}_{}({})", function.name(), list.join(", "))
-            }
-            _ => o(id),
-        }
+        let operation = &self.program.operations[id as usize];
+        self.language().expression(id, operation, &|operand| self.operand(operand))
     }
 }
