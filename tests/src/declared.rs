@@ -12,7 +12,7 @@ pub fn understood(text: &str) -> Result<(Declaration, Model), String> {
     let (Some((arguments, item)), true) = (all.pop(), all.is_empty()) else {
         return Err(format!("not one declaration: {text}"));
     };
-    piola_codegen::analyse(arguments, item, None).map_err(|error| format!("{error}: {text}"))
+    piola_codegen::analyse(arguments, item).map_err(|error| format!("{error}: {text}"))
 }
 
 /// An energy with parameters, as expressions.

@@ -11,9 +11,7 @@ fn the_first_attempt_is_refused_as_it_says() {
     let (attempt, _) = attempt.split_once("```\n").expect("the end of a block");
     let declarations = piola_codegen::declarations(attempt).expect("Rust");
     let [(arguments, item)] = &declarations[..] else { panic!("one declaration") };
-    let Err(error) = piola_codegen::analyse(arguments.clone(), item.clone(), None) else {
-        panic!("no mistake")
-    };
+    let Err(error) = piola_codegen::analyse(arguments.clone(), item.clone()) else { panic!("no mistake") };
     let said: Vec<_> = error.into_iter().map(|error| format!("error: {error}\n")).collect();
     assert_eq!(said.len(), 1, "{said:?}");
     assert!(tutorial.contains(&said[0]), "the tutorial lacks\n{}", said[0]);

@@ -53,26 +53,22 @@ use read::parse::{self, Declaration};
 /// The expansion of `#[material(arguments)] item`.
 #[must_use]
 pub fn expand(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    match analyse(arguments, item.clone(), None) {
+    match analyse(arguments, item.clone()) {
         Ok((declaration, model)) => emit::emit(&declaration, model),
         Err(mistakes) => emit::stub::inert(&mistakes, item),
     }
 }
 
-/// The declaration `#[material(arguments)] item` with its energy, derived and checked. The size of its
-/// expressions, derivatives included, is limited; `None` for no limit except memory.
+/// The declaration `#[material(arguments)] item` with its energy, derived and checked.
 ///
 /// # Errors
 /// All mistakes of form and meaning, each at its tokens.
-pub fn analyse(
-    arguments: TokenStream,
-    item: TokenStream,
-    most: Option<usize>,
-) -> syn::Result<(Declaration, Model)> {
-    analyse_in(Notation::Attribute, arguments, item, most)
+pub fn analyse(arguments: TokenStream, item: TokenStream) -> syn::Result<(Declaration, Model)> {
+    analyse_in(Notation::Attribute, arguments, item, None)
 }
 
-/// A declaration in any notation, which is also that of the messages, with its energy: see [`analyse`].
+/// A declaration in any notation, which is also that of the messages, with its energy: see [`analyse`]. The
+/// size of its expressions, derivatives included, is limited; `None` for no limit except memory.
 ///
 /// # Errors
 /// All mistakes of form and meaning, each at its tokens.

@@ -13,7 +13,7 @@ use quote::quote;
 mod catalogue;
 
 fn compile(name: &str, arguments: &TokenStream, item: &TokenStream) -> Model {
-    let analysed = analyse(arguments.clone(), item.clone(), None);
+    let analysed = analyse(arguments.clone(), item.clone());
     analysed.map_or_else(|error| panic!("{name}: {error}"), |(_, model)| model)
 }
 
@@ -120,7 +120,7 @@ fn formulas_are_cut_off() {
     let body: TokenStream =
         format!("{{ {body} mu * (v24.powi(2) + I1 * I1 / 3.0 - I2) }}").parse().expect("tokens");
     let item = quote!(fn E([x, y, z]: [f64; 3], mu: f64) -> f64 #body);
-    let (declaration, mut model) = analyse(quote!(), item, None).expect("an energy");
+    let (declaration, mut model) = analyse(quote!(), item).expect("an energy");
     let text = piola_codegen::printer::formula(&mut model.graph, &declaration, model.energy);
     assert!(text.contains('…') && text.len() < 20_000, "{} bytes", text.len());
 }

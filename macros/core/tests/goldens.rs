@@ -65,7 +65,7 @@ fn an_energy_with_lists_expands_as_committed() {
 fn results_take_the_operations_committed() {
     let mut text = format!("# Operations of the catalogue\n\n{LEGEND}.\n");
     for (arguments, item) in all() {
-        let (declaration, mut model) = analyse(arguments, item, None).expect("an energy without mistakes");
+        let (declaration, mut model) = analyse(arguments, item).expect("an energy without mistakes");
         let table = table(&declaration, &model.counts());
         write!(text, "\n## {}\n\n{table}", declaration.name).expect("text");
     }

@@ -32,7 +32,7 @@ fn mistakes(arguments: &str, parameter: &str, body: &str) -> String {
         format!("fn Solid([l1, l2, l3]: [f64; 3], mu: {parameter}) -> f64 {{ {body} }}"),
     ];
     let parse = |text: &str| -> TokenStream { text.parse().expect("tokens") };
-    let analyse = move || match analyse(parse(&arguments), parse(&item), None) {
+    let analyse = move || match analyse(parse(&arguments), parse(&item)) {
         Ok(_) => String::new(),
         Err(mistakes) => mistakes.into_iter().map(|mistake| mistake.to_string() + "\n").collect(),
     };

@@ -104,7 +104,7 @@ mod tests {
             fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], a: [f64; N], k: f64) -> f64 { #body }
         };
         let (declaration, mut model) =
-            analyse(quote!(domain(J > 0.0), prestressed), item, None).expect("an energy");
+            analyse(quote!(domain(J > 0.0), prestressed), item).expect("an energy");
         let point = Point {
             stretches,
             parameters: Rc::new(parameters.iter().map(|list| list.to_vec()).collect()),

@@ -37,7 +37,7 @@ mod tests {
     /// The function and the list of each call, by their places among the parameters m, f, g.
     fn found(body: TokenStream) -> Vec<(usize, Option<usize>)> {
         let item = quote!(fn E<const N: usize>([x, y, z]: [f64; 3], m: [f64; N], f: Curve, g: Curve) -> f64 { #body });
-        let (_, model) = analyse(quote!(prestressed), item, None).expect("an energy");
+        let (_, model) = analyse(quote!(prestressed), item).expect("an energy");
         calls(&model.graph, model.energy).into_iter().map(|call| (call.function, call.list)).collect()
     }
 

@@ -207,7 +207,7 @@ mod tests {
             fn E([l1, l2, l3]: [f64; 3], mu: f64, kappa: f64, k: f64) -> f64 { #energy }
         };
         let attribute = quote!(domain(J > 0.0), admissible(mu > 0.0, kappa > 0.0, k > 0.0), prestressed);
-        let (declaration, mut model) = crate::analyse(attribute, item, None).unwrap();
+        let (declaration, mut model) = crate::analyse(attribute, item).unwrap();
         let sums = model.lossy.clone();
         sums.into_iter().map(|sum| crate::printer::formula(&mut model.graph, &declaration, sum)).collect()
     }

@@ -157,7 +157,7 @@ mod tests {
             }
         };
         let arguments = quote!(domain(J > 0.0), admissible(mu > 0.0, k > 0.0, mu_2 > 0.0), prestressed);
-        let (declaration, mut model) = crate::analyse(arguments, item, None).unwrap();
+        let (declaration, mut model) = crate::analyse(arguments, item).unwrap();
         assert_eq!(model.lossy.len(), 3);
         let digits = super::digits(&declaration, &mut model);
         assert!(digits.starts_with("**Digits**") && digits.matches('`').count() == 2, "{digits}");

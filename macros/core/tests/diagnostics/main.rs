@@ -14,7 +14,7 @@ use proc_macro2::TokenStream;
 /// The messages of a declaration, each with the tokens that it stands on.
 fn mistakes(arguments: &str, item: &str) -> Vec<(String, String)> {
     let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
-    let understood = piola_codegen::analyse(tokens(arguments), tokens(item), None);
+    let understood = piola_codegen::analyse(tokens(arguments), tokens(item));
     let errors = understood.err().into_iter().flatten();
     errors.map(|error| (error.span().source_text().unwrap_or_default(), error.to_string())).collect()
 }
