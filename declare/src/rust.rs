@@ -2,11 +2,8 @@
 
 use piola::contract;
 use piola_codegen::analyse_in;
-use piola_codegen::read::diagnostics::Diagnostics;
 use piola_codegen::read::notation::Notation;
-use piola_codegen::read::parse::{Declaration, Kind};
 use proc_macro2::TokenStream;
-use syn::Type;
 
 use crate::energy::Energy;
 use crate::mistakes::Mistakes;
@@ -52,7 +49,6 @@ impl Energy {
 fn compile(text: &str, arguments: TokenStream, item: TokenStream) -> Result<Energy, Mistakes> {
     let (declaration, model) = analyse_in(Notation::Rust, arguments, item, LARGEST)
         .map_err(|error| Mistakes::from_syn(text, error))?;
-    only_splines(&declaration).map_err(|error| Mistakes::from_syn(text, error))?;
     Energy::new(&declaration, model, text.to_owned(), text.to_owned(), contract::Notation::Rust)
         .ok_or_else(|| Mistakes::of_all(text, TOO_LARGE.to_owned()))
 }
@@ -67,22 +63,4 @@ pub(crate) fn check_size(text: &str) -> Result<(), Mistakes> {
     }
     let message = format!("this text has {} bytes; that of an energy has at most {LARGEST_TEXT}", text.len());
     Err(Mistakes::of_all("", message))
-}
-
-/// Checks that all functions are splines: other types would need Rust code.
-fn only_splines(declaration: &Declaration) -> syn::Result<()> {
-    let is_spline = |ty: &Type| matches!(ty, Type::Path(path) if path.path.segments.last().is_some_and(|last| last.ident == "Spline"));
-    let mut mistakes = Diagnostics::default();
-    for parameter in &declaration.parameters {
-        if let Kind::Function(ty) = &parameter.kind
-            && !is_spline(ty)
-        {
-            mistakes.error(
-                ty,
-                "a function that is found at run time is a `Spline`: another type needs the declaration to be compiled, by \
-                 `#[piola::material]`",
-            );
-        }
-    }
-    mistakes.finish(Some(()))
 }

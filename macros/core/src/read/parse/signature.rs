@@ -73,6 +73,10 @@ fn is_raw(name: &Ident) -> bool {
 /// The message about a parameter of another form.
 const PARAMETER: &str = "a parameter is a number `mu: f64`, a list `mu: [f64; N]` or `mu: Vec<f64>`, a whole exponent `n: u32` or a function `f: F`, with `F: piola::Univariate`";
 
+/// The message about the type of a function in a declaration that is read at run time.
+const NO_SPLINE: &str = "a function that is found at run time is a `Spline`: another type needs the declaration to be compiled, by \
+     `#[piola::material]`";
+
 /// A signature as far as it has been read.
 pub(super) struct Reader<'a> {
     signature: &'a Signature,
@@ -281,7 +285,13 @@ impl<'a> Reader<'a> {
                 Some(entry) => mistake(entry, ENTRIES),
                 None => mistake(ty, ENTRIES),
             },
-            ty if may_be_function(ty) => Ok(Kind::Function(Box::new(ty.clone()))),
+            Type::Path(path) if may_be_function(ty) => {
+                let is_spline = path.path.segments.last().is_some_and(|last| last.ident == "Spline");
+                match self.diagnostics.notation() {
+                    Notation::Rust if !is_spline => mistake(ty, NO_SPLINE),
+                    _ => Ok(Kind::Function(Box::new(ty.clone()))),
+                }
+            }
             ty => mistake(ty, PARAMETER),
         }
     }
