@@ -48,15 +48,9 @@ impl Constructor {
             let checked = |bound| (program, Text::from(condition_text(bound)), named(declaration, bound));
             at_rest.extend(bound.map(checked));
         }
-        let stated = declaration.lengths.iter().map(|entries| match entries {
-            Entries::Known(syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(length), .. })) => {
-                length.base10_parse().ok()
-            }
-            _ => None,
-        });
         Some(Self {
             lengths: declaration.parameters.iter().map(|parameter| parameter.length()).collect(),
-            stated: stated.collect(),
+            stated: declaration.lengths.iter().map(Entries::stated).collect(),
             are_arrays: declaration.lengths.iter().map(|entries| !entries.are_known_at_run_time()).collect(),
             admissible: conditions(&options.admissible),
             extend: options.extend.as_deref().map(conditions),

@@ -2,15 +2,12 @@
 
 use std::rc::Rc;
 
-use syn::Expr;
-
 use super::finding::Finding;
 use super::source::{Source, at_rest};
 use crate::algebra::diff::Differentiator;
 use crate::algebra::expr::{Graph, Id};
 use crate::algebra::interpret::{Estimate, Memo, Point, evaluate, evaluate_with};
 use crate::read::domain::Volume;
-use crate::read::parse::Entries;
 
 /// Number of points at which identities are tested. One would do with probability 1; several refute bad luck.
 const SAMPLES: usize = 6;
@@ -91,16 +88,8 @@ pub(crate) fn candidates(
     attempts: impl Iterator<Item = usize>,
 ) -> impl Iterator<Item = Point> {
     let declaration = source.declaration;
-    let lengths: Vec<usize> = declaration
-        .lengths
-        .iter()
-        .map(|length| match length {
-            Entries::Known(Expr::Lit(syn::ExprLit { lit: syn::Lit::Int(literal), .. })) => {
-                literal.base10_parse().unwrap_or(3).min(LONGEST)
-            }
-            _ => 3,
-        })
-        .collect();
+    let lengths = declaration.lengths.iter().map(|length| length.stated().unwrap_or(3).min(LONGEST));
+    let lengths: Vec<usize> = lengths.collect();
     let entries = declaration.parameters.iter().map(|parameter| {
         let number = parameter.length().map_or(1, |k| lengths[k]);
         (number, parameter.is_whole)

@@ -5,10 +5,8 @@
 //! differences. Literals, parameters and stretches cost nothing. A total over a list takes one addition for
 //! each entry.
 
-use syn::Expr;
-
 use crate::algebra::expr::Length;
-use crate::read::parse::{Declaration, Entries};
+use crate::read::parse::Declaration;
 use crate::schedule::program::{Op, Program};
 use crate::schedule::{Sorted, entry};
 
@@ -77,9 +75,9 @@ impl Count {
         let terms = each.into_iter().map(|(length, number)| {
             let length = &declaration.lengths[length];
             let text = length.text(declaration);
-            match (number, length) {
-                (_, Entries::Known(Expr::Lit(_))) => format!("{number} · {text}"),
-                (1, _) => text,
+            match number {
+                _ if length.stated().is_some() => format!("{number} · {text}"),
+                1 => text,
                 _ => format!("{number} {text}"),
             }
         });

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote};
-use syn::{Expr, Ident};
+use syn::{Expr, ExprLit, Ident, Lit};
 
 use super::{Declaration, Kind, Options, Parameter, indexed_lists};
 use crate::algebra::expr::Length;
@@ -20,6 +20,15 @@ impl Entries {
     #[must_use]
     pub fn are_known_at_run_time(&self) -> bool {
         matches!(self, Self::AtRunTime(_))
+    }
+
+    /// The number, if the declaration states it.
+    #[must_use]
+    pub fn stated(&self) -> Option<usize> {
+        match self {
+            Self::Known(Expr::Lit(ExprLit { lit: Lit::Int(length), .. })) => length.base10_parse().ok(),
+            _ => None,
+        }
     }
 
     /// The number as an expression in methods of the material.
