@@ -93,7 +93,7 @@ pub fn analyse_in(
 /// A syntax error if the text is not Rust.
 pub fn declarations(source: &str) -> syn::Result<Vec<(TokenStream, TokenStream)>> {
     let mut found = Vec::new();
-    parse::check_file(&source.parse()?)?;
+    parse::check(parse::DEEPEST_FILE, &source.parse()?, Notation::Rust)?;
     collect(syn::parse_file(source)?.items, &mut found);
     Ok(found)
 }

@@ -309,8 +309,7 @@ fn variant(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> 
 
 /// The small-strain moduli μ = (ψ11 − ψ12)/2 and λ = ψ12 at rest.
 fn moduli(graph: &mut Graph, plain: &Variant) -> [Id; 2] {
-    let one = graph.integer(1);
-    let [normal, mixed] = [plain.hessian[0], plain.hessian[3]].map(|h| graph.substitute(h, [one; 3]));
+    let [normal, mixed] = [plain.hessian[0], plain.hessian[3]].map(|h| substitute_rest(graph, h));
     let difference = graph.sub(normal, mixed);
     let half = Rational::new(1, 2).unwrap_or(Rational::ONE);
     let shear = graph.scale(difference, half);

@@ -74,10 +74,10 @@ impl Interpreter<'_> {
 
     fn rule(&mut self, id: Id) -> Estimate {
         let exact = |value: f64| Estimate { value, magnitude: value.abs() };
-        let epsilon = self.point.epsilon;
+        let Point { stretches, epsilon, .. } = *self.point;
         match self.graph.node(id) {
-            Node::Stretch(i) => exact(self.point.stretches[*i]),
-            Node::Strain(i) => exact(self.point.stretches[*i] - 1.0),
+            Node::Stretch(i) => exact(stretches[*i]),
+            Node::Strain(i) => exact(stretches[*i] - 1.0),
             Node::Parameter(k) => exact(self.point.parameters[*k][0]),
             Node::Entry(k) => exact(self.point.parameters[*k][self.entry]),
             Node::Float(bits) => exact(f64::from_bits(*bits)),
@@ -118,8 +118,8 @@ impl Interpreter<'_> {
                 sum
             }
             Node::Extended(function, order, i) => {
-                let above = self.point.stretches[*i].max(epsilon);
-                let below = self.point.stretches[*i] - above;
+                let above = stretches[*i].max(epsilon);
+                let below = stretches[*i] - above;
                 let mut derivative = |k| self.plain_derivative(*function, k, above);
                 let value = match order {
                     0 => derivative(0) + derivative(1) * below + derivative(2) * below * below / 2.0,
@@ -129,14 +129,10 @@ impl Interpreter<'_> {
                 };
                 exact(value)
             }
-            Node::Above(i) => exact(self.point.stretches[*i].max(epsilon)),
-            Node::Below(i) => exact((self.point.stretches[*i] - epsilon).min(0.0)),
-            Node::ShareAbove(i, j) => {
-                exact(share_above(self.point.stretches[*i], self.point.stretches[*j], epsilon))
-            }
-            Node::ShareBelow(i, j) => {
-                exact(1.0 - share_above(self.point.stretches[*i], self.point.stretches[*j], epsilon))
-            }
+            Node::Above(i) => exact(stretches[*i].max(epsilon)),
+            Node::Below(i) => exact((stretches[*i] - epsilon).min(0.0)),
+            Node::ShareAbove(i, j) => exact(share_above(stretches[*i], stretches[*j], epsilon)),
+            Node::ShareBelow(i, j) => exact(1.0 - share_above(stretches[*i], stretches[*j], epsilon)),
             Node::WhereNegative(condition, a, b) => {
                 let is_negative = self.value(*condition).value < 0.0;
                 self.value(if is_negative { *a } else { *b })

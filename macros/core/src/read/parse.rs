@@ -18,7 +18,7 @@ use crate::read::diagnostics::Diagnostics;
 use crate::read::unit::Unit;
 pub(crate) use function::Function;
 pub use lengths::Entries;
-pub(crate) use nesting::check_file;
+pub(crate) use nesting::{DEEPEST_FILE, check};
 pub use options::Options;
 use signature::Reader;
 pub use signature::is_reserved;
@@ -177,9 +177,8 @@ pub fn parse_declaration(
     if let Some(typical) = options.typical.as_mut().filter(|_| mistaken.is_empty()) {
         typical.check(&parameters, diagnostics);
     }
-    let body =
-        diagnostics.take(nesting::check(&body, diagnostics.notation()).and_then(|()| syn::parse2(body)));
-    let body: syn::Block = body?;
+    let is_shallow = check(nesting::DEEPEST, &body, diagnostics.notation());
+    let body: syn::Block = diagnostics.take(is_shallow.and_then(|()| syn::parse2(body)))?;
     lengths::unite(&mut parameters, &mut lengths, &body, &options);
     Some(Declaration {
         attributes,

@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, Signature, Visibility};
 
-use super::nesting;
+use super::nesting::{DEEPEST, check};
 use crate::read::notation::Notation;
 
 /// A function with its body as tokens: while it is being typed, the body may be half an expression.
@@ -18,7 +18,7 @@ pub(crate) struct Function {
 impl Function {
     /// Reads the function below an attribute.
     pub(crate) fn read(item: TokenStream) -> syn::Result<Self> {
-        nesting::check(&without_body(&item), Notation::Attribute)?;
+        check(DEEPEST, &without_body(&item), Notation::Attribute)?;
         let is_function =
             item.clone().into_iter().any(|token| matches!(token, TokenTree::Ident(word) if word == "fn"));
         syn::parse2(item).map_err(|error| {

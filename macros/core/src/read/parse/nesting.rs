@@ -9,7 +9,10 @@ use crate::read::notation::Notation;
 
 /// Maximum depth of a declaration. Each level takes up to 20 kB of stack if a macro is compiled without
 /// optimisation, and an editor may expand it in a thread of 2 MiB.
-const DEEPEST: usize = 64;
+pub(super) const DEEPEST: usize = 64;
+
+/// Maximum depth of a file, for its parser. Its contents are checked later, with their own limit.
+pub(crate) const DEEPEST_FILE: usize = 8 * DEEPEST;
 
 /// Maximum number of terms of a sum, or factors of a product, in a declaration that is read at run time:
 /// syntax nests a term in all that follow it.
@@ -76,24 +79,11 @@ impl Level {
     }
 }
 
-/// Checks that tokens are not nested deeper than any formula.
+/// Checks that tokens are not nested deeper than this.
 ///
 /// # Errors
 /// A mistake at the token that is too deep.
-pub(super) fn check(tokens: &TokenStream, notation: Notation) -> syn::Result<()> {
-    check_to(DEEPEST, tokens, notation)
-}
-
-/// Checks that the tokens of a file are not nested too deeply for its parser. Its contents are checked later,
-/// with their own limit.
-///
-/// # Errors
-/// A mistake at the token that is too deep.
-pub(crate) fn check_file(tokens: &TokenStream) -> syn::Result<()> {
-    check_to(8 * DEEPEST, tokens, Notation::Rust)
-}
-
-fn check_to(deepest: usize, tokens: &TokenStream, notation: Notation) -> syn::Result<()> {
+pub(crate) fn check(deepest: usize, tokens: &TokenStream, notation: Notation) -> syn::Result<()> {
     let mut levels = vec![Level::new(tokens.clone(), 0)];
     while let Some(level) = levels.last_mut() {
         let Some(token) = level.rest.next() else {

@@ -8,7 +8,7 @@ use syn::{BinOp, Expr, Ident, LitStr, Meta, Token};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::spelling::{list, nearest};
 
-use super::nesting;
+use super::nesting::{DEEPEST, check};
 use super::typical::Typical;
 
 /// The arguments of the attribute.
@@ -54,7 +54,7 @@ impl Options {
     /// Reads all valid arguments and reports the rest.
     pub(super) fn read(arguments: TokenStream, diagnostics: &mut Diagnostics) -> Self {
         let mut options = Self::default();
-        if diagnostics.take(nesting::check(&arguments, diagnostics.notation())).is_none() {
+        if diagnostics.take(check(DEEPEST, &arguments, diagnostics.notation())).is_none() {
             return options;
         }
         let arguments = Punctuated::<Meta, Token![,]>::parse_terminated.parse2(arguments).map_err(|error| {
