@@ -61,12 +61,6 @@ impl Mistakes {
         Self::new(text, list)
     }
 
-    /// The mistakes with another name of the text, such as that of its file.
-    #[must_use]
-    pub fn with_name(self, name: impl Into<String>) -> Self {
-        Self { name: name.into(), ..self }
-    }
-
     fn write(&self, Mistake { message, place }: &Mistake, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Quotations from the text contain no control characters.
         f.write_str(&message.replace(|c: char| c.is_control() && c != '\n', "�"))?;

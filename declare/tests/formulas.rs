@@ -2,7 +2,7 @@
 
 use piola::material::Unit;
 use piola::{Inversion, Material};
-use piola_declare::{Energy, FormulaOptions, Mistake};
+use piola_declare::{Energy, FormulaOptions, Mistake, Mistakes};
 
 /// Checks that two texts declare the same energy of one parameter after the other.
 #[track_caller]
@@ -317,7 +317,7 @@ fn messages_are_in_the_notation_of_formulas() {
 #[test]
 fn mistakes_are_shown_with_their_line() {
     let mistakes = Energy::from_formula("mu/2*(I₁ − 3)\n + mu*lnn(J)").unwrap_err();
-    let shown = mistakes.with_name("rubber").to_string();
+    let shown = Mistakes { name: "rubber".to_owned(), ..mistakes }.to_string();
     let expected = "\n --> rubber:2:7\n  |\n2 |  + mu*lnn(J)\n  |       ^^^";
     assert!(shown.ends_with(expected), "{shown}");
 }

@@ -451,7 +451,7 @@ fn declared(
     // Ctrl-C during the compilation ends here.
     py.check_signals()?;
     let energy = energy.map_err(|mistakes| match name {
-        Some(name) => of_text(mistakes.with_name(label(name))),
+        Some(name) => of_text(Mistakes { name: label(name), ..mistakes }),
         None => of_text(mistakes),
     })?;
     let formula = (energy.notation() == Notation::Formula).then_some(text);

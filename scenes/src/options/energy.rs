@@ -120,7 +120,8 @@ pub fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
         return Ok(None);
     }
     let energy = Energy::from_rust(&read_text(path, u64::MAX)?);
-    let named = |mistakes: Mistakes| Error::Declaration(mistakes.with_name(path.display().to_string()));
+    let name = path.display().to_string();
+    let named = |mistakes: Mistakes| Error::Declaration(Mistakes { name, ..mistakes });
     Ok(Some(MaterialSpec::declared(energy.map_err(named)?)))
 }
 
