@@ -62,13 +62,6 @@ pub struct FormulaOptions {
     pub free_rest_option: Option<&'static str>,
 }
 
-impl FormulaOptions {
-    /// The language of messages.
-    fn language(&self) -> Language {
-        Language::Formula { free_rest: self.free_rest_option }
-    }
-}
-
 impl Energy {
     /// The energy of a formula.
     ///
@@ -99,6 +92,7 @@ impl Energy {
     /// # Errors
     /// All [`Mistakes`], each at its place in the formula.
     pub fn from_formula_with(formula: &str, options: &FormulaOptions) -> Result<Self, Mistakes> {
+        let language = Language::Formula { free_rest: options.free_rest_option };
         let notation = Notation::read(formula)?;
         let mistakes = |error: syn::Error| notation.mistakes(formula, error);
         let mut parsed = parse(notation.tokens.clone(), options).map_err(mistakes)?;
@@ -111,7 +105,7 @@ impl Energy {
             return Err(Mistakes::of_all(formula, message));
         }
         if options.free_rest {
-            parsed.free_rest(options.language()).map_err(mistakes)?;
+            parsed.free_rest(language).map_err(mistakes)?;
         }
         // The text alone is the energy, if it is read so without the options.
         let alone = parse(notation.tokens.clone(), &FormulaOptions::default());
@@ -123,7 +117,7 @@ impl Energy {
         // The first of these that has no mistakes and is not too large; else the mistakes of the last.
         let mut last = Mistakes::of_all(formula, "this is not an energy".to_owned());
         for arguments in parsed.arguments() {
-            let found = analyse_in(options.language(), arguments.clone(), parsed.item(), LARGEST);
+            let found = analyse_in(language, arguments.clone(), parsed.item(), LARGEST);
             let energy = found.map_err(mistakes).and_then(|(declaration, model)| {
                 let source = source(&arguments, &parsed.item());
                 let text = if is_alone { formula.to_owned() } else { source.clone() };

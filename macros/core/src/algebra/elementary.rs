@@ -14,7 +14,7 @@
 //! The derivative of tanh is not 1 − tanh², which has no correct digit where tanh is nearly 1, and that of
 //! the sigmoid not σ (1 − σ) for the same reason.
 
-use crate::algebra::expr::{Elementary, Exponent, Graph, Id, Node};
+use crate::algebra::expr::{Elementary, Exponent, Function, Graph, Id, Node};
 use crate::algebra::rational::Rational;
 
 impl Elementary {
@@ -50,11 +50,11 @@ impl Elementary {
             Self::Erf => {
                 let square = graph.powi(a, 2);
                 let exponent = graph.neg(square);
-                let exponential = graph.exp(exponent);
+                let exponential = graph.apply(Function::Exp, exponent);
                 let factor = graph.leaf(Node::Float(std::f64::consts::FRAC_2_SQRT_PI.to_bits()));
                 graph.mul(factor, exponential)
             }
-            Self::ExpM1 => graph.exp(a),
+            Self::ExpM1 => graph.apply(Function::Exp, a),
             Self::Ln1p => {
                 let sum = graph.linear(Rational::ONE, &[(a, Rational::ONE)]);
                 graph.powi(sum, -1)

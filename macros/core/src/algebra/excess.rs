@@ -341,7 +341,7 @@ mod tests {
         let mut near = point.clone();
         near.stretches = [1.0 + 1e-9, 1.0, 1.0 - 1e-9];
         for sum in [plain, mixed, over] {
-            let (power, ln, exp) = (real(&mut g, sum), g.ln(sum), g.exp(sum));
+            let (power, ln, exp) = (real(&mut g, sum), g.ln(sum), g.apply(Function::Exp, sum));
             for written in [power, ln, exp, g.apply(Function::Given(0, 0), sum)] {
                 let rewritten = with_squares_in_sums(&mut g, written);
                 assert!(has_squares(&g, rewritten) && !matches!(g.node(rewritten), Node::Accurate(..)));
@@ -376,7 +376,7 @@ mod tests {
         let left = g.div(left, whole);
         let with_stretch = g.linear(Rational::ZERO, &[(plain, Rational::ONE), (stretch, Rational::ONE)]);
         // Alone, it is exact enough for exp.
-        let exp = g.exp(plain);
+        let exp = g.apply(Function::Exp, plain);
         assert_eq!(with_squares_in_sums(&mut g, exp), exp);
         for sum in [limited, left, with_stretch] {
             for written in [real(&mut g, sum), g.ln(sum), g.apply(Function::Given(0, 0), sum)] {

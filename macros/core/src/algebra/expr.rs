@@ -232,11 +232,13 @@ impl Graph {
     pub fn apply(&mut self, function: Function, a: Id) -> Id {
         match function {
             Function::Ln => self.ln(a),
-            Function::Exp => self.exp(a),
+            Function::Exp if self.is_zero(a) => self.integer(1),
             Function::Elementary(function) => self.elementary(function, a),
             Function::Power(exponent) => self.power(a, exponent),
             Function::WholePower(_, 0) if self.as_constant(a) == Some(Rational::ONE) => a,
-            Function::WholePower(..) | Function::Given(..) => self.leaf(Node::Apply(function, a)),
+            Function::Exp | Function::WholePower(..) | Function::Given(..) => {
+                self.leaf(Node::Apply(function, a))
+            }
         }
     }
 
@@ -254,11 +256,6 @@ impl Graph {
             return self.elementary(Elementary::Softplus, x);
         }
         self.leaf(Node::Apply(Function::Ln, a))
-    }
-
-    /// The exponential eᵃ.
-    pub fn exp(&mut self, a: Id) -> Id {
-        if self.is_zero(a) { self.integer(1) } else { self.leaf(Node::Apply(Function::Exp, a)) }
     }
 
     /// An expression that is zero at rest and positive elsewhere, as a sum of squares, and as it is written.

@@ -99,7 +99,7 @@ impl Resolver<'_> {
                 self.graph.div(value, base)
             }
             "ln" => graph.ln(receiver),
-            "exp" => graph.exp(receiver),
+            "exp" => graph.apply(Function::Exp, receiver),
             "sqrt" => graph.power(receiver, Rational::new(1, 2).map_or(Exponent::ONE, Exponent::rational)),
             "cbrt" => graph.power(receiver, Rational::new(1, 3).map_or(Exponent::ONE, Exponent::rational)),
             "recip" if graph.is_zero(receiver) => self.mistake(&call.receiver, "division by zero"),
