@@ -1,7 +1,7 @@
 //! The command `piola`: runs scenes, shows them in a browser, lists materials and puts them on the bench.
 //!
-//! Other programs can use `piola-scenes`, `piola-viewer` and `piola-laboratory`, which are independent of this
-//! crate.
+//! Other programs can use [`render`], which draws a deforming surface in software, and `piola-scenes`,
+//! `piola-viewer` and `piola-laboratory`, which are independent of this crate.
 
 mod bench;
 mod command;
@@ -11,7 +11,7 @@ mod emit;
 mod error;
 mod materials;
 mod picture;
-mod render;
+pub mod render;
 mod signals;
 mod view;
 

@@ -13,7 +13,8 @@ mod light;
 mod raster;
 mod sheet;
 
-pub(crate) use sheet::{Frame, contact_sheet};
+pub use image::Image;
+pub use sheet::{Frame, contact_sheet};
 
 type Vector = nalgebra::Vector3<f32>;
 

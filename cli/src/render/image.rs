@@ -4,7 +4,7 @@ use std::io::Write;
 
 /// A picture of 8-bit sRGB pixels, row by row from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Image {
+pub struct Image {
     width: usize,
     height: usize,
     pixels: Vec<[u8; 3]>,
@@ -13,7 +13,7 @@ pub(crate) struct Image {
 impl Image {
     /// A picture of one colour.
     #[must_use]
-    pub(crate) fn filled(width: usize, height: usize, colour: [u8; 3]) -> Self {
+    pub fn filled(width: usize, height: usize, colour: [u8; 3]) -> Self {
         Self { width, height, pixels: vec![colour; width * height] }
     }
 
@@ -36,7 +36,7 @@ impl Image {
     ///
     /// # Errors
     /// If `target` cannot be written to, or a side of the picture is zero.
-    pub(crate) fn write_png(&self, target: impl Write) -> Result<(), png::EncodingError> {
+    pub fn write_png(&self, target: impl Write) -> Result<(), png::EncodingError> {
         let mut encoder = png::Encoder::new(target, self.width as u32, self.height as u32);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);

@@ -28,13 +28,13 @@ const HAZE: [f32; 3] = [0.90, 0.915, 0.94];
 
 /// One frame of a motion.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Frame {
+pub struct Frame {
     /// Its number, for the caption.
-    pub(crate) number: usize,
+    pub number: usize,
     /// Its time in seconds, for the caption.
-    pub(crate) time: f64,
+    pub time: f64,
     /// Deformed positions of the surface's vertices, m.
-    pub(crate) vertices: Vec<[f32; 3]>,
+    pub vertices: Vec<[f32; 3]>,
 }
 
 /// Draws frames of a deforming surface as tiles of one picture, seen by one camera that fits them all.
@@ -42,7 +42,7 @@ pub(crate) struct Frame {
 /// The floor lies under the lowest point of the body in half of the frames. Vertices that are not finite are
 /// left out.
 #[must_use]
-pub(crate) fn contact_sheet(frames: &[Frame], triangles: &[[u32; 3]], style: &Style) -> Image {
+pub fn contact_sheet(frames: &[Frame], triangles: &[[u32; 3]], style: &Style) -> Image {
     let columns = frames.len().clamp(1, COLUMNS);
     let rows = frames.len().div_ceil(columns).max(1);
     let cell = [TILE[0] + GUTTER, TILE[1] + CAPTION + GUTTER];
