@@ -35,8 +35,8 @@ impl Anchor {
     }
 }
 
-/// Binds each vertex of a surface to the tetrahedron that contains it at rest, or else to the nearest one; the
-/// anchors have the order of the vertices.
+/// Binds each vertex of a surface to the tetrahedron that contains it at rest, or else to the nearest one.
+/// The anchors have the order of the vertices.
 ///
 /// A vertex outside the mesh moves by extrapolation; `tolerance`, m, is its largest distance from the nearest
 /// tetrahedron, possibly infinite. Among several tetrahedra that contain a vertex, or are equally near, the

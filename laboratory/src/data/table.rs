@@ -168,8 +168,8 @@ fn refused(row: &Row<'_>, problem: String) -> DataError {
     DataError::at(row.line, mistake)
 }
 
-/// The columns with these names and, where a name has no unit, those of the row below, or the reason why there
-/// are none.
+/// The columns with these names and, where a name has no unit, those of the row below, or the reason why
+/// there are none.
 fn columns(names: &[&str], units: Option<&Row<'_>>, options: &ReadOptions) -> Result<Columns, String> {
     let below = |place: usize| unit(units?.fields.get(place)?);
     let headings = names.iter().enumerate().map(|(place, name)| Heading::of(place, name, below(place)));

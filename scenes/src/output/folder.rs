@@ -70,8 +70,8 @@ impl Folder {
         }
     }
 
-    /// Writes one file, which `content` fills. It appears when it is complete, or, if it `is_durable`, when it
-    /// is on the disk, and replaces one of its name.
+    /// Writes one file, which `content` fills. It appears when it is complete, or, if it `is_durable`, when
+    /// it is on the disk, and replaces one of its name.
     ///
     /// # Errors
     /// [`Error::Write`] if the disk is full or `content` fails. The folder is then as it was.
