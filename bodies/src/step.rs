@@ -38,9 +38,9 @@ pub use term::{EnergyChange, NodeBlocks, Term};
 /// [`Machine`](divided::Machine).
 ///
 /// A machine solves the linear systems, and its [`Division`](divided::Division) exchanges the vectors of
-/// nodes that several machines share. The methods of [`Simulation::divided`] are those of one machine, or have
-/// names that end in `_here`. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on a divided
-/// stiffness. The crate in `distributed/` uses all of it.
+/// nodes that several machines share. The methods of [`Simulation::divided`] are those of one machine, or
+/// have names that end in `_here`. [`Preconditioner`](divided::Preconditioner) is for conjugate gradients on
+/// a divided stiffness. The crate in `distributed/` uses all of it.
 #[doc(hidden)]
 pub mod divided {
     pub use super::objective::Objective;
