@@ -195,7 +195,7 @@ impl Body {
         let x = rows("positions", positions)?;
         let filter: Filter = self::filter(filter)?;
         let mut gradient = vec![[0.0; 3]; self.body.rest().len()];
-        let ((rows, columns), blocks): ((Vec<i64>, Vec<i64>), Vec<[[f64; 3]; 3]>) =
+        let ((rows, columns), blocks): ((Vec<_>, Vec<_>), Vec<_>) =
             self.evaluate(py, |body, Memory { response, stiffness }| {
                 let matrix = match stiffness {
                     Some(matrix) => matrix,

@@ -7,7 +7,7 @@
 //! * [`point`]: P and dP/dF by many methods, nanoseconds against errors at reference cases of 25 digits;
 //! * [`steps`]: a motion by integrators and solvers, wall time against the distance from a much finer one;
 //! * [`growth`]: time and memory of a step against the number of elements;
-//! * [`table`]: with `--table`, nanoseconds of points, batches and printed C, printed and nothing else.
+//! * [`table`]: with `--table`, nanoseconds of points and batches, printed and nothing else.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line tool")]
 
@@ -45,7 +45,7 @@ struct Arguments {
     /// Only these sections; the others are left out of the report
     #[arg(long, value_enum, value_delimiter = ',')]
     only: Vec<Section>,
-    /// Prints tables of nanoseconds for points, batches and printed C of three energies instead of a report
+    /// Prints a table of nanoseconds for points and batches of three energies instead of a report
     #[arg(long, conflicts_with = "only")]
     table: bool,
     /// What `cargo bench` adds

@@ -2,18 +2,16 @@
 //!
 //! Each energy has a table with a row for each way to ask and a column for each result, so that the figures
 //! of another code can stand beside it: F = I + 0.3 X with entries of X uniform in [−1, 1) and det F > 0.
-//! Printed C is such a code; CC and CFLAGS choose its compiler.
 
 #![expect(non_snake_case, reason = "F, P as in the literature")]
 
 use std::hint::black_box;
 
-use piola::Inversion;
 use piola::batch::{Batch, Kernels, Layout};
 use piola::lanes::Backend;
 use piola::material::Declared;
 use piola::point::{Filter, Matrix3, evaluate_dense, evaluate_stress};
-use piola_materials::{NeoHookean, Ogden, StVenantKirchhoff};
+use piola_materials::{NeoHookean, StVenantKirchhoff};
 use piola_speed::{
     Arrays, Decompositions, Effort, IN_CACHE, LAMBDA, MU, Task, Times, deformation_gradients, ogden,
     processor, time,
@@ -22,7 +20,6 @@ use piola_speed::{
 use crate::Outcome;
 use crate::markdown::table;
 
-mod printed;
 mod typed;
 
 /// Results: the title of a column, the task, and the filter.
@@ -44,23 +41,14 @@ pub(crate) fn print(effort: Effort, commit: Option<&str>) -> Outcome<()> {
         effort.repeats
     );
     println!("## Singular value decomposition, in lines\n\n{}", decompositions(effort));
-    let moduli: &[&[f64]] = &[&[MU], &[LAMBDA]];
-    print_energy::<NeoHookean>(["neo-Hooke", "neo_hookean"], moduli, effort)?;
-    print_energy::<StVenantKirchhoff>(["Saint Venant–Kirchhoff", "st_venant_kirchhoff"], moduli, effort)?;
-    let rubber = ogden();
-    let powers: &[&[f64]] = &[&rubber.mu(), &rubber.alpha(), &[LAMBDA]];
-    print_energy::<Ogden<3>>(["Ogden with three terms", "ogden"], powers, effort)?;
+    print_energy("neo-Hooke", &NeoHookean::new(MU, LAMBDA)?, effort);
+    print_energy("Saint Venant–Kirchhoff", &StVenantKirchhoff::new(MU, LAMBDA)?, effort);
+    print_energy("Ogden with three terms", &ogden(), effort);
     println!("## Energies typed at run time\n\n{}", typed::of_energies(effort)?);
     Ok(())
 }
 
-/// Prints the table of an energy, by its name here and in the catalogue.
-fn print_energy<M: Declared + 'static>(
-    [title, name]: [&str; 2],
-    values: &[&[f64]],
-    effort: Effort,
-) -> Outcome<()> {
-    let material = &M::from_values(values, Inversion::Refuse)?;
+fn print_energy<M: Declared + 'static>(name: &str, material: &M, effort: Effort) {
     let mut rows = Vec::new();
     for backend in vectors() {
         for (layout, order) in [(Layout::Points, "point by point"), (Layout::Lines, "in lines")] {
@@ -80,12 +68,7 @@ fn print_energy<M: Declared + 'static>(
     let tangents = [Filter::None, Filter::Clamp]
         .map(|filter| each_point(effort, |F| _ = black_box(evaluate_dense(material, F, filter))));
     rows.push(one_a_call("`evaluate_stress`, `evaluate_dense`", Some(stress), tangents));
-    match printed::times(name, values, effort.repeats) {
-        Ok((compiler, times)) => rows.push(one_a_call(&compiler, None, times)),
-        Err(error) => eprintln!("printed C is not measured: {error}"),
-    }
-    println!("## {title}\n\n{}", table(&["how"], &COLUMNS.map(|(title, ..)| title), rows));
-    Ok(())
+    println!("## {name}\n\n{}", table(&["how"], &COLUMNS.map(|(title, ..)| title), rows));
 }
 
 /// Back ends with vector registers; the portable one where there is no other.
