@@ -1,7 +1,7 @@
 //! Steps and equilibria, with terms and solvers that answer nonsense.
 
 use piola_bodies::mesh::{Anchor, tetrahedral_box};
-use piola_bodies::step::{Equilibrium, NodeBlocks, Simulation, Spring, StepReport, Term};
+use piola_bodies::step::{Equilibrium, NodeBlocks, Simulation, SparseSolver, Spring, StepReport, Term};
 use piola_bodies::system::{Body, LinearError, LowerTriangle};
 
 use crate::arguments::{SEEDS, check};
@@ -31,6 +31,21 @@ impl Term for Nonsense {
 
     fn longest_step(&self, _: &[[f64; 3]], _: &[[f64; 3]]) -> f64 {
         self.longest
+    }
+}
+
+/// A solver that fails, or answers with hostile numbers.
+#[derive(Clone)]
+struct Wrong {
+    error: Option<LinearError>,
+    x: f64,
+}
+
+impl SparseSolver for Wrong {
+    fn solve(&mut self, _: &LowerTriangle, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
+        self.error.map_or(Ok(0), Err)?;
+        b.fill(self.x);
+        Ok(0)
     }
 }
 
@@ -68,15 +83,7 @@ fn simulations() {
                         Some(LinearError::NotPositive { column: usize::MAX }),
                         Some(LinearError::OutOfMemory),
                     ]);
-                    let x = hostile.about(0.0);
-                    // A solver that fails, or answers with hostile numbers.
-                    let wrong =
-                        move |_: &LowerTriangle, b: &mut [f64], _: f64| -> Result<usize, LinearError> {
-                            error.map_or(Ok(0), Err)?;
-                            b.fill(x);
-                            Ok(0)
-                        };
-                    simulation.set_linear_solver(wrong)
+                    simulation.set_linear_solver(Wrong { error, x: hostile.about(0.0) })
                 }
                 0 => simulation.set_positions(&hostile.points(&mesh.positions)),
                 1 => simulation.set_velocities(&hostile.points(&mesh.positions)),

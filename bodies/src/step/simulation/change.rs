@@ -164,7 +164,7 @@ impl Simulation {
     /// replaced.
     ///
     /// # Errors
-    /// [`SetupError`] for a matrix that does not fit into memory. The solver before then stays.
+    /// [`SetupError`] with the error of the solver for the pattern. The solver before then stays.
     pub fn set_linear_solver(&mut self, solver: impl SparseSolver) -> Result<(), SetupError> {
         Ok(self.set_choice(Choice::UserDefined(Box::new(solver)))?)
     }

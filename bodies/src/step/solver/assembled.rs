@@ -4,8 +4,8 @@ use crate::step::error::NewtonError;
 use crate::system::linear::LinearError;
 use crate::system::{LowerTriangle, NodalStiffness, Pins};
 
-use super::SparseSolver;
 use super::interface::{Solution, System};
+use super::user_defined::AnySolver;
 
 /// The largest tolerance that a solver receives.
 const TOLERANCE: f64 = 1e-3;
@@ -17,18 +17,24 @@ const TOLERANCE: f64 = 1e-3;
 /// shorter.
 #[derive(Clone)]
 pub(super) struct Assembled {
-    matrix: LowerTriangle,
+    pub(super) matrix: LowerTriangle,
     /// For each free node of the matrix, true if it has been pinned since the matrix was made; empty if no
     /// node has.
     held: Vec<bool>,
     /// The right side, then the solution.
     unknowns: Vec<f64>,
-    solver: Box<dyn SparseSolver>,
+    solver: Box<dyn AnySolver>,
 }
 
 impl Assembled {
-    pub(super) fn new(matrix: LowerTriangle, solver: Box<dyn SparseSolver>) -> Self {
-        Self { solver, held: Vec::new(), unknowns: vec![0.0; 3 * matrix.free_nodes().len()], matrix }
+    pub(super) fn new(
+        stiffness: &NodalStiffness,
+        pins: &Pins,
+        mut solver: Box<dyn AnySolver>,
+    ) -> Result<Self, LinearError> {
+        let matrix = LowerTriangle::new(stiffness, pins)?;
+        solver.analyse_any(&matrix)?;
+        Ok(Self { solver, held: Vec::new(), unknowns: vec![0.0; 3 * matrix.free_nodes().len()], matrix })
     }
 
     /// Replaces the pins of a body of `nodes` nodes. Returns the free nodes in the order of the unknowns, or
@@ -66,7 +72,7 @@ impl Assembled {
             matrix.fill(stiffness, diagonal)?;
             objective.blocks.add_to_triangle(matrix);
             matrix.hold(held);
-            match solver.solve(matrix, unknowns, tolerance.min(TOLERANCE)) {
+            match solver.solve_any(matrix, unknowns, tolerance.min(TOLERANCE)) {
                 Ok(iterations) => break iterations,
                 Err(LinearError::NotPositive { .. }) if must_be_definite => {
                     return Ok(None);

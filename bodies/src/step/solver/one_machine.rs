@@ -4,12 +4,13 @@ use crate::step::error::NewtonError;
 use crate::step::term::NodeBlocks;
 use crate::system::linear::LinearError;
 use crate::system::linear::multigrid::Undivided;
-use crate::system::{Body, LowerTriangle, NodalStiffness, Pins};
+use crate::system::{Body, NodalStiffness, Pins};
 
+use super::LinearSolver;
 use super::assembled::Assembled;
 use super::conjugate::Conjugate;
 use super::interface::{Machine, Solution, System};
-use super::{LinearSolver, SparseSolver};
+use super::user_defined::AnySolver;
 
 /// Machine that simulates a whole body.
 #[derive(Clone)]
@@ -27,7 +28,7 @@ pub struct OneMachine {
 #[derive(Clone)]
 pub(in crate::step) enum Choice {
     Setting(LinearSolver),
-    UserDefined(Box<dyn SparseSolver>),
+    UserDefined(Box<dyn AnySolver>),
 }
 
 /// Method of a solver, with its memory.
@@ -35,22 +36,6 @@ pub(in crate::step) enum Choice {
 enum Method {
     Assembled(Assembled),
     Conjugate(Box<Conjugate>),
-}
-
-impl Method {
-    /// Method with the assembled matrix, for which `solver` makes a solver; also the stiffness and the free
-    /// nodes.
-    fn assembled(
-        body: &Body,
-        pins: &Pins,
-        pairs: &[[usize; 2]],
-        solver: impl FnOnce(&LowerTriangle) -> Result<Box<dyn SparseSolver>, LinearError>,
-    ) -> Result<(NodalStiffness, Vec<usize>, Self), LinearError> {
-        let stiffness = NodalStiffness::new(body, pairs, true)?;
-        let matrix = LowerTriangle::new(&stiffness, pins)?;
-        let (free, solver) = (matrix.free_nodes().to_vec(), solver(&matrix)?);
-        Ok((stiffness, free, Self::Assembled(Assembled::new(matrix, solver))))
-    }
 }
 
 impl OneMachine {
@@ -62,16 +47,22 @@ impl OneMachine {
         pairs: &[[usize; 2]],
         choice: Choice,
     ) -> Result<Self, LinearError> {
+        let assembled = |solver: Box<dyn AnySolver>| -> Result<_, LinearError> {
+            let stiffness = NodalStiffness::new(body, pairs, true)?;
+            let assembled = Assembled::new(&stiffness, pins, solver)?;
+            Ok((stiffness, assembled.matrix.free_nodes().to_vec(), Method::Assembled(assembled)))
+        };
         let (stiffness, free, method) = match &choice {
             Choice::Setting(LinearSolver::Automatic) => {
                 let chosen = LinearSolver::for_elements(body.elements().len());
                 return Self::new(body, pins, pairs, Choice::Setting(chosen));
             }
             #[cfg(feature = "faer")]
-            Choice::Setting(LinearSolver::Cholesky) => Method::assembled(body, pins, pairs, |matrix| {
-                Ok(Box::new(crate::system::Cholesky::new(matrix.column_starts(), matrix.row_indices())?))
-            })?,
-            Choice::UserDefined(solver) => Method::assembled(body, pins, pairs, |_| Ok(solver.clone()))?,
+            Choice::Setting(LinearSolver::Cholesky) => {
+                let of_nothing: Box<dyn AnySolver> = Box::new(crate::system::Cholesky::new(&[0], &[])?);
+                assembled(of_nothing)?
+            }
+            Choice::UserDefined(solver) => assembled(solver.clone())?,
             Choice::Setting(LinearSolver::ConjugateGradients { tolerance, max_iterations }) => {
                 let mut conjugate = Box::new(Conjugate::new(body.rest().len(), *tolerance, *max_iterations));
                 let free = conjugate.set_pins(pins);

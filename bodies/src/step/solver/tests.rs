@@ -89,11 +89,7 @@ fn whoever_continues_a_motion_gives_the_same_bits() {
         others[1].set_velocities(whole.velocities()).expect("finite");
         if linear == LinearSolver::Cholesky {
             others.push(whole.clone());
-            let factored = |matrix: &LowerTriangle, b: &mut [f64], _: f64| -> Result<usize, LinearError> {
-                let mut cholesky = Cholesky::new(matrix.column_starts(), matrix.row_indices())?;
-                SparseSolver::solve(&mut cholesky, matrix, b, 0.0)
-            };
-            others[2].set_linear_solver(factored).expect("a pattern");
+            others[2].set_linear_solver(Cholesky::new(&[0], &[]).expect("no unknowns")).expect("a pattern");
         }
         let (reports, end) = (steps(&mut whole), whole.positions().to_vec());
         for mut other in others {

@@ -6,11 +6,19 @@ use crate::system::linear::LinearError;
 /// User-defined solver of the linear systems A x = b of Newton's method: see
 /// [`Simulation::set_linear_solver`](crate::step::Simulation::set_linear_solver).
 ///
-/// A function of the form of [`SparseSolver::solve`] is such a solver. Three rows and columns of A belong to
-/// each of [`LowerTriangle::free_nodes`]. A copy of the solver as it was given solves the systems of each
-/// pattern, which changes if terms of the energy join other nodes, or with the pins: it may analyse the
-/// pattern in its first call, for a symbolic factorisation.
-pub trait SparseSolver: Send + Sync + 'static {
+/// Three rows and columns of A belong to each of [`LowerTriangle::free_nodes`]. A function of the form of
+/// [`SparseSolver::solve`] is such a solver.
+pub trait SparseSolver: Clone + Send + Sync + 'static {
+    /// Analyses the pattern of the matrices to come, for a symbolic factorisation: before the first one, and
+    /// whenever terms of the energy join other nodes or pins change. Does nothing by default.
+    ///
+    /// # Errors
+    /// Any [`LinearError`]; usually [`LinearError::OutOfMemory`].
+    fn analyse(&mut self, column_starts: &[usize], row_indices: &[usize]) -> Result<(), LinearError> {
+        let _ = (column_starts, row_indices);
+        Ok(())
+    }
+
     /// Replaces b by x with ‖b − A x‖ ≤ `tolerance` ‖b‖, or as close as possible. Returns the number of
     /// iterations, 0 for a direct solver.
     ///
@@ -18,10 +26,6 @@ pub trait SparseSolver: Send + Sync + 'static {
     /// [`LinearError::NotPositive`], with b unchanged, if A is not positive definite: the solver is then
     /// called again, with eigenvalues clamped or with inertia added. Other errors end the step.
     fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError>;
-
-    /// Copies the solver.
-    #[doc(hidden)]
-    fn boxed_clone(&self) -> Box<dyn SparseSolver>;
 }
 
 impl<F> SparseSolver for F
@@ -32,13 +36,42 @@ where
     fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError> {
         self(matrix, b, tolerance)
     }
+}
 
-    fn boxed_clone(&self) -> Box<dyn SparseSolver> {
+/// [`SparseSolver`] of any type.
+pub(in crate::step) trait AnySolver: Send + Sync {
+    fn analyse_any(&mut self, matrix: &LowerTriangle) -> Result<(), LinearError>;
+
+    fn solve_any(
+        &mut self,
+        matrix: &LowerTriangle,
+        b: &mut [f64],
+        tolerance: f64,
+    ) -> Result<usize, LinearError>;
+
+    fn boxed_clone(&self) -> Box<dyn AnySolver>;
+}
+
+impl<S: SparseSolver> AnySolver for S {
+    fn analyse_any(&mut self, matrix: &LowerTriangle) -> Result<(), LinearError> {
+        self.analyse(matrix.column_starts(), matrix.row_indices())
+    }
+
+    fn solve_any(
+        &mut self,
+        matrix: &LowerTriangle,
+        b: &mut [f64],
+        tolerance: f64,
+    ) -> Result<usize, LinearError> {
+        self.solve(matrix, b, tolerance)
+    }
+
+    fn boxed_clone(&self) -> Box<dyn AnySolver> {
         Box::new(self.clone())
     }
 }
 
-impl Clone for Box<dyn SparseSolver> {
+impl Clone for Box<dyn AnySolver> {
     fn clone(&self) -> Self {
         self.as_ref().boxed_clone()
     }
@@ -46,13 +79,14 @@ impl Clone for Box<dyn SparseSolver> {
 
 #[cfg(feature = "faer")]
 impl SparseSolver for crate::system::Cholesky {
+    fn analyse(&mut self, column_starts: &[usize], row_indices: &[usize]) -> Result<(), LinearError> {
+        *self = Self::new(column_starts, row_indices)?;
+        Ok(())
+    }
+
     fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], _: f64) -> Result<usize, LinearError> {
         self.factor(matrix.values())?;
         Self::solve(self, b);
         Ok(0)
-    }
-
-    fn boxed_clone(&self) -> Box<dyn SparseSolver> {
-        Box::new(self.clone())
     }
 }
