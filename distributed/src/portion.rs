@@ -43,8 +43,8 @@ impl Homes {
         team.send(rows.into_iter().map(|row| (self.of(row[0]), row)))
     }
 
-    /// Answers of the homes of these nodes, which must be ascending unless they have one home; `answer` has
-    /// the index of a node in the home range.
+    /// Answers of the homes of these nodes, which must be ascending; `answer` has the index of a node in the
+    /// home range.
     pub(crate) fn ask<const N: usize>(
         &self,
         team: &Team,

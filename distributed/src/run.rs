@@ -302,15 +302,18 @@ impl<'a> Course<'a> {
     /// Continues from the checkpoint in the folder; returns its clock.
     fn resume(&mut self) -> Result<Clock, Error> {
         let file = checkpoint::file_in(&self.folder);
-        let about: About = checkpoint::read(self.team, &file, &mut self.simulation)?;
-        if about.body != self.about.body {
-            return Err(checkpoint::refused(&file, "it belongs to another mesh"));
-        }
-        let clock = about.clock.filter(|_| about.settings == self.about.settings).ok_or_else(|| {
-            checkpoint::refused(&file, format!("its run began with other options: {}", about.settings))
-        })?;
-        self.about = about;
-        Ok(clock)
+        let Self { about: own, simulation, .. } = &mut *self;
+        let check = |about: &About| {
+            if about.body != own.body {
+                return Err("it belongs to another mesh".to_owned());
+            }
+            if about.settings != own.settings || about.clock.is_none() {
+                return Err(format!("its run began with other options: {}", about.settings));
+            }
+            Ok(())
+        };
+        self.about = checkpoint::read(self.team, &file, simulation, check)?;
+        Ok(self.about.clock.unwrap_or_else(|| Clock::new(self.task.settings.dt)))
     }
 
     fn summary(&mut self, times: &[Duration]) -> Summary {

@@ -64,18 +64,17 @@ pub(crate) struct State {
     pub(crate) velocities: Vec<[f64; 3]>,
 }
 
-/// The checkpoint in the folder of a run: a line of JSON, then position, velocity and acceleration of each
-/// node.
+/// The checkpoint in the folder of a run: a header in JSON, then positions, velocities and accelerations.
 pub(crate) fn checkpoint_in(folder: &Path) -> Result<State, Box<dyn Error>> {
     let bytes = std::fs::read(checkpoint::file_in(folder))?;
-    let end = bytes.iter().position(|&byte| byte == b'\n').ok_or("no header")?;
-    let mut header: serde_json::Value = serde_json::from_slice(&bytes[..end])?;
-    let states = &bytes[end + 1..];
-    assert_eq!(header["checksum"], crc32fast::hash(states));
+    let (header, lists) = bytes.split_at(65536);
+    let mut header: serde_json::Value = serde_json::from_slice(header)?;
+    assert_eq!(header["checksum"], crc32fast::hash(lists));
     let numbers: Vec<f64> =
-        states.as_chunks::<8>().0.iter().map(|&number| f64::from_le_bytes(number)).collect();
-    let nodes = numbers.as_chunks::<3>().0.as_chunks::<3>().0;
-    assert_eq!(header["nodes"], nodes.len());
-    let [positions, velocities] = [0, 1].map(|at: usize| nodes.iter().map(|node| node[at]).collect());
+        lists.as_chunks::<8>().0.iter().map(|&number| f64::from_le_bytes(number)).collect();
+    let vectors = numbers.as_chunks::<3>().0;
+    let nodes = vectors.len() / 3;
+    assert_eq!(header["nodes"], nodes);
+    let [positions, velocities] = [0, nodes].map(|first| vectors[first..first + nodes].to_vec());
     Ok(State { about: serde_json::from_value(header["about"].take())?, positions, velocities })
 }
