@@ -34,7 +34,7 @@ pub(crate) struct SymmetricBlocks<E, const N: usize> {
     memory: Vec<Memory<E, N>>,
 }
 
-/// Places of the blocks of a matrix, which depend on its graph alone.
+/// Places of the blocks of a matrix, which depend on its graph and on the order of its rows.
 pub(crate) struct Pattern {
     pub(crate) graph: Graph,
     /// Rows in an order that keeps neighbours together.

@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::Outcome;
 
 /// Cells along an edge; a cell has six elements. A factor takes too much beyond [`MOST_OF_FACTOR`].
-const CELLS: [usize; 7] = [6, 8, 12, 17, 25, 38, 55];
+const CELLS: [usize; 7] = [6, 8, 12, 17, 25, 38, 56];
 const MOST_OF_FACTOR: usize = 25;
 
 const TIME_STEP: f64 = 0.01;
