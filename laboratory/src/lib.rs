@@ -25,6 +25,6 @@ mod specimen;
 pub mod stability;
 
 /// A piece of any material, along whose principal axes forces are read: every [`Material`](piola::Material)
-/// is a `Specimen<f64>`.
+/// is a `Specimen<f64>`, with its methods at stretches λ1 ≥ λ2 ≥ λ3 > 0.
 pub use piola::material::Response as Specimen;
 pub use rest::AtRest;

@@ -1,4 +1,5 @@
-//! Derivatives of a specimen along the axes of a test, which a material orders by its stretches.
+//! Derivatives of a specimen along the axes of a test. A material requires stretches in falling order, so
+//! they are sorted and sorted back.
 
 use piola::material::{Moduli, Response as Specimen};
 

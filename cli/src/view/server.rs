@@ -16,7 +16,7 @@ use super::request::{self, Door};
 
 /// A browser opens half a dozen for the files of a page and keeps one.
 const MAX_CONNECTIONS: usize = 32;
-/// Time after which a page that does not read is given up; on one machine it takes milliseconds.
+/// Time after which a page that reads nothing is given up; on one machine a write takes milliseconds.
 const ANSWER: Duration = Duration::from_secs(10);
 
 /// A server of the page.

@@ -55,7 +55,7 @@ struct Saved {
 
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 enum Format {
-    #[serde(rename = "piola run 1")]
+    #[serde(rename = "piola run 2")]
     One,
 }
 
