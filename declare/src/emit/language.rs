@@ -186,7 +186,7 @@ impl Language {
         if self.is_c() { format!("{a} - {a} == 0") } else { format!("{}_is_finite({a})", self.prefix) }
     }
 
-    /// The value of an operation, with its operands where they are used.
+    /// The text of an operation, given the text of each operand.
     pub(super) fn expression(
         &self,
         id: Id,

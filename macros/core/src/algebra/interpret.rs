@@ -169,7 +169,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// A divided difference, except for those of whole powers without rounding errors of its arguments.
+    /// A divided difference, without rounding errors of its arguments unless the function is a whole power.
     fn quotient(&mut self, function: Function, a: Id, b: Id) -> Estimate {
         let (a, b) = (self.value(a), self.value(b));
         let value = match function {

@@ -102,7 +102,7 @@ impl<'a> Quotients<'a> {
         (graph.add(removable, plain), !positive)
     }
 
-    /// The quotient De; that of ψi for a flip is D⁻ij.
+    /// The quotient De. For e = ψi and a flip, De is D⁻ij.
     pub fn quotient(&mut self, graph: &mut Graph, e: Id, reflection: Reflection) -> Id {
         once!(
             self.memo,

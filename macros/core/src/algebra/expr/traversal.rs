@@ -24,7 +24,7 @@ impl Node {
 }
 
 impl Function {
-    /// The expression that is its exponent, or that of its real part.
+    /// The expression in the exponent of a power, or in its real part.
     fn exponent_mut(&mut self) -> Option<&mut Id> {
         match self {
             Self::Power(exponent) => exponent.real.as_mut(),

@@ -79,7 +79,7 @@ impl Level {
     }
 }
 
-/// Checks that tokens are not nested deeper than this.
+/// Checks that tokens are not nested deeper than the given depth.
 ///
 /// # Errors
 /// A mistake at the token that is too deep.
