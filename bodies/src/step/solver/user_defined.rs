@@ -39,7 +39,7 @@ where
 }
 
 /// [`SparseSolver`] of any type.
-pub(in crate::step) trait AnySolver: Send + Sync {
+pub(crate) trait AnySolver: Send + Sync {
     fn analyse_any(&mut self, matrix: &LowerTriangle) -> Result<(), LinearError>;
 
     fn solve_any(
