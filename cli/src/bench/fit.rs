@@ -38,8 +38,8 @@ pub(crate) struct Fit {
     #[arg(long, conflicts_with = "incompressible")]
     compressible: bool,
 
-    /// Number of descents from random parameters, in addition to the one from those given. Each call draws the
-    /// same.
+    /// Number of descents from random parameters, in addition to the one from those given. Each call draws
+    /// the same.
     #[arg(long, value_name = "N", default_value_t = 20)]
     starts: usize,
 

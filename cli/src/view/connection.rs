@@ -1,8 +1,8 @@
 //! The socket of a page: turns its messages into orders, and sends back the answers.
 //!
 //! One thread reads and writes in turn. While a page waits for a frame, it listens in short turns; otherwise
-//! in long ones. A paused page may be silent for hours. One that its browser has stopped keeps its place until
-//! the connection ends.
+//! in long ones. A paused page may be silent for hours. One that its browser has stopped keeps its place
+//! until the connection ends.
 
 use std::io::{ErrorKind, Read};
 use std::net::TcpStream;
