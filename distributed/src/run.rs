@@ -302,7 +302,7 @@ impl<'a> Course<'a> {
     /// Continues from the checkpoint in the folder; returns its clock.
     fn resume(&mut self) -> Result<Clock, Error> {
         let file = checkpoint::file_in(&self.folder);
-        let Self { about: own, simulation, .. } = &mut *self;
+        let Self { team, task, about: own, simulation, .. } = self;
         let check = |about: &About| {
             if about.body != own.body {
                 return Err("it belongs to another mesh".to_owned());
@@ -312,8 +312,8 @@ impl<'a> Course<'a> {
             }
             Ok(())
         };
-        self.about = checkpoint::read(self.team, &file, simulation, check)?;
-        Ok(self.about.clock.unwrap_or_else(|| Clock::new(self.task.settings.dt)))
+        *own = checkpoint::read(team, &file, simulation, check)?;
+        Ok(own.clock.unwrap_or_else(|| Clock::new(task.settings.dt)))
     }
 
     fn summary(&mut self, times: &[Duration]) -> Summary {

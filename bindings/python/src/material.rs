@@ -8,7 +8,7 @@ use piola::contract::Notation;
 use piola::interpreter::Interpreted;
 use piola::material::{self, Moduli, Parameter, PerPoint};
 use piola_declare::emit::{Emission, UnknownWord};
-use piola_declare::{Energy, FormulaOptions};
+use piola_declare::{Energy, FormulaOptions, Mistakes};
 use piola_scenes::material::{MaterialInfo, MaterialSpec};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyTuple};
