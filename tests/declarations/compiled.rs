@@ -96,13 +96,7 @@ pub fn Series(
 //@ refuses [1, 1], [1, 2], 70: `m` is 70; such an exponent must be a whole number from 0 to 64
 //@ points 64
 #[piola::material(prestressed)]
-pub fn Springs(
-    [l1, l2, l3]: [f64; 3],
-    /** Pa. */
-    c: [f64; 2],
-    n: [u32; 2],
-    m: u32,
-) -> f64 {
+pub fn Springs([l1, l2, l3]: [f64; 3], c: [f64; 2], n: [u32; 2], m: u32) -> f64 {
     sum(|p| c[p] * sum(|l| (l - 1.0).powi(n[p]))) + sum(|l| (l * l - 1.0).powi(m))
 }
 
