@@ -1,9 +1,9 @@
-//! Characters of papers that Rust does not have: `μ/2 (I₁ − 3)` is read as `μ/2 (I1 - 3)`.
+//! Characters and TeX of papers: `\frac{\mu}{2} (I₁ − 3)` is read as `((mu)/(2)) (I1 - 3)`.
 
-use std::ops::Range;
-
+use piola_codegen::read::spelling::greek;
 use proc_macro2::TokenStream;
 
+use super::spellings::meaning;
 use crate::mistakes::{Mistake, Mistakes, Place};
 use crate::rust::check_size;
 
@@ -23,35 +23,34 @@ impl Notation {
     /// [`Mistakes`] if its characters do not form tokens.
     pub(super) fn read(formula: &str) -> Result<Self, Mistakes> {
         check_size(formula)?;
+        // The sign that ends a sentence or a statement is left out.
+        let is_end = |character: char| character.is_whitespace() || ";.,".contains(character);
+        let characters: Vec<char> = formula.trim_end_matches(is_end).chars().collect();
         let (mut text, mut origins) = (String::new(), Vec::new());
-        let (mut is_raised, mut is_index) = (false, false);
-        let mut characters = with_bars(formula).into_iter().peekable();
-        while let Some((place, character)) = characters.next() {
-            let raised = raised(character);
-            let is_name = characters.peek().is_some_and(|(_, next)| next.is_alphabetic());
-            let written = match (raised, lowered(character)) {
-                (Some(digit), _) if is_raised => digit.to_string(),
-                (Some(digit), _) => format!("^{digit}"),
-                (None, Some(letter)) => letter.to_string(),
-                // `\lambda_{1}` of TeX is `lambda_1`, and `2\mu` a product.
-                (None, None) if character == '\\' && is_name => {
-                    if text.ends_with(char::is_alphanumeric) { " " } else { "" }.to_owned()
-                }
-                (None, None) if character == '{' && text.ends_with('_') => {
-                    is_index = true;
-                    String::new()
-                }
-                (None, None) if character == '}' && std::mem::take(&mut is_index) => String::new(),
-                (None, None) => character.to_string(),
-            };
-            is_raised = raised.is_some();
-            origins.extend(written.chars().map(|_| place));
+        // The texts that close the braces around, and the character before.
+        let (mut braces, mut before, mut origin) = (Vec::new(), ' ', 0);
+        while let Some(&character) = characters.get(origin) {
+            let is_name = character.is_alphanumeric() && raised(character).or(lowered(character)).is_none();
+            if is_name && (raised(before).is_some() || lowered(before).is_some() && !character.is_ascii()) {
+                // `λ²μ` and `λ₁λ₂` are products.
+                text.push(' ');
+                origins.push(origin);
+            }
+            let part = read_part(&characters[origin..], before, &text, &mut braces);
+            let (length, written) = part.map_err(|message| {
+                let place = Place::at(formula, origin);
+                Mistakes::new(formula, vec![Mistake { message: message.to_owned(), place }])
+            })?;
+            let last = origin + length - 1;
+            let count = written.chars().count();
+            origins.extend((1..=count).map(|k| if k < count { origin } else { last }));
             text += &written;
+            (origin, before) = (last + 1, characters[last]);
         }
         origins.push(formula.chars().count());
         match text.parse() {
-            Ok(tokens) => Ok(Self { tokens, text, origins }),
-            Err(_) => Err(Mistakes::new(formula, vec![unreadable(formula)])),
+            Ok(tokens) if braces.is_empty() => Ok(Self { tokens, text, origins }),
+            _ => Err(Mistakes::new(formula, vec![unreadable(formula)])),
         }
     }
 
@@ -78,38 +77,81 @@ impl Notation {
     }
 }
 
-/// The characters of a formula with their positions. A bar of TeX becomes part of the name below it:
-/// `\bar{I}_1` is `\Ibar_1`.
-fn with_bars(formula: &str) -> Vec<(usize, char)> {
-    let characters: Vec<char> = formula.chars().collect();
-    let mut written = Vec::with_capacity(characters.len());
-    let mut next = 0;
-    while next < characters.len() {
-        match bar(&characters, next) {
-            Some((name, end)) => {
-                written.push((next, '\\'));
-                written.extend(characters[name].iter().map(|&letter| (next, letter)));
-                written.extend("bar".chars().map(|letter| (end - 1, letter)));
-                next = end;
-            }
-            None => {
-                written.push((next, characters[next]));
-                next += 1;
-            }
-        }
+/// Reads the part of a formula that begins here, behind a character and a text: the number of its characters,
+/// and what is read instead.
+fn read_part(
+    rest: &[char],
+    before: char,
+    text: &str,
+    braces: &mut Vec<&'static str>,
+) -> Result<(usize, String), &'static str> {
+    let character = rest[0];
+    let is_digit = |character: char| character.is_ascii_digit();
+    let is_operand = |character: char| character.is_alphanumeric() || "_.)]".contains(character);
+    let gap = if text.ends_with(char::is_alphanumeric) { " " } else { "" };
+    if let Some(digit) = raised(character) {
+        let sign = if raised(before).is_some() { "" } else { "^" };
+        return Ok((1, format!("{sign}{digit}")));
     }
-    written
+    let index = lowered(character);
+    if index.is_some() || character == '_' {
+        let is_behind_power = text.trim_end_matches(|c: char| is_digit(c) || c == '-').ends_with('^');
+        if is_behind_power || text.ends_with(')') {
+            return Err("an index stands before the exponent, as in `I_1^2`");
+        }
+        return Ok((1, index.unwrap_or(character).to_string()));
+    }
+    if character.is_numeric() && !is_digit(character) && (character != '½' || text.ends_with(is_digit)) {
+        return Err("write this number as a fraction or with a decimal point, as in `(1/3)` and `2.5`");
+    }
+    if let Some((length, written)) = symbol(rest) {
+        // A fraction, or a root; `\{` is not closed by a brace.
+        if length > 2 && rest[length - 1] == '{' {
+            braces.push(if written == "((" { ")/(" } else { ")" });
+        }
+        return Ok((length, written.to_owned()));
+    }
+    match character {
+        // `\lambda_{1}` of TeX is `lambda_1`, and `2\mu` a product.
+        '\\' => named(rest).map(|(length, name)| (length, gap.to_owned() + &name)).ok_or(TEX),
+        '{' => {
+            let (opening, closing) = if text.ends_with('_') { ("", "") } else { ("(", ")") };
+            braces.push(closing);
+            Ok((1, opening.to_owned()))
+        }
+        '}' => match (braces.pop(), rest[1..].iter().position(|c| !c.is_whitespace())) {
+            (Some(")/("), Some(gap)) if rest[1 + gap] == '{' => {
+                braces.push("))");
+                Ok((2 + gap, ")/(".to_owned()))
+            }
+            (Some(")/("), _) => Err(TEX),
+            (closing, _) => Ok((1, closing.unwrap_or("}").to_owned())),
+        },
+        '.' if rest.get(1).copied().is_some_and(is_digit) && !text.ends_with(is_operand) => {
+            Ok((1, "0.".to_owned()))
+        }
+        _ => Ok((1, character.to_string())),
+    }
 }
 
-/// The name below a bar of TeX that begins here, and the end of the bar.
-fn bar(text: &[char], start: usize) -> Option<(Range<usize>, usize)> {
+/// The name of a letter or function of TeX, or one in a font, or below a bar, which becomes part of it:
+/// `\bar{I}_1` is `Ibar_1`.
+fn named(text: &[char]) -> Option<(usize, String)> {
     const BARS: [&str; 2] = ["\\bar", "\\overline"];
-    let begins = |bar: &&&str| bar.chars().eq(text[start..].iter().copied().take(bar.len()));
+    const FONTS: [&str; 5] = ["\\mathrm", "\\mathbf", "\\boldsymbol", "\\operatorname", "\\text"];
+    let begins = |bar: &&str| bar.chars().eq(text.iter().copied().take(bar.len()));
     let behind = |from: usize, is_part: fn(char) -> bool| {
         from + text[from..].iter().take_while(|&&character| is_part(character)).count()
     };
-    let command = start + BARS.iter().find(begins)?.len();
-    let argument = behind(command, char::is_whitespace);
+    let Some(bar) = BARS.into_iter().chain(FONTS).find(begins) else {
+        let end = behind(1, char::is_alphabetic);
+        let name: String = text[1..end].iter().collect();
+        let is_greek = greek(name.to_lowercase().trim_start_matches("var")).is_some();
+        // `\sqrt` with braces has been read, and `\sqrt[3]{x}` is another root.
+        let is_read = is_greek || name != "sqrt" && meaning(&name).is_some();
+        return is_read.then_some((end, name));
+    };
+    let argument = behind(bar.len(), char::is_whitespace);
     let is_braced = *text.get(argument)? == '{';
     let backslash = argument + usize::from(is_braced);
     let first = backslash + usize::from(*text.get(backslash)? == '\\');
@@ -119,8 +161,9 @@ fn bar(text: &[char], start: usize) -> Option<(Range<usize>, usize)> {
     let last = if is_letter { last.min(first + 1) } else { last };
     let end = last + usize::from(is_braced);
     let is_name =
-        last > first && (!is_letter || argument > command) && (!is_braced || text.get(last) == Some(&'}'));
-    is_name.then_some((first..last, end))
+        last > first && (!is_letter || argument > bar.len()) && (!is_braced || text.get(last) == Some(&'}'));
+    let added = if BARS.contains(&bar) { "bar" } else { "" };
+    is_name.then(|| (end, text[first..last].iter().collect::<String>() + added))
 }
 
 /// Error for characters that do not form tokens: an unmatched parenthesis, or characters without a meaning in
@@ -131,8 +174,11 @@ fn unreadable(formula: &str) -> Mistake {
         match character {
             '(' => open.push((')', k)),
             '[' => open.push((']', k)),
-            ')' | ']' if open.last().is_some_and(|&(closing, _)| closing == character) => _ = open.pop(),
-            ')' | ']' => {
+            '{' => open.push(('}', k)),
+            ')' | ']' | '}' => {
+                if open.pop().is_some_and(|(closing, _)| closing == character) {
+                    continue;
+                }
                 let message = format!("this `{character}` closes nothing: remove it, or open it before");
                 return Mistake { message, place: Place::at(formula, k) };
             }
@@ -140,12 +186,13 @@ fn unreadable(formula: &str) -> Mistake {
         }
     }
     if let Some(&(closing, k)) = open.first() {
-        let opening = if closing == ')' { '(' } else { '[' };
+        let opening = formula.chars().nth(k).unwrap_or('(');
         let message = format!("this `{opening}` is not closed: write `{closing}` where it ends");
         return Mistake { message, place: Place::at(formula, k) };
     }
-    let is_known = |c: char| c.is_alphanumeric() || c.is_whitespace() || "_+-*/^()[].,<>=!".contains(c);
-    let strange = formula.chars().position(|c| !is_known(c) && raised(c).is_none() && lowered(c).is_none());
+    let is_known = |c: char| c.is_alphanumeric() || c.is_whitespace() || "_+-*/^()[]{}.,<>=!".contains(c);
+    let is_read = |c: char| raised(c).or(lowered(c)).is_some() || symbol(&[c]).is_some();
+    let strange = formula.chars().position(|c| !is_known(c) && !is_read(c));
     Mistake {
         message: "this cannot be part of a formula: names are made of letters, digits and `_`, numbers are written as `1.5e6`, and \
                   parts are joined by `+ - * / ^`"
@@ -154,14 +201,47 @@ fn unreadable(formula: &str) -> Mistake {
     }
 }
 
-/// A digit or sign in an exponent.
+/// A digit, sign or letter in an exponent.
 fn raised(character: char) -> Option<char> {
-    counterpart(character, "⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+    counterpart(character, "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᵀⁿᵐᵃᵅᵝ", "0123456789-Tnmaαβ")
 }
 
-/// The character of Rust for one that papers use.
+/// A digit in an index.
 fn lowered(character: char) -> Option<char> {
-    counterpart(character, "₀₁₂₃₄₅₆₇₈₉−–·×∗⋅∕÷", "0123456789--****//")
+    counterpart(character, "₀₁₂₃₄₅₆₇₈₉", "0123456789")
+}
+
+/// The message about TeX that is not read.
+const TEX: &str = "of TeX, names, `\\frac{a}{b}` and `\\sqrt{x}` are read with all braces: use plain letters";
+
+/// Signs of papers and commands of TeX, and what is read instead.
+const SYMBOLS: [(&str, &str); 15] = [
+    ("· × ∗ ⋅ ∙ \\cdot \\times \\ast", "*"),
+    ("∕ ⁄ ÷ \\div", "/"),
+    ("− –", "-"),
+    ("≤ \\le \\leq", "<="),
+    ("≥ \\ge \\geq", ">="),
+    ("≠ \\ne \\neq", "!="),
+    ("½", "(1/2)"),
+    ("√", " sqrt "),
+    ("\\sqrt{", " sqrt("),
+    ("\\frac{ \\dfrac{ \\tfrac{", "(("),
+    ("∑ \\sum", " Σ "),
+    ("\\{ \\left[ \\bigl[ \\Bigl[ \\big[ \\Big[", "("),
+    ("\\} \\right] \\bigr] \\Bigr] \\big] \\Big]", ")"),
+    ("\\left \\right \\bigl \\bigr \\Bigl \\Bigr \\big \\Big", " "),
+    ("$ \\, \\: \\; \\! \\quad \\displaystyle", " "),
+];
+
+/// The symbol that begins here: its length, and what is read instead.
+fn symbol(text: &[char]) -> Option<(usize, &'static str)> {
+    let length = |symbol: &str| {
+        let length = symbol.chars().count();
+        let is_longer = || text.get(length).is_some_and(|next| next.is_alphabetic());
+        let begins = symbol.chars().eq(text.iter().copied().take(length));
+        (begins && !(symbol.ends_with(char::is_alphabetic) && is_longer())).then_some(length)
+    };
+    SYMBOLS.iter().find_map(|&(symbols, read)| Some((symbols.split(' ').find_map(length)?, read)))
 }
 
 /// The character of the second text at the place that this one has in the first.

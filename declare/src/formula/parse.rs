@@ -1,7 +1,7 @@
 //! The grammar of formulas, and the tokens of Rust that they become.
 //!
 //! ```text
-//! formula   = ["ψ" "="] sum ["where" condition {"," condition}]
+//! formula   = ["ψ" "="] ["return"] sum ["where" condition {"," condition}]
 //! condition = sum ("<" | ">" | "<=" | ">=" | "!=") sum
 //! sum       = product {("+" | "-") product}
 //! product   = sign {("*" | "/" | nothing) sign}
@@ -17,7 +17,7 @@ use std::collections::{HashMap, HashSet};
 
 use piola_codegen::read::diagnostics::Diagnostics;
 use piola_codegen::read::parse::{WORDS, is_reserved};
-use piola_codegen::read::spelling::{nearest, spelled_out};
+use piola_codegen::read::spelling::{greek, nearest, spelled_out};
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote, quote_spanned};
 
@@ -136,14 +136,16 @@ struct Parser {
 }
 
 impl Parser {
-    /// Skips `ψ =`, or `W(I1, I2) =`.
+    /// Skips `ψ =`, `W(I1, I2) =` or `W[I1_, I2_] :=`, and `return`.
     fn left_side(&mut self) {
         let is_name = matches!(self.tokens.peek(), Some(TokenTree::Ident(_)));
         let has_arguments = matches!(self.tokens.ahead(1), Some(TokenTree::Group(_)));
-        let equal = 1 + usize::from(has_arguments);
+        let colon = 1 + usize::from(has_arguments);
+        let equal = colon + usize::from(self.tokens.is_sign(colon, ':'));
         if is_name && self.tokens.is_sign(equal, '=') && !self.tokens.is_sign(equal + 1, '=') {
             self.tokens.skip(equal + 1);
         }
+        self.tokens.take_word("return");
     }
 
     fn condition(&mut self) -> syn::Result<(TokenStream, bool)> {
@@ -205,7 +207,7 @@ impl Parser {
     fn atom(&mut self) -> syn::Result<TokenStream> {
         match self.tokens.advance() {
             Some(TokenTree::Literal(literal)) => Ok(real(literal)?.to_token_stream()),
-            Some(TokenTree::Group(group)) if group.delimiter() != Delimiter::Brace => {
+            Some(TokenTree::Group(group)) => {
                 let inner = self.inside(&group, Self::sum)?;
                 Ok(parenthesised(inner, group.span()).to_token_stream())
             }
@@ -229,8 +231,19 @@ impl Parser {
         let name = self.as_given(name);
         let text = name.to_string();
         let is_given = self.given.contains(&text) || self.indices.contains(&name);
+        if !is_given && text.starts_with('Σ') {
+            let message = "write a sum over lists as `sum(p, mu[p]*…)`, over the stretches as `sum(l, l^2)`, and others term by term";
+            return Err(syn::Error::new(name.span(), message));
+        }
+        // `Log[J]` of Mathematica is not an entry of a list.
+        let is_meant = |name: &str| !is_given && spellings::meaning(name).is_some();
+        let is_argument = |index: String| {
+            (is_meant(&text) || is_meant(&index)) && self.indices.iter().all(|other| *other != index)
+        };
         match self.tokens.peek().cloned() {
-            Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis => {
+            Some(TokenTree::Group(group))
+                if group.delimiter() == Delimiter::Parenthesis || is_argument(group.stream().to_string()) =>
+            {
                 self.tokens.advance();
                 return match text.as_str() {
                     _ if is_given => Err(no_function(&name)),
@@ -296,6 +309,7 @@ impl Parser {
             Some(Meaning::Name(_)) => return Err(no_function(name)),
             _ if self.places.contains_key(&text) => return Err(no_function(name)),
             Some(Meaning::Function(method)) => method,
+            None if greek(&spelled_out(&text)).is_some() => return Err(no_function(name)),
             None => text.as_str(),
         };
         let method = Ident::new(method, name.span());

@@ -144,7 +144,7 @@ pub(super) fn span(tokens: &TokenStream) -> Span {
 pub(super) fn real(literal: Literal) -> syn::Result<Literal> {
     /// More characters than any number needs, for numbers are read digit by digit.
     const LONGEST: usize = 100;
-    let refuse = || syn::Error::new(literal.span(), format!("`{literal}` is not a number of a formula"));
+    let refuse = || syn::Error::new(literal.span(), format!("`{literal}` is not a number: use `2*x`, `1e6`"));
     if literal.to_string().len() > LONGEST {
         let message = format!("a number has at most {LONGEST} digits here");
         return Err(syn::Error::new(literal.span(), message));

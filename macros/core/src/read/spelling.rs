@@ -62,7 +62,8 @@ pub fn spelled_out(name: &str) -> String {
 }
 
 /// The small Greek letter of a name.
-pub(crate) fn greek(name: &str) -> Option<char> {
+#[must_use]
+pub fn greek(name: &str) -> Option<char> {
     GREEK.iter().find(|(word, _)| *word == name).and_then(|(_, letters)| letters.chars().next())
 }
 
