@@ -290,23 +290,26 @@ fn no_text_of_a_declaration_leaves_its_comment() {
             float_: f64,
             é: f64,
             ue9: f64,
+            I: f64,
             void: Vec<f64>,
         ) -> f64 {
-            float / 2.0 * (I1 - 3.0) - float * J.ln() + (float_ + é + ue9) / 2.0 * J.ln().powi(2)
+            float / 2.0 * (I1 - 3.0) - float * J.ln() + (float_ + é + ue9 + I) / 2.0 * J.ln().powi(2)
                 + sum(|p| void[p] * J.ln().powi(2))
         }
     "#;
     let energy = piola_declare::Energy::from_rust(declared).expect("an energy");
     let emit = |void: &[f64], precision| {
         let emission = Emission { precision, ..Emission::new(Target::C) };
-        energy.emit(&[&[1e6], &[1e6], &[0.0], &[0.0], void], Inversion::Refuse, &emission)
+        energy.emit(&[&[1e6], &[1e6], &[0.0], &[0.0], &[0.0], void], Inversion::Refuse, &emission)
     };
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
     let text = emit(&[], Precision::F64).expect("text");
     assert!(text.contains("hostile_stress"), "the name in lower case");
     write("one.h", &text);
     write("other.h", &emit(&[1.0], Precision::F64).expect("text"));
-    write("main.c", "#include \"one.h\"\n#include \"one.h\"\nint main(void) { return 0; }\n");
+    // The first header defines `I`.
+    let included = "#include <complex.h>\n#include \"one.h\"\n#include \"one.h\"\n";
+    write("main.c", &format!("{included}int main(void) {{ return 0; }}\n"));
     compile(folder.path(), &["-std=c99", "-fsyntax-only", "main.c"]);
     // Two files of one prefix would hide each other.
     write("both.c", "#include \"one.h\"\n#include \"other.h\"\nint main(void) { return 0; }\n");

@@ -19,9 +19,9 @@ const RESERVED_IN_C: &str = "alignas alignof and and_eq asm auto bitand bitor bo
     inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public \
     register reinterpret_cast requires restrict return short signed sizeof static static_assert static_cast struct \
     switch template this thread_local throw true try typedef typeid typename typeof union unsigned using virtual void \
-    volatile wchar_t while xor xor_eq INFINITY NAN HUGE_VAL NULL M_E M_PI MAXFLOAT errno linux unix global local constant \
-    kernel half uchar ushort uint ulong read_only write_only read_write uniform pipe event_t sampler_t image1d_t image2d_t \
-    image3d_t size_t";
+    volatile wchar_t while xor xor_eq I complex imaginary INFINITY NAN HUGE_VAL NULL M_E M_PI MAXFLOAT errno linux unix near \
+    far small global local constant kernel half uchar ushort uint ulong read_only write_only read_write uniform pipe event_t \
+    sampler_t image1d_t image2d_t image3d_t size_t";
 
 /// Keywords and reserved words of WGSL.
 const RESERVED_IN_WGSL: &str = "alias break case const const_assert continue continuing default diagnostic discard else enable \
