@@ -2,7 +2,7 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
-#if defined(__FAST_MATH__) || !({exact})
+#if defined(__FAST_MATH__) || ({is_wide})
 #error "compile without -ffast-math, and with arithmetic in the format itself (-msse2 -mfpmath=sse)"
 #endif
 //@ head of cuda

@@ -78,7 +78,8 @@ impl Language {
             ("{function}", self.function(number)),
             ("{function_to_bits}", self.function(bits)),
             ("{has_fast}", has_fast),
-            ("{exact}", of_format("FLT_EVAL_METHOD == 0", "FLT_EVAL_METHOD >= 0 && FLT_EVAL_METHOD < 2")),
+            // The bit 16 is about numbers of 16 bits.
+            ("{is_wide}", of_format("FLT_EVAL_METHOD & ~16", "FLT_EVAL_METHOD & ~17")),
             ("{nan}", self.literal(f64::NAN)),
             ("{infinity}", self.literal(f64::INFINITY)),
             ("{infinity_bits}", of_format("0x7f800000u", infinity_bits)),
