@@ -217,7 +217,8 @@ struct File<'a> {
 }
 
 impl Energy {
-    /// The energy as source text: a structure of its parameters, a check of them, and functions.
+    /// The energy as source text: a structure of its parameters, a check of them, and functions. The check
+    /// also tests the arithmetic, and returns 1 if options of the compiler change it.
     ///
     /// The values are those of [`Energy::material`]. They fix lengths of lists, whole exponents and the
     /// threshold of an extension. All other parameters are read from the structure, and the values are there

@@ -1,4 +1,4 @@
-// Executes an emitted file of OpenCL C: FILE POINTS RESULTS COUNT NUMBER.
+// Executes an emitted file of OpenCL C: FILE POINTS RESULTS COUNT NUMBER. CLFLAGS are further options.
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@ static const char *KERNEL =
     "    points += point * (count + 9), results += point * 190, statuses += point * 4;\n"
     "    for (size_t k = 0; k < count; k++) ((NUMBER *)&p)[k] = points[k];\n"
     "    for (size_t k = 0; k < 9; k++) F[k] = points[count + k];\n"
-    "    statuses[0] = energy_energy(&p, F, &psi), results[0] = psi;\n"
+    "    statuses[0] = energy_check(&p) == 1 ? ~0u : energy_energy(&p, F, &psi), results[0] = psi;\n"
     "    statuses[1] = energy_stress(&p, F, P);\n"
     "    for (size_t k = 0; k < 9; k++) results[1 + k] = P[k];\n"
     "    statuses[2] = energy_tangent(&p, F, P, A);\n"
@@ -60,8 +60,10 @@ int main(int count, char **arguments) {
     const char *parts[] = {text, define, KERNEL};
     cl_program program = clCreateProgramWithSource(context, 3, parts, NULL, &error);
     check(error, "program");
-    const char *exact = width == 4 ? "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt" : "-cl-std=CL1.2";
-    if (clBuildProgram(program, 1, &device, exact, NULL, NULL) != CL_SUCCESS) {
+    const char *exact = width == 4 ? "-cl-fp32-correctly-rounded-divide-sqrt" : "", *flags = getenv("CLFLAGS");
+    char options[1000];
+    snprintf(options, sizeof options, "-cl-std=CL1.2 %s %s", exact, flags ? flags : "");
+    if (clBuildProgram(program, 1, &device, options, NULL, NULL) != CL_SUCCESS) {
         static char said[100000];
         clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, sizeof said, said, NULL);
         fprintf(stderr, "%s\n", said);

@@ -53,6 +53,23 @@ int main(void) {
 }
 "#;
 
+/// A program that prints the result of the check, then the status and P12 at an F, and 4 for one with NaN.
+const TELLTALE: &str = r#"
+#include "energy.h"
+#include <stdio.h>
+int main(void) {
+    const energy_parameters p = ENERGY_EXAMPLE;
+    volatile double zero = 0.0;
+    double F[9] = {1.3, 0.2, -0.1, 0.05, 0.9, 0.1, 0.02, -0.05, 1.1}, P[9];
+    printf("%u ", energy_check(&p));
+    printf("%u ", energy_stress(&p, F, P));
+    printf("%.9g ", P[1]);
+    F[4] = zero / zero;
+    printf("%u", energy_stress(&p, F, P) & 4u);
+    return 0;
+}
+"#;
+
 /// Dm⁻¹ and the volume of a tetrahedron.
 const REST: [f64; 10] = [1.25, -0.5, 0.25, 0.0, 0.75, -0.125, 0.5, 0.25, 1.5, 0.375];
 
@@ -183,6 +200,52 @@ fn text_for_cuda_has_the_bits_of_c() {
 }
 
 same_bits! { neo_hookean st_venant_kirchhoff ogden hencky gent fung rotated_linear stable_neo_hookean }
+
+/// With any option of a compiler a file is right, or refused: when it is compiled, or by its check.
+#[test]
+fn no_option_of_a_compiler_changes_results_in_silence() {
+    // P12 by mpmath.
+    const RIGHT: &str = "0 0 -206512.206 4";
+    let folder = tempfile::tempdir().expect("a folder");
+    let ogden = find("ogden").expect("in the catalogue");
+    let (prefix, functions) = (Some("energy".into()), vec![PointFunction::Stress]);
+    let emission = Emission { prefix, functions, ..Emission::new(Target::C) };
+    let values: [&[f64]; 3] = [&[6.3e5, 1.2e3, -1e4], &[1.3, 5.0, -2.0], &[2e7]];
+    let text = ogden.energy.emit(&values, Inversion::Refuse, &emission).expect("text");
+    std::fs::write(folder.path().join("energy.h"), text).expect("a file");
+    std::fs::write(folder.path().join("main.c"), TELLTALE).expect("a file");
+    // As if the compiler had none of these macros, and no pragma.
+    let removed = ["FAST_MATH__", "ASSOCIATIVE_MATH__", "RECIPROCAL_MATH__", "FINITE_MATH_ONLY__", "clang__"];
+    let removed = removed.map(|name| format!("-U__{name}"));
+    for compiler in ["gcc", "clang", "icx"] {
+        for options in [
+            "-O1",
+            "-O2 -march=native",
+            "-O2 -freciprocal-math",
+            "-O2 -funsafe-math-optimizations",
+            "-O2 -funsafe-math-optimizations -march=native",
+            "-O2 -ffast-math -fno-finite-math-only",
+            "-O2 -fassociative-math -fno-signed-zeros -fno-trapping-math",
+            "-O2 -ffinite-math-only",
+            "-Ofast",
+        ] {
+            for undefined in [&removed[..0], &removed[..]] {
+                let mut command = Command::new(compiler);
+                command.args(options.split(' ')).args(undefined).args(["main.c", "-lm", "-o", "main"]);
+                let Ok(output) = command.current_dir(folder.path()).output() else { continue };
+                let found = match output.status.success() {
+                    true => Command::new(folder.path().join("main")).output().expect("the program").stdout,
+                    false => output.stderr,
+                };
+                let found = String::from_utf8_lossy(&found);
+                let is_exact = compiler != "icx" && !options.contains("-f") && options != "-Ofast";
+                let is_refused = found.starts_with("1 ") || found.contains("compile without -ffast-math");
+                let is_well = found == RIGHT || is_refused && !is_exact;
+                assert!(is_well, "{compiler} {options} {undefined:?}: {found}");
+            }
+        }
+    }
+}
 
 #[test]
 fn mistakes_say_what_to_do() {

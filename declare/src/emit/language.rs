@@ -3,8 +3,9 @@
 //! C is C99 that is C++17 as well, with dialects for graphics processors. In WGSL a number is an `f32`, and a
 //! compiler may compute as with real numbers, none of them infinite or NaN. Mesa's compiler does: (a + b) − a
 //! becomes b, a b + a c becomes a (b + c), and 0 a becomes 0. So every result of arithmetic is hidden from
-//! it: the bits are combined with bits that are zero, which the compiler cannot know. Finite numbers are
-//! recognised by their bits.
+//! it: the bits are combined with bits that are zero, which the compiler cannot know. In C this would cost
+//! time: options that permit the same are refused by their macros, switched off by a pragma, or detected by
+//! the check of the parameters, which computes a sum and a NaN. Finite numbers are recognised by their bits.
 
 mod primitives;
 
@@ -183,7 +184,7 @@ impl Language {
     }
 
     pub(super) fn is_finite(&self, a: &str) -> String {
-        if self.is_c() { format!("{a} - {a} == 0") } else { format!("{}_is_finite({a})", self.prefix) }
+        format!("{}_is_finite({a})", self.prefix)
     }
 
     /// The text of an operation, given the text of each operand.
@@ -220,9 +221,7 @@ impl Language {
                 let function = if is_c { format!("{upper}_MUL_ADD") } else { "fma".to_owned() };
                 self.rounded(format!("{function}({}, {}, {})", o(a), o(b), o(c)))
             }
-            RecordedOperation::Less(a, b) if !is_c && o(b) == self.literal(f64::INFINITY) => {
-                self.is_finite(&o(a))
-            }
+            RecordedOperation::Less(a, b) if o(b) == self.literal(f64::INFINITY) => self.is_finite(&o(a)),
             RecordedOperation::Less(a, b) => format!("{} < {}", o(a), o(b)),
             RecordedOperation::IsZero(a) => format!("{} == 0{}", o(a), if is_c { "" } else { ".0f" }),
             RecordedOperation::Not(a) => format!("!{}", o(a)),
@@ -387,11 +386,11 @@ fn {prefix}_example() -> {prefix}_parameters {{
         match self.target {
             Target::C => {
                 "Compile with -O2 or -O3 and -ffp-contract=off, for the processor at hand (-march=native); never with
- * -ffast-math."
+ * -ffast-math, -Ofast, -funsafe-math-optimizations, -ffinite-math-only, /fp:fast; icx needs -fp-model=precise."
             }
             Target::Cuda => {
                 "Compile with -fmad=false (nvcc), -ffp-contract=off (HIP, clang) or fuse_fp=False (Warp): what is to be fused
- * is written as fma. Never with --use_fast_math."
+ * is written as fma. Never with --use_fast_math or -ffast-math."
             }
             Target::OpenCl => {
                 "Build with -cl-fp32-correctly-rounded-divide-sqrt where the device has it; never with -cl-fast-relaxed-math,
@@ -428,7 +427,10 @@ fn {prefix}_example() -> {prefix}_parameters {{
 #define {upper}_FUNCTION static inline{device}
 #endif
 
-{text}#elif {upper}_H != {sum:#x}
+{text}#ifdef {upper}_PRECISE
+#pragma float_control(pop)
+#endif
+#elif {upper}_H != {sum:#x}
 #error \"two files have the prefix of this one: give one of them another name\"
 #endif
 "

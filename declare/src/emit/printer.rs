@@ -92,7 +92,7 @@ impl<'a> Printer<'a> {
  *
  * Functions return bits: 1 refused (outside of the domain), 2 bounded (at a pole: l2 + l3 is zero to within
  * roundings), 4 not finite, 8 filtered. With 1 or 4 the results are invalid. Call {prefix}_check once for each
- * set of parameters. Those that the file was made with: {}.
+ * set of parameters, on the processor that uses them. Those that the file was made with: {}.
  *
  * {}
  * Nothing is allocated, and there is no global state. Licence: MIT or Apache-2.0, as you choose. */

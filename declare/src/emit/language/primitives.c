@@ -2,25 +2,39 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
-#if defined(__FAST_MATH__) || ({is_wide})
-#error "compile without -ffast-math, and with arithmetic in the format itself (-msse2 -mfpmath=sse)"
+#if {is_wide}
+#error "compile with arithmetic in the format itself (-msse2 -mfpmath=sse)"
 #endif
 //@ head of cuda
 #if !defined(__CUDACC_RTC__) && !defined(__HIPCC_RTC__) && !defined(WP_NO_CRT)
 #include <math.h>
 #include <string.h>
 #endif
-#if defined(__FAST_MATH__) || (defined(__USE_FAST_MATH__) && __USE_FAST_MATH__)
-#error "compile without -ffast-math and --use_fast_math"
-#endif
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define {upper}_DEVICE __host__ __device__
 #else
 #define {upper}_DEVICE
 #endif
+//@ head
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST) || \
+    defined(__FAST_RELAXED_MATH__) || (defined(__USE_FAST_MATH__) && __USE_FAST_MATH__)
+//@ head of c
+#error "compile without -ffast-math, -Ofast, -funsafe-math-optimizations, -ffinite-math-only, /fp:fast; icx: -fp-model=precise"
+//@ head of cuda
+#error "compile without --use_fast_math, -ffast-math, -Ofast, -funsafe-math-optimizations, -ffinite-math-only, /fp:fast"
 //@ head of opencl
-#ifdef __FAST_RELAXED_MATH__
-#error "build without -cl-fast-relaxed-math"
+#error "build without -cl-fast-relaxed-math, -cl-unsafe-math-optimizations, -cl-finite-math-only"
+//@ head
+#endif
+/* clang has no macros for most of these options, and ignores this pragma for other processors. */
+#if (defined(__clang__) ? defined(__x86_64__) : defined(_MSC_VER)) && \
+    !defined(__CUDA_ARCH__) && !defined(__HIP_DEVICE_COMPILE__)
+#define {upper}_PRECISE
+#pragma float_control(precise, on, push)
+#ifdef __clang__
+#pragma STDC FP_CONTRACT OFF
+#endif
 #endif
 //@ head of opencl in double
 #if __OPENCL_C_VERSION__ < 120
@@ -51,6 +65,29 @@
     {bits} bits;
     memcpy(&bits, &x, sizeof bits);
     return bits;
+}
+
+//@ is_finite
+{truth_function}_is_finite({number} x) {
+    return ({prefix}_to_bits(x) & {infinity_bits}) < {infinity_bits};
+}
+
+//@ is_exact
+/* False if options of the compiler change sums or comparisons, which volatile numbers hide from it. */
+{truth_function}_is_exact(void) {
+    volatile {number} quarter = 0.25{end}, three = 3.0{end}, zero = 0.0{end};
+    const {number} x = quarter, y = three, z = zero / zero;
+    const {number} sum = (x + {rounding}) - {rounding};
+    const {number} fused = {upper}_MUL_ADD(y, 1.0{end} / {lift}, y);
+    const {number} nan = {upper}_MUL_ADD(z, 0.0{end}, 0.0{end});
+//@ is_exact on a device
+#ifdef __CUDA_ARCH__
+    volatile {number} smallest = {smallest};
+    /* --use_fast_math makes this zero, in addition to worse divisions and roots. */
+    if (smallest * 0.5{end} == 0.0{end}) return 0;
+#endif
+//@ is_exact
+    return sum == 0.0{end} && fused > y && !(nan < 1.0{end}) && !(1.0{end} <= nan);
 }
 
 //@ copysign

@@ -23,7 +23,7 @@ impl Language {
             Target::OpenCl => ("head of opencl", (!self.is_single).then_some("head of opencl in double")),
             Target::Wgsl => return String::new(),
         };
-        self.filled(&parts(C, |part| part == of_target || Some(part) == of_double))
+        self.filled(&parts(C, |part| part == "head" || part == of_target || Some(part) == of_double))
     }
 
     /// Functions that programs are made of, those that a text calls.
@@ -34,12 +34,13 @@ impl Language {
         if target == Target::Wgsl {
             return parts(WGSL, is_called).replace("{prefix}", &self.prefix);
         }
-        let has_bits = ["scale", "split", "leading_power", "reciprocal_of_power"];
+        let has_bits = ["is_finite", "scale", "split", "leading_power", "reciprocal_of_power"];
         let has_bits = target == Target::Cuda || has_bits.into_iter().any(is_called);
         let is_in_double = self.is_single && target != Target::OpenCl;
         self.filled(&parts(C, |part| match part {
             "bits of opencl" => target == Target::OpenCl,
             "bits" => target != Target::OpenCl && has_bits,
+            "is_exact on a device" => target == Target::Cuda,
             "product_error in double" => is_in_double && is_called("product_error"),
             "product_error by halves" => !is_in_double && is_called("product_error"),
             part => is_called(part),
@@ -77,6 +78,7 @@ impl Language {
             ("{suffix}", self.suffix().to_owned()),
             ("{function}", self.function(number)),
             ("{function_to_bits}", self.function(bits)),
+            ("{truth_function}", self.function(self.type_of(Kind::Truth))),
             ("{has_fast}", has_fast),
             // The bit 16 is about numbers of 16 bits.
             ("{is_wide}", of_format("FLT_EVAL_METHOD & ~16", "FLT_EVAL_METHOD & ~17")),

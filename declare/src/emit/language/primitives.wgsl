@@ -15,6 +15,14 @@ fn {prefix}_rounded(x: f32) -> f32 {
     return bitcast<f32>(bitcast<u32>(x) ^ {prefix}_nothing);
 }
 
+//@ is_exact
+/* False if the compiler changes sums or takes NaN for finite. x is 0.25. */
+fn {prefix}_is_exact() -> bool {
+    let x = {prefix}_of_bits(0x3e800000u ^ {prefix}_nothing);
+    let nan = {prefix}_of_bits(0x7fc00000u ^ {prefix}_nothing);
+    return {prefix}_rounded({prefix}_rounded(x + 12582912.0f) - 12582912.0f) == 0.0f && !{prefix}_is_finite(nan);
+}
+
 //@ copysign
 /* |x| with the sign of y. */
 fn {prefix}_copysign(x: f32, y: f32) -> f32 {

@@ -18,8 +18,11 @@ impl Printer<'_> {
         let description = file.energy.description();
         let mut places = self.parameters.iter();
         let mut all = Vec::new();
-        // Each with what is said of it, statements before it, and the condition under which all is well.
-        let mut cases: Vec<(String, String, String)> = Vec::new();
+        // Each with what is said of it, statements before it, and the condition under which all is well. The
+        // others mean something only with the arithmetic that the first tests.
+        let start = self.parameters.first().map_or_else(String::new, |place| language.start(place));
+        let meaning = "options of the compiler change sums or comparisons, see above".to_owned();
+        let mut cases = vec![(meaning, start, format!("{}_is_exact()", file.prefix))];
         for ((parameter, values), name) in description.parameters.iter().zip(file.values).zip(&self.fields) {
             let numbers: Vec<_> = places.by_ref().take(values.len()).cloned().collect();
             if !matches!(parameter.form, Form::Exponent | Form::Exponents) && !numbers.is_empty() {
