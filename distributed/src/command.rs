@@ -62,7 +62,7 @@ pub struct BodyOptions {
     scene: SceneOptions,
 
     /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. NAME may
-    /// be a file of Rust. Without parameters, the material is as stiff as the scene's. May be repeated.
+    /// be a file of Rust. Without parameters, it has the small-strain moduli of the scene's. May be repeated.
     #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     parts: Vec<String>,
 

@@ -98,8 +98,8 @@ impl MaterialSpec {
     }
 
     /// The material of a name with moduli at small strain: [`ogden`], or else the typical parameters of the
-    /// catalogue, [matched](piola_materials::matching). A parameter that is given later on replaces them all,
-    /// so that the others must be given, too.
+    /// catalogue, [matched](piola_materials::matching): [`MaterialSpec::build`] refuses moduli that they do
+    /// not reach. A parameter that is given later on replaces them all, so the others must be given, too.
     #[must_use]
     pub fn matching(material: &str, moduli: Moduli) -> Self {
         match same_name(material, "Ogden") {

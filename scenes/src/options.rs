@@ -29,8 +29,8 @@ pub struct SceneOptions {
     pub scene: String,
 
     /// Material, as listed by `piola materials`, or a file of Rust that declares one [default: the scene's].
-    /// A listed one other than the scene's has the stiffness of the scene's without --param, and needs all of
-    /// its parameters with it.
+    /// A listed one other than the scene's has the small-strain moduli of the scene's without --param, if it
+    /// can, and needs all of its parameters with it.
     #[arg(long, value_name = "NAME|FILE.rs")]
     pub material: Option<String>,
 

@@ -234,7 +234,9 @@ impl Material {
 
     /// The material of a name with Young's modulus, Pa, and Poisson's ratio at small strain.
     ///
-    /// Its typical parameters are scaled to them where possible: `moduli` returns the result.
+    /// One of its typical parameters is changed for Poisson's ratio, then those in Pa for Young's modulus.
+    ///
+    /// Raises MaterialError with the values that Poisson's ratio can have, if the wanted one is none of them.
     #[staticmethod]
     #[pyo3(signature = (name, /, *, young, poisson, extend = None))]
     fn matching(name: &str, young: f64, poisson: f64, extend: Option<f64>) -> PyResult<Self> {

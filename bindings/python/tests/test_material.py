@@ -61,6 +61,16 @@ def test_moduli_are_those_of_small_strain():
     assert matched.young == pytest.approx(1e6) and matched.poisson == pytest.approx(0.45)
 
 
+def test_matched_moduli_are_those_asked_for_or_an_error():
+    for name in ("neo_hookean", "st_venant_kirchhoff", "storakers", "ogden"):
+        for poisson in (-0.2, 0.0, 0.25, 0.45):
+            moduli = piola.Material.matching(name, young=1e6, poisson=poisson).moduli
+            assert moduli.young == pytest.approx(1e6) and moduli.poisson == pytest.approx(poisson, abs=1e-12)
+    for name, poisson, its_own in (("arap", 0.3, "ν = 0;"), ("blatz_ko", 0.0, "ν between 0 and 0.5;")):
+        refused = message(piola.MaterialError, lambda: piola.Material.matching(name, young=1e6, poisson=poisson))
+        assert its_own in refused
+
+
 def test_wrong_parameters_are_named_with_their_range():
     new = piola.Material
     assert "there is no material `neohooke`; choose one of" in message(piola.MaterialError, lambda: new("neohooke"))

@@ -253,6 +253,9 @@ fn another_material_is_as_stiff_as_that_of_the_scene() {
     // E = 1 MPa and ν = 0.45; a dozen roundings.
     assert!((value("mu") * 2.9 / 1e6 - 1.0).abs() < 1e-14, "{summary}");
     assert!((value("lambda") * 1.45 * 0.1 / 0.45e6 - 1.0).abs() < 1e-14, "{summary}");
+    let summary = check("run horse --material blatz_ko --frames 1", "horse", 1, "");
+    assert!((summary["poisson"].as_f64().expect("a number") - 0.45).abs() < 1e-14, "{summary}");
+    assert_contains(&Folder::new().refusal("run horse --material arap"), &["arap: E = 1.0", "and ν = 0;"]);
 }
 
 #[test]

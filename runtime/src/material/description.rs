@@ -58,31 +58,21 @@ impl Parameter {
     }
 
     /// Multiplies those values of this parameter that are in powers of Pa by powers of a factor, so that an
-    /// energy whose parameters are all rescaled is multiplied by the factor. Returns true if that is known:
-    /// the parameter has a unit, and a function in Pa is given by points.
-    ///
-    /// ```
-    /// use piola::material::{Form, Parameter, Unit};
-    ///
-    /// let curve = Parameter { name: "f".into(), doc: "Energy, Pa.".into(), unit: Some(Unit::Pascal), form: Form::Points };
-    /// let mut points = [0.5, -1e5, 1.0, 0.0, 2.0, 1e5];
-    /// assert!(curve.rescale(&mut points, 3.0));
-    /// assert_eq!(points, [0.5, -3e5, 1.0, 0.0, 2.0, 3e5]);
-    /// ```
+    /// energy whose parameters are all rescaled is multiplied by the factor. That is not known of a parameter
+    /// without a unit, and of a function that is not given by points: they stay.
     #[doc(hidden)] // for energies that are matched to others
-    pub fn rescale(&self, values: &mut [f64], factor: f64) -> bool {
-        let Some(unit) = self.unit else { return false };
-        if unit == Unit::Dimensionless {
-            return true;
-        }
+    pub fn rescale(&self, values: &mut [f64], factor: f64) {
+        let factor = match self.unit {
+            Some(Unit::Pascal) => factor,
+            Some(Unit::PerPascal) => factor.recip(),
+            Some(Unit::Dimensionless) | None => return,
+        };
         let (first, step) = match self.form {
             Form::Number | Form::List | Form::Exponent | Form::Exponents => (0, 1),
             Form::Points => (1, 2),
-            Form::Function => return false,
+            Form::Function => return,
         };
-        let factor = if unit == Unit::PerPascal { factor.recip() } else { factor };
         values.iter_mut().skip(first).step_by(step).for_each(|value| *value *= factor);
-        true
     }
 }
 
