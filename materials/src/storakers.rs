@@ -9,12 +9,13 @@ use piola::material;
 /// Ogden, *Large deformation isotropic elasticity: on the correlation of theory and experiment for
 /// compressible rubberlike solids*, 1972; in this form Storåkers, *On material representation and
 /// constitutive branching in finite compressible elasticity*, 1986. Σ μₚ is the shear modulus; with one term,
-/// β/(1 + 2β) is Poisson's ratio. Defined for J > 0; continued below a threshold stretch with
+/// β/(1 + 2β) is Poisson's ratio. For βₚ = 0 the term in J is its limit −αₚ ln J, that of a foam without
+/// lateral strain. Defined for J > 0; continued below a threshold stretch with
 /// [`Inversion::Extend`](piola::Inversion::Extend) if every μₚ > 0, αₚ ≥ 2 and βₚ > 0: a positive power of a
 /// negative J would let ψ fall without bound.
 #[material(
     domain(J > 0.0),
-    admissible(alpha[p] != 0.0, beta[p] != 0.0),
+    admissible(alpha[p] != 0.0),
     extend(mu[p] > 0.0, alpha[p] >= 2.0, beta[p] > 0.0),
     typical(
         "foamed polyurethane rubber, μ = 32 psi and ν = 1/4 of Blatz, Ko, *Application of finite \

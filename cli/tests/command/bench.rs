@@ -111,6 +111,10 @@ fn single_points_are_a_table() {
     let text = folder.answer("curve neo_hookean --incompressible --param mu=1MPa --mode uniaxial --at 2");
     let stress = text.lines().last().and_then(|row| row.split_whitespace().nth(1));
     assert_eq!(stress, Some("1.75000e6"), "{text}");
+    // A foam whose Poisson's ratio is 0: P = 2μ/α (λ^(α − 1) − 1/λ)
+    let foam = "--param mu=12kPa --param alpha=6 --param beta=0";
+    let text = folder.answer(&format!("curve storakers {foam} --mode uniaxial --at 0.7"));
+    assert_contains(&text, &["ν = 0\n", "-5.04201e3"]);
     let text = folder.answer("curve gent --mode uniaxial --at 1.1,1.2");
     assert_eq!(text.lines().filter(|row| row.trim().starts_with("1.")).count(), 2, "{text}");
     let text = folder.answer("curve gent --mode uniaxial --at 1.00001,1.00002");

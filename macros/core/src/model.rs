@@ -16,6 +16,7 @@ use crate::algebra::invariants::ByInvariants;
 use crate::algebra::quotient::{Quotients, Reflection};
 use crate::algebra::rational::Rational;
 use crate::algebra::simplify::simplify;
+use crate::algebra::volume::with_limits;
 use crate::judge::{self, Derived, Source};
 use crate::read::diagnostics::Diagnostics;
 use crate::read::domain::Volume;
@@ -295,6 +296,7 @@ fn variant(graph: &mut Graph, energy: Id, samples: &[Point], positive: bool) -> 
     let mut quotients = Quotients::new(samples);
     let flip = PAIRS.map(|(i, j)| quotients.quotient(graph, gradient[i], Reflection::Flip(i, j)));
     let twist = PAIRS.map(|(i, j)| quotients.twist(graph, gradient[i], i, j, positive));
+    let energy = with_limits(graph, energy);
     let mut evaluated = Evaluated::default();
     let mut evaluated = |id| evaluated.of(graph, id);
     Variant {

@@ -10,12 +10,14 @@ use piola_tests::declarations::{Sample, Values, slices};
 const EPSILON: f64 = 0.3;
 
 /// Parameters in addition to the typical ones, where another choice takes another way through the energy.
-const FURTHER: [(&str, &[&[f64]]); 9] = [
+const FURTHER: [(&str, &[&[f64]]); 10] = [
     // A power between 0 and 1 is concave, and so is its extension.
     ("ogden", &[&[1e5], &[0.5], &[1e6]]),
     // Powers that are not whole, of either sign, and those that can be extended.
     ("storakers", &[&[1e5, 3e4], &[1.7, -2.3], &[0.4, 0.7]]),
     ("storakers", &[&[1e5, 3e4], &[2.3, 4.7], &[0.4, 0.7]]),
+    // A foam with a Poisson's ratio of 0.
+    ("storakers", &[&[1e5, 3e4], &[1.7, -2.3], &[0.0, 1e-14]]),
     ("isochoric_ogden", &[&[6.3e5, 1.2e3, -1e4], &[1.3, 5.0, -2.0], &[2e7]]),
     ("isochoric_ogden", &[&[3.5e5], &[2.3], &[2e7]]),
     ("lopez_pamies", &[&[3e5, 1e3], &[0.7, 2.6], &[2e7]]),

@@ -92,6 +92,35 @@ fn logarithm(graph: &mut Graph, monomial: &[(Stretch, Exponent)], purpose: Purpo
     Some(graph.sum_of(&terms))
 }
 
+/// The energy with each (J^r − 1)/s, where s is a factor of r and J any product of stretches, as ln J r/s
+/// exp\[r ln J, 0\] for |s| < 2⁻¹⁰: it loses no digits there, and is the limit ln J r/s for s = 0. For a large
+/// r, J^r is more accurate than the exponential. Derivatives need no such form, because s cancels in them.
+pub fn with_limits(graph: &mut Graph, energy: Id) -> Id {
+    rewrite(graph, energy, &mut FxHashMap::default(), &|graph, id| {
+        let Node::Product(factors) = graph.node(id).clone() else { return None };
+        let (base, power, factor) = factors.iter().find_map(|&(base, exponent)| {
+            let Node::Linear { constant, terms } = graph.node(base) else { return None };
+            let &[(power, factor)] = terms.as_slice() else { return None };
+            (exponent == Exponent::ONE && factor == constant.negated()).then_some((base, power, factor))
+        })?;
+        let powers = monomial(graph, power)?;
+        let exponent = logarithm(graph, &powers, Purpose::Evaluation)?;
+        let inverse = Exponent::integer(-1);
+        let divisors = factors.iter().filter(|factor| factor.1 == inverse);
+        let (divisor, slope) = divisors.map(|divisor| divisor.0).find_map(|divisor| {
+            let (slope, node) = (graph.div(exponent, divisor), graph.node(divisor).clone());
+            (!graph.contains(slope, |part| *part == node)).then_some((divisor, slope))
+        })?;
+        let zero = graph.integer(0);
+        let quotient = graph.leaf(Node::Quotient(Function::Exp, exponent, zero));
+        let others = graph.product(&[(id, Exponent::ONE), (base, inverse), (divisor, Exponent::ONE)]);
+        let product = graph.product_of(&[others, slope, quotient]);
+        let (near, square) = (graph.scale(product, factor), graph.powi(divisor, 2));
+        let is_near = graph.linear(Rational::new(-1, 1 << 20)?, &[(square, Rational::ONE)]);
+        Some(graph.leaf(Node::WhereNegative(is_near, near, id)))
+    })
+}
+
 /// Multiplies real powers of stretches into a sum of products of stretches, if there are both among the
 /// factors.
 fn multiply_in(graph: &mut Graph, factors: &mut Vec<(Id, Exponent)>) {
