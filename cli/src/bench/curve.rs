@@ -11,7 +11,7 @@ use piola_laboratory::data::Measured;
 use piola_scenes::error::Error as SceneError;
 
 use super::data::{self, Data};
-use super::{FINE, Material, as_options, at_rest, draw, ranking, spaced, titled};
+use super::{FINE, Material, as_options, at_constant_volume, at_rest, draw, ranking, spaced, titled};
 use crate::error::Error;
 
 /// Stresses are in Pa.
@@ -45,7 +45,7 @@ pub(crate) struct Curve {
     #[arg(conflicts_with_all = ["from", "to", "rows"])]
     at: Vec<f64>,
 
-    /// Keep the volume constant, regardless of the bulk modulus.
+    /// Keep the volume constant, regardless of the bulk modulus; a compressibility such as D1 may be 0.
     #[arg(long)]
     incompressible: bool,
 
@@ -67,7 +67,8 @@ impl Curve {
             return self.rank();
         }
         let volume = if self.incompressible { Volume::Kept } else { Volume::Free };
-        let material = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
+        let given = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
+        let material = if self.incompressible { at_constant_volume(&given)? } else { given.clone() };
         let info = material.build()?;
         let specimen = &material.interpreted()?;
         let (data, notes) = self.data.read()?;
@@ -85,7 +86,7 @@ impl Curve {
         }
 
         let title = titled(&info.name, volume);
-        let options = as_options(&material)?;
+        let options = as_options(&given)?;
         let (mut text, mut curves) = (format!("{title}\n  {options}\n"), Vec::new());
         text += &at_rest(info.moduli, volume);
         text += &notes;

@@ -158,11 +158,18 @@ fn poissons_ratio_is_said_and_an_odd_one_warned_of() {
     }
 }
 
-/// D1 of Abaqus and CalculiX: K = 2/D1.
+/// D1 of Abaqus and CalculiX: K = 2/D1, and 0 for a volume that is kept.
 #[test]
 fn compressibilities_have_units() {
     let curve = "curve --at 1 --energy 'C10*(I1b - 3) + (J - 1)^2/D1' --param C10=0.2MPa --param D1=0.1/MPa";
-    assert_contains(&Folder::new().answer(curve), &["μ = 400 kPa, K = 20 MPa, ν = 0.4901"]);
+    let folder = Folder::new();
+    assert_contains(&folder.answer(curve), &["μ = 400 kPa, K = 20 MPa, ν = 0.4901"]);
+    // Ogden's energy in the notation of Abaqus with μ = 160, 40 MPa and α = 2, −2: P = 315 MPa.
+    let kept = "curve --mode uniaxial --at 2 --energy 'C10*(I1b - 3) + C01*(I2b - 3) + (J - 1)^2/D1' \
+                --param C10=80MPa --param C01=20MPa --param D1=0";
+    let text = folder.answer(&format!("{kept} --incompressible"));
+    assert_contains(&text, &["--param D1=0\n", "μ = 200 MPa; the volume is kept\n", "3.15000e8"]);
+    assert_contains(&folder.refusal(kept), &["as a compressibility of 0 does"]);
 }
 
 #[test]

@@ -60,7 +60,8 @@ impl fmt::Display for MaterialError {
             Self::UnstableRest { moduli } if !(moduli.mu + moduli.bulk()).is_finite() => write!(
                 f,
                 "the small-strain moduli are not finite, shear modulus {} Pa and bulk modulus {} Pa: \
-                 these parameters divide by zero or overflow somewhere in the energy",
+                 these parameters divide by zero or overflow somewhere in the energy, as a compressibility of 0 does; \
+                 give other values, or leave out the term of a volume that is kept",
                 number(moduli.mu),
                 number(moduli.bulk())
             ),

@@ -92,9 +92,10 @@ impl Formula {
     }
 }
 
-/// Checks that all values have units that need one, if some do.
+/// Checks that all values have units that need one, if some do; 0 needs none.
 fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
-    for given in parameters.iter().filter(|given| given.unit.is_none()) {
+    let needs_unit = |given: &&Given| given.unit.is_none() && given.values.iter().any(|&value| value != 0.0);
+    for given in parameters.iter().filter(needs_unit) {
         let known = energy.description().parameters.iter().find(|known| known.name == given.name);
         if let Some(unit @ (Unit::Pascal | Unit::PerPascal)) = known.and_then(|known| known.unit) {
             let values = given.values.iter().map(|&value| number(value)).collect::<Vec<_>>().join(",");
