@@ -4,6 +4,7 @@
 //! order of the file. `mshio` gives neither lines nor physical names, `tobj` no lines, and it renumbers
 //! vertices.
 
+mod foreign;
 mod msh;
 mod obj;
 mod tetgen;

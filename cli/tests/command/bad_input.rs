@@ -45,6 +45,28 @@ fn meshes_and_surfaces() {
     }
 }
 
+/// Beginnings of files as other tools write them.
+#[test]
+fn meshes_of_other_tools_are_named_with_the_next_step() {
+    let by_meshio = "`meshio convert OLD NEW.msh --output-format gmsh22 --ascii`";
+    for (name, text, format, next) in [
+        ("bar.vtk", "# vtk DataFile Version 2.0\nbar, by hand\nASCII\n", "VTK,", by_meshio),
+        ("bar51.vtk", "# vtk DataFile Version 5.1\nbar\nASCII\n", "VTK,", by_meshio),
+        ("bar.vtu", "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">\n", "(VTU)", by_meshio),
+        ("bar.inp", "** bar\n*Heading\n*Part, name=BAR\n*Node\n", "Abaqus", by_meshio),
+        ("bar.mesh", "MeshVersionFormatted 2\n\nDimension\n3\n", "Medit", by_meshio),
+        ("bar.veg", "# bar\n*VERTICES\n45 3 0 0\n1 0 0 0\n", "VegaFEM", "saved as NEW.ele"),
+        ("bar.feb", "<?xml version=\"1.0\"?>\n<febio_spec version=\"4.0\">\n", "FEBio", "write_points_cells"),
+        ("bar.key", "$# by hand\n*KEYWORD\n*NODE\n", "LS-DYNA", "write_points_cells"),
+        ("bar.tet", "45 vertices\n96 tets\n0 0 0\n", "the format .tet", "write_points_cells"),
+        ("bar.off", "OFF\n45 2 0\n0 0 0\n", "OFF", "gmsh NEW.geo -3"),
+        ("bar.stl", "solid bar\nfacet normal 0 0 1\n", "STL", "gmsh NEW.geo -3"),
+        ("bar.obj", "o bar\nv 0 0 0\n", "Wavefront OBJ", "gmsh NEW.geo -3"),
+    ] {
+        check(&[(name, text.into())], &format!("run stretch --mesh {name}"), &[name, format, next]);
+    }
+}
+
 #[test]
 fn volume_elements_other_than_linear_tetrahedra_are_refused_by_type_and_count() {
     let mixed = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\

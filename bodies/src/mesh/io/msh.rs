@@ -7,6 +7,7 @@ use std::path::Path;
 
 use piola::__private::message::quoted;
 
+use super::foreign::{self, BY_MESHIO};
 use super::text::{Cursor, IN_GMSH, Line, Problem, ReadError, read, read_text};
 use crate::mesh::elements::ElementCounts;
 use crate::mesh::{Group, TetMesh};
@@ -30,7 +31,8 @@ const WITHOUT_MESH: [&str; 4] = ["$NodeData", "$ElementData", "$ElementNodeData"
 /// # Errors
 /// [`ReadError::OtherElements`] for a mesh with other volume elements; [`ReadError::only_tetrahedra`] returns
 /// its tetrahedra. [`ReadError::Malformed`], which names the line, also if the file is binary, of another
-/// version, partitioned, without linear tetrahedra, or has nodes or elements in a section that is not known.
+/// version or format, partitioned, without linear tetrahedra, or has nodes or elements in a section that is
+/// not known.
 pub fn read_msh(path: impl AsRef<Path>) -> Result<TetMesh, ReadError> {
     let path = path.as_ref();
     read(path, parse).and_then(|mesh| whole(path, mesh))
@@ -69,10 +71,15 @@ fn parse(text: &str) -> Result<TetMesh, Problem> {
                 );
             }
             (_, None) => {
-                return Err(line.problem(format!(
-                    "expected `$MeshFormat`, found `{}`; is this a Gmsh file?",
-                    quoted(section)
-                )));
+                return Err(line.problem(match foreign::recognised(text) {
+                    Some((name, remedy)) => {
+                        format!("the file is in {name}, only Gmsh's MSH and TetGen's files are read; {remedy}")
+                    }
+                    None => format!(
+                        "expected `$MeshFormat`, found `{}`; is this a Gmsh file? If meshio reads it, {BY_MESHIO}",
+                        quoted(section)
+                    ),
+                }));
             }
             ("$PhysicalNames", _) => file.physical_names(&mut cursor)?,
             ("$Nodes" | "$ParametricNodes", Some(Version::Two)) => file.nodes_2(&mut cursor)?,

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use piola::__private::message::quoted;
 
+use super::foreign;
 use super::text::{Cursor, Line, Problem, ReadError, read, read_text};
 
 /// Triangle surface, such as one that is drawn in place of the tetrahedra it is embedded in.
@@ -59,7 +60,13 @@ fn parse(text: &str) -> Result<Surface, Problem> {
         }
     }
     if surface.triangles.is_empty() {
-        return Err(Problem { line: cursor.number + 1, text: "the file ends without a face".to_owned() });
+        let text = match foreign::recognised(text).filter(|_| surface.positions.is_empty()) {
+            None => "the file ends without a face".to_owned(),
+            Some((name, _)) => {
+                format!("the file is in {name}, only OBJ is read; `meshio convert OLD NEW.obj` converts it")
+            }
+        };
+        return Err(Problem { line: cursor.number + 1, text });
     }
     Ok(surface)
 }
@@ -166,6 +173,8 @@ mod tests {
         check("v 0 0 0\nf 1 \u{7}a 1\n", 2, "expected the index of a vertex, found `\\u{7}a`");
         check("v 0 0 0\nf 1 1\n", 2, "a face needs at least 3 vertices, not 2");
         check("v 0 0 0\n", 2, "the file ends without a face");
+        let remedy = "only OBJ is read; `meshio convert OLD NEW.obj` converts it";
+        check("solid bar\nfacet normal 0 0 1\n", 3, &format!("the file is in STL, {remedy}"));
         check("", 1, "the file ends without a face");
     }
 }

@@ -126,7 +126,9 @@ fn problems_name_the_line() {
         "the file is binary, only ASCII is read; `gmsh OLD.msh -save -format msh41 -o NEW.msh` of Gmsh 4.1 or \
          later converts it",
     );
-    check("$MeshFormat\n", "solid\n", 1, "expected `$MeshFormat`, found `solid`; is this a Gmsh file?");
+    let other =
+        format!("expected `$MeshFormat`, found `mesh`; is this a Gmsh file? If meshio reads it, {BY_MESHIO}");
+    check("$MeshFormat\n", "mesh\n", 1, &other);
     check("\"flesh\"", "flesh", 7, "expected the name of the group in double quotes");
     check("0 1 0\n", "0 one 0\n", 32, "expected the y coordinate, found `one`");
     check("0 1 0\n", "0 NaN 0\n", 32, "the y coordinate is NaN; it must be finite");
