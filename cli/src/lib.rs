@@ -132,7 +132,8 @@ fn heard(said: io::Result<()>) -> io::Result<()> {
 }
 
 fn warn_of(warning: &String) {
-    warn(format_args!("warning: {warning}"));
+    let kind = if warning.starts_with("note: ") { "" } else { "warning: " };
+    warn(format_args!("{kind}{warning}"));
 }
 
 /// Writes a line to standard error, if it is open, with control characters of file names and contents

@@ -23,7 +23,7 @@ pub struct MaterialPart {
 /// Body of the elements of a share, which have the numbers of their parts.
 ///
 /// # Errors
-/// [`Error::Scene`] for an invalid element, such as an inverted one, or for a material.
+/// [`Error::Scene`] for an invalid element, such as a flat one, or for a material.
 pub fn body(share: &Share, parts: &[MaterialPart]) -> Result<Body, Error> {
     let Share { elements, places, .. } = share;
     if elements.is_empty() {

@@ -81,7 +81,8 @@ impl Geometry {
         Self::new(mesh, name, &surface, name)
     }
 
-    /// Properties of the mesh that are rarely intended, in sentences. A body can be made of it.
+    /// Properties of the mesh that are rarely intended, in sentences. A body can be made of it. A sentence
+    /// that begins with `note: ` is about something that changes nothing.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let mesh = &self.mesh;
@@ -103,6 +104,10 @@ impl Geometry {
         if mesh.dropped_nodes > 0 {
             let nodes = mesh.dropped_nodes;
             warnings.push(format!("{nodes} nodes of the file belong to no tetrahedron and were left out"));
+        }
+        if let tets @ 1.. = mesh.turned_tets {
+            let reason = "have their nodes in the order of a negative volume and were turned";
+            warnings.push(format!("note: {tets} tetrahedra of the file {reason}"));
         }
         let components = mesh.connected_components();
         if let [largest, _, ..] = components[..] {

@@ -23,7 +23,7 @@ use super::elements::ElementCounts;
 pub struct TetMesh {
     /// Rest position of each node, m.
     pub positions: Vec<[f64; 3]>,
-    /// The four nodes of each tetrahedron, positively oriented.
+    /// The four nodes of each tetrahedron, in the order of a positive volume.
     pub tets: Vec<[usize; 4]>,
     /// Tag of each tetrahedron in its file. If empty, tetrahedra are numbered from 1.
     pub tags: Vec<usize>,
@@ -32,6 +32,8 @@ pub struct TetMesh {
     /// Number of nodes that a reader has dropped because no tetrahedron uses them; 0 for a mesh that no
     /// reader has made.
     pub dropped_nodes: usize,
+    /// Number of tetrahedra of which [`TetMesh::turn_tets`] has swapped two nodes, as readers do.
+    pub turned_tets: usize,
     /// Volume elements of the file that are not in the mesh because they are not linear tetrahedra; empty
     /// unless [`ReadError::only_tetrahedra`](super::ReadError::only_tetrahedra) has left some out.
     pub left_out: ElementCounts,
@@ -115,9 +117,10 @@ impl TetMesh {
     /// Computes the shape at rest of each tetrahedron.
     ///
     /// # Errors
-    /// [`MeshError`] if there is no tetrahedron, one is there twice, a node is missing, unused or not finite,
-    /// or a volume is not positive. A volume below the rounding error of its own determinant counts as zero:
-    /// its sign would be noise.
+    /// [`MeshError`] if there is no tetrahedron, one is there twice, a node is missing, not finite or unused
+    /// ([`TetMesh::without_unused_nodes`]), or a volume is not positive. Negative ones, which
+    /// [`TetMesh::turn_tets`] makes positive, are all named. A volume below the rounding error of its own
+    /// determinant counts as zero: its sign would be noise.
     pub fn rest_shapes(&self) -> Result<Vec<RestShape>, MeshError> {
         if self.tets.is_empty() {
             return Err(MeshError("the mesh has no tetrahedra".to_owned()));
@@ -125,19 +128,33 @@ impl TetMesh {
         if let Some(node) = self.positions.iter().position(|x| x.iter().any(|c| !c.is_finite())) {
             return Err(MeshError(format!("the position of node {node} (from 0) is not finite")));
         }
-        let mut shapes = Vec::with_capacity(self.tets.len());
-        for (tet, nodes) in self.tets.iter().enumerate() {
-            let (element, count) = (self.tag(tet), self.positions.len());
-            if let Some(&node) = nodes.iter().find(|&&node| node >= count) {
-                let missing = NoSuchNode { element: Some(element), node, nodes: count };
-                return Err(MeshError(missing.to_string()));
-            }
-            shapes.push(rest_shape(element, nodes.map(|node| self.positions[node]))?);
+        let (numbers, count) = (self.tets.as_flattened(), self.positions.len());
+        if let Some(place) = numbers.iter().position(|&node| node >= count) {
+            let missing =
+                NoSuchNode { element: Some(self.tag(place / 4)), node: numbers[place], nodes: count };
+            let is_from_one = !numbers.contains(&0) && numbers.iter().max() == Some(&count);
+            let advice = if is_from_one { "; here they are from 1: subtract 1 from each" } else { "" };
+            return Err(MeshError(format!("{missing}{advice}")));
         }
         if let Some(node) = self.are_used().iter().position(|is_used| !is_used) {
             return Err(MeshError(format!(
-                "node {node} (from 0) belongs to no tetrahedron and would have no mass; \
-                 `TetMesh::without_unused_nodes` removes such nodes"
+                "node {node} (from 0) belongs to no tetrahedron and would have no mass; leave such nodes out"
+            )));
+        }
+        let mut shapes = Vec::with_capacity(self.tets.len());
+        let mut reversed = Vec::new();
+        for (tet, nodes) in self.tets.iter().enumerate() {
+            match rest_shape(self.tag(tet), nodes.map(|node| self.positions[node]))? {
+                Some(shape) => shapes.push(shape),
+                None => reversed.push(self.tag(tet).to_string()),
+            }
+        }
+        if !reversed.is_empty() {
+            let (count, tets) = (reversed.len(), self.tets.len());
+            return Err(MeshError(format!(
+                "{count} of {tets} elements have their nodes in the order of a negative volume: {}; `turn_tets` swaps \
+                 two nodes of each",
+                names(reversed)
             )));
         }
         if let Some([one, other]) = self.repeated().map(|tets| tets.map(|tet| self.tag(tet))) {
@@ -213,6 +230,33 @@ impl TetMesh {
         tets
     }
 
+    /// Swaps two nodes of each tetrahedron with a negative volume, and adds their number to
+    /// [`TetMesh::turned_tets`]: the order of nodes is a convention of the program that wrote them.
+    ///
+    /// Flat tetrahedra, and those with a node that does not exist, remain as they are.
+    ///
+    /// ```
+    /// use piola_bodies::mesh::TetMesh;
+    ///
+    /// let corner = vec![[0.0; 3], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 5.0]];
+    /// let mesh = TetMesh::new(corner, vec![[0, 2, 1, 3]]).turn_tets();
+    /// assert_eq!((mesh.turned_tets, mesh.rest_shapes()?[0].volume), (1, 5.0));
+    /// # Ok::<(), piola_bodies::mesh::MeshError>(())
+    /// ```
+    #[must_use]
+    pub fn turn_tets(mut self) -> Self {
+        for tet in &mut self.tets {
+            let corners = tet.map(|node| self.positions.get(node).copied());
+            if let [Some(x0), Some(x1), Some(x2), Some(x3)] = corners
+                && matches!(rest_shape(0, [x0, x1, x2, x3]), Ok(None))
+            {
+                tet.swap(1, 2);
+                self.turned_tets += 1;
+            }
+        }
+        self
+    }
+
     /// Removes nodes that belong to no tetrahedron, from groups too, and sorts the nodes of groups.
     ///
     /// Such nodes have neither mass nor stiffness, and a mesh that has one is not a body. Later nodes get
@@ -241,17 +285,20 @@ impl TetMesh {
     }
 }
 
-/// Inverse edge matrix and volume of a tetrahedron; `element` is its tag.
-fn rest_shape(element: usize, [x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestShape, MeshError> {
+/// Inverse edge matrix and volume of a tetrahedron, `None` for a negative volume; `element` is its tag.
+fn rest_shape(element: usize, [x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<Option<RestShape>, MeshError> {
     let edges = [subtract(x1, x0), subtract(x2, x0), subtract(x3, x0)];
     let (rows, determinant, noise) = inverse(edges);
     let volume = determinant / 6.0;
     if determinant > noise && volume.is_normal() && determinant.is_finite() {
-        return Ok(RestShape { inverse: rows.map(|row| row.map(|x| x / determinant)), volume });
+        return Ok(Some(RestShape { inverse: rows.map(|row| row.map(|x| x / determinant)), volume }));
     }
     // At the size of one nothing overflows, and what is flat is flat.
     let size = edges.as_flattened().iter().fold(0.0, |size: f64, x| size.max(x.abs()));
     let (_, unit_determinant, unit_noise) = inverse(edges.map(|edge| edge.map(|x| x / size)));
+    if unit_determinant < -unit_noise {
+        return Ok(None);
+    }
     if size.is_infinite() || unit_determinant > unit_noise {
         let fault = if size > 1.0 { "overflows" } else { "underflows" };
         return Err(MeshError(format!(
@@ -259,8 +306,8 @@ fn rest_shape(element: usize, [x0, x1, x2, x3]: [[f64; 3]; 4]) -> Result<RestSha
         )));
     }
     Err(MeshError(format!(
-        "element {element} has the rest volume {volume:e} m³, which is not positive beyond rounding; \
-         is it flat, or are two of its nodes swapped?"
+        "element {element} is flat: its rest volume, {volume:e} m³, is zero within rounding; remove or reshape it in \
+         the mesh generator"
     )))
 }
 
@@ -359,17 +406,33 @@ mod tests {
         check(|mesh| mesh.tets[0][3] = 9, "element 1 names node 9: the 4 nodes are numbered from 0");
         check(
             |mesh| mesh.positions.push([1.0; 3]),
-            "node 4 (from 0) belongs to no tetrahedron and would have no mass; \
-             `TetMesh::without_unused_nodes` removes such nodes",
+            "node 4 (from 0) belongs to no tetrahedron and would have no mass; leave such nodes out",
         );
         check(
-            |mesh| {
-                mesh.tags = vec![17];
-                mesh.tets[0] = [0, 2, 1, 3];
-            },
-            "element 17 has the rest volume -5e0 m³, which is not positive beyond rounding; \
-             is it flat, or are two of its nodes swapped?",
+            |mesh| mesh.tets[0] = [1, 3, 2, 4],
+            "element 1 names node 4: the 4 nodes are numbered from 0; here they are from 1: subtract 1 from each",
         );
+        check(
+            |mesh| mesh.positions[3][2] = 0.0,
+            "element 1 is flat: its rest volume, 0e0 m³, is zero within rounding; remove or reshape it in the mesh \
+             generator",
+        );
+    }
+
+    /// One tetrahedron of a box, and all of them.
+    #[test]
+    fn reversed_tetrahedra_are_all_named_and_can_be_turned() {
+        let mut mesh = crate::mesh::tetrahedral_box([4, 1, 1], [4.0, 1.0, 1.0]).expect("a box");
+        mesh.tags = (100..124).collect();
+        for (reversed, list) in [(3..4, "103"), (0..24, "118, 119 and 4 more")] {
+            let mut wrong = mesh.clone();
+            wrong.tets[reversed.clone()].iter_mut().for_each(|tet| tet.swap(1, 2));
+            let message = wrong.rest_shapes().expect_err("reversed").to_string();
+            let end = format!("{list}; `turn_tets` swaps two nodes of each");
+            let start = format!("{} of 24 elements have their nodes in the order of", reversed.len());
+            assert!(message.starts_with(&start) && message.ends_with(&end), "{message}");
+            assert_eq!(wrong.turn_tets(), TetMesh { turned_tets: reversed.len(), ..mesh.clone() });
+        }
     }
 
     #[test]
@@ -377,7 +440,7 @@ mod tests {
         let mut mesh = corner();
         mesh.positions[3] = [0.1, 0.2, 1e-17];
         let message = mesh.rest_shapes().expect_err("flat").to_string();
-        assert!(message.starts_with("element 1 has the rest volume "), "{message}");
+        assert!(message.starts_with("element 1 is flat: "), "{message}");
     }
 
     /// A row of tetrahedra, two of which become the same.
@@ -419,7 +482,7 @@ mod tests {
                 format!("element 1 is {size:.0e} m large, and its volume {word}; are the units right?");
             assert_eq!(message, expected);
             let message = scaled(scale, 0.0).expect_err("flat").to_string();
-            assert!(message.contains("not positive beyond rounding"), "{scale:e}: {message}");
+            assert!(message.contains("is flat"), "{scale:e}: {message}");
         }
         let mut widest = corner();
         widest.positions[0] = [f64::MIN; 3];

@@ -14,7 +14,7 @@ fn meshes_and_embeddings() {
         let mesh = hostile.mesh();
         let _ = mesh.rest_shapes();
         let _ = (mesh.connected_components(), mesh.bounds(), mesh.tag(usize::MAX));
-        let _ = mesh.clone().without_unused_nodes();
+        let _ = mesh.clone().without_unused_nodes().turn_tets();
         let _ = Pins::in_box(&mesh, Bounds { min: hostile.point(), max: hostile.point() });
         let _ = Pins::of_group(&mesh, hostile.one_of(&["half", "", "\u{1b}"]));
         let good = [[0.5, 0.5, 0.5], [1.0, 0.0, 0.0], [2.01, 0.5, 0.5]];

@@ -33,7 +33,8 @@ fn meshes_and_surfaces() {
     check(&[], run, &["cage.msh", "cannot be read"]);
     let malformed = tetrahedron([1, 2, 3, 4]).replace("0 1 0\n", "0 one 0\n");
     check(&[("cage.msh", malformed)], run, &["cage.msh:13", "`one`"]);
-    check(&[("cage.msh", tetrahedron([1, 2, 4, 3]))], run, &["cage.msh", "7", "volume"]);
+    let flat = tetrahedron([1, 2, 3, 4]).replace("0 0 1\n$End", "1 1 0\n$End");
+    check(&[("cage.msh", flat)], run, &["cage.msh: element 7 is flat"]);
 
     let run = "run horse --mesh cage.msh --surface skin.obj";
     check(&[good_mesh()], run, &["skin.obj"]);

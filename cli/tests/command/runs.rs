@@ -168,10 +168,13 @@ fn a_mesh_in_millimetres_is_the_body_in_metres() {
 }
 
 #[test]
-fn a_pull_that_finds_no_node_says_so() {
+fn a_reversed_tetrahedron_and_a_pull_that_finds_no_node_are_told() {
     // The head of a dinosaur is above and in front, where this corner is not.
-    let (said, _) = run_on(&Folder::new(), &tetrahedron([1, 2, 3, 4]), "dinosaur", "");
+    let run = |nodes| run_on(&Folder::new(), &tetrahedron(nodes), "dinosaur", "");
+    let ((_, right), (said, turned)) = (run([1, 2, 3, 4]), run([1, 3, 2, 4]));
     assert!(said.contains("warning: no node of the body lies where the scene pulls"), "{said}");
+    assert!(said.contains("\nnote: 1 tetrahedra of the file have"), "{said}");
+    assert_eq!(right["energy"], turned["energy"]);
 }
 
 #[test]

@@ -25,7 +25,8 @@ const WITHOUT_MESH: [&str; 4] = ["$NodeData", "$ElementData", "$ElementNodeData"
 /// Reads the linear tetrahedra of a Gmsh file, MSH 4.1 or 2.2 in ASCII, with its physical groups.
 ///
 /// Nodes may have any tags; those that belong to no tetrahedron are dropped and counted in
-/// [`TetMesh::dropped_nodes`]. Points, lines and surface elements count only for the nodes of their groups. A
+/// [`TetMesh::dropped_nodes`]; tetrahedra with a negative volume are turned and counted in
+/// [`TetMesh::turned_tets`]. Points, lines and surface elements count only for the nodes of their groups. A
 /// group without a name is called by its number. Rest volumes are checked later, by [`TetMesh::rest_shapes`].
 ///
 /// # Errors
@@ -198,12 +199,10 @@ impl File {
     }
 
     /// Parses the next word of an element as the index of a node.
-    fn node(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
+    pub(super) fn node(&self, line: &mut Line<'_>) -> Result<usize, Problem> {
         let tag = line.number("the tag of a node")?;
-        self.node_of_tag
-            .get(&tag)
-            .copied()
-            .ok_or_else(|| line.problem(format!("the element names node {tag}, which is not given above")))
+        let node = self.node_of_tag.get(&tag).copied();
+        node.ok_or_else(|| line.problem(format!("the element names node {tag}, which does not exist")))
     }
 
     /// Parses the remaining four words of an element as the indices of its nodes.
@@ -231,7 +230,7 @@ impl File {
         group.tets.push(tet);
     }
 
-    /// Drops the nodes of no tetrahedron and names the groups.
+    /// Drops the nodes of no tetrahedron, turns tetrahedra with a negative volume and names the groups.
     pub(super) fn into_mesh(self, end: usize) -> Result<TetMesh, Problem> {
         if self.tets.is_empty() {
             let text = match self.others.is_empty() {
@@ -248,7 +247,7 @@ impl File {
         });
         let (tags, groups, left_out) = (self.tags, groups.collect(), self.others);
         let mesh = TetMesh { tags, groups, left_out, ..TetMesh::new(self.positions, self.tets) };
-        Ok(mesh.without_unused_nodes())
+        Ok(mesh.without_unused_nodes().turn_tets())
     }
 }
 

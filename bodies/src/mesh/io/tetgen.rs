@@ -6,18 +6,18 @@
 use std::path::Path;
 
 use super::msh::File;
-use super::text::{Cursor, Line, Problem, ReadError, read};
+use super::text::{Cursor, Problem, ReadError, read};
 use crate::mesh::TetMesh;
 use crate::mesh::elements::{ElementCounts, TETRAHEDRON_10};
-use crate::mesh::tet::{cross, dot, subtract};
 
 /// Reads the tetrahedra of a `.ele` file and their nodes from the `.node` file next to it; `path` may be
 /// either.
 ///
-/// Nodes may be numbered in any way. The format guarantees no orientation: negative tetrahedra are turned.
-/// The first attribute of a tetrahedron, the number of its region, makes a group of dimension 3, and the
-/// boundary marker of a node, unless it is 0, one of dimension 2; both are called by their numbers. Nodes
-/// that belong to no tetrahedron are dropped and counted in [`TetMesh::dropped_nodes`].
+/// Nodes may be numbered in any way. The format guarantees no orientation: tetrahedra with a negative volume
+/// are turned and counted in [`TetMesh::turned_tets`]. The first attribute of a tetrahedron, the number of
+/// its region, makes a group of dimension 3, and the boundary marker of a node, unless it is 0, one of
+/// dimension 2; both are called by their numbers. Nodes that belong to no tetrahedron are dropped and
+/// counted in [`TetMesh::dropped_nodes`].
 ///
 /// # Errors
 /// [`ReadError`], which names the line if it is malformed, if there is no tetrahedron, or if tetrahedra are
@@ -73,9 +73,9 @@ fn parse_tets(text: &str, mut file: File) -> Result<TetMesh, Problem> {
     for tet in 0..count {
         let mut line = cursor.next("a tetrahedron")?;
         file.tags.push(line.number("the number of the tetrahedron")?);
-        let mut node = || named(&file, &mut line);
+        let mut node = || file.node(&mut line);
         let corners = [node()?, node()?, node()?, node()?];
-        file.tets.push(turned(corners, &file.positions));
+        file.tets.push(corners);
         if attributes > 0 {
             // A whole number, written as a real one.
             let region: f64 = line.number("the region of the tetrahedron")?;
@@ -83,21 +83,6 @@ fn parse_tets(text: &str, mut file: File) -> Result<TetMesh, Problem> {
         }
     }
     file.into_mesh(cursor.number + 1)
-}
-
-/// Parses the next word of a line as the index of a node.
-fn named(file: &File, line: &mut Line<'_>) -> Result<usize, Problem> {
-    let number: usize = line.number("the number of a node")?;
-    let index = file.node_of_tag.get(&number).copied();
-    index.ok_or_else(|| line.problem(format!("the .node file has no node {number}")))
-}
-
-/// The corners of a tetrahedron of these nodes, m, in the order of positive volume, unless it is zero: TetGen
-/// guarantees no orientation.
-fn turned([a, b, c, d]: [usize; 4], nodes: &[[f64; 3]]) -> [usize; 4] {
-    let edge = |node: usize| subtract(nodes[node], nodes[a]);
-    let volume = dot(cross(edge(b), edge(c)), edge(d));
-    if volume < 0.0 { [a, c, b, d] } else { [a, b, c, d] }
 }
 
 #[cfg(test)]
@@ -122,7 +107,8 @@ mod tests {
     #[test]
     fn nodes_tetrahedra_and_groups_arrive() {
         let mesh = parse_nodes(NODES).and_then(|nodes| parse_tets(TETS, nodes)).expect("good files");
-        assert_eq!((mesh.positions.len(), mesh.positions[4], mesh.dropped_nodes), (5, [1.0; 3], 1));
+        assert_eq!((mesh.positions.len(), mesh.positions[4]), (5, [1.0; 3]));
+        assert_eq!((mesh.dropped_nodes, mesh.turned_tets), (1, 1));
         assert_eq!(
             (mesh.tets.as_slice(), mesh.tags.as_slice()),
             (&[[0, 1, 2, 3], [2, 3, 1, 4]][..], &[1, 2][..])
@@ -161,7 +147,7 @@ mod tests {
         check("4  0 0 1", "4  0 o 1", 7, "expected the y coordinate, found `o`");
         check("4  0 0 1", "3  0 0 1", 7, "node 3 is given twice");
         check("0.5 -1", "0.5", 7, "the boundary marker of the node is missing");
-        check("3 2 4 5", "3 2 4 9", 3, "the .node file has no node 9");
+        check("3 2 4 5", "3 2 4 9", 3, "the element names node 9, which does not exist");
         check("2 4 1\n", "2 5 1\n", 1, "tetrahedra have 5 nodes; they must have 4");
         let second_order = "the volume is made of 2 second-order tetrahedra (10 nodes), and only linear tetrahedra are \
                             read; run TetGen without `-o2`";

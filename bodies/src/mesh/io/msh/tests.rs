@@ -83,6 +83,8 @@ fn both_formats_say_the_same() {
     // Without groups, and without tags at all.
     let bare = parse(&OLDER.replace("11 4 2 9 1 40", "11 4 0 40")).expect("no tags");
     assert_eq!((bare.groups[1].tets.as_slice(), bare.tets.len()), (&[1][..], 2));
+    let reversed = parse(&OLDER.replace("3 20 10 30", "3 10 20 30")).expect("a reversed tetrahedron");
+    assert_eq!(reversed, TetMesh { turned_tets: 1, ..parse(GOOD).expect("a good file") });
 }
 
 #[test]
@@ -133,7 +135,7 @@ fn problems_name_the_line() {
     check("0 1 0\n", "0 one 0\n", 32, "expected the y coordinate, found `one`");
     check("0 1 0\n", "0 NaN 0\n", 32, "the y coordinate is NaN; it must be finite");
     check("\n10\n", "\n40\n", 28, "node 40 is given twice");
-    check("11 40 3 20 10", "11 40 3 20 99", 41, "the element names node 99, which is not given above");
+    check("11 40 3 20 10", "11 40 3 20 99", 41, "the element names node 99, which does not exist");
     check("11 40 3 20 10", "11 40 3 20", 41, "the tag of a node is missing");
     check("12 3 20 10 30\n", "", 43, "expected the tag of the element, found `$EndElements`");
     check("$EndElements\n", "", 44, "the file ends where the end of the section is expected");
@@ -159,7 +161,7 @@ fn problems_name_the_line() {
 fn problems_of_the_older_format_name_the_line() {
     check_in(OLDER, "\n10 0 0 1", "\n40 0 0 1", 15, "node 40 is given twice");
     check_in(OLDER, "\n10 0 0 1", "\n10 0 0", 15, "the z coordinate is missing");
-    check_in(OLDER, "40 3 20 10", "40 3 20 99", 21, "the element names node 99, which is not given above");
+    check_in(OLDER, "40 3 20 10", "40 3 20 99", 21, "the element names node 99, which does not exist");
     check_in(OLDER, "\n5\n1 2", "\n6\n1 2", 25, "expected the tag of the element, found `$EndElements`");
 }
 
