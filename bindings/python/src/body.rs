@@ -23,7 +23,8 @@ use crate::threads::with_locked;
 ///     Body(points, tets, material, density, *, parts=None)
 ///
 /// points: rest positions of the nodes, m, of shape (n, 3): `mesh.points` of meshio.
-/// tets: nodes of each tetrahedron, of shape (m, 4), positively oriented: `mesh.cells_dict["tetra"]`.
+/// tets: nodes of each tetrahedron, from 0, of shape (m, 4), in the order of a positive volume, which
+///     `turn_tets` brings about: `mesh.cells_dict["tetra"]`.
 /// material, density: a Material and its density, kg/m³; or a sequence of each, one for each part. A material
 ///     whose parameters differ from point to point has them for each tetrahedron of its part.
 /// parts: the part of each tetrahedron, from 0, of shape (m,), if there are several.
@@ -260,6 +261,26 @@ pub(crate) fn box_mesh<'py>(
     size: [f64; 3],
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
     let mesh = tetrahedral_box(cells, size).map_err(of_body)?;
+    Ok((from_rows(py, &mesh.positions)?, tets_of(py, &mesh)?))
+}
+
+/// Tetrahedra with positive volumes, of shape (m, 4): two nodes of each with a negative one are swapped.
+///
+///     turn_tets(points, tets, /)
+///
+/// points, tets: as for `Body`. Flat tetrahedra, and those with a missing node, remain as they are.
+#[pyfunction]
+#[pyo3(signature = (points, tets, /))]
+pub(crate) fn turn_tets<'py>(
+    points: &Bound<'py, PyAny>,
+    tets: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mesh = TetMesh::new(rows("points", points)?, indices("tets", tets)?);
+    tets_of(points.py(), &mesh.turn_tets())
+}
+
+/// The tetrahedra of a mesh as an array of shape (m, 4).
+fn tets_of<'py>(py: Python<'py>, mesh: &TetMesh) -> PyResult<Bound<'py, PyAny>> {
     let tets: Vec<[i64; 4]> = mesh.tets.iter().map(|tet| tet.map(|node| node as i64)).collect();
-    Ok((from_rows(py, &mesh.positions)?, from_rows(py, &tets)?))
+    from_rows(py, &tets)
 }

@@ -37,7 +37,7 @@ mod threads;
 #[pyo3::pymodule]
 mod _piola {
     #[pymodule_export]
-    use crate::body::{Body, box_mesh};
+    use crate::body::{Body, box_mesh, turn_tets};
     #[pymodule_export]
     use crate::description::{Description, Parameter, catalogue};
     #[pymodule_export]

@@ -99,6 +99,31 @@ def test_meshes_come_from_meshio(tmp_path, rubber, beam):
     assert np.allclose(meshio.read(tmp_path / "fallen.vtk").points[:, 2], points[:, 2] - 0.1)
 
 
+def test_the_order_of_nodes_carries_no_physics(rubber, beam, rng):
+    points, tets = beam
+    x = wobbly(points, rng)
+    for tets_of, named in (([3], ": 3;"), (range(24), r": 0, 1, .*, 19 and 4 more;")):
+        reversed_tets = tets.copy()
+        reversed_tets[tets_of] = tets[tets_of][:, [0, 2, 1, 3]]
+        with pytest.raises(piola.BodyError, match=f"{len(tets_of)} of 24 elements .*{named}.*`turn_tets`"):
+            piola.Body(points, reversed_tets, rubber, 1000.0)
+        turned = piola.turn_tets(points, reversed_tets)
+        assert np.array_equal(turned, tets) and (turned != reversed_tets).any(axis=1).sum() == len(tets_of)
+        body, right = (piola.Body(points, order, rubber, 1000.0) for order in (turned, tets))
+        assert body.energy(x) == right.energy(x)
+
+
+def test_numbers_of_nodes_from_1_and_loose_nodes_are_named(rubber, beam):
+    points, tets = beam
+    with pytest.raises(piola.BodyError, match="the 20 nodes are numbered from 0; here they are from 1: subtract 1"):
+        piola.Body(points, tets + 1, rubber, 1000.0)
+    loose = np.vstack([points, [[9, 9, 9]]])
+    with pytest.raises(piola.BodyError, match=r"node 20 \(from 0\) belongs to no .*leave such nodes out"):
+        piola.Body(loose, tets, rubber, 1000.0)
+    used, tets = np.unique(tets, return_inverse=True)
+    assert len(piola.Body(loose[used], tets.reshape(-1, 4), rubber, 1000.0).points) == 20
+
+
 def test_steps_move_and_report(rubber, beam):
     points, tets = beam
     left, right = (np.flatnonzero(points[:, 0] == x) for x in (0, points[:, 0].max()))

@@ -26,6 +26,7 @@ from piola._piola import (
     num_threads,
     set_num_threads,
     treloar,
+    turn_tets,
 )
 from piola.errors import (
     BodyError,
@@ -67,4 +68,5 @@ __all__ = [
     "num_threads",
     "set_num_threads",
     "treloar",
+    "turn_tets",
 ]
