@@ -451,6 +451,15 @@ static void elements_and_bodies_agree(void) {
     FAILS(piola_body_new(REST, 15, CORNERS, 8, NULL, 0, &nothing, 1, &body), PIOLA_CODE_POINTER, "material");
     FAILS(piola_body_new(REST, 15, CORNERS, 8, NULL, 0, NULL, 0, &body), PIOLA_CODE_LENGTH, "`part_of`");
     FAILS(piola_body_new(REST, 12, CORNERS, 8, NULL, 0, parts, 1, &body), PIOLA_CODE_BODY, "node 4");
+    size_t reversed[8], turned = 9;
+    memcpy(reversed, CORNERS, sizeof reversed);
+    reversed[5] = CORNERS[6], reversed[6] = CORNERS[5];
+    FAILS(
+        piola_body_new(REST, 15, reversed, 8, NULL, 0, parts, 1, &body), PIOLA_CODE_BODY,
+        "1 of 2 elements have their nodes in the order of a negative volume: 2; `turn_tets` swaps");
+    CHECK(piola_turn_tets(REST, 15, reversed, 8, &turned) == PIOLA_CODE_OK);
+    CHECK(turned == 1 && memcmp(reversed, CORNERS, sizeof reversed) == 0);
+    FAILS(piola_turn_tets(REST, 15, reversed, 7, &turned), PIOLA_CODE_LENGTH, "`corners` has 7 entries");
     FAILS(piola_rest_shapes(REST, 15, CORNERS, 8, rest, 19), PIOLA_CODE_LENGTH, "`rest` has 19 entries");
     FAILS(piola_rest_shapes(REST, 15, CORNERS, 7, rest, 20), PIOLA_CODE_LENGTH, "`corners` has 7 entries");
     piola_material_free(material);

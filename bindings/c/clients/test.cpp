@@ -219,6 +219,8 @@ void simulations() {
 void bodies() {
     const std::vector<double> x = {0, 0, 0, 1.2, 0.1, 0, 0, 0.9, 0.2, 0.1, 0, 1.1};
     const piola::body body(corners_at, corners, {}, {piola::part{rubber(), 1000.0}});
+    std::vector<std::size_t> reversed = {0, 2, 1, 3};
+    CHECK(piola::turn_tets(corners_at, reversed) == 1 && reversed == corners);
     const std::vector<double> rest = piola::rest_shapes(corners_at, corners);
     std::vector<double> gradients(12), stiffnesses(144), from_body(12);
     const piola::batch<> batch(rubber());

@@ -494,7 +494,7 @@ enum piola_code piola_stresses_in_f32(const struct piola_material *material,
 // input of `piola_stiffnesses`. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
 //
 // `positions` has three numbers for each node, m; `corners` four nodes, from 0, for each tetrahedron, with
-// det Dm > 0.
+// det Dm > 0, which `piola_turn_tets` brings about.
 //
 // Errors: PIOLA_CODE_BODY for nodes that do not exist or belong to no tetrahedron, and volumes that are not
 // positive beyond rounding; tetrahedra are numbered from 1 in the message.
@@ -504,6 +504,17 @@ enum piola_code piola_rest_shapes(const double *positions,
                                   size_t corners_length,
                                   double *rest,
                                   size_t rest_length);
+
+// Swaps two nodes of each tetrahedron with det Dm < 0 in `corners`. The order of nodes is a convention of
+// the program that wrote the mesh.
+//
+// `positions` and `corners` are those of `piola_rest_shapes`. Flat tetrahedra, and those with a node that
+// does not exist, remain as they are. `turned`, which may be null, receives the number of swaps.
+enum piola_code piola_turn_tets(const double *positions,
+                                size_t positions_length,
+                                size_t *corners,
+                                size_t corners_length,
+                                size_t *turned);
 
 // Gradients of the energies of linear tetrahedra in the positions of their nodes, N, and filtered
 // stiffnesses, N/m, from deformation gradients F = Ds Dm⁻¹, nine numbers each, and shapes at rest, ten
@@ -629,7 +640,7 @@ enum piola_code piola_csr_add_f32(const struct piola_csr *csr,
 void piola_csr_free(struct piola_csr *csr);
 
 // Makes a body of nodes at `positions`, three numbers each, m, and tetrahedra, `corners` with four nodes
-// each, from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0.
+// each, from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0, which `piola_turn_tets` brings about.
 //
 // `part_of` has the part of each tetrahedron, from 0; it may be null, with a length of 0, if there is one
 // part. The body keeps its materials, whose handles may be freed.

@@ -301,6 +301,14 @@ inline std::vector<double> rest_shapes(span<const double> positions, span<const 
     return rest;
 }
 
+/// Swaps two nodes of each tetrahedron with a negative volume at rest; returns their number.
+inline std::size_t turn_tets(span<const double> positions, span<std::size_t> corners) {
+    std::size_t turned = 0;
+    detail::check(
+        piola_turn_tets(positions.data(), positions.size(), corners.data(), corners.size(), &turned));
+    return turned;
+}
+
 /// The places of stiffnesses of tetrahedra in a sparse matrix of compressed rows, or columns.
 class csr {
 public:

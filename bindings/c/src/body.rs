@@ -27,7 +27,7 @@ plain!(Part);
 
 functions! {
 /// Makes a body of nodes at `positions`, three numbers each, m, and tetrahedra, `corners` with four nodes
-/// each, from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0.
+/// each, from 0, and det [x1 - x0, x2 - x0, x3 - x0] > 0, which `piola_turn_tets` brings about.
 ///
 /// `part_of` has the part of each tetrahedron, from 0; it may be null, with a length of 0, if there is one
 /// part. The body keeps its materials, whose handles may be freed.

@@ -13,7 +13,7 @@ functions! {
 /// input of `piola_stiffnesses`. The columns of Dm are x1 - x0, x2 - x0, x3 - x0.
 ///
 /// `positions` has three numbers for each node, m; `corners` four nodes, from 0, for each tetrahedron, with
-/// det Dm > 0.
+/// det Dm > 0, which `piola_turn_tets` brings about.
 ///
 /// Errors: PIOLA_CODE_BODY for nodes that do not exist or belong to no tetrahedron, and volumes that are not
 /// positive beyond rounding; tetrahedra are numbered from 1 in the message.
@@ -25,6 +25,18 @@ fn piola_rest_shapes(positions: &[f64], corners: &[usize], rest: &mut [f64]) {
         *rest = shape.components();
     }
     Ok(())
+}
+
+/// Swaps two nodes of each tetrahedron with det Dm < 0 in `corners`. The order of nodes is a convention of
+/// the program that wrote the mesh.
+///
+/// `positions` and `corners` are those of `piola_rest_shapes`. Flat tetrahedra, and those with a node that
+/// does not exist, remain as they are. `turned`, which may be null, receives the number of swaps.
+fn piola_turn_tets(positions: &[f64], corners: &mut [usize], turned: Out<usize>) {
+    let tets = lent::rows("corners", corners)?.to_vec();
+    let mesh = TetMesh::new(lent::rows("positions", positions)?.to_vec(), tets).turn_tets();
+    corners.copy_from_slice(mesh.tets.as_flattened());
+    turned.write(mesh.turned_tets)
 }
 }
 
