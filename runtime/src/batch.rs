@@ -301,7 +301,8 @@ impl<'a, E: Kernels> Batch<'a, E> {
     }
 }
 
-/// Components of an element's rest shape: Dm⁻¹ row by row, 1/m, then the volume, m³.
+/// Components of an element's rest shape: Dm⁻¹ row by row, 1/m, then the volume, m³, which is positive for
+/// any order of the nodes: a negative one reverses forces.
 pub const REST: usize = 10;
 
 /// Error of slices whose lengths do not match.

@@ -25,7 +25,7 @@ use crate::point::matrix::three;
 /// |---|---|---|
 /// | `positions` | each element | coordinate a of node n at 3n+a, m |
 /// | `slopes` | each point | ∂N/∂X, along axis b of node n at 3n+b, 1/m |
-/// | `volumes` | each point | its weight times det ∂X/∂ξ, m³ |
+/// | `volumes` | each point | its weight times the size of det ∂X/∂ξ, m³; a negative one reverses forces |
 /// | `F`, `P`, `dP_dF` | each point | 9, 9 and 81, as [`Batch::tangents`](super::Batch::tangents) has them |
 /// | `gradients` | each element | as `positions`, N; **forces are minus these** |
 /// | `stiffnesses` | each element | unknown 3n+a in row and column 3n+a, N/m; exactly symmetric |
