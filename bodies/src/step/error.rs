@@ -39,6 +39,16 @@ pub enum StepError {
         /// The tolerance, m/s.
         tolerance: f64,
     },
+    /// Nothing holds a body that shall come to equilibrium, and the loads on it do not balance.
+    #[error(
+        "no pin, spring or term holds the body, and gravity and given forces add up to {} N, so that it has no \
+         equilibrium; pin some of its nodes, or take time steps",
+        number(*force)
+    )]
+    Unheld {
+        /// Norm of the sum of gravity and given forces, N.
+        force: f64,
+    },
     /// The minimisation failed.
     #[error("{0}")]
     Newton(#[from] NewtonError),

@@ -9,7 +9,7 @@ use crate::step::staged::StagedSteps;
 use crate::system::element::Evaluated;
 use crate::system::linear::multigrid::Division;
 
-use super::{Energies, Simulation};
+use super::{Energies, Simulation, SimulationSettings};
 
 /// Report of a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,11 @@ impl Simulation {
     /// for a body with fewer than three pinned nodes, which may move as a whole at no cost, one
     /// ten-thousandth of such a part always.
     ///
+    /// The report tells whether the tolerance was reached: with
+    /// [`Convergence::Limit`](crate::step::Convergence::Limit) the body is not in equilibrium yet.
+    ///
     /// # Errors
+    /// [`StepError::Unheld`] if nothing holds the body and the loads on it do not balance,
     /// [`StepError::Newton`] if there is no admissible next state. The state before is then untouched.
     pub fn equilibrate(&mut self) -> Result<StepReport, StepError> {
         rayon::scope(|_| self.equilibrate_here())
@@ -79,7 +83,30 @@ impl<M: Machine> Simulation<M> {
     /// Those of [`Simulation::equilibrate`], on all machines.
     #[doc(hidden)]
     pub fn equilibrate_here(&mut self) -> Result<StepReport, StepError> {
+        self.demand_balance()?;
         self.advance(f64::INFINITY)
+    }
+
+    /// Demands that the loads on a body that nothing holds add up to zero, as its elastic forces do: to the
+    /// tolerance of Newton's method, or to half of all digits.
+    fn demand_balance(&self) -> Result<(), StepError> {
+        let SimulationSettings { gravity, newton, .. } = self.settings;
+        let holding = self.pinned().len() + self.springs().len() + self.terms.len();
+        let (mut sum, mut size) = ([0.0; 3], 0.0);
+        for (node, mass) in self.body.masses().iter().enumerate() {
+            for c in 0..3 {
+                let force = self.forces.get(node).map_or(0.0, |force| force[c]);
+                sum[c] += mass * gravity[c] + force;
+                size += (mass * gravity[c]).abs() + force.abs();
+            }
+        }
+        let own = [holding as f64, size, sum[0], sum[1], sum[2]];
+        let [holding, size, x, y, z] = self.workspace.machine.nodes().totals(own);
+        let force = x.hypot(y).hypot(z);
+        match holding == 0.0 && force > newton.tolerance.max(1e-8) * size {
+            true => Err(StepError::Unheld { force }),
+            false => Ok(()),
+        }
     }
 
     /// A step of any length, infinity included.

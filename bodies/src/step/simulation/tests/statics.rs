@@ -42,3 +42,21 @@ fn statics_of_a_free_body_leaves_it_where_it_is() {
     }
     assert!(distance(body.positions(), &mesh.positions) <= 0.02);
 }
+
+/// A body that nothing holds has no equilibrium under gravity, but one under forces that carry its weight.
+#[test]
+fn statics_of_a_body_that_nothing_holds_needs_balanced_loads() {
+    let mesh = beam(4);
+    let mut body = simulation(&mesh, rotated(), &Pins::none(), falling(NewtonSettings::default()));
+    let lift: Vec<[f64; 3]> = body.body().masses().iter().map(|mass| [0.0, 9.81 * mass, 0.0]).collect();
+    let weight: f64 = lift.iter().map(|lift| lift[1]).sum();
+    let refused = body.equilibrate();
+    // Both are sums of 20 terms.
+    let is_weight = |force: f64| (force - weight).abs() <= 1e-14 * weight;
+    assert!(matches!(refused, Err(StepError::Unheld { force }) if is_weight(force)), "{refused:?}");
+    assert_eq!(body.positions(), mesh.positions);
+    body.set_forces(&lift).expect("finite");
+    body.equilibrate().expect("an equilibrium");
+    // Rounding errors of elastic forces, 10⁻¹³ N, meet the guard of 10⁻⁴ N/m.
+    assert!(distance(body.positions(), &mesh.positions) <= 1e-8);
+}
