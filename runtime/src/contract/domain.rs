@@ -2,15 +2,14 @@
 //! exactly the sign of λ3 is computed.
 
 use super::results::{name, results};
-use super::subject::Subject;
-use super::{Judge, Settings, UNIT, Verdict, gradient_name, pair_name, stiffness};
-use crate::material::{Inversion, Moduli};
+use super::{Judge, Notation, UNIT, Verdict, gradient_name, pair_name, stiffness};
+use crate::material::Moduli;
 
 /// [`Domain`](super::Rule::Domain).
 pub(super) fn domain(judge: &mut Judge<'_>) -> Verdict {
-    let (material, settings) = (judge.material, judge.settings);
+    let (material, notation) = (judge.material, judge.settings.notation);
     let finite = |judge: &mut Judge<'_>, component: &dyn Fn() -> String, stretches, number| {
-        judge.finite(component, stretches, number, || remedy(material, settings, stretches, number))
+        judge.finite(component, stretches, number, || remedy(notation, number))
     };
     for stretches in judge.samples() {
         for (k, number) in results(material, stretches).into_iter().enumerate() {
@@ -44,15 +43,10 @@ pub(super) fn domain(judge: &mut Judge<'_>) -> Verdict {
 }
 
 /// Advice for an energy or derivative that is infinite or NaN.
-fn remedy(
-    material: &dyn Subject,
-    Settings { notation, .. }: &Settings,
-    [_, _, l3]: [f64; 3],
-    found: f64,
-) -> String {
+fn remedy(notation: Notation, found: f64) -> String {
     let narrower = notation.narrower();
-    match material.inversion() {
-        _ if found.is_nan() => {
+    match found.is_nan() {
+        true => {
             let condition = notation.either(
                 "add a condition to `domain(…)`, or to `admissible(…)` if a parameter divides by zero; let `admits` of a function \
                  that is a parameter tell where it is defined",
@@ -64,11 +58,7 @@ fn remedy(
                  more wherever J > 0"
             )
         }
-        Inversion::Extend { epsilon } if l3 < epsilon => format!(
-            "the energy overflows where its extension begun at epsilon = {epsilon} has come to these stretches, as exponentials and \
-             high powers do: choose a greater `epsilon` or smaller parameters, or {narrower}"
-        ),
-        _ => {
+        false => {
             let vanishing = notation.either(
                 "; where a denominator or the argument of a logarithm vanishes, add a condition to `domain(…)`, or to \
                  `admissible(…)` if it is one of parameters alone",

@@ -3,6 +3,7 @@
 use super::subject::{Subject, samples};
 use super::violation::Violation;
 use super::{Finding, Notation, Rule, Settings};
+use crate::material::Inversion;
 use crate::random::Random;
 
 /// The first violation of a rule, if there is one.
@@ -142,11 +143,13 @@ impl<'a> Judge<'a> {
             return Ok(());
         }
         let (component, remedy) = words();
-        if found.is_nan() && expected != FINITE {
+        let overflow = self.overflow(stretches);
+        if found.is_nan() && expected != FINITE && overflow.is_none() {
             let demand = format!(", where {expected} is expected: {SEE_DOMAIN}");
             return self.wrong(&component, stretches, found, &demand, None);
         }
-        self.wrong(&component, stretches, found, &format!("\n    expected    {expected}"), remedy)
+        let demand = format!("\n    expected    {expected}");
+        self.wrong(&component, stretches, found, &demand, overflow.or(remedy))
     }
 
     /// A value that differs from another one by more than rounding explains: nothing, where both must have
@@ -159,17 +162,31 @@ impl<'a> Judge<'a> {
         tolerance: f64,
         remedy: Option<String>,
     ) -> Verdict {
-        let difference = (found - expected).abs();
-        if difference.is_nan() || tolerance.is_nan() {
+        let (difference, overflow) = ((found - expected).abs(), self.overflow(stretches));
+        if (difference.is_nan() || tolerance.is_nan()) && overflow.is_none() {
             let demand = format!(", where {expected:e} is expected: {SEE_DOMAIN}");
             return self.wrong(component, stretches, found, &demand, None);
         }
         let (explained, remedy) = match tolerance == 0.0 {
             true => ("where both must have the same bits".to_owned(), None),
-            false => (format!("of which rounding explains {tolerance:.1e}"), remedy),
+            false => (format!("of which rounding explains {tolerance:.1e}"), overflow.or(remedy)),
         };
         let demand = format!("\n    expected    {expected:e}\n    difference  {difference:.1e}, {explained}");
         self.wrong(component, stretches, found, &demand, remedy)
+    }
+
+    /// Advice where the energy is so large, more than the root of the largest number, that derivatives and
+    /// what is made of them overflow, because its extension has come to these stretches.
+    fn overflow(&self, stretches: [f64; 3]) -> Option<String> {
+        let Inversion::Extend { epsilon } = self.material.inversion() else { return None };
+        let overflows = stretches[2] < epsilon && self.material.energy(stretches) > 2f64.powi(512);
+        let narrower = self.settings.notation.narrower();
+        overflows.then(|| {
+            format!(
+                "the energy overflows where its extension begun at epsilon = {epsilon} has come to these stretches, as \
+                 exponentials and high powers do: choose a greater `epsilon` or smaller parameters, or {narrower}"
+            )
+        })
     }
 
     /// A value that is not as demanded.

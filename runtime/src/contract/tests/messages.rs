@@ -120,6 +120,19 @@ fn an_overflow_is_told_once() {
     assert!(both.starts_with("rest: ") && both.ends_with(&text), "{both}");
 }
 
+/// Each rule advises to extend from a greater stretch, for NaN and for differences of large numbers.
+#[test]
+fn an_overflow_in_an_extension_has_one_remedy() {
+    let steep = Defective(ExtendedNeoHookean { epsilon: 0.3 }, Defect::OverflowsInExtension);
+    let settings = Settings::default();
+    let mut judge = Judge::new(Rule::Isotropy, &steep, &settings);
+    for found in [f64::NAN, f64::INFINITY, 4e240] {
+        let verdict = judge.compare(|| "stress".into(), [1.5, 1.2, -1.0], found, 4.5e240, 1e239);
+        let text = verdict.expect_err("a difference").to_string();
+        assert!(text.contains("    remedy      the energy overflows where its extension begun"), "{text}");
+    }
+}
+
 #[test]
 fn why_nothing_was_compared_is_told() {
     let settings = Settings { points: 0, ..Settings::default() };
