@@ -196,7 +196,7 @@ fn numbers(
         }
     }
     if let Some(name) = unknown.first() {
-        let known: Vec<_> = numbers.iter().map(|number: &Number| &*number.name).collect();
+        let known: Vec<_> = numbers.iter().map(|number: &Number| format!("`{}`", number.name)).collect();
         let (name, known) = (quoted(name), known.join(", "));
         return Err(FitError::Other(format!("there is no parameter `{name}` to hold; there are {known}")));
     }

@@ -1,14 +1,14 @@
 //! Input arrays, and output arrays for results.
 //!
 //! Accepts anything that `numpy.asarray` turns into an array of numbers; float32 stays as it is, all else
-//! becomes float64. Points are along the leading axes of an array, F of shape (..., 3, 3), which is what
-//! `Batch` takes: nothing is copied. Or they are along the trailing ones, (3, 3, ...): `columns` sees to
-//! these.
+//! becomes float64, and masked entries NaN. Points are along the leading axes of an array, F of shape (...,
+//! 3, 3), which is what `Batch` takes: nothing is copied. Or they are along the trailing ones, (3, 3, ...):
+//! `columns` sees to these.
 
 use std::fmt::Display;
 
 use numpy::{
-    Element, IntoPyArray, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
+    BorrowError, Element, IntoPyArray, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
     PyReadwriteArrayDyn, PyUntypedArray, PyUntypedArrayMethods, dtype,
 };
 use pyo3::prelude::*;
@@ -27,8 +27,18 @@ pub(crate) enum Axes {
 }
 
 impl Axes {
-    pub(crate) fn new(trailing: bool) -> Self {
-        if trailing { Self::Trailing } else { Self::Leading }
+    /// The axes that the caller chooses, or the leading ones; Python warns of a shape that could mean both, and
+    /// refuses one that means the others.
+    pub(crate) fn of(py: Python<'_>, trailing: Option<bool>, shape: &[usize]) -> PyResult<Self> {
+        let (axes, others) = match trailing {
+            Some(true) => (Self::Trailing, Self::Leading),
+            _ => (Self::Leading, Self::Trailing),
+        };
+        let is_meant = trailing.is_some() && axes.points(shape).is_some();
+        if shape.len() > 2 && !is_meant && others.points(shape).is_some() {
+            py.import("piola.results")?.call_method1("question_axes", (shape.to_vec(), trailing))?;
+        }
+        Ok(axes)
     }
 
     /// The shape of points whose F has the shape given; `None` if there is no F of that shape.
@@ -57,10 +67,10 @@ pub(crate) enum Numbers<'py> {
 impl<'py> Numbers<'py> {
     /// Reads an array of float64 or float32 where it is, and makes one of everything else.
     pub(crate) fn new(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Self> {
-        if let Ok(array) = given.cast() {
+        if let Ok(array) = given.cast_exact() {
             return Ok(Self::Double(array.clone()));
         }
-        if let Ok(array) = given.cast() {
+        if let Ok(array) = given.cast_exact() {
             return Ok(Self::Single(array.clone()));
         }
         let array = as_array(name, given)?;
@@ -111,7 +121,7 @@ pub(crate) fn deformations<'py, E: Element>(
         true => array.clone(),
         false => broadcast(array, axes, points, &common)?,
     };
-    let refused = |error: numpy::BorrowError| value_error(format!("F cannot be read: {error}"));
+    let refused = |_| value_error("F cannot be read: another thread writes results to its memory");
     Ok((array.try_readonly().map_err(refused)?, common))
 }
 
@@ -131,7 +141,13 @@ pub(crate) fn output<'py, E: Element>(
     if !array.is_c_contiguous() {
         return Err(value_error(format!("{name} must be contiguous in the order of C")));
     }
-    let refused = |error: numpy::BorrowError| value_error(format!("{name} cannot be written: {error}"));
+    let refused = |error| {
+        let reason = match error {
+            BorrowError::NotWriteable => "it is read-only",
+            _ => "it shares memory with F, another result or an array of another thread; pass one of its own",
+        };
+        value_error(format!("{name} cannot be written: {reason}"))
+    };
     array.try_readwrite().map_err(refused)
 }
 
@@ -205,9 +221,9 @@ pub(crate) fn read_only<T>(array: Bound<'_, T>) -> PyResult<Bound<'_, T>> {
     Ok(array)
 }
 
-/// Result of `numpy.asarray` for an object.
+/// Result of `numpy.asarray` for an object, with NaN for masked entries.
 fn as_array<'py>(name: &str, given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
-    let array = given.py().import("numpy")?.call_method1("asarray", (given,));
+    let array = given.py().import("piola.results")?.call_method1("as_array", (given,));
     Ok(array.map_err(|cause| no_numbers(name, given, Some(cause)))?.cast_into()?)
 }
 

@@ -4,6 +4,8 @@ use piola::material::{self, Unit};
 use piola_materials::DECLARATIONS;
 use pyo3::prelude::*;
 
+use crate::material::keyword;
+
 /// A parameter of an energy.
 #[pyclass(frozen, get_all, module = "piola")]
 #[derive(Clone)]
@@ -52,7 +54,7 @@ impl Description {
     pub(crate) fn new(name: &str, description: &material::Description) -> Self {
         let typical = description.typical.as_ref();
         let parameter = |(k, parameter): (usize, &material::Parameter)| Parameter {
-            name: parameter.name.to_string(),
+            name: keyword(&parameter.name).to_owned(),
             doc: parameter.doc.to_string(),
             unit: parameter.unit.and_then(|unit| match unit {
                 Unit::Pascal => Some("Pa"),

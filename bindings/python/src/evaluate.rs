@@ -2,7 +2,7 @@
 
 #![expect(non_snake_case, reason = "F and P as in the literature")]
 
-use numpy::{Element, PyArrayDyn, PyReadonlyArrayDyn, PyReadwriteArrayDyn, dtype};
+use numpy::{Element, PyArrayDyn, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArrayMethods, dtype};
 use piola::batch::{Kernels, TileMaterial};
 use piola::point::Filter;
 use piola::point::measures::Measure;
@@ -24,7 +24,8 @@ const MANY: usize = 2048;
 /// Options of a call for points: keywords that all methods share.
 struct Call<'a, 'py> {
     filter: Filter,
-    axes: Axes,
+    /// True if the points are on the last axes of F.
+    trailing: Option<bool>,
     /// Array for the result, or a tuple of arrays for several results.
     out: Option<&'a Bound<'py, PyAny>>,
     status: Option<&'a Bound<'py, PyAny>>,
@@ -63,12 +64,13 @@ impl<'py> Call<'_, 'py> {
         quantity: Quantity,
         mut out: Vec<Option<Bound<'py, PyAny>>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let (F, points) = deformations(F, self.axes, &material.shape)?;
+        let axes = Axes::of(F.py(), self.trailing, F.shape())?;
+        let (F, points) = deformations(F, axes, &material.shape)?;
         let (py, count) = (F.py(), points.iter().product::<usize>());
         let mut outputs = Vec::with_capacity(3);
         out.resize(quantity.components().len(), None);
         for (components, given) in quantity.components().iter().zip(out) {
-            let shape = self.axes.shape(&points, components);
+            let shape = axes.shape(&points, components);
             let new = || PyArrayDyn::<E>::zeros(py, shape.clone(), false).into_any();
             let given = given.unwrap_or_else(new);
             let wanted = dtype::<E>(py);
@@ -85,9 +87,9 @@ impl<'py> Call<'_, 'py> {
         let results = outputs.iter_mut().map(PyReadwriteArrayDyn::as_slice_mut);
         let results = results.collect::<Result<Vec<_>, _>>()?;
         let materials = Materials { uniform, each: material.at(&points), filter: self.filter };
-        let survey = self.compute(&materials, &F, count, quantity, results, &cells)?;
+        let survey = self.compute(axes, &materials, &F, quantity, results, &cells)?;
         for (output, components) in outputs.iter_mut().zip(quantity.numbers()) {
-            let at = |point: usize, component: usize| match self.axes {
+            let at = |point: usize, component: usize| match axes {
                 Axes::Leading => components * point + component,
                 Axes::Trailing => count * component + point,
             };
@@ -119,15 +121,16 @@ impl<'py> Call<'_, 'py> {
     /// Computes a quantity in the order of a batch, and the status of each point, if there are cells for it.
     fn compute<E: Kernels + Element>(
         &self,
+        axes: Axes,
         materials: &Materials<'_, E>,
         F: &PyReadonlyArrayDyn<'py, E>,
-        count: usize,
         quantity: Quantity,
         mut results: Vec<&mut [E]>,
         cells: &[StatusCell],
     ) -> PyResult<Survey> {
-        let (py, axes, threads) = (F.py(), self.axes, self.threads.unwrap_or(count >= MANY));
-        let F = F.as_slice()?;
+        let (py, F) = (F.py(), F.as_slice()?);
+        let count = F.len() / 9;
+        let threads = self.threads.unwrap_or(count >= MANY);
         let compute = || match axes {
             Axes::Leading => materials.with_batch(0, count, |batch| {
                 let batch = batch.with_threads(threads).with_statuses(cells);
@@ -219,50 +222,52 @@ fn several<'py>(out: &Bound<'py, PyAny>, count: usize) -> PyResult<Vec<Option<Bo
 impl Material {
     /// Energy densities of deformation gradients, Pa.
     ///
-    ///     energy(F, /, *, trailing=False, out=None, status=None, threads=None)
+    ///     energy(F, /, *, trailing=None, out=None, status=None, threads=None)
     ///
     /// F: any array_like, of shape (..., 3, 3), or (3, 3, ...) if trailing; its points are broadcast with the
     ///     parameters of the material. Results are float32 if F is, else float64.
+    /// trailing: True for points on the last axes; None for False, with a warning if the shape could mean
+    ///     both, as (3, 3, 3).
     /// out: an array for the result, of shape (...), contiguous and of its type.
     /// status: an array of uint8, of shape (...), for the flags of each point: see `Status`.
     /// threads: True to share the points among threads; None for True from 2048 points on.
     ///
     /// Raises DomainError if a point is outside the domain or not finite, unless `status` is given: then the
     /// results of such points are NaN. Raises ValueError for a wrong shape, TypeError for a wrong type.
-    #[pyo3(signature = (F, /, *, trailing = false, out = None, status = None, threads = None))]
+    #[pyo3(signature = (F, /, *, trailing = None, out = None, status = None, threads = None))]
     fn energy<'py>(
         &self,
         F: &Bound<'py, PyAny>,
-        trailing: bool,
+        trailing: Option<bool>,
         out: Option<&Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out, status, threads };
+        let call = Call { filter: Filter::None, trailing, out, status, threads };
         call.run(self, F, Quantity::Energy)
     }
 
     /// First Piola stresses P = dψ/dF of deformation gradients, Pa, in the shape of F.
     ///
-    ///     stress(F, /, *, trailing=False, out=None, status=None, threads=None)
+    ///     stress(F, /, *, trailing=None, out=None, status=None, threads=None)
     ///
     /// Arguments and errors as for `energy`.
-    #[pyo3(signature = (F, /, *, trailing = false, out = None, status = None, threads = None))]
+    #[pyo3(signature = (F, /, *, trailing = None, out = None, status = None, threads = None))]
     fn stress<'py>(
         &self,
         F: &Bound<'py, PyAny>,
-        trailing: bool,
+        trailing: Option<bool>,
         out: Option<&Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out, status, threads };
+        let call = Call { filter: Filter::None, trailing, out, status, threads };
         call.run(self, F, Quantity::Stress)
     }
 
     /// First Piola stresses P and tangents dP/dF, Pa: entry (i, j, k, l) is dP_ij/dF_kl.
     ///
-    ///     tangent(F, /, *, filter=None, trailing=False, out=None, status=None, threads=None)
+    ///     tangent(F, /, *, filter=None, trailing=None, out=None, status=None, threads=None)
     ///
     /// filter: treatment of negative eigenvalues of dP/dF: None leaves them, "clamp" sets them to zero,
     ///     "absolute" changes their sign.
@@ -270,40 +275,40 @@ impl Material {
     ///
     /// Returns (P, dP_dF), of shapes (..., 3, 3) and (..., 3, 3, 3, 3), or (3, 3, ...) and (3, 3, 3, 3, ...).
     /// Other arguments and errors as for `energy`.
-    #[pyo3(signature = (F, /, *, filter = None, trailing = false, out = None, status = None, threads = None))]
+    #[pyo3(signature = (F, /, *, filter = None, trailing = None, out = None, status = None, threads = None))]
     fn tangent<'py>(
         &self,
         F: &Bound<'py, PyAny>,
         filter: Option<&str>,
-        trailing: bool,
+        trailing: Option<bool>,
         out: Option<&Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let call = Call { filter: self::filter(filter)?, axes: Axes::new(trailing), out, status, threads };
+        let call = Call { filter: self::filter(filter)?, trailing, out, status, threads };
         call.run(self, F, Quantity::Tangent)
     }
 
     /// Energy, stress and tangent of one decomposition: (energy, P, dP_dF), as from `energy` and `tangent`.
     ///
-    ///     evaluate(F, /, *, filter=None, trailing=False, out=None, status=None, threads=None)
-    #[pyo3(signature = (F, /, *, filter = None, trailing = false, out = None, status = None, threads = None))]
+    ///     evaluate(F, /, *, filter=None, trailing=None, out=None, status=None, threads=None)
+    #[pyo3(signature = (F, /, *, filter = None, trailing = None, out = None, status = None, threads = None))]
     fn evaluate<'py>(
         &self,
         F: &Bound<'py, PyAny>,
         filter: Option<&str>,
-        trailing: bool,
+        trailing: Option<bool>,
         out: Option<&Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let call = Call { filter: self::filter(filter)?, axes: Axes::new(trailing), out, status, threads };
+        let call = Call { filter: self::filter(filter)?, trailing, out, status, threads };
         call.run(self, F, Quantity::All)
     }
 
     /// Stresses in another measure with their tangents, Pa.
     ///
-    ///     measured(F, measure, /, *, tangent=True, order="voigt", trailing=False, out=None, status=None,
+    ///     measured(F, measure, /, *, tangent=True, order="voigt", trailing=None, out=None, status=None,
     ///              threads=None)
     ///
     /// measure: "second_piola" (S and dS/dE), "kirchhoff" (τ and J c), "cauchy" (σ and the spatial tangent
@@ -315,7 +320,7 @@ impl Material {
     /// Returns (stress, tangent) of shapes (..., 6) and (..., 6, 6).
     /// Other arguments and errors as for `energy`.
     #[pyo3(signature = (
-        F, measure, /, *, tangent = true, order = "voigt", trailing = false, out = None, status = None,
+        F, measure, /, *, tangent = true, order = "voigt", trailing = None, out = None, status = None,
         threads = None
     ))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
@@ -325,13 +330,13 @@ impl Material {
         measure: &str,
         tangent: bool,
         order: &str,
-        trailing: bool,
+        trailing: Option<bool>,
         out: Option<&Bound<'py, PyAny>>,
         status: Option<&Bound<'py, PyAny>>,
         threads: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (measure, order) = (self::measure(measure)?, self::order(order)?);
-        let call = Call { filter: Filter::None, axes: Axes::new(trailing), out, status, threads };
+        let call = Call { filter: Filter::None, trailing, out, status, threads };
         match tangent {
             true => call.run(self, F, Quantity::MeasuredTangent(measure, order)),
             false => call.run(self, F, Quantity::MeasuredStress(measure, order)),

@@ -18,7 +18,7 @@ use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{Axes, Numbers, deformations, from_rows, numbers, rows};
 use crate::errors::{ContractError, DomainError, FitError, MaterialError, of_material, value_error};
-use crate::material::Material;
+use crate::material::{Material, keyword, parameter_name};
 use crate::shape;
 
 #[pymethods]
@@ -67,7 +67,8 @@ impl Material {
     /// data: a dictionary from modes, as in `curve`, to arrays of shape (n, 2): control and stress, Pa.
     /// incompressible: True to keep the volume of the specimens.
     /// relative: True for differences relative to each stress, False for those relative to the greatest.
-    /// held: names of parameters that keep their values, such as "kappa" or "alpha_1".
+    /// held: keywords of parameters that keep their values, such as "kappa" or "lambda_", and entries of lists,
+    ///     such as "alpha_1".
     /// restarts: number of further starts, at random about the first.
     /// seed: equal seeds give equal fits.
     ///
@@ -89,13 +90,16 @@ impl Material {
     ) -> PyResult<Bound<'py, PyAny>> {
         let data = from_dictionary(data)?;
         let candidate = self.uniform()?.candidate().map_err(of_material)?;
+        let parameters = &candidate.energy.description().parameters;
+        let is_known = |name: &str| parameters.iter().any(|known| known.name == name);
+        let held = held.iter().map(|name| parameter_name(name, is_known).to_owned()).collect();
         let volume = volume(incompressible);
         let difference = if relative { Difference::Relative } else { Difference::Absolute };
         let settings = FitSettings { volume, difference, held, restarts, seed };
         let fit = py.detach(|| fit_parameters(&candidate, &data, &settings));
         let Fit { values, numbers, agreement, difference, condition, ended, warnings, .. } =
-            fit.map_err(|error| FitError::new_err(error.to_string()))?;
-        let errors = numbers.iter().map(|number| (&number.name, number.error)).into_py_dict(py)?;
+            fit.map_err(|error| FitError::new_err(error.to_string().replace("`lambda`", "`lambda_`")))?;
+        let errors = numbers.iter().map(|number| (keyword(&number.name), number.error)).into_py_dict(py)?;
         let modes = agreement.modes.iter().map(|&(mode, value)| (mode.name(), value));
         let determination = modes.chain([("all", agreement.total)]).into_py_dict(py)?;
         let warnings: Vec<_> = warnings.iter().map(ToString::to_string).collect();
@@ -159,8 +163,8 @@ impl Material {
     /// F: any array_like, of shape (..., 3, 3), inside the domain, with J > 0; its points are broadcast with
     ///     the parameters of the material.
     ///
-    /// Returns a dictionary from the names of the parameters to arrays of the shape of stresses, float32 if F
-    /// is; for a list, to an array with one more axis in front, and so for a curve: the derivatives by the
+    /// Returns a dictionary from the keywords of the parameters to arrays of the shape of stresses, float32 if
+    /// F is; for a list, to an array with one more axis in front, and so for a curve: the derivatives by the
     /// ordinates of its control points, except for one at x = 1. Raises DomainError for an F outside of the
     /// domain, MaterialError for curves of which only some have a control point at x = 1.
     #[pyo3(signature = (F, /))]
@@ -214,7 +218,7 @@ impl Material {
             let entries = [list.len()];
             let in_front = &entries[..usize::from(parameter.is_list())];
             let part = part.reshape([in_front, &shape, &[3, 3]].concat())?;
-            result.set_item(&*parameter.name, part.call_method1("astype", (dtype,))?)?;
+            result.set_item(keyword(&parameter.name), part.call_method1("astype", (dtype,))?)?;
         }
         Ok(result)
     }

@@ -197,8 +197,13 @@ impl Material {
     }
 }
 
+/// The keyword of a parameter: `lambda_` for `lambda`, which is one of Python's own.
+pub(crate) fn keyword(name: &str) -> &str {
+    if name == "lambda" { "lambda_" } else { name }
+}
+
 /// The parameter that a keyword names: `lambda_` is `lambda`, unless there is a `lambda_`.
-fn parameter_name(keyword: &str, is_known: impl Fn(&str) -> bool) -> &str {
+pub(crate) fn parameter_name(keyword: &str, is_known: impl Fn(&str) -> bool) -> &str {
     match keyword.strip_suffix('_') {
         Some(bare) if !is_known(keyword) => bare,
         _ => keyword,
@@ -298,19 +303,20 @@ impl Material {
         Ok(Description::new(self.name(), self.declared()?))
     }
 
-    /// The parameters by name: a number each, or a list of numbers; arrays of those that differ from point to
-    /// point.
+    /// The parameters by their keywords: a number each, or a list of numbers; arrays of those that differ
+    /// from point to point.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let parameters = PyDict::new(py);
         for parameter in self.declared()?.parameters.iter() {
-            let (name, values) = (&*parameter.name, self.spec.values_of(&parameter.name));
+            let (name, values) = (keyword(&parameter.name), self.spec.values_of(&parameter.name));
             match parameter.is_list() {
                 true => parameters.set_item(name, values)?,
                 false => parameters.set_item(name, values[0])?,
             }
         }
         for Varying { name, given, numbers, .. } in &self.varying {
+            let name = keyword(name);
             parameters.set_item(name, read_only(numbers.clone().into_pyarray(py).reshape(&given[..])?)?)?;
         }
         Ok(parameters)
@@ -343,12 +349,12 @@ impl Material {
 
     fn __repr__(&self) -> PyResult<String> {
         let argument = |parameter: &Parameter| {
-            let name = &*parameter.name;
+            let (name, keyword) = (&*parameter.name, keyword(&parameter.name));
             let varying = self.varying.iter().find(|varying| varying.name == name);
             match (varying, self.spec.values_of(name)) {
-                (Some(varying), _) => format!("{name}=<array of shape {}>", shape::text(&varying.given)),
-                (None, [value]) => format!("{name}={value:?}"),
-                (None, values) => format!("{name}={values:?}"),
+                (Some(varying), _) => format!("{keyword}=<array of shape {}>", shape::text(&varying.given)),
+                (None, [value]) => format!("{keyword}={value:?}"),
+                (None, values) => format!("{keyword}={values:?}"),
             }
         };
         let parameters = self.declared()?.parameters.iter().map(argument);

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use piola_bodies::step::{self, SimulationSettings, StepError as Failed, StepReport};
+use piola_bodies::step::{self, Convergence, SimulationSettings};
 use piola_bodies::system::Pins;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -31,15 +31,6 @@ impl Simulation {
     /// The simulation, waited for without the interpreter: its holder may be in a step.
     fn with<T: Send>(&self, py: Python<'_>, act: impl FnOnce(&mut step::Simulation) -> T + Send) -> T {
         py.detach(|| act(&mut self.simulation.lock().unwrap_or_else(PoisonError::into_inner)))
-    }
-
-    fn advance<'py>(
-        &self,
-        py: Python<'py>,
-        advance: impl FnOnce(&mut step::Simulation) -> Result<StepReport, Failed> + Send,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let report = with_locked(py, &self.simulation, advance)?;
-        to_dict(py, &report.map_err(of_step)?)
     }
 }
 
@@ -83,6 +74,19 @@ impl Simulation {
     fn set_velocities(&self, py: Python<'_>, velocities: &Bound<'_, PyAny>) -> PyResult<()> {
         let v = rows("velocities", velocities)?;
         self.with(py, |simulation| simulation.set_velocities(&v)).map_err(of_body)
+    }
+
+    /// Accelerations of the nodes at the end of the last step, m/s², of shape (n, 3), to be read. Set all of
+    /// them, with positions and velocities, to resume a motion.
+    #[getter]
+    fn accelerations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        read_only(from_rows(py, &self.with(py, |simulation| simulation.accelerations().to_vec()))?)
+    }
+
+    #[setter]
+    fn set_accelerations(&self, py: Python<'_>, accelerations: &Bound<'_, PyAny>) -> PyResult<()> {
+        let a = rows("accelerations", accelerations)?;
+        self.with(py, |simulation| simulation.set_accelerations(&a)).map_err(of_body)
     }
 
     /// Indices of the pinned nodes, ascending. Set them to hold others, where they are.
@@ -168,13 +172,21 @@ impl Simulation {
     /// succeed.
     #[pyo3(signature = (dt, /))]
     fn step<'py>(&self, py: Python<'py>, dt: f64) -> PyResult<Bound<'py, PyAny>> {
-        self.advance(py, |simulation| simulation.step(dt))
+        let report = with_locked(py, &self.simulation, |simulation| simulation.step(dt))?;
+        to_dict(py, &report.map_err(of_step)?)
     }
 
     /// Moves the body to a minimum of its energy, without inertia and damping; report and errors are those of
     /// `step`.
+    ///
+    /// Warns if the limit of iterations ends it before, and raises StepError if nothing holds a body whose
+    /// loads do not balance.
     fn equilibrate<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.advance(py, step::Simulation::equilibrate)
+        let report = with_locked(py, &self.simulation, step::Simulation::equilibrate)?.map_err(of_step)?;
+        if report.newton.convergence == Convergence::Limit {
+            py.import("piola.results")?.call_method1("warn_of_limit", (report.newton.residual,))?;
+        }
+        to_dict(py, &report)
     }
 }
 

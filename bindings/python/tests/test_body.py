@@ -180,6 +180,38 @@ def test_state_is_read_and_set_as_a_whole(rubber, beam):
     assert np.array_equal(before, x.astype(np.float32)) and not np.array_equal(simulation.positions, before)
 
 
+def test_a_state_is_saved_and_restored(rubber, beam, tmp_path):
+    points, tets = beam
+    body = piola.Body(points, tets, rubber, 1000.0)
+    settings = {"pins": np.flatnonzero(points[:, 0] == 0), "gravity": (0, -9.81, 0), "integrator": "sdirk2"}
+    first = piola.Simulation(body, **settings)
+    for _ in range(3):
+        first.step(0.01)
+    names = ("positions", "velocities", "accelerations")
+    np.savez(tmp_path / "state.npz", **{name: getattr(first, name) for name in names})
+    second, saved = piola.Simulation(body, **settings), np.load(tmp_path / "state.npz")
+    for name in names:
+        setattr(second, name, saved[name])
+    assert np.array_equal(second.reactions(), first.reactions())
+    assert first.step(0.01)["energies"] == second.step(0.01)["energies"]
+    assert all(np.array_equal(getattr(first, name), getattr(second, name)) for name in names)
+    with pytest.raises(piola.BodyError):
+        second.accelerations = points[:3]
+
+
+def test_an_equilibrium_that_there_is_not_is_told(rubber, beam):
+    points, tets = beam
+    body = piola.Body(points, tets, rubber, 1000.0)
+    free = piola.Simulation(body, gravity=(0, -9.81, 0))
+    with pytest.raises(piola.StepError, match=r"no pin, spring or term holds the body, .* add up to 39\.2\d* N"):
+        free.equilibrate()
+    assert np.array_equal(free.positions, points)
+    pins = np.flatnonzero(points[:, 0] == 0)
+    hasty = piola.Simulation(body, pins=pins, gravity=(0, -9.81, 0), newton={"max_iterations": 1})
+    with pytest.warns(UserWarning, match="no equilibrium within `max_iterations`: the residual is"):
+        assert hasty.equilibrate()["newton"]["convergence"] == "limit"
+
+
 def test_forces_pins_and_settings_change(rubber, beam):
     points, tets = beam
     simulation = piola.Simulation(piola.Body(points, tets, rubber, 1000.0), damping=1.0)
@@ -261,6 +293,8 @@ def test_mistakes_are_named(rubber, beam):
     mask = points[:, 0] == 0
     assert "numpy.flatnonzero" in message(TypeError, lambda: simulate(body, pins=mask))
     assert "no node 1000" in message(piola.BodyError, lambda: simulate(body, pins=[1000]))
+    masked = np.ma.masked_array([0, 1], mask=[False, True])
+    assert "whole numbers" in message(TypeError, lambda: simulate(body, pins=masked))
     with pytest.raises((TypeError, ValueError)):
         simulate(body, gravity=object())
     simulation = simulate(body, pins=[0])

@@ -50,6 +50,16 @@ def test_a_fit_finds_the_parameters_of_its_data():
     assert fit == start.fit(data, held=["kappa"], restarts=2)._replace(material=fit.material)
 
 
+def test_lambda_has_one_spelling(rubber):
+    data = {"uniaxial": [[1.5, 1e6], [2.0, 2e6], [3.0, 3e6]]}
+    for name in ("lambda_", "lambda"):
+        fit = rubber.fit(data, held=[name], restarts=0)
+        assert fit.material.parameters["lambda_"] == LAMBDA and fit.errors["lambda_"] is None
+    assert list(fit.errors) == list(fit.material.parameters) == list(rubber.stress_by_parameters(np.eye(3)))
+    assert [parameter.name for parameter in rubber.description.parameters] == ["mu", "lambda_"]
+    assert "lambda_=" in repr(rubber) and piola.Material("neo_hookean", **rubber.parameters).moduli == rubber.moduli
+
+
 def test_a_fit_finds_the_ordinates_of_a_curve():
     text = """#[material]
     fn Drawn([l1, l2, l3]: [f64; 3], f: Spline, kappa: f64) -> f64 {
@@ -103,7 +113,9 @@ def test_data_that_cannot_be_fitted_are_refused(rubber):
         return str(caught.value)
 
     data = {"uniaxial": [[1.5, 1e6], [2.0, 2e6], [3.0, 3e6]]}
-    assert "no parameter `kappa` to hold" in message(piola.FitError, lambda: rubber.fit(data, held=["kappa"]))
+    assert message(piola.FitError, lambda: rubber.fit(data, held=["kappa"])) == (
+        "there is no parameter `kappa` to hold; there are `mu`, `lambda_`"
+    )
     assert "(n, 2)" in message(ValueError, lambda: rubber.fit({"uniaxial": np.ones(3)}))
     assert "cannot be fitted" in message(piola.FitError, lambda: rubber.fit({"uniaxial": [[np.nan, 1e6]]}))
     assert "no point" in message(piola.FitError, lambda: rubber.fit({}))

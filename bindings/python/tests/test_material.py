@@ -49,7 +49,7 @@ def test_parameters_are_kept_and_changed():
     assert material.parameters == {"mu": [6e5, -1e4], "alpha": [1.3, -2.0], "kappa": 2e7}
     assert material.changed(kappa=1e7).parameters["kappa"] == 1e7
     assert repr(material) == "<piola.Material ogden(mu=[600000.0, -10000.0], alpha=[1.3, -2.0], kappa=20000000.0)>"
-    assert piola.Material("neo_hookean", mu=1, lambda_=np.float32(2)).parameters == {"mu": 1.0, "lambda": 2.0}
+    assert piola.Material("neo_hookean", mu=1, lambda_=np.float32(2)).parameters == {"mu": 1.0, "lambda_": 2.0}
 
 
 def test_moduli_are_those_of_small_strain():

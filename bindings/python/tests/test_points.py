@@ -2,6 +2,7 @@
 
 import pickle
 import threading
+import warnings
 from fractions import Fraction
 
 import numpy as np
@@ -65,9 +66,49 @@ def test_single_precision_stays_so(rubber, F):
 def test_arrays_need_not_be_contiguous(rubber, F):
     P = rubber.stress(F)
     assert np.array_equal(rubber.stress(np.asfortranarray(F)), P)
-    assert np.array_equal(rubber.stress(F[::2]), P[::2])
+    assert np.array_equal(rubber.stress(F[::2]), P[::2]) and np.array_equal(rubber.stress(F[::-2]), P[::-2])
+    turned = np.swapaxes(F, -1, -2)
+    assert close(rubber.stress(turned), neo_hookean(turned)[1])
     assert np.array_equal(rubber.stress(F.transpose(1, 2, 0), trailing=True), P.transpose(1, 2, 0))
     assert np.array_equal(rubber.stress(np.broadcast_to(F[0], (4, 3, 3)))[3], P[0])
+
+
+def test_axes_of_points_are_not_guessed_in_silence(rubber, rng):
+    F = np.eye(3) + 0.1 * rng.uniform(-1, 1, (40, 5, 3, 3))
+    columns = np.ascontiguousarray(np.moveaxis(F, (2, 3), (0, 1)))
+    for given in (columns, columns[..., :7, 0]):
+        for trailing in (None, False):
+            with pytest.raises(ValueError, match=r"or \(3, 3, ...\) with `trailing=True`"):
+                rubber.stress(given, trailing=trailing)
+    with pytest.raises(ValueError, match=r"it must be \(..., 3, 3\), or \(3, 3, ...\) with `trailing=True`"):
+        rubber.stress(F, trailing=True)
+    square, flags = columns[..., :3, :3], np.zeros((3, 3), np.uint8)
+    with pytest.warns(UserWarning, match=r"shape \(3, 3, 3, 3\).*`trailing=False` if they are, `trailing=True`"):
+        rubber.stress(square, status=flags)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        P = rubber.stress(F[:3, :3], trailing=False)
+        assert np.array_equal(rubber.stress(square, trailing=True), np.moveaxis(P, (2, 3), (0, 1)))
+        assert np.array_equal(rubber.stress(F[0, 0]), P[0, 0])
+
+
+def test_masked_entries_are_nan(rubber, F):
+    masked = np.ma.masked_array(F, mask=np.zeros(F.shape, bool))
+    P = rubber.stress(F)
+    assert type(rubber.stress(masked)) is np.ndarray and np.array_equal(rubber.stress(masked), P)
+    masked[0, 0, 0] = np.ma.masked
+    for given in (masked, list(masked), masked.astype(np.float32), masked.astype(object)):
+        status = np.zeros(len(F), np.uint8)
+        found = rubber.stress(given, status=status)
+        assert np.isnan(found[0]).all() and close(found[1:], P[1:], 1e-5)
+        assert piola.Status(int(status[0])) & piola.Status.NONFINITE and not status[1:].any()
+        with pytest.raises(piola.DomainError, match="not finite"):
+            rubber.stress(given)
+    for mu in (masked[:, 0, 0], np.ma.masked_array([1, 2], mask=[False, True]), np.ma.masked):
+        with pytest.raises(piola.MaterialError, match="`mu` is NaN"):
+            piola.Material("neo_hookean", mu=mu, lambda_=LAMBDA)
+    with pytest.raises(TypeError, match="complex128"):
+        rubber.stress(masked * 1j)
 
 
 def test_whatever_numpy_makes_numbers_of_is_taken(rubber):
@@ -133,8 +174,11 @@ def test_mistaken_arrays_are_refused(rubber, F):
     assert "contiguous" in message(ValueError, lambda: rubber.stress(F[:2], out=np.empty((2, 3, 6))[..., ::2]))
     read_only = np.empty_like(F)
     read_only.flags.writeable = False
-    assert "out cannot be written" in message(ValueError, lambda: rubber.stress(F, out=read_only))
-    assert "out cannot be written" in message(ValueError, lambda: rubber.stress(F, out=F))
+    assert "out cannot be written: it is read-only" == message(ValueError, lambda: rubber.stress(F, out=read_only))
+    for out in (F, F[::-1][::-1]):
+        assert message(ValueError, lambda: rubber.stress(F, out=out)).startswith(
+            "out cannot be written: it shares memory with F, another result"
+        )
     assert "tuple of arrays" in message(TypeError, lambda: rubber.tangent(F, out=np.empty_like(F)))
     assert "it must have 2" in message(ValueError, lambda: rubber.tangent(F, out=(None,)))
     assert "uint8" in message(TypeError, lambda: rubber.stress(F, status=np.zeros(len(F))))
@@ -248,7 +292,7 @@ def test_derivatives_by_parameters(rubber, F):
     by = rubber.stress_by_parameters(F)
     inverse = np.linalg.inv(F).transpose(0, 2, 1)
     assert close(by["mu"], F - inverse)
-    assert close(by["lambda"], np.log(np.linalg.det(F))[:, None, None] * inverse)
+    assert close(by["lambda_"], np.log(np.linalg.det(F))[:, None, None] * inverse)
     ogden = piola.Material.typical("ogden")
     by = ogden.stress_by_parameters(F)
     assert by["mu"].shape == by["alpha"].shape == (3, *F.shape)
@@ -261,7 +305,7 @@ def test_derivatives_by_parameters(rubber, F):
 
 def test_derivatives_by_parameters_stay_in_single_precision(rubber, F):
     single, double = (rubber.stress_by_parameters(F.astype(dtype)) for dtype in (np.float32, np.float64))
-    for name in ("mu", "lambda"):
+    for name in ("mu", "lambda_"):
         assert single[name].dtype == np.float32 and double[name].dtype == np.float64
         assert close(single[name], double[name], 1e-6)
     assert np.array_equal(rubber.stress_by_parameters(np.eye(3, dtype=int).tolist())["mu"], np.zeros((3, 3)))
@@ -331,8 +375,8 @@ def test_parameters_may_differ_from_point_to_point(rng, F):
         assert close(graded.stress(columns, trailing=True, threads=threads), P.transpose(1, 2, 0))
     with pytest.raises(ValueError, match=r"points of the shape \(5,\).*parameters of the shape \(333,\)"):
         graded.stress(F[:5])
-    assert np.array_equal(graded.parameters["mu"], mu) and graded.parameters["lambda"] == LAMBDA
-    assert repr(graded) == "<piola.Material neo_hookean(mu=<array of shape (333,)>, lambda=3000000.0)>"
+    assert np.array_equal(graded.parameters["mu"], mu) and graded.parameters["lambda_"] == LAMBDA
+    assert repr(graded) == "<piola.Material neo_hookean(mu=<array of shape (333,)>, lambda_=3000000.0)>"
     for call in (graded.contract, graded.stability, lambda: graded.changed(mu=1.0), lambda: pickle.dumps(graded)):
         with pytest.raises(piola.MaterialError, match="this needs one material for all"):
             call()
@@ -378,7 +422,7 @@ def test_parameters_are_broadcast_with_the_points(rng, of_mu, of_lambda, points,
     assert not status.any()
     by = graded.stress_by_parameters(F)
     by_J = np.swapaxes(np.linalg.inv(F), -1, -2)
-    assert by["mu"].shape == by["lambda"].shape == (*shape, 3, 3)
+    assert by["mu"].shape == by["lambda_"].shape == (*shape, 3, 3)
     assert np.allclose(by["mu"], np.broadcast_to(F - by_J, (*shape, 3, 3)))
 
 

@@ -218,7 +218,7 @@ fn what_cannot_be_fitted_is_said() -> Outcome {
     let message = |data: &Measurements, settings: &FitSettings| {
         fit_parameters(&solid, data, settings).expect_err("no fit").to_string()
     };
-    assert!(message(&treloar(), &held("nu")).contains("there are mu, lambda"));
+    assert!(message(&treloar(), &held("nu")).contains("there are `mu`, `lambda`"));
     assert!(message(&treloar(), &held("mu")).contains("hold fewer"));
     assert!(message(&tension(&[(2.0, 0.0)]), &FitSettings::default()).contains("no point with a stress"));
     let one = fit_parameters(&solid, &tension(&[(2.0, 1e5)]), &free());

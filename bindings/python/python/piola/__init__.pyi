@@ -96,7 +96,7 @@ class Material:
         F: ArrayLike,
         /,
         *,
-        trailing: bool = False,
+        trailing: Optional[bool] = None,
         out: Optional[_Array] = None,
         status: _Flags = None,
         threads: Optional[bool] = None,
@@ -106,7 +106,7 @@ class Material:
         F: ArrayLike,
         /,
         *,
-        trailing: bool = False,
+        trailing: Optional[bool] = None,
         out: Optional[_Array] = None,
         status: _Flags = None,
         threads: Optional[bool] = None,
@@ -117,7 +117,7 @@ class Material:
         /,
         *,
         filter: _Filter = None,
-        trailing: bool = False,
+        trailing: Optional[bool] = None,
         out: Optional[_Pair] = None,
         status: _Flags = None,
         threads: Optional[bool] = None,
@@ -128,7 +128,7 @@ class Material:
         /,
         *,
         filter: _Filter = None,
-        trailing: bool = False,
+        trailing: Optional[bool] = None,
         out: Optional[tuple[Optional[_Array], Optional[_Array], Optional[_Array]]] = None,
         status: _Flags = None,
         threads: Optional[bool] = None,
@@ -141,7 +141,7 @@ class Material:
         *,
         tangent: bool = True,
         order: Literal["voigt", "abaqus"] = "voigt",
-        trailing: bool = False,
+        trailing: Optional[bool] = None,
         out: Any = None,
         status: _Flags = None,
         threads: Optional[bool] = None,
@@ -194,6 +194,10 @@ class Simulation:
     def velocities(self) -> NDArray[np.float64]: ...
     @velocities.setter
     def velocities(self, velocities: ArrayLike) -> None: ...
+    @property
+    def accelerations(self) -> NDArray[np.float64]: ...
+    @accelerations.setter
+    def accelerations(self, accelerations: ArrayLike) -> None: ...
     @property
     def pins(self) -> list[int]: ...
     @pins.setter

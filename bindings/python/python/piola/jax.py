@@ -4,6 +4,8 @@ What is computed runs on the processor, called back from the program of JAX, in 
 or type raises ValueError or TypeError when it is traced.
 """
 
+import functools
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -49,7 +51,8 @@ def tangent(material, *, filter=None):
     """
 
     def both(F):
-        return _call(material, lambda F: material.tangent(F, filter=filter), _checked(F), (3, 3), (3, 3, 3, 3))
+        function = functools.partial(material.tangent, filter=filter)
+        return _call(material, function, _checked(F), (3, 3), (3, 3, 3, 3))
 
     return both
 
@@ -71,4 +74,4 @@ def _call(material, function, F, *components):
     F = F.reshape((1,) * (len(points) + 2 - F.ndim) + F.shape)
     results = [jax.ShapeDtypeStruct((*points, *shape), F.dtype) for shape in components]
     results = tuple(results) if len(results) > 1 else results[0]
-    return jax.pure_callback(lambda F: function(np.asarray(F)), results, F, vmap_method="expand_dims")
+    return jax.pure_callback(lambda F: function(np.asarray(F), trailing=False), results, F, vmap_method="expand_dims")

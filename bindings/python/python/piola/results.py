@@ -1,14 +1,15 @@
-"""What the functions of the package return, where it is more than an array."""
+"""What the functions of the package return, where it is more than an array, and what they do in Python."""
 
 from __future__ import annotations
 
 import enum
 import json
+import warnings
 from typing import TYPE_CHECKING, NamedTuple
 
-if TYPE_CHECKING:
-    import numpy as np
+import numpy as np
 
+if TYPE_CHECKING:
     from piola import Material
 
 
@@ -109,6 +110,33 @@ class Stability(NamedTuple):
 
     def __str__(self):
         return self.report
+
+
+def as_array(given):
+    """`numpy.asarray`, with NaN for masked entries, of an array or of the arrays in a list."""
+    if isinstance(given, np.ma.MaskedArray):
+        given = given.astype(float) if given.dtype.kind in "iub" and np.ma.is_masked(given) else given
+        return np.asarray(given.filled(np.nan) if np.ma.is_masked(given) else given)
+    if isinstance(given, (list, tuple)) and any(isinstance(array, np.ma.MaskedArray) for array in given):
+        given = [as_array(array) for array in given]
+    return np.asarray(given)
+
+
+def question_axes(shape, trailing):
+    """Warns of an F with its points on either side, and refuses one with points on the side that is not chosen."""
+    shape = tuple(shape)
+    if trailing is not None or shape[-2:] != (3, 3):
+        raise ValueError(f"F has the shape {shape}; it must be (..., 3, 3), or (3, 3, ...) with `trailing=True`")
+    warnings.warn(
+        f"F has the shape {shape}, and its points were taken to be on the first axes; pass `trailing=False` if they are, "
+        "`trailing=True` if they are on the last",
+        stacklevel=2,
+    )
+
+
+def warn_of_limit(residual):
+    """Warns of a body that the limit of iterations has left out of balance."""
+    warnings.warn(f"no equilibrium within `max_iterations`: the residual is {residual:.3g} N", stacklevel=2)
 
 
 def to_json(settings):

@@ -19,7 +19,8 @@ def stress(material, F, **parameters):
     all entries in a row. Curves have no derivatives here: `Material.stress_by_parameters` has those by ordinates.
     """
     known = material.parameters
-    names = tuple(name if name in known else name.removesuffix("_") for name in parameters)
+    spellings = ((name, f"{name}_", name.removesuffix("_")) for name in parameters)
+    names = tuple(next((name for name in names if name in known), names[0]) for names in spellings)
     return _Stress.apply(F, material, names, *parameters.values())
 
 
@@ -28,7 +29,7 @@ class _Energy(torch.autograd.Function):
     def forward(ctx, F, material):
         ctx.material = material
         ctx.save_for_backward(F)
-        return _tensor(material.energy(_array(F)), F)
+        return _tensor(material.energy(_array(F), trailing=False), F)
 
     @staticmethod
     def backward(ctx, by_energy):
@@ -45,7 +46,7 @@ class _Stress(torch.autograd.Function):
             changed = {name: value.detach().cpu().numpy() for name, value in zip(names, values)}
             ctx.material = material.changed(**{name: value.tolist() for name, value in changed.items()})
         ctx.save_for_backward(F)
-        return _tensor(ctx.material.stress(_array(F)), F)
+        return _tensor(ctx.material.stress(_array(F), trailing=False), F)
 
     @staticmethod
     @torch.autograd.function.once_differentiable
@@ -53,7 +54,7 @@ class _Stress(torch.autograd.Function):
         (F,) = ctx.saved_tensors
         by_F, by_values = None, [None] * len(ctx.names)
         if ctx.needs_input_grad[0]:
-            A = _tensor(ctx.material.tangent(_array(F))[1], F)
+            A = _tensor(ctx.material.tangent(_array(F), trailing=False)[1], F)
             by_F = torch.einsum("...ij,...ijkl->...kl", by_stress, A).sum_to_size(F.shape)
         if any(ctx.needs_input_grad[3:]):
             derivatives = ctx.material.stress_by_parameters(_array(F))
