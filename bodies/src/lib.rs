@@ -35,7 +35,8 @@
 //!     Ok(())
 //! }
 //! ```
-//!
+//! [`Body::from_parts`](system::Body::from_parts) makes bodies of several materials. The state of a
+//! simulation is its positions, velocities and accelerations. `docs/bodies.md` has an example of both.
 //!
 //! # Modules
 //!
@@ -56,6 +57,10 @@
 //!
 //! Friction, fracture, plasticity and higher-order elements are not included. Contact is a user-defined
 //! [`Term`](step::Term) of the energy, as in the example `ground` of `piola-materials`.
+
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/bodies.md")]
+struct Page;
 
 #[cfg(test)]
 #[allow(dead_code, reason = "each crate that includes this file needs some of it")]
