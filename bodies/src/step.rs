@@ -32,7 +32,7 @@ pub use newton::{Convergence, Filtering, NewtonReport, NewtonSettings};
 pub use simulation::{AdaptiveReport, Energies, Simulation, SimulationSettings, StepReport};
 pub use solver::{LinearSolver, SparseSolver};
 pub use spring::Spring;
-pub use term::{EnergyChange, NodeBlocks, Term};
+pub use term::{EnergyChange, NodeBlocks, Term, TermViolation, check_term};
 
 /// Interfaces for codes that divide a body among machines: a [`Simulation`] of the part of each
 /// [`Machine`](divided::Machine).

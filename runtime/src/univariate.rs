@@ -19,7 +19,8 @@ pub use spline::Spline;
 /// A function φ of one variable, twice continuously differentiable.
 ///
 /// Mark every method that computes `#[inline(always)]`: then it is compiled for the instructions of each back
-/// end.
+/// end. The [contract](mod@crate::contract) of a material with the function compares φ, φ′, φ″ and the
+/// quotients with each other: the rules `stress_slope`, `tangent_slope` and `quotients`.
 ///
 /// ```
 /// use piola::{Real, Univariate, material};

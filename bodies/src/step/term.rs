@@ -11,17 +11,21 @@ use crate::system::linear::symmetric_blocks::SymmetricBlocks;
 
 use super::spring::Spring;
 
+mod check;
+
+pub use check::{TermViolation, check_term};
+
 /// Potential energy of the nodal positions, which a [`Simulation`](super::Simulation) adds to that of
 /// deformation: see [`Simulation::set_terms`](super::Simulation::set_terms).
 ///
 /// Its functions receive the position of every node, m, and must depend on these alone: the same positions
-/// give the same bits.
+/// give the same bits. [`check_term`] compares its derivatives with differences.
 ///
 /// ```
 /// use std::sync::Arc;
 ///
 /// use piola_bodies::mesh::tetrahedral_box;
-/// use piola_bodies::step::{NodeBlocks, Simulation, SimulationSettings, Term};
+/// use piola_bodies::step::{NodeBlocks, Simulation, SimulationSettings, Term, check_term};
 /// use piola_bodies::system::{Body, Pins};
 ///
 /// /// A plane y = 0 that pushes back with ½ k y² where a node is below it.
@@ -58,7 +62,9 @@ use super::spring::Spring;
 /// let body = Body::new(&tetrahedral_box([1, 1, 1], [0.1; 3])?, Rubber::new(1e5, 4e5)?, 1000.0)?;
 /// let settings = SimulationSettings { gravity: [0.0, -9.81, 0.0], ..Default::default() };
 /// let mut cube = Simulation::new(body, &Pins::none(), settings)?;
-/// cube.set_terms(vec![Arc::new(Ground { stiffness: 1e4 })]);
+/// let ground = Ground { stiffness: 1e4 };
+/// check_term(&ground, &[[0.0, -0.01, 0.0], [0.1, 0.01, 0.0]], false)?;
+/// cube.set_terms(vec![Arc::new(ground)]);
 /// let report = cube.step(0.01)?;
 /// assert!(report.energies.terms > 0.0 && cube.positions()[0][1] > -9.81 * 1e-4);
 /// # Ok(())

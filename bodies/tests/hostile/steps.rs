@@ -1,7 +1,9 @@
 //! Steps and equilibria, with terms and solvers that answer nonsense.
 
 use piola_bodies::mesh::{Anchor, tetrahedral_box};
-use piola_bodies::step::{Equilibrium, NodeBlocks, Simulation, SparseSolver, Spring, StepReport, Term};
+use piola_bodies::step::{
+    Equilibrium, NodeBlocks, Simulation, SparseSolver, Spring, StepReport, Term, check_term,
+};
 use piola_bodies::system::{Body, LinearError, LowerTriangle};
 
 use crate::arguments::{SEEDS, check};
@@ -68,13 +70,15 @@ fn simulations() {
                 6 => simulation.set_forces(&hostile.points(&vec![[0.0; 3]; nodes])),
                 7 => simulation.set_pins(&hostile.pins(nodes)),
                 8 => {
-                    simulation.set_terms(vec![std::sync::Arc::new(Nonsense {
+                    let term = Nonsense {
                         energy: (!hostile.0.once_in(8)).then(|| hostile.about(0.0)),
                         force: [(); 3].map(|()| hostile.about(0.0)),
                         nodes: [(); 2].map(|()| hostile.node(nodes)),
                         block: [(); 3].map(|()| [(); 3].map(|()| hostile.about(0.0))),
                         longest: hostile.about(1.0),
-                    })]);
+                    };
+                    let _ = check_term(&term, simulation.positions(), hostile.0.once_in(2));
+                    simulation.set_terms(vec![std::sync::Arc::new(term)]);
                     Ok(())
                 }
                 9 => {

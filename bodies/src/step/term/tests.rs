@@ -17,6 +17,8 @@ struct Barrier {
     nodes: [usize; 2],
     distance: f64,
     stiffness: f64,
+    /// Factors of the gradient and of the second derivatives, 1 if they are right.
+    factors: [f64; 2],
 }
 
 impl Barrier {
@@ -37,16 +39,17 @@ impl Term for Barrier {
 
     fn add_gradient(&self, x: &[[f64; 3]], gradient: &mut [[f64; 3]]) {
         let (gap, n) = self.gap(x);
+        let force = self.factors[0] * self.stiffness / gap;
         for c in 0..3 {
-            gradient[self.nodes[0]][c] -= self.stiffness / gap * n[c];
-            gradient[self.nodes[1]][c] += self.stiffness / gap * n[c];
+            gradient[self.nodes[0]][c] -= force * n[c];
+            gradient[self.nodes[1]][c] += force * n[c];
         }
     }
 
     /// The part along the line of the nodes, which is all that is positive.
     fn add_second_derivatives(&self, x: &[[f64; 3]], blocks: &mut NodeBlocks) {
         let (gap, n) = self.gap(x);
-        let k = self.stiffness / (gap * gap);
+        let k = self.factors[1] * self.stiffness / (gap * gap);
         let block = |sign: f64| n.map(|row| n.map(|column| sign * k * row * column));
         let [a, b] = self.nodes;
         blocks.add(a, a, block(1.0));
@@ -99,6 +102,29 @@ fn derivatives_of_springs_are_those_of_their_energy() {
         let expected = slopes[1].as_flattened()[k] - slopes[0].as_flattened()[k];
         assert!((product - expected).abs() <= 1e-13, "{product} for {expected}");
     }
+    check_term(&springs, &x, false).expect("by differences, too");
+}
+
+#[test]
+fn derivatives_are_compared_with_differences() {
+    let positions = [[0.0, -0.02, 0.1], [0.3, 0.2, 0.1]];
+    let check = |distance: f64, factors: [f64; 2], is_filtered: bool| {
+        let barrier = Barrier { nodes: [0, 1], distance, stiffness: 1.0, factors };
+        check_term(&barrier, &positions, is_filtered)
+    };
+    assert_eq!(check(0.2, [1.0; 2], true), Ok(()));
+    for (factors, is_filtered, expected) in [
+        ([-1.0, 1.0], true, "the gradient at node 0 (from 0) along x is -4.6"),
+        ([1.001, 1.0], true, "the gradient at node 0 (from 0) along x is 4.6"),
+        ([1.0, -1.0], true, "the second derivatives K give"),
+        // Without negative eigenvalues they are not exact.
+        ([1.0, 1.0], false, "the second derivatives K give"),
+    ] {
+        let message = check(0.2, factors, is_filtered).expect_err(expected).to_string();
+        assert!(message.starts_with(expected), "{message}");
+    }
+    assert_eq!(check(9.0, [1.0; 2], true), check_term(&Vec::<Spring>::new(), &positions, true));
+    assert!(check(9.0, [1.0; 2], true).is_err());
 }
 
 #[test]
@@ -125,7 +151,8 @@ fn a_barrier_between_distant_nodes_is_never_crossed() {
     let ends = solvers(1e-10).map(|linear| {
         let mut simulation = bar(&mesh, &Pins::none(), linear);
         let distance = 0.9 * gap(&mesh.positions);
-        simulation.set_terms(vec![Arc::new(Barrier { nodes: [a, b], distance, stiffness: 1e-3 })]);
+        let barrier = Barrier { nodes: [a, b], distance, stiffness: 1e-3, factors: [1.0; 2] };
+        simulation.set_terms(vec![Arc::new(barrier)]);
         let mut velocities = vec![[0.0; 3]; mesh.positions.len()];
         for (v, x) in velocities.iter_mut().zip(&mesh.positions) {
             *v = x.map(|x| -4.0 * x);
@@ -154,7 +181,7 @@ fn terms_that_refuse_a_state_or_name_no_node_fail_the_step_and_change_nothing() 
         assert_eq!(simulation.positions(), before);
         error
     };
-    let refuses = Barrier { nodes: [0, 1], distance: 100.0, stiffness: 1.0 };
+    let refuses = Barrier { nodes: [0, 1], distance: 100.0, stiffness: 1.0, factors: [1.0; 2] };
     assert_eq!(error(&mut simulation, Arc::new(refuses)), NewtonError::TermRefuses { term: 0 }.into());
 
     /// A term of a node that a body of twelve does not have.
