@@ -128,6 +128,17 @@ pub enum NewtonError {
         /// Norm of the gradient, N.
         residual: f64,
     },
+    /// The energy of a term or of the materials does not change along the Newton direction as its gradient
+    /// predicts, so that no step decreases the sum.
+    #[error(
+        "the gradient of {} does not fit its energy: look for a wrong sign or factor (`check_term` of \
+         piola-bodies finds it, or the contract of the material)",
+        term.map_or("a material".into(), |term| format!("term {term} (from 0)"))
+    )]
+    WrongGradient {
+        /// Index of the term, from 0; `None` for the materials.
+        term: Option<usize>,
+    },
     /// The linear solver failed for another reason.
     #[error("{0}")]
     Linear(#[from] LinearError),

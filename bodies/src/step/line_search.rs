@@ -40,8 +40,8 @@ pub(super) enum Outcome {
         difference: f64,
         /// Number of trials outside the domain.
         refused: usize,
-        /// True if the change of the objective was noise, so that the slope decided.
-        by_slope: bool,
+        /// Bound for the rounding error of the difference, which the slope replaces if it is below.
+        noise: f64,
     },
     /// No step was accepted.
     Failed {
@@ -69,7 +69,7 @@ pub(super) fn backtrack(line: &mut impl Line, first: f64, slope: f64) -> Outcome
                 // φ'(step) ≤ (2δ − 1) φ'(0) is equivalent to the sufficient decrease for a quadratic, without
                 // differences.
                 if (enough && !noisy) || (noisy && line.slope() <= (2.0 * delta - 1.0) * slope) {
-                    return Outcome::Accepted { step, difference, refused, by_slope: noisy };
+                    return Outcome::Accepted { step, difference, refused, noise };
                 }
             }
         }
@@ -115,28 +115,28 @@ mod tests {
         assert_eq!(backtrack(&mut line, 1.0, slope), expected);
     }
 
-    fn accepted(step: f64, difference: f64, refused: usize, by_slope: bool) -> Outcome {
-        Outcome::Accepted { step, difference, refused, by_slope }
+    fn accepted(step: f64, difference: f64, refused: usize, noise: f64) -> Outcome {
+        Outcome::Accepted { step, difference, refused, noise }
     }
 
     #[test]
     fn a_good_step_is_taken_whole() {
-        check(|s| Some(s * s / 2.0 - s), |s| s - 1.0, 0.0, accepted(1.0, -0.5, 0, false));
+        check(|s| Some(s * s / 2.0 - s), |s| s - 1.0, 0.0, accepted(1.0, -0.5, 0, 0.0));
     }
 
     #[test]
     fn a_step_too_long_or_out_of_the_domain_is_halved() {
-        let halved = accepted(0.0625, -0.03125, 0, false);
+        let halved = accepted(0.0625, -0.03125, 0, 0.0);
         check(|s| Some(8.0 * s * s - s), |s| 16.0 * s - 1.0, 0.0, halved);
-        check(|s| (s < 0.3).then_some(-s), |_| -1.0, 0.0, accepted(0.25, -0.25, 2, false));
+        check(|s| (s < 0.3).then_some(-s), |_| -1.0, 0.0, accepted(0.25, -0.25, 2, 0.0));
     }
 
     #[test]
     fn below_the_noise_the_slope_decides() {
         // The difference says "uphill", but it is noise: the minimum is at 1.
-        check(|_| Some(1e-16), |s| 1e-12 * (s - 1.0), 1e-15, accepted(1.0, 1e-16, 0, true));
+        check(|_| Some(1e-16), |s| 1e-12 * (s - 1.0), 1e-15, accepted(1.0, 1e-16, 0, 1e-15));
         // Here the slope at 1 is steeper than at 0: the minimum is at ⅓.
-        check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, accepted(0.5, 1e-16, 0, true));
+        check(|_| Some(1e-16), |s| 1e-12 * (3.0 * s - 1.0), 1e-15, accepted(0.5, 1e-16, 0, 1e-15));
     }
 
     #[test]

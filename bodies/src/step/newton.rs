@@ -5,7 +5,7 @@
 use piola::point::Filter;
 
 use super::error::NewtonError;
-use super::line_search::{Outcome, backtrack};
+use super::line_search::{Line, Outcome, backtrack};
 use super::minimisation::Minimisation;
 use super::solver::Machine;
 
@@ -26,6 +26,9 @@ pub(super) fn minimize<M: Machine>(
     let report = NewtonReport::before(settings);
     Newton { minimisation, settings, report, moved: None }.run(pins_move)
 }
+
+/// Multiple of the noise of a change above which a decrease that the slope predicts must show.
+const MARGIN: f64 = 16.0;
 
 struct Newton<'a, 'b, M> {
     minimisation: &'a mut Minimisation<'b, M>,
@@ -155,16 +158,23 @@ impl<M: Machine> Newton<'_, '_, M> {
         let first = self.minimisation.longest_step();
         self.minimisation.set_base();
         match backtrack(self.minimisation, first, slope) {
-            Outcome::Accepted { step, difference, refused, by_slope } => {
+            Outcome::Accepted { step, difference, refused, noise } => {
+                let is_noise = difference.abs() <= noise;
+                // The slope predicts a decrease above noise that no trial shows.
+                if is_noise && -slope * first > MARGIN * noise {
+                    self.minimisation.demand_true_gradients()?;
+                    self.minimisation.change(step);
+                }
                 self.minimisation.accept();
                 self.report.step_lengths.push(step);
                 self.report.refused_trials += refused;
                 self.report.change += difference;
-                Ok(if by_slope { Progress::BelowNoise } else { Progress::Decrease })
+                Ok(if is_noise { Progress::BelowNoise } else { Progress::Decrease })
             }
             Outcome::Failed { step, refused } => {
                 self.report.refused_trials += refused;
                 if -slope > self.minimisation.reject() {
+                    self.minimisation.demand_true_gradients()?;
                     let residual = self.report.residual;
                     return Err(NewtonError::LineSearch { step, refused, residual });
                 }

@@ -9,7 +9,9 @@ use crate::step::error::NewtonError;
 pub enum Convergence {
     /// The gradient, or the remaining distance, fell below the tolerance.
     Tolerance,
-    /// All further gain is below the rounding error of the objective.
+    /// All further gain is below the rounding error of the objective, though the slope of a kink may predict
+    /// more. If a gradient that does not fit its energy predicts more, the step fails:
+    /// [`NewtonError::WrongGradient`].
     Rounding,
     /// The limit of iterations was reached, as always in the mode of one iteration.
     #[default]

@@ -1,4 +1,9 @@
+use piola::lanes::{Mask, Real};
+use piola::material::{Blocks, Material};
+
 use super::*;
+use crate::hand_written::RotatedLinear;
+use crate::step::StepError;
 use crate::step::testing::{distance, held, settings};
 use crate::system::testing::{beam, neo_hookean};
 
@@ -43,4 +48,39 @@ fn every_way_ends_in_the_same_minimum() {
     }
     let [clamp, _, on_demand] = ends.map(|(report, _)| report.iterations);
     assert!(on_demand < clamp, "{on_demand} iterations, {clamp} clamped");
+}
+
+/// The derivatives of an energy with the energy itself negated.
+struct Negated;
+
+impl Material for Negated {
+    fn energy<R: Real>(&self, stretches: [R; 3]) -> R {
+        -RotatedLinear.energy(stretches)
+    }
+
+    fn blocks<R: Real>(&self, stretches: [R; 3]) -> Blocks<R> {
+        RotatedLinear.blocks(stretches)
+    }
+
+    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
+        R::Mask::splat(true)
+    }
+
+    fn has_pole(&self) -> bool {
+        true
+    }
+
+    fn ends_at_zero_volume(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn a_stress_that_does_not_fit_its_energy_is_not_taken_for_rounding() {
+    let mesh = beam(2);
+    let mut body = held(&mesh, Negated, settings(NewtonSettings::single()));
+    let stretched: Vec<_> = mesh.positions.iter().map(|&[x, y, z]| [1.1 * x, y, z]).collect();
+    body.set_positions(&stretched).expect("finite");
+    let error = body.step(100.0).expect_err("no step decreases the energy");
+    assert_eq!(error, StepError::Newton(NewtonError::WrongGradient { term: None }));
 }

@@ -128,6 +128,26 @@ fn derivatives_are_compared_with_differences() {
 }
 
 #[test]
+fn a_gradient_that_does_not_fit_its_energy_is_named_and_not_taken_for_rounding() {
+    let mesh = beam(2);
+    for linear in solvers(1e-3) {
+        for newton in [NewtonSettings::default(), NewtonSettings::single()] {
+            let settings = falling(NewtonSettings { linear, ..newton });
+            let mut body = simulation(&mesh, neo_hookean(), &Pins::none(), settings);
+            let barrier = |stiffness: f64, factors: [f64; 2]| -> Arc<dyn Term> {
+                Arc::new(Barrier { nodes: [0, 11], distance: 0.22, stiffness, factors })
+            };
+            body.set_terms(vec![barrier(1e-3, [1.0; 2]), barrier(1.0, [-1.0, 1.0])]);
+            let error = body.step(0.01).expect_err("no step decreases the energy");
+            assert_eq!(error, StepError::Newton(NewtonError::WrongGradient { term: Some(1) }));
+            assert_eq!(body.positions(), mesh.positions);
+            body.set_terms(vec![barrier(1e-3, [1.0; 2])]);
+            body.step(0.01).expect("a step");
+        }
+    }
+}
+
+#[test]
 fn blocks_of_missing_nodes_are_noted_and_left_out() {
     let mut blocks = NodeBlocks::default();
     blocks.begin(2);
