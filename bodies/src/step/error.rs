@@ -139,6 +139,17 @@ pub enum NewtonError {
         /// Index of the term, from 0; `None` for the materials.
         term: Option<usize>,
     },
+    /// The answer of a user-defined linear solver is no closer to the solution of A x = b than x = 0, in the
+    /// norm of A.
+    #[error(
+        "the linear solver does not solve A x = b, or overlooks that A is not positive definite: ‖b − A x‖ is \
+         {} times ‖b‖; `LowerTriangle::multiply` computes A x",
+        number(*residual)
+    )]
+    NotSolved {
+        /// ‖b − A x‖/‖b‖.
+        residual: f64,
+    },
     /// The linear solver failed for another reason.
     #[error("{0}")]
     Linear(#[from] LinearError),

@@ -21,8 +21,11 @@ pub(super) struct Assembled {
     /// For each free node of the matrix, true if it has been pinned since the matrix was made; empty if no
     /// node has.
     held: Vec<bool>,
+    right: Vec<f64>,
     /// The right side, then the solution.
     unknowns: Vec<f64>,
+    /// Product of the matrix with the answer of a user-defined solver; empty for another one.
+    product: Vec<f64>,
     solver: Box<dyn AnySolver>,
 }
 
@@ -34,7 +37,9 @@ impl Assembled {
     ) -> Result<Self, LinearError> {
         let matrix = LowerTriangle::new(stiffness, pins)?;
         solver.analyse_any(&matrix)?;
-        Ok(Self { solver, held: Vec::new(), unknowns: vec![0.0; 3 * matrix.free_nodes().len()], matrix })
+        let right = vec![0.0; 3 * matrix.free_nodes().len()];
+        let product = if solver.is_built_in_any() { Vec::new() } else { right.clone() };
+        Ok(Self { solver, held: Vec::new(), unknowns: right.clone(), right, product, matrix })
     }
 
     /// Replaces the pins of a body of `nodes` nodes. Returns the free nodes in the order of the unknowns, or
@@ -59,12 +64,12 @@ impl Assembled {
         system: System<'_>,
         direction: &mut [[f64; 3]],
     ) -> Result<Option<Solution>, NewtonError> {
-        let Self { matrix, held, unknowns, solver } = self;
+        let Self { matrix, held, right, unknowns, product, solver } = self;
         let System { objective, gradient, tolerance, must_be_definite, .. } = system;
         for (free, &node) in matrix.free_nodes().iter().enumerate() {
             let is_held = held.get(free) == Some(&true);
-            let right = if is_held { [0.0; 3] } else { gradient[node].map(|g| -g) };
-            unknowns[3 * free..3 * free + 3].copy_from_slice(&right);
+            let force = if is_held { [0.0; 3] } else { gradient[node].map(|g| -g) };
+            right[3 * free..3 * free + 3].copy_from_slice(&force);
         }
         let mut shift = 0.0;
         let iterations = loop {
@@ -72,6 +77,7 @@ impl Assembled {
             matrix.fill(stiffness, diagonal)?;
             objective.blocks.add_to_triangle(matrix);
             matrix.hold(held);
+            unknowns.copy_from_slice(right);
             match solver.solve_any(matrix, unknowns, tolerance.min(TOLERANCE)) {
                 Ok(iterations) => break iterations,
                 Err(LinearError::NotPositive { .. }) if must_be_definite => {
@@ -90,6 +96,22 @@ impl Assembled {
         };
         if unknowns.iter().any(|x| !x.is_finite()) {
             return Err(NewtonError::NotFinite);
+        }
+        if !product.is_empty() {
+            matrix.multiply(unknowns, product)?;
+            let mut sums = [0.0_f64; 3];
+            for ((b, x), product) in right.iter().zip(&*unknowns).zip(&*product) {
+                let terms = [(b - product).powi(2), b * b, x * (0.5 * product - b)];
+                sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            }
+            let [residual, right, energy] = sums;
+            // ½ xᵀA x − bᵀx < 0 for an x that is closer than 0 to the solution, in the norm of A, as are all
+            // iterates of conjugate gradients: a limit of iterations is no mistake.
+            if energy >= 0.0 && right > 0.0 {
+                // A solver that overlooks an indefinite matrix may be right about its system.
+                let wrong = NewtonError::NotSolved { residual: (residual / right).sqrt() };
+                return if must_be_definite { Ok(None) } else { Err(wrong) };
+            }
         }
         for (unknown, &node) in unknowns.chunks_exact(3).zip(matrix.free_nodes()) {
             direction[node] = [unknown[0], unknown[1], unknown[2]];

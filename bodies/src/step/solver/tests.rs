@@ -204,6 +204,33 @@ fn a_body_with_every_node_pinned_has_nothing_to_solve() {
 }
 
 #[test]
+fn an_answer_that_does_not_solve_ends_the_step_and_half_a_solution_does_not() {
+    let mesh = beam(4);
+    let mut built_in = held(&mesh, rotated(), falling(solved_by(LinearSolver::Cholesky)));
+    let start = built_in.clone();
+    let stepped = |factor: f64| {
+        let mut own = start.clone();
+        let times = move |matrix: &LowerTriangle, b: &mut [f64], _: f64| -> Result<usize, LinearError> {
+            let mut cholesky = Cholesky::new(matrix.column_starts(), matrix.row_indices())?;
+            SparseSolver::solve(&mut cholesky, matrix, b, 0.0)?;
+            b.iter_mut().for_each(|x| *x *= factor);
+            Ok(0)
+        };
+        own.set_linear_solver(times).expect("a pattern");
+        own.step(0.02).map(|_| own.positions().to_vec())
+    };
+    for factor in [0.0, -1.0, 3.0] {
+        let error = stepped(factor).expect_err("no solution");
+        let StepError::Newton(NewtonError::NotSolved { residual }) = error else { panic!("{error}") };
+        // A condition of 10⁴.
+        assert!((residual - f64::abs(1.0 - factor)).abs() <= 1e-10, "{factor}: {residual}");
+    }
+    built_in.step(0.02).expect("a step");
+    // A tolerance of 10⁻⁶ of forces that move the beam by 4 mm.
+    assert!(distance(&stepped(0.5).expect("a step"), built_in.positions()) <= 1e-7);
+}
+
+#[test]
 fn solvers_of_ones_own_serve_until_they_fail_or_the_settings_are_replaced() {
     let mesh = beam(4);
     let settings = falling(solved_by(LinearSolver::Cholesky));

@@ -22,10 +22,20 @@ pub trait SparseSolver: Clone + Send + Sync + 'static {
     /// Replaces b by x with ‖b − A x‖ ≤ `tolerance` ‖b‖, or as close as possible. Returns the number of
     /// iterations, 0 for a direct solver.
     ///
+    /// If x is no closer to the solution than x = 0, in the norm of A, eigenvalues are clamped if they are
+    /// not yet, and otherwise the step ends with
+    /// [`NewtonError::NotSolved`](crate::step::NewtonError::NotSolved).
+    ///
     /// # Errors
-    /// [`LinearError::NotPositive`], with b unchanged, if A is not positive definite: the solver is then
-    /// called again, with eigenvalues clamped or with inertia added. Other errors end the step.
+    /// [`LinearError::NotPositive`] if A is not positive definite: the solver is then called again, with
+    /// eigenvalues clamped or with inertia added. Other errors end the step.
     fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError>;
+
+    /// True if answers are not compared with their systems.
+    #[doc(hidden)]
+    fn is_built_in(&self) -> bool {
+        false
+    }
 }
 
 impl<F> SparseSolver for F
@@ -49,6 +59,8 @@ pub(crate) trait AnySolver: Send + Sync {
         tolerance: f64,
     ) -> Result<usize, LinearError>;
 
+    fn is_built_in_any(&self) -> bool;
+
     fn boxed_clone(&self) -> Box<dyn AnySolver>;
 }
 
@@ -64,6 +76,10 @@ impl<S: SparseSolver> AnySolver for S {
         tolerance: f64,
     ) -> Result<usize, LinearError> {
         self.solve(matrix, b, tolerance)
+    }
+
+    fn is_built_in_any(&self) -> bool {
+        self.is_built_in()
     }
 
     fn boxed_clone(&self) -> Box<dyn AnySolver> {
@@ -88,5 +104,9 @@ impl SparseSolver for crate::system::Cholesky {
         self.factor(matrix.values())?;
         Self::solve(self, b);
         Ok(0)
+    }
+
+    fn is_built_in(&self) -> bool {
+        true
     }
 }
