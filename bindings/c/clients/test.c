@@ -496,6 +496,14 @@ static int32_t ground_gradient(void *context, const double *x, size_t nodes, dou
     return called(ground);
 }
 
+/* The force instead of the gradient. */
+static int32_t ground_force(void *context, const double *x, size_t nodes, double *gradient) {
+    struct ground *ground = context;
+    for (size_t n = 0; n < nodes; n++)
+        gradient[3 * n + 2] -= ground->stiffness * fmin(x[3 * n + 2] - ground->level, 0.0);
+    return 0;
+}
+
 static int32_t ground_blocks(void *context, const double *x, size_t nodes, piola_blocks *blocks) {
     struct ground *ground = context;
     const double entries[9] = {0, 0, 0, 0, 0, 0, 0, 0, ground->stiffness};
@@ -553,6 +561,19 @@ static void bodies_move(void) {
     FAILS(
         piola_simulation_set_terms(simulation, &incomplete, 1), PIOLA_CODE_POINTER,
         "`terms[].add_gradient` is null");
+    /* A gradient of the wrong sign is not taken for rounding, and is found by differences. */
+    piola_term wrong = term;
+    wrong.add_gradient = ground_force;
+    for (int k = 0; k < 15; k++) x[k] = REST[k] - (k % 3 == 2 ? 0.05 : 0.0);
+    CHECK(piola_simulation_write(simulation, PIOLA_QUANTITY_POSITIONS, x, 15) == PIOLA_CODE_OK);
+    CHECK(piola_simulation_check_terms(simulation, 0) == PIOLA_CODE_OK);
+    CHECK(piola_simulation_set_terms(simulation, &wrong, 1) == PIOLA_CODE_OK);
+    FAILS(
+        piola_simulation_step(simulation, 0.01, NULL), PIOLA_CODE_STEP,
+        "the gradient of term 0 (from 0) does not fit its energy");
+    FAILS(
+        piola_simulation_check_terms(simulation, 0), PIOLA_CODE_STEP,
+        "term 0 (from 0): the gradient at node 0 (from 0) along z is 4");
     CHECK(piola_simulation_set_terms(simulation, NULL, 0) == PIOLA_CODE_OK);
 
     /* Pins, where they move to, and their forces, which balance the weight. */

@@ -745,12 +745,21 @@ enum piola_code piola_simulation_set_terms(const struct piola_simulation *simula
                                            const struct piola_term *terms,
                                            size_t terms_length);
 
+// Compares the derivatives of each term, at the current positions, with differences of its energy and of its
+// gradient, in a test by its author. If `is_filtered` is not 0, the second derivatives may exceed the
+// differences, as those without negative eigenvalues do.
+//
+// Errors: PIOLA_CODE_STEP for a derivative that does not fit, or a term that does not act at the positions;
+// PIOLA_CODE_CALLBACK if a function of a term has failed.
+enum piola_code piola_simulation_check_terms(const struct piola_simulation *simulation,
+                                             int32_t is_filtered);
+
 // Advances by `dt`, s; the report may be null. Shared among threads, with the same bits for any number of
 // them.
 //
 // Errors: PIOLA_CODE_STEP if there is no admissible next state: the state before is untouched, and a shorter
-// step may succeed. PIOLA_CODE_CALLBACK if a function of a term has failed: likewise, unless it was the last
-// one of the step, for the energy in the report.
+// step may succeed, unless the gradient of a term does not fit its energy. PIOLA_CODE_CALLBACK if a function
+// of a term has failed: likewise, unless it was the last one of the step, for the energy in the report.
 enum piola_code piola_simulation_step(const struct piola_simulation *simulation,
                                       double dt,
                                       struct piola_step_report *report);

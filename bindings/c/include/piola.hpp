@@ -498,6 +498,10 @@ public:
         detail::check(piola_simulation_set_terms(handle_.get(), given.data(), given.size()));
         terms_ = std::move(kept);
     }
+    /// Compares the derivatives of each term with differences: see piola_simulation_check_terms.
+    void check_terms(bool is_filtered = false) {
+        advanced(piola_simulation_check_terms(handle_.get(), is_filtered));
+    }
 
     piola_step_report step(double dt) {
         piola_step_report report{};

@@ -3,7 +3,9 @@
 use std::sync::{Arc, Mutex};
 
 use piola_bodies::mesh::Anchor;
-use piola_bodies::step::{Convergence as Reason, Simulation as Stepped, SimulationSettings, StepError};
+use piola_bodies::step::{
+    Convergence as Reason, Simulation as Stepped, SimulationSettings, StepError, check_term,
+};
 use piola_bodies::system::Pins;
 
 use crate::body::Body;
@@ -227,12 +229,28 @@ fn piola_simulation_set_terms(simulation: &Simulation, terms: &[Term]) {
     Ok(())
 }
 
+/// Compares the derivatives of each term, at the current positions, with differences of its energy and of its
+/// gradient, in a test by its author. If `is_filtered` is not 0, the second derivatives may exceed the
+/// differences, as those without negative eigenvalues do.
+///
+/// Errors: PIOLA_CODE_STEP for a derivative that does not fit, or a term that does not act at the positions;
+/// PIOLA_CODE_CALLBACK if a function of a term has failed.
+fn piola_simulation_check_terms(simulation: &Simulation, is_filtered: i32) {
+    let State { simulation, terms } = &*handle::enter(&simulation.0)?;
+    for (index, term) in terms.iter().enumerate() {
+        let verdict = check_term(&**term, simulation.positions(), is_filtered != 0);
+        demand_success(terms)?;
+        verdict.map_err(|error| Failure::new(Code::Step, format_args!("term {index} (from 0): {error}")))?;
+    }
+    Ok(())
+}
+
 /// Advances by `dt`, s; the report may be null. Shared among threads, with the same bits for any number of
 /// them.
 ///
 /// Errors: PIOLA_CODE_STEP if there is no admissible next state: the state before is untouched, and a shorter
-/// step may succeed. PIOLA_CODE_CALLBACK if a function of a term has failed: likewise, unless it was the last
-/// one of the step, for the energy in the report.
+/// step may succeed, unless the gradient of a term does not fit its energy. PIOLA_CODE_CALLBACK if a function
+/// of a term has failed: likewise, unless it was the last one of the step, for the energy in the report.
 fn piola_simulation_step(simulation: &Simulation, dt: f64, report: Out<StepReport>) {
     advance(simulation, &report, |simulation| simulation.step(dt))
 }
@@ -257,13 +275,19 @@ fn advance(
 ) -> Result<(), Failure> {
     let State { simulation, terms } = &mut *handle::enter(&simulation.0)?;
     let result = advance(simulation);
+    demand_success(terms)?;
+    report.write(result?.into())
+}
+
+/// Checks that no function of a term has failed since the last call.
+fn demand_success(terms: &[Arc<Callbacks>]) -> Result<(), Failure> {
     for (index, term) in terms.iter().enumerate() {
         if let Some(returned) = term.take_returned() {
             let message = format_args!("a function of term {index} (from 0) has returned {returned}");
             return Err(Failure::new(Code::Callback, message));
         }
     }
-    report.write(result?.into())
+    Ok(())
 }
 
 fn quantity_of(quantity: i32) -> Result<Quantity, Failure> {

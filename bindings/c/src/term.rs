@@ -170,6 +170,6 @@ impl piola_bodies::step::Term for Callbacks {
         self.succeeds(self.term.longest_step, |find, context| unsafe {
             find(context, x, d, nodes, &mut share)
         });
-        if share > 0.0 && share <= 1.0 { share } else { 1.0 }
+        share
     }
 }
