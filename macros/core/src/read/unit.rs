@@ -15,10 +15,10 @@ pub enum Unit {
 /// converted from them.
 const OTHERS: [&str; 19] = [
     "kpa", "mpa", "gpa", "hpa", "n/mm", "n/cm", "kn/m", "kn/mm", "mn/m", "kgf/cm", "kgf/mm", "kp/cm",
-    "dyn/cm", "lbf/in", "lb/in", "kj/m", "mj/m", "mj/mm", "mm²/n",
+    "dyn/cm", "lbf/in", "lb/in", "kj/m", "mj/m", "mj/mm", "mm/n",
 ];
 
-/// Further ones, with which a sentence may end in another meaning.
+/// Further ones, words that may have another meaning inside a sentence or at its end: `in psi` for ψ.
 const AMBIGUOUS: [&str; 7] = ["pa", "psi", "ksi", "bar", "mbar", "atm", "mmhg"];
 
 impl Unit {
@@ -65,10 +65,9 @@ impl Unit {
         let is_of_value = before.is_some_and(|before| {
             !before.starts_with(char::is_alphabetic) && before.contains(|c: char| c.is_ascii_digit())
         });
-        let small = word.to_lowercase();
-        let stress = ["⁻¹", "^-1", "-1"].iter().find_map(|power| small.strip_suffix(power));
+        let small = word.to_lowercase().replace(['²', '³', '^', '2', '3'], "");
+        let stress = ["⁻¹", "-1"].iter().find_map(|power| small.strip_suffix(power));
         let stress = stress.or_else(|| small.strip_prefix("1/")).unwrap_or(&small);
-        let stress = stress.trim_end_matches(['²', '³', '^', '2', '3']);
         match word {
             "Pa" | "J/m³" | "J/m^3" | "J/m3" | "N/m²" | "N/m^2" | "N/m2" => Some(Ok(Self::Pascal)),
             "1/Pa" | "Pa⁻¹" | "Pa^-1" | "m²/N" | "m^2/N" | "m2/N" => Some(Ok(Self::PerPascal)),
@@ -78,10 +77,13 @@ impl Unit {
             }
             "-" | "–" | "−" if is_bracketed || is_end && is_set_apart => Some(Ok(Self::Dimensionless)),
             _ if matches!(&*small, "dimensionless" | "unitless") => Some(Ok(Self::Dimensionless)),
+            _ if matches!(&*small, "pascal" | "pascals") => Some(Ok(Self::Pascal)),
             _ if OTHERS.contains(&stress) || stress.trim_end_matches('s').ends_with("pascal") => {
                 (is_set_apart || !is_of_value).then(|| Err(word.to_owned()))
             }
-            _ if AMBIGUOUS.contains(&stress) && is_set_apart => Some(Err(word.to_owned())),
+            _ if AMBIGUOUS.contains(&stress) && is_set_apart && (is_end || is_bracketed) => {
+                Some(Err(word.to_owned()))
+            }
             _ => None,
         }
     }
@@ -112,6 +114,7 @@ mod tests {
             ("Compressibility, m²/N.", per_pascal),
             ("Share, 0.5 or less of the other. Unit: 1/Pa", per_pascal),
             ("Modulus (Pa), of the matrix.", pascal),
+            ("Coefficient of J² in psi, pascals.", pascal),
             ("Coefficient of eq. (1) or, in short, of eq. 1.", None),
             ("Modulus of PA, in [0, 1].", None),
             ("Exponent.", None),
