@@ -29,13 +29,7 @@ impl Notation {
         let (mut text, mut origins) = (String::new(), Vec::new());
         // The texts that close the braces around, and the character before.
         let (mut braces, mut before, mut origin) = (Vec::new(), ' ', 0);
-        while let Some(&character) = characters.get(origin) {
-            let is_name = character.is_alphanumeric() && raised(character).or(lowered(character)).is_none();
-            if is_name && (raised(before).is_some() || lowered(before).is_some() && !character.is_ascii()) {
-                // `λ²μ` and `λ₁λ₂` are products.
-                text.push(' ');
-                origins.push(origin);
-            }
+        while origin < characters.len() {
             let part = read_part(&characters[origin..], before, &text, &mut braces);
             let (length, written) = part.map_err(|message| {
                 let place = Place::at(formula, origin);
@@ -88,7 +82,6 @@ fn read_part(
     let character = rest[0];
     let is_digit = |character: char| character.is_ascii_digit();
     let is_operand = |character: char| character.is_alphanumeric() || "_.)]".contains(character);
-    let gap = if text.ends_with(char::is_alphanumeric) { " " } else { "" };
     if let Some(digit) = raised(character) {
         let sign = if raised(before).is_some() { "" } else { "^" };
         return Ok((1, format!("{sign}{digit}")));
@@ -101,7 +94,8 @@ fn read_part(
         }
         return Ok((1, index.unwrap_or(character).to_string()));
     }
-    if character.is_numeric() && !is_digit(character) && (character != '½' || text.ends_with(is_digit)) {
+    let is_mixed = character == '½' && text.trim_end().ends_with(is_digit);
+    if character.is_numeric() && !is_digit(character) && (character != '½' || is_mixed) {
         return Err("write this number as a fraction or with a decimal point, as in `(1/3)` and `2.5`");
     }
     if let Some((length, written)) = symbol(rest) {
@@ -111,8 +105,11 @@ fn read_part(
         }
         return Ok((length, written.to_owned()));
     }
+    // `2\mu`, `λ²μ` and `λ₁λ₂` are products, and `\lambda_{1}` of TeX is `lambda_1`.
+    let is_behind_index = raised(before).is_some() || lowered(before).is_some() && !character.is_ascii();
+    let is_name = character == '\\' || character.is_alphanumeric() && is_behind_index;
+    let gap = if is_name && text.ends_with(char::is_alphanumeric) { " " } else { "" };
     match character {
-        // `\lambda_{1}` of TeX is `lambda_1`, and `2\mu` a product.
         '\\' => named(rest).map(|(length, name)| (length, gap.to_owned() + &name)).ok_or(TEX),
         '{' => {
             let (opening, closing) = if text.ends_with('_') { ("", "") } else { ("(", ")") };
@@ -130,7 +127,7 @@ fn read_part(
         '.' if rest.get(1).copied().is_some_and(is_digit) && !text.ends_with(is_operand) => {
             Ok((1, "0.".to_owned()))
         }
-        _ => Ok((1, character.to_string())),
+        _ => Ok((1, format!("{gap}{character}"))),
     }
 }
 
