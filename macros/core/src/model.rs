@@ -248,7 +248,7 @@ fn derive(
         .map(|(energy, bounds, has_energy)| {
             let energy = over_one_denominator(&mut graph, energy, &prepared.ways.by_invariants());
             let (gradient, hessian) = derivatives(&mut graph, energy);
-            ByInvariants { energy, has_energy, gradient, hessian, bounds }
+            ByInvariants { energy: with_limits(&mut graph, energy), has_energy, gradient, hessian, bounds }
         });
     let moduli = moduli.map(|modulus| expand_products(&mut graph, modulus));
     let units = judge::units_of_parameters(&graph, source);
