@@ -168,18 +168,11 @@ fn named(text: &[char]) -> Option<(usize, String)> {
 fn unreadable(formula: &str) -> Mistake {
     let mut open: Vec<(char, usize)> = Vec::new();
     for (k, character) in formula.chars().enumerate() {
-        match character {
-            '(' => open.push((')', k)),
-            '[' => open.push((']', k)),
-            '{' => open.push(('}', k)),
-            ')' | ']' | '}' => {
-                if open.pop().is_some_and(|(closing, _)| closing == character) {
-                    continue;
-                }
-                let message = format!("this `{character}` closes nothing: remove it, or open it before");
-                return Mistake { message, place: Place::at(formula, k) };
-            }
-            _ => {}
+        if let Some(closing) = counterpart(character, "([{", ")]}") {
+            open.push((closing, k));
+        } else if ")]}".contains(character) && open.pop().is_none_or(|(closing, _)| closing != character) {
+            let message = format!("this `{character}` closes nothing: remove it, or open it before");
+            return Mistake { message, place: Place::at(formula, k) };
         }
     }
     if let Some(&(closing, k)) = open.first() {
