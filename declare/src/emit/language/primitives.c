@@ -68,13 +68,13 @@
 }
 
 //@ is_finite
-{truth_function}_is_finite({number} x) {
+{upper}_FUNCTION int {prefix}_is_finite({number} x) {
     return ({prefix}_to_bits(x) & {infinity_bits}) < {infinity_bits};
 }
 
 //@ is_exact
 /* False if options of the compiler change sums or comparisons, which volatile numbers hide from it. */
-{truth_function}_is_exact(void) {
+{upper}_FUNCTION int {prefix}_is_exact(void) {
     volatile {number} quarter = 0.25{end}, three = 3.0{end}, zero = 0.0{end};
     const {number} x = quarter, y = three, z = zero / zero;
     const {number} sum = (x + {rounding}) - {rounding};

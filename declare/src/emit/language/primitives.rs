@@ -78,7 +78,6 @@ impl Language {
             ("{suffix}", self.suffix().to_owned()),
             ("{function}", self.function(number)),
             ("{function_to_bits}", self.function(bits)),
-            ("{truth_function}", self.function(self.type_of(Kind::Truth))),
             ("{has_fast}", has_fast),
             // The bit 16 is about numbers of 16 bits.
             ("{is_wide}", of_format("FLT_EVAL_METHOD & ~16", "FLT_EVAL_METHOD & ~17")),
