@@ -55,7 +55,7 @@ pub struct BoxOptions {
     pub solver: SolverOptions,
 }
 
-/// All quantities are in SI units; y points upwards.
+/// Options of the subcommand `statics`, and of every body that is not a box.
 #[derive(Debug, Parser)]
 pub struct BodyOptions {
     #[command(flatten)]
@@ -84,7 +84,7 @@ pub struct BodyOptions {
     pub solver: SolverOptions,
 }
 
-/// All quantities are in SI units; y points upwards.
+/// Options of the subcommand `run`.
 #[derive(Debug, Parser)]
 pub struct RunOptions {
     #[command(flatten)]

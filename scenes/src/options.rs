@@ -47,7 +47,7 @@ pub struct SceneOptions {
     #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
     pub density: Option<f64>,
 
-    /// Gravity in m/s², downwards [default: 0].
+    /// Gravity in m/s², downwards, which is along -y [default: 0].
     #[arg(long, value_name = "G", allow_negative_numbers = true)]
     pub gravity: Option<f64>,
 
@@ -181,10 +181,11 @@ fn integrators() -> impl TypedValueParser<Value = Integrator> {
     })
 }
 
-/// List of the scenes with their descriptions, to be shown behind the options.
+/// Units, the axis that points upwards, and a list of the scenes with their descriptions, to be shown behind
+/// the options.
 #[must_use]
 pub fn scenes() -> String {
-    let mut text = String::from("Scenes:\n");
+    let mut text = String::from("All quantities are in SI units; y points upwards.\n\nScenes:\n");
     for scene in SCENES {
         text += &format!("  {:24} {}\n", scene.name, scene.about);
     }
