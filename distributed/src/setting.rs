@@ -3,13 +3,13 @@
 use piola_bodies::mesh::{Bounds, TetMesh};
 use piola_bodies::system::Pins;
 use piola_scenes::geometry::{Geometry, NOTHING_PULLED};
+use piola_scenes::material::MaterialPart;
 use piola_scenes::play::{self, DragSprings};
 use piola_scenes::region;
 use serde::{Deserialize, Serialize};
 
 use crate::command::{Move, Task};
 use crate::error::Error;
-use crate::part::MaterialPart;
 use crate::portion::{Element, Place, Portion};
 use crate::share::Share;
 use crate::team::Team;
@@ -83,7 +83,7 @@ pub(crate) fn moved(moves: &[Move], &Place { rest, marks, .. }: &Place, time: f6
 /// Places, elements and properties of the whole body; the properties are in JSON.
 type WholeBody = (Vec<Place>, Vec<Element>, Vec<u8>);
 
-fn read(Task { settings, parts, moves }: &Task) -> Result<WholeBody, Error> {
+fn read(Task { settings, moves }: &Task) -> Result<WholeBody, Error> {
     let geometry = Geometry::load(settings)?;
     let mesh = &geometry.mesh;
     let young = settings.material.build()?.moduli.young();
@@ -112,7 +112,7 @@ fn read(Task { settings, parts, moves }: &Task) -> Result<WholeBody, Error> {
     let places = (0..mesh.positions.len())
         .map(|node| Place { rest: mesh.positions[node], start: start[node], marks: marks[node] })
         .collect();
-    let materials = materials(parts, mesh)?;
+    let materials = materials(&settings.all_parts(), mesh)?;
     let elements = mesh
         .tets
         .iter()

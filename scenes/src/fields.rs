@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-use piola::batch::{Batch, TileMaterial};
+use piola::batch::Batch;
 use piola::point::svd;
 use piola_bodies::step::Simulation;
 
@@ -16,11 +16,7 @@ use crate::output::{Field, write_vtu};
 ///
 /// # Errors
 /// If `target` cannot be written to.
-pub fn write(
-    target: &mut impl Write,
-    simulation: &Simulation,
-    material: &dyn TileMaterial<f64>,
-) -> io::Result<()> {
+pub fn write(target: &mut impl Write, simulation: &Simulation) -> io::Result<()> {
     let (body, positions) = (simulation.body(), simulation.positions());
     let displacements: Vec<f64> = positions
         .as_flattened()
@@ -32,11 +28,13 @@ pub fn write(
     let stretches: Vec<[f64; 3]> = F.iter().map(|F| svd(F).stretches).collect();
     let dets: Vec<f64> = stretches.iter().map(|[l1, l2, l3]| l1 * l2 * l3).collect();
     let mut energies = vec![f64::NAN; F.len()];
-    for (F, energy) in F.iter().zip(&mut energies) {
-        let mut density = [0.0];
-        let survey = Batch::new(material).energies(F.as_flattened(), &mut density);
-        if survey.is_ok_and(|survey| survey.refused == 0 && survey.nonfinite == 0) {
-            *energy = density[0];
+    for (material, elements) in body.materials() {
+        for (F, energy) in F[elements.clone()].iter().zip(&mut energies[elements]) {
+            let mut density = [0.0];
+            let survey = Batch::new(material).energies(F.as_flattened(), &mut density);
+            if survey.is_ok_and(|survey| survey.refused == 0 && survey.nonfinite == 0) {
+                *energy = density[0];
+            }
         }
     }
     let tets: Vec<_> = body.elements().iter().map(|element| element.nodes).collect();

@@ -3,7 +3,7 @@
 mod energy;
 mod value;
 
-pub use energy::{Formula, in_file, with_values};
+pub use energy::Formula;
 pub use value::{Given, inversion, parameter};
 
 use std::path::PathBuf;
@@ -46,6 +46,12 @@ pub struct SceneOptions {
     /// Density in kg/m³ [default: the scene's, 1000].
     #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
     pub density: Option<f64>,
+
+    /// Another material for a group of tetrahedra of the mesh: GROUP=NAME, or
+    /// GROUP=NAME;PARAM=V;…;density=RHO. NAME may be a file of Rust. Without parameters, the material is as
+    /// stiff as that of the other tetrahedra. May be repeated.
+    #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
+    pub parts: Vec<String>,
 
     /// Gravity in m/s², downwards, which is along -y [default: 0].
     #[arg(long, value_name = "G", allow_negative_numbers = true)]
@@ -109,6 +115,8 @@ impl SceneOptions {
         }
         settings.start = start(scene, self.seed, self.amplitude)?;
         settings.density = self.density.unwrap_or(settings.density);
+        settings.parts =
+            self.parts.iter().map(|text| energy::part(text, &settings)).collect::<Result<_, _>>()?;
         settings.gravity = self.gravity.unwrap_or(settings.gravity);
         settings.pins = self.pins;
         settings.files = self.mesh.map(|mesh| Files { mesh, surface });

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use piola::__private::message::quoted;
-use piola::batch::TileMaterial;
 use piola::material::{Moduli, Text};
 use piola_bodies::mesh::{Bounds, TetMesh};
 use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
@@ -12,7 +11,7 @@ use piola_bodies::system::{Body, Part, PinError, Pins};
 use crate::clock::Clock;
 use crate::error::{Error, in_range, list};
 use crate::geometry::{Geometry, NOTHING_PULLED};
-use crate::material::{self, MaterialSpec, Parameters};
+use crate::material::{self, MaterialPart, MaterialSpec, Parameters};
 use crate::output::{Newton, StepCounts};
 use crate::region;
 use crate::scene::Pull;
@@ -65,14 +64,13 @@ impl Play {
         settings.check()?;
         let geometry: Arc<Geometry> = geometry.into();
         let mesh = &geometry.mesh;
+        let simulation = at_start(&settings, &geometry)?;
         let info = settings.material.build()?;
         let young = info.moduli.young();
-        // Forces on bodies of such a material, and their squares, stay in the range of f64.
-        in_range("Young's modulus of the material", young, 1e-12..=1e21, "from 1e-12 to 1e21 Pa")?;
         let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
         let mut play = Self {
             height: mesh.bounds().size()[1],
-            simulation: at_start(&settings, &geometry, info.elements)?,
+            simulation,
             material: info.name,
             parameters: info.parameters,
             moduli: info.moduli,
@@ -100,8 +98,9 @@ impl Play {
         let Self { settings, geometry, material: name, .. } = &*self;
         let description = settings.material.description()?;
         let can_start = |name: &&str| {
-            let typical = MaterialSpec::typical(name).and_then(|material| material.build());
-            let other = typical.and_then(|other| at_start(settings, geometry, other.elements));
+            let typical = MaterialSpec::typical(name);
+            let settings = typical.map(|material| Settings { material, ..settings.clone() });
+            let other = settings.and_then(|settings| at_start(&settings, geometry));
             other.is_ok_and(|mut simulation| has_energy(&mut simulation))
         };
         let (scene, domain) = (settings.scene.name, &description.domain);
@@ -267,14 +266,18 @@ pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch)
 }
 
 /// The body of the settings before the first step.
-fn at_start(
-    settings: &Settings,
-    geometry: &Geometry,
-    material: Box<dyn TileMaterial<f64>>,
-) -> Result<Simulation, Error> {
+fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Simulation, Error> {
     let mesh = &geometry.mesh;
     let pins = pins(settings, mesh)?;
-    let body = Body::from_parts(mesh, vec![Part { group: None, material, density: settings.density }])?;
+    let mut parts = Vec::new();
+    for MaterialPart { group, material, density } in settings.all_parts() {
+        let info = material.build()?;
+        let young = info.moduli.young();
+        // Forces on bodies of such a material, and their squares, stay in the range of f64.
+        in_range("Young's modulus of the material", young, 1e-12..=1e21, "from 1e-12 to 1e21 Pa")?;
+        parts.push(Part { group, material: info.elements, density });
+    }
+    let body = Body::from_parts(mesh, parts)?;
     let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
     simulation.set_positions(&start_positions(settings, geometry, &pins))?;
     Ok(simulation)

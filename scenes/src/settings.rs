@@ -7,7 +7,7 @@ use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, in_range};
-use crate::material::MaterialSpec;
+use crate::material::{MaterialPart, MaterialSpec};
 use crate::output::Newton;
 use crate::scene::{Amplitude, Body, Scene, Start};
 use crate::unit::Unit;
@@ -39,12 +39,15 @@ pub struct Settings {
     pub only_tetrahedra: bool,
     /// Positions of the nodes before the first step.
     pub start: Start,
-    /// The material of the body.
+    /// The material of the tetrahedra that are in none of `parts`.
     #[serde(rename = "energy")]
     pub material: MaterialSpec,
-    /// Mass per rest volume, kg/m³.
+    /// Mass per rest volume, kg/m³, of these tetrahedra.
     pub density: f64,
-    /// Acceleration downwards, m/s².
+    /// Groups of tetrahedra with a material and a density of their own.
+    #[serde(default)]
+    pub parts: Vec<MaterialPart>,
+    /// Acceleration downwards, along −y, m/s².
     pub gravity: f64,
     /// Time step, s.
     pub dt: f64,
@@ -87,6 +90,7 @@ impl Settings {
             start: scene.start,
             material: (scene.material)(),
             density: scene.density,
+            parts: Vec::new(),
             gravity: 0.0,
             dt: scene.dt,
             frames: scene.frames,
@@ -96,6 +100,13 @@ impl Settings {
             newton: Newton::Single,
             threads: 1,
         }
+    }
+
+    /// All parts of the body: the first has the tetrahedra that are in none of `parts`.
+    #[must_use]
+    pub fn all_parts(&self) -> Vec<MaterialPart> {
+        let rest = MaterialPart { group: None, material: self.material.clone(), density: self.density };
+        [vec![rest], self.parts.clone()].concat()
     }
 
     /// Checks that all values are in range, so that a simulation is meaningful and ends.

@@ -147,8 +147,8 @@ impl Body {
         element - run.checked_sub(1).map_or(0, |before| self.runs[before].end)
     }
 
-    /// The materials, each with the range of its elements.
-    pub(crate) fn materials(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
+    /// The material of each part, with the range of its elements in [`elements`](Self::elements).
+    pub fn materials(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
         let starts = [0].into_iter().chain(self.runs.iter().map(|run| run.end));
         self.runs.iter().zip(starts).map(|(run, start)| (run.material.as_ref(), start..run.end))
     }

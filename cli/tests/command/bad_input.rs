@@ -109,6 +109,8 @@ fn parameters_and_numbers_out_of_range() {
     check(&[], "run horse --inversion 1e-300", &["1e-300", "--inversion", "from 1e-6"]);
     check(&[], "run horse --dt NaN", &["time step", "--dt", "from 1e-12 to 1e6"]);
     check(&[], "run horse --density -2", &["density", "--density", "from 1e-9"]);
+    check(&[], "run horse --part legs", &["--part legs", "GROUP=NAME"]);
+    check(&[], "run horse --part legs=gent;density=1,2", &["density=RHO", "one number"]);
     check(&[], "run horse --gravity NaN", &["--gravity", "from -1e9"]);
     for frames in ["0", "18446744073709551615"] {
         check(&[], &format!("run horse --frames {frames}"), &["--frames", "from 1 to 1000000"]);

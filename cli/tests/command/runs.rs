@@ -104,6 +104,27 @@ fn run_on(folder: &Folder, mesh: &str, scene: &str, options: &str) -> (String, V
     (said + &warned, folder.summary("out"))
 }
 
+/// The deflection is by linear elasticity on this mesh, in numpy; strains are about a per cent at most.
+#[test]
+fn groups_of_a_mesh_have_materials_of_their_own() {
+    let folder = Folder::new();
+    let run = |options: &str| {
+        let options = format!("--amplitude 0 --gravity 9.81 {options}");
+        run_on(&folder, include_str!("twomaterials.msh"), "scramble", &options)
+    };
+    let parts = "--part soft=rotated_linear;mu=3e5;lambda=6e5 --part stiff=rotated_linear;mu=3e6;lambda=6e6";
+    let (_, summary) = run(&format!("--pin :,:,:0 {parts};density=3000"));
+    let end = &summary["final_state"]["max_distance_from_rest"];
+    let error = end.as_f64().expect("a number") / 0.0095159 - 1.0;
+    assert!(error.abs() < 0.01, "{error}: {summary}");
+    // Energy densities 3μ + 9λ/2 of a point, of three tetrahedra in each group.
+    folder.answer(&format!("run point --mesh body.msh --frames 1 --vtu {parts}"));
+    let energies = ["AAAAAEB3S0EAAAAAQHdLQQAAAABAd0tB", "AAAAAIgqgUEAAAAAiCqBQQAAAACIKoFB"];
+    assert_contains(&folder.read("out/point/frame_0000.vtu"), &energies);
+    let message = folder.refusal("run horse --mesh body.msh --part hard=rotated_linear");
+    assert_contains(&message, &["no group `hard`", "soft, stiff"]);
+}
+
 #[test]
 fn elements_that_are_left_out_are_in_the_warnings() {
     let mesh = bar(1e3).replace("$Elements\n18\n", "$Elements\n19\n2 6 0 1 2 3 5 6 7\n");

@@ -1,5 +1,5 @@
 //! Energies that are declared on the command line: `--energy FORMULA`, or a file instead of a material's
-//! name.
+//! name; and materials of groups, `--part`.
 
 use std::path::Path;
 
@@ -8,9 +8,10 @@ use piola::__private::message::{number, quoted};
 use piola::material::Unit;
 use piola_declare::{Energy, FormulaOptions, Mistakes};
 
-use crate::error::Error;
-use crate::material::MaterialSpec;
+use crate::error::{Error, in_range};
+use crate::material::{MaterialPart, MaterialSpec};
 use crate::output::read_text;
+use crate::settings::Settings;
 
 use super::value::{Given, modulus, parameter};
 
@@ -115,7 +116,7 @@ fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
 ///
 /// # Errors
 /// [`Error::Usage`] if it cannot be read, [`Error::Declaration`].
-pub fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
+fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
     let path = Path::new(name);
     if path.extension().is_none_or(|extension| extension != "rs") {
         return Ok(None);
@@ -139,7 +140,7 @@ fn in_words(unit: Unit) -> &'static str {
 ///
 /// # Errors
 /// [`Error::Usage`] for a value in a unit that its parameter does not have.
-pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpec, Error> {
+fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpec, Error> {
     let known = &spec.description()?.parameters;
     for given in &parameters {
         let declared = known.iter().find(|known| known.name == given.name).and_then(|known| known.unit);
@@ -155,4 +156,38 @@ pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<Materia
         }
     }
     Ok(parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values)))
+}
+
+/// Reads a material of a group, `GROUP=NAME;PARAM=V;…;density=RHO`, with the settings of all others.
+pub(super) fn part(text: &str, settings: &Settings) -> Result<MaterialPart, Error> {
+    let wrong = |reason: &str| Error::Usage(format!("--part {}: {reason}", quoted(text)));
+    let mut words = text.split(';');
+    let (group, name) = words
+        .next()
+        .and_then(|first| first.split_once('='))
+        .ok_or_else(|| wrong("write GROUP=NAME, or GROUP=NAME;PARAM=V"))?;
+    let Settings { material: of_others, mut density, .. } = settings.clone();
+    let inversion = of_others.inversion;
+    let mut parameters = Vec::new();
+    for word in words {
+        let given = parameter(word).map_err(|reason| wrong(&reason))?;
+        if given.name != "density" {
+            parameters.push(given);
+        } else if let ([value], None) = (&given.values[..], given.unit) {
+            density = *value;
+        } else {
+            return Err(wrong("density=RHO needs one number, in kg/m³ and without a unit"));
+        }
+    }
+    in_range("the density", density, 1e-9..=1e15, "from 1e-9 to 1e15 kg/m³")?;
+    let material = match in_file(name)? {
+        Some(material) => material,
+        None if parameters.is_empty() && of_others.is(name) => of_others,
+        None if parameters.is_empty() => MaterialSpec::matching(name, of_others.build()?.moduli),
+        None => MaterialSpec::new(name),
+    };
+    let mut material = with_values(material, parameters)?;
+    material.inversion = inversion;
+    material.build()?;
+    Ok(MaterialPart { group: Some(group.to_owned()), material, density })
 }

@@ -80,7 +80,7 @@ impl TensileReading {
                 "no stretch was measured: between the marks, nodes lie at fewer than two heights, so refine the mesh \
                  there",
             ),
-            (None, Some(_)) => Some("the material has no uniaxial tension at that stretch to compare with"),
+            (None, Some(_)) => Some("no single material has uniaxial tension at that stretch"),
         }
     }
 }
@@ -166,7 +166,7 @@ impl fmt::Display for FinalState {
 pub struct Summary {
     /// Name of the scene.
     pub scene: String,
-    /// Name of the material.
+    /// Name of the material of the tetrahedra without one of their own.
     pub material: String,
     /// Parameters of the material by name, in SI units.
     pub parameters: Parameters,

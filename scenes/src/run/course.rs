@@ -2,7 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-use piola::batch::TileMaterial;
 use piola_laboratory::curve::{Mode, Volume, respond};
 use piola_laboratory::{AtRest, Specimen};
 use rayon::ThreadPool;
@@ -27,8 +26,8 @@ const SHARE: u32 = 20;
 pub(super) struct Course {
     play: Play,
     threads: ThreadPool,
-    /// The material if tetrahedra are written, too.
-    cages_of: Option<Box<dyn TileMaterial<f64>>>,
+    /// True if tetrahedra are written, too.
+    vtu: bool,
     folder: Folder,
     progress: Progress,
     /// Positions of the nodes in the last frame that was written, m.
@@ -45,7 +44,6 @@ impl Course {
     pub(super) fn open(settings: &Settings, output: &Output) -> Result<Self, Error> {
         let mut play = Play::new(settings.clone(), Geometry::load(settings)?)?;
         let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
-        let cages_of = if output.vtu { Some(settings.material.build()?.elements) } else { None };
         let (folder, progress) = if output.resume {
             let folder = Folder::reopen(&output.folder)?;
             let progress = restore(&folder, output.vtu, &mut play)?;
@@ -55,8 +53,8 @@ impl Course {
             (Folder::create(&output.folder)?, Progress::at_start(&play))
         };
         let positions = play.simulation.positions().to_vec();
-        let (times, failures, due) = (Vec::new(), Vec::new(), Instant::now());
-        let mut course = Self { play, threads, cages_of, folder, progress, positions, times, due, failures };
+        let (times, failures, due, vtu) = (Vec::new(), Vec::new(), Instant::now(), output.vtu);
+        let mut course = Self { play, threads, vtu, folder, progress, positions, times, due, failures };
         if !output.resume
             && let Err(error) = course.write_frame(0)
         {
@@ -112,9 +110,8 @@ impl Course {
         let surface = geometry.surface_at(nodes);
         self.folder
             .write(&frame_file(frame), false, |file| write_ply(file, &surface, &geometry.triangles))?;
-        if let Some(material) = &self.cages_of {
-            self.folder
-                .write(&cage_file(frame), false, |file| fields::write(file, simulation, material.as_ref()))?;
+        if self.vtu {
+            self.folder.write(&cage_file(frame), false, |file| fields::write(file, simulation))?;
         }
         let Progress { motion, min_det_f, .. } = &mut self.progress;
         motion.push(motion.last().unwrap_or(&0.0) + measure::mean_distance(&self.positions, nodes));
@@ -124,7 +121,7 @@ impl Course {
     }
 
     fn save_state(&self) -> Result<(), Error> {
-        save(&self.folder, self.cages_of.is_some(), &self.play, &self.progress)
+        save(&self.folder, self.vtu, &self.play, &self.progress)
     }
 
     /// Removes all files of a run that has made no step.
@@ -167,7 +164,7 @@ impl Course {
         };
         let frames = self.progress.motion.len() - 1;
         let total: Duration = self.times.iter().sum();
-        let Self { play, cages_of, folder, progress, times, failures, .. } = self;
+        let Self { play, vtu, folder, progress, times, failures, .. } = self;
         let warnings = play.warnings().into_iter();
         let Play { settings, geometry, material, parameters, moduli, .. } = play;
         let missing = reading.and_then(|reading| reading.missing()).map(str::to_owned);
@@ -203,7 +200,7 @@ impl Course {
             reading,
             final_state,
         };
-        Finished { summary, geometry, motion: progress.motion, folder, vtu: cages_of.is_some() }
+        Finished { summary, geometry, motion: progress.motion, folder, vtu }
     }
 }
 
@@ -216,7 +213,8 @@ fn read_specimen(play: &Play, marks: [f64; 2], material: &dyn Specimen<f64>) -> 
     let springs = play.simulation.springs().iter();
     let upwards = springs.map(|pull| pull.stiffness * (pull.target[1] - pull.anchor.position(positions)[1]));
     let cross_section = measure::total_volume(&mesh.positions, &mesh.tets) / play.height;
-    let bar = stretch.and_then(|stretch| respond(material, Mode::Uniaxial, Volume::Free, stretch).ok());
+    let bar = stretch.filter(|_| play.settings.parts.is_empty());
+    let bar = bar.and_then(|stretch| respond(material, Mode::Uniaxial, Volume::Free, stretch).ok());
     TensileReading {
         stretch,
         nominal_stress: upwards.sum::<f64>() / cross_section,
