@@ -2,17 +2,19 @@
 
 use std::sync::Arc;
 
-use piola::__private::message::quoted;
+use piola::__private::message::{number, quoted};
 use piola::material::{Moduli, Text};
 use piola_bodies::mesh::{Bounds, TetMesh};
 use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
 use piola_bodies::system::{Body, Part, PinError, Pins};
+use piola_laboratory::AtRest;
+use piola_laboratory::curve::Volume;
 
 use crate::clock::Clock;
 use crate::error::{Error, in_range, list};
 use crate::geometry::{Geometry, NOTHING_PULLED};
 use crate::material::{self, MaterialPart, MaterialSpec, Parameters};
-use crate::output::{Newton, StepCounts};
+use crate::output::{Newton, Overview, StepCounts, short};
 use crate::region;
 use crate::scene::Pull;
 use crate::settings::Settings;
@@ -46,6 +48,8 @@ pub struct Play {
     pub parameters: Parameters,
     /// Small-strain moduli of the material.
     pub moduli: Moduli,
+    /// The body before its first step.
+    pub overview: Overview,
     /// Number of the step and its time: set by [`resume`](Self::resume).
     pub clock: Clock,
     /// Counts of the time steps of the last frame.
@@ -64,12 +68,13 @@ impl Play {
         settings.check()?;
         let geometry: Arc<Geometry> = geometry.into();
         let mesh = &geometry.mesh;
-        let simulation = at_start(&settings, &geometry)?;
+        let (simulation, overview) = at_start(&settings, &geometry)?;
         let info = settings.material.build()?;
         let young = info.moduli.young();
         let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
         let mut play = Self {
             height: mesh.bounds().size()[1],
+            overview,
             simulation,
             material: info.name,
             parameters: info.parameters,
@@ -101,7 +106,7 @@ impl Play {
             let typical = MaterialSpec::typical(name);
             let settings = typical.map(|material| Settings { material, ..settings.clone() });
             let other = settings.and_then(|settings| at_start(&settings, geometry));
-            other.is_ok_and(|mut simulation| has_energy(&mut simulation))
+            other.is_ok_and(|(mut simulation, _)| has_energy(&mut simulation))
         };
         let (scene, domain) = (settings.scene.name, &description.domain);
         let reason =
@@ -125,7 +130,7 @@ impl Play {
     pub fn warnings(&self) -> Vec<String> {
         let is_idle = self.pulls.iter().any(|springs| springs.nodes.is_empty());
         let idle = is_idle.then(|| NOTHING_PULLED.to_owned());
-        self.geometry.warnings().into_iter().chain(idle).collect()
+        self.geometry.warnings().into_iter().chain(self.overview.warnings.clone()).chain(idle).collect()
     }
 
     /// Changes the length of the steps that follow, s.
@@ -265,22 +270,52 @@ pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch)
     (first, Stretch { start, end: last, length })
 }
 
-/// The body of the settings before the first step.
-fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Simulation, Error> {
+/// The body of the settings before the first step, and its overview.
+fn at_start(settings: &Settings, geometry: &Geometry) -> Result<(Simulation, Overview), Error> {
     let mesh = &geometry.mesh;
     let pins = pins(settings, mesh)?;
-    let mut parts = Vec::new();
+    let (nodes, held) = (mesh.positions.len(), pins.nodes().len());
+    let (mut parts, mut materials, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
+    if held == nodes {
+        warnings.push(format!("all {nodes} nodes are held, and nothing can move; hold fewer by --pin"));
+    } else if held == 0 && settings.gravity != 0.0 {
+        warnings.push("no node is held, and the body falls; hold some by --pin".into());
+    }
+    let is_part = |name: &str| settings.parts.iter().any(|part| part.group.as_deref() == Some(name));
+    let others = mesh.groups.iter().filter(|group| group.dimension == 3 && !is_part(&group.name));
+    let others: Vec<_> = others.map(|group| &group.name).collect();
     for MaterialPart { group, material, density } in settings.all_parts() {
         let info = material.build()?;
-        let young = info.moduli.young();
+        let (name, young) = (info.name, info.moduli.young());
         // Forces on bodies of such a material, and their squares, stay in the range of f64.
         in_range("Young's modulus of the material", young, 1e-12..=1e21, "from 1e-12 to 1e21 Pa")?;
+        if !(1.0..=3e4).contains(&density) {
+            warnings.push(format!(
+                "the density of {name} is {} kg/m³; is that meant? 1 g/cm³ is 1000 kg/m³, and 1 t/mm³ is 1e12 kg/m³",
+                number(density)
+            ));
+        }
+        let at_rest = AtRest { moduli: info.moduli, volume: Volume::Free };
+        warnings.extend(at_rest.warning());
+        let groups = group.as_ref().map_or_else(|| list(&others), |group| list(&[group]));
+        let values = |values: Vec<f64>| values.into_iter().map(short).collect::<Vec<_>>().join(",");
+        let values = info.parameters.into_iter().map(|(name, list)| format!(" {name}={}", values(list)));
+        let material = format!("{name}{}, {} kg/m³", values.collect::<String>(), short(density));
+        materials.push(format!("{material}; groups of the mesh: {groups}; at rest {at_rest}"));
         parts.push(Part { group, material: info.elements, density });
     }
     let body = Body::from_parts(mesh, parts)?;
+    if body.materials().next().is_some_and(|(_, tets)| tets.is_empty()) {
+        materials.remove(0);
+    }
+    let volume = body.elements().iter().map(|element| element.shape.volume).sum();
+    let (tets, size, mass) = (mesh.tets.len(), mesh.bounds().size(), body.masses().iter().sum());
+    // No zero has a sign.
+    let gravity = [0.0, 0.0 - settings.gravity, 0.0];
+    let overview = Overview { tets, nodes, held, size, volume, mass, gravity, materials, warnings };
     let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
     simulation.set_positions(&start_positions(settings, geometry, &pins))?;
-    Ok(simulation)
+    Ok((simulation, overview))
 }
 
 /// Settings of the steps of a scene.

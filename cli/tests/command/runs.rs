@@ -8,7 +8,8 @@ use crate::bad_input::tetrahedron;
 use crate::{Folder, assert_contains};
 
 /// Keys of every summary; `final_state` may be null.
-const KEYS: &str = "scene material parameters shear_modulus bulk_modulus poisson tets nodes surface_vertices frames \
+const KEYS: &str = "scene material parameters shear_modulus bulk_modulus poisson tets nodes held size \
+                    volume mass gravity materials surface_vertices frames \
                     frames_wanted ended failures warnings dt newton_iterations_mean inverted_at_start min_det_f \
                     max_distance_from_rest energy ms_per_step_median steps_per_second integrator steps newton recovered";
 
@@ -104,6 +105,31 @@ fn run_on(folder: &Folder, mesh: &str, scene: &str, options: &str) -> (String, V
     (said + &warned, folder.summary("out"))
 }
 
+/// Sizes, volumes and numbers of nodes are by numpy.
+#[test]
+fn what_will_be_run_is_printed_before_it_runs() {
+    let folder = Folder::new();
+    folder.write("bar.msh", bar(1.0));
+    let has_odd_density = |run: &str, expected: &str| {
+        let (said, warned) = folder.outputs(&format!("run {run} --frames 1"));
+        assert!(said.starts_with(expected), "{said}");
+        warned.contains("kg/m³; is that meant?")
+    };
+    let horse = "horse: 2646 tetrahedra, 787 nodes, 22 of them held\n  2.5123 m along x, 1.9211 m along y, 0.88668 m \
+                 along z; 0.71164 m³, 711.64 kg\n  gravity 0 m/s² along y, which points upwards\n  rotated_linear ";
+    let dinosaur = "dinosaur: 1031 tetrahedra, 347 nodes, 10 of them held\n  3.3466 m along x, 2.0772 m along y, 1.154 m \
+                    along z; 1.0563 m³, 1056.3 kg\n";
+    assert!(!has_odd_density("horse", horse) && !has_odd_density("dinosaur", dinosaur));
+    let bar = "scramble --amplitude 0 --gravity 9.81 --pin :,:0,: --mesh bar.msh --unit mm --density";
+    let size = "scramble: 18 tetrahedra, 16 nodes, 4 of them held\n  0.05 m along x, 0.15 m along y, 0.05 m along z; \
+                0.000375 m³, ";
+    let usual = format!("{size}0.375 kg\n  gravity -9.81 m/s² along y");
+    assert!(!has_odd_density(&format!("{bar} 1000"), &usual));
+    // Steel in t/mm³.
+    assert!(has_odd_density(&format!("{bar} 7.85e-9"), &format!("{size}2.94")));
+    assert_contains(&folder.answer("run --help"), &["y points upwards", "along -y"]);
+}
+
 /// The deflection is by linear elasticity on this mesh, in numpy; strains are about a per cent at most.
 #[test]
 fn groups_of_a_mesh_have_materials_of_their_own() {
@@ -112,11 +138,17 @@ fn groups_of_a_mesh_have_materials_of_their_own() {
         let options = format!("--amplitude 0 --gravity 9.81 {options}");
         run_on(&folder, include_str!("twomaterials.msh"), "scramble", &options)
     };
+    let words = ["groups of the mesh: `soft`, `stiff`", "no node is held, and the body falls"];
+    assert_contains(&run("").0, &words);
+    assert_contains(&run("--pin :,:,:").0, &["all 45 nodes are held, and nothing can move"]);
     let parts = "--part soft=rotated_linear;mu=3e5;lambda=6e5 --part stiff=rotated_linear;mu=3e6;lambda=6e6";
-    let (_, summary) = run(&format!("--pin :,:,:0 {parts};density=3000"));
+    let (said, summary) = run(&format!("--pin :,:,:0 {parts};density=3000"));
+    assert_contains(&said, &["groups of the mesh: `soft`;", "groups of the mesh: `stiff`;"]);
     let end = &summary["final_state"]["max_distance_from_rest"];
-    let error = end.as_f64().expect("a number") / 0.0095159 - 1.0;
-    assert!(error.abs() < 0.01, "{error}: {summary}");
+    for (found, expected) in [(&summary["mass"], 0.032), (end, 0.0095159)] {
+        let error = found.as_f64().expect("a number") / expected - 1.0;
+        assert!(error.abs() < 0.01, "{error}: {summary}");
+    }
     // Energy densities 3μ + 9λ/2 of a point, of three tetrahedra in each group.
     folder.answer(&format!("run point --mesh body.msh --frames 1 --vtu {parts}"));
     let energies = ["AAAAAEB3S0EAAAAAQHdLQQAAAABAd0tB", "AAAAAIgqgUEAAAAAiCqBQQAAAACIKoFB"];

@@ -6,10 +6,7 @@ use std::ops::AddAssign;
 use serde::{Deserialize, Serialize};
 
 use piola::__private::message::number;
-use piola::material::Moduli;
 use piola_bodies::step::Integrator;
-use piola_laboratory::AtRest;
-use piola_laboratory::curve::Volume;
 
 use crate::material::Parameters;
 
@@ -161,7 +158,44 @@ impl fmt::Display for FinalState {
     }
 }
 
-/// Results of a run. In JSON the keys are the names of the fields.
+/// Size, mass, pins and materials of a body before its first step, to be compared with what was meant.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Overview {
+    /// Number of tetrahedra.
+    pub tets: usize,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of nodes that are held.
+    pub held: usize,
+    /// Lengths at rest along x, y and z, m.
+    pub size: [f64; 3],
+    /// Volume at rest, m³.
+    pub volume: f64,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Gravity along x, y and z, m/s².
+    pub gravity: [f64; 3],
+    /// Each material in words: parameters, density, groups of the mesh, moduli at rest.
+    pub materials: Vec<String>,
+    /// Properties that may be unintended.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+impl fmt::Display for Overview {
+    /// Formats the overview as some lines of text.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { tets, nodes, held, materials, .. } = self;
+        let ([x, y, z], [_, gravity, _]) = (self.size.map(short), self.gravity.map(short));
+        let (volume, mass) = (short(self.volume), short(self.mass));
+        writeln!(f, "{tets} tetrahedra, {nodes} nodes, {held} of them held")?;
+        writeln!(f, "  {x} m along x, {y} m along y, {z} m along z; {volume} m³, {mass} kg")?;
+        write!(f, "  gravity {gravity} m/s² along y, which points upwards")?;
+        materials.iter().try_for_each(|material| write!(f, "\n  {material}"))
+    }
+}
+
+/// Results of a run. In JSON the keys are the names of the fields, also of those of [`Overview`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Name of the scene.
@@ -177,10 +211,9 @@ pub struct Summary {
     /// Poisson's ratio of the material at rest; `None` if it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson: Option<f64>,
-    /// Number of tetrahedra.
-    pub tets: usize,
-    /// Number of nodes.
-    pub nodes: usize,
+    /// The body before its first step.
+    #[serde(flatten)]
+    pub body: Overview,
     /// Number of vertices of the embedded surface.
     pub surface_vertices: usize,
     /// Number of time steps made; frame 0, before the first of them, is not counted.
@@ -238,7 +271,7 @@ impl Summary {
 }
 
 /// A value in five digits.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let digits = format!("{value:.4e}");
     digits.parse().map_or(digits, number)
 }
@@ -246,18 +279,8 @@ fn short(value: f64) -> String {
 impl fmt::Display for Summary {
     /// Formats the results as some lines of text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let &Self { ref scene, ref material, tets, nodes, frames, dt, .. } = self;
-        write!(f, "{scene}: {tets} tetrahedra, {nodes} nodes, {material}")?;
-        for (name, values) in &self.parameters {
-            write!(f, " {name}={}", values.iter().map(|value| short(*value)).collect::<Vec<_>>().join(","))?;
-        }
-        let lambda = self.bulk_modulus - 2.0 / 3.0 * self.shear_modulus;
-        let moduli = Moduli { mu: self.shear_modulus, lambda };
-        writeln!(f, "\n  at rest  {}", AtRest { moduli, volume: Volume::Free })?;
-        if self.inverted_at_start > 0 {
-            writeln!(f, "  {} of {tets} tetrahedra start inside out", self.inverted_at_start)?;
-        }
-        write!(f, "  {frames} steps of {} s", short(dt))?;
+        let &Self { ref scene, inverted_at_start, frames, dt, .. } = self;
+        write!(f, "{scene}: {frames} steps of {} s", short(dt))?;
         if let (Some(steps), Some(ms)) = (self.steps_per_second, self.ms_per_step_median) {
             let iterations = self.newton_iterations_mean;
             write!(f, ", {steps:.1} a second ({ms:.2} ms each, {iterations:.2} Newton iterations)")?;
@@ -266,6 +289,9 @@ impl fmt::Display for Summary {
             Ended::Finished => writeln!(f)?,
             Ended::Interrupted => writeln!(f, "; interrupted, {} were to be made", self.frames_wanted)?,
             Ended::Failed => writeln!(f, "; failed, {} were to be made", self.frames_wanted)?,
+        }
+        if inverted_at_start > 0 {
+            writeln!(f, "  {inverted_at_start} tetrahedra start inside out")?;
         }
         if let Some(tolerance) = self.tolerance {
             let StepCounts { taken, refused, unresolved } = self.steps;

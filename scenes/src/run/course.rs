@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use piola_laboratory::Specimen;
 use piola_laboratory::curve::{Mode, Volume, respond};
-use piola_laboratory::{AtRest, Specimen};
 use rayon::ThreadPool;
 
 use super::progress::{Progress, restore, save};
@@ -23,8 +23,9 @@ const PAUSE: Duration = Duration::from_secs(1);
 const SHARE: u32 = 20;
 
 /// A run between its first frame and its last.
-pub(super) struct Course {
-    play: Play,
+pub struct Course {
+    /// The scene, at the last frame.
+    pub play: Play,
     threads: ThreadPool,
     /// True if tetrahedra are written, too.
     vtu: bool,
@@ -41,7 +42,10 @@ pub(super) struct Course {
 
 impl Course {
     /// A new run, with its frame 0, or the run in the folder at its last state.
-    pub(super) fn open(settings: &Settings, output: &Output) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// An error of the settings, the body or the folder: nothing is written then.
+    pub fn open(settings: &Settings, output: &Output) -> Result<Self, Error> {
         let mut play = Play::new(settings.clone(), Geometry::load(settings)?)?;
         let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
         let (folder, progress) = if output.resume {
@@ -63,7 +67,13 @@ impl Course {
         Ok(course)
     }
 
-    pub(super) fn play(mut self, watch: &mut Watch<'_>) -> Result<Finished, Error> {
+    /// Plays the scene to its end. If it ends early after the first step, the frames before are kept with a
+    /// summary of what happened.
+    ///
+    /// # Errors
+    /// An error of the first step or its files, or [`Error::Interrupted`] if `watch` stops the run before it:
+    /// nothing is written then.
+    pub fn play(mut self, watch: &mut Watch<'_>) -> Result<Finished, Error> {
         let mut ended = Ended::Finished;
         for frame in self.play.clock.frame + 1..=self.play.settings.frames {
             let made = if watch(frame - 1) { Err(Error::Interrupted) } else { self.step(frame) };
@@ -166,9 +176,8 @@ impl Course {
         let total: Duration = self.times.iter().sum();
         let Self { play, vtu, folder, progress, times, failures, .. } = self;
         let warnings = play.warnings().into_iter();
-        let Play { settings, geometry, material, parameters, moduli, .. } = play;
+        let Play { settings, geometry, material, parameters, moduli, overview, .. } = play;
         let missing = reading.and_then(|reading| reading.missing()).map(str::to_owned);
-        let at_rest = AtRest { moduli, volume: Volume::Free };
         let summary = Summary {
             scene: scene.name.into(),
             material: material.to_string(),
@@ -176,14 +185,13 @@ impl Course {
             shear_modulus: moduli.mu,
             bulk_modulus: moduli.bulk(),
             poisson: Some(moduli.poisson()).filter(|poisson| poisson.is_finite()),
-            tets: geometry.mesh.tets.len(),
-            nodes: geometry.mesh.positions.len(),
+            body: overview,
             surface_vertices: geometry.embedding.len(),
             frames,
             frames_wanted: settings.frames,
             ended,
             failures,
-            warnings: warnings.chain(missing).chain(held).chain(at_rest.warning()).collect(),
+            warnings: warnings.chain(missing).chain(held).collect(),
             dt: settings.dt,
             newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
             inverted_at_start: progress.inverted_at_start,

@@ -22,7 +22,7 @@ use piola_laboratory::curve::{Volume, sweep};
 use piola_laboratory::data::{Measurements, ReadOptions};
 use piola_scenes::material::MaterialSpec;
 use piola_scenes::output::seal;
-use piola_scenes::run::{Output, run};
+use piola_scenes::run::{Course, Output};
 use piola_scenes::scene::{HORSE, STRETCH};
 use piola_scenes::settings::{Files, Settings};
 use piola_viewer::session::Session;
@@ -191,7 +191,7 @@ fn play(settings: Settings, scratch: &Path, files: Files) -> bool {
     // Of an earlier run.
     let _ = fs::remove_dir_all(scratch.join("out"));
     let output = Output { folder: scratch.join("out"), vtu: true, resume: false };
-    let finished = match run(&settings, &output, &mut |_| false) {
+    let finished = match Course::open(&settings, &output).and_then(|course| course.play(&mut |_| false)) {
         Ok(finished) => finished,
         Err(error) => return refused(&error),
     };
