@@ -254,12 +254,13 @@ pub struct Summary {
     pub steps: StepCounts,
     /// Accuracy to which each step was solved.
     pub newton: Newton,
-    /// True if the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].
-    pub recovered: bool,
+    /// True if the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`]. `None` if the scene
+    /// neither displaces nor releases it.
+    pub recovered: Option<bool>,
     /// Stretch and stress at the end of a tensile test; `None` for other scenes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reading: Option<TensileReading>,
-    /// Equilibrium of a body that has not recovered at the end of all steps and is not pulled then; `None`
+    /// Equilibrium of a body that is not at rest at the end of all steps and is not released later; `None`
     /// for others.
     pub final_state: Option<FinalState>,
 }
@@ -313,8 +314,8 @@ impl fmt::Display for Summary {
         }
         write!(
             f,
-            "  {}: at the end the farthest node is {:.2e} body heights from rest",
-            if self.recovered { "recovered" } else { "not recovered" },
+            "  {}at the end the farthest node is {:.2e} body heights from rest",
+            self.recovered.map_or("", |recovered| if recovered { "recovered: " } else { "not recovered: " }),
             self.max_distance_from_rest
         )?;
         self.final_state.map_or(Ok(()), |state| write!(f, "\n{state}"))

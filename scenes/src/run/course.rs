@@ -14,6 +14,7 @@ use crate::geometry::Geometry;
 use crate::measure;
 use crate::output::{Ended, Folder, Summary, TensileReading, cage_file, frame_file, write_ply};
 use crate::play::Play;
+use crate::scene::{Amplitude, Start};
 use crate::settings::Settings;
 use crate::statics::{Watch, find_equilibrium};
 
@@ -144,7 +145,7 @@ impl Course {
         let mesh = &self.play.geometry.mesh;
         let pinned = self.play.simulation.pinned().len();
         let distance = measure::distance_from_rest(mesh, &self.positions, pinned);
-        let recovered = distance <= Summary::RECOVERED;
+        let is_at_rest = distance <= Summary::RECOVERED;
         let scene = self.play.settings.scene;
         let reading = scene.gauge.filter(|_| ended == Ended::Finished).and_then(|marks| {
             let material = self.play.settings.material.interpreted();
@@ -153,13 +154,14 @@ impl Course {
         });
         let end = self.play.clock.time();
         let released = scene.pulls.iter().map(|pull| pull.released).filter(|released| released.is_finite());
+        let is_released = released.clone().next().is_some();
         let held_until = released.fold(end, f64::max);
-        let is_held = ended == Ended::Finished && !recovered && held_until > end;
+        let is_held = ended == Ended::Finished && !is_at_rest && held_until > end;
         let held = is_held.then(|| {
             format!("the last frame is at {end:.2} s, and the body is pulled until {held_until:.2} s: more frames show if it recovers")
         });
         let final_state = match ended {
-            Ended::Finished if !recovered && !is_held => {
+            Ended::Finished if !is_at_rest && !is_held => {
                 let found = self.threads.install(|| find_equilibrium(&mut self.play, watch));
                 let failed = |error| match error {
                     Error::Interrupted => ended = Ended::Interrupted,
@@ -177,6 +179,11 @@ impl Course {
         let Self { play, vtu, folder, progress, times, failures, .. } = self;
         let warnings = play.warnings().into_iter();
         let Play { settings, geometry, material, parameters, moduli, overview, .. } = play;
+        let is_moved = match settings.start {
+            Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. } => is_released,
+            _ => true,
+        };
+        let asks = is_moved && overview.held < overview.nodes;
         let missing = reading.and_then(|reading| reading.missing()).map(str::to_owned);
         let summary = Summary {
             scene: scene.name.into(),
@@ -204,7 +211,7 @@ impl Course {
             tolerance: settings.tolerance,
             steps: progress.steps,
             newton: settings.newton,
-            recovered,
+            recovered: asks.then_some(is_at_rest),
             reading,
             final_state,
         };
