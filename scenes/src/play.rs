@@ -100,14 +100,16 @@ impl Play {
         if has_energy(&mut self.simulation) {
             return Ok(());
         }
-        let Self { settings, geometry, material: name, .. } = &*self;
-        let description = settings.material.description()?;
-        let can_start = |name: &&str| {
-            let typical = MaterialSpec::typical(name);
-            let settings = typical.map(|material| Settings { material, ..settings.clone() });
-            let other = settings.and_then(|settings| at_start(&settings, geometry));
-            other.is_ok_and(|(mut simulation, _)| has_energy(&mut simulation))
+        let Self { settings, geometry, .. } = &*self;
+        let is_defined = |material: MaterialSpec| {
+            let settings = Settings { material, parts: Vec::new(), ..settings.clone() };
+            at_start(&settings, geometry).is_ok_and(|(mut simulation, _)| has_energy(&mut simulation))
         };
+        let can_start = |name: &&str| MaterialSpec::typical(name).is_ok_and(is_defined);
+        let mut materials = settings.all_parts().into_iter().map(|part| part.material);
+        let undefined = materials.find(|material| !is_defined(material.clone()));
+        let undefined = undefined.unwrap_or_else(|| settings.material.clone());
+        let (name, description) = (undefined.build()?.name, undefined.description()?);
         let (scene, domain) = (settings.scene.name, &description.domain);
         let reason =
             format!("the scene `{scene}` starts where `{name}` is not defined: its domain is {domain}");

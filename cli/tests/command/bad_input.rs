@@ -124,6 +124,8 @@ fn materials_that_cannot_start_where_a_scene_does() {
     let known =
         ["`yeoh`", "`horse`", "J > 0", "cannot be extended", "neo_hookean", "--material", "`stretch`"];
     check(&[], "run horse --material yeoh", &known);
+    let mesh = include_str!("twomaterials.msh").to_owned();
+    check(&[("two.msh", mesh)], "run horse --mesh two.msh --part stiff=yeoh", &known);
     let refused = "run horse --material neo_hookean --inversion refuse";
     check(&[], refused, &["`neo_hookean`", "J > 0", "leave out --inversion refuse"]);
 }
