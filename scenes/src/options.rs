@@ -47,9 +47,8 @@ pub struct SceneOptions {
     #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
     pub density: Option<f64>,
 
-    /// Another material for a group of tetrahedra of the mesh: GROUP=NAME, or
-    /// GROUP=NAME;PARAM=V;…;density=RHO. NAME may be a file of Rust. Without parameters, the material is as
-    /// stiff as that of the other tetrahedra. May be repeated.
+    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. NAME may
+    /// be a file of Rust. Without parameters, it has the small-strain moduli of the scene's. May be repeated.
     #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     pub parts: Vec<String>,
 
