@@ -212,6 +212,7 @@ fn data_that_may_mean_two_things() {
     let rheometer = "Time (s)\tTorque (Nm)\tNormal force (N)\tGap (um)\n0\t-0.0000144\t0.04\t9760\n";
     check(&data(rheometer), arguments, &["3 `Normal force (N)`", "by the cross-section"]);
     check(&[], "fit gent --data treloar --cycle second", &["--cycle", "`first`, or the number"]);
+    check(&[], "fit gent --data treloar --floor 0.1 --absolute", &["--floor", "--absolute"]);
     check(&[], "curve gent --at 1.1 --rows 3", &["--at", "--rows"]);
     check(&[], "curve gent --param jm=105MPa", &["`jm`", "without a unit", "in Pa"]);
     check(&[], "curve gent --param mu=1/MPa", &["`mu`", "in Pa", "in 1/Pa"]);

@@ -62,16 +62,17 @@ fn of_the_laboratory(name: &str) -> String {
     fs::read_to_string(path).expect(name)
 }
 
-/// Parameters by numpy: of a first and a second loading; of a table in kgf/cm²; of a foam
+/// Parameters by numpy: of a first and a second loading; of noise near rest; of a table in kgf/cm²; of a foam
 /// with μ = 12 kPa, α = 6, β → 0.
 #[test]
 fn readings_are_weighted_and_chosen_as_asked() {
     let folder = Folder::new();
-    let files = ["cycles.csv", "kgf.txt", "foam.inp"].map(|name| (name, of_the_laboratory(name)));
+    let files =
+        ["cycles.csv", "noise.csv", "kgf.txt", "foam.inp"].map(|name| (name, of_the_laboratory(name)));
     files.iter().for_each(|(name, text)| folder.write(name, text));
-    folder.write("square.txt", format!("stretch\tnominal stress [kgf/cm^2]\n{}", files[1].1));
-    folder.write("round.txt", format!("stretch\tnominal stress (kgf/cm2)\n{}", files[1].1));
-    let (_, rows) = files[2].1.split_once("*Uniaxial Test Data\n").expect("a block");
+    folder.write("square.txt", format!("stretch\tnominal stress [kgf/cm^2]\n{}", files[2].1));
+    folder.write("round.txt", format!("stretch\tnominal stress (kgf/cm2)\n{}", files[2].1));
+    let (_, rows) = files[3].1.split_once("*Uniaxial Test Data\n").expect("a block");
     folder.write("foam.csv", format!("stress [MPa],strain,lateral strain\n{rows}"));
     let fit = |material: &str, data: &str| format!("fit {material} --mode uniaxial --data {data}");
     for (data, words) in [("cycles.csv", "--cycle first"), ("foam.inp", "foam.inp:8: this is an input deck")]
@@ -81,6 +82,9 @@ fn readings_are_weighted_and_chosen_as_asked() {
     for (data, found) in [
         ("cycles.csv --cycle first", ["21 of 80 points used", "mu=100000 "]),
         ("cycles.csv --cycle 2", ["stress from 0 Pa to 175 kPa, reversals: 3", "mu=85000"]),
+        ("noise.csv", ["warning: a tenth of the readings decides the fit, with 80 %", "mu=25406.08"]),
+        ("noise.csv --floor 0.05", ["by relative differences, floor 0.05", "mu=29852.79"]),
+        ("noise.csv --absolute", ["by absolute differences", "mu=29970.64"]),
         ("kgf.txt --strain 1=stretch --stress 2 --unit kgf/cm2", ["in kgf/cm2", "mu=400000 "]),
         ("square.txt", ["in kgf/cm2", "mu=400000 "]),
         ("round.txt", ["in kgf/cm2", "mu=400000 "]),
