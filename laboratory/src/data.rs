@@ -41,7 +41,8 @@
 //!   numbers and, where these do not say it, what they hold.
 //! * [`ReadOptions`] also has the test and the unit for a file that names none. [`Reading`] describes in a
 //!   line what was used and what was left out, such as a header that returns above another specimen.
-//! * Cycles, specimens and materials in one file are told by [`Measurements::one_curve`], before a fit.
+//! * [`Measurements::check_curves`] refuses points of several cycles, specimens or materials, before a fit;
+//!   [`Measurements::cycle`] chooses one.
 //!
 //! What may mean two things is an error, with the line and what to write: stretches that are all above 8, or
 //! some above 20, without a unit (percent?), stresses of another sign than their strain (strains under

@@ -252,9 +252,13 @@ fn from_dictionary(data: &Bound<'_, PyDict>, cycle: Option<usize>) -> PyResult<M
         let readings: Vec<[f64; 2]> = rows(&name, &readings)?;
         points.extend(readings.into_iter().map(|[control, stress]| Measured { mode, control, stress }));
     }
-    let curves = Measurements { points }.one_curve(cycle);
-    let in_python = |text: String| text.replace("`--cycle first`, `Measurements::one_curve`", "`cycle=1`");
-    curves.map_err(|mistake| value_error(in_python(mistake)))
+    let data = Measurements { points };
+    let chosen = match cycle {
+        Some(cycle) => data.cycle(cycle),
+        None => data.check_curves().map(|()| data),
+    };
+    let in_python = |text: String| text.replace("`--cycle first`, `Measurements::cycle`", "`cycle=1`");
+    chosen.map_err(|mistake| value_error(in_python(mistake)))
 }
 
 /// A name of a report as a key of a dictionary, such as "strong_ellipticity".

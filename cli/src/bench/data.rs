@@ -91,6 +91,11 @@ impl Data {
             all.points.extend(measured.points);
             notes += &format!("  read     {}: {note}\n", file.display());
         }
+        // Those of a chosen cycle are as they are: it may begin with a strain that has remained.
+        if self.cycles.is_empty() {
+            let refused = |mistake| Error::usage(format!("{}: {mistake}", self.names()));
+            all.check_curves().map_err(refused)?;
+        }
         Ok((all, notes))
     }
 
@@ -129,8 +134,9 @@ impl Data {
                 )));
             }
         }
-        let cycle = self.of_file(&self.cycles, index);
-        points = points.one_curve(cycle).map_err(|mistake| Error::usage(format!("{path}: {mistake}")))?;
+        if let Some(cycle) = self.of_file(&self.cycles, index) {
+            points = points.cycle(cycle).map_err(|mistake| Error::usage(format!("{path}: {mistake}")))?;
+        }
         let (all, used) = (reading.measurements.points.len(), points.points.len());
         if used < all {
             note += &format!("; {used} of {all} points used, by --mode or --cycle");

@@ -206,7 +206,7 @@ fn data_that_may_mean_two_things() {
                    1.9,1,0.701682,0.289197\n";
     check(&data(biaxial), arguments, &["rubber.csv:1", "1 `lambda1`, 2 `lambda2`", "general biaxial"]);
     let first = format!("{arguments} --mode equibiaxial --strain 1=stretch --stress '3=stress [MPa]'");
-    check(&data(biaxial), &first, &["has 448880 Pa at λ = 1.3 and 337934 Pa", "stretches across"]);
+    check(&data(biaxial), &first, &["with 448.9 kPa at λ = 1.3 and 337.9 kPa", "stretches across"]);
     let beside = "1.0063\t0.0224\t0.9938\t-0.0226\t0.0125\t0.0150\n";
     check(&data(beside), arguments, &["no header above the numbers", "6 `0.0150`"]);
     let rheometer = "Time (s)\tTorque (Nm)\tNormal force (N)\tGap (um)\n0\t-0.0000144\t0.04\t9760\n";

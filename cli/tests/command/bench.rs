@@ -75,8 +75,11 @@ fn readings_are_weighted_and_chosen_as_asked() {
     let (_, rows) = files[3].1.split_once("*Uniaxial Test Data\n").expect("a block");
     folder.write("foam.csv", format!("stress [MPa],strain,lateral strain\n{rows}"));
     let fit = |material: &str, data: &str| format!("fit {material} --mode uniaxial --data {data}");
-    for (data, words) in [("cycles.csv", "--cycle first"), ("foam.inp", "foam.inp:8: this is an input deck")]
-    {
+    for (data, words) in [
+        ("cycles.csv", "cycles.csv: uniaxial turns 3 times"),
+        ("square.txt --data noise.csv", "square.txt, noise.csv: uniaxial turns 2 times"),
+        ("foam.inp", "foam.inp:8: this is an input deck"),
+    ] {
         assert_contains(&folder.refusal(&fit("neo_hookean", data)), &[words]);
     }
     for (data, found) in [

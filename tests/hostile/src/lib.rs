@@ -80,6 +80,7 @@ pub fn csv(_: &Path, bytes: &[u8]) -> bool {
         }
         Err(error) => return refused(&error),
     };
+    let _ = (data.check_curves(), data.cycle(2));
     let specimen = MaterialSpec::typical("gent").and_then(|gent| gent.interpreted()).expect("a material");
     let curves: Vec<_> = data
         .modes()
