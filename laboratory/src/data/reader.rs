@@ -115,7 +115,8 @@ fn may_be_thousands(field: &str) -> bool {
     let Some((whole, part)) = field.trim_start_matches(['+', '-', '−']).split_once(',') else {
         return false;
     };
-    matches!(whole.len(), 1..=3) && part.len() == 3 && !whole.starts_with('0')
+    let are_digits = whole.bytes().chain(part.bytes()).all(|byte| byte.is_ascii_digit());
+    are_digits && matches!(whole.len(), 1..=3) && part.len() == 3 && !whole.starts_with('0')
 }
 
 impl Table<'_> {
