@@ -289,18 +289,28 @@ fn report(mut numbers: Vec<Number>, minima: &[Minimum<'_>], best: &Minimum<'_>, 
     }
 }
 
-/// Warning if a tenth of the readings carries two thirds of the sum, unless the differences are rounding. Of
-/// differences with a normal distribution it would carry less than a half.
-fn few(best: &Minimum<'_>) -> Option<Warning> {
-    let (residuals, points) = (best.problem.residuals()?, best.problem.task.points);
-    let shares: Vec<f64> = residuals.iter().map(|residual| residual * residual / best.squares).collect();
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|&one, &other| shares[other].total_cmp(&shares[one]));
-    order.truncate(points.len() / 10);
-    let share: f64 = order.iter().map(|&index| shares[index]).sum();
-    let readings = order.iter().map(|&index| points[index].0).collect();
-    let is_told = share > 2.0 / 3.0 && best.squares > 1e-24 * points.len() as f64;
-    is_told.then_some(Warning::Few { readings, share })
+/// Share of the greatest stress below which a reading is near zero.
+const NEAR_ZERO: f64 = 0.05;
+/// Differences, root mean square, that may be roundings of the data.
+const ROUNDING: f64 = 1e-3;
+
+/// Warning if few readings near zero stress carry most of the sum: a tenth of all readings, or a single one.
+/// Of differences with a normal distribution more than a tenth would have to.
+fn few(Minimum { problem, squares, .. }: &Minimum<'_>) -> Option<Warning> {
+    let points = problem.task.points;
+    let greatest = points.iter().fold(0.0_f64, |greatest, (point, _)| greatest.max(point.stress.abs()));
+    let residuals = problem.residuals()?;
+    let shares = residuals.iter().zip(points).map(|(residual, point)| (residual.powi(2) / squares, point));
+    let mut near: Vec<_> = shares.filter(|(_, (_, size))| size.abs() < NEAR_ZERO * greatest).collect();
+    near.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+    near.truncate((points.len() / 10).max(1));
+    let mut share = 0.0;
+    let last = near.iter().position(|(of_one, _)| {
+        share += of_one;
+        share > 0.5
+    })?;
+    let readings = near[..=last].iter().map(|(_, (point, _))| *point).collect();
+    (*squares > ROUNDING.powi(2) * points.len() as f64).then_some(Warning::Few { readings, share })
 }
 
 /// Warning if an energy that was fitted at constant volume is far from keeping it.

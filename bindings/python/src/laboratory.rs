@@ -68,7 +68,8 @@ impl Material {
     /// data: a dictionary from modes, as in `curve`, to arrays of shape (n, 2): control and stress, Pa; or to
     ///     DataFrames with columns such as "stretch" or "strain [%]", and "stress", Pa, or "stress [MPa]".
     /// incompressible: True to keep the volume of the specimens.
-    /// relative: True for differences relative to each stress, False for those relative to the greatest.
+    /// relative: True for differences relative to each stress, False for those relative to the greatest, as by
+    ///     floor=1.
     /// floor: least divisor of a difference, as a share of the greatest stress: 0.05 limits the weight of
     ///     noise near zero stress.
     /// cycle: number from 1 of the cycle, or specimen, whose loading is used as it is.
@@ -103,6 +104,9 @@ impl Material {
         let is_known = |name: &str| parameters.iter().any(|known| known.name == name);
         let held = held.iter().map(|name| parameter_name(name, is_known).to_owned()).collect();
         let volume = volume(incompressible);
+        if !relative && floor != 0.0 {
+            return Err(value_error("`relative=False` has no `floor`: leave one of them out"));
+        }
         let floor = if relative { floor } else { 1.0 };
         let settings = FitSettings { volume, floor, held, restarts, seed };
         let fit = py.detach(|| fit_parameters(&candidate, &data, &settings));

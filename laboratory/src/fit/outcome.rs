@@ -147,9 +147,9 @@ pub enum Warning {
         /// A bulk modulus that would bring it to 0.49, Pa.
         bulk: f64,
     },
-    /// A tenth of the readings carries more than two thirds of the sum of squares.
+    /// Few readings near zero stress carry more than half of the sum of squares: a tenth of all at most.
     Few {
-        /// These readings, by falling difference.
+        /// These readings, by falling share of the sum.
         readings: Vec<Measured>,
         /// Their share of the sum.
         share: f64,
@@ -243,8 +243,8 @@ impl fmt::Display for Warning {
                 let (readings, percent) = (names(readings.iter().map(at)), 100.0 * share);
                 write!(
                     f,
-                    "a tenth of the readings decides the fit, with {percent:.0} % of the sum of squares: {readings}; are they \
-                     wrong? Noise near zero stress counts less by `--floor 0.05` (`FitSettings::floor`), or `--absolute` (1)"
+                    "readings near zero stress decide the fit, with {percent:.0} % of the sum of squares: {readings}; noise \
+                     and offsets count less by `--floor 0.05` (`FitSettings::floor`), or by `--absolute` (a floor of 1)"
                 )
             }
             Self::Poor { determination } => write!(
