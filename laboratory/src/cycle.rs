@@ -37,8 +37,8 @@ impl Measurements {
     /// control grows.
     ///
     /// # Errors
-    /// A message if points, rest being one of them, scatter by more than 3 % of the greatest stress, root mean
-    /// square, about every such curve; or if they begin without stress far from rest.
+    /// A message if points, with rest, scatter by more than 3 % of the greatest stress, root mean square,
+    /// about every such curve; or if they begin without stress far from rest.
     pub fn check_curves(&self) -> Result<(), String> {
         self.modes().try_for_each(|mode| self.check_curve(mode))
     }
