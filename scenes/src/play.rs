@@ -12,6 +12,7 @@ use piola_laboratory::curve::Volume;
 
 use crate::clock::Clock;
 use crate::error::{Error, in_range, list};
+use crate::fields;
 use crate::geometry::{Geometry, NOTHING_PULLED};
 use crate::material::{self, MaterialPart, MaterialSpec, Parameters};
 use crate::output::{Newton, Overview, StepCounts, short};
@@ -100,15 +101,16 @@ impl Play {
         if has_energy(&mut self.simulation) {
             return Ok(());
         }
-        let Self { settings, geometry, .. } = &*self;
-        let is_defined = |material: MaterialSpec| {
-            let settings = Settings { material, parts: Vec::new(), ..settings.clone() };
-            at_start(&settings, geometry).is_ok_and(|mut simulation| has_energy(&mut simulation))
+        let Self { settings, geometry, simulation, .. } = &*self;
+        let can_start = |name: &&str| {
+            let of = |material| Settings { material, parts: Vec::new(), ..settings.clone() };
+            let other = MaterialSpec::typical(name).and_then(|typical| at_start(&of(typical), geometry));
+            other.is_ok_and(|mut simulation| has_energy(&mut simulation))
         };
-        let can_start = |name: &&str| MaterialSpec::typical(name).is_ok_and(is_defined);
-        let mut materials = settings.all_parts().into_iter().map(|part| part.material);
-        let undefined = materials.find(|material| !is_defined(material.clone()));
-        let undefined = undefined.unwrap_or_else(|| settings.material.clone());
+        let energies = fields::energies(simulation);
+        let mut parts = settings.all_parts().into_iter().zip(simulation.body().materials());
+        let undefined = parts.find(|(_, (_, tets))| energies[tets.clone()].iter().any(|x| !x.is_finite()));
+        let undefined = undefined.map_or_else(|| settings.material.clone(), |(part, _)| part.material);
         let (name, description) = (undefined.build()?.name, undefined.description()?);
         let (scene, domain) = (settings.scene.name, &description.domain);
         let reason =
@@ -121,7 +123,7 @@ impl Play {
                 let others = material::names().filter(can_start).collect::<Vec<_>>().join(", ");
                 format!(
                     "{reason}, and it cannot be extended: {refusal}; choose a scene that starts elsewhere, such as \
-                     `stretch`, or another --material: {others}"
+                     `stretch`, or another --material or --part: {others}"
                 )
             }
         }))
