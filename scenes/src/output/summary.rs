@@ -62,7 +62,8 @@ pub struct TensileReading {
     pub stretch: Option<f64>,
     /// Upward force of the springs that pull at it, over its mean cross-section at rest, Pa.
     pub nominal_stress: f64,
-    /// Stress of the material at that stretch with free sides, Pa; `None` if it has none.
+    /// Stress of the material at that stretch with free sides, Pa; `None` if it has none, or if the body is
+    /// of several materials.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniaxial_stress: Option<f64>,
 }
@@ -77,7 +78,7 @@ impl TensileReading {
                 "no stretch was measured: between the marks, nodes lie at fewer than two heights, so refine the mesh \
                  there",
             ),
-            (None, Some(_)) => Some("no single material has uniaxial tension at that stretch"),
+            (None, Some(_)) => Some("there is no uniaxial tension of one material at that stretch"),
         }
     }
 }

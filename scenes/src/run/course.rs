@@ -24,6 +24,7 @@ const PAUSE: Duration = Duration::from_secs(1);
 const SHARE: u32 = 20;
 
 /// A run between its first frame and its last.
+#[derive(Debug)]
 pub struct Course {
     /// The scene, at the last frame.
     pub play: Play,
