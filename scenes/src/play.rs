@@ -75,7 +75,7 @@ impl Play {
         let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
         let mut play = Self {
             height: mesh.bounds().size()[1],
-            overview: overview(&settings, mesh, &simulation)?,
+            overview: Overview::default(),
             simulation,
             material: info.name,
             parameters: info.parameters,
@@ -89,6 +89,7 @@ impl Play {
         };
         let start = play.clock.time();
         play.pull(start, start)?;
+        play.overview = play.overview()?;
         Ok(play)
     }
 
@@ -129,12 +130,46 @@ impl Play {
         }))
     }
 
-    /// Properties of the body that may be unintended, also in view of what the scene does to it.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        let is_idle = self.pulls.iter().any(|springs| springs.nodes.is_empty());
-        let idle = is_idle.then(|| NOTHING_PULLED.to_owned());
-        self.geometry.warnings().into_iter().chain(self.overview.warnings.clone()).chain(idle).collect()
+    /// Properties of the body at its start, without parts that have no tetrahedra.
+    fn overview(&self) -> Result<Overview, Error> {
+        let Self { settings, geometry, simulation, .. } = self;
+        let (mesh, body) = (&geometry.mesh, simulation.body());
+        let (nodes, held) = (mesh.positions.len(), simulation.pinned().len());
+        let (mut materials, mut warnings) = (Vec::new(), geometry.warnings());
+        if held == nodes {
+            warnings.push(format!("all {nodes} nodes are held, and nothing can move; hold fewer by --pin"));
+        } else if held == 0 && settings.gravity != 0.0 {
+            warnings.push("no node is held, and the body falls; hold some by --pin".into());
+        }
+        let is_part = |name: &str| settings.parts.iter().any(|part| part.group.as_deref() == Some(name));
+        let others = mesh.groups.iter().filter(|group| group.dimension == 3 && !is_part(&group.name));
+        let others: Vec<_> = others.map(|group| &group.name).collect();
+        let parts = settings.all_parts().into_iter().zip(body.materials());
+        for (MaterialPart { group, material, density }, _) in parts.filter(|(_, (_, tets))| !tets.is_empty())
+        {
+            let info = material.build()?;
+            let (name, at_rest) = (info.name, AtRest { moduli: info.moduli, volume: Volume::Free });
+            if !(1.0..=3e4).contains(&density) {
+                warnings.push(format!(
+                    "the density of {name} is {} kg/m³; is that meant? 1 g/cm³ is 1000 kg/m³, and 1 t/mm³ is 1e12 kg/m³",
+                    number(density)
+                ));
+            }
+            warnings.extend(at_rest.warning());
+            let groups = group.map_or_else(|| list(&others), |group| list(&[group]));
+            let values = |values: Vec<f64>| values.into_iter().map(short).collect::<Vec<_>>().join(",");
+            let values = info.parameters.into_iter().map(|(name, list)| format!(" {name}={}", values(list)));
+            let material = format!("{name}{}, {} kg/m³", values.collect::<String>(), short(density));
+            materials.push(format!("{material}; groups of the mesh: {groups}; at rest {at_rest}"));
+        }
+        if self.pulls.iter().any(|springs| springs.nodes.is_empty()) {
+            warnings.push(NOTHING_PULLED.into());
+        }
+        let volume = body.elements().iter().map(|element| element.shape.volume).sum();
+        let (tets, size, mass) = (mesh.tets.len(), mesh.bounds().size(), body.masses().iter().sum());
+        // No zero has a sign.
+        let gravity = [0.0, 0.0 - settings.gravity, 0.0];
+        Ok(Overview { tets, nodes, held, size, volume, mass, gravity, materials, warnings })
     }
 
     /// Changes the length of the steps that follow, s.
@@ -289,42 +324,6 @@ fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Simulation, Erro
     let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
     simulation.set_positions(&start_positions(settings, geometry, &pins))?;
     Ok(simulation)
-}
-
-/// The overview of a body of these settings, without parts that have no tetrahedra.
-fn overview(settings: &Settings, mesh: &TetMesh, simulation: &Simulation) -> Result<Overview, Error> {
-    let (body, nodes, held) = (simulation.body(), mesh.positions.len(), simulation.pinned().len());
-    let (mut materials, mut warnings) = (Vec::new(), Vec::new());
-    if held == nodes {
-        warnings.push(format!("all {nodes} nodes are held, and nothing can move; hold fewer by --pin"));
-    } else if held == 0 && settings.gravity != 0.0 {
-        warnings.push("no node is held, and the body falls; hold some by --pin".into());
-    }
-    let is_part = |name: &str| settings.parts.iter().any(|part| part.group.as_deref() == Some(name));
-    let others = mesh.groups.iter().filter(|group| group.dimension == 3 && !is_part(&group.name));
-    let others: Vec<_> = others.map(|group| &group.name).collect();
-    let parts = settings.all_parts().into_iter().zip(body.materials());
-    for (MaterialPart { group, material, density }, _) in parts.filter(|(_, (_, tets))| !tets.is_empty()) {
-        let info = material.build()?;
-        let (name, at_rest) = (info.name, AtRest { moduli: info.moduli, volume: Volume::Free });
-        if !(1.0..=3e4).contains(&density) {
-            warnings.push(format!(
-                "the density of {name} is {} kg/m³; is that meant? 1 g/cm³ is 1000 kg/m³, and 1 t/mm³ is 1e12 kg/m³",
-                number(density)
-            ));
-        }
-        warnings.extend(at_rest.warning());
-        let groups = group.map_or_else(|| list(&others), |group| list(&[group]));
-        let values = |values: Vec<f64>| values.into_iter().map(short).collect::<Vec<_>>().join(",");
-        let values = info.parameters.into_iter().map(|(name, list)| format!(" {name}={}", values(list)));
-        let material = format!("{name}{}, {} kg/m³", values.collect::<String>(), short(density));
-        materials.push(format!("{material}; groups of the mesh: {groups}; at rest {at_rest}"));
-    }
-    let volume = body.elements().iter().map(|element| element.shape.volume).sum();
-    let (tets, size, mass) = (mesh.tets.len(), mesh.bounds().size(), body.masses().iter().sum());
-    // No zero has a sign.
-    let gravity = [0.0, 0.0 - settings.gravity, 0.0];
-    Ok(Overview { tets, nodes, held, size, volume, mass, gravity, materials, warnings })
 }
 
 /// Settings of the steps of a scene.
