@@ -225,11 +225,12 @@ fn a_mesh_in_millimetres_is_the_body_in_metres() {
 #[test]
 fn a_reversed_tetrahedron_and_a_pull_that_finds_no_node_are_told() {
     // The head of a dinosaur is above and in front, where this corner is not.
-    let run = |nodes| run_on(&Folder::new(), &tetrahedron(nodes), "dinosaur", "");
+    let run = |nodes| run_on(&Folder::new(), &tetrahedron(nodes), "dinosaur", "--gravity 9.81");
     let ((_, right), (said, turned)) = (run([1, 2, 3, 4]), run([1, 3, 2, 4]));
     assert!(said.contains("warning: no node of the body lies where the scene pulls"), "{said}");
     assert!(said.contains("\nnote: 1 tetrahedra of the file have"), "{said}");
     assert_eq!(right["energy"], turned["energy"]);
+    assert!(right["energy"].as_f64() > Some(0.0), "{right}");
 }
 
 #[test]
