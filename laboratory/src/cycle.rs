@@ -16,7 +16,7 @@ impl Measurements {
     ///
     /// # Errors
     /// A message if there is no such cycle. If none is chosen: two points between which the stress falls by
-    /// more than a tenth of the greatest, rest being one of them, or a beginning without stress far from rest.
+    /// more than a tenth of the greatest, rest being one of them, or a start without stress far from rest.
     pub fn one_curve(self, cycle: Option<usize>) -> Result<Self, String> {
         let Some(cycle) = cycle else {
             self.modes().try_for_each(|mode| self.check(mode))?;
