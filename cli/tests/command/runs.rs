@@ -120,8 +120,8 @@ fn what_will_be_run_is_printed_before_it_runs() {
     for (run, expected, is_odd) in [
         ("horse", horse, false),
         ("dinosaur", dinosaur, false),
-        (&format!("{bar} 1000"), &format!("{size}, 0.375 kg\n  gravity -9.81 m/s² along y"), false),
-        (&format!("{bar} 7.85e-9"), &format!("{size}, 2.94"), true),
+        (&format!("{bar} 1000")[..], &format!("{size}, 0.375 kg\n  gravity -9.81 m/s² along y")[..], false),
+        (&format!("{bar} 7.85e-9")[..], &format!("{size}, 2.94")[..], true),
     ] {
         let (said, warned) = folder.outputs(&format!("run {run} --frames 1"));
         assert!(said.starts_with(expected), "{said}");
