@@ -69,8 +69,8 @@ fn play(arguments: Run) -> Result<ExitCode, Error> {
     let course = Course::open(&settings, &output)?;
     // If this cannot be written, neither can the report at the end, which is then an error.
     let _ = say(format_args!("{}: {}", settings.scene.name, course.play.overview));
-    let warned = course.play.warnings();
-    warned.iter().for_each(warn_of);
+    course.play.overview.warnings.iter().for_each(warn_of);
+    let warned = course.play.overview.warnings.len();
     let result = course.play(&mut |frame| {
         if is_shown {
             let (scene, frames) = (settings.scene.name, settings.frames);
@@ -89,16 +89,14 @@ fn play(arguments: Run) -> Result<ExitCode, Error> {
         (result, _) => result?,
     };
     picture::add(&mut finished, &settings);
-    let mut summary = finished.close()?;
-    summary.warnings.retain(|warning| !warned.contains(warning));
-    report(&summary, &output.folder, signal())
+    report(&finished.close()?, warned, &output.folder, signal())
 }
 
-/// Prints the results of a run, and returns the exit status.
-fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCode, Error> {
+/// Prints the results of a run, without the first warnings, and returns the exit status.
+fn report(summary: &Summary, warned: usize, folder: &Path, signal: Option<u8>) -> Result<ExitCode, Error> {
     let place = folder.display();
     say(format_args!("{summary}\n  surfaces, frames.png and summary.json are in {place}"))?;
-    summary.warnings.iter().for_each(warn_of);
+    summary.body.warnings.iter().skip(warned).for_each(warn_of);
     let again = format!("; the same command with --out {place} --resume continues from there");
     let frames = summary.frames;
     match summary.ended {
@@ -112,10 +110,10 @@ fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCo
 
 fn serve(arguments: View) -> Result<(), Error> {
     let (session, port, save) = arguments.session()?;
-    let (overview, warnings) = (session.play().overview.clone(), session.play().warnings());
+    let overview = session.play().overview.clone();
     let server = view::open(session, port, save)?;
     say(format_args!("{} shows the scene; Ctrl-C ends it\n{overview}", server.url()))?;
-    warnings.iter().for_each(warn_of);
+    overview.warnings.iter().for_each(warn_of);
     server.run();
     Ok(())
 }

@@ -27,16 +27,7 @@ pub fn write(target: &mut impl Write, simulation: &Simulation) -> io::Result<()>
     let F: Vec<_> = body.elements().iter().map(|element| element.deformation_gradient(positions)).collect();
     let stretches: Vec<[f64; 3]> = F.iter().map(|F| svd(F).stretches).collect();
     let dets: Vec<f64> = stretches.iter().map(|[l1, l2, l3]| l1 * l2 * l3).collect();
-    let mut energies = vec![f64::NAN; F.len()];
-    for (material, elements) in body.materials() {
-        for (F, energy) in F[elements.clone()].iter().zip(&mut energies[elements]) {
-            let mut density = [0.0];
-            let survey = Batch::new(material).energies(F.as_flattened(), &mut density);
-            if survey.is_ok_and(|survey| survey.refused == 0 && survey.nonfinite == 0) {
-                *energy = density[0];
-            }
-        }
-    }
+    let energies = energies(simulation);
     let tets: Vec<_> = body.elements().iter().map(|element| element.nodes).collect();
     let nodal = [
         Field { name: "displacement", components: 3, values: &displacements },
@@ -48,4 +39,20 @@ pub fn write(target: &mut impl Write, simulation: &Simulation) -> io::Result<()>
         Field { name: "energy density", components: 1, values: &energies },
     ];
     write_vtu(target, positions, &tets, &nodal, &elemental)
+}
+
+/// Energy density of each element, J/m³; NaN outside the domain of its energy.
+pub(crate) fn energies(simulation: &Simulation) -> Vec<f64> {
+    let body = simulation.body();
+    let mut energies = Vec::new();
+    for (material, elements) in body.materials() {
+        for element in &body.elements()[elements] {
+            let F = element.deformation_gradient(simulation.positions());
+            let mut density = [0.0];
+            let survey = Batch::new(material).energies(F.as_flattened(), &mut density);
+            let is_defined = survey.is_ok_and(|survey| survey.refused == 0 && survey.nonfinite == 0);
+            energies.push(if is_defined { density[0] } else { f64::NAN });
+        }
+    }
+    energies
 }

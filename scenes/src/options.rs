@@ -48,7 +48,8 @@ pub struct SceneOptions {
     pub density: Option<f64>,
 
     /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. NAME may
-    /// be a file of Rust. Without parameters, it has the small-strain moduli of the scene's. May be repeated.
+    /// be a file of Rust. Without parameters, it has the small-strain moduli of --material. May be
+    /// repeated.
     #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
     pub parts: Vec<String>,
 
@@ -114,8 +115,8 @@ impl SceneOptions {
         }
         settings.start = start(scene, self.seed, self.amplitude)?;
         settings.density = self.density.unwrap_or(settings.density);
-        settings.parts =
-            self.parts.iter().map(|text| energy::part(text, &settings)).collect::<Result<_, _>>()?;
+        let part = |text: &String| energy::part(text, &settings.material, settings.density);
+        settings.parts = self.parts.iter().map(part).collect::<Result<_, _>>()?;
         settings.gravity = self.gravity.unwrap_or(settings.gravity);
         settings.pins = self.pins;
         settings.files = self.mesh.map(|mesh| Files { mesh, surface });

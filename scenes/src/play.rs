@@ -12,6 +12,7 @@ use piola_laboratory::curve::Volume;
 
 use crate::clock::Clock;
 use crate::error::{Error, in_range, list};
+use crate::fields;
 use crate::geometry::{Geometry, NOTHING_PULLED};
 use crate::material::{self, MaterialPart, MaterialSpec, Parameters};
 use crate::output::{Newton, Overview, StepCounts, short};
@@ -68,13 +69,13 @@ impl Play {
         settings.check()?;
         let geometry: Arc<Geometry> = geometry.into();
         let mesh = &geometry.mesh;
-        let (simulation, overview) = at_start(&settings, &geometry)?;
+        let simulation = at_start(&settings, &geometry)?;
         let info = settings.material.build()?;
         let young = info.moduli.young();
         let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
         let mut play = Self {
             height: mesh.bounds().size()[1],
-            overview,
+            overview: Overview::default(),
             simulation,
             material: info.name,
             parameters: info.parameters,
@@ -88,6 +89,7 @@ impl Play {
         };
         let start = play.clock.time();
         play.pull(start, start)?;
+        play.overview = play.overview()?;
         Ok(play)
     }
 
@@ -100,15 +102,16 @@ impl Play {
         if has_energy(&mut self.simulation) {
             return Ok(());
         }
-        let Self { settings, geometry, .. } = &*self;
-        let is_defined = |material: MaterialSpec| {
-            let settings = Settings { material, parts: Vec::new(), ..settings.clone() };
-            at_start(&settings, geometry).is_ok_and(|(mut simulation, _)| has_energy(&mut simulation))
+        let Self { settings, geometry, simulation, .. } = &*self;
+        let can_start = |name: &&str| {
+            let of = |material| Settings { material, parts: Vec::new(), ..settings.clone() };
+            let other = MaterialSpec::typical(name).and_then(|typical| at_start(&of(typical), geometry));
+            other.is_ok_and(|mut simulation| has_energy(&mut simulation))
         };
-        let can_start = |name: &&str| MaterialSpec::typical(name).is_ok_and(is_defined);
-        let mut materials = settings.all_parts().into_iter().map(|part| part.material);
-        let undefined = materials.find(|material| !is_defined(material.clone()));
-        let undefined = undefined.unwrap_or_else(|| settings.material.clone());
+        let energies = fields::energies(simulation);
+        let mut parts = settings.all_parts().into_iter().zip(simulation.body().materials());
+        let undefined = parts.find(|(_, (_, tets))| energies[tets.clone()].iter().any(|x| !x.is_finite()));
+        let undefined = undefined.map_or_else(|| settings.material.clone(), |(part, _)| part.material);
         let (name, description) = (undefined.build()?.name, undefined.description()?);
         let (scene, domain) = (settings.scene.name, &description.domain);
         let reason =
@@ -121,18 +124,52 @@ impl Play {
                 let others = material::names().filter(can_start).collect::<Vec<_>>().join(", ");
                 format!(
                     "{reason}, and it cannot be extended: {refusal}; choose a scene that starts elsewhere, such as \
-                     `stretch`, or another --material: {others}"
+                     `stretch`, or another --material or --part: {others}"
                 )
             }
         }))
     }
 
-    /// Properties of the body that may be unintended, also in view of what the scene does to it.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        let is_idle = self.pulls.iter().any(|springs| springs.nodes.is_empty());
-        let idle = is_idle.then(|| NOTHING_PULLED.to_owned());
-        self.geometry.warnings().into_iter().chain(self.overview.warnings.clone()).chain(idle).collect()
+    /// Properties of the body at its start, without parts that have no tetrahedra.
+    fn overview(&self) -> Result<Overview, Error> {
+        let Self { settings, geometry, simulation, .. } = self;
+        let (mesh, body) = (&geometry.mesh, simulation.body());
+        let (nodes, held) = (mesh.positions.len(), simulation.pinned().len());
+        let (mut materials, mut warnings) = (Vec::new(), geometry.warnings());
+        if held == nodes {
+            warnings.push(format!("all {nodes} nodes are held, and nothing can move; hold fewer by --pin"));
+        } else if held == 0 && settings.gravity != 0.0 {
+            warnings.push("no node is held, and the body falls; hold some by --pin".into());
+        }
+        let is_part = |name: &str| settings.parts.iter().any(|part| part.group.as_deref() == Some(name));
+        let others = mesh.groups.iter().filter(|group| group.dimension == 3 && !is_part(&group.name));
+        let others: Vec<_> = others.map(|group| &group.name).collect();
+        let parts = settings.all_parts().into_iter().zip(body.materials());
+        for (MaterialPart { group, material, density }, _) in parts.filter(|(_, (_, tets))| !tets.is_empty())
+        {
+            let info = material.build()?;
+            let (name, at_rest) = (info.name, AtRest { moduli: info.moduli, volume: Volume::Free });
+            if !(1.0..=3e4).contains(&density) {
+                warnings.push(format!(
+                    "the density of {name} is {} kg/m³; is that meant? 1 g/cm³ is 1000 kg/m³, and 1 t/mm³ is 1e12 kg/m³",
+                    number(density)
+                ));
+            }
+            warnings.extend(at_rest.warning());
+            let groups = group.map_or_else(|| list(&others), |group| list(&[group]));
+            let values = |values: Vec<f64>| values.into_iter().map(short).collect::<Vec<_>>().join(",");
+            let values = info.parameters.into_iter().map(|(name, list)| format!(" {name}={}", values(list)));
+            let material = format!("{name}{}, {} kg/m³", values.collect::<String>(), short(density));
+            materials.push(format!("{material}; groups of the mesh: {groups}; at rest {at_rest}"));
+        }
+        if self.pulls.iter().any(|springs| springs.nodes.is_empty()) {
+            warnings.push(NOTHING_PULLED.into());
+        }
+        let volume = body.elements().iter().map(|element| element.shape.volume).sum();
+        let (tets, size, mass) = (mesh.tets.len(), mesh.bounds().size(), body.masses().iter().sum());
+        // No zero has a sign.
+        let gravity = [0.0, 0.0 - settings.gravity, 0.0];
+        Ok(Overview { tets, nodes, held, size, volume, mass, gravity, materials, warnings })
     }
 
     /// Changes the length of the steps that follow, s.
@@ -272,52 +309,21 @@ pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch)
     (first, Stretch { start, end: last, length })
 }
 
-/// The body of the settings before the first step, and its overview.
-fn at_start(settings: &Settings, geometry: &Geometry) -> Result<(Simulation, Overview), Error> {
-    let mesh = &geometry.mesh;
-    let pins = pins(settings, mesh)?;
-    let (nodes, held) = (mesh.positions.len(), pins.nodes().len());
-    let (mut parts, mut materials, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
-    if held == nodes {
-        warnings.push(format!("all {nodes} nodes are held, and nothing can move; hold fewer by --pin"));
-    } else if held == 0 && settings.gravity != 0.0 {
-        warnings.push("no node is held, and the body falls; hold some by --pin".into());
-    }
-    let is_part = |name: &str| settings.parts.iter().any(|part| part.group.as_deref() == Some(name));
-    let others = mesh.groups.iter().filter(|group| group.dimension == 3 && !is_part(&group.name));
-    let others: Vec<_> = others.map(|group| &group.name).collect();
-    for MaterialPart { group, material, density } in settings.all_parts() {
+/// The body of the settings before the first step.
+fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Simulation, Error> {
+    let pins = pins(settings, &geometry.mesh)?;
+    let part = |MaterialPart { group, material, density }| -> Result<Part, Error> {
         let info = material.build()?;
-        let (name, young) = (info.name, info.moduli.young());
+        let young = info.moduli.young();
         // Forces on bodies of such a material, and their squares, stay in the range of f64.
         in_range("Young's modulus of the material", young, 1e-12..=1e21, "from 1e-12 to 1e21 Pa")?;
-        if !(1.0..=3e4).contains(&density) {
-            warnings.push(format!(
-                "the density of {name} is {} kg/m³; is that meant? 1 g/cm³ is 1000 kg/m³, and 1 t/mm³ is 1e12 kg/m³",
-                number(density)
-            ));
-        }
-        let at_rest = AtRest { moduli: info.moduli, volume: Volume::Free };
-        warnings.extend(at_rest.warning());
-        let groups = group.as_ref().map_or_else(|| list(&others), |group| list(&[group]));
-        let values = |values: Vec<f64>| values.into_iter().map(short).collect::<Vec<_>>().join(",");
-        let values = info.parameters.into_iter().map(|(name, list)| format!(" {name}={}", values(list)));
-        let material = format!("{name}{}, {} kg/m³", values.collect::<String>(), short(density));
-        materials.push(format!("{material}; groups of the mesh: {groups}; at rest {at_rest}"));
-        parts.push(Part { group, material: info.elements, density });
-    }
-    let body = Body::from_parts(mesh, parts)?;
-    if body.materials().next().is_some_and(|(_, tets)| tets.is_empty()) {
-        materials.remove(0);
-    }
-    let volume = body.elements().iter().map(|element| element.shape.volume).sum();
-    let (tets, size, mass) = (mesh.tets.len(), mesh.bounds().size(), body.masses().iter().sum());
-    // No zero has a sign.
-    let gravity = [0.0, 0.0 - settings.gravity, 0.0];
-    let overview = Overview { tets, nodes, held, size, volume, mass, gravity, materials, warnings };
+        Ok(Part { group, material: info.elements, density })
+    };
+    let parts = settings.all_parts().into_iter().map(part).collect::<Result<_, Error>>()?;
+    let body = Body::from_parts(&geometry.mesh, parts)?;
     let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
     simulation.set_positions(&start_positions(settings, geometry, &pins))?;
-    Ok((simulation, overview))
+    Ok(simulation)
 }
 
 /// Settings of the steps of a scene.

@@ -118,19 +118,22 @@ impl Settings {
             Start::Scrambled { amplitude: Amplitude::Edges(value), .. } => value,
             _ => 0.0,
         };
-        let epsilon = match self.material.inversion {
-            Some(Inversion::Extend { epsilon }) => epsilon,
-            _ => 0.5,
-        };
+        for MaterialPart { material, density, .. } in self.all_parts() {
+            let epsilon = match material.inversion {
+                Some(Inversion::Extend { epsilon }) => epsilon,
+                _ => 0.5,
+            };
+            let requirement = "from 1e-6 to 1, or `refuse`";
+            in_range("the stretch where the extension begins", epsilon, 1e-6..=1.0, requirement)?;
+            in_range("the density", density, 1e-9..=1e15, "from 1e-9 to 1e15 kg/m³")?;
+        }
         let tolerance = self.tolerance.unwrap_or(1.0);
         for (quantity, value, range, requirement) in [
             ("the time step", self.dt, 1e-12..=1e6, "from 1e-12 to 1e6 s"),
-            ("the density", self.density, 1e-9..=1e15, "from 1e-9 to 1e15 kg/m³"),
             ("the gravity", self.gravity, -1e9..=1e9, "from -1e9 to 1e9 m/s²"),
             ("the tolerance", tolerance, 1e-9..=1e3, "from 1e-9 to 1000 body heights per second"),
             ("the number of frames", self.frames as f64, 1.0..=1e6, "from 1 to 1000000"),
             ("the amplitude", amplitude, 0.0..=1e3, "from 0 to 1000 mean edge lengths"),
-            ("the stretch where the extension begins", epsilon, 1e-6..=1.0, "from 1e-6 to 1, or `refuse`"),
             ("the number of threads", self.threads as f64, 0.0..=MAX_THREADS, "at most 1024"),
             ("the number of pins", self.pins.len() as f64, 0.0..=MAX_PINS, "at most 1000"),
         ] {

@@ -8,10 +8,9 @@ use piola::__private::message::{number, quoted};
 use piola::material::Unit;
 use piola_declare::{Energy, FormulaOptions, Mistakes};
 
-use crate::error::{Error, in_range};
+use crate::error::Error;
 use crate::material::{MaterialPart, MaterialSpec};
 use crate::output::read_text;
-use crate::settings::Settings;
 
 use super::value::{Given, modulus, parameter};
 
@@ -158,36 +157,29 @@ fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpe
     Ok(parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values)))
 }
 
-/// Reads a material of a group, `GROUP=NAME;PARAM=V;…;density=RHO`, with the settings of all others.
-pub(super) fn part(text: &str, settings: &Settings) -> Result<MaterialPart, Error> {
+/// Reads a material of a group, `GROUP=NAME;PARAM=V;…;density=RHO`, next to the material and the density of
+/// the others.
+pub(super) fn part(text: &str, others: &MaterialSpec, density: f64) -> Result<MaterialPart, Error> {
     let wrong = |reason: &str| Error::Usage(format!("--part {}: {reason}", quoted(text)));
     let mut words = text.split(';');
-    let (group, name) = words
-        .next()
-        .and_then(|first| first.split_once('='))
-        .ok_or_else(|| wrong("write GROUP=NAME, or GROUP=NAME;PARAM=V"))?;
-    let Settings { material: of_others, mut density, .. } = settings.clone();
-    let inversion = of_others.inversion;
-    let mut parameters = Vec::new();
-    for word in words {
-        let given = parameter(word).map_err(|reason| wrong(&reason))?;
-        if given.name != "density" {
-            parameters.push(given);
-        } else if let ([value], None) = (&given.values[..], given.unit) {
-            density = *value;
-        } else {
-            return Err(wrong("density=RHO needs one number, in kg/m³ and without a unit"));
-        }
-    }
-    in_range("the density", density, 1e-9..=1e15, "from 1e-9 to 1e15 kg/m³")?;
+    let first = words.next().and_then(|first| first.split_once('='));
+    let (group, name) = first.ok_or_else(|| wrong("write GROUP=NAME, or GROUP=NAME;PARAM=V"))?;
+    let given = words.map(parameter).collect::<Result<Vec<_>, String>>();
+    let given = given.map_err(|reason| wrong(&reason))?;
+    let (densities, parameters): (Vec<_>, Vec<_>) = given.into_iter().partition(|one| one.name == "density");
+    let density = match &densities[..] {
+        [] => density,
+        [Given { values, unit: None, .. }] if values.len() == 1 => values[0],
+        _ => return Err(wrong("density=RHO needs one number, in kg/m³ and without a unit")),
+    };
     let material = match in_file(name)? {
         Some(material) => material,
-        None if parameters.is_empty() && of_others.is(name) => of_others,
-        None if parameters.is_empty() => MaterialSpec::matching(name, of_others.build()?.moduli),
+        None if parameters.is_empty() && others.is(name) => others.clone(),
+        None if parameters.is_empty() => MaterialSpec::matching(name, others.build()?.moduli),
         None => MaterialSpec::new(name),
     };
     let mut material = with_values(material, parameters)?;
-    material.inversion = inversion;
+    material.inversion = others.inversion;
     material.build()?;
     Ok(MaterialPart { group: Some(group.to_owned()), material, density })
 }

@@ -62,7 +62,8 @@ pub struct TensileReading {
     pub stretch: Option<f64>,
     /// Upward force of the springs that pull at it, over its mean cross-section at rest, Pa.
     pub nominal_stress: f64,
-    /// Stress of the material at that stretch with free sides, Pa; `None` if it has none.
+    /// Stress of the material at that stretch with free sides, Pa; `None` if it has none, or if the body is
+    /// of several materials.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniaxial_stress: Option<f64>,
 }
@@ -77,7 +78,7 @@ impl TensileReading {
                 "no stretch was measured: between the marks, nodes lie at fewer than two heights, so refine the mesh \
                  there",
             ),
-            (None, Some(_)) => Some("no single material has uniaxial tension at that stretch"),
+            (None, Some(_)) => Some("there is no uniaxial tension of one material at that stretch"),
         }
     }
 }
@@ -158,8 +159,9 @@ impl fmt::Display for FinalState {
     }
 }
 
-/// Size, mass, pins and materials of a body before its first step, to be compared with what was meant.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Size, mass, pins and materials of a body before its first step, to be compared with what was meant, and
+/// warnings.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Overview {
     /// Number of tetrahedra.
     pub tets: usize,
@@ -177,8 +179,8 @@ pub struct Overview {
     pub gravity: [f64; 3],
     /// Each material in words: parameters, density, groups of the mesh, moduli at rest.
     pub materials: Vec<String>,
-    /// Properties that may be unintended.
-    #[serde(skip)]
+    /// Properties of body, materials and scene that may be unintended; in a summary also measurements that
+    /// are missing.
     pub warnings: Vec<String>,
 }
 
@@ -211,7 +213,7 @@ pub struct Summary {
     /// Poisson's ratio of the material at rest; `None` if it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson: Option<f64>,
-    /// The body before its first step.
+    /// The body before its first step, and all warnings.
     #[serde(flatten)]
     pub body: Overview,
     /// Number of vertices of the embedded surface.
@@ -225,8 +227,6 @@ pub struct Summary {
     /// Reasons why something is missing: a step that failed, a file that could not be written, an equilibrium
     /// that could not be examined.
     pub failures: Vec<String>,
-    /// Properties of the mesh and the material that may be unintended, and measurements that are missing.
-    pub warnings: Vec<String>,
     /// Time step, s.
     pub dt: f64,
     /// Newton iterations per step, on average.

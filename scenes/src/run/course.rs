@@ -24,6 +24,7 @@ const PAUSE: Duration = Duration::from_secs(1);
 const SHARE: u32 = 20;
 
 /// A run between its first frame and its last.
+#[derive(Debug)]
 pub struct Course {
     /// The scene, at the last frame.
     pub play: Play,
@@ -177,14 +178,14 @@ impl Course {
         let frames = self.progress.motion.len() - 1;
         let total: Duration = self.times.iter().sum();
         let Self { play, vtu, folder, progress, times, failures, .. } = self;
-        let warnings = play.warnings().into_iter();
-        let Play { settings, geometry, material, parameters, moduli, overview, .. } = play;
+        let Play { settings, geometry, material, parameters, moduli, overview: mut body, .. } = play;
         let is_moved = match settings.start {
             Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. } => is_released,
             _ => true,
         };
-        let asks = is_moved && overview.held < overview.nodes;
+        let asks = is_moved && body.held < body.nodes;
         let missing = reading.and_then(|reading| reading.missing()).map(str::to_owned);
+        body.warnings.extend(missing.into_iter().chain(held));
         let summary = Summary {
             scene: scene.name.into(),
             material: material.to_string(),
@@ -192,13 +193,12 @@ impl Course {
             shear_modulus: moduli.mu,
             bulk_modulus: moduli.bulk(),
             poisson: Some(moduli.poisson()).filter(|poisson| poisson.is_finite()),
-            body: overview,
+            body,
             surface_vertices: geometry.embedding.len(),
             frames,
             frames_wanted: settings.frames,
             ended,
             failures,
-            warnings: warnings.chain(missing).chain(held).collect(),
             dt: settings.dt,
             newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
             inverted_at_start: progress.inverted_at_start,
