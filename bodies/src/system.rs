@@ -21,7 +21,7 @@ pub(crate) mod testing;
 #[cfg(feature = "faer")]
 pub(crate) use linear::cholesky::Cholesky;
 
-pub use body::{Body, BodyError, Part};
+pub use body::{Body, BodyError, Part, parts_of_tets};
 pub use element::Tetrahedron;
 pub use linear::LinearError;
 pub use lower_triangle::LowerTriangle;

@@ -64,7 +64,7 @@ pub(crate) enum Command {
     Check(Box<Check>),
 }
 
-/// All quantities are in SI units; y points upwards.
+/// Options of `piola run`.
 #[derive(Debug, Parser)]
 pub(crate) struct Run {
     #[command(flatten)]
@@ -91,7 +91,7 @@ pub(crate) struct Run {
     vtu: bool,
 }
 
-/// All quantities are in SI units; y points upwards.
+/// Options of `piola view`.
 #[derive(Debug, Parser)]
 pub(crate) struct View {
     #[command(flatten)]

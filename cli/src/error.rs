@@ -81,7 +81,7 @@ impl Error {
             } => " (`--inversion refuse`)".into(),
             SceneError::OutOfRange { quantity, .. } => match *quantity {
                 "the time step" => " (--dt)",
-                "the density" => " (--density)",
+                "the density" => " (--density, or density= of --part)",
                 "the gravity" => " (--gravity)",
                 "the number of frames" => " (--frames)",
                 "the amplitude" => " (--amplitude)",

@@ -22,11 +22,9 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use piola::__private::message::printable;
-use piola_laboratory::AtRest;
-use piola_laboratory::curve::Volume;
 use piola_scenes::error::Error as SceneError;
 use piola_scenes::output::{Ended, Summary};
-use piola_scenes::run::run;
+use piola_scenes::run::Course;
 
 use command::{Cli, Command, Run, View};
 use error::Error;
@@ -63,12 +61,17 @@ pub fn main() -> ExitCode {
     })
 }
 
-/// Runs a scene; the count of its steps goes to standard error, or nowhere if that is not a terminal.
+/// Runs a scene, after an overview; the count of its steps goes to standard error if that is a terminal.
 fn play(arguments: Run) -> Result<ExitCode, Error> {
     let (settings, output) = arguments.settings()?;
     let signal = signals::listen().map_err(Error::system("listen to signals"))?;
     let is_shown = io::stderr().is_terminal();
-    let result = run(&settings, &output, &mut |frame| {
+    let course = Course::open(&settings, &output)?;
+    // If this cannot be written, neither can the report at the end, which is then an error.
+    let _ = say(format_args!("{}: {}", settings.scene.name, course.play.overview));
+    course.play.overview.warnings.iter().for_each(warn_of);
+    let warned = course.play.overview.warnings.len();
+    let result = course.play(&mut |frame| {
         if is_shown {
             let (scene, frames) = (settings.scene.name, settings.frames);
             let _ = write!(io::stderr(), "\r{scene}: {frame} of {frames} steps");
@@ -86,14 +89,14 @@ fn play(arguments: Run) -> Result<ExitCode, Error> {
         (result, _) => result?,
     };
     picture::add(&mut finished, &settings);
-    report(&finished.close()?, &output.folder, signal())
+    report(&finished.close()?, warned, &output.folder, signal())
 }
 
-/// Prints the results of a run, and returns the exit status.
-fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCode, Error> {
+/// Prints the results of a run, without the first warnings, and returns the exit status.
+fn report(summary: &Summary, warned: usize, folder: &Path, signal: Option<u8>) -> Result<ExitCode, Error> {
     let place = folder.display();
     say(format_args!("{summary}\n  surfaces, frames.png and summary.json are in {place}"))?;
-    summary.warnings.iter().for_each(warn_of);
+    summary.body.warnings.iter().skip(warned).for_each(warn_of);
     let again = format!("; the same command with --out {place} --resume continues from there");
     let frames = summary.frames;
     match summary.ended {
@@ -107,11 +110,10 @@ fn report(summary: &Summary, folder: &Path, signal: Option<u8>) -> Result<ExitCo
 
 fn serve(arguments: View) -> Result<(), Error> {
     let (session, port, save) = arguments.session()?;
-    let at_rest = AtRest { moduli: session.play().moduli, volume: Volume::Free };
-    let warnings = session.play().warnings();
+    let overview = session.play().overview.clone();
     let server = view::open(session, port, save)?;
-    say(format_args!("{} shows the scene; Ctrl-C ends it\n  at rest  {at_rest}", server.url()))?;
-    at_rest.warning().iter().chain(&warnings).for_each(warn_of);
+    say(format_args!("{} shows the scene; Ctrl-C ends it\n{overview}", server.url()))?;
+    overview.warnings.iter().for_each(warn_of);
     server.run();
     Ok(())
 }

@@ -5,13 +5,11 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use piola::point::Filter;
 use piola_bodies::step::{Filtering, LinearSolver, NewtonSettings};
-use piola_scenes::material::MaterialSpec;
-use piola_scenes::options::{SceneOptions, StepOptions, in_file, parameter, scenes, with_values};
+use piola_scenes::options::{SceneOptions, StepOptions, scenes};
 use piola_scenes::settings::Settings;
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::part::MaterialPart;
 
 /// Elastic bodies on many machines: scenes of piola with the solvers of PETSc, over MPI.
 ///
@@ -55,16 +53,11 @@ pub struct BoxOptions {
     pub solver: SolverOptions,
 }
 
-/// All quantities are in SI units; y points upwards.
+/// Options of the subcommand `statics`, and of every body that is not a box.
 #[derive(Debug, Parser)]
 pub struct BodyOptions {
     #[command(flatten)]
     scene: SceneOptions,
-
-    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. NAME may
-    /// be a file of Rust. Without parameters, it has the small-strain moduli of the scene's. May be repeated.
-    #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
-    parts: Vec<String>,
 
     /// Displacement of nodes: BOX|GROUP=X,Y,Z@T moves them steadily by X, Y, Z in m until the time T in s,
     /// and then holds them; in statics the whole displacement is applied at once. May be repeated.
@@ -84,7 +77,7 @@ pub struct BodyOptions {
     pub solver: SolverOptions,
 }
 
-/// All quantities are in SI units; y points upwards.
+/// Options of the subcommand `run`.
 #[derive(Debug, Parser)]
 pub struct RunOptions {
     #[command(flatten)]
@@ -150,13 +143,11 @@ pub(crate) struct Move {
     pub(crate) reached: f64,
 }
 
-/// Settings of a run: scene, materials and prescribed motions.
+/// Settings of a run: a scene, and prescribed motions.
 #[derive(Debug)]
 pub(crate) struct Task {
     /// The scene with its overrides.
     pub(crate) settings: Settings,
-    /// Materials of the body, and of groups.
-    pub(crate) parts: Vec<MaterialPart>,
     /// Motions of nodes.
     pub(crate) moves: Vec<Move>,
 }
@@ -203,41 +194,8 @@ impl BodyOptions {
     pub(crate) fn task(&self) -> Result<Task, Error> {
         let settings = self.scene.clone().settings(None)?;
         settings.check()?;
-        let (material, density) = (settings.material.clone(), settings.density);
-        let mut parts = vec![MaterialPart { group: None, material, density }];
-        for text in &self.parts {
-            parts.push(part(text, &settings)?);
-        }
-        Ok(Task { settings, parts, moves: self.moves.clone() })
+        Ok(Task { settings, moves: self.moves.clone() })
     }
-}
-
-/// Reads `GROUP=NAME;PARAM=V;…;density=RHO`.
-fn part(text: &str, settings: &Settings) -> Result<MaterialPart, Error> {
-    let wrong = |reason: &str| Error::usage(format!("--part {text}: {reason}"));
-    let mut words = text.split(';');
-    let (group, name) = words
-        .next()
-        .and_then(|first| first.split_once('='))
-        .ok_or_else(|| wrong("write GROUP=NAME, or GROUP=NAME;PARAM=V"))?;
-    let mut density = settings.density;
-    let mut parameters = Vec::new();
-    for word in words {
-        let given = parameter(word).map_err(|reason| wrong(&reason))?;
-        if given.name == "density" {
-            density = *given.values.first().ok_or_else(|| wrong("density=RHO needs a number"))?;
-        } else {
-            parameters.push(given);
-        }
-    }
-    let material = match in_file(name)? {
-        Some(material) => material,
-        None if parameters.is_empty() => MaterialSpec::matching(name, settings.material.build()?.moduli),
-        None => MaterialSpec::new(name),
-    };
-    let material = with_values(material, parameters)?;
-    material.build()?;
-    Ok(MaterialPart { group: Some(group.to_owned()), material, density })
 }
 
 /// Reads `BOX|GROUP=X,Y,Z@T`.
@@ -319,16 +277,11 @@ mod tests {
     }
 
     #[test]
-    fn motions_and_materials_of_groups_are_read() -> Result<(), Box<dyn std::error::Error>> {
+    fn motions_are_read() {
         let expected = Move { nodes: ":,0.9:,:".to_owned(), displacement: [0.0, -0.1, 0.0], reached: 2.0 };
         assert_eq!(motion(":,0.9:,:=0,-0.1,0@2"), Ok(expected));
         for wrong in ["top=1,2@3", "top=1,2,3@0", "1,2,3@1", "top=1,2,3"] {
             assert!(motion(wrong).is_err(), "{wrong}");
         }
-        let settings = Settings::new(piola_scenes::scene::Scene::find("horse")?);
-        let legs = part("legs=neo-Hookean;mu=1e5;lambda=1e6;density=2000", &settings)?;
-        assert_eq!((legs.group.as_deref(), legs.density), (Some("legs"), 2000.0));
-        assert!(part("legs=nothing", &settings).is_err() && part("legs", &settings).is_err());
-        Ok(())
     }
 }

@@ -3,22 +3,10 @@
 use piola_bodies::mesh::{Group, TetMesh};
 use piola_bodies::system::{Body, Part};
 use piola_scenes::error::Error as SceneError;
-use piola_scenes::material::MaterialSpec;
-use serde::Serialize;
+use piola_scenes::material::MaterialPart;
 
 use crate::error::Error;
 use crate::share::Share;
-
-/// Material and density of the elements of a part.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MaterialPart {
-    /// Group of the elements; `None` for all elements that are in no other part.
-    pub group: Option<String>,
-    /// The material.
-    pub material: MaterialSpec,
-    /// Mass per rest volume, kg/m³.
-    pub density: f64,
-}
 
 /// Body of the elements of a share, which have the numbers of their parts.
 ///

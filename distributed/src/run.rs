@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use piola::material::Moduli;
 use piola_bodies::step::{AdaptiveReport, Convergence, NewtonReport, SimulationSettings, StepReport};
 use piola_scenes::clock::Clock;
-use piola_scenes::material::MaterialSpec;
+use piola_scenes::material::{MaterialPart, MaterialSpec};
 use piola_scenes::measure;
 use piola_scenes::output::{Ended, Newton, StepCounts};
 use piola_scenes::play::{self, DragSprings, Stretch};
@@ -18,7 +18,6 @@ use crate::checkpoint;
 use crate::command::{BodyOptions, BoxOptions, RunOptions, Task};
 use crate::error::Error;
 use crate::output::{self, Summary};
-use crate::part::MaterialPart;
 use crate::portion::Portion;
 use crate::setting::{self, BodyFacts};
 use crate::share::Share;
@@ -208,13 +207,13 @@ impl<'a> Course<'a> {
     /// Reads and divides the body; `is_single` for one Newton iteration in each step.
     fn new(team: &'a Team, task: &'a Task, options: &BodyOptions, is_single: bool) -> Result<Self, Error> {
         let newton = options.solver.settings(is_single)?;
-        let Task { settings, parts, moves } = task;
+        let Task { settings, moves } = task;
         let (share, body, pulls) = setting::divided(team, task)?;
         let steps = SimulationSettings { newton, ..play::step_settings(settings) };
         let lasting = Settings { frames: 1, threads: 1, newton: Newton::Single, ..settings.clone() };
-        let lasting = serde_json::to_string(&(lasting, parts, moves)).map_err(Error::usage)?;
+        let lasting = serde_json::to_string(&(lasting, moves)).map_err(Error::usage)?;
         Ok(Self {
-            simulation: Simulation::new(team, share, parts, steps)?,
+            simulation: Simulation::new(team, share, &settings.all_parts(), steps)?,
             about: About { settings: lasting, body: body.checksum, min_det_f: 1.0, ..About::default() },
             folder: options.out.clone().unwrap_or_else(|| Path::new("out").join(settings.scene.name)),
             team,

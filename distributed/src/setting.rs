@@ -1,7 +1,8 @@
 //! The body of a scene, read and divided, with pins, prescribed motions and springs.
 
-use piola_bodies::mesh::{Bounds, TetMesh};
-use piola_bodies::system::Pins;
+use piola_bodies::mesh::Bounds;
+use piola_bodies::system::{Pins, parts_of_tets};
+use piola_scenes::error::Error as SceneError;
 use piola_scenes::geometry::{Geometry, NOTHING_PULLED};
 use piola_scenes::play::{self, DragSprings};
 use piola_scenes::region;
@@ -9,7 +10,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::command::{Move, Task};
 use crate::error::Error;
-use crate::part::MaterialPart;
 use crate::portion::{Element, Place, Portion};
 use crate::share::Share;
 use crate::team::Team;
@@ -83,7 +83,7 @@ pub(crate) fn moved(moves: &[Move], &Place { rest, marks, .. }: &Place, time: f6
 /// Places, elements and properties of the whole body; the properties are in JSON.
 type WholeBody = (Vec<Place>, Vec<Element>, Vec<u8>);
 
-fn read(Task { settings, parts, moves }: &Task) -> Result<WholeBody, Error> {
+fn read(Task { settings, moves }: &Task) -> Result<WholeBody, Error> {
     let geometry = Geometry::load(settings)?;
     let mesh = &geometry.mesh;
     let young = settings.material.build()?.moduli.young();
@@ -112,7 +112,9 @@ fn read(Task { settings, parts, moves }: &Task) -> Result<WholeBody, Error> {
     let places = (0..mesh.positions.len())
         .map(|node| Place { rest: mesh.positions[node], start: start[node], marks: marks[node] })
         .collect();
-    let materials = materials(parts, mesh)?;
+    let parts = settings.all_parts();
+    let groups: Vec<_> = parts.iter().map(|part| part.group.as_deref()).collect();
+    let materials = parts_of_tets(mesh, &groups).map_err(SceneError::from)?;
     let elements = mesh
         .tets
         .iter()
@@ -121,22 +123,4 @@ fn read(Task { settings, parts, moves }: &Task) -> Result<WholeBody, Error> {
     let facts = BodyFacts { bounds: mesh.bounds(), checksum: geometry.checksum(), warnings, stiffnesses };
     let facts = serde_json::to_vec(&facts).map_err(Error::usage)?;
     Ok((places, elements.collect(), facts))
-}
-
-/// Number of the part of each element: that of its group, otherwise 0.
-fn materials(parts: &[MaterialPart], mesh: &TetMesh) -> Result<Vec<usize>, Error> {
-    let mut materials = vec![0; mesh.tets.len()];
-    for (number, part) in parts.iter().enumerate() {
-        let Some(name) = &part.group else { continue };
-        let group = mesh.groups.iter().find(|group| group.dimension == 3 && group.name == *name);
-        let group =
-            group.ok_or_else(|| Error::usage(format!("the mesh has no group `{name}` of tetrahedra")))?;
-        for &element in &group.tets {
-            if std::mem::replace(&mut materials[element], number) != 0 {
-                let tag = mesh.tag(element);
-                return Err(Error::usage(format!("element {tag} has two materials")));
-            }
-        }
-    }
-    Ok(materials)
 }

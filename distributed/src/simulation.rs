@@ -6,9 +6,10 @@
 use piola_bodies::step::{self, LinearSolver, SetupError, SimulationSettings, StepError};
 use piola_bodies::system::Pins;
 use piola_scenes::error::Error as SceneError;
+use piola_scenes::material::MaterialPart;
 
 use crate::error::Error;
-use crate::part::{self, MaterialPart};
+use crate::part;
 use crate::share::Share;
 use crate::system::LinearSystem;
 use crate::team::Team;

@@ -10,12 +10,12 @@ use std::time::{Duration, Instant};
 
 use common::{TestResult, checkpoint_in, command, finish, state_after};
 use piola_distributed::error::Error;
-use piola_distributed::part::{self, MaterialPart};
+use piola_distributed::part;
 use piola_distributed::petsc::Library;
 use piola_distributed::portion::Portion;
 use piola_distributed::share::Share;
 use piola_distributed::team::Team;
-use piola_scenes::material::{MaterialSpec, soft_moduli};
+use piola_scenes::material::{MaterialPart, MaterialSpec, soft_moduli};
 
 /// Checks that a run has failed with a message that contains these words once.
 #[track_caller]

@@ -33,13 +33,16 @@
 //! | pressure p | `pressure` | P = −p in a volumetric test |
 //!
 //! * Units stand after the name, in brackets or behind a space, comma, slash or `_`: [`StressUnit`] for
-//!   stresses, `%`, `‰`, `µε` or `mm/mm` for strains. Numbers under `compressive strain` and `compressive
-//!   stress` are positive in compression.
+//!   stresses, `%`, `‰`, `µε` or `mm/mm` for strains. With a unit in the row below, brackets after the name
+//!   may hold something else. Numbers under `compressive strain` and `compressive stress` are positive in
+//!   compression.
 //! * A file with another header, without a header, or with several stresses or strains is refused with the
 //!   list of its columns. [`ReadOptions`] names the columns of the strain and the stress by their headers or
 //!   numbers and, where these do not say it, what they hold.
 //! * [`ReadOptions`] also has the test and the unit for a file that names none. [`Reading`] describes in a
-//!   line what was used and what was left out.
+//!   line what was used and what was left out, such as a header that returns above another specimen.
+//! * [`Measurements::check_curves`] refuses points of several cycles, specimens or materials, before a fit;
+//!   [`Measurements::cycle`] chooses one.
 //!
 //! What may mean two things is an error, with the line and what to write: stretches that are all above 8, or
 //! some above 20, without a unit (percent?), stresses of another sign than their strain (strains under

@@ -1,14 +1,16 @@
 //! Parameters from measured data: nonlinear least squares over the stresses of all tests at once.
 //!
 //! The differences between the stresses of an energy and the measured ones, each divided by a size of its own
-//! ([`Difference`]), are minimised in the sum of their squares by the Levenberg–Marquardt method \[Mor78\].
+//! ([`FitSettings::floor`]), are minimised in the sum of their squares by the Levenberg–Marquardt method
+//! \[Mor78\].
 //! The derivatives of a stress by the parameters come from the declaration of the energy
 //! ([`Energy::gradient_by_parameters`](piola_declare::Energy::gradient_by_parameters)), and include the
 //! motion of free sides ([`Response::weights`](crate::curve::Response::weights)).
 //!
 //! Such fits are easily ambiguous \[OSS04\]: data may not determine a parameter, or determine only some
 //! combination of parameters, and there may be several minima; or the energy refuses the best parameters, or
-//! yields in volume although the fit keeps it. All five are detected and reported: [`Warning`].
+//! yields in volume although the fit keeps it; or a few readings decide. All six are detected and reported:
+//! [`Warning`].
 //!
 //! \[Mor78\] Moré, *The Levenberg–Marquardt algorithm: implementation and theory*, 1978.
 //! \[OSS04\] Ogden, Saccomandi, Sgura, *Fitting hyperelastic models to experimental data*, 2004.
@@ -19,6 +21,7 @@ mod outcome;
 mod problem;
 mod uniqueness;
 
+use levenberg_marquardt::LeastSquaresProblem;
 use piola::__private::message::quoted;
 use piola::__private::random::Random;
 use piola::interpreter::Interpreted;
@@ -43,18 +46,6 @@ pub struct Candidate {
     pub material: Interpreted,
 }
 
-/// The measure of the difference at each measured point, whose squares are summed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Difference {
-    /// The difference by the measured stress, so that small strains count as much as large ones. Points
-    /// without stress are left out.
-    #[default]
-    Relative,
-    /// The difference by the greatest measured stress of all, so that stiff tests and large strains decide.
-    /// This maximises R² of all points.
-    Absolute,
-}
-
 /// Settings of a fit.
 ///
 /// ```
@@ -71,8 +62,12 @@ pub struct FitSettings {
     /// assumption to make then is constant volume, the default. If the energy yields in volume, it describes
     /// another solid ([`Warning::Compressible`]): fit it with [`Volume::Free`].
     pub volume: Volume,
-    /// The measure of differences, relative by default.
-    pub difference: Difference,
+    /// Least divisor of a difference, as a share of the greatest measured stress; where the measured stress
+    /// is more, it is the divisor. With 0, the default, differences are relative, so that small strains count
+    /// as much as large ones, and points without stress are left out. With 1 they are absolute: stiff tests
+    /// and large strains decide, and R² of all points is greatest. A few per cent limit the weight of noise
+    /// near zero stress ([`Warning::Few`]).
+    pub floor: f64,
     /// Parameters that keep their values: names as declared, a list with all its entries or a function with
     /// all its values, or one of these as `alpha_1` or `f_1`, counted from 1.
     ///
@@ -87,13 +82,7 @@ pub struct FitSettings {
 
 impl Default for FitSettings {
     fn default() -> Self {
-        Self {
-            volume: Volume::Kept,
-            difference: Difference::Relative,
-            held: Vec::new(),
-            restarts: 20,
-            seed: 1,
-        }
+        Self { volume: Volume::Kept, floor: 0.0, held: Vec::new(), restarts: 20, seed: 1 }
     }
 }
 
@@ -118,13 +107,17 @@ pub fn fit_parameters(
             "the number of random starts is {restarts}; it must be at most {MOST_RESTARTS}"
         )));
     }
+    if !(0.0..=1.0).contains(&settings.floor) {
+        let mistake = "it must be a share of the greatest stress, from 0 to 1";
+        return Err(FitError::Other(format!("the floor is {}; {mistake}", settings.floor)));
+    }
     for (index, point) in data.points.iter().enumerate() {
         let refused = |fault| format!("the point {index} (from 0) cannot be fitted: {fault}");
         point.check().map_err(|fault| FitError::Other(refused(fault)))?;
     }
     let (mut numbers, parameters) = numbers(start, &settings.held)?;
     let values: Vec<f64> = numbers.iter().map(|number| number.value).collect();
-    let points = points(data, settings.difference)?;
+    let points = points(data, settings.floor)?;
     let all: Vec<usize> = (0..numbers.len()).collect();
     let (volume, points) = (settings.volume, &*points);
     let task = Task { start, parameters: &parameters, free: &all, points, volume };
@@ -204,12 +197,10 @@ fn numbers(
 }
 
 /// The points that count, each with the divisor of its difference, Pa.
-fn points(data: &Measurements, difference: Difference) -> Result<Vec<(Measured, f64)>, FitError> {
+fn points(data: &Measurements, floor: f64) -> Result<Vec<(Measured, f64)>, FitError> {
     let greatest = data.points.iter().fold(0.0_f64, |greatest, point| greatest.max(point.stress.abs()));
-    let size = |point: &Measured| match difference {
-        Difference::Relative => point.stress,
-        Difference::Absolute => greatest,
-    };
+    let least = floor * greatest;
+    let size = |point: &Measured| if least >= point.stress.abs() { least } else { point.stress };
     let counting = data.points.iter().filter(|point| !point.is_rest() && size(point) != 0.0);
     let points: Vec<_> = counting.map(|point| (*point, size(point))).collect();
     if points.is_empty() {
@@ -266,6 +257,7 @@ fn report(mut numbers: Vec<Number>, minima: &[Minimum<'_>], best: &Minimum<'_>, 
     let mut warnings: Vec<_> =
         silent.map(|number| Warning::Unidentifiable { parameter: number.name.clone() }).collect();
     warnings.extend(compressible(problem));
+    warnings.extend(few(best));
     if let Some(determination) = agreement.total.filter(|&total| total < 0.0) {
         warnings.push(Warning::Poor { determination });
     }
@@ -295,6 +287,30 @@ fn report(mut numbers: Vec<Number>, minima: &[Minimum<'_>], best: &Minimum<'_>, 
         ended: best.ended,
         warnings,
     }
+}
+
+/// Share of the greatest stress below which a reading is near zero.
+const NEAR_ZERO: f64 = 0.05;
+/// Differences, root mean square, that may be roundings of the data.
+const ROUNDING: f64 = 1e-3;
+
+/// Warning if few readings near zero stress carry most of the sum: a tenth of all readings, or a single one.
+/// Of differences with a normal distribution more than a tenth would have to.
+fn few(Minimum { problem, squares, .. }: &Minimum<'_>) -> Option<Warning> {
+    let points = problem.task.points;
+    let greatest = points.iter().fold(0.0_f64, |greatest, (point, _)| greatest.max(point.stress.abs()));
+    let residuals = problem.residuals()?;
+    let shares = residuals.iter().zip(points).map(|(residual, point)| (residual.powi(2) / squares, point));
+    let mut near: Vec<_> = shares.filter(|(_, (_, size))| size.abs() < NEAR_ZERO * greatest).collect();
+    near.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+    near.truncate((points.len() / 10).max(1));
+    let mut share = 0.0;
+    let last = near.iter().position(|(of_one, _)| {
+        share += of_one;
+        share > 0.5
+    })?;
+    let readings = near[..=last].iter().map(|(_, (point, _))| *point).collect();
+    (*squares > ROUNDING.powi(2) * points.len() as f64).then_some(Warning::Few { readings, share })
 }
 
 /// Warning if an energy that was fitted at constant volume is far from keeping it.

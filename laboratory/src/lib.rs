@@ -17,6 +17,7 @@
 #[cfg(feature = "charts")]
 pub mod chart;
 pub mod curve;
+mod cycle;
 pub mod data;
 pub mod fit;
 pub mod ranking;

@@ -73,7 +73,7 @@ impl Place {
 /// use piola_laboratory::data::{Measurements, TRELOAR_1944};
 /// use piola::Inversion;
 /// use piola_declare::Energy;
-/// use piola_laboratory::fit::{Candidate, Difference, FitSettings};
+/// use piola_laboratory::fit::{Candidate, FitSettings};
 /// use piola_laboratory::ranking::{Contender, rank};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -93,8 +93,7 @@ impl Place {
 ///         &[&[3e5], &[80.0], &[2e7]],
 ///     )?,
 /// ];
-/// let settings =
-///     FitSettings { difference: Difference::Absolute, restarts: 2, ..FitSettings::default() };
+/// let settings = FitSettings { floor: 1.0, restarts: 2, ..FitSettings::default() };
 /// let ranking = rank(&contenders, &Measurements::read(TRELOAR_1944)?, &settings);
 /// let names: Vec<_> = ranking.places.iter().map(|place| (&*place.name, place.parameters())).collect();
 /// assert_eq!(names, [("Gent", 2), ("neo-Hookean", 1)]);

@@ -74,7 +74,7 @@ pub(crate) fn digits(number: f64) -> String {
     }
 }
 
-fn pascals(stress: f64) -> String {
+pub(crate) fn pascals(stress: f64) -> String {
     let units = [(1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")];
     let unit = units.into_iter().find(|(size, _)| stress.abs() >= *size && stress.abs() < 1e4 * size);
     let (size, name) = unit.unwrap_or((1.0, "Pa"));

@@ -51,11 +51,11 @@ fn headers_in_plain_form_need_no_choice() {
             "`Tensile strain (%)` as nominal strain in %, `Tensile stress (MPa)` as nominal stress in MPa",
             "3 points of uniaxial, λ from 1 to 1.5",
             "left out: Time (s), Extension (mm), Load (N)",
-            "3 lines above the header left out",
+            "lines left out above the header: 3",
         ],
     );
     let sheet = [(PureShear, 1.02, 23e3), (PureShear, 1.1, 101.5e3)];
-    check(&file("testworks.txt"), ["planar", "", "", ""], &sheet, &["left out: Time", "a line above"]);
+    check(&file("testworks.txt"), ["planar", "", "", ""], &sheet, &["left out: Time", "above the header: 1"]);
     let biaxial = [(Equibiaxial, 1.1, 15.0 * PSI), (Equibiaxial, 1.5, 60.0 * PSI)];
     let sheet = "Stretch ratio\tNominal stress, psi\r\n1.1\t15\r\n1.5\t60\r\n";
     check(sheet, ["biaxial", "", "", ""], &biaxial, &["in psi"]);
@@ -69,7 +69,7 @@ fn headers_in_plain_form_need_no_choice() {
         &[(Uniaxial, one, 0.132e6 / one), (Equibiaxial, two, 0.5e6 / two), (PureShear, three, 0.6e6 / three)],
         &[
             "nominal stress from true stress as of an incompressible solid",
-            "1 point of uniaxial, λ from 1.105 to 1.105; 1 point of equibiaxial",
+            "1 point of uniaxial, λ from 1.105 to 1.105, stress from 119.4 kPa to 119.4 kPa, reversals: 0; 1 point of",
         ],
     );
     check(
@@ -133,17 +133,21 @@ fn other_columns_are_chosen_by_name_or_number() {
         &tension,
         &["`Nennspannung [N/mm²]` as nominal stress in MPa", "left out: Versuch"],
     );
-    check(
-        &file("bluehill_units_row.csv"),
-        ["uniaxial", "", "Compressive strain (Displacement)=compressive strain", ""],
-        &[(Uniaxial, 1.0, 0.0), (Uniaxial, 0.9, -25e3), (Uniaxial, 0.8, -60e3)],
-        &["nominal stress in kPa, compression positive"],
-    );
+    // Two specimens, each below a header with a name in brackets and its unit in the next row.
+    let specimen = [(Uniaxial, 1.0, 0.0), (Uniaxial, 0.9, -25e3), (Uniaxial, 0.8, -60e3)];
+    for chosen in ["Compressive strain (Displacement)=compressive strain", ""] {
+        check(
+            &file("bluehill_units_row.csv").repeat(2),
+            ["uniaxial", "", chosen, ""],
+            &specimen.repeat(2),
+            &["nominal stress in kPa, compression positive", "reversals: 2", "as headers that return: 2"],
+        );
+    }
     check(
         &file("treloar_kgf.txt"),
         ["uniaxial", "", "1=stretch", "2=stress [kgf/cm2]"],
         &[(Uniaxial, 1.0, 0.0), (Uniaxial, 1.12, 1.4 * 98_066.5), (Uniaxial, 1.24, 2.3 * 98_066.5)],
-        &["`column 1` as stretch", "2 lines above the header left out"],
+        &["`column 1` as stretch", "lines left out above the header: 2"],
     );
     check(
         &file("plotdigitizer.csv"),
@@ -245,7 +249,7 @@ fn columns_that_are_not_clear_are_listed() {
 fn what_is_missing_or_twofold_is_named() {
     refuse("", [""; 4], 1, &["no table", "mode,stretch,nominal_stress_MPa"]);
     refuse("# nothing\n", [""; 4], 1, &["no table"]);
-    for text in ["PK\u{3}\u{4}\0\0xl/workbook.xml", "ÿþ1\0;\0"] {
+    for text in ["PK\u{3}\u{4}\0\0xl/workbook.xml", "ÿþ1\0;\0", "ÐÏ\u{11}à¡±\u{1a}á\0\0"] {
         refuse(text, [""; 4], 1, &["UTF-16", "spreadsheet", "CSV"]);
     }
     refuse("strain,stress [MPa]\n0.1,0.1\n", [""; 4], 1, &["no column `mode`", "--mode uniaxial"]);
@@ -286,6 +290,27 @@ fn what_is_missing_or_twofold_is_named() {
     let edge =
         "mode,stretch [-],stress_MPa\nuniaxial,1e6,1e94\nsimple_shear,-1e6,0\nequibiaxial,1e-6,-1e-105\n";
     assert_eq!(Measurements::read(edge).map(|read| read.points.len()), Ok(3));
+}
+
+#[test]
+fn cycles_are_chosen_and_scatter_is_no_second_curve() -> Result<(), DataError> {
+    let read = |rows: &str| Measurements::read(&format!("mode,stretch,nominal_stress_Pa\n{rows}"));
+    // Two specimens that begin next to rest.
+    let two = read("uniaxial,1.5,4\nuniaxial,2,6\nuniaxial,1.2,1\nuniaxial,1.8,3\n")?;
+    assert!(two.check_curves().is_err_and(|mistake| mistake.contains("turns 2 times, and scatters by 5 %")));
+    for (cycle, points) in [(1, 0..2), (2, 2..4)] {
+        assert_eq!(two.cycle(cycle), Ok(Measurements { points: two.points[points].to_vec() }));
+    }
+    let none = "there is no cycle 3 of uniaxial; they are counted from 1 to 2";
+    assert_eq!(two.cycle(3), Err(none.to_owned()));
+    assert!(two.cycle(0).is_err());
+    // Noise, a wrong reading, rest out of order, tension and compression.
+    let wrong = file("gent.csv").replace("4.03,1.21", "4.03,2.61");
+    for text in [&file("noise.csv"), &wrong] {
+        assert_eq!(Measurements::read(text)?.check_curves(), Ok(()));
+    }
+    assert_eq!(read("uniaxial,2,3\nuniaxial,1,0\nuniaxial,0.5,-9\nuniaxial,1.5,2\n")?.check_curves(), Ok(()));
+    Ok(())
 }
 
 /// A file that nobody wrote by hand takes no longer than it is.

@@ -149,7 +149,7 @@ impl Geometry {
         whole(&mut self.mesh.tets.as_flattened().iter().map(index));
         for group in &self.mesh.groups {
             whole(&mut group.name.bytes().map(u64::from));
-            whole(&mut group.nodes.iter().map(index));
+            whole(&mut group.nodes.iter().chain(&group.tets).map(index));
         }
         whole(&mut self.triangles.as_flattened().iter().map(|&vertex| u64::from(vertex)));
         whole(&mut self.embedding.iter().flat_map(|anchor| &anchor.nodes).map(index));

@@ -1,8 +1,8 @@
 //! Bodies that collapse, invert and recover: scenes, and the measurements and files of a run.
 //!
 //! A [`Scene`](scene::Scene) describes what happens to a body; [`Settings`](settings::Settings) override its
-//! defaults; [`Play`](play::Play) plays it; [`run()`](run::run) does so to the end and leaves surfaces and a
-//! summary in a folder.
+//! defaults; [`Play`](play::Play) plays it; [`Course`](run::Course) does so to the end and leaves surfaces
+//! and a summary in a folder.
 //!
 //! The crate holds no mechanics, draws no pictures, and is independent of the command `piola`, whose crate is
 //! `piola-cli`.

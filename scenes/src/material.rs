@@ -305,6 +305,18 @@ fn near_or_it(name: &str, known: &[&str]) -> String {
     near.map_or_else(|| "it".to_owned(), |near| format!("did you mean `{}`? It", quoted(near)))
 }
 
+/// Material and density of a part of a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialPart {
+    /// Group of its tetrahedra; `None` for all tetrahedra that are in no other part.
+    pub group: Option<String>,
+    /// The material.
+    pub material: MaterialSpec,
+    /// Mass per rest volume, kg/m³.
+    pub density: f64,
+}
+
 /// Values by the names of the parameters.
 pub type Parameters = BTreeMap<Text, Vec<f64>>;
 

@@ -3,7 +3,7 @@
 mod energy;
 mod value;
 
-pub use energy::{Formula, in_file, with_values};
+pub use energy::Formula;
 pub use value::{Given, inversion, parameter};
 
 use std::path::PathBuf;
@@ -47,7 +47,13 @@ pub struct SceneOptions {
     #[arg(long, value_name = "RHO", allow_negative_numbers = true)]
     pub density: Option<f64>,
 
-    /// Gravity in m/s², downwards [default: 0].
+    /// Another material for a group of tetrahedra: GROUP=NAME, or GROUP=NAME;PARAM=V;…;density=RHO. NAME may
+    /// be a file of Rust. Without parameters, it has the small-strain moduli of --material. May be
+    /// repeated.
+    #[arg(long = "part", value_name = "GROUP=NAME|FILE.rs;…")]
+    pub parts: Vec<String>,
+
+    /// Gravity in m/s², downwards, which is along -y [default: 0].
     #[arg(long, value_name = "G", allow_negative_numbers = true)]
     pub gravity: Option<f64>,
 
@@ -109,6 +115,8 @@ impl SceneOptions {
         }
         settings.start = start(scene, self.seed, self.amplitude)?;
         settings.density = self.density.unwrap_or(settings.density);
+        let part = |text: &String| energy::part(text, &settings.material, settings.density);
+        settings.parts = self.parts.iter().map(part).collect::<Result<_, _>>()?;
         settings.gravity = self.gravity.unwrap_or(settings.gravity);
         settings.pins = self.pins;
         settings.files = self.mesh.map(|mesh| Files { mesh, surface });
@@ -181,10 +189,11 @@ fn integrators() -> impl TypedValueParser<Value = Integrator> {
     })
 }
 
-/// List of the scenes with their descriptions, to be shown behind the options.
+/// Units, the axis that points upwards, and a list of the scenes with their descriptions, to be shown behind
+/// the options.
 #[must_use]
 pub fn scenes() -> String {
-    let mut text = String::from("Scenes:\n");
+    let mut text = String::from("All quantities are in SI units; y points upwards.\n\nScenes:\n");
     for scene in SCENES {
         text += &format!("  {:24} {}\n", scene.name, scene.about);
     }

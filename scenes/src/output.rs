@@ -12,7 +12,8 @@ mod whole;
 pub use folder::{Folder, new_folder};
 pub use ply::{read_vertices, write_ply};
 pub use sealed::{seal, unseal};
-pub use summary::{Ended, FinalPlace, FinalState, Newton, StepCounts, Summary, TensileReading};
+pub(crate) use summary::short;
+pub use summary::{Ended, FinalPlace, FinalState, Newton, Overview, StepCounts, Summary, TensileReading};
 pub use vtu::{Field, write_pvd, write_vtu};
 pub use whole::{read_text, write_whole};
 

@@ -2,18 +2,20 @@
 
 use std::sync::Arc;
 
-use piola::__private::message::quoted;
-use piola::batch::TileMaterial;
+use piola::__private::message::{number, quoted};
 use piola::material::{Moduli, Text};
 use piola_bodies::mesh::{Bounds, TetMesh};
 use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
 use piola_bodies::system::{Body, Part, PinError, Pins};
+use piola_laboratory::AtRest;
+use piola_laboratory::curve::Volume;
 
 use crate::clock::Clock;
 use crate::error::{Error, in_range, list};
+use crate::fields;
 use crate::geometry::{Geometry, NOTHING_PULLED};
-use crate::material::{self, MaterialSpec, Parameters};
-use crate::output::{Newton, StepCounts};
+use crate::material::{self, MaterialPart, MaterialSpec, Parameters};
+use crate::output::{Newton, Overview, StepCounts, short};
 use crate::region;
 use crate::scene::Pull;
 use crate::settings::Settings;
@@ -47,6 +49,8 @@ pub struct Play {
     pub parameters: Parameters,
     /// Small-strain moduli of the material.
     pub moduli: Moduli,
+    /// The body before its first step.
+    pub overview: Overview,
     /// Number of the step and its time: set by [`resume`](Self::resume).
     pub clock: Clock,
     /// Counts of the time steps of the last frame.
@@ -65,14 +69,14 @@ impl Play {
         settings.check()?;
         let geometry: Arc<Geometry> = geometry.into();
         let mesh = &geometry.mesh;
+        let simulation = at_start(&settings, &geometry)?;
         let info = settings.material.build()?;
         let young = info.moduli.young();
-        // Forces on bodies of such a material, and their squares, stay in the range of f64.
-        in_range("Young's modulus of the material", young, 1e-12..=1e21, "from 1e-12 to 1e21 Pa")?;
         let pulls = settings.scene.pulls.iter().map(|&pull| DragSprings::new(pull, mesh, young)).collect();
         let mut play = Self {
             height: mesh.bounds().size()[1],
-            simulation: at_start(&settings, &geometry, info.elements)?,
+            overview: Overview::default(),
+            simulation,
             material: info.name,
             parameters: info.parameters,
             moduli: info.moduli,
@@ -85,6 +89,7 @@ impl Play {
         };
         let start = play.clock.time();
         play.pull(start, start)?;
+        play.overview = play.overview()?;
         Ok(play)
     }
 
@@ -97,13 +102,17 @@ impl Play {
         if has_energy(&mut self.simulation) {
             return Ok(());
         }
-        let Self { settings, geometry, material: name, .. } = &*self;
-        let description = settings.material.description()?;
+        let Self { settings, geometry, simulation, .. } = &*self;
         let can_start = |name: &&str| {
-            let typical = MaterialSpec::typical(name).and_then(|material| material.build());
-            let other = typical.and_then(|other| at_start(settings, geometry, other.elements));
+            let of = |material| Settings { material, parts: Vec::new(), ..settings.clone() };
+            let other = MaterialSpec::typical(name).and_then(|typical| at_start(&of(typical), geometry));
             other.is_ok_and(|mut simulation| has_energy(&mut simulation))
         };
+        let energies = fields::energies(simulation);
+        let mut parts = settings.all_parts().into_iter().zip(simulation.body().materials());
+        let undefined = parts.find(|(_, (_, tets))| energies[tets.clone()].iter().any(|x| !x.is_finite()));
+        let undefined = undefined.map_or_else(|| settings.material.clone(), |(part, _)| part.material);
+        let (name, description) = (undefined.build()?.name, undefined.description()?);
         let (scene, domain) = (settings.scene.name, &description.domain);
         let reason =
             format!("the scene `{scene}` starts where `{name}` is not defined: its domain is {domain}");
@@ -115,18 +124,52 @@ impl Play {
                 let others = material::names().filter(can_start).collect::<Vec<_>>().join(", ");
                 format!(
                     "{reason}, and it cannot be extended: {refusal}; choose a scene that starts elsewhere, such as \
-                     `stretch`, or another --material: {others}"
+                     `stretch`, or another --material or --part: {others}"
                 )
             }
         }))
     }
 
-    /// Properties of the body that may be unintended, also in view of what the scene does to it.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        let is_idle = self.pulls.iter().any(|springs| springs.nodes.is_empty());
-        let idle = is_idle.then(|| NOTHING_PULLED.to_owned());
-        self.geometry.warnings().into_iter().chain(idle).collect()
+    /// Properties of the body at its start, without parts that have no tetrahedra.
+    fn overview(&self) -> Result<Overview, Error> {
+        let Self { settings, geometry, simulation, .. } = self;
+        let (mesh, body) = (&geometry.mesh, simulation.body());
+        let (nodes, held) = (mesh.positions.len(), simulation.pinned().len());
+        let (mut materials, mut warnings) = (Vec::new(), geometry.warnings());
+        if held == nodes {
+            warnings.push(format!("all {nodes} nodes are held, and nothing can move; hold fewer by --pin"));
+        } else if held == 0 && settings.gravity != 0.0 {
+            warnings.push("no node is held, and the body falls; hold some by --pin".into());
+        }
+        let is_part = |name: &str| settings.parts.iter().any(|part| part.group.as_deref() == Some(name));
+        let others = mesh.groups.iter().filter(|group| group.dimension == 3 && !is_part(&group.name));
+        let others: Vec<_> = others.map(|group| &group.name).collect();
+        let parts = settings.all_parts().into_iter().zip(body.materials());
+        for (MaterialPart { group, material, density }, _) in parts.filter(|(_, (_, tets))| !tets.is_empty())
+        {
+            let info = material.build()?;
+            let (name, at_rest) = (info.name, AtRest { moduli: info.moduli, volume: Volume::Free });
+            if !(1.0..=3e4).contains(&density) {
+                warnings.push(format!(
+                    "the density of {name} is {} kg/m³; is that meant? 1 g/cm³ is 1000 kg/m³, and 1 t/mm³ is 1e12 kg/m³",
+                    number(density)
+                ));
+            }
+            warnings.extend(at_rest.warning());
+            let groups = group.map_or_else(|| list(&others), |group| list(&[group]));
+            let values = |values: Vec<f64>| values.into_iter().map(short).collect::<Vec<_>>().join(",");
+            let values = info.parameters.into_iter().map(|(name, list)| format!(" {name}={}", values(list)));
+            let material = format!("{name}{}, {} kg/m³", values.collect::<String>(), short(density));
+            materials.push(format!("{material}; groups of the mesh: {groups}; at rest {at_rest}"));
+        }
+        if self.pulls.iter().any(|springs| springs.nodes.is_empty()) {
+            warnings.push(NOTHING_PULLED.into());
+        }
+        let volume = body.elements().iter().map(|element| element.shape.volume).sum();
+        let (tets, size, mass) = (mesh.tets.len(), mesh.bounds().size(), body.masses().iter().sum());
+        // No zero has a sign.
+        let gravity = [0.0, 0.0 - settings.gravity, 0.0];
+        Ok(Overview { tets, nodes, held, size, volume, mass, gravity, materials, warnings })
     }
 
     /// Changes the length of the steps that follow, s.
@@ -267,14 +310,17 @@ pub fn stretches(pulls: &[DragSprings], clock: Clock) -> (Vec<Stretch>, Stretch)
 }
 
 /// The body of the settings before the first step.
-fn at_start(
-    settings: &Settings,
-    geometry: &Geometry,
-    material: Box<dyn TileMaterial<f64>>,
-) -> Result<Simulation, Error> {
-    let mesh = &geometry.mesh;
-    let pins = pins(settings, mesh)?;
-    let body = Body::from_parts(mesh, vec![Part { group: None, material, density: settings.density }])?;
+fn at_start(settings: &Settings, geometry: &Geometry) -> Result<Simulation, Error> {
+    let pins = pins(settings, &geometry.mesh)?;
+    let part = |MaterialPart { group, material, density }| -> Result<Part, Error> {
+        let info = material.build()?;
+        let young = info.moduli.young();
+        // Forces on bodies of such a material, and their squares, stay in the range of f64.
+        in_range("Young's modulus of the material", young, 1e-12..=1e21, "from 1e-12 to 1e21 Pa")?;
+        Ok(Part { group, material: info.elements, density })
+    };
+    let parts = settings.all_parts().into_iter().map(part).collect::<Result<_, Error>>()?;
+    let body = Body::from_parts(&geometry.mesh, parts)?;
     let mut simulation = Simulation::new(body, &pins, step_settings(settings))?;
     simulation.set_positions(&start_positions(settings, geometry, &pins))?;
     Ok(simulation)

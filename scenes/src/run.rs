@@ -10,13 +10,11 @@ use crate::geometry::Geometry;
 use crate::output::{
     CAGES_FILE, Folder, SUMMARY_FILE, Summary, cage_file, frame_file, read_vertices, write_pvd,
 };
-use crate::settings::Settings;
-use crate::statics::Watch;
 
 mod course;
 mod progress;
 
-use course::Course;
+pub use course::Course;
 
 /// Files of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,17 +38,6 @@ pub struct Finished {
     pub motion: Vec<f64>,
     folder: Folder,
     vtu: bool,
-}
-
-/// Plays a scene to its end, or continues an interrupted run.
-///
-/// If it ends early after the first step, the frames before are kept with a summary of what happened.
-///
-/// # Errors
-/// An error of the settings, the body or the folder, and one of the first step or its files: nothing is
-/// written then. [`Error::Interrupted`] if `watch` stops the run before its first step.
-pub fn run(settings: &Settings, output: &Output, watch: &mut Watch<'_>) -> Result<Finished, Error> {
-    Course::open(settings, output)?.play(watch)
 }
 
 impl Finished {

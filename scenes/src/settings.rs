@@ -7,7 +7,7 @@ use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, in_range};
-use crate::material::MaterialSpec;
+use crate::material::{MaterialPart, MaterialSpec};
 use crate::output::Newton;
 use crate::scene::{Amplitude, Body, Scene, Start};
 use crate::unit::Unit;
@@ -39,12 +39,15 @@ pub struct Settings {
     pub only_tetrahedra: bool,
     /// Positions of the nodes before the first step.
     pub start: Start,
-    /// The material of the body.
+    /// The material of the tetrahedra that are in none of `parts`.
     #[serde(rename = "energy")]
     pub material: MaterialSpec,
-    /// Mass per rest volume, kg/m³.
+    /// Mass per rest volume, kg/m³, of these tetrahedra.
     pub density: f64,
-    /// Acceleration downwards, m/s².
+    /// Groups of tetrahedra with a material and a density of their own.
+    #[serde(default)]
+    pub parts: Vec<MaterialPart>,
+    /// Acceleration downwards, along −y, m/s².
     pub gravity: f64,
     /// Time step, s.
     pub dt: f64,
@@ -87,6 +90,7 @@ impl Settings {
             start: scene.start,
             material: (scene.material)(),
             density: scene.density,
+            parts: Vec::new(),
             gravity: 0.0,
             dt: scene.dt,
             frames: scene.frames,
@@ -98,6 +102,13 @@ impl Settings {
         }
     }
 
+    /// All parts of the body: the first has the tetrahedra that are in none of `parts`.
+    #[must_use]
+    pub fn all_parts(&self) -> Vec<MaterialPart> {
+        let rest = MaterialPart { group: None, material: self.material.clone(), density: self.density };
+        [vec![rest], self.parts.clone()].concat()
+    }
+
     /// Checks that all values are in range, so that a simulation is meaningful and ends.
     ///
     /// # Errors
@@ -107,19 +118,22 @@ impl Settings {
             Start::Scrambled { amplitude: Amplitude::Edges(value), .. } => value,
             _ => 0.0,
         };
-        let epsilon = match self.material.inversion {
-            Some(Inversion::Extend { epsilon }) => epsilon,
-            _ => 0.5,
-        };
+        for MaterialPart { material, density, .. } in self.all_parts() {
+            let epsilon = match material.inversion {
+                Some(Inversion::Extend { epsilon }) => epsilon,
+                _ => 0.5,
+            };
+            let requirement = "from 1e-6 to 1, or `refuse`";
+            in_range("the stretch where the extension begins", epsilon, 1e-6..=1.0, requirement)?;
+            in_range("the density", density, 1e-9..=1e15, "from 1e-9 to 1e15 kg/m³")?;
+        }
         let tolerance = self.tolerance.unwrap_or(1.0);
         for (quantity, value, range, requirement) in [
             ("the time step", self.dt, 1e-12..=1e6, "from 1e-12 to 1e6 s"),
-            ("the density", self.density, 1e-9..=1e15, "from 1e-9 to 1e15 kg/m³"),
             ("the gravity", self.gravity, -1e9..=1e9, "from -1e9 to 1e9 m/s²"),
             ("the tolerance", tolerance, 1e-9..=1e3, "from 1e-9 to 1000 body heights per second"),
             ("the number of frames", self.frames as f64, 1.0..=1e6, "from 1 to 1000000"),
             ("the amplitude", amplitude, 0.0..=1e3, "from 0 to 1000 mean edge lengths"),
-            ("the stretch where the extension begins", epsilon, 1e-6..=1.0, "from 1e-6 to 1, or `refuse`"),
             ("the number of threads", self.threads as f64, 0.0..=MAX_THREADS, "at most 1024"),
             ("the number of pins", self.pins.len() as f64, 0.0..=MAX_PINS, "at most 1000"),
         ] {

@@ -10,7 +10,7 @@ use piola::point::{stress, svd};
 use piola_declare::Energy;
 use piola_laboratory::curve::{Mode, Volume, sweep};
 use piola_laboratory::data::{Measured, Measurements, ReadOptions, TRELOAR_1944};
-use piola_laboratory::fit::{Difference, Fit, FitSettings, fit_parameters};
+use piola_laboratory::fit::{Fit, FitSettings, fit_parameters};
 use piola_laboratory::stability::criteria::Criterion;
 use piola_laboratory::stability::{Report, SurveySettings, Walk, survey};
 use pyo3::prelude::*;
@@ -62,20 +62,28 @@ impl Material {
     /// Fits the parameters to measurements, starting from the current ones; returns the material with the
     /// best parameters.
     ///
-    ///     fit(data, /, *, incompressible=True, relative=True, held=(), restarts=20, seed=1)
+    ///     fit(data, /, *, incompressible=True, relative=True, floor=0.0, cycle=None, held=(), restarts=20,
+    ///         seed=1)
     ///
-    /// data: a dictionary from modes, as in `curve`, to arrays of shape (n, 2): control and stress, Pa.
+    /// data: a dictionary from modes, as in `curve`, to arrays of shape (n, 2): control and stress, Pa; or to
+    ///     DataFrames with columns such as "stretch" or "strain [%]", and "stress", Pa, or "stress [MPa]".
     /// incompressible: True to keep the volume of the specimens.
-    /// relative: True for differences relative to each stress, False for those relative to the greatest.
-    /// held: keywords of parameters that keep their values, such as "kappa" or "lambda_", and entries of lists,
-    ///     such as "alpha_1".
+    /// relative: True for differences relative to each stress, False for those relative to the greatest, as
+    ///     by floor=1.
+    /// floor: least divisor of a difference, as a share of the greatest stress: 0.05 limits the weight of
+    ///     noise near zero stress.
+    /// cycle: number from 1 of the cycle, or specimen, whose loading is used as it is.
+    /// held: keywords of parameters that keep their values, such as "kappa" or "lambda_", and entries of
+    ///     lists, such as "alpha_1".
     /// restarts: number of further starts, at random about the first.
     /// seed: equal seeds give equal fits.
     ///
-    /// Returns a `Fit`. Raises FitError if nothing can be fitted, MaterialError if
-    /// parameters differ from point to point.
+    /// Returns a `Fit`; its warnings are UserWarnings, too. Raises FitError if nothing can be fitted,
+    /// ValueError for columns that are not clear and for points that are not one curve of one solid,
+    /// MaterialError if parameters differ from point to point.
     #[pyo3(signature = (
-        data, /, *, incompressible = true, relative = true, held = Vec::new(), restarts = 20, seed = 1
+        data, /, *, incompressible = true, relative = true, floor = 0.0, cycle = None, held = Vec::new(),
+        restarts = 20, seed = 1
     ))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn fit<'py>(
@@ -84,18 +92,23 @@ impl Material {
         data: &Bound<'py, PyDict>,
         incompressible: bool,
         relative: bool,
+        floor: f64,
+        cycle: Option<usize>,
         held: Vec<String>,
         restarts: usize,
         seed: u64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let data = from_dictionary(data)?;
+        let data = from_dictionary(data, cycle)?;
         let candidate = self.uniform()?.candidate().map_err(of_material)?;
         let parameters = &candidate.energy.description().parameters;
         let is_known = |name: &str| parameters.iter().any(|known| known.name == name);
         let held = held.iter().map(|name| parameter_name(name, is_known).to_owned()).collect();
         let volume = volume(incompressible);
-        let difference = if relative { Difference::Relative } else { Difference::Absolute };
-        let settings = FitSettings { volume, difference, held, restarts, seed };
+        if !relative && floor != 0.0 {
+            return Err(value_error("`relative=False` has no `floor`: leave one of them out"));
+        }
+        let floor = if relative { floor } else { 1.0 };
+        let settings = FitSettings { volume, floor, held, restarts, seed };
         let fit = py.detach(|| fit_parameters(&candidate, &data, &settings));
         let Fit { values, numbers, agreement, difference, condition, ended, warnings, .. } =
             fit.map_err(|error| FitError::new_err(error.to_string().replace("`lambda`", "`lambda_`")))?;
@@ -105,7 +118,7 @@ impl Material {
         let warnings: Vec<_> = warnings.iter().map(ToString::to_string).collect();
         let material = Py::new(py, self.with_fitted(&values)?)?;
         let arguments = (material, errors, determination, difference, condition, ended.to_string(), warnings);
-        py.import("piola.results")?.call_method1("Fit", arguments)
+        py.import("piola.results")?.call_method1("fitted", arguments)
     }
 
     /// Range of stretches in which the material keeps the inequalities of a stable solid.
@@ -163,10 +176,10 @@ impl Material {
     /// F: any array_like, of shape (..., 3, 3), inside the domain, with J > 0; its points are broadcast with
     ///     the parameters of the material.
     ///
-    /// Returns a dictionary from the keywords of the parameters to arrays of the shape of stresses, float32 if
-    /// F is; for a list, to an array with one more axis in front, and so for a curve: the derivatives by the
-    /// ordinates of its control points, except for one at x = 1. Raises DomainError for an F outside of the
-    /// domain, MaterialError for curves of which only some have a control point at x = 1.
+    /// Returns a dictionary from the keywords of the parameters to arrays of the shape of stresses, float32
+    /// if F is; for a list, to an array with one more axis in front, and so for a curve: the derivatives by
+    /// the ordinates of its control points, except for one at x = 1. Raises DomainError for an F outside of
+    /// the domain, MaterialError for curves of which only some have a control point at x = 1.
     #[pyo3(signature = (F, /))]
     fn stress_by_parameters<'py>(
         &self,
@@ -232,15 +245,24 @@ fn mode(name: &str) -> PyResult<Mode> {
     name.parse().map_err(value_error::<String>)
 }
 
-fn from_dictionary(data: &Bound<'_, PyDict>) -> PyResult<Measurements> {
+/// Measurements from arrays, or from tables whose columns have names.
+fn from_dictionary(data: &Bound<'_, PyDict>, cycle: Option<usize>) -> PyResult<Measurements> {
     let mut points = Vec::new();
     for (name, readings) in data {
         let name: String = name.extract()?;
         let mode = mode(&name)?;
+        let readings =
+            data.py().import("piola.results")?.call_method1("readings", (mode.name(), readings))?;
         let readings: Vec<[f64; 2]> = rows(&name, &readings)?;
         points.extend(readings.into_iter().map(|[control, stress]| Measured { mode, control, stress }));
     }
-    Ok(Measurements { points })
+    let data = Measurements { points };
+    let chosen = match cycle {
+        Some(cycle) => data.cycle(cycle),
+        None => data.check_curves().map(|()| data),
+    };
+    let in_python = |text: String| text.replace("`--cycle first`, `Measurements::cycle`", "`cycle=1`");
+    chosen.map_err(|mistake| value_error(in_python(mistake)))
 }
 
 /// A name of a report as a key of a dictionary, such as "strong_ellipticity".

@@ -94,6 +94,73 @@ def test_treloar_is_fitted_and_warned_about():
     assert 0.5 < fit.determination["all"] < 1 and any("lambda" in warning for warning in fit.warnings)
 
 
+def test_noise_near_zero_does_not_decide_in_silence(rubber):
+    rng = np.random.default_rng(1)
+    stretch = 1 + np.r_[np.linspace(0.0005, 0.02, 30), np.linspace(0.03, 1, 60)]
+    shape = stretch - stretch**-2
+    stress = 30e3 * shape + rng.normal(0, 400, stretch.size)
+
+    def linear(floor):
+        size = np.maximum(np.abs(stress), floor * stress.max())
+        return (shape * stress / size**2).sum() / ((shape / size) ** 2).sum()
+
+    data = {"uniaxial": np.c_[stretch, stress]}
+    with pytest.warns(UserWarning, match="near zero stress decide the fit, with 56 % .*: uniaxial 1.0166, uniaxial 1.0025;"):
+        fit = rubber.fit(data)
+    assert fit.material.parameters["mu"] == pytest.approx(linear(0), rel=1e-9) and linear(0) < 26e3
+    for options, floor in (({"floor": 0.05}, 0.05), ({"relative": False}, 1)):
+        found = rubber.fit(data, **options).material.parameters["mu"]
+        assert found == pytest.approx(linear(floor), rel=1e-9) and found == pytest.approx(30e3, rel=0.01)
+    for floor in (-0.1, 1.5, np.nan):
+        with pytest.raises(piola.FitError, match="share of the greatest stress, from 0 to 1"):
+            rubber.fit(data, floor=floor)
+    with pytest.raises(ValueError, match="no `floor`"):
+        rubber.fit(data, floor=0.05, relative=False)
+
+
+def test_columns_of_a_frame_are_found_by_their_names(rubber):
+    pandas = pytest.importorskip("pandas")
+    stretch = np.linspace(1.05, 2, 20)
+    stress = 4e5 * (stretch - stretch**-2)
+    for columns in (
+        {"stress": stress, "stretch": stretch},
+        {"stretch": stretch, "stress": stress},
+        {"strain": stretch - 1, "stress": stress},
+        {"time": stretch, "stress [MPa]": stress / 1e6, "strain [%]": 100 * stretch - 100},
+    ):
+        fit = rubber.fit({"tension": pandas.DataFrame(columns)}, held=["lambda_"])
+        assert fit.material.parameters["mu"] == pytest.approx(4e5, rel=1e-9)
+    assert rubber.fit({"tension": np.c_[stretch, stress]}, held=["lambda"]).errors["lambda"] is None
+    nameless = pandas.DataFrame(np.c_[stretch, stress])
+    assert rubber.fit({"tension": nameless}).material.parameters["mu"] == pytest.approx(4e5, rel=1e-9)
+    with pytest.raises(ValueError, match="the columns are 1 `a`, 2 `b`"):
+        rubber.fit({"uniaxial": pandas.DataFrame({"a": stretch, "b": stress})})
+
+
+@pytest.mark.parametrize(
+    ("strains", "stresses", "words"),
+    [
+        ([0.5, 1, 0, 0.5, 1], [4, 6, 0, 2, 3], "turns 2 times.*`cycle=1`"),
+        ([0.5, 0.5, 1], [4, 2, 3], "4 Pa at λ = 1.5 and 2 Pa at λ = 1.5"),
+        ([0.75, 1], [4, 0.5], "4 Pa at λ = 1.75 and 0.5 Pa at λ = 2"),
+        ([1, 1.5], [0, 2], "begins with 0 Pa at λ = 2, far from rest"),
+        ([-0.5, -0.25], [1, 2], "2 Pa at λ = 0.75 and 0 Pa at λ = 1"),
+        ([0.1, 0.5, 0.4, 1], [1, 4, 3.5, 6], None),
+        ([0, 1, 1.5, -0.5], [0, 0, 2, -9], None),
+    ],
+)
+def test_points_that_are_no_single_curve_are_told(rubber, strains, stresses, words):
+    data = {"uniaxial": np.c_[1 + np.array(strains), stresses]}
+    if words is None:
+        assert rubber.fit(data).material.parameters["mu"] > 0
+        return
+    with pytest.raises(ValueError, match=words):
+        rubber.fit(data)
+    rubber.fit(data, cycle=1)
+    with pytest.raises(ValueError, match="there is no cycle 3"):
+        rubber.fit(data, cycle=3)
+
+
 def test_tables_are_read_by_explicit_choice():
     plain = piola.measurements("strain [%];stress [MPa]\n10;0,12\n50;0,4\n", mode="uniaxial")
     assert np.allclose(plain["uniaxial"], [[1.1, 0.12e6], [1.5, 0.4e6]], rtol=1e-14)

@@ -70,7 +70,8 @@ impl Body {
     /// an error for a tetrahedron that belongs to no part or to two.
     pub fn from_parts(mesh: &TetMesh, parts: Vec<Part>) -> Result<Self, BodyError> {
         let shapes = mesh.rest_shapes().map_err(|error| BodyError(error.to_string()))?;
-        let part_of_tet = assign(mesh, &parts)?;
+        let groups: Vec<_> = parts.iter().map(|part| part.group.as_deref()).collect();
+        let part_of_tet = parts_of_tets(mesh, &groups)?;
 
         let mut densities = vec![0.0; shapes.len()];
         let mut elements = Vec::with_capacity(shapes.len());
@@ -147,8 +148,8 @@ impl Body {
         element - run.checked_sub(1).map_or(0, |before| self.runs[before].end)
     }
 
-    /// The materials, each with the range of its elements.
-    pub(crate) fn materials(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
+    /// The material of each part, with the range of its elements in [`elements`](Self::elements).
+    pub fn materials(&self) -> impl Iterator<Item = (&dyn TileMaterial<f64>, Range<usize>)> {
         let starts = [0].into_iter().chain(self.runs.iter().map(|run| run.end));
         self.runs.iter().zip(starts).map(|(run, start)| (run.material.as_ref(), start..run.end))
     }
@@ -161,12 +162,16 @@ impl Body {
     }
 }
 
-fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
+/// Index of the part of each tetrahedron, for the [groups](Part::group) of the parts.
+///
+/// # Errors
+/// [`BodyError`] for a missing group, or a tetrahedron that belongs to no part or to two.
+pub fn parts_of_tets(mesh: &TetMesh, groups: &[Option<&str>]) -> Result<Vec<usize>, BodyError> {
     let mut assigned = vec![None; mesh.tets.len()];
-    for (index, part) in parts.iter().enumerate() {
-        let Some(name) = &part.group else { continue };
+    for (index, group) in groups.iter().enumerate() {
+        let &Some(name) = group else { continue };
         let of_tets = || mesh.groups.iter().filter(|group| group.dimension == 3);
-        let group = of_tets().find(|group| group.name == *name);
+        let group = of_tets().find(|group| group.name == name);
         let group = group.ok_or_else(|| BodyError(no_such_group(name, of_tets(), " of tetrahedra")))?;
         for &tet in &group.tets {
             match assigned.get_mut(tet) {
@@ -180,7 +185,7 @@ fn assign(mesh: &TetMesh, parts: &[Part]) -> Result<Vec<usize>, BodyError> {
             }
         }
     }
-    let rest = parts.iter().position(|part| part.group.is_none());
+    let rest = groups.iter().position(Option::is_none);
     let each = assigned.into_iter().enumerate();
     let missing = |tet| format!("element {} has no material: it belongs to no part", mesh.tag(tet));
     each.map(|(tet, part)| part.or(rest).ok_or_else(|| BodyError(missing(tet)))).collect()

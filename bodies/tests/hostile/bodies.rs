@@ -2,7 +2,7 @@
 
 use piola::point::Filter;
 use piola_bodies::step::divided::{Preconditioner, Undivided};
-use piola_bodies::system::{Body, ElasticResponse, LowerTriangle, NodalStiffness, Part};
+use piola_bodies::system::{Body, ElasticResponse, LowerTriangle, NodalStiffness, Part, parts_of_tets};
 
 use crate::arguments::{Hostile, check};
 
@@ -39,6 +39,7 @@ fn bodies() {
     check(|hostile| {
         let mesh = hostile.mesh();
         let _ = Body::new(&mesh, hostile.rubber(), hostile.about(1e3));
+        let _ = parts_of_tets(&mesh, &[None, Some("half"), None]);
         let parts = (0..hostile.0.below(3)).map(|_| Part {
             group: (!hostile.0.once_in(2)).then(|| hostile.one_of(&["half", "other"]).to_owned()),
             material: Box::new(hostile.rubber()),

@@ -20,6 +20,8 @@ Files of measured points:
               ksi, bar, atm, kgf/cm2, kgf/mm2, dyn/cm2, N/mm2
   tests       uniaxial (UT, tension), equibiaxial (ET, EB, BT, biaxial), pure_shear (PS, planar),
               simple_shear (SS), volumetric (hydrostatic), in a column `mode` or by --mode
+  curves      one of each test; --cycle chooses one of the cycles or specimens in a file, and several
+              materials, temperatures and directions are files of their own
 The output names what was read and what was left out of each file.";
 
 /// Measured points, with columns, tests and units that their files do not name.
@@ -47,6 +49,15 @@ pub(crate) struct Data {
     /// Column of the stress, as in `Spannung`, `2`, `2=true stress [MPa]`.
     #[arg(long = "stress", value_name = "COLUMN")]
     stresses: Vec<String>,
+
+    /// Cycle, or specimen, of a file with several whose loading is used: one for all files, or one for each.
+    #[arg(long = "cycle", value_name = "first|N", value_parser = cycle)]
+    cycles: Vec<usize>,
+}
+
+fn cycle(text: &str) -> Result<usize, String> {
+    let number = if text == "first" { Some(1) } else { text.parse().ok() };
+    number.ok_or_else(|| "it must be `first`, or the number of a cycle, counted from 1".to_owned())
 }
 
 impl Data {
@@ -62,6 +73,7 @@ impl Data {
             ("--unit", self.units.len()),
             ("--strain", self.strains.len()),
             ("--stress", self.stresses.len()),
+            ("--cycle", self.cycles.len()),
         ] {
             if files == 0 && given > 0 {
                 return Err(Error::usage(format!(
@@ -78,6 +90,11 @@ impl Data {
             let (measured, note) = self.file(index, file)?;
             all.points.extend(measured.points);
             notes += &format!("  read     {}: {note}\n", file.display());
+        }
+        // Those of a chosen cycle are as they are: it may begin with a strain that has remained.
+        if self.cycles.is_empty() {
+            let refused = |mistake| Error::usage(format!("{}: {mistake}", self.names()));
+            all.check_curves().map_err(refused)?;
         }
         Ok((all, notes))
     }
@@ -109,7 +126,6 @@ impl Data {
         let (mut points, mut note) = (reading.measurements.clone(), reading.note);
         if !self.tests.is_empty() {
             points.points.retain(|point| self.tests.contains(&point.mode));
-            let (all, used) = (reading.measurements.points.len(), points.points.len());
             if points.modes().next().is_none() {
                 let known: Vec<_> = reading.measurements.modes().map(|mode| mode.name()).collect();
                 let known = known.join(", ");
@@ -117,9 +133,13 @@ impl Data {
                     "{path}: has points of {known} alone, and none of the tests of --mode"
                 )));
             }
-            if used < all {
-                note += &format!("; {used} of {all} points used, by --mode");
-            }
+        }
+        if let Some(cycle) = self.of_file(&self.cycles, index) {
+            points = points.cycle(cycle).map_err(|mistake| Error::usage(format!("{path}: {mistake}")))?;
+        }
+        let (all, used) = (reading.measurements.points.len(), points.points.len());
+        if used < all {
+            note += &format!("; {used} of {all} points used, by --mode or --cycle");
         }
         Ok((points, note))
     }

@@ -15,7 +15,8 @@ use crate::error::Error;
 /// Prints the parameters in a form to be pasted, R² of each test, and why other parameters might do as well.
 ///
 /// Minimises differences relative to the measured stress, so that points without stress, such as rest, do not
-/// count; R² is that of all points, rest included, as in a spreadsheet.
+/// count, unless --floor or --absolute gives others; R² is that of all points, rest included, as in a
+/// spreadsheet.
 #[derive(Debug, Args)]
 #[command(after_help = HELP, mut_arg("files", |data| data.required(true)))]
 pub(crate) struct Fit {
@@ -28,6 +29,15 @@ pub(crate) struct Fit {
     /// Keep a parameter, all entries of a list, or one as NAME_1; may be repeated.
     #[arg(long = "hold", value_name = "NAME")]
     held: Vec<String>,
+
+    /// Least stress by which a difference is divided, as a share of the greatest one, such as 0.05: it limits
+    /// the weight of readings near zero stress, which noise and offsets decide.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    floor: f64,
+
+    /// Minimise absolute differences, so that large stresses decide, and R² of all points is greatest.
+    #[arg(long, conflicts_with = "floor")]
+    absolute: bool,
 
     /// Keep the volume constant, regardless of the bulk modulus: the default unless the data have a
     /// volumetric test.
@@ -59,8 +69,9 @@ impl Fit {
         let spec = self.material.at(volume).spec()?.with_inversion(Inversion::Refuse);
         let material = spec.build()?.name;
         let candidate = spec.candidate()?;
-        let settings =
-            FitSettings { volume, held: self.held, restarts: self.starts, ..FitSettings::default() };
+        let (kind, floor) = if self.absolute { ("absolute", 1.0) } else { ("relative", self.floor) };
+        let (held, restarts) = (self.held, self.starts);
+        let settings = FitSettings { volume, floor, held, restarts, ..FitSettings::default() };
         let fit = fit::fit_parameters(&candidate, &data, &settings).map_err(|error| {
             Error::usage(format!("{material} cannot be fitted: {error}{}", remedy(&error)))
         })?;
@@ -68,7 +79,8 @@ impl Fit {
         let options = as_options(&fitted)?;
 
         let title = titled(&material, volume);
-        let mut text = format!("{title}, fitted to {} by relative differences\n", self.data.names());
+        let mut text =
+            format!("{title}, fitted to {} by {kind} differences, floor {floor}\n", self.data.names());
         text += &notes;
         text += &format!("  {options}\n");
         text += &at_rest(fitted.build()?.moduli, volume);

@@ -2,7 +2,7 @@
 
 use piola::Inversion;
 use piola_laboratory::curve::Mode;
-use piola_laboratory::fit::{Difference, FitSettings};
+use piola_laboratory::fit::FitSettings;
 use piola_laboratory::ranking::{Contender, rank};
 use piola_materials::DECLARATIONS;
 use piola_scenes::error::Error as SceneError;
@@ -44,7 +44,7 @@ pub(super) fn run(data: &Data) -> Result<String, Error> {
     };
     let rubbers = DECLARATIONS.iter().filter(|declaration| declaration.is_rubber);
     let contenders = rubbers.map(|rubber| contender(rubber.name)).collect::<Result<Vec<_>, _>>()?;
-    let settings = FitSettings { difference: Difference::Absolute, ..FitSettings::default() };
+    let settings = FitSettings { floor: 1.0, ..FitSettings::default() };
     let ranking = rank(&contenders, &data, &settings);
     Ok(format!("rubbers, incompressible, fitted to {files}\n{notes}\n{ranking}"))
 }

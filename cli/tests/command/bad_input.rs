@@ -109,6 +109,8 @@ fn parameters_and_numbers_out_of_range() {
     check(&[], "run horse --inversion 1e-300", &["1e-300", "--inversion", "from 1e-6"]);
     check(&[], "run horse --dt NaN", &["time step", "--dt", "from 1e-12 to 1e6"]);
     check(&[], "run horse --density -2", &["density", "--density", "from 1e-9"]);
+    check(&[], "run horse --part legs", &["--part legs", "GROUP=NAME"]);
+    check(&[], "run horse --part legs=gent;density=1,2", &["density=RHO", "one number"]);
     check(&[], "run horse --gravity NaN", &["--gravity", "from -1e9"]);
     for frames in ["0", "18446744073709551615"] {
         check(&[], &format!("run horse --frames {frames}"), &["--frames", "from 1 to 1000000"]);
@@ -122,6 +124,8 @@ fn materials_that_cannot_start_where_a_scene_does() {
     let known =
         ["`yeoh`", "`horse`", "J > 0", "cannot be extended", "neo_hookean", "--material", "`stretch`"];
     check(&[], "run horse --material yeoh", &known);
+    let mesh = include_str!("twomaterials.msh").to_owned();
+    check(&[("two.msh", mesh)], "run horse --mesh two.msh --part stiff=yeoh", &known);
     let refused = "run horse --material neo_hookean --inversion refuse";
     check(&[], refused, &["`neo_hookean`", "J > 0", "leave out --inversion refuse"]);
 }
@@ -198,6 +202,17 @@ fn data_that_may_mean_two_things() {
     check(&[], "curve gent --strain 1", &["--strain", "--data"]);
     let chosen = "fit gent --data rubber.csv --mode uniaxial --strain '1=stress [MPa]'";
     check(&data("a,stress_Pa\n0.1,0.2\n"), chosen, &["rubber.csv:1", "not a stretch or a strain"]);
+    let biaxial = "lambda1,lambda2,P11_MPa,P22_MPa\n1.3,1,0.337934,0.163314\n1.3,1.6,0.44888,0.582215\n\
+                   1.9,1,0.701682,0.289197\n";
+    check(&data(biaxial), arguments, &["rubber.csv:1", "1 `lambda1`, 2 `lambda2`", "general biaxial"]);
+    let first = format!("{arguments} --mode equibiaxial --strain 1=stretch --stress '3=stress [MPa]'");
+    check(&data(biaxial), &first, &["with 448.9 kPa at λ = 1.3 and 337.9 kPa", "stretches across"]);
+    let beside = "1.0063\t0.0224\t0.9938\t-0.0226\t0.0125\t0.0150\n";
+    check(&data(beside), arguments, &["no header above the numbers", "6 `0.0150`"]);
+    let rheometer = "Time (s)\tTorque (Nm)\tNormal force (N)\tGap (um)\n0\t-0.0000144\t0.04\t9760\n";
+    check(&data(rheometer), arguments, &["3 `Normal force (N)`", "by the cross-section"]);
+    check(&[], "fit gent --data treloar --cycle second", &["--cycle", "`first`, or the number"]);
+    check(&[], "fit gent --data treloar --floor 0.1 --absolute", &["--floor", "--absolute"]);
     check(&[], "curve gent --at 1.1 --rows 3", &["--at", "--rows"]);
     check(&[], "curve gent --param jm=105MPa", &["`jm`", "without a unit", "in Pa"]);
     check(&[], "curve gent --param mu=1/MPa", &["`mu`", "in Pa", "in 1/Pa"]);

@@ -7,10 +7,11 @@ use serde_json::Value;
 use crate::bad_input::tetrahedron;
 use crate::{Folder, assert_contains};
 
-/// Keys of every summary; `final_state` may be null.
-const KEYS: &str = "scene material parameters shear_modulus bulk_modulus poisson tets nodes surface_vertices frames \
+/// Keys of every summary; `final_state` and `recovered` may be null.
+const KEYS: &str = "scene material parameters shear_modulus bulk_modulus poisson tets nodes held size \
+                    volume mass gravity materials surface_vertices frames \
                     frames_wanted ended failures warnings dt newton_iterations_mean inverted_at_start min_det_f \
-                    max_distance_from_rest energy ms_per_step_median steps_per_second integrator steps newton recovered";
+                    max_distance_from_rest energy ms_per_step_median steps_per_second integrator steps newton";
 
 /// Runs a scene and returns its summary, which may have `more` keys, having seen that everything is there and
 /// every number finite.
@@ -30,7 +31,7 @@ fn check(arguments: &str, scene: &str, frames: u64, more: &str) -> Value {
     let is_held = object["warnings"].to_string().contains("the body is pulled until");
     assert_eq!(object["final_state"].is_null(), is_held || object["recovered"] == true, "{summary}");
     let keys: Vec<&str> = KEYS.split(' ').chain(more.split_whitespace()).collect();
-    assert_eq!(object.len(), keys.len() + 1, "{summary}");
+    assert_eq!(object.len(), keys.len() + 2, "{summary}");
     for key in keys {
         // What is not finite would be null.
         assert!(object.get(key).is_some_and(|value| !value.is_null()), "`{key}` in {summary}");
@@ -104,6 +105,60 @@ fn run_on(folder: &Folder, mesh: &str, scene: &str, options: &str) -> (String, V
     (said + &warned, folder.summary("out"))
 }
 
+/// Sizes, volumes and numbers of nodes are by numpy; the last bar is of steel, with its density in t/mm³.
+#[test]
+fn what_will_be_run_is_printed_before_it_runs() {
+    let folder = Folder::new();
+    folder.write("bar.msh", bar(1.0));
+    let bar = "scramble --amplitude 0 --gravity 9.81 --pin :,:0,: --mesh bar.msh --unit mm --density";
+    let size = "scramble: 18 tetrahedra, 16 nodes, 4 of them held\n  0.05 m along x, 0.15 m along y, 0.05 m along z; \
+                0.000375 m³";
+    let horse = "horse: 2646 tetrahedra, 787 nodes, 22 of them held\n  2.5123 m along x, 1.9211 m along y, 0.88668 m \
+                 along z; 0.71164 m³, 711.64 kg\n  gravity 0 m/s² along y, which points upwards\n  rotated_linear ";
+    let dinosaur = "dinosaur: 1031 tetrahedra, 347 nodes, 10 of them held\n  3.3466 m along x, 2.0772 m along y, 1.154 m \
+                    along z; 1.0563 m³, 1056.3 kg\n";
+    for (run, expected, is_odd) in [
+        ("horse", horse, false),
+        ("dinosaur", dinosaur, false),
+        (&format!("{bar} 1000")[..], &format!("{size}, 0.375 kg\n  gravity -9.81 m/s² along y")[..], false),
+        (&format!("{bar} 7.85e-9")[..], &format!("{size}, 2.94")[..], true),
+    ] {
+        let (said, warned) = folder.outputs(&format!("run {run} --frames 1"));
+        assert!(said.starts_with(expected), "{said}");
+        assert_eq!(warned.contains("kg/m³; is that meant?"), is_odd, "{warned}");
+    }
+    assert_contains(&folder.answer("run --help"), &["y points upwards", "along -y"]);
+}
+
+/// The deflection is by linear elasticity on this mesh, in numpy; strains are about a per cent at most.
+#[test]
+fn groups_of_a_mesh_have_materials_of_their_own() {
+    let folder = Folder::new();
+    let run = |options: &str| {
+        let options = format!("--amplitude 0 --gravity 9.81 {options}");
+        run_on(&folder, include_str!("twomaterials.msh"), "scramble", &options)
+    };
+    let words = ["groups of the mesh: `soft`, `stiff`", "no node is held, and the body falls"];
+    assert_contains(&run("").0, &words);
+    let (said, summary) = run("--pin :,:,:");
+    assert_contains(&said, &["all 45 nodes are held, and nothing can move"]);
+    assert!(summary["recovered"].is_null() && !said.contains("recovered"), "{said}");
+    let parts = "--part soft=rotated_linear;mu=3e5;lambda=6e5 --part stiff=rotated_linear;mu=3e6;lambda=6e6";
+    let (said, summary) = run(&format!("--pin :,:,:0 {parts};density=3000"));
+    assert_contains(&said, &["groups of the mesh: `soft`;", "groups of the mesh: `stiff`;"]);
+    let end = &summary["final_state"]["max_distance_from_rest"];
+    for (found, expected) in [(&summary["mass"], 0.032), (end, 0.0095159)] {
+        let error = found.as_f64().expect("a number") / expected - 1.0;
+        assert!(error.abs() < 0.01, "{error}: {summary}");
+    }
+    // Energy densities 3μ + 9λ/2 of a point, of three tetrahedra in each group.
+    folder.answer(&format!("run point --mesh body.msh --frames 1 --vtu {parts}"));
+    let energies = ["AAAAAEB3S0EAAAAAQHdLQQAAAABAd0tB", "AAAAAIgqgUEAAAAAiCqBQQAAAACIKoFB"];
+    assert_contains(&folder.read("out/point/frame_0000.vtu"), &energies);
+    let message = folder.refusal("run horse --mesh body.msh --part hard=rotated_linear");
+    assert_contains(&message, &["no group `hard`", "soft, stiff"]);
+}
+
 #[test]
 fn elements_that_are_left_out_are_in_the_warnings() {
     let mesh = bar(1e3).replace("$Elements\n18\n", "$Elements\n19\n2 6 0 1 2 3 5 6 7\n");
@@ -170,11 +225,12 @@ fn a_mesh_in_millimetres_is_the_body_in_metres() {
 #[test]
 fn a_reversed_tetrahedron_and_a_pull_that_finds_no_node_are_told() {
     // The head of a dinosaur is above and in front, where this corner is not.
-    let run = |nodes| run_on(&Folder::new(), &tetrahedron(nodes), "dinosaur", "");
+    let run = |nodes| run_on(&Folder::new(), &tetrahedron(nodes), "dinosaur", "--gravity 9.81");
     let ((_, right), (said, turned)) = (run([1, 2, 3, 4]), run([1, 3, 2, 4]));
     assert!(said.contains("warning: no node of the body lies where the scene pulls"), "{said}");
     assert!(said.contains("\nnote: 1 tetrahedra of the file have"), "{said}");
     assert_eq!(right["energy"], turned["energy"]);
+    assert!(right["energy"].as_f64() > Some(0.0), "{right}");
 }
 
 #[test]

@@ -70,15 +70,12 @@ const SHARES: [(f64, &[&str]); 4] = [
 /// The unit of a name with or without brackets, if it is known.
 pub(super) fn unit(text: &str) -> Option<Unit> {
     let text = text.trim_matches(|c: char| "()[] ".contains(c));
-    if text.len() > LONGEST {
-        return None;
-    }
     let name = plain(text);
     let share = SHARES.iter().find(|(_, names)| names.contains(&&*name)).map(|(size, _)| Unit::Share(*size));
     share.or_else(|| text.parse().ok().map(Unit::Stress))
 }
 
-/// Bytes beyond which a text is not looked at as a unit.
+/// Bytes beyond which the end of a text is not looked at as a unit.
 const LONGEST: usize = 24;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -137,14 +134,14 @@ pub(super) fn has_clear_unit(text: &str, unit: Option<Unit>, is_stress: bool) ->
     }
 }
 
-/// A header without its unit, and the unit: in brackets at the end; or behind a space, `_`, `/` or a comma.
+/// A header without its unit, and the unit: in brackets at the end, which may hold something else, as in
+/// `Strain (Strain 1)`; or behind a space, `_`, `/` or a comma.
 fn name_and_unit(text: &str) -> (&str, Option<Unit>) {
     let text = text.trim();
     if let Some(inner) = text.strip_suffix([')', ']'])
         && let Some(open) = inner.rfind(['(', '['])
     {
-        let unit = unit(&inner[open + 1..]);
-        return if unit.is_some() { (&text[..open], unit) } else { (text, None) };
+        return (&text[..open], unit(&inner[open + 1..]));
     }
     let mut places = text.match_indices([' ', '_', '/', ',']).filter(|(at, _)| text.len() - at <= LONGEST);
     let split = places.find_map(|(at, _)| {

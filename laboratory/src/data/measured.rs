@@ -119,10 +119,7 @@ pub struct Agreement {
 
 impl fmt::Display for Agreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shown = |determination: &Option<f64>| match determination {
-            Some(determination) => short(*determination),
-            None => "undefined (equal stresses)".to_owned(),
-        };
+        let shown = |found: &Option<f64>| found.map_or_else(|| "undefined (equal stresses)".into(), short);
         for (mode, determination) in &self.modes {
             write!(f, "{mode} {}, ", shown(determination))?;
         }

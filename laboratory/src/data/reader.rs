@@ -8,7 +8,7 @@ use super::measured::{Measured, Measurements};
 use super::options::{DataError, NO_TEST, ReadOptions};
 use super::table::{Row, Table, number};
 use crate::curve::Mode;
-use crate::rest::digits;
+use crate::rest::{digits, pascals};
 
 /// Measurements, and how a file was understood.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +53,13 @@ impl Measurements {
         if text.contains('\0') {
             let mistake = "this is UTF-16, or not text but an archive, as spreadsheets are; save the sheet as CSV in UTF-8";
             return Err(DataError::at(1, mistake));
+        }
+        let is_keyword = |line: &str| line.starts_with('*') && !line.starts_with("**");
+        let is_block = |line: &str| is_keyword(line) && line.to_lowercase().contains("test data");
+        if let Some(line) = text.lines().position(is_block) {
+            let mistake = "this is an input deck, which names no units; write the rows of one test of one material, temperature \
+                           and direction to a file, below a header such as `stress [MPa],strain`";
+            return Err(DataError::at(line as u64 + 1, mistake));
         }
         let table = Table::of(text, options)?;
         let at_header = |mistake: String| DataError::at(table.line, mistake);
@@ -108,9 +115,8 @@ fn may_be_thousands(field: &str) -> bool {
     let Some((whole, part)) = field.trim_start_matches(['+', '-', '−']).split_once(',') else {
         return false;
     };
-    let are_digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-    let has_lengths = matches!(whole.len(), 1..=3) && part.len() == 3;
-    has_lengths && !whole.starts_with('0') && are_digits(whole) && are_digits(part)
+    let are_digits = whole.bytes().chain(part.bytes()).all(|byte| byte.is_ascii_digit());
+    are_digits && matches!(whole.len(), 1..=3) && part.len() == 3 && !whole.starts_with('0')
 }
 
 impl Table<'_> {
@@ -186,15 +192,12 @@ fn check(points: &[(u64, Measured)], column: &Heading) -> Result<(), DataError> 
             && (least > FAR.0 || most > FAR.1)
             && let Some((line, _)) = strained.next()
         {
-            let is_stretch = column.quantity == Quantity::Stretch;
+            let (letter, least, most) = (mode.letter(), message::number(least), message::number(most));
+            let unit = if column.quantity == Quantity::Stretch { "stretch [-]" } else { "strain [-]" };
             let mistake = format!(
-                "`{}` of {mode} makes {} from {} to {}: are the numbers percent? Then write `strain [%]`; if they are \
-                 as large as that, `{}`",
-                quoted(&column.text),
-                mode.letter(),
-                message::number(least),
-                message::number(most),
-                if is_stretch { "stretch [-]" } else { "strain [-]" }
+                "`{}` of {mode} makes {letter} from {least} to {most}: are the numbers percent? Then write `strain [%]`; if \
+                 they are as large as that, `{unit}`",
+                quoted(&column.text)
             );
             return Err(DataError::at(*line, mistake));
         }
@@ -214,12 +217,12 @@ fn check(points: &[(u64, Measured)], column: &Heading) -> Result<(), DataError> 
             } else {
                 continue;
             };
+            let (letter, control, stress) =
+                (mode.letter(), message::number(control), message::number(stress));
             let mistake = format!(
-                "{mode} {} = {} has a stress of {} Pa{question}: a strain is written under `strain` or `strain [%]`, a \
-                 compression with negative strain and stress or under `compressive strain` and `compressive stress`",
-                mode.letter(),
-                message::number(control),
-                message::number(stress)
+                "{mode} {letter} = {control} has a stress of {stress} Pa{question}: a strain is written under `strain` or \
+                 `strain [%]`, a compression with negative strain and stress or under `compressive strain` and \
+                 `compressive stress`"
             );
             return Err(DataError::at(line, mistake));
         }
@@ -241,27 +244,27 @@ fn described(column: &Heading) -> String {
 fn note(table: &Table<'_>, decimal: char, data: &Measurements) -> String {
     let Table { control, stress, .. } = table;
     let mut parts = vec![format!("{}, {}", described(control), described(stress))];
-    if stress.quantity == Quantity::TrueStress {
-        parts.push("nominal stress from true stress as of an incompressible solid".into());
-    }
     let of_mode = |mode: Mode| {
         let controls = || data.of(mode).map(|point| point.control);
-        let (count, letter) = (controls().count(), mode.letter());
+        let stresses = || data.of(mode).map(|point| point.stress);
         let [least, most] = [controls().reduce(f64::min)?, controls().reduce(f64::max)?].map(digits);
+        let [low, high] = [stresses().reduce(f64::min)?, stresses().reduce(f64::max)?].map(pascals);
+        let (count, letter, turns) = (data.of(mode).count(), mode.letter(), data.reversals(mode).len());
         let points = if count == 1 { "point" } else { "points" };
-        Some(format!("{count} {points} of {mode}, {letter} from {least} to {most}"))
+        Some(format!(
+            "{count} {points} of {mode}, {letter} from {least} to {most}, stress from {low} to {high}, reversals: {turns}"
+        ))
     };
     parts.extend(Mode::ALL.into_iter().filter_map(of_mode));
-    if decimal == ',' {
-        parts.push("decimal commas".into());
-    }
-    if !table.unused.is_empty() {
-        parts.push(format!("left out: {}", names(&table.unused)));
-    }
-    match table.preamble {
-        0 => {}
-        1 => parts.push("a line above the header left out".into()),
-        lines => parts.push(format!("{lines} lines above the header left out")),
-    }
+    let left_out = |lines: usize, of: &str| (lines > 0).then(|| format!("lines left out {of}: {lines}"));
+    let is_true = stress.quantity == Quantity::TrueStress;
+    let others = [
+        is_true.then(|| "nominal stress from true stress as of an incompressible solid".into()),
+        (decimal == ',').then(|| "decimal commas".into()),
+        (!table.unused.is_empty()).then(|| format!("left out: {}", names(&table.unused))),
+        left_out(table.preamble, "above the header"),
+        left_out(table.repeated, "as headers that return"),
+    ];
+    parts.extend(others.into_iter().flatten());
     parts.join("; ")
 }

@@ -1,6 +1,6 @@
 //! The table of a file: lines taken apart, and which of its columns are used for what.
 
-use piola::__private::message::quoted;
+use piola::__private::message::{names, quoted};
 
 use super::heading::{Heading, Quantity, Unit, has_clear_unit, unit};
 use super::options::{DataError, ReadOptions};
@@ -36,6 +36,8 @@ pub(super) struct Table<'a> {
     pub(super) unused: Vec<String>,
     /// Lines above the header that are not comments.
     pub(super) preamble: usize,
+    /// Lines of the header that return, as above another specimen.
+    pub(super) repeated: usize,
     pub(super) rows: Vec<Row<'a>>,
 }
 
@@ -54,7 +56,10 @@ impl<'a> Table<'a> {
         let names = fields.iter().enumerate();
         let unused = names.filter(|(place, name)| has_header && !name.is_empty() && !is_used(*place));
         let unused = unused.map(|(_, name)| (*name).to_owned()).collect();
-        rows.drain(..begin);
+        let head: Vec<_> = rows.drain(..begin).skip(preamble).map(|row| row.fields).collect();
+        let below = rows.len();
+        rows.retain(|row| !head.contains(&row.fields));
+        let repeated = below - rows.len();
         for row in &mut rows {
             // Such as of a separator at the end of each line.
             while row.fields.len() > expected && row.fields.last() == Some(&"") {
@@ -62,16 +67,14 @@ impl<'a> Table<'a> {
             }
             let found = row.fields.len();
             if found != expected {
-                let remedy = match found > expected {
-                    true => ", and decimals with a point, or columns separated by semicolons or tabs",
-                    false => "",
-                };
-                let mistake =
-                    format!("{found} fields where the header has {expected}; write as many{remedy}");
+                let mistake = format!(
+                    "{found} fields where the header has {expected}; write as many, decimals with a point or columns \
+                     separated by semicolons or tabs, and another table to another file"
+                );
                 return Err(DataError::at(row.line, mistake));
             }
         }
-        Ok(Self { line, separator, mode, control, stress, unused, preamble, rows })
+        Ok(Self { line, separator, mode, control, stress, unused, preamble, repeated, rows })
     }
 }
 
@@ -100,10 +103,7 @@ fn fields(line: &str, separator: char) -> Vec<&str> {
         is_quoted ^= c == '"';
         !is_quoted && c == separator
     });
-    let bare = fields.map(|field| {
-        let field = field.trim();
-        field.strip_prefix('"').map_or(field, |rest| rest.strip_suffix('"').unwrap_or(rest)).trim()
-    });
+    let bare = fields.map(|field| field.trim().trim_matches('"').trim());
     // Between columns that spaces separate there may be several.
     bare.filter(|field| separator != ' ' || !field.is_empty()).collect()
 }
@@ -153,17 +153,12 @@ fn find(rows: &[Row<'_>], options: &ReadOptions) -> Result<(usize, usize, Column
 
 /// The mistake of a header, or of the first row where there is none, with the columns by their numbers.
 fn refused(row: &Row<'_>, problem: String) -> DataError {
-    const MOST: usize = 12;
-    let columns = (1..).zip(&row.fields).map(|(number, name)| format!("{number} `{}`", quoted(name)));
-    let shown = columns.take(MOST).collect::<Vec<_>>().join(", ");
-    let more = match row.fields.len() {
-        ..=MOST => String::new(),
-        all => format!(" and {} more", all - MOST),
-    };
+    let columns = names((1..).zip(&row.fields).map(|(number, name)| format!("{number} `{name}`")));
     let mistake = format!(
-        "{problem}; the columns are {shown}{more}. Write a header such as `stretch,nominal_stress_MPa`, or give the columns by \
+        "{problem}; the columns are {columns}. Write a header such as `stretch,nominal_stress_MPa`, or give the columns by \
          name or number and what they hold: `--strain \"1=strain [%]\" --stress \"2=stress [MPa]\"` \
-         (`ReadOptions::strain`). Divide forces by the cross-section and elongations by the length at rest"
+         (`ReadOptions::strain`). Divide forces by the cross-section and elongations by the length at rest. \
+         Of tests with two stretches (general biaxial tests) only those that are one of the modes can be used"
     );
     DataError::at(row.line, mistake)
 }

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use piola::__private::message::number;
+use piola::__private::message::{names, number};
 use piola::material::MaterialError;
 
-use crate::data::{Agreement, PointError, short};
+use crate::data::{Agreement, Measured, PointError, short};
 
 /// Fitted parameters, and their agreement with the data.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +50,7 @@ impl fmt::Display for Fit {
         writeln!(f, "  R²           {}", self.agreement)?;
         writeln!(
             f,
-            "  differences  {:.3} % (root mean square, points without stress left out)",
+            "  differences  {:.3} % (root mean square, points without weight left out)",
             100.0 * self.difference
         )?;
         writeln!(f, "  the best of {} descents: {}", self.descents, self.ended)?;
@@ -147,6 +147,13 @@ pub enum Warning {
         /// A bulk modulus that would bring it to 0.49, Pa.
         bulk: f64,
     },
+    /// Few readings near zero stress carry more than half of the sum of squares: a tenth of all at most.
+    Few {
+        /// These readings, by falling share of the sum.
+        readings: Vec<Measured>,
+        /// Their share of the sum.
+        share: f64,
+    },
     /// The mean of the measured stresses would be a better guess than the curves.
     Poor {
         /// R² of all points, below 0.
@@ -231,6 +238,15 @@ impl fmt::Display for Warning {
                  `FitSettings::volume`), or make it incompressible with a term such as \
                  `kappa / 2.0 * (J - 1.0).powi(2)`, kappa being {bulk:.0e} Pa or more"
             ),
+            Self::Few { readings, share } => {
+                let at = |point: &Measured| format!("{} {:.4}", point.mode, point.control);
+                let (readings, percent) = (names(readings.iter().map(at)), 100.0 * share);
+                write!(
+                    f,
+                    "readings near zero stress decide the fit, with {percent:.0} % of the sum of squares: {readings}; noise \
+                     and offsets count less by `--floor 0.05` (`FitSettings::floor`), or by `--absolute` (a floor of 1)"
+                )
+            }
             Self::Poor { determination } => write!(
                 f,
                 "R² of all points is {}, below 0: the mean of the measured stresses would be a better guess than these \

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use piola::material::MaterialError;
 use piola_laboratory::curve::{Mode, ResponseError, Volume, respond};
 use piola_laboratory::data::PointError;
-use piola_laboratory::fit::{Difference, Ended, Fit, FitSettings, TrialError, Warning, fit_parameters};
+use piola_laboratory::fit::{Ended, Fit, FitSettings, TrialError, Warning, fit_parameters};
 
 use super::{Linear, Outcome, by, candidate, of_numbers, rubber, tension, text, told, treloar};
 
@@ -92,9 +92,9 @@ fn where_the_bulk_modulus_may_not_fall_below_zero_the_best_fit_has_none() -> Out
     let mut edge = DMatrix::zeros(5, 4);
     edge[(0, 0)] = -2.0 / 3.0;
     (0..4).for_each(|k| edge[(k + 1, k)] = 1.0);
-    for difference in [Difference::Relative, Difference::Absolute] {
-        let found = fit_parameters(&start, &data, &by(difference))?;
-        let linear = Linear::new(&data, difference, murnaghan);
+    for floor in [0.0, 1.0] {
+        let found = fit_parameters(&start, &data, &by(floor))?;
+        let linear = Linear::new(&data, floor, murnaghan);
         check(&linear, &found, linear.squares(&linear.best(&DVector::zeros(5), &edge)));
         assert_eq!(found.ended, Ended::Edge);
         assert!(found.agreement.total > Some(0.8), "{found:?}");
@@ -111,13 +111,13 @@ fn where_the_bulk_modulus_may_not_fall_below_zero_the_best_fit_has_none() -> Out
 #[test]
 fn bounds_that_end_a_fit_are_named() -> Outcome {
     let data = treloar();
-    for difference in [Difference::Relative, Difference::Absolute] {
+    for floor in [0.0, 1.0] {
         // The second runs into the corner of two bounds, one of which it can leave.
         for start in [of_numbers(BOUNDED, &[5e4, 2e4])?, of_numbers(BOUNDED, &[2e4, 9e4])?] {
-            let found = fit_parameters(&start, &data, &by(difference))?;
+            let found = fit_parameters(&start, &data, &by(floor))?;
             let edge = DMatrix::from_column_slice(2, 1, &[0.0, 1.0]);
             let corner = DVector::from_vec(vec![1e5, 0.0]);
-            let linear = Linear::new(&data, difference, mooney);
+            let linear = Linear::new(&data, floor, mooney);
             check(&linear, &found, linear.squares(&linear.best(&corner, &edge)));
             assert_eq!(conditions(&found), ["c1 <= 1e5"]);
             let text = text(&found);
@@ -155,7 +155,7 @@ fn curved_edges_are_followed() -> Outcome {
     let data = treloar();
     for start in [of_numbers(ROUND, &[5e4, 2e4])?, of_numbers(ROUND, &[2e4, 8e4])?] {
         let found = fit_parameters(&start, &data, &FitSettings::default())?;
-        let linear = Linear::new(&data, Difference::Relative, mooney);
+        let linear = Linear::new(&data, 0.0, mooney);
         let on_circle = |angle: f64| {
             let (sine, cosine) = angle.sin_cos();
             linear.squares(&DVector::from_vec(vec![1e5 * cosine, 1e5 * sine]))
@@ -173,7 +173,7 @@ fn curved_edges_are_followed() -> Outcome {
 fn points_that_lose_their_stress_are_an_edge_too() -> Outcome {
     // The last point would have I1 > a.
     let data = tension(&[(1.1, 2e4), (1.5, 1e5), (2.0, 1.2e5), (2.5, 1e5), (3.0, -5e4)]);
-    let found = fit_parameters(&of_numbers(SOFTENING, &[1e4, 20.0])?, &data, &by(Difference::Absolute))?;
+    let found = fit_parameters(&of_numbers(SOFTENING, &[1e4, 20.0])?, &data, &by(1.0))?;
     assert_eq!(found.ended, Ended::Edge);
     let Some(TrialError::Point(PointError { point, reason })) = edges(&found).first() else {
         panic!("{found:?}");

@@ -3,7 +3,7 @@
 use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::data::{Measured, Measurements};
 use piola_laboratory::fit::{
-    Candidate, Difference, Ended, Fit, FitError, FitSettings, Standing, Warning, fit_parameters,
+    Candidate, Ended, Fit, FitError, FitSettings, Standing, Warning, fit_parameters,
 };
 
 use super::{Linear, Outcome, by, candidate, catalogue, of_numbers, rubber, tension, text, told, treloar};
@@ -130,7 +130,7 @@ fn what_is_linear_has_the_closed_form() -> Outcome {
     let data = treloar();
     // ∂ψ/∂λi of μ/2 I1.
     let neo_hookean = |stretches: [f64; 3]| stretches.map(|stretch| [stretch]);
-    let (expected, errors) = Linear::new(&data, Difference::Relative, neo_hookean).best_of_all();
+    let (expected, errors) = Linear::new(&data, 0.0, neo_hookean).best_of_all();
     let found = fit_parameters(&rubber("neo_hookean", &[1e6, 1e8])?, &data, &FitSettings::default())?;
     assert_eq!(found.numbers[1].standing, Standing::Unidentifiable, "λ at constant volume");
     assert_eq!(found.warnings, [Warning::Unidentifiable { parameter: "lambda".into() }]);
@@ -145,7 +145,7 @@ fn what_is_linear_has_the_closed_form() -> Outcome {
         let above_rest = stretches.iter().map(|stretch| stretch * stretch).sum::<f64>() - 3.0;
         stretches.map(|stretch| [1, 2, 3].map(|k| f64::from(k) * above_rest.powi(k - 1) * 2.0 * stretch))
     };
-    let (expected, errors) = Linear::new(&data, Difference::Relative, yeoh).best_of_all();
+    let (expected, errors) = Linear::new(&data, 0.0, yeoh).best_of_all();
     let found = fit_parameters(&rubber("yeoh", &[1e5, -1e3, 10.0, 2e7])?, &data, &FitSettings::default())?;
     for (term, number) in found.numbers[..3].iter().enumerate() {
         // The condition of the normal equations is the square of that of the system.
@@ -162,7 +162,7 @@ fn what_is_linear_has_the_closed_form() -> Outcome {
 #[test]
 fn three_terms_follow_treloar_more_closely_than_ogdens_own() -> Outcome {
     let ogdens = candidate(catalogue("ogden"), &[&[0.63e6, 0.0012e6, -0.01e6], &[1.3, 5.0, -2.0], &[2e7]])?;
-    let (data, settings) = (treloar(), by(Difference::Absolute));
+    let (data, settings) = (treloar(), by(1.0));
     let before = data.agreement(&ogdens.material, Volume::Kept)?;
     let found = fit_parameters(&ogdens, &data, &settings)?;
     assert!(found.agreement.total > before.total, "{found:?}");

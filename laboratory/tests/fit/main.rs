@@ -11,7 +11,7 @@ use piola::Inversion;
 use piola_declare::Energy;
 use piola_laboratory::curve::{Mode, Volume, respond};
 use piola_laboratory::data::{Measured, Measurements, TRELOAR_1944};
-use piola_laboratory::fit::{Candidate, Difference, Fit, FitSettings, Warning};
+use piola_laboratory::fit::{Candidate, Fit, FitSettings, Warning};
 use piola_materials::DECLARATIONS;
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
@@ -66,8 +66,8 @@ fn synthetic(
     Measurements { points }
 }
 
-fn by(difference: Difference) -> FitSettings {
-    FitSettings { difference, ..FitSettings::default() }
+fn by(floor: f64) -> FitSettings {
+    FitSettings { floor, ..FitSettings::default() }
 }
 
 /// What the warnings of one kind tell.
@@ -91,15 +91,12 @@ impl Linear {
     /// By the stress along axes 1 to 3 for each of the parameters at some stretches, at constant volume.
     fn new<const N: usize>(
         data: &Measurements,
-        difference: Difference,
+        floor: f64,
         terms: impl Fn([f64; 3]) -> [[f64; N]; 3],
     ) -> Self {
         let greatest = data.points.iter().fold(0.0_f64, |greatest, point| greatest.max(point.stress));
         let points: Vec<_> = data.points.iter().filter(|point| !point.is_rest()).collect();
-        let size = |row: usize| match difference {
-            Difference::Relative => points[row].stress,
-            Difference::Absolute => greatest,
-        };
+        let size = |row: usize| points[row].stress.abs().max(floor * greatest);
         let stress = |row: usize, term: usize| {
             let s = points[row].control;
             let stretches = match points[row].mode {

@@ -1,5 +1,5 @@
 //! Energies that are declared on the command line: `--energy FORMULA`, or a file instead of a material's
-//! name.
+//! name; and materials of groups, `--part`.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use piola::material::Unit;
 use piola_declare::{Energy, FormulaOptions, Mistakes};
 
 use crate::error::Error;
-use crate::material::MaterialSpec;
+use crate::material::{MaterialPart, MaterialSpec};
 use crate::output::read_text;
 
 use super::value::{Given, modulus, parameter};
@@ -115,7 +115,7 @@ fn check_units(energy: &Energy, parameters: &[Given]) -> Result<(), Error> {
 ///
 /// # Errors
 /// [`Error::Usage`] if it cannot be read, [`Error::Declaration`].
-pub fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
+fn in_file(name: &str) -> Result<Option<MaterialSpec>, Error> {
     let path = Path::new(name);
     if path.extension().is_none_or(|extension| extension != "rs") {
         return Ok(None);
@@ -139,7 +139,7 @@ fn in_words(unit: Unit) -> &'static str {
 ///
 /// # Errors
 /// [`Error::Usage`] for a value in a unit that its parameter does not have.
-pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpec, Error> {
+fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpec, Error> {
     let known = &spec.description()?.parameters;
     for given in &parameters {
         let declared = known.iter().find(|known| known.name == given.name).and_then(|known| known.unit);
@@ -155,4 +155,31 @@ pub fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<Materia
         }
     }
     Ok(parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values)))
+}
+
+/// Reads a material of a group, `GROUP=NAME;PARAM=V;…;density=RHO`, next to the material and the density of
+/// the others.
+pub(super) fn part(text: &str, others: &MaterialSpec, density: f64) -> Result<MaterialPart, Error> {
+    let wrong = |reason: &str| Error::Usage(format!("--part {}: {reason}", quoted(text)));
+    let mut words = text.split(';');
+    let first = words.next().and_then(|first| first.split_once('='));
+    let (group, name) = first.ok_or_else(|| wrong("write GROUP=NAME, or GROUP=NAME;PARAM=V"))?;
+    let given = words.map(parameter).collect::<Result<Vec<_>, String>>();
+    let given = given.map_err(|reason| wrong(&reason))?;
+    let (densities, parameters): (Vec<_>, Vec<_>) = given.into_iter().partition(|one| one.name == "density");
+    let density = match &densities[..] {
+        [] => density,
+        [Given { values, unit: None, .. }] if values.len() == 1 => values[0],
+        _ => return Err(wrong("density=RHO needs one number, in kg/m³ and without a unit")),
+    };
+    let material = match in_file(name)? {
+        Some(material) => material,
+        None if parameters.is_empty() && others.is(name) => others.clone(),
+        None if parameters.is_empty() => MaterialSpec::matching(name, others.build()?.moduli),
+        None => MaterialSpec::new(name),
+    };
+    let mut material = with_values(material, parameters)?;
+    material.inversion = others.inversion;
+    material.build()?;
+    Ok(MaterialPart { group: Some(group.to_owned()), material, density })
 }

@@ -6,10 +6,7 @@ use std::ops::AddAssign;
 use serde::{Deserialize, Serialize};
 
 use piola::__private::message::number;
-use piola::material::Moduli;
 use piola_bodies::step::Integrator;
-use piola_laboratory::AtRest;
-use piola_laboratory::curve::Volume;
 
 use crate::material::Parameters;
 
@@ -65,7 +62,8 @@ pub struct TensileReading {
     pub stretch: Option<f64>,
     /// Upward force of the springs that pull at it, over its mean cross-section at rest, Pa.
     pub nominal_stress: f64,
-    /// Stress of the material at that stretch with free sides, Pa; `None` if it has none.
+    /// Stress of the material at that stretch with free sides, Pa; `None` if it has none, or if the body is
+    /// of several materials.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uniaxial_stress: Option<f64>,
 }
@@ -80,7 +78,7 @@ impl TensileReading {
                 "no stretch was measured: between the marks, nodes lie at fewer than two heights, so refine the mesh \
                  there",
             ),
-            (None, Some(_)) => Some("the material has no uniaxial tension at that stretch to compare with"),
+            (None, Some(_)) => Some("there is no uniaxial tension of one material at that stretch"),
         }
     }
 }
@@ -161,12 +159,50 @@ impl fmt::Display for FinalState {
     }
 }
 
-/// Results of a run. In JSON the keys are the names of the fields.
+/// Size, mass, pins and materials of a body before its first step, to be compared with what was meant, and
+/// warnings.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Overview {
+    /// Number of tetrahedra.
+    pub tets: usize,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of nodes that are held.
+    pub held: usize,
+    /// Lengths at rest along x, y and z, m.
+    pub size: [f64; 3],
+    /// Volume at rest, m³.
+    pub volume: f64,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Gravity along x, y and z, m/s².
+    pub gravity: [f64; 3],
+    /// Each material in words: parameters, density, groups of the mesh, moduli at rest.
+    pub materials: Vec<String>,
+    /// Properties of body, materials and scene that may be unintended; in a summary also measurements that
+    /// are missing.
+    pub warnings: Vec<String>,
+}
+
+impl fmt::Display for Overview {
+    /// Formats the overview as some lines of text.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { tets, nodes, held, materials, .. } = self;
+        let ([x, y, z], [_, gravity, _]) = (self.size.map(short), self.gravity.map(short));
+        let (volume, mass) = (short(self.volume), short(self.mass));
+        writeln!(f, "{tets} tetrahedra, {nodes} nodes, {held} of them held")?;
+        writeln!(f, "  {x} m along x, {y} m along y, {z} m along z; {volume} m³, {mass} kg")?;
+        write!(f, "  gravity {gravity} m/s² along y, which points upwards")?;
+        materials.iter().try_for_each(|material| write!(f, "\n  {material}"))
+    }
+}
+
+/// Results of a run. In JSON the keys are the names of the fields, also of those of [`Overview`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Name of the scene.
     pub scene: String,
-    /// Name of the material.
+    /// Name of the material of the tetrahedra without one of their own.
     pub material: String,
     /// Parameters of the material by name, in SI units.
     pub parameters: Parameters,
@@ -177,10 +213,9 @@ pub struct Summary {
     /// Poisson's ratio of the material at rest; `None` if it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson: Option<f64>,
-    /// Number of tetrahedra.
-    pub tets: usize,
-    /// Number of nodes.
-    pub nodes: usize,
+    /// The body before its first step, and all warnings.
+    #[serde(flatten)]
+    pub body: Overview,
     /// Number of vertices of the embedded surface.
     pub surface_vertices: usize,
     /// Number of time steps made; frame 0, before the first of them, is not counted.
@@ -192,8 +227,6 @@ pub struct Summary {
     /// Reasons why something is missing: a step that failed, a file that could not be written, an equilibrium
     /// that could not be examined.
     pub failures: Vec<String>,
-    /// Properties of the mesh and the material that may be unintended, and measurements that are missing.
-    pub warnings: Vec<String>,
     /// Time step, s.
     pub dt: f64,
     /// Newton iterations per step, on average.
@@ -221,12 +254,13 @@ pub struct Summary {
     pub steps: StepCounts,
     /// Accuracy to which each step was solved.
     pub newton: Newton,
-    /// True if the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`].
-    pub recovered: bool,
+    /// True if the body has recovered: `max_distance_from_rest` ≤ [`Summary::RECOVERED`]. `None` if the scene
+    /// neither displaces nor releases it.
+    pub recovered: Option<bool>,
     /// Stretch and stress at the end of a tensile test; `None` for other scenes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reading: Option<TensileReading>,
-    /// Equilibrium of a body that has not recovered at the end of all steps and is not pulled then; `None`
+    /// Equilibrium of a body that is not at rest at the end of all steps and is not released later; `None`
     /// for others.
     pub final_state: Option<FinalState>,
 }
@@ -238,7 +272,7 @@ impl Summary {
 }
 
 /// A value in five digits.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let digits = format!("{value:.4e}");
     digits.parse().map_or(digits, number)
 }
@@ -246,18 +280,8 @@ fn short(value: f64) -> String {
 impl fmt::Display for Summary {
     /// Formats the results as some lines of text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let &Self { ref scene, ref material, tets, nodes, frames, dt, .. } = self;
-        write!(f, "{scene}: {tets} tetrahedra, {nodes} nodes, {material}")?;
-        for (name, values) in &self.parameters {
-            write!(f, " {name}={}", values.iter().map(|value| short(*value)).collect::<Vec<_>>().join(","))?;
-        }
-        let lambda = self.bulk_modulus - 2.0 / 3.0 * self.shear_modulus;
-        let moduli = Moduli { mu: self.shear_modulus, lambda };
-        writeln!(f, "\n  at rest  {}", AtRest { moduli, volume: Volume::Free })?;
-        if self.inverted_at_start > 0 {
-            writeln!(f, "  {} of {tets} tetrahedra start inside out", self.inverted_at_start)?;
-        }
-        write!(f, "  {frames} steps of {} s", short(dt))?;
+        let &Self { ref scene, inverted_at_start, frames, dt, .. } = self;
+        write!(f, "{scene}: {frames} steps of {} s", short(dt))?;
         if let (Some(steps), Some(ms)) = (self.steps_per_second, self.ms_per_step_median) {
             let iterations = self.newton_iterations_mean;
             write!(f, ", {steps:.1} a second ({ms:.2} ms each, {iterations:.2} Newton iterations)")?;
@@ -266,6 +290,9 @@ impl fmt::Display for Summary {
             Ended::Finished => writeln!(f)?,
             Ended::Interrupted => writeln!(f, "; interrupted, {} were to be made", self.frames_wanted)?,
             Ended::Failed => writeln!(f, "; failed, {} were to be made", self.frames_wanted)?,
+        }
+        if inverted_at_start > 0 {
+            writeln!(f, "  {inverted_at_start} tetrahedra start inside out")?;
         }
         if let Some(tolerance) = self.tolerance {
             let StepCounts { taken, refused, unresolved } = self.steps;
@@ -287,8 +314,8 @@ impl fmt::Display for Summary {
         }
         write!(
             f,
-            "  {}: at the end the farthest node is {:.2e} body heights from rest",
-            if self.recovered { "recovered" } else { "not recovered" },
+            "  {}at the end the farthest node is {:.2e} body heights from rest",
+            self.recovered.map_or("", |recovered| if recovered { "recovered: " } else { "not recovered: " }),
             self.max_distance_from_rest
         )?;
         self.final_state.map_or(Ok(()), |state| write!(f, "\n{state}"))

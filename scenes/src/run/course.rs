@@ -2,9 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use piola::batch::TileMaterial;
+use piola_laboratory::Specimen;
 use piola_laboratory::curve::{Mode, Volume, respond};
-use piola_laboratory::{AtRest, Specimen};
 use rayon::ThreadPool;
 
 use super::progress::{Progress, restore, save};
@@ -15,6 +14,7 @@ use crate::geometry::Geometry;
 use crate::measure;
 use crate::output::{Ended, Folder, Summary, TensileReading, cage_file, frame_file, write_ply};
 use crate::play::Play;
+use crate::scene::{Amplitude, Start};
 use crate::settings::Settings;
 use crate::statics::{Watch, find_equilibrium};
 
@@ -24,11 +24,13 @@ const PAUSE: Duration = Duration::from_secs(1);
 const SHARE: u32 = 20;
 
 /// A run between its first frame and its last.
-pub(super) struct Course {
-    play: Play,
+#[derive(Debug)]
+pub struct Course {
+    /// The scene, at the last frame.
+    pub play: Play,
     threads: ThreadPool,
-    /// The material if tetrahedra are written, too.
-    cages_of: Option<Box<dyn TileMaterial<f64>>>,
+    /// True if tetrahedra are written, too.
+    vtu: bool,
     folder: Folder,
     progress: Progress,
     /// Positions of the nodes in the last frame that was written, m.
@@ -42,10 +44,12 @@ pub(super) struct Course {
 
 impl Course {
     /// A new run, with its frame 0, or the run in the folder at its last state.
-    pub(super) fn open(settings: &Settings, output: &Output) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// An error of the settings, the body or the folder: nothing is written then.
+    pub fn open(settings: &Settings, output: &Output) -> Result<Self, Error> {
         let mut play = Play::new(settings.clone(), Geometry::load(settings)?)?;
         let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
-        let cages_of = if output.vtu { Some(settings.material.build()?.elements) } else { None };
         let (folder, progress) = if output.resume {
             let folder = Folder::reopen(&output.folder)?;
             let progress = restore(&folder, output.vtu, &mut play)?;
@@ -55,8 +59,8 @@ impl Course {
             (Folder::create(&output.folder)?, Progress::at_start(&play))
         };
         let positions = play.simulation.positions().to_vec();
-        let (times, failures, due) = (Vec::new(), Vec::new(), Instant::now());
-        let mut course = Self { play, threads, cages_of, folder, progress, positions, times, due, failures };
+        let (times, failures, due, vtu) = (Vec::new(), Vec::new(), Instant::now(), output.vtu);
+        let mut course = Self { play, threads, vtu, folder, progress, positions, times, due, failures };
         if !output.resume
             && let Err(error) = course.write_frame(0)
         {
@@ -65,7 +69,13 @@ impl Course {
         Ok(course)
     }
 
-    pub(super) fn play(mut self, watch: &mut Watch<'_>) -> Result<Finished, Error> {
+    /// Plays the scene to its end. If it ends early after the first step, the frames before are kept with a
+    /// summary of what happened.
+    ///
+    /// # Errors
+    /// An error of the first step or its files, or [`Error::Interrupted`] if `watch` stops the run before it:
+    /// nothing is written then.
+    pub fn play(mut self, watch: &mut Watch<'_>) -> Result<Finished, Error> {
         let mut ended = Ended::Finished;
         for frame in self.play.clock.frame + 1..=self.play.settings.frames {
             let made = if watch(frame - 1) { Err(Error::Interrupted) } else { self.step(frame) };
@@ -112,9 +122,8 @@ impl Course {
         let surface = geometry.surface_at(nodes);
         self.folder
             .write(&frame_file(frame), false, |file| write_ply(file, &surface, &geometry.triangles))?;
-        if let Some(material) = &self.cages_of {
-            self.folder
-                .write(&cage_file(frame), false, |file| fields::write(file, simulation, material.as_ref()))?;
+        if self.vtu {
+            self.folder.write(&cage_file(frame), false, |file| fields::write(file, simulation))?;
         }
         let Progress { motion, min_det_f, .. } = &mut self.progress;
         motion.push(motion.last().unwrap_or(&0.0) + measure::mean_distance(&self.positions, nodes));
@@ -124,7 +133,7 @@ impl Course {
     }
 
     fn save_state(&self) -> Result<(), Error> {
-        save(&self.folder, self.cages_of.is_some(), &self.play, &self.progress)
+        save(&self.folder, self.vtu, &self.play, &self.progress)
     }
 
     /// Removes all files of a run that has made no step.
@@ -137,7 +146,7 @@ impl Course {
         let mesh = &self.play.geometry.mesh;
         let pinned = self.play.simulation.pinned().len();
         let distance = measure::distance_from_rest(mesh, &self.positions, pinned);
-        let recovered = distance <= Summary::RECOVERED;
+        let is_at_rest = distance <= Summary::RECOVERED;
         let scene = self.play.settings.scene;
         let reading = scene.gauge.filter(|_| ended == Ended::Finished).and_then(|marks| {
             let material = self.play.settings.material.interpreted();
@@ -146,13 +155,14 @@ impl Course {
         });
         let end = self.play.clock.time();
         let released = scene.pulls.iter().map(|pull| pull.released).filter(|released| released.is_finite());
+        let is_released = released.clone().next().is_some();
         let held_until = released.fold(end, f64::max);
-        let is_held = ended == Ended::Finished && !recovered && held_until > end;
+        let is_held = ended == Ended::Finished && !is_at_rest && held_until > end;
         let held = is_held.then(|| {
             format!("the last frame is at {end:.2} s, and the body is pulled until {held_until:.2} s: more frames show if it recovers")
         });
         let final_state = match ended {
-            Ended::Finished if !recovered && !is_held => {
+            Ended::Finished if !is_at_rest && !is_held => {
                 let found = self.threads.install(|| find_equilibrium(&mut self.play, watch));
                 let failed = |error| match error {
                     Error::Interrupted => ended = Ended::Interrupted,
@@ -167,11 +177,15 @@ impl Course {
         };
         let frames = self.progress.motion.len() - 1;
         let total: Duration = self.times.iter().sum();
-        let Self { play, cages_of, folder, progress, times, failures, .. } = self;
-        let warnings = play.warnings().into_iter();
-        let Play { settings, geometry, material, parameters, moduli, .. } = play;
+        let Self { play, vtu, folder, progress, times, failures, .. } = self;
+        let Play { settings, geometry, material, parameters, moduli, overview: mut body, .. } = play;
+        let is_moved = match settings.start {
+            Start::Rest | Start::Scrambled { amplitude: Amplitude::Edges(0.0), .. } => is_released,
+            _ => true,
+        };
+        let asks = is_moved && body.held < body.nodes;
         let missing = reading.and_then(|reading| reading.missing()).map(str::to_owned);
-        let at_rest = AtRest { moduli, volume: Volume::Free };
+        body.warnings.extend(missing.into_iter().chain(held));
         let summary = Summary {
             scene: scene.name.into(),
             material: material.to_string(),
@@ -179,14 +193,12 @@ impl Course {
             shear_modulus: moduli.mu,
             bulk_modulus: moduli.bulk(),
             poisson: Some(moduli.poisson()).filter(|poisson| poisson.is_finite()),
-            tets: geometry.mesh.tets.len(),
-            nodes: geometry.mesh.positions.len(),
+            body,
             surface_vertices: geometry.embedding.len(),
             frames,
             frames_wanted: settings.frames,
             ended,
             failures,
-            warnings: warnings.chain(missing).chain(held).chain(at_rest.warning()).collect(),
             dt: settings.dt,
             newton_iterations_mean: progress.newton_iterations as f64 / frames as f64,
             inverted_at_start: progress.inverted_at_start,
@@ -199,11 +211,11 @@ impl Course {
             tolerance: settings.tolerance,
             steps: progress.steps,
             newton: settings.newton,
-            recovered,
+            recovered: asks.then_some(is_at_rest),
             reading,
             final_state,
         };
-        Finished { summary, geometry, motion: progress.motion, folder, vtu: cages_of.is_some() }
+        Finished { summary, geometry, motion: progress.motion, folder, vtu }
     }
 }
 
@@ -216,7 +228,8 @@ fn read_specimen(play: &Play, marks: [f64; 2], material: &dyn Specimen<f64>) -> 
     let springs = play.simulation.springs().iter();
     let upwards = springs.map(|pull| pull.stiffness * (pull.target[1] - pull.anchor.position(positions)[1]));
     let cross_section = measure::total_volume(&mesh.positions, &mesh.tets) / play.height;
-    let bar = stretch.and_then(|stretch| respond(material, Mode::Uniaxial, Volume::Free, stretch).ok());
+    let bar = stretch.filter(|_| play.settings.parts.is_empty());
+    let bar = bar.and_then(|stretch| respond(material, Mode::Uniaxial, Volume::Free, stretch).ok());
     TensileReading {
         stretch,
         nominal_stress: upwards.sum::<f64>() / cross_section,

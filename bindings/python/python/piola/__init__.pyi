@@ -155,6 +155,8 @@ class Material:
         *,
         incompressible: bool = True,
         relative: bool = True,
+        floor: float = 0.0,
+        cycle: Optional[int] = None,
         held: Sequence[str] = (),
         restarts: int = 20,
         seed: int = 1,

@@ -81,6 +81,26 @@ class Fit(NamedTuple):
     """Why other parameters might do as well, or better."""
 
 
+def fitted(*fields):
+    """A `Fit`, whose warnings are warnings of Python, too."""
+    fit = Fit(*fields)
+    for warning in fit.warnings:
+        warnings.warn(warning, stacklevel=2)
+    return fit
+
+
+def readings(mode, table):
+    """Control and stress, Pa: the columns of an array, or those of a DataFrame that their names say."""
+    from piola import measurements
+
+    names = list(getattr(table, "columns", ()))
+    if not names or not all(isinstance(name, str) for name in names):
+        return table
+    # As pandas and polars write tables.
+    text = table.to_csv(index=False) if hasattr(table, "to_csv") else table.write_csv()
+    return measurements(text, mode=mode, unit="Pa")[mode]
+
+
 class Walk(NamedTuple):
     """A path of stretches from rest, up to its end."""
 

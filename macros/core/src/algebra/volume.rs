@@ -93,9 +93,9 @@ fn logarithm(graph: &mut Graph, monomial: &[(Stretch, Exponent)], purpose: Purpo
 }
 
 /// The energy with each (J^r − 1)/s, where s is a factor of r and J any product of stretches, as ln J r/s
-/// exp\[r ln J, 0\] for |s| < 2⁻¹⁰: it loses no digits there, and is the limit ln J r/s for s = 0. For a large
-/// r, J^r is more accurate than the exponential. Derivatives of a sum of such terms need no such form, because
-/// s cancels in them.
+/// exp\[r ln J, 0\] for |s| < 2⁻¹⁰: it loses no digits there, and is the limit ln J r/s for s = 0. For a
+/// large r, J^r is more accurate than the exponential. Derivatives of a sum of such terms need no such form,
+/// because s cancels in them.
 pub fn with_limits(graph: &mut Graph, energy: Id) -> Id {
     rewrite(graph, energy, &mut FxHashMap::default(), &|graph, id| {
         let Node::Product(factors) = graph.node(id).clone() else { return None };
