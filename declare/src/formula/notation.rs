@@ -82,14 +82,16 @@ fn read_part(
     let character = rest[0];
     let is_digit = |character: char| character.is_ascii_digit();
     let is_operand = |character: char| character.is_alphanumeric() || "_.)]".contains(character);
-    if let Some(digit) = raised(character) {
-        let sign = if raised(before).is_some() { "" } else { "^" };
-        return Ok((1, format!("{sign}{digit}")));
+    let exponent: String = rest.iter().map_while(|&character| raised(character)).collect();
+    if !exponent.is_empty() {
+        let is_difference = exponent.trim_start_matches('-').contains('-');
+        let written = if is_difference { format!("^({exponent})") } else { format!("^{exponent}") };
+        return Ok((exponent.chars().count(), written));
     }
     let index = lowered(character);
     if index.is_some() || character == '_' {
         let is_behind_power = text.trim_end_matches(|c: char| is_digit(c) || c == '-').ends_with('^');
-        if is_behind_power || text.ends_with(')') {
+        if is_behind_power || raised(before).is_some() || text.ends_with(')') {
             return Err("an index stands before the exponent, as in `I_1^2`");
         }
         return Ok((1, index.unwrap_or(character).to_string()));
