@@ -32,7 +32,7 @@ fn stress(energy: &Judged, wanted: Moduli) -> Result<[f64; 9], Box<dyn std::erro
     Ok(P)
 }
 
-/// Energies with a narrower range of Poisson's ratio than others: what they reach, and the range in the error.
+/// Energies with a narrower range of Poisson's ratio than others: what they reach, and the error's words.
 const NARROW: [(&str, &[f64], &str); 5] = [
     ("arap", &[0.0], "ν = 0;"),
     ("blatz_ko", &[0.3, 0.45], "ν between 0 and 0.5;"),

@@ -27,8 +27,8 @@ pub(crate) enum Axes {
 }
 
 impl Axes {
-    /// The axes that the caller chooses, or the leading ones; Python warns of a shape that could mean both, and
-    /// refuses one that means the others.
+    /// The axes that the caller chooses, or the leading ones; Python warns of a shape that could mean both,
+    /// and refuses one that means the others.
     pub(crate) fn of(py: Python<'_>, trailing: Option<bool>, shape: &[usize]) -> PyResult<Self> {
         let (axes, others) = match trailing {
             Some(true) => (Self::Trailing, Self::Leading),

@@ -74,8 +74,8 @@ impl Material {
     /// floor: least divisor of a difference, as a share of the greatest stress: 0.05 limits the weight of
     ///     noise near zero stress.
     /// cycle: number from 1 of the cycle, or specimen, whose loading is used as it is.
-    /// held: keywords of parameters that keep their values, such as "kappa" or "lambda_", and entries of lists,
-    ///     such as "alpha_1".
+    /// held: keywords of parameters that keep their values, such as "kappa" or "lambda_", and entries of
+    ///     lists, such as "alpha_1".
     /// restarts: number of further starts, at random about the first.
     /// seed: equal seeds give equal fits.
     ///
@@ -174,10 +174,10 @@ impl Material {
     /// F: any array_like, of shape (..., 3, 3), inside the domain, with J > 0; its points are broadcast with
     ///     the parameters of the material.
     ///
-    /// Returns a dictionary from the keywords of the parameters to arrays of the shape of stresses, float32 if
-    /// F is; for a list, to an array with one more axis in front, and so for a curve: the derivatives by the
-    /// ordinates of its control points, except for one at x = 1. Raises DomainError for an F outside of the
-    /// domain, MaterialError for curves of which only some have a control point at x = 1.
+    /// Returns a dictionary from the keywords of the parameters to arrays of the shape of stresses, float32
+    /// if F is; for a list, to an array with one more axis in front, and so for a curve: the derivatives by
+    /// the ordinates of its control points, except for one at x = 1. Raises DomainError for an F outside of
+    /// the domain, MaterialError for curves of which only some have a control point at x = 1.
     #[pyo3(signature = (F, /))]
     fn stress_by_parameters<'py>(
         &self,
