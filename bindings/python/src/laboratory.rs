@@ -17,10 +17,11 @@ use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{Axes, Numbers, deformations, from_rows, numbers, rows};
+use crate::description::{keyword, parameter_name};
 use crate::errors::{
     ContractError, DomainError, FitError, MaterialError, in_python, of_material, value_error,
 };
-use crate::material::{Material, keyword, parameter_name};
+use crate::material::Material;
 use crate::shape;
 
 #[pymethods]

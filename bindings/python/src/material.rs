@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyTuple};
 
 use crate::arrays::{Numbers, kind, read_only};
-use crate::description::{Description, is_name, shown};
+use crate::description::{Description, is_name, keyword, parameter_name, shown};
 use crate::errors::{MaterialError, of_material, of_text, type_error, value_error};
 use crate::shape;
 
@@ -192,19 +192,6 @@ impl Material {
     /// Description of the declaration.
     fn declared(&self) -> PyResult<&material::Description> {
         self.spec.description().map_err(of_material)
-    }
-}
-
-/// The keyword of a parameter: `lambda_` for `lambda`, which is one of Python's own.
-pub(crate) fn keyword(name: &str) -> &str {
-    if name == "lambda" { "lambda_" } else { name }
-}
-
-/// The parameter that a keyword names: `lambda_` is `lambda`, unless there is a `lambda_`.
-pub(crate) fn parameter_name(keyword: &str, is_known: impl Fn(&str) -> bool) -> &str {
-    match keyword.strip_suffix('_') {
-        Some(bare) if !is_known(keyword) => bare,
-        _ => keyword,
     }
 }
 
