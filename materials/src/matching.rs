@@ -71,17 +71,17 @@ pub fn matching(
 
     let ratio = wanted.lambda / wanted.mu;
     let solved = |index: usize, keeps_shear: bool| {
-        let sample = |factor: f64| Some((factor, with(index, factor)?.1));
-        let (factor, after) = [2.0, 0.5].into_iter().find_map(sample)?;
+        let (factor, after) =
+            [2.0, 0.5].into_iter().find_map(|factor| Some((factor, with(index, factor)?.1)))?;
         let shear = after.mu - before.mu;
         if keeps_shear && shear.abs() > ROUNDING * before.mu {
             return None;
         }
-        let shear = if keeps_shear { 0.0 } else { shear };
         // λ and μ are linear in stresses and shares, ν in a parameter that is Poisson's ratio. 0: as it is.
         let lame = (ratio * before.mu - before.lambda) / (after.lambda - before.lambda - ratio * shear);
         let poisson = (wanted.poisson() - before.poisson()) / (after.poisson() - before.poisson());
-        [lame, poisson, 0.0].into_iter().find_map(|share| {
+        // 0 comes first: then the share of a parameter without effect would be a ratio of two roundings.
+        [0.0, lame, poisson].into_iter().find_map(|share| {
             let (values, found) = with(index, 1.0 + (factor - 1.0) * share)?;
             has_ratio(found, ratio).then_some(values)
         })
@@ -100,7 +100,7 @@ pub fn matching(
         let ends = order.iter().flat_map(|&index| {
             [-FAR, FAR].map(|far| farthest(far, before, |factor| with(index, factor).map(|found| found.1)))
         });
-        out_of_reach(wanted, ends)
+        out_of_reach(wanted, before, ends)
     })
 }
 
@@ -129,10 +129,11 @@ fn farthest(far: f64, before: Moduli, with: impl Fn(f64) -> Option<Moduli>) -> M
 }
 
 /// Error of moduli that no change of one parameter brings about, with the range of ν between its ends.
-fn out_of_reach(wanted: Moduli, ends: impl Iterator<Item = Moduli>) -> MaterialError {
-    let short = |poisson: f64| (1e6 * poisson).round() / 1e6;
-    let ends = ends.map(|moduli| short(moduli.poisson()));
-    let (low, high) = ends.fold((1.0, -1.0), |(low, high): (f64, f64), end| (low.min(end), high.max(end)));
+fn out_of_reach(wanted: Moduli, before: Moduli, ends: impl Iterator<Item = Moduli>) -> MaterialError {
+    // The sum has no negative zero.
+    let short = |moduli: Moduli| (1e6 * moduli.poisson()).round() / 1e6 + 0.0;
+    let own = (short(before), short(before));
+    let (low, high) = ends.map(short).fold(own, |(low, high), end| (low.min(end), high.max(end)));
     let range = match low < high {
         true => format!("between {} and {}", number(low), number(high)),
         false => format!("= {}", number(low)),
@@ -141,6 +142,6 @@ fn out_of_reach(wanted: Moduli, ends: impl Iterator<Item = Moduli>) -> MaterialE
         "E = {:.6e} Pa with ν = {} is out of reach: with one typical parameter changed, and those in Pa \
          scaled, the energy has E > 0 and ν {range}; give all parameters for another solid",
         wanted.young(),
-        number(short(wanted.poisson()))
+        number(short(wanted))
     ))
 }
