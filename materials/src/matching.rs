@@ -80,7 +80,8 @@ pub fn matching(
         // λ and μ are linear in stresses and shares, ν in a parameter that is Poisson's ratio. 0: as it is.
         let lame = (ratio * before.mu - before.lambda) / (after.lambda - before.lambda - ratio * shear);
         let poisson = (wanted.poisson() - before.poisson()) / (after.poisson() - before.poisson());
-        [lame, poisson, 0.0].into_iter().find_map(|share| {
+        // 0 comes first: then the share of a parameter without effect would be a ratio of two roundings.
+        [0.0, lame, poisson].into_iter().find_map(|share| {
             let (values, found) = with(index, 1.0 + (factor - 1.0) * share)?;
             has_ratio(found, ratio).then_some(values)
         })

@@ -4,8 +4,6 @@ use piola::material::{self, Unit};
 use piola_materials::DECLARATIONS;
 use pyo3::prelude::*;
 
-use crate::material::keyword;
-
 /// A parameter of an energy.
 #[pyclass(frozen, get_all, module = "piola")]
 #[derive(Clone)]
@@ -83,6 +81,19 @@ impl Description {
     fn __repr__(&self) -> String {
         let names: Vec<_> = self.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
         format!("{}({}): {}", shown(&self.name), names.join(", "), self.formula)
+    }
+}
+
+/// The keyword of a parameter: `lambda_` for `lambda`, which is one of Python's own.
+pub(crate) fn keyword(name: &str) -> &str {
+    if name == "lambda" { "lambda_" } else { name }
+}
+
+/// The parameter that a keyword names: `lambda_` is `lambda`, unless there is a `lambda_`.
+pub(crate) fn parameter_name(keyword: &str, is_known: impl Fn(&str) -> bool) -> &str {
+    match keyword.strip_suffix('_') {
+        Some(bare) if !is_known(keyword) => bare,
+        _ => keyword,
     }
 }
 

@@ -15,13 +15,14 @@ import_exception!(piola.errors, FitError);
 import_exception!(piola.errors, MaterialError);
 import_exception!(piola.errors, StepError);
 
-/// A material that does not exist, or that rejects its parameters: with the keywords of Python instead of the
-/// names in Rust.
+/// A message with the keywords of Python instead of the names in Rust.
+pub(crate) fn in_python(message: impl Display) -> String {
+    message.to_string().replace("Inversion::Refuse", "extend=None").replace("`lambda`", "`lambda_`")
+}
+
+/// A material that does not exist, or that rejects its parameters.
 pub(crate) fn of_material(error: impl Display) -> PyErr {
-    let message = error.to_string();
-    MaterialError::new_err(
-        message.replace("Inversion::Refuse", "extend=None").replace("`lambda`", "`lambda_`"),
-    )
+    MaterialError::new_err(in_python(error))
 }
 
 /// A text that does not declare an energy: its mistakes, and for each its line, its column and its length.

@@ -17,8 +17,11 @@ use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays::{Axes, Numbers, deformations, from_rows, numbers, rows};
-use crate::errors::{ContractError, DomainError, FitError, MaterialError, of_material, value_error};
-use crate::material::{Material, keyword, parameter_name};
+use crate::description::{keyword, parameter_name};
+use crate::errors::{
+    ContractError, DomainError, FitError, MaterialError, in_python, of_material, value_error,
+};
+use crate::material::Material;
 use crate::shape;
 
 #[pymethods]
@@ -111,11 +114,11 @@ impl Material {
         let settings = FitSettings { volume, floor, held, restarts, seed };
         let fit = py.detach(|| fit_parameters(&candidate, &data, &settings));
         let Fit { values, numbers, agreement, difference, condition, ended, warnings, .. } =
-            fit.map_err(|error| FitError::new_err(error.to_string().replace("`lambda`", "`lambda_`")))?;
+            fit.map_err(|error| FitError::new_err(in_python(error)))?;
         let errors = numbers.iter().map(|number| (keyword(&number.name), number.error)).into_py_dict(py)?;
         let modes = agreement.modes.iter().map(|&(mode, value)| (mode.name(), value));
         let determination = modes.chain([("all", agreement.total)]).into_py_dict(py)?;
-        let warnings: Vec<_> = warnings.iter().map(ToString::to_string).collect();
+        let warnings: Vec<_> = warnings.iter().map(in_python).collect();
         let material = Py::new(py, self.with_fitted(&values)?)?;
         let arguments = (material, errors, determination, difference, condition, ended.to_string(), warnings);
         py.import("piola.results")?.call_method1("fitted", arguments)

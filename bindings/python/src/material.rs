@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyTuple};
 
 use crate::arrays::{Numbers, kind, read_only};
-use crate::description::{Description, is_name, shown};
+use crate::description::{Description, is_name, keyword, parameter_name, shown};
 use crate::errors::{MaterialError, of_material, of_text, type_error, value_error};
 use crate::shape;
 
@@ -77,7 +77,7 @@ impl Material {
         for Varying { name, points, .. } in &varying {
             shape = shape::common(&shape, points).ok_or_else(|| {
                 let (points, others) = (shape::text(points), shape::text(&shape));
-                MaterialError::new_err(format!(
+                of_material(format!(
                     "`{name}` has values for points of the shape {points}, and the parameters before it for {others}: \
                      they cannot be broadcast together"
                 ))
@@ -116,7 +116,7 @@ impl Material {
         for (keyword, value) in keywords.into_iter().flatten() {
             let keyword: String = keyword.extract()?;
             let name = parameter_name(&keyword, |name| parameters.iter().any(|known| known.name == name));
-            let (given, numbers) = shape_and_numbers(name, &value)?;
+            let (given, numbers) = shape_and_numbers(&keyword, &value)?;
             let parameter = parameters.iter().find(|known| known.name == name);
             let mut points = given.clone();
             if parameter.is_some_and(Parameter::is_list) {
@@ -128,9 +128,7 @@ impl Material {
             }
             if points.contains(&0) {
                 let given = shape::text(&given);
-                return Err(MaterialError::new_err(format!(
-                    "`{name}` has the shape {given}: it has no values"
-                )));
+                return Err(of_material(format!("`{name}` has the shape {given}: it has no values")));
             }
             let varying = Varying { name: name.to_owned(), given, points, numbers };
             spec = spec.with_parameter(name, varying.at(0));
@@ -194,19 +192,6 @@ impl Material {
     /// Description of the declaration.
     fn declared(&self) -> PyResult<&material::Description> {
         self.spec.description().map_err(of_material)
-    }
-}
-
-/// The keyword of a parameter: `lambda_` for `lambda`, which is one of Python's own.
-pub(crate) fn keyword(name: &str) -> &str {
-    if name == "lambda" { "lambda_" } else { name }
-}
-
-/// The parameter that a keyword names: `lambda_` is `lambda`, unless there is a `lambda_`.
-pub(crate) fn parameter_name(keyword: &str, is_known: impl Fn(&str) -> bool) -> &str {
-    match keyword.strip_suffix('_') {
-        Some(bare) if !is_known(keyword) => bare,
-        _ => keyword,
     }
 }
 

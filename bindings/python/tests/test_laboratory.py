@@ -58,6 +58,8 @@ def test_lambda_has_one_spelling(rubber):
     assert list(fit.errors) == list(fit.material.parameters) == list(rubber.stress_by_parameters(np.eye(3)))
     assert [parameter.name for parameter in rubber.description.parameters] == ["mu", "lambda_"]
     assert "lambda_=" in repr(rubber) and piola.Material("neo_hookean", **rubber.parameters).moduli == rubber.moduli
+    with pytest.raises(TypeError, match="`lambda_` is of type str"):
+        rubber.changed(lambda_="soft")
 
 
 def test_a_fit_finds_the_ordinates_of_a_curve():
@@ -130,7 +132,7 @@ def test_columns_of_a_frame_are_found_by_their_names(rubber):
     ):
         fit = rubber.fit({"tension": pandas.DataFrame(columns)}, held=["lambda_"])
         assert fit.material.parameters["mu"] == pytest.approx(4e5, rel=1e-9)
-    assert rubber.fit({"tension": np.c_[stretch, stress]}, held=["lambda"]).errors["lambda"] is None
+    assert rubber.fit({"tension": np.c_[stretch, stress]}, held=["lambda"]).errors["lambda_"] is None
     nameless = pandas.DataFrame(np.c_[stretch, stress])
     assert rubber.fit({"tension": nameless}).material.parameters["mu"] == pytest.approx(4e5, rel=1e-9)
     with pytest.raises(ValueError, match="the columns are 1 `a`, 2 `b`"):

@@ -93,3 +93,6 @@ def test_pictures_show_curves_and_bodies():
     ax = piola.plot.body(points, tets, values=points[:, 0], label="x in m")
     assert len(ax.collections) == 1 and ax.figure.axes[1].get_ylabel() == "x in m"
     assert ax.collections[0].get_clim() == pytest.approx((0.0, 2.0))
+    frame = pytest.importorskip("pandas").DataFrame({"stress": [1e5, 2e5], "stretch": [1.1, 1.2]})
+    (ax,) = piola.plot.curves(piola.Material.typical("neo_hookean"), {"uniaxial": frame})
+    assert ax.lines[1].get_xdata() == pytest.approx([1.1, 1.2])

@@ -380,7 +380,7 @@ def test_parameters_may_differ_from_point_to_point(rng, F):
     for call in (graded.contract, graded.stability, lambda: graded.changed(mu=1.0), lambda: pickle.dumps(graded)):
         with pytest.raises(piola.MaterialError, match="this needs one material for all"):
             call()
-    with pytest.raises(piola.MaterialError, match=r"`lambda` has .* \(3,\).* \(2,\): they cannot be broadcast"):
+    with pytest.raises(piola.MaterialError, match=r"`lambda_` has .* \(3,\).* \(2,\): they cannot be broadcast"):
         piola.Material("neo_hookean", mu=np.ones(2), lambda_=np.ones(3))
     with pytest.raises(piola.MaterialError, match=r"^at index \(1, 0\): neo_hookean: .*mu = -1"):
         piola.Material("neo_hookean", mu=[[1.0], [-1.0]], lambda_=1.0)

@@ -113,8 +113,13 @@ impl<'a> Judge<'a> {
         found: bool,
         remedy: &str,
     ) -> Verdict {
-        let words = || (format!("{} (1 or 0)", component()), Some(remedy.into()));
-        self.demand(found, "1", words, stretches, if found { 1.0 } else { 0.0 })
+        self.comparisons += 1;
+        if found {
+            return Ok(());
+        }
+        // No overflow is the reason of a wrong statement.
+        let component = format!("{} (1 or 0)", component());
+        self.wrong(&component, stretches, 0.0, "\n    expected    1", Some(remedy.into()))
     }
 
     /// Demands a value that is neither infinite nor NaN.

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from piola.results import readings
+
 _CONTROLS = {
     "uniaxial": "stretch",
     "equibiaxial": "stretch",
@@ -15,7 +17,7 @@ def curves(materials, data=None, *, modes=None, controls=None, incompressible=Fa
     """Draws test curves of materials, and measurements as points.
 
     materials: a Material, a sequence of them, or a dictionary from labels to them.
-    data: a dictionary from modes to arrays of shape (n, 2), as `Material.fit` takes it.
+    data: a dictionary from modes to arrays of shape (n, 2) or DataFrames, as `Material.fit` takes it.
     modes: names of tests; None for those of the data, or uniaxial, equibiaxial and pure shear.
     controls: what the machine sets, of shape (n,); None for the range of the data, or 0.6 to 3.
     axes: axes of matplotlib, one for each mode; None for new ones.
@@ -33,7 +35,7 @@ def curves(materials, data=None, *, modes=None, controls=None, incompressible=Fa
 
         axes = plt.subplots(1, len(modes), figsize=(4 * len(modes), 3.2), layout="constrained", squeeze=False)[1][0]
     for mode, ax in zip(modes, np.atleast_1d(axes)):
-        measured = np.asarray(data[mode], float) if mode in data else None
+        measured = np.asarray(readings(mode, data[mode]), float) if mode in data else None
         for label, material in materials.items():
             at = controls if controls is not None else _range(mode, measured)
             curve = material.curve(mode, at, incompressible=incompressible)

@@ -134,10 +134,9 @@ class Stability(NamedTuple):
 
 def as_array(given):
     """`numpy.asarray`, with NaN for masked entries, of an array or of the arrays in a list."""
-    if isinstance(given, np.ma.MaskedArray):
-        given = given.astype(float) if given.dtype.kind in "iub" and np.ma.is_masked(given) else given
-        return np.asarray(given.filled(np.nan) if np.ma.is_masked(given) else given)
-    if isinstance(given, (list, tuple)) and any(isinstance(array, np.ma.MaskedArray) for array in given):
+    if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
+        given = (given.astype(float) if given.dtype.kind in "iub" else given).filled(np.nan)
+    elif isinstance(given, (list, tuple)) and any(isinstance(array, np.ma.MaskedArray) for array in given):
         given = [as_array(array) for array in given]
     return np.asarray(given)
 
