@@ -14,7 +14,7 @@ use super::spring::Spring;
 mod check;
 
 pub use check::{TermViolation, check_term};
-pub(super) use check::{along, contradiction};
+pub(super) use check::contradiction;
 
 /// Potential energy of the nodal positions, which a [`Simulation`](super::Simulation) adds to that of
 /// deformation: see [`Simulation::set_terms`](super::Simulation::set_terms).
