@@ -576,7 +576,9 @@ static void bodies_move(void) {
     piola_term stuck = term;
     stuck.longest_step = no_share;
     CHECK(piola_simulation_set_terms(simulation, &stuck, 1) == PIOLA_CODE_OK);
-    FAILS(piola_simulation_step(simulation, 0.01, NULL), PIOLA_CODE_STEP, "the `longest_step` of a term is not");
+    FAILS(
+        piola_simulation_step(simulation, 0.01, NULL), PIOLA_CODE_STEP,
+        "the `longest_step` of a term is not above 0");
     CHECK(piola_simulation_set_terms(simulation, &wrong, 1) == PIOLA_CODE_OK);
     FAILS(
         piola_simulation_step(simulation, 0.01, NULL), PIOLA_CODE_STEP,
