@@ -107,7 +107,9 @@ fn derivatives_are_compared_with_differences() {
     for (factors, is_filtered, expected) in [
         ([-1.0, 1.0], true, "the gradient at node 0 (from 0) along x is -4.6"),
         ([1.001, 1.0], true, "the gradient at node 0 (from 0) along x is 4.6"),
+        ([f64::NAN, 1.0], true, "the gradient at node 0 (from 0) along x is NaN"),
         ([1.0, -1.0], true, "the second derivatives K give"),
+        ([1.0, f64::NAN], true, "the second derivatives K give"),
         // Without negative eigenvalues they are not exact.
         ([1.0, 1.0], false, "the second derivatives K give"),
     ] {
