@@ -64,6 +64,7 @@ struct Page;
 
 #[cfg(test)]
 #[allow(dead_code, reason = "each crate that includes this file needs some of it")]
+#[macro_use]
 #[path = "../../runtime/src/hand_written.rs"]
 mod hand_written;
 pub mod mesh;

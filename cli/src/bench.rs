@@ -10,7 +10,7 @@ use std::path::Path;
 
 use clap::Args;
 use piola::__private::message::number;
-use piola::material::{Moduli, Parameter, Unit};
+use piola::material::{Moduli, Unit};
 use piola_laboratory::AtRest;
 use piola_laboratory::chart;
 use piola_laboratory::curve::Volume;
@@ -57,20 +57,19 @@ impl Material {
 /// The material for curves at constant volume, where compressibilities do no work: those of 0, by which
 /// Abaqus means that the volume is kept, are large instead if the energy divides by them.
 fn at_constant_volume(spec: &MaterialSpec) -> Result<MaterialSpec, SceneError> {
-    let parameters = spec.description()?.parameters.iter();
-    let with = |large: f64| {
-        let compressibilities = parameters.clone().filter(|known| known.unit == Some(Unit::PerPascal));
-        compressibilities.fold(spec.clone(), |spec, Parameter { name, .. }| {
-            let values = spec.values_of(name).iter().map(|&value| if value == 0.0 { large } else { value });
-            let values: Vec<_> = values.collect();
-            spec.with_parameter(name, values)
-        })
-    };
     if spec.build().is_ok() {
         return Ok(spec.clone());
     }
-    // So large that the bulk modulus is nothing next to the shear modulus.
-    Ok(with(1e10 / with(1.0).build()?.moduli.mu))
+    let mut kept = spec.clone();
+    for known in spec.description()?.parameters.iter().filter(|known| known.unit == Some(Unit::PerPascal)) {
+        let values = spec.values_of(&known.name);
+        if values.contains(&0.0) {
+            // So large that the bulk modulus is nothing next to the shear modulus.
+            let values = values.iter().map(|&value| if value == 0.0 { 1e30 } else { value });
+            kept = kept.with_parameter(&known.name, values.collect::<Vec<_>>());
+        }
+    }
+    Ok(kept)
 }
 
 /// The small-strain moduli of a material in a line, and a warning if they are odd.

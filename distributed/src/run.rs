@@ -11,8 +11,9 @@ use piola_scenes::material::{MaterialPart, MaterialSpec};
 use piola_scenes::measure;
 use piola_scenes::output::{Ended, Newton, StepCounts};
 use piola_scenes::play::{self, DragSprings, Stretch};
-use piola_scenes::settings::Settings;
+use piola_scenes::settings::{Settings, difference};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::checkpoint;
 use crate::command::{BodyOptions, BoxOptions, RunOptions, Task};
@@ -27,8 +28,8 @@ use crate::team::Team;
 /// Description of a checkpoint: what its run depends on, and measurements of the run up to it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct About {
-    /// Settings on which the motion depends, as JSON.
-    settings: String,
+    /// Settings on which the motion depends, by name.
+    settings: Value,
     /// Checksum of the mesh.
     body: u32,
     /// Number of completed steps.
@@ -211,7 +212,8 @@ impl<'a> Course<'a> {
         let (share, body, pulls) = setting::divided(team, task)?;
         let steps = SimulationSettings { newton, ..play::step_settings(settings) };
         let lasting = Settings { frames: 1, threads: 1, newton: Newton::Single, ..settings.clone() };
-        let lasting = serde_json::to_string(&(lasting, moves)).map_err(Error::usage)?;
+        let mut lasting = serde_json::to_value(lasting).map_err(Error::usage)?;
+        lasting["moves"] = serde_json::to_value(moves).map_err(Error::usage)?;
         Ok(Self {
             simulation: Simulation::new(team, share, &settings.all_parts(), steps)?,
             about: About { settings: lasting, body: body.checksum, min_det_f: 1.0, ..About::default() },
@@ -306,10 +308,11 @@ impl<'a> Course<'a> {
             if about.body != own.body {
                 return Err("it belongs to another mesh".to_owned());
             }
-            if about.settings != own.settings || about.clock.is_none() {
-                return Err(format!("its run began with other options: {}", about.settings));
+            match difference(&about.settings, &own.settings) {
+                Some(difference) => Err(difference),
+                None if about.clock.is_none() => Err("it is of `statics`, which makes no steps".to_owned()),
+                None => Ok(()),
             }
-            Ok(())
         };
         *own = checkpoint::read(team, &file, simulation, check)?;
         Ok(own.clock.unwrap_or_else(|| Clock::new(task.settings.dt)))

@@ -63,7 +63,7 @@ fn a_run_continues_with_other_ranks() -> TestResult {
     }
     // Other options, and a damaged checkpoint, are refused.
     let other = format!("{solved} --gravity 1 --frames 12 --resume --out {}", parts.display());
-    check_failure(&finish(command(2, &other))?, "began with other options");
+    check_failure(&finish(command(2, &other))?, "its setting `gravity` was 0.0, and is 1.0 now");
     let damaged = parts.join("checkpoint.piola");
     let mut bytes = fs::read(&damaged)?;
     let last = bytes.len() - 1;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use piola::Inversion;
 use piola_bodies::step::Integrator;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::error::{Error, in_range};
 use crate::material::{MaterialPart, MaterialSpec};
@@ -141,4 +142,11 @@ impl Settings {
         }
         Ok(())
     }
+}
+
+/// The first setting in which two runs differ, in words, from their settings as JSON objects.
+#[must_use]
+pub fn difference(before: &Value, now: &Value) -> Option<String> {
+    let name = now.as_object()?.keys().find(|name| before[*name] != now[*name])?;
+    Some(format!("its setting `{name}` was {}, and is {} now", before[name], now[name]))
 }

@@ -513,6 +513,12 @@ static int32_t ground_blocks(void *context, const double *x, size_t nodes, piola
     return called(ground);
 }
 
+static int32_t no_share(void *context, const double *x, const double *d, size_t nodes, double *share) {
+    (void)context, (void)x, (void)d, (void)nodes;
+    *share = NAN;
+    return 0;
+}
+
 static void bodies_move(void) {
     piola_material *material = rubber();
     const piola_part part = {material, 1000.0};
@@ -567,6 +573,12 @@ static void bodies_move(void) {
     for (int k = 0; k < 15; k++) x[k] = REST[k] - (k % 3 == 2 ? 0.05 : 0.0);
     CHECK(piola_simulation_write(simulation, PIOLA_QUANTITY_POSITIONS, x, 15) == PIOLA_CODE_OK);
     CHECK(piola_simulation_check_terms(simulation, 0) == PIOLA_CODE_OK);
+    piola_term stuck = term;
+    stuck.longest_step = no_share;
+    CHECK(piola_simulation_set_terms(simulation, &stuck, 1) == PIOLA_CODE_OK);
+    FAILS(
+        piola_simulation_step(simulation, 0.01, NULL), PIOLA_CODE_STEP,
+        "the `longest_step` of a term is not above 0");
     CHECK(piola_simulation_set_terms(simulation, &wrong, 1) == PIOLA_CODE_OK);
     FAILS(
         piola_simulation_step(simulation, 0.01, NULL), PIOLA_CODE_STEP,

@@ -765,7 +765,8 @@ enum piola_code piola_simulation_step(const struct piola_simulation *simulation,
                                       struct piola_step_report *report);
 
 // Moves the body towards a minimum of its energy with gravity, forces, springs and terms, within the limits
-// of the settings. Then it is at rest. Otherwise like `piola_simulation_step`.
+// of the settings. Then it is at rest. Otherwise like `piola_simulation_step`; PIOLA_CODE_STEP also if
+// nothing holds a body whose loads do not balance.
 enum piola_code piola_simulation_equilibrate(const struct piola_simulation *simulation,
                                              struct piola_step_report *report);
 

@@ -256,7 +256,8 @@ fn piola_simulation_step(simulation: &Simulation, dt: f64, report: Out<StepRepor
 }
 
 /// Moves the body towards a minimum of its energy with gravity, forces, springs and terms, within the limits
-/// of the settings. Then it is at rest. Otherwise like `piola_simulation_step`.
+/// of the settings. Then it is at rest. Otherwise like `piola_simulation_step`; PIOLA_CODE_STEP also if
+/// nothing holds a body whose loads do not balance.
 fn piola_simulation_equilibrate(simulation: &Simulation, report: Out<StepReport>) {
     advance(simulation, &report, Stepped::equilibrate)
 }

@@ -118,7 +118,8 @@ pub enum NewtonError {
     /// No step along a direction of descent decreases the objective.
     #[error(
         "no step down to {step:e} of the Newton direction decreases the energy (residual {residual:e} N, {refused} \
-         trials outside the domain of a material)"
+         trials outside the domain of a material{})",
+        if *step > 0.0 { "" } else { "; the `longest_step` of a term is not above 0" }
     )]
     LineSearch {
         /// The smallest step tried.
@@ -131,8 +132,8 @@ pub enum NewtonError {
     /// The energy of a term or of the materials does not change along the Newton direction as its gradient
     /// predicts, so that no step decreases the sum.
     #[error(
-        "the gradient of {} does not fit its energy: look for a wrong sign or factor (`check_term` of \
-         piola-bodies finds it, or the contract of the material)",
+        "the gradient of {} does not fit its energy: look for a wrong sign or factor, or rounding errors beyond those \
+         of `Term::change` (`check_term` of piola-bodies finds it, or the contract of the material)",
         term.map_or("a material".into(), |term| format!("term {term} (from 0)"))
     )]
     WrongGradient {

@@ -20,6 +20,9 @@ const SHRINK: f64 = 0.5;
 
 const MAX_TRIALS: usize = 48;
 
+/// Multiple of the noise of a change above which a decrease that the slope predicts must show.
+pub(super) const MARGIN: f64 = 16.0;
+
 /// Objective along a line, relative to its start.
 pub(super) trait Line {
     /// The objective at a step minus that at the start, with a bound for its rounding error; `None` outside

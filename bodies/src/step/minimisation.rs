@@ -19,7 +19,7 @@ use super::line_search::Line;
 use super::newton::NewtonReport;
 use super::objective::{Objective, product};
 use super::solver::{Machine, System};
-use super::term::{EnergyChange, along, contradiction};
+use super::term::{EnergyChange, contradiction};
 
 #[derive(Clone)]
 pub(super) struct NewtonWorkspace<M> {
@@ -237,33 +237,22 @@ impl<M: Machine> Minimisation<'_, M> {
     /// Checks that the energies of each term and of the materials change along ±d as their gradients predict,
     /// after [`Minimisation::set_base`]. Overwrites g and the trial.
     pub(super) fn demand_true_gradients(&mut self) -> Result<(), NewtonError> {
-        let Self { objective, workspace, x, .. } = self;
+        let Self { objective: Objective { elastic, body, terms, .. }, workspace, x, .. } = self;
         let NewtonWorkspace { machine, gradient, direction, trial } = &mut **workspace;
-        let terms = objective.terms.others;
-        for term in (0..terms.len()).map(Some).chain([None]) {
-            let contradicted = contradiction(|step| {
-                let own = along(x, direction, step, trial, gradient, |to, gradient| match term {
-                    Some(term) => {
-                        terms[term].change(x, to).inspect(|_| terms[term].add_gradient(to, gradient))
-                    }
-                    None => {
-                        let Objective { elastic, body, .. } = &mut *objective;
-                        if !elastic.evaluate(body, to).survey.is_clean() {
-                            return None;
-                        }
-                        elastic.evaluate_gradients(body);
-                        elastic.add_gradient(body, gradient);
-                        let noise = elastic.difference_noise(body);
-                        Some(EnergyChange { difference: elastic.difference(), noise })
-                    }
-                });
-                let own = own.map_or([1.0, 0.0, 0.0, 0.0], |(EnergyChange { difference, noise }, slope)| {
-                    [0.0, difference, noise, slope]
-                });
-                let [refused, difference, noise, slope] = machine.nodes().totals(own);
-                (refused == 0.0).then_some((EnergyChange { difference, noise }, slope))
-            });
-            if contradicted.is_some() {
+        for term in (0..terms.others.len()).map(Some).chain([None]) {
+            let evaluate = |to: &[[f64; 3]], gradient: &mut [[f64; 3]]| match term {
+                Some(term) => {
+                    let term = &terms.others[term];
+                    term.change(x, to).inspect(|_| term.add_gradient(to, gradient))
+                }
+                None => elastic.evaluate(body, to).survey.is_clean().then(|| {
+                    elastic.evaluate_gradients(body);
+                    elastic.add_gradient(body, gradient);
+                    EnergyChange { difference: elastic.difference(), noise: elastic.difference_noise(body) }
+                }),
+            };
+            let total = |own| machine.nodes().totals(own);
+            if contradiction(x, direction, [trial, gradient], total, evaluate).is_some() {
                 return Err(NewtonError::WrongGradient { term });
             }
         }

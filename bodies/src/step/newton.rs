@@ -5,7 +5,7 @@
 use piola::point::Filter;
 
 use super::error::NewtonError;
-use super::line_search::{Line, Outcome, backtrack};
+use super::line_search::{Line, MARGIN, Outcome, backtrack};
 use super::minimisation::Minimisation;
 use super::solver::Machine;
 
@@ -26,9 +26,6 @@ pub(super) fn minimize<M: Machine>(
     let report = NewtonReport::before(settings);
     Newton { minimisation, settings, report, moved: None }.run(pins_move)
 }
-
-/// Multiple of the noise of a change above which a decrease that the slope predicts must show.
-const MARGIN: f64 = 16.0;
 
 struct Newton<'a, 'b, M> {
     minimisation: &'a mut Minimisation<'b, M>,

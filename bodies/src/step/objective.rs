@@ -56,9 +56,9 @@ impl<'a> Terms<'a> {
         }
     }
 
-    /// Share of a displacement, at most 1, that a line search tries first.
+    /// Share of a displacement, at most 1, that a line search tries first; 0 if a term returns NaN.
     pub(super) fn longest_step(self, x: &[[f64; 3]], d: &[[f64; 3]]) -> f64 {
-        self.others.iter().fold(1.0, |step: f64, term| step.min(term.longest_step(x, d)))
+        self.others.iter().fold(1.0, |step: f64, term| step.min(term.longest_step(x, d).max(0.0)))
     }
 
     pub(super) fn change(self, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<EnergyChange> {

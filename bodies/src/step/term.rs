@@ -13,8 +13,8 @@ use super::spring::Spring;
 
 mod check;
 
+pub(super) use check::contradiction;
 pub use check::{TermViolation, check_term};
-pub(super) use check::{along, contradiction};
 
 /// Potential energy of the nodal positions, which a [`Simulation`](super::Simulation) adds to that of
 /// deformation: see [`Simulation::set_terms`](super::Simulation::set_terms).
@@ -84,7 +84,8 @@ pub trait Term: Send + Sync {
     /// left out.
     fn add_second_derivatives(&self, positions: &[[f64; 3]], blocks: &mut NodeBlocks);
 
-    /// Largest share of a displacement that a line search may try first, above 0: all of it by default.
+    /// Largest share of a displacement that a line search may try first, above 0, or else the step fails: all
+    /// of it by default.
     ///
     /// For a barrier that a long step could jump over, to a point of finite energy, return a share that stops
     /// before it.

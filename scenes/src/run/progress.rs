@@ -9,7 +9,7 @@ use crate::measure;
 use crate::moment::Moment;
 use crate::output::{Folder, STATE_FILE, StepCounts, frame_file, read_text, seal, unseal};
 use crate::play::Play;
-use crate::settings::Settings;
+use crate::settings::{Settings, difference};
 
 /// Largest size of a state of a run, in bytes; a longer file is refused.
 const MAX_LENGTH: u64 = 1 << 32;
@@ -103,18 +103,12 @@ fn read(text: &str, settings: &Settings, vtu: bool) -> Result<Saved, String> {
     if frame > settings.frames {
         return Err(format!("it has {frame} frames already, and {} are wanted", settings.frames));
     }
-    match difference(&saved.moment.settings, settings) {
+    // The numbers of frames and threads affect no frame.
+    let lasting = |settings: &Settings| {
+        serde_json::to_value(Settings { frames: 1, threads: 1, ..settings.clone() }).unwrap_or_default()
+    };
+    match difference(&lasting(&saved.moment.settings), &lasting(settings)) {
         Some(difference) => Err(difference),
         None => Ok(saved),
     }
-}
-
-/// The first setting in which two runs differ, apart from the numbers of frames and threads, which do not
-/// affect any frame.
-fn difference(before: &Settings, now: &Settings) -> Option<String> {
-    let (before, now) = (serde_json::to_value(before).unwrap_or_default(), serde_json::to_value(now).ok()?);
-    let differs =
-        |name: &&String| !["frames", "threads"].contains(&name.as_str()) && before[*name] != now[*name];
-    let name = now.as_object()?.keys().find(differs)?;
-    Some(format!("its setting `{name}` was {}, and is {} now", before[name], now[name]))
 }

@@ -29,10 +29,9 @@ const FORMATS: [(&str, &str, &str); 11] = [
 pub(super) fn recognised(text: &str) -> Option<(&'static str, &'static str)> {
     // Comments may precede the word.
     text.lines().take(1000).find_map(|line| {
-        let mut words =
-            line.split(|c: char| matches!(c, ',' | '>') || c.is_whitespace()).filter(|word| !word.is_empty());
-        let word = words.find(|word| *word != "#" && word.parse::<f64>().is_err())?.to_ascii_lowercase();
-        let is_first = |words: &str| words.split(' ').any(|first| first == word);
-        FORMATS.iter().find(|format| is_first(format.0)).map(|&(_, name, next)| (name, next))
+        let mut words = line.split(|c: char| matches!(c, ',' | '>') || c.is_whitespace());
+        let word = words.find(|word| !["", "#"].contains(word) && word.parse::<f64>().is_err())?;
+        let is_word = |first: &str| first.eq_ignore_ascii_case(word);
+        FORMATS.iter().find(|format| format.0.split(' ').any(is_word)).map(|&(_, name, next)| (name, next))
     })
 }

@@ -60,11 +60,11 @@ fn parse(text: &str) -> Result<Surface, Problem> {
         }
     }
     if surface.triangles.is_empty() {
-        let text = match foreign::recognised(text).filter(|_| surface.positions.is_empty()) {
-            None => "the file ends without a face".to_owned(),
-            Some((name, _)) => {
-                format!("the file is in {name}, only OBJ is read; `meshio convert OLD NEW.obj` converts it")
+        let text = match foreign::recognised(text) {
+            Some((name, _)) if surface.positions.is_empty() => {
+                format!("the file is in {name}, not in OBJ; `meshio convert OLD NEW.obj` converts a surface")
             }
+            _ => "the file ends without a face".to_owned(),
         };
         return Err(Problem { line: cursor.number + 1, text });
     }
@@ -173,8 +173,8 @@ mod tests {
         check("v 0 0 0\nf 1 \u{7}a 1\n", 2, "expected the index of a vertex, found `\\u{7}a`");
         check("v 0 0 0\nf 1 1\n", 2, "a face needs at least 3 vertices, not 2");
         check("v 0 0 0\n", 2, "the file ends without a face");
-        let remedy = "only OBJ is read; `meshio convert OLD NEW.obj` converts it";
-        check("solid bar\nfacet normal 0 0 1\n", 3, &format!("the file is in STL, {remedy}"));
+        let stl = "the file is in STL, not in OBJ; `meshio convert OLD NEW.obj` converts a surface";
+        check("solid bar\nfacet normal 0 0 1\n", 3, stl);
         check("", 1, "the file ends without a face");
     }
 }

@@ -62,17 +62,7 @@ impl Material for Negated {
         RotatedLinear.blocks(stretches)
     }
 
-    fn admits<R: Real>(&self, _: [R; 3]) -> R::Mask {
-        R::Mask::splat(true)
-    }
-
-    fn has_pole(&self) -> bool {
-        true
-    }
-
-    fn ends_at_zero_volume(&self) -> bool {
-        false
-    }
+    defined_everywhere!(has_pole: true);
 }
 
 #[test]

@@ -92,16 +92,15 @@ impl<M: Machine> Simulation<M> {
     fn demand_balance(&self) -> Result<(), StepError> {
         let SimulationSettings { gravity, newton, .. } = self.settings;
         let holding = self.pinned().len() + self.springs().len() + self.terms.len();
-        let (mut sum, mut size) = ([0.0; 3], 0.0);
+        let mut own = [0.0, 0.0, 0.0, 0.0, holding as f64];
         for (node, mass) in self.body.masses().iter().enumerate() {
             for c in 0..3 {
                 let force = self.forces.get(node).map_or(0.0, |force| force[c]);
-                sum[c] += mass * gravity[c] + force;
-                size += (mass * gravity[c]).abs() + force.abs();
+                own[c] += mass * gravity[c] + force;
+                own[3] += (mass * gravity[c]).abs() + force.abs();
             }
         }
-        let own = [holding as f64, size, sum[0], sum[1], sum[2]];
-        let [holding, size, x, y, z] = self.workspace.machine.nodes().totals(own);
+        let [x, y, z, size, holding] = self.workspace.machine.nodes().totals(own);
         let force = x.hypot(y).hypot(z);
         match holding == 0.0 && force > newton.tolerance.max(1e-8) * size {
             true => Err(StepError::Unheld { force }),

@@ -24,7 +24,7 @@ pub(super) struct Assembled {
     right: Vec<f64>,
     /// The right side, then the solution.
     unknowns: Vec<f64>,
-    /// Product of the matrix with the answer of a user-defined solver; empty for another one.
+    /// Product of the matrix with the solution.
     product: Vec<f64>,
     solver: Box<dyn AnySolver>,
 }
@@ -38,8 +38,7 @@ impl Assembled {
         let matrix = LowerTriangle::new(stiffness, pins)?;
         solver.analyse_any(&matrix)?;
         let right = vec![0.0; 3 * matrix.free_nodes().len()];
-        let product = if solver.is_built_in_any() { Vec::new() } else { right.clone() };
-        Ok(Self { solver, held: Vec::new(), unknowns: right.clone(), right, product, matrix })
+        Ok(Self { solver, held: Vec::new(), unknowns: right.clone(), product: right.clone(), right, matrix })
     }
 
     /// Replaces the pins of a body of `nodes` nodes. Returns the free nodes in the order of the unknowns, or
@@ -97,21 +96,19 @@ impl Assembled {
         if unknowns.iter().any(|x| !x.is_finite()) {
             return Err(NewtonError::NotFinite);
         }
-        if !product.is_empty() {
-            matrix.multiply(unknowns, product)?;
-            let mut sums = [0.0_f64; 3];
-            for ((b, x), product) in right.iter().zip(&*unknowns).zip(&*product) {
-                let terms = [(b - product).powi(2), b * b, x * (0.5 * product - b)];
-                sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
-            }
-            let [residual, right, energy] = sums;
-            // ½ xᵀA x − bᵀx < 0 for an x that is closer than 0 to the solution, in the norm of A, as are all
-            // iterates of conjugate gradients: a limit of iterations is no mistake.
-            if energy >= 0.0 && right > 0.0 {
-                // A solver that overlooks an indefinite matrix may be right about its system.
-                let wrong = NewtonError::NotSolved { residual: (residual / right).sqrt() };
-                return if must_be_definite { Ok(None) } else { Err(wrong) };
-            }
+        matrix.multiply(unknowns, product)?;
+        let [mut residual, mut size, mut energy] = [0.0_f64; 3];
+        for ((&b, &x), &product) in right.iter().zip(&*unknowns).zip(&*product) {
+            residual += (b - product).powi(2);
+            size += b * b;
+            energy += x * (0.5 * product - b);
+        }
+        // ½ xᵀA x − bᵀx < 0 for an x that is closer than 0 to the solution, in the norm of A, as are all
+        // iterates of conjugate gradients: a limit of iterations is no mistake.
+        if energy >= 0.0 && size > 0.0 {
+            // A solver that overlooks an indefinite matrix may be right about its system.
+            let wrong = NewtonError::NotSolved { residual: (residual / size).sqrt() };
+            return if must_be_definite { Ok(None) } else { Err(wrong) };
         }
         for (unknown, &node) in unknowns.chunks_exact(3).zip(matrix.free_nodes()) {
             direction[node] = [unknown[0], unknown[1], unknown[2]];

@@ -30,12 +30,6 @@ pub trait SparseSolver: Clone + Send + Sync + 'static {
     /// [`LinearError::NotPositive`] if A is not positive definite: the solver is then called again, with
     /// eigenvalues clamped or with inertia added. Other errors end the step.
     fn solve(&mut self, matrix: &LowerTriangle, b: &mut [f64], tolerance: f64) -> Result<usize, LinearError>;
-
-    /// True if answers are not compared with their systems.
-    #[doc(hidden)]
-    fn is_built_in(&self) -> bool {
-        false
-    }
 }
 
 impl<F> SparseSolver for F
@@ -59,8 +53,6 @@ pub(crate) trait AnySolver: Send + Sync {
         tolerance: f64,
     ) -> Result<usize, LinearError>;
 
-    fn is_built_in_any(&self) -> bool;
-
     fn boxed_clone(&self) -> Box<dyn AnySolver>;
 }
 
@@ -76,10 +68,6 @@ impl<S: SparseSolver> AnySolver for S {
         tolerance: f64,
     ) -> Result<usize, LinearError> {
         self.solve(matrix, b, tolerance)
-    }
-
-    fn is_built_in_any(&self) -> bool {
-        self.is_built_in()
     }
 
     fn boxed_clone(&self) -> Box<dyn AnySolver> {
@@ -104,9 +92,5 @@ impl SparseSolver for crate::system::Cholesky {
         self.factor(matrix.values())?;
         Self::solve(self, b);
         Ok(0)
-    }
-
-    fn is_built_in(&self) -> bool {
-        true
     }
 }

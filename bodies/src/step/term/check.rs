@@ -1,14 +1,15 @@
 //! Comparison of an energy with its derivatives, by differences along lines.
 
+use std::convert::identity;
+
 use piola::__private::message::number;
 use piola::__private::random::Random;
 use piola::lanes::Real;
 use thiserror::Error;
 
-use super::{EnergyChange, NodeBlocks, Term};
+use crate::step::line_search::MARGIN;
 
-/// Multiple of the assumed rounding error above which a difference is not noise.
-const MARGIN: f64 = 16.0;
+use super::{EnergyChange, NodeBlocks, Term};
 
 /// Derivative of a term that does not fit its energy, in words.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -43,10 +44,8 @@ pub fn check_term(term: &dyn Term, positions: &[[f64; 3]], is_filtered: bool) ->
         let (node, c) = (k / 3, k % 3);
         d.fill([0.0; 3]);
         d[node][c] = reach;
-        let contradicted = contradiction(|step| {
-            along(x, &d, step, &mut to, &mut gradient, |to, gradient| {
-                term.change(x, to).inspect(|_| term.add_gradient(to, gradient))
-            })
+        let contradicted = contradiction(x, &d, [&mut to, &mut gradient], identity, |to, gradient| {
+            term.change(x, to).inspect(|_| term.add_gradient(to, gradient))
         });
         if let Some(slopes) = contradicted {
             let [own, found] = slopes.map(|slope| number(slope / reach));
@@ -61,20 +60,18 @@ pub fn check_term(term: &dyn Term, positions: &[[f64; 3]], is_filtered: bool) ->
     for _ in 0..8 {
         d.as_flattened_mut().iter_mut().for_each(|d| *d = reach * random.uniform(-1.0, 1.0));
         let mut start = None;
-        let contradicted = contradiction(|step| {
-            along(x, &d, step, &mut to, &mut curved, |to, curved| {
-                term.energy(to)?;
-                gradient.fill([0.0; 3]);
-                term.add_gradient(to, &mut gradient);
-                blocks.begin(nodes);
-                term.add_second_derivatives(to, &mut blocks);
-                blocks.add_product(&d, curved);
-                let [slope, size] = sums(&gradient, &d);
-                let difference = slope - *start.get_or_insert(slope);
-                Some(EnergyChange { difference, noise: 20.0 * f64::UNIT_ROUNDOFF * size })
-            })
+        let contradicted = contradiction(x, &d, [&mut to, &mut curved], identity, |to, curved| {
+            term.energy(to)?;
+            gradient.fill([0.0; 3]);
+            term.add_gradient(to, &mut gradient);
+            blocks.begin(nodes);
+            term.add_second_derivatives(to, &mut blocks);
+            blocks.add_product(&d, curved);
+            let [slope, size] = sums(&gradient, &d);
+            let difference = slope - *start.get_or_insert(slope);
+            Some(EnergyChange { difference, noise: 20.0 * f64::UNIT_ROUNDOFF * size })
         });
-        if let Some(curvatures) = contradicted.filter(|[own, found]| !is_filtered || own < found) {
+        if let Some(curvatures) = contradicted.filter(|[own, found]| !(is_filtered && own >= found)) {
             let [own, found] = curvatures.map(number);
             return Err(TermViolation(format!(
                 "the second derivatives K give dᵀK d = {own} J for a displacement d along which the gradient \
@@ -85,43 +82,44 @@ pub fn check_term(term: &dyn Term, positions: &[[f64; 3]], is_filtered: bool) ->
     Ok(())
 }
 
-/// Change of an energy from x to x + step d, and its slope there; `None` outside its domain.
+/// Mean slope of an energy over a step along d and its difference quotient, if these disagree.
 ///
-/// `evaluate` returns the change and adds the gradient. The rounding errors of positions and of the slope are
-/// added to the noise.
-pub(in crate::step) fn along(
-    x: &[[f64; 3]],
-    d: &[[f64; 3]],
-    step: f64,
-    to: &mut [[f64; 3]],
-    gradient: &mut [[f64; 3]],
-    evaluate: impl FnOnce(&[[f64; 3]], &mut [[f64; 3]]) -> Option<EnergyChange>,
-) -> Option<(EnergyChange, f64)> {
-    for node in 0..x.len() {
-        to[node] = std::array::from_fn(|c| x[node][c] + step * d[node][c]);
-    }
-    gradient.fill([0.0; 3]);
-    let EnergyChange { difference, noise } = evaluate(to, gradient)?;
-    let ([_, at_x], [slope, along_d]) = (sums(gradient, x), sums(gradient, d));
-    let rounding = 4.0 * f64::UNIT_ROUNDOFF * (at_x + step.abs() * along_d);
-    Some((EnergyChange { difference, noise: noise + rounding }, slope))
-}
-
-/// Mean slope of an energy over a step and its difference quotient, if these disagree; `along` returns the
-/// change over a step and the slope at its end.
+/// `evaluate` returns the change of the energy from x to a position, `None` outside its domain, and adds the
+/// gradient there; `total` adds numbers of all machines. Position and gradient are memory.
 ///
 /// The mean of a slope that is continuous, or jumps once, is as close to the mean of both ends as these are
 /// to each other, unless it rises and falls within the step. Hence both directions and two lengths must
 /// disagree.
 pub(in crate::step) fn contradiction(
-    mut along: impl FnMut(f64) -> Option<(EnergyChange, f64)>,
+    x: &[[f64; 3]],
+    d: &[[f64; 3]],
+    [position, gradient]: [&mut [[f64; 3]]; 2],
+    total: impl Fn([f64; 4]) -> [f64; 4],
+    mut evaluate: impl FnMut(&[[f64; 3]], &mut [[f64; 3]]) -> Option<EnergyChange>,
 ) -> Option<[f64; 2]> {
-    let (_, start) = along(0.0)?;
+    let mut along = |step: f64| {
+        for node in 0..x.len() {
+            position[node] = std::array::from_fn(|c| x[node][c] + step * d[node][c]);
+        }
+        gradient.fill([0.0; 3]);
+        let change = evaluate(position, gradient);
+        let own = change.map_or([1.0, 0.0, 0.0, 0.0], |EnergyChange { difference, noise }| {
+            let ([_, at_x], [slope, along_d]) = (sums(gradient, x), sums(gradient, d));
+            // Positions and the slope are rounded, too.
+            let rounding = 4.0 * f64::UNIT_ROUNDOFF * (at_x + step.abs() * along_d);
+            [0.0, difference, noise + rounding, slope]
+        });
+        let [refused, difference, noise, slope] = total(own);
+        (refused == 0.0).then_some((difference, noise, slope))
+    };
+    let (.., start) = along(0.0)?;
     let mut disagree = |step: f64| {
-        let (EnergyChange { difference, noise }, end) = along(step)?;
+        let (difference, noise, end) = along(step)?;
         let mean = 0.5 * (start + end);
         let allowed = (step * (end - start)).abs() + MARGIN * noise;
-        ((difference - step * mean).abs() > allowed).then_some([mean, difference / step])
+        // Nothing fits NaN.
+        let fits = (difference - step * mean).abs() <= allowed;
+        (!fits).then_some([mean, difference / step])
     };
     let mut before = None;
     [1.0, 1.0 / 64.0, 2e-4, 4e-6].into_iter().find_map(|step| {
