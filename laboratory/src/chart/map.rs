@@ -12,13 +12,13 @@ use crate::{Specimen, specimen};
 /// Plane of stretches λ1, λ2, and the condition on the third.
 struct Plane {
     title: &'static str,
-    stretches: Point,
+    stretches: Stretches,
     /// Lines in this plane with their names.
     lines: [(&'static str, Line); 3],
 }
 
 /// The three stretches at a point of a plane; `None` if no thickness makes a sheet free of stress.
-type Point = fn(&dyn Specimen<f64>, [f64; 2]) -> Option<[f64; 3]>;
+type Stretches = fn(&dyn Specimen<f64>, [f64; 2]) -> Option<[f64; 3]>;
 
 /// λ2 by λ1 along a line of the picture; `None` where nothing makes the sides free of stress.
 type Line = fn(&dyn Specimen<f64>, f64) -> Option<f64>;
