@@ -90,7 +90,7 @@ pub fn check_term(term: &dyn Term, positions: &[[f64; 3]], is_filtered: bool) ->
 /// The mean of a slope that is continuous, or jumps once, is as close to the mean of both ends as these are
 /// to each other, unless it rises and falls within the step. Hence both directions and two lengths must
 /// disagree.
-pub(in crate::step) fn contradiction(
+pub(crate) fn contradiction(
     x: &[[f64; 3]],
     d: &[[f64; 3]],
     [position, gradient]: [&mut [[f64; 3]]; 2],
