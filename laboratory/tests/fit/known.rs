@@ -2,9 +2,7 @@
 
 use piola_laboratory::curve::{Mode, Volume};
 use piola_laboratory::data::{Measured, Measurements};
-use piola_laboratory::fit::{
-    Candidate, Ended, Fit, FitError, FitSettings, Standing, Warning, fit_parameters,
-};
+use piola_laboratory::fit::{Candidate, Ended, Fit, FitSettings, Standing, Warning, fit_parameters};
 
 use super::{Linear, Outcome, by, candidate, catalogue, of_numbers, rubber, tension, text, told, treloar};
 
@@ -214,18 +212,12 @@ fn what_small_strains_say_little_about_is_named() -> Outcome {
 #[test]
 fn what_cannot_be_fitted_is_said() -> Outcome {
     let solid = rubber("neo_hookean", &[1e6, 1e8])?;
-    let held = |name: &str| FitSettings { held: vec![name.into()], ..FitSettings::default() };
+    let held = FitSettings { held: vec!["mu".into()], ..FitSettings::default() };
     let message = |data: &Measurements, settings: &FitSettings| {
         fit_parameters(&solid, data, settings).expect_err("no fit").to_string()
     };
-    assert!(message(&treloar(), &held("nu")).contains("there are `mu`, `lambda`"));
-    assert!(message(&treloar(), &held("mu")).contains("hold fewer"));
+    assert!(message(&treloar(), &held).contains("hold fewer"));
     assert!(message(&tension(&[(2.0, 0.0)]), &FitSettings::default()).contains("no point with a stress"));
-    let one = fit_parameters(&solid, &tension(&[(2.0, 1e5)]), &free());
-    assert_eq!(one, Err(FitError::TooFewPoints { points: 1, free: 2 }));
-    let locking = fit_parameters(&rubber("gent", &[3e5, 10.0, 2e7])?, &treloar(), &FitSettings::default())
-        .expect_err("it locks");
-    assert!(locking.to_string().contains("uniaxial at λ = 3.57"), "{locking}");
     Ok(())
 }
 
