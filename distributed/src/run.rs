@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use piola::material::Moduli;
-use piola_bodies::step::{AdaptiveReport, Convergence, NewtonReport, SimulationSettings, StepReport};
+use piola_bodies::step::{Convergence, NewtonReport, SimulationSettings, StepReport};
 use piola_scenes::clock::Clock;
 use piola_scenes::material::{MaterialPart, MaterialSpec};
 use piola_scenes::measure;
@@ -235,19 +235,8 @@ impl<'a> Course<'a> {
     fn advance(&mut self, stretch: Stretch) -> Result<(), Error> {
         self.pull(stretch.start, stretch.end)?;
         self.prescribe(stretch.end)?;
-        let (steps, report) = match self.task.settings.tolerance {
-            None => {
-                let report = self.simulation.advance(|part| part.step_here(stretch.length))?;
-                (StepCounts { taken: 1, ..StepCounts::default() }, report)
-            }
-            Some(share) => {
-                let tolerance = share * self.height();
-                let report =
-                    self.simulation.advance(|part| part.advance_within_here(stretch.length, tolerance))?;
-                let AdaptiveReport { taken, refused, unresolved, step, .. } = report;
-                (StepCounts { taken, refused, unresolved }, step)
-            }
-        };
+        let tolerance = self.task.settings.tolerance.map(|share| share * self.height());
+        let (report, steps) = self.simulation.advance(|part| stretch.make(part, tolerance))?;
         self.about.steps += steps;
         self.note(&report);
         Ok(())

@@ -5,7 +5,10 @@ use std::sync::Arc;
 use piola::__private::message::{number, quoted};
 use piola::material::{Moduli, Text};
 use piola_bodies::mesh::{Bounds, TetMesh};
-use piola_bodies::step::{self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepReport};
+use piola_bodies::step::divided::Machine;
+use piola_bodies::step::{
+    self, AdaptiveReport, Integrator, NewtonSettings, Simulation, StepError, StepReport,
+};
 use piola_bodies::system::{Body, Part, PinError, Pins};
 use piola_laboratory::AtRest;
 use piola_laboratory::curve::Volume;
@@ -234,37 +237,20 @@ impl Play {
         last: Stretch,
         frame: usize,
     ) -> Result<(StepReport, StepCounts), Error> {
+        let tolerance = self.settings.tolerance.map(|share| share * self.height);
         let (mut counts, mut iterations) = (StepCounts::default(), 0);
-        for &stretch in first {
-            iterations += self.advance(stretch, frame, &mut counts)?.newton.iterations;
-        }
-        let mut report = self.advance(last, frame, &mut counts)?;
-        report.newton.iterations += iterations;
-        Ok((report, counts))
-    }
-
-    fn advance(
-        &mut self,
-        stretch: Stretch,
-        frame: usize,
-        counts: &mut StepCounts,
-    ) -> Result<StepReport, Error> {
-        self.pull(stretch.start, stretch.end)?;
-        let failed = |source| Error::Step { frame, source };
-        let (report, made) = match self.settings.tolerance {
-            None => {
-                let report = self.simulation.step(stretch.length).map_err(failed)?;
-                (report, StepCounts { taken: 1, ..StepCounts::default() })
-            }
-            Some(share) => {
-                let tolerance = share * self.height;
-                let report = self.simulation.advance_within(stretch.length, tolerance).map_err(failed)?;
-                let AdaptiveReport { taken, refused, unresolved, step, .. } = report;
-                (step, StepCounts { taken, refused, unresolved })
-            }
+        let mut advance = |stretch: Stretch| -> Result<StepReport, Error> {
+            self.pull(stretch.start, stretch.end)?;
+            let made = rayon::scope(|_| stretch.make(&mut self.simulation, tolerance));
+            let (report, made) = made.map_err(|source| Error::Step { frame, source })?;
+            counts += made;
+            iterations += report.newton.iterations;
+            Ok(report)
         };
-        *counts += made;
-        Ok(report)
+        first.iter().try_for_each(|&stretch| advance(stretch).map(drop))?;
+        let mut report = advance(last)?;
+        report.newton.iterations = iterations;
+        Ok((report, counts))
     }
 
     /// Sets the springs of the scene as they are at the end of this stretch of time, s, and those that act in
@@ -286,6 +272,26 @@ pub struct Stretch {
     pub end: f64,
     /// Its length, s: that of the clock for a whole frame, to the last bit.
     pub length: f64,
+}
+
+impl Stretch {
+    /// Makes one step, or as many as a tolerance, m/s, requires, by a body on one machine or on many.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::step`] and [`Simulation::advance_within`].
+    pub fn make<M: Machine>(
+        self,
+        simulation: &mut Simulation<M>,
+        tolerance: Option<f64>,
+    ) -> Result<(StepReport, StepCounts), StepError> {
+        let Some(tolerance) = tolerance else {
+            let counts = StepCounts { taken: 1, ..StepCounts::default() };
+            return Ok((simulation.step_here(self.length)?, counts));
+        };
+        let AdaptiveReport { taken, refused, unresolved, step, .. } =
+            simulation.advance_within_here(self.length, tolerance)?;
+        Ok((step, StepCounts { taken, refused, unresolved }))
+    }
 }
 
 /// Parts of the next frame: those that end when a pull changes abruptly, and the last.
