@@ -14,7 +14,6 @@ use piola::Inversion;
 use piola_bodies::step::Integrator;
 
 use crate::error::{Error, list};
-use crate::material::MaterialSpec;
 use crate::output::Newton;
 use crate::scene::{Amplitude, Body, SCENES, Scene, Start};
 use crate::settings::{Files, Settings};
@@ -102,11 +101,8 @@ impl SceneOptions {
     pub fn settings(self, surface: Option<PathBuf>) -> Result<Settings, Error> {
         let scene = Scene::find(&self.scene)?;
         let mut settings = Settings::new(scene);
-        let of_scene = settings.material;
-        settings.material = self.formula.material(self.material.as_deref(), |name| match name {
-            Some(name) if !of_scene.is(name) => Ok(MaterialSpec::matching(name, of_scene.build()?.moduli)),
-            _ => Ok(of_scene),
-        })?;
+        let name = self.material.as_deref();
+        settings.material = self.formula.material(name, |name| energy::as_stiff(name, &settings.material))?;
         if let Some(inversion) = self.inversion {
             settings.material = settings.material.with_inversion(inversion);
         }

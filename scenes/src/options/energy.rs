@@ -157,6 +157,15 @@ fn with_values(spec: MaterialSpec, parameters: Vec<Given>) -> Result<MaterialSpe
     Ok(parameters.into_iter().fold(spec, |spec, given| spec.with_parameter(&given.name, given.values)))
 }
 
+/// The material of a name with the small-strain moduli of another one, which may have this name or stand for
+/// none.
+pub(super) fn as_stiff(name: Option<&str>, other: &MaterialSpec) -> Result<MaterialSpec, Error> {
+    match name {
+        Some(name) if !other.is(name) => Ok(MaterialSpec::matching(name, other.build()?.moduli)),
+        _ => Ok(other.clone()),
+    }
+}
+
 /// Reads a material of a group, `GROUP=NAME;PARAM=V;…;density=RHO`, next to the material and the density of
 /// the others.
 pub(super) fn part(text: &str, others: &MaterialSpec, density: f64) -> Result<MaterialPart, Error> {
@@ -172,14 +181,9 @@ pub(super) fn part(text: &str, others: &MaterialSpec, density: f64) -> Result<Ma
         [Given { values, unit: None, .. }] if values.len() == 1 => values[0],
         _ => return Err(wrong("density=RHO needs one number, in kg/m³ and without a unit")),
     };
-    let material = match in_file(name)? {
-        Some(material) => material,
-        None if parameters.is_empty() && others.is(name) => others.clone(),
-        None if parameters.is_empty() => MaterialSpec::matching(name, others.build()?.moduli),
-        None => MaterialSpec::new(name),
-    };
-    let mut material = with_values(material, parameters)?;
+    let formula = Formula { parameters, ..Formula::default() };
+    let mut material = formula.material(Some(name), |name| as_stiff(name, others))?;
     material.inversion = others.inversion;
-    material.build()?;
+    material.build().map_err(|error| wrong(&error.to_string()))?;
     Ok(MaterialPart { group: Some(group.to_owned()), material, density })
 }
