@@ -36,12 +36,6 @@ fn volume(nodes: &[[f64; 3]], tet: &[usize; 4]) -> f64 {
     (b - a).cross(&(c - a)).dot(&(d - a)) / 6.0
 }
 
-/// The volume of all tetrahedra, m³.
-#[must_use]
-pub fn total_volume(nodes: &[[f64; 3]], tets: &[[usize; 4]]) -> f64 {
-    tets.iter().map(|tet| volume(nodes, tet)).sum()
-}
-
 /// The edges of tetrahedra, each once.
 #[must_use]
 pub fn edges(tets: &[[usize; 4]]) -> Vec<[usize; 2]> {
@@ -172,7 +166,7 @@ mod tests {
         let mean = lengths.iter().map(|square| square.sqrt()).sum::<f64>() / 9.0;
         assert!((mean_edge_length(&POINTS, &tets) - mean).abs() < TOLERANCE);
         assert_eq!(mean_edge_length(&POINTS, &[]), 0.0);
-        assert_eq!(total_volume(&POINTS, &[[0, 1, 2, 3]]), 1.0);
+        assert_eq!(volume(&POINTS, &[0, 1, 2, 3]), 1.0);
         let reflected = POINTS.map(|[x, y, z]| [-x, y, z]);
         assert_eq!(inverted(&POINTS, &reflected, &tets), 2);
         assert_eq!(inverted(&POINTS, &POINTS, &tets), 0);

@@ -46,7 +46,7 @@ pub fn run_trial(settings: Settings, geometry: impl Into<Arc<Geometry>>) -> Resu
         largest_rise: f64::NEG_INFINITY,
         final_state: None,
     };
-    let unit = play.moduli.young() * measure::total_volume(&mesh.positions, &mesh.tets);
+    let unit = play.moduli.young() * play.overview.volume;
     for frame in 1..=play.settings.frames {
         let before = play.simulation.energies();
         let report = play.step()?;

@@ -227,7 +227,7 @@ fn read_specimen(play: &Play, marks: [f64; 2], material: &dyn Specimen<f64>) -> 
     let stretch = measure::upright_stretch(&mesh.positions, positions, marks);
     let springs = play.simulation.springs().iter();
     let upwards = springs.map(|pull| pull.stiffness * (pull.target[1] - pull.anchor.position(positions)[1]));
-    let cross_section = measure::total_volume(&mesh.positions, &mesh.tets) / play.height;
+    let cross_section = play.overview.volume / play.height;
     let bar = stretch.filter(|_| play.settings.parts.is_empty());
     let bar = bar.and_then(|stretch| respond(material, Mode::Uniaxial, Volume::Free, stretch).ok());
     TensileReading {
