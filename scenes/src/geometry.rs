@@ -217,6 +217,7 @@ fn usable<T>(file: &str, result: Result<T, impl fmt::Display>) -> Result<T, Erro
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::max_distance;
 
     #[test]
     fn what_is_seldom_meant_is_told() -> Result<(), Box<dyn std::error::Error>> {
@@ -251,6 +252,21 @@ mod tests {
             let error = scaled(scale, away).expect_err("absurd");
             assert!(error.contains("metres"), "{error}");
         }
+    }
+
+    #[test]
+    fn surfaces_of_the_program_are_where_their_files_have_them() -> Result<(), Error> {
+        for body in Body::ALL {
+            let Shape::Files { surface, .. } = body.shape else { continue };
+            let surface = parse_surface_obj(surface, Path::new(body.name))?;
+            let Geometry { mesh, embedding, .. } = Geometry::of(*body)?;
+            let places: Vec<_> = embedding.iter().map(|anchor| anchor.position(&mesh.positions)).collect();
+            assert_eq!(places.len(), surface.positions.len());
+            // Barycentric coordinates err by the condition of a tetrahedron, far below 100 here.
+            let error = max_distance(&surface.positions, &places);
+            assert!(error <= 100.0 * f64::EPSILON, "{}: {error:e}", body.name);
+        }
+        Ok(())
     }
 
     #[test]
